@@ -1,1 +1,1 @@
-"""Motions for controllers: files in their formats, and what they will run when they interpolate them."""
+"""Motions for controllers: files in their formats, and the motions executed from them."""

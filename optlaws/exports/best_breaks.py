@@ -1,4 +1,4 @@
-"""Best breaks for few polynomials: the fewest pieces whose peak of the acceleration is that of the law."""
+"""Best breaks for few polynomials: the fewest pieces with the same peak acceleration as the law."""
 
 from __future__ import annotations
 
@@ -102,7 +102,7 @@ def _best_breaks(law: MotionLaw, orders: int, most: int) -> BestBreaks:
 
 @dataclass(frozen=True)
 class BreakSearch:
-    """The search on a stretch of a law with the peak C, of breaks at which so many derivatives are met."""
+    """The search on a stretch of a law with the peak C, for breaks at which a number of derivatives is matched."""
 
     stretch: LawSection
     orders: int

@@ -1,4 +1,4 @@
-"""An export: what was written, what the controller will run, and the law beside it."""
+"""An export: the written file, the executed motion, and the law beside it."""
 
 from __future__ import annotations
 
@@ -79,11 +79,11 @@ class Export:
         return self.written.points
 
     def write(self, file: str | Path) -> Path:
-        """Write the file, whole or not at all; one that is there and says something else is kept as NAME.orig."""
+        """Write the file, completely or not at all; an existing file with other contents is kept as NAME.orig."""
         return writing.write_any(Path(file), self.text)
 
     def plot(self, ax: Any = None, **style: Any) -> list[Any]:  # noqa: ANN401 - matplotlib's
-        """Draw the motion and what the controller runs over the master, down to the jerk; return the artists.
+        """Draw the motion and the executed motion over the master, down to the jerk; return the artists.
 
         `ax` are four axes of matplotlib, new ones unless given; `style` is what `Axes.plot` takes, for the run.
 
@@ -117,7 +117,7 @@ class Export:
         }
 
     def rows(self) -> list[Comparison]:
-        """The report as rows: what it is with its unit, of the run, of the law, and the ratio; None for none."""
+        """The report as rows: a quantity with its unit, its executed value, the law's value, and their ratio."""
         run, law, units = self.report.run, self.report.law, self._units()
         means = run.mean_absolute_velocity, law.mean_absolute_velocity
         effective = run.effective_acceleration, law.effective_acceleration
@@ -145,7 +145,7 @@ class Export:
         ]
 
     def summary(self) -> Summary:
-        """The motion that the controller will run, as rows: notes say what the law has in its place.
+        """The executed motion as rows, with the law's values as notes.
 
         Examples
         --------
@@ -232,7 +232,7 @@ def export_axes(
 def export_together(
     axes: Mapping[str, _HasMotion], to: Any, placement: dict[str, Any], *, task: Quantity | None = None, **options: Any  # noqa: ANN401
 ) -> dict[str, Export]:  # fmt: skip
-    """Axes in one file of a format that holds several: the text of every export is that of all."""
+    """Axes in a single file, for formats that hold several: all exports share the text."""
     form = format_of(to)
     if form.write_joints is None:
         raise InputError(

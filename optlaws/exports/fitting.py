@@ -28,7 +28,7 @@ _SHORT = 10
 
 @dataclass(frozen=True)
 class Fitted:
-    """Polynomials of a motion over its master: those of the laws, each number rounded once, where `exact`.
+    """Polynomials of a motion over its master: the laws' own, each number rounded once, where `exact`.
 
     `deviation` and `acceleration` are how far position and acceleration are off at most, in units of the motion.
     """
@@ -44,7 +44,7 @@ class Fitted:
         return len(self.run.coefficients)
 
     def in_words(self, unit: str) -> str:
-        """How near they are, as headings say it."""
+        """The accuracy of the polynomials, in the words of headings."""
         if self.exact:
             return "exact: the polynomials are the law's own, every number rounded once"
         return f"approximated: position within {self.deviation:.3g} {unit} of the law, over the whole motion"
@@ -52,7 +52,7 @@ class Fitted:
 
 @dataclass(order=True)
 class _FittedSection:
-    """A stretch with its polynomials; the one that is furthest from what is wanted comes first."""
+    """A stretch with its polynomials; stretches with the greatest deviation come first."""
 
     rank: float
     place: int
@@ -68,7 +68,7 @@ class _FittedSection:
         self.rank = -max(height / ((1.0 + ACCELERATION_HIGHER) * peak), self.off(2) / (near * peak))
 
     def off(self, nu: int) -> float:
-        """How far its derivative of order nu is from the motion's."""
+        """The deviation of its derivative of order nu from the motion's derivative."""
         if self.run is None:
             return 0.0
         return abs(self.piece.stroke) / self.piece.duration**nu * self.stretch.off(self.run, nu)
@@ -157,7 +157,7 @@ def _asked(most: int, count: int | None) -> str:
 def _divide(
     open_parts: list[_FittedSection], left: int, count: int | None, split: Callable[[_FittedSection], None]
 ) -> None:
-    """Lay further polynomials where what is wanted is furthest, as many as are left or as are needed."""
+    """Add polynomials where the deviation is greatest, until the number is reached or the tolerance is kept."""
     heapify(open_parts)
     while open_parts and left and (count is not None or open_parts[0].rank < -1.0):
         worst = heappop(open_parts)
@@ -190,7 +190,7 @@ def _joined(motion: Motion, parts: Sequence[_FittedSection]) -> Fitted:
 
 
 def _pieces(part: _FittedSection) -> Iterator[tuple[Fraction, Sequence[Fraction]]]:
-    """First k and powers of every polynomial of a part, those of a dwell being zero."""
+    """First k and powers of every polynomial of a part; the powers of a dwell are zero."""
     if part.run is None:
         yield Fraction(part.stretch.ends[0]), part.stretch.exact_powers or (Fraction(0),)
         return

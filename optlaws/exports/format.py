@@ -61,7 +61,7 @@ class Request:
             raise InputError(f"decimal must be '.' or ',', got {shortened(self.decimal)}")
 
     def interpolation_among(self, known: Collection[str], default: str = "cubic") -> str:
-        """The interpolation, one of those that the target knows."""
+        """The interpolation, which must be among the target's interpolations."""
         interpolation = self.interpolation or default
         if interpolation not in known:
             raise InputError(f"interpolation must be one of {', '.join(known)}, got {interpolation!r}")
@@ -70,7 +70,7 @@ class Request:
 
 @dataclass(frozen=True)
 class Written:
-    """The file of an export, and what a controller makes of it.
+    """The file of an export, and the motion that a controller executes from it.
 
     Parameters
     ----------
@@ -149,7 +149,7 @@ class Format:
     write_joints: JointWriter | None = field(default=None, repr=False)
 
     def request(self, **options: Any) -> Request:
-        """The options that are not None, checked against what the format takes.
+        """The options that are not None, checked against the format's options.
 
         Raises
         ------

@@ -1,4 +1,4 @@
-"""Interpolations of tables as controllers make them: powers of the polynomials between points, with exact peaks."""
+"""Interpolations of tables as controllers compute them: powers of the polynomials between points, with exact peaks."""
 
 from __future__ import annotations
 

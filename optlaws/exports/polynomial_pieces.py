@@ -1,4 +1,4 @@
-"""Laws and motions as polynomials in machine units: exact where laws are made of such, else within a tolerance."""
+"""Laws and motions as polynomials in machine units: exact for piecewise polynomial laws, else within a tolerance."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ class LawSection:
     exact_powers: tuple[Fraction, ...] | None = None
 
     def values(self, k: Array, nu: int) -> Array:
-        """The derivative of order nu; at the last k that of this side of it."""
+        """The derivative of order nu; at the last k, its limit from this side."""
         return np.asarray(self.law(np.minimum(k, self._last), nu))
 
     def hermite(self, k: Array, orders: int) -> PiecewiseMotion:
@@ -54,7 +54,7 @@ class LawSection:
         return PiecewiseMotion(k, hermite_powers(k, values))
 
     def off(self, run: PiecewiseMotion, nu: int) -> float:
-        """How far polynomials on this stretch are from the law."""
+        """The deviation of polynomials on this stretch from the law."""
         return run.deviation(self.values, nu).value
 
     @property
@@ -64,7 +64,7 @@ class LawSection:
 
 
 def is_polynomial(law: MotionLaw) -> bool:
-    """Whether a law is made of polynomials alone, so that controllers can run it without loss."""
+    """Whether a law is piecewise polynomial, so that controllers can execute it without loss."""
     if isinstance(law, PiecewiseLaw):
         return all(isinstance(segment, PolynomialSegment) for segment in law.segments)
     return isinstance(law, PolynomialLaw)

@@ -1,4 +1,4 @@
-"""The report of a run beside its law: peaks, jumps, deviation, travel, and what a task of the drive makes of it."""
+"""The report of an executed motion beside its law: peaks, jumps, deviation, travel, effect of the drive's cycle."""
 
 from __future__ import annotations
 
@@ -126,7 +126,7 @@ class Report:
 
 
 def as_run(run: PiecewiseMotion, motion: Motion, bound: float = 0.0, roundings: tuple[float, ...] = ()) -> Report:
-    """The report of a run by the master: every number is an extreme over the whole motion, none is one of a grid.
+    """The report of an execution by the master: every number is an extreme over the whole motion, not over a grid.
 
     Roundings may add `bound` to the acceleration; jumps of velocity, acceleration and jerk up to `roundings` are such.
     """
@@ -196,7 +196,7 @@ def _at_ends(
 
 
 def _deviation(run: PiecewiseMotion, motion: Motion, nu: int, rate: float, *, has: bool) -> Extreme:
-    """The greatest difference; beyond the motion, where roundings of the master may lead, it goes on as it ends."""
+    """The greatest difference; beyond the motion's ends, which the master may pass by rounding, it continues."""
 
     def law(x: Array, nu: int) -> Array:
         return np.asarray(motion(np.clip(x, motion.start, motion.stop), nu))

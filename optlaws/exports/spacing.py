@@ -1,4 +1,4 @@
-"""Points of tables: their places, and the fewest whose executed motion is as good as that of any number tried."""
+"""Points of tables: their places, and the smallest number whose executed motion is as good as any tried."""
 
 from __future__ import annotations
 
@@ -43,11 +43,11 @@ class PointTable:
 
     @kept_property
     def run(self) -> PiecewiseMotion:
-        """The motion that the controller makes of the points."""
+        """The motion that the controller computes from the points."""
         return PiecewiseMotion(self.x, self.powers)
 
     def written(self, text: str, model: str, notes: tuple[str, ...] = ()) -> Written:
-        """The file of the table, with what a controller makes of it."""
+        """The file of the table, with the executed motion."""
         return Written(text, self.run, model, len(self.x), "points", self.resolution, self.bound, notes)
 
 
@@ -64,14 +64,14 @@ def places(motion: Motion, count: int, *, straight: bool = False) -> Array:
 
 
 def _between(low: float, high: float, steps: int, digits: int) -> Array:
-    """Equal steps without the end; rounded where nobody sees it, so that a file says 0.075 and not its neighbour."""
+    """Equal steps without the end, rounded far below the file's digits, so that a file contains 0.075 exactly."""
     inside = np.linspace(low, high, steps + 1)[:-1]
     inside[1:] = np.round(inside[1:], digits)
     return inside
 
 
 def chosen(motion: Motion, request: Request, make: Callable[[int], PointTable], least: int, most: int) -> PointTable:
-    """The table with the requested number of points, or with that whose run is best, of those that the target holds."""
+    """The table with the requested number of points, or with the best executed motion that the target can store."""
     fewest = max(least, len(motion.breaks))  # one at every break
     if fewest > most:
         raise InputError(f"the motion has {fewest} breaks, and the target holds {most} points: export its parts")
@@ -107,7 +107,7 @@ def best(motion: Motion, make: Callable[[int], PointTable], least: int, most: in
 
 
 class Rank(NamedTuple):
-    """How good a run is, all at least what the law itself has.
+    """The quality of an executed motion; every value is at least the law's own.
 
     How far it is off, over what it may be; its peak over the law's; what it jumps further, over the law's peak.
     """
@@ -161,7 +161,7 @@ class RunRanking:
         return Rank(off, peak, beyond / self.acceleration)
 
     def _off(self, table: PointTable) -> float:
-        """How far the polynomials are from the motion between points, where they are about farthest."""
+        """The deviation of the polynomials from the motion between points, where it is typically greatest."""
         after = _BETWEEN * np.diff(table.x)
         run = (table.powers * after[:, None] ** np.arange(table.powers.shape[1])).sum(axis=1)
         places = np.clip(table.x[:-1] + after, self.motion.start, self.motion.stop)
@@ -185,7 +185,7 @@ def _peak(powers: Array, steps: Array, first: Array, last: Array) -> float:
 
 
 def _needs(motion: Motion) -> Array:
-    """1 for stretches between breaks that are curved, 0 for straight ones."""
+    """1 for curved stretches between breaks, 0 for straight ones."""
     middles = [0.5 * (low + high) for low, high in pairwise(motion.breaks)]
     which = np.searchsorted(motion.joints[1:-1], middles, side="right")
     curved = [motion.pieces[i].stroke != 0.0 and motion.pieces[i].law.peak(2).value > 0.0 for i in which]
@@ -193,7 +193,7 @@ def _needs(motion: Motion) -> Array:
 
 
 def _shares(lengths: Array, steps: int, weights: Array) -> list[int]:
-    """How many of the steps each stretch gets: one at least, and what is left by its length."""
+    """The number of steps of each stretch: at least one, the rest in proportion to its length."""
     if steps < len(lengths):
         raise InputError(f"{steps + 1} points are too few: the motion has {len(lengths) + 1} breaks")
     sized = lengths * weights

@@ -69,7 +69,7 @@ def safe(lines: Iterable[str]) -> list[str]:
 
 @dataclass(frozen=True)
 class Labels:
-    """Units of master and slave as comments write them, and whatever else a program shall say.
+    """Units of master and slave as comments write them, and further text for a program.
 
     Examples
     --------
@@ -87,7 +87,7 @@ class Labels:
 
 
 def program_heading(motion: PiecewiseMotion, labels: Labels, arithmetics: Sequence[FloatingPoint]) -> list[str]:
-    """Lines that say what a program evaluates, its peaks, and the bound of its rounding errors."""
+    """Lines that describe a program's function, its peaks, and the bound of its rounding errors."""
     count = len(motion.coefficients)
     plural = "s" if count > 1 else ""
     interval = f"for x from {motion.start!r} to {motion.stop!r} {labels.master}"
@@ -118,7 +118,7 @@ def _peaks(motion: PiecewiseMotion, nu: int, unit: str) -> str:
 
 
 def plain(value: float, digits: int | None = None, decimal: str = ".") -> str:
-    """A number without an exponent: all digits that a double needs, or so many behind the decimal sign.
+    """A number without an exponent: all digits of a double, or a given number of decimals.
 
     >>> plain(1e-05), plain(2.5, 3, ","), plain(-1e-9, 3), plain(120.0)
     ('0.00001', '2,500', '0.000', '120')

@@ -68,7 +68,7 @@ def _period(value: float, of: str, unit: str, least: int) -> int:
 
 
 def _profile(run: PiecewiseMotion, scale: float, master: int, slave: int) -> PiecewiseMotion:
-    """The polynomials from 0 to the master's period in REAL32, the first from 0; what the drive checks holds."""
+    """The polynomials from 0 to the master's period in REAL32, the first from 0; the drive's checks pass."""
     first = Fraction(run.coefficients[0][0])
     rows = [[Fraction(c) * Fraction(scale) for c in row] for row in run.coefficients]
     for row in rows:

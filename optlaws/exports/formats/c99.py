@@ -123,7 +123,7 @@ def c_name(name: Any) -> str:  # noqa: ANN401 - it is checked here
 
 
 def _in(motion: PiecewiseMotion, name: str, *, single: bool) -> str:
-    """The tables and functions in one of the two kinds of numbers."""
+    """The tables and functions in one of the two floating-point types."""
     run = as_stored(motion, SINGLE if single else DOUBLE)
     f, suffix = ("_f", "F") if single else ("", "")
     texts = {

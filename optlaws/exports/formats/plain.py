@@ -46,7 +46,7 @@ _plain_format = partial(file_format, takes=_TEXT, contents="x, y as text", limit
 
 
 def _columns_of_axes(motions: Mapping[str, Motion], request: Request) -> dict[str, Written]:
-    """One table over one master with columns for each axis, by their names: the text of each is that of all.
+    """A single table over one master with columns for each axis, by their names; all exports share the text.
 
     Each axis has the points that it would have alone, and those of the others.
     """
@@ -231,7 +231,7 @@ def _whole(table: PointTable, x_step: float, y_step: float) -> list[tuple[int, i
 
 
 def _unit_size(unit: str, target_unit: str, side: str) -> float:
-    """How many of the wanted unit one of a unit is."""
+    """The number of wanted units in a given unit."""
     dimension = "angle" if target_unit == "deg" else "length"
     try:
         return quantity(f"1 {unit}", dimension, side) / quantity(f"1 {target_unit}", dimension, side)

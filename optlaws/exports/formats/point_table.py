@@ -1,4 +1,4 @@
-"""Points as a target holds them, rounded as it rounds, and what it makes of them."""
+"""Points as a target stores them, with its rounding, and the motion that it computes from them."""
 
 from __future__ import annotations
 
@@ -105,7 +105,7 @@ def akima_table(motion: Motion, points: Points, number_format: NumberFormat) -> 
 def hermite_table(
     motion: Motion, points: Points, number_format: NumberFormat, orders: int, *, with_derivatives: bool = True
 ) -> PointTable:
-    """Positions with derivatives, so many or at places, from which the controller makes Hermite's polynomials.
+    """Positions with derivatives for Hermite polynomials of the controller; their number or places are given.
 
     Where the table has no derivatives the controller computes them, and they are taken as the law's.
     """
@@ -140,7 +140,7 @@ def table_by_interpolation(
 def chosen_table(
     motion: Motion, request: Request, interpolation: str, most: int, *, least: int = 2, single: bool = False
 ) -> PointTable:
-    """The table for an interpolation with the requested number of points, or with that whose run is best."""
+    """The table for an interpolation with the requested number of points, or with the best number."""
     numbers = NumberFormat(request.counts, request.digits, single)
     make = partial(table_by_interpolation, motion, number_format=numbers, interpolation=interpolation)
     return chosen(motion, request, make, least=least, most=most)

@@ -27,7 +27,7 @@ SOURCE_MODEL = f"the law's own polynomials to degree {OWN_DEGREE}, else of degre
 def polynomials_for(
     motion: Motion, request: Request, degree: int, most: int, *, points: bool = False, near: float = OFF
 ) -> Fitted:
-    """Polynomials of at most a degree and a number: so many, the best, or as few as bring the acceleration `near`.
+    """Polynomials up to a degree: a given number, the best, or as few as the accuracy `near` of the acceleration needs.
 
     The request's `points` are segments, or points, of which there is one more, where `points` says so.
     """
@@ -42,7 +42,7 @@ def polynomials_for(
 
 
 def source_polynomials(motion: Motion, request: Request) -> tuple[Fitted, tuple[str, ...]]:
-    """The polynomials of source code, the law's own cut where their powers would lose digits, else near ones."""
+    """The polynomials of source code: the law's own, cut where powers would lose digits, or approximations."""
     fit = None if request.points else exactly(motion, OWN_DEGREE)
     fit = fit or polynomials_for(motion, request, SOURCE_DEGREE, SOURCE_PIECES, near=SOURCE_CODE_OFF)
     return fit, (fit.in_words(motion.units.slave),)
@@ -117,7 +117,7 @@ def rounding(run: PiecewiseMotion, nu: int) -> float:
 
 
 def jumping(run: PiecewiseMotion, nu: int) -> float | None:
-    """The first break where the derivative of order nu jumps by more than rounding; None where there is none."""
+    """The first break where the derivative of order nu jumps by more than rounding; None without such a break."""
     small = rounding(run, nu)
     for x, jump in zip(run.breaks[1:], run.jumps(nu).tolist(), strict=False):
         if abs(jump) > small:

@@ -1,4 +1,4 @@
-"""ROS 2: trajectory_msgs/JointTrajectory, whose controllers interpolate by what the points hold."""
+"""ROS 2: trajectory_msgs/JointTrajectory, whose controllers interpolate according to the entries of the points."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ _NANO = 1_000_000_000
 
 
 def joints(motions: Mapping[str, Motion], request: Request) -> dict[str, Written]:
-    """One trajectory of several joints, by their names: the text of each is that of all.
+    """A single trajectory of several joints, by their names; all exports share the text.
 
     Each joint has the points that it would have alone, and those of the others.
     """
@@ -68,7 +68,7 @@ def _table(motion: Motion, request: Request, orders: int) -> PointTable:
 
 
 def _at(motion: Motion, places: Array, orders: int) -> PointTable:
-    """The table at places that are whole nanoseconds; a break that is within one of them has its values."""
+    """The table at whole nanoseconds; a point within a nanosecond of a break has the break's values."""
     breaks = np.array(motion.breaks)
     near = breaks[np.abs(places[:, None] - breaks).argmin(axis=1)]
     at = np.where(np.abs(near - places) * _NANO <= 1.0, near, np.clip(places, motion.start, motion.stop))

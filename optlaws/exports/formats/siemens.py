@@ -98,7 +98,7 @@ def _quintic(ends: Ends) -> list[float]:
 
 
 def _sixth(ends: Ends) -> list[float]:
-    """The quintic of the ends and so much of u³ (1 - u)³ that the jerk at the start is that of the ends."""
+    """The quintic through the end values plus a multiple of u³ (1 - u)³ that matches the jerk at the start."""
     quintic, length = _quintic(ends), ends.x[1] - ends.x[0]
     share = ends.first[3] / 6.0 - quintic[3]
     bump = {3: share, 4: -3.0 * share / length, 5: 3.0 * share / length**2, 6: -share / length**3}

@@ -110,7 +110,7 @@ def _motion_function(motion: Motion, request: Request, *, third: bool) -> Writte
 
 
 def _shared(motion: Motion, request: Request) -> Fitted:
-    """Polynomials whose neighbours share what a point holds: velocity, acceleration, and the jerk where one is used."""
+    """Polynomials whose neighbours share a point's entries: velocity, acceleration, and the jerk where it is used."""
     fit = polynomials_for(motion, request, DEGREE, MOST_POINTS - 1, points=True)
     refuse_jumps(motion, fit.run, "a point of TwinCAT", _REMEDY)
     if fit.run.degree > 5 and jumping(fit.run, 3) is not None:

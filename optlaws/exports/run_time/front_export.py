@@ -112,7 +112,7 @@ class FrontExport:
         return law_between(self.laws[move.law], self.laws[move.law + 1], move.share)
 
     def write(self, file: str | Path) -> Path:
-        """Write the file, whole or not at all; one that is there and says something else is kept as NAME.orig."""
+        """Write the file, completely or not at all; an existing file with other contents is kept as NAME.orig."""
         return writing.write_any(Path(file), self.text)
 
     def results(self) -> dict[str, Any]:

@@ -27,7 +27,7 @@ _HEADING = (
 
 @dataclass(frozen=True)
 class SegmentTimes:
-    """How long the segments of a move last, four with jerk, two with acceleration and one with velocity constant.
+    """The durations of a move's segments: four with jerk, two of constant acceleration, one of constant velocity.
 
     Attributes
     ----------
@@ -139,7 +139,7 @@ class SegmentExport:
         return segment_times(stroke, velocity, acceleration, jerk)
 
     def write(self, file: str | Path) -> Path:
-        """Write the file, whole or not at all; one that is there and says something else is kept as NAME.orig."""
+        """Write the file, completely or not at all; an existing file with other contents is kept as NAME.orig."""
         return writing.write_any(Path(file), self.text)
 
 
