@@ -1,4 +1,4 @@
-"""Whether two files say the same: the same words, and the same numbers but for what machines round otherwise."""
+"""Whether two files agree: the same words, and the same numbers up to the rounding of different machines."""
 
 from __future__ import annotations
 

@@ -29,7 +29,7 @@ def problem_names() -> list[str]:
 
 
 def problem_file(given: Path) -> tuple[Path, Path | None]:
-    """A problem file: the one given or, where none is there, the one of this name or place that comes with optlaws.
+    """A problem file: the given one or, if it does not exist, the packaged file of this name or path.
 
     With it the folder for its results where that is not the file's own: `results/NAME` where the user is.
 
@@ -52,12 +52,12 @@ def problem_file(given: Path) -> tuple[Path, Path | None]:
 
 
 def is_problem(text: str) -> bool:
-    """Whether a text is taken for a problem file: it ends in .toml, or is the name of one that comes with optlaws."""
+    """Whether a text means a problem file: it ends in .toml, or is the name of a packaged file."""
     return text.lower().endswith(".toml") or (text in problem_names() and not Path(text).exists())
 
 
 class GivenProblem(NamedTuple):
-    """A problem file, the folder for its results where that is not the file's own, and what the file holds."""
+    """A problem file, the folder for its results unless it is the file's own, and the file's contents."""
 
     file: Path
     results: Path | None
@@ -82,7 +82,7 @@ def problem_of_job(given: Path, job: str) -> GivenProblem:
 
 
 def or_packaged(given: Path) -> Path:
-    """A file of the user; where there is none, and one of this place comes with optlaws, that."""
+    """A file of the user or, if it does not exist, the packaged file of this path."""
     if given.is_absolute() or given.exists() or ".." in given.parts:
         return given
     return next((root / given for root in _ROOTS if (root / given).is_file()), given)

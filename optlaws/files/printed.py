@@ -1,4 +1,4 @@
-"""Printed numbers beside recomputed ones, and what to say of each."""
+"""Printed numbers beside recomputed ones, and the verdict on each."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ MISPRINT = "misprint"
 
 @dataclass(frozen=True)
 class PrintedNumber:
-    """A printed number, what it should be, and how well the two agree.
+    """A printed number, its recomputed value, and their agreement.
 
     Attributes
     ----------
@@ -99,7 +99,7 @@ def rows(file: Path, columns: tuple[str, ...] | None = None) -> list[Mapping[str
 
 
 def number(text: str, where: str) -> float:
-    """A number as it is printed.
+    """A number as printed.
 
     Raises
     ------
@@ -116,7 +116,7 @@ def number(text: str, where: str) -> float:
 
 
 def same_digits(printed: str, exact: float, *roundings: str) -> bool:
-    """Whether a number has the printed digits once it is rounded, half up unless told otherwise.
+    """Whether a number has the printed digits after rounding, half up by default.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""Problem files: TOML that says what is solved, read and checked against the entries that a job knows."""
+"""Problem files: TOML that defines a task, read and checked against the entries of its job."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _ONE_AT_A_TIME = process_lock()
 
 
 def typed(data: Any, kind: type[Kind]) -> Kind:  # noqa: ANN401 - whatever was read
-    """The value of a kind that plain data say.
+    """The value of a type from plain data.
 
     One at a time: two threads that met a kind for the first time have crashed in msgspec (0.22).
     """

@@ -1,4 +1,4 @@
-"""Reading files and texts: one door for text, one for TOML, one for JSON, each with limits.
+"""Reading of files and texts: a function each for text, TOML and JSON, with limits of size.
 
 Only regular files are read, up to a size, in UTF-8 with or without a byte order mark. How much a JSON text holds is
 counted before it is parsed, since its values take many times its size. What TOML or JSON holds is checked once: how
@@ -61,7 +61,7 @@ def text(file: Path, largest: int = LARGEST_JSON, *, legacy: bool = False) -> st
 
 
 def is_file(file: Path) -> bool:
-    """Whether there is such a file; a name that no file can have is none."""
+    """Whether a file exists; a name that no file can have is no file."""
     try:
         return storable(str(file)) and file.is_file()
     except (OSError, ValueError):
@@ -81,7 +81,7 @@ def toml(file: Path) -> dict[str, Any]:
 
 
 def toml_text(content: str, name: str) -> dict[str, Any]:
-    """The contents of a TOML text; `name` is what an error calls it."""
+    """The contents of a TOML text; errors call it `name`."""
     import tomllib
 
     try:
@@ -100,12 +100,12 @@ def json_file(file: Path) -> Any:  # noqa: ANN401 - whatever it holds
 
 
 def json_text(content: Any, name: str) -> Any:  # noqa: ANN401 - it is checked here
-    """The contents of a JSON text; `name` is what an error calls it."""
+    """The contents of a JSON text; errors call it `name`."""
     return checked(parsed(content, name), name)
 
 
 def of_known_format(data: Mapping[str, Any], name: str) -> dict[str, Any]:
-    """The other entries of an object whose format is read; `name` is what an error calls it.
+    """The other entries of an object whose format is known; errors call it `name`.
 
     Raises
     ------
@@ -130,7 +130,7 @@ def of_known_format(data: Mapping[str, Any], name: str) -> dict[str, Any]:
 
 
 def entries_of(data: Any, names: Iterable[str], what: str) -> dict[str, Any]:  # noqa: ANN401 - it is checked here
-    """The named entries of a stored value, from which the others follow; `what` is what an error calls it.
+    """The named entries of a stored value, from which the others are computed; errors call it `what`.
 
     Raises
     ------
@@ -151,7 +151,7 @@ def entries_of(data: Any, names: Iterable[str], what: str) -> dict[str, Any]:  #
 
 
 def all_entries_of(data: Any, names: Sequence[str], what: str) -> dict[str, Any]:  # noqa: ANN401 - it is checked here
-    """The entries of a stored value that has these and no other; `what` is what an error calls it.
+    """The entries of a stored value that has exactly these; errors call it `what`.
 
     Raises
     ------
@@ -211,7 +211,7 @@ class JsonText:
 
 
 def parsed(content: Any, name: str) -> Any:  # noqa: ANN401 - it is checked here
-    """The contents of a JSON text, of which only its size is checked, and that it says nothing twice.
+    """The contents of a JSON text, checked for its size and for repeated keys only.
 
     Examples
     --------

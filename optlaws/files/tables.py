@@ -15,7 +15,7 @@ Cell = str | float | int | None
 
 
 def to_csv(columns: Sequence[str], rows: Sequence[Sequence[Cell]], *, about: str, digits: int = 8) -> str:
-    """CSV with a first comment line; numbers to so many significant digits, nothing for None."""
+    """CSV with a first comment line; numbers to a number of significant digits, empty for None."""
     stream = io.StringIO()
     stream.write(f"# {about}; {MARK}\n")
     writer = csv.writer(stream, lineterminator="\n")

@@ -1,4 +1,4 @@
-"""Writing results: whole or not at all, never over what a user made or changed, and only where something changed.
+"""Writing of results: completely or not at all, never over a user's file, and only where contents have changed.
 
 Whoever else writes the same file at the same moment: the file of one of them is there, and what a user had is kept.
 Every file carries the mark "made by optlaws" with a seal, a digest of all else that it holds, so that an edit shows.
@@ -37,7 +37,7 @@ _IN_PNG = re.compile(rb"(?<=tEXtSoftware\0)" + _SEALED)
 
 
 def write(file: Path, content: str | bytes, *, digits: int | None = None, exact: bool = False) -> Path:
-    """Replace a file at once, unless it says the same already.
+    """Replace a file in a single step, unless its contents agree already.
 
     A file that is there and was not made by optlaws, or was changed since, is kept as `name.orig`; one that says the
     same but for rounding (see `comparison`; `digits` is how many mean something) is left as it is, unless every digit
@@ -74,7 +74,7 @@ def write_any(file: Path, content: str) -> Path:
 
 @contextmanager
 def _named(file: Path) -> Iterator[None]:
-    """Errors of the system name the user's file, not that of our copy beside it."""
+    """Report errors of the system with the user's file name, not with the temporary copy's."""
     try:
         yield
     except OSError as error:
@@ -84,13 +84,13 @@ def _named(file: Path) -> Iterator[None]:
 
 
 def is_current(file: Path, content: bytes, *, digits: int | None = None) -> bool:
-    """Whether a file was made by optlaws, not changed since, and says the same as a content but for rounding."""
+    """Whether a file was written by optlaws, is unchanged, and agrees with given contents up to rounding."""
     there = _content(file)
     return is_sealed(there) and say_the_same(_unsealed(there)[0], content, file.suffix, digits)
 
 
 def is_own(file: Path) -> bool:
-    """Whether a file was made by optlaws and not changed since: whether its seal is that of what it holds.
+    """Whether a file was written by optlaws and is unchanged: its seal matches its contents.
 
     Line ends count for nothing: some systems change them on their own.
     """
@@ -106,7 +106,7 @@ def _content(file: Path) -> bytes:
 
 
 def is_sealed(content: bytes) -> bool:
-    """Whether a content has the seal of what it holds."""
+    """Whether contents carry a matching seal."""
     plain, seal = _unsealed(content)
     return seal is not None and seal == _seal(plain)
 
@@ -150,13 +150,13 @@ def _seal(content: bytes) -> str:
 
 
 def _chunk(mark: bytes) -> bytes:
-    """The part of a PNG file that says what made it."""
+    """The part of a PNG file that names its author program."""
     text = b"tEXtSoftware\0" + mark
     return struct.pack(">I", len(text) - 4) + text + struct.pack(">I", crc32(text))
 
 
 def _put(file: Path, data: bytes) -> None:
-    """Make a file hold some data at once, whoever else writes it at the same moment: what a user has there is kept."""
+    """Write data to a file in a single step, even with concurrent writers: a user's existing file is kept."""
     file.parent.mkdir(parents=True, exist_ok=True)
     copy = _beside(file)
     try:
@@ -185,7 +185,7 @@ def _placed(copy: Path, file: Path) -> bool:
 
 
 def _replaced(copy: Path, file: Path) -> bool:
-    """Put a copy in the place of a file, which is kept if it is a user's, unless it is gone meanwhile."""
+    """Put a copy in the place of a file; a user's file is kept first, unless it has vanished meanwhile."""
     try:
         mode = file.lstat().st_mode
         _keep(file)
@@ -199,7 +199,7 @@ def _replaced(copy: Path, file: Path) -> bool:
 
 
 def _keep(file: Path) -> None:
-    """Keep what is there as `name.orig`, but for what is ours: by a second name, so that it is there all the time."""
+    """Keep a foreign file as `name.orig`, through a second name, so that it exists at all times."""
     seen = _beside(file)
     try:
         os.link(file, seen, follow_symlinks=False)
