@@ -45,7 +45,7 @@ def quadratic(formula: Formula, names: Collection[str], most: int = _MOST) -> Te
 
 
 def semidefinite(formula: Formula, names: Collection[str], within: Mapping[str, Endpoints], sign: int) -> bool:
-    """Whether the formula, times the sign, is a quadratic form that is nowhere negative, at every k.
+    """Whether the formula, times the sign, is a quadratic form that is nonnegative at every k.
 
     >>> from optlaws.formulas.reading import read
     >>> semidefinite(read("c^2 + 2*b*c + b^2"), "bc", {}, 1), semidefinite(read("c^2 + 3*b*c + b^2"), "bc", {}, 1)
@@ -68,7 +68,7 @@ def semidefinite(formula: Formula, names: Collection[str], within: Mapping[str, 
 
 
 def _exactly(entries: Mapping[tuple[int, int], Fraction], size: int) -> bool:
-    """The test by elimination in exact arithmetic; entries off the diagonal are those of both sides together."""
+    """The test by elimination in exact arithmetic; off-diagonal entries combine both sides."""
     matrix = [[entries[min(i, j), max(i, j)] / (1 if i == j else 2) for j in range(size)] for i in range(size)]
     for i in range(size):
         if matrix[i][i] < 0 or (matrix[i][i] == 0 and any(matrix[i][j] for j in range(i + 1, size))):
@@ -81,7 +81,7 @@ def _exactly(entries: Mapping[tuple[int, int], Fraction], size: int) -> bool:
 
 
 def _widely(entries: Mapping[tuple[int, int], Endpoints], size: int, sign: int) -> bool:
-    """The test by eigenvalues at the middles of many parts, less what the entries may be off."""
+    """The test by eigenvalues at the midpoints of many parts, less the variation of the entries."""
     count = max(np.size(entry.low) for entry in entries.values())
     middles, reach = np.zeros((count, size, size)), np.zeros((count, size, size))
     for (i, j), entry in entries.items():
@@ -140,7 +140,7 @@ class Affine:
 
 
 def affine(formula: Formula, names: Collection[str]) -> Affine | None:
-    """The formula as an affine one of these names; None where it is not.
+    """The formula as an affine function of these names; None where it is not affine.
 
     >>> from optlaws.formulas.reading import read
     >>> affine(read("2*(c + k*b) - c + k^2"), "bc")
@@ -171,7 +171,7 @@ def degree(formula: Formula, names: Mapping[str, int]) -> int | None:
 
 
 def _degree(formula: Formula, parts: list[int | None], names: Mapping[str, int]) -> int | None:
-    """The degree from those of its parts."""
+    """The degree from the degrees of its parts."""
     if not formula.names() & names.keys():
         return 0
     if isinstance(formula, Name):

@@ -114,7 +114,7 @@ def step_value(
     names: Mapping[str, Any],
     arithmetic: Arithmetic,
 ) -> Any:  # noqa: ANN401 - a number of the arithmetic
-    """The value of a formula from those of its parts.
+    """The value of a formula from the values of its parts.
 
     >>> from optlaws.formulas.reading import read
     >>> float(step_value(read("sin(k) + b"), [1.0, 2.0], {}, NUMPY))

@@ -1,4 +1,4 @@
-"""Formulas with kinks as the greatest of smooth ones."""
+"""Formulas with kinks as the maximum of smooth formulas."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ def branches(formula: Formula, names: Collection[str], sign: Sign) -> list[Formu
 
 
 def smooth(formula: Formula, names: Collection[str]) -> bool:
-    """Whether it has no kinks in these names.
+    """Whether the formula has no kinks in these names.
 
     >>> from optlaws.formulas.reading import read
     >>> smooth(read("b*c + abs(k)"), "bc"), smooth(read("abs(b)"), "bc")
@@ -62,14 +62,14 @@ def smooth(formula: Formula, names: Collection[str]) -> bool:
 
 
 def smooth_itself(part: Formula) -> bool:
-    """Whether a part has no kinks beside those of its own parts."""
+    """Whether a part adds no kinks to the kinks of its own parts."""
     if isinstance(part, Table):
         return part.smooth or len(part.places) == 2
     return not (isinstance(part, Call) and part.function in {"abs", "max", "min"})
 
 
 def switches(formula: Formula, names: Collection[str]) -> list[Formula]:
-    """Formulas between whose changes of sign it is as often differentiable as they are; those of inner parts first.
+    """Formulas that all keep their signs between the given formula's kinks; switches of inner parts come first.
 
     >>> from optlaws.formulas.reading import read
     >>> switches(read("max(abs(b) - 1, c, 0)"), "bc")
@@ -156,7 +156,7 @@ def _chosen(formula: Formula, choices: Sequence[int]) -> Formula:
 
 
 def together(formula: Formula) -> Formula:
-    """A formula of the degree that the smooth ones which it is somewhere have at most.
+    """A formula with the highest degree among its smooth branches.
 
     >>> from optlaws.formulas.reading import read
     >>> together(read("max(b^2, c) + abs(k)"))

@@ -1,4 +1,4 @@
-"""Whether a formula is convex in some of its names, by the rules of disciplined convex programming, and which says so.
+"""Convexity of a formula in some of its names, by the rules of disciplined convex programming, with the reason.
 
 A part's curvature follows from what it is made of: sums of convex parts are convex, a convex function that rises takes
 convex parts, one that falls takes concave ones (Grant, Boyd, Ye 2006). Beyond that, quadratic forms are looked at as a
@@ -44,12 +44,12 @@ class Curvature(Enum):
 
     @property
     def convex(self) -> bool:
-        """Whether it is convex, affine and constant included."""
+        """Whether the formula is convex, affine and constant included."""
         return self in {Curvature.CONSTANT, Curvature.AFFINE, Curvature.CONVEX}
 
     @property
     def concave(self) -> bool:
-        """Whether it is concave, affine and constant included."""
+        """Whether the formula is concave, affine and constant included."""
         return self.opposite.convex
 
 
@@ -117,7 +117,7 @@ class Judge:
         return {**dict.fromkeys(self.names, whole), "k": Endpoints(edges[:-1], edges[1:])}
 
     def sign(self, formula: Formula) -> int:
-        """1 where it is nowhere below 0, -1 where nowhere above, 0 where neither is known."""
+        """1 where the value is nowhere negative, -1 where nowhere positive, 0 where neither is known."""
         interval = enclosed(formula, self._interval)
         if float(np.min(interval.low)) >= 0.0:
             return 1

@@ -114,7 +114,7 @@ def _power(base: Endpoints, exponent: Endpoints, known: float | None) -> Endpoin
 
 
 def _table(table: Table, at: Endpoints) -> Endpoints:
-    """The bounds of a table: those of its pieces, each where the argument reaches it."""
+    """The bounds of a table: the bounds of each piece over the part of the argument's range in it."""
     places, rows = np.array(table.places), pieces(table)
     lows, highs = np.full(np.shape(at.low), np.inf), np.full(np.shape(at.low), -np.inf)
     for i, row in enumerate(rows):

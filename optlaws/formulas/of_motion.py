@@ -60,7 +60,7 @@ class MotionFormula:
 
     @kept_property
     def affine(self) -> Affine | None:
-        """The formula as an affine one of the law and its derivatives; None where it is not."""
+        """The formula as an affine function of the law and its derivatives; None where it is not affine."""
         return affine(self.formula, ORDERS)
 
     @property

@@ -50,7 +50,7 @@ def derivative(formula: Formula, name: str) -> Formula:
 
 
 def _slope(formula: Formula, slopes: list[Formula], name: str) -> Formula:
-    """The derivative of a formula in which the name is, from those of its parts."""
+    """The derivative of a formula that contains the name, from the derivatives of its parts."""
     if isinstance(formula, Name):
         return _ONE
     if isinstance(formula, Negative):

@@ -35,7 +35,7 @@ class Formula:
 
     @property
     def parts(self) -> tuple[Formula, ...]:
-        """The formulas that it is made of."""
+        """The formulas that are its direct parts."""
         return ()
 
     def walk(self) -> Iterator[Formula]:
@@ -45,7 +45,7 @@ class Formula:
             yield from part.walk()
 
     def different(self) -> list[Formula]:
-        """The formula itself and all parts within it, equal ones once.
+        """The formula itself and all parts within it, without duplicates.
 
         >>> from optlaws.formulas.reading import read
         >>> read("2*b + sin(2*b)").different()
@@ -99,7 +99,7 @@ class Formula:
 
     @kept_property
     def steps(self) -> tuple[Step, ...]:
-        """All different formulas within it, those first that others are made of; it itself is the last.
+        """All different formulas within it, parts before wholes; the formula itself is the last.
 
         >>> from optlaws.formulas.reading import read
         >>> [str(step.formula) for step in read("sin(2*a) + sin(2*a)^2").steps]
@@ -152,13 +152,13 @@ class Name(Formula):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class OfOnePart(Formula):
-    """A formula that is made of a single part."""
+    """A formula with a single part."""
 
     of: Formula
 
     @property
     def parts(self) -> tuple[Formula, ...]:
-        """The single part that it is made of."""
+        """The single part of the formula."""
         return (self.of,)
 
 
@@ -196,7 +196,7 @@ class Sum(Formula):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Reciprocal(OfOnePart):
-    """One divided by a part; within a product, what is divided by."""
+    """The reciprocal of a part; within a product, the divisor."""
 
     level = _PRODUCT
 
@@ -277,7 +277,7 @@ class Table(OfOnePart):
 
     @property
     def data(self) -> tuple[Any, ...]:
-        """The places and values, and what is made of them."""
+        """The places and values, and the spline data computed from them."""
         return self.places, self.values, self.smooth, self.order
 
     def __str__(self) -> str:
@@ -298,7 +298,7 @@ def table_places(formula: Formula, name: str) -> list[float]:
 
 
 class Step(NamedTuple):
-    """A part of a formula as it is computed: from which steps before it, and which of them are then done with."""
+    """A formula as a step of a computation: the steps that it needs, and the steps that are used last by it."""
 
     formula: Formula
     parts: tuple[int, ...]
@@ -306,7 +306,7 @@ class Step(NamedTuple):
 
 
 def shared_steps(formulas: Sequence[Formula]) -> tuple[tuple[Step, ...], tuple[int, ...]]:
-    """All different formulas within several, those first that others are made of; and which of them the several are.
+    """All different formulas within several, parts before wholes; also the positions of the several themselves.
 
     >>> from optlaws.formulas.reading import read
     >>> steps, places = shared_steps([read("2*a + b"), read("2*a")])
