@@ -65,7 +65,7 @@ def _fill(page: Page, points: Sequence[StudyPoint]) -> None:
 
 
 def _costs(points: Sequence[StudyPoint], constant: str) -> tuple[list[str], list[list[tables.Cell]]]:
-    """The least constant of each order by B, and what each order costs over the one below it."""
+    """The least constant of each order by B, and the price of each order over the next lower one."""
     degree = max(point.inputs["degree"] for point in points)
     objectives = {
         (point.inputs["B"], point.inputs["order"]): point.constants.get(constant)
@@ -140,7 +140,7 @@ def _heights(points: Sequence[StudyPoint]) -> tuple[float, float]:
 
 @dataclass(frozen=True)
 class AtlasPoint:
-    """A point of the atlas: what was asked there, and the constants of its law; J is missing where c jumps."""
+    """A point of the atlas: its problem, and the constants of its law; J is missing where c jumps."""
 
     minimise: str
     order: int
@@ -152,7 +152,7 @@ class AtlasPoint:
 def look_up(
     file: Path, *, minimise: str, order: int, B: float | None = None, most: Mapping[str, float] | None = None
 ) -> AtlasPoint:
-    """The point with the nearest B or, where B is free, the best one; among equals the one with the least objective.
+    """The point with the nearest B or, where B is free, the best point; of equals, the one of least objective.
 
     Laws that were made for another objective count too: with a limit, `most` by constant, they may be the better ones.
     """
@@ -185,7 +185,7 @@ def look_up(
 def best_law(
     file: Path, *, minimise: str, order: int, B: float | None = None, most: Mapping[str, float] | None = None
 ) -> Solution:
-    """The best law as asked, of whichever degree the atlas has; the arguments are those of `look_up`.
+    """The best law for the exact request, of any degree in the atlas; the arguments are as for `look_up`.
 
     A point of the atlas says nothing of the best degree under a limit: its law keeps to it by chance. So every degree
     is asked, but where the greatest, among whose laws are those of all others, has answered for them with proof.

@@ -124,7 +124,7 @@ def draw(cam: BarrelCam, title: str) -> Figure:
 
 
 def _unrolled(curve: SpaceCurve, angles: Array, pitch: SpaceCurve) -> tuple[Array, Array]:
-    """A curve's angle around the cam in degrees, near that of the roller, and its place along the shaft in mm."""
+    """A curve's angle around the cam in degrees, near the roller's angle, and its place along the shaft in mm."""
     x, y, along = curve(angles).T
     beside = np.angle((y + 1j * x) / (pitch(angles) @ np.array([1j, 1.0, 0.0])))
     return np.degrees(angles + curve.turning * beside), _MILLI * along

@@ -106,7 +106,7 @@ def _to_data(findings: Findings) -> dict[str, Any]:
 
 
 def _best_data(findings: Findings) -> dict[str, Any]:
-    """How good the laws for the cam are; nothing where the laws are those of the cycle."""
+    """The quality of the laws for the cam; nothing where the laws are the cycle's own."""
     best = findings.best
     if best is None:
         return {}
@@ -129,7 +129,7 @@ def _status(findings: Findings) -> str:
 
 
 def _pair_data(cam: DiscCam | None) -> dict[str, Any]:
-    """The data of the return cam; nothing where there is none."""
+    """The data of the return cam; nothing without a return cam."""
     if cam is None:
         return {}
     return {

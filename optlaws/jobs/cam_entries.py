@@ -45,7 +45,7 @@ class SpringEntries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
 
 
 class AsManufacturedEntries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
-    """The files that are run against the follower: tables of so many points and decimals, and errors of the profile."""
+    """The files whose executed motion is reported: tables of a number of points and decimals, and profile errors."""
 
     points: Several = (361, 721)
     decimals: Several = (3, 4, 6)

@@ -43,7 +43,7 @@ STIFFNESS = {"length": "N/m", "angle": "N m/rad"}
 
 @dataclass(frozen=True)
 class Limits:
-    """Limits that laws were made for, in SI units: they touch them at several angles, of which none is the one."""
+    """Limits that the laws were optimised for, in SI units: the laws reach them at several angles."""
 
     pressure: float | None = None
     radius: float | None = None
@@ -90,7 +90,7 @@ class Findings:
 
     @kept_property
     def best(self) -> BestCam | BestPrimeCircle | None:
-        """How good the laws for the cam are, and the proof; None where they are those of the cycle."""
+        """The quality of the laws for the cam, and the proof; None where they are the cycle's own."""
         spec, follower = self.spec, read_follower(self.spec.follower)
         prime_radius = self.prime_radius
         if spec.best == "offset":
@@ -101,7 +101,7 @@ class Findings:
 
     @kept_property
     def offset(self) -> BestOffset | None:
-        """The best offset of the slide; None where the one of the file is that of the cam."""
+        """The best offset of the slide; None where the cam has the offset of the file."""
         spec, follower = self.spec, read_follower(self.spec.follower)
         if spec.best != "offset":
             return None
@@ -113,7 +113,7 @@ class Findings:
 
     @kept_property
     def cam(self) -> DiscCam:
-        """The cam; with the laws or the offset found where the best ones are sought."""
+        """The cam, with the optimised laws or the optimised offset where these are sought."""
         best, offset = self.best, self.offset
         if offset is not None:
             return offset.cam
@@ -146,7 +146,7 @@ class Findings:
 
     @kept_property
     def limits(self) -> Limits:
-        """The limits that the laws were made for; none where they are those of the cycle."""
+        """The limits that the laws were optimised for; none where the laws are the cycle's own."""
         if self.best is None:
             return Limits()
         pressure, radius = self.spec.pressure_angle, self.spec.radius_of_curvature
@@ -156,12 +156,12 @@ class Findings:
         )
 
     def angle(self, angle: float) -> float | None:
-        """An angle where a limit gives a size: laws that were made for it touch it at several."""
+        """The angle at which a limit determines a size; None for laws that reach the limit at several angles."""
         return angle if self.best is None else None
 
     @kept_property
     def least(self) -> LeastPrimeCircle | str | None:
-        """The least prime circle, why there is none, or None where no limit is given."""
+        """The least prime circle, the reason why none exists, or None where no limit is given."""
         if not self._limited:
             return None
         if isinstance(self.best, BestPrimeCircle):
@@ -176,7 +176,7 @@ class Findings:
 
     @kept_property
     def least_of_cycle(self) -> LeastPrimeCircle | None:
-        """The least prime circle of the cycle's own laws; None where there is none."""
+        """The least prime circle of the cycle's own laws; None if none exists."""
         try:
             return least_prime_circle(self.cycle, self.cam.follower, **self.spec.limits)
         except InfeasibleProblem:
@@ -191,7 +191,7 @@ class Findings:
 
     @kept_property
     def forces(self) -> CamForces | None:
-        """The forces of the cam, if the file asks for them."""
+        """The forces of the cam, if the file requests them."""
         return None if self.spec.forces is None else self.forces_with(self.spec.forces)
 
     def forces_with(self, options: ForcesEntries) -> CamForces:
@@ -204,7 +204,7 @@ class Findings:
 
     @kept_property
     def fluctuation(self) -> EnergyFluctuation | None:
-        """Mean power and work above the mean, if the file asks for an irregularity, which is checked."""
+        """Mean power and work above the mean, if the file requests an irregularity, which is checked."""
         if self.forces is None or self.spec.forces is None or self.spec.forces.irregularity is None:
             return None
         fluctuation = energy_fluctuation(self.forces)
@@ -213,7 +213,7 @@ class Findings:
 
     @kept_property
     def spring(self) -> Spring | None:
-        """The least spring; mass, gravity and friction are those of the motion's drive."""
+        """The least spring; mass, gravity and friction are taken from the motion's drive."""
         if self.spec.spring is None:
             return None
         given = self.cycle.drive if isinstance(self.cycle.drive, Mapping) else {}
@@ -277,7 +277,7 @@ def extreme_rows(cam: DiscCam, limits: Limits) -> list[list[tables.Cell]]:
 def extreme_row(
     name: str, extreme: EnclosedExtreme, factor: float, unit: str, limit: float | None = None
 ) -> list[tables.Cell]:
-    """The row of an extreme, in a unit of so many to the SI unit; without its angle where laws touch it as a limit.
+    """The row of an extreme, with a factor from the SI unit; without its angle where laws reach it as a limit.
 
     Examples
     --------
@@ -296,7 +296,7 @@ def enclosure(extreme: EnclosedExtreme, limit: float | None = None) -> dict[str,
 
 
 def _angle(extreme: EnclosedExtreme, limit: float | None) -> float | None:
-    """The angle of an extreme; None where its value is that of a limit."""
+    """The angle of an extreme; None where its value is a limit that laws reach at several angles."""
     reached = limit is not None and abs(abs(extreme.value) - limit) <= CAM_FEASIBILITY * limit
     return None if reached else extreme.angle
 

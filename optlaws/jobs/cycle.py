@@ -1,4 +1,4 @@
-"""The job "cycle": whole cycles of one or several axes, tabled, drawn, exported and kept with their proofs."""
+"""The job "cycle": whole cycles of one or several axes, with tables, plots, exports and proofs."""
 
 from __future__ import annotations
 
@@ -73,7 +73,7 @@ _EXPORT_HEADINGS = ("file", "format", "points", *_PEAKS, "greatest deviation, un
 def exports_of(
     spec: CycleProblemFile, cycles: Mapping[str, Cycle], file: Path, transitions: Sequence[AxisTransition] = ()
 ) -> Exports:
-    """The exports that the axes name, of their cycles and of their run-ins and run-outs, made but not yet written."""
+    """The exports of the axes' cycles, run-ins and run-outs, computed but not yet written."""
     exports: Exports = {}
     together = {TOGETHER, TIMING, CLEARANCES, GIVEN}
     for name in sorted(together & {plain_name(axis.name) for axis in spec.axis}) if len(spec.axis) > 1 else ():
@@ -112,7 +112,7 @@ def plain_name(axis: str) -> str:
 
 
 def _transition_names(spec: CycleProblemFile) -> Named:
-    """The names of the files of run-ins and run-outs, each with what the file says of it."""
+    """The file names of run-ins and run-outs, each with its entries in the file."""
     given: dict[str, Mapping[TransitionKind, Sequence[TransitionEntries]]] = {
         axis.name: {"run-in": axis.run_in, "run-out": axis.run_out} for axis in spec.axis
     }

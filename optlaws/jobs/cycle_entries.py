@@ -23,14 +23,14 @@ from optlaws.suggest import unknown_key
 
 
 class ElasticFollowerEntries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
-    """An elastic follower whose mass is to move as the cycle says."""
+    """An elastic follower whose mass is to execute the cycle."""
 
     period: str
     damping: float = 0.0
 
 
 class ExportEntries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
-    """An export of an axis: its format, its file, and what the format takes."""
+    """An export of an axis: its format, its file, and the format's options."""
 
     to: str
     file: Text | None = None
@@ -55,7 +55,7 @@ class LoadEntries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
 
 
 class AxisEntries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
-    """One axis of the machine."""
+    """A single axis of the machine."""
 
     name: Text
     segment: Annotated[list[SegmentEntries], msgspec.Meta(min_length=1, max_length=100)]
@@ -88,7 +88,7 @@ class CycleProblemFile(JobFile, kw_only=True, forbid_unknown_fields=True):
 
 
 def read(data: Mapping[str, Any], file: Path) -> tuple[CycleProblemFile, Axes]:
-    """The entries of a file, and its axes, which are cycles by their names; overlapped where the file says so.
+    """The entries of a file, and its axes, as cycles by their names; overlapped where the file requests it.
 
     Raises
     ------
@@ -101,7 +101,7 @@ def read(data: Mapping[str, Any], file: Path) -> tuple[CycleProblemFile, Axes]:
 
 
 def overlap_of(spec: CycleProblemFile, axes: Axes, file: Path) -> Overlap | None:
-    """How the axes of a file overlap; None where it says nothing of that."""
+    """The overlap of the axes of a file; None where the file has no such entry."""
     if spec.overlap is None:
         return None
     with located(str(file)):
@@ -109,7 +109,7 @@ def overlap_of(spec: CycleProblemFile, axes: Axes, file: Path) -> Overlap | None
 
 
 def read_given(data: Mapping[str, Any], file: Path) -> tuple[CycleProblemFile, Axes]:
-    """The entries of a file, and its axes as they are given.
+    """The entries of a file, and its axes before any overlap.
 
     Raises
     ------
@@ -154,7 +154,7 @@ def sweeps_of(spec: CycleProblemFile, file: Path) -> list[list[SweptCycle]]:
 
 
 def cycle_of(axis: AxisEntries, speed: str | None, period: str | None, folder: Path = Path()) -> Cycle:
-    """The cycle of an axis: that of the cam, where there is a follower; `folder` is where catalogues of motors are."""
+    """The cycle of an axis, or of its cam where there is a follower; `folder` contains catalogues of motors."""
     segments = [segment_of(entry, i + 1) for i, entry in enumerate(axis.segment)]
     entries: dict[str, Any] = {name: getattr(axis, name) for name in ENTRIES if name not in CLOCK}
     entries["load"] = None if axis.load is None else given(axis.load)

@@ -117,7 +117,7 @@ def run(results: Results) -> None:
 
 
 def _laws(spec: ForceLoadedProblemFile, case: str, machine: CaseTorque) -> Laws:
-    """Known laws, the law of least peak acceleration, and those of least peak and least RMS torque."""
+    """Known laws, the law of least peak acceleration, and the laws of least peak and least RMS torque."""
     laws: Laws = {name: (catalogue[name].law, None) for name in spec.catalogue}
     objectives = {
         "least C": "C",

@@ -50,7 +50,7 @@ _FEW = 5
 
 
 class FrontEntries(ProblemEntries, kw_only=True, forbid_unknown_fields=True):
-    """One front: what its problem asks beyond the base problem, and its name in the legend."""
+    """A front: the changes of its problem from the base problem, and its name in the legend."""
 
     label: Text
     points: Points | None = None
@@ -58,7 +58,7 @@ class FrontEntries(ProblemEntries, kw_only=True, forbid_unknown_fields=True):
 
 
 class Picture(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
-    """One figure: the constants exchanged, its fronts, what stands beside them, and the ranges of the axes."""
+    """A figure: the two constants of the fronts, its fronts, further marks, and the ranges of the axes."""
 
     name: Annotated[str, msgspec.Meta(pattern="^[a-z0-9-]+$")]
     title: Text
@@ -168,7 +168,7 @@ def check_beside(picture: Picture) -> None:
 
 
 def draw_beside(axes: Axes, picture: Picture, x: Ends, y: Ends) -> None:
-    """Draw what the picture's entry `catalogue` names, as far as it lies in the window x, y."""
+    """Draw the data named by the picture's entry `catalogue`, within the window x, y."""
     for family in (name for name in picture.catalogue if name in FAMILIES):
         laws = [savin(family, float(alpha)) for alpha in np.linspace(*alpha_range(family), 61)]
         points = np.array([_point(law, picture) for law in laws])

@@ -1,4 +1,4 @@
-"""The jobs that a problem file can name, and the one door to them."""
+"""The jobs that a problem file can name, and the function that runs them."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ class JobFile(Entries, kw_only=True, forbid_unknown_fields=True):
 
 
 def do(name: str, results: Results) -> None:
-    """Put what a problem file asks for into its results; the job's module is imported here, and matplotlib with it."""
+    """Run the job of a problem file and collect its results; the job's module, and matplotlib, are imported here."""
     import_module(f"optlaws.jobs.{_ROOMS.get(name, name.replace(' ', '_'))}").run(results)
 
 

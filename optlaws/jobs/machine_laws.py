@@ -1,4 +1,4 @@
-"""The job "machine laws": laws made for a machine beside standard ones and shaped ones, tabled and drawn."""
+"""The job "machine laws": laws optimised for a machine beside standard and shaped laws, in a table and a plot."""
 
 from __future__ import annotations
 
@@ -71,7 +71,7 @@ class MachineTable(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
 
 
 class Measure(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
-    """A constant of the machine: the peak or the RMS of an output, or what a mode is left with in one."""
+    """A constant of the machine: the peak or the RMS of an output, or the residual amplitude of a mode in one."""
 
     peak: Text | None = None
     rms: Text | None = None
@@ -99,7 +99,7 @@ class Measure(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
 
 
 class Kept(Measure, kw_only=True, forbid_unknown_fields=True):
-    """A constant with what it is at most; of the machine, or of the law by its name."""
+    """A constant with its upper bound, of the machine, or of the law by its name."""
 
     most: float
     constant_name: Text | None = msgspec.field(default=None, name="constant")
@@ -110,7 +110,7 @@ class Kept(Measure, kw_only=True, forbid_unknown_fields=True):
 
 
 class Sought(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
-    """A law that is sought: what is minimised, what is kept, and any entry of a problem."""
+    """A sought law: its objective, its bounds, and further entries of a problem."""
 
     name: Text
     minimise: Text | Measure = "C"
@@ -141,7 +141,7 @@ class Vibration(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
 
 
 class Pictured(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
-    """The output and the laws that are drawn, with how much of the dwell."""
+    """The plotted output and laws, with the length of the plotted dwell."""
 
     output: Text
     laws: Annotated[list[Text], msgspec.Meta(min_length=1, max_length=6)]
@@ -237,7 +237,7 @@ def _names(spec: MachineLawsProblemFile) -> list[str]:
 
 
 def compared(spec: MachineLawsProblemFile, machine: Machine) -> Iterator[Compared]:
-    """All laws, in the order of the table: standard ones, each as it is and shaped, and those made for the machine."""
+    """All laws, in the order of the table: standard ones, plain and shaped, and the optimised ones."""
     vibration = mode(machine, spec.vibration.shaped)
     for name in spec.standard:
         law = catalogue[name].law

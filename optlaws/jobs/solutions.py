@@ -55,7 +55,7 @@ class SolutionsProblemFile(JobFile, kw_only=True, forbid_unknown_fields=True):
 
 @dataclass(frozen=True)
 class SolvedRow:
-    """The swept entries, what they ask, and the answers: None where there is no law, with the reason and its proof."""
+    """The swept entries, their problems, and the answers: None where no law exists, with the reason and its proof."""
 
     entries: Mapping[str, Any]
     stated: Problem

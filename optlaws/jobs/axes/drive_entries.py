@@ -77,7 +77,7 @@ def drive_of(
 
 
 def _motor(motor: str | Mapping[str, Any], catalogue: str | None, folder: Path) -> Motor:
-    """The motor of a table, or the one of a name in a catalogue."""
+    """The motor from a table of entries, or from a catalogue by its name."""
     if not isinstance(motor, str):
         if catalogue is not None:
             raise InputError("motors: the motor is given as a table: leave the catalogue out, or name a motor of it")

@@ -1,4 +1,4 @@
-"""Sweeps of problem files of cycles: an entry of an axis takes several values, and a row says what each costs."""
+"""Sweeps of problem files of cycles: an entry of an axis takes several values, with a row of costs for each."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ class SweepEntries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
 
 @dataclass(frozen=True)
 class SweptCycle:
-    """The cycle of an axis with a value of its entry; None where there is none, with the reason as its status."""
+    """The cycle of an axis with a value of its entry; None without a motion, with the reason as its status."""
 
     value: str | float
     cycle: Cycle | None
@@ -42,7 +42,7 @@ class SweptCycle:
 
 
 def with_entry(axis: dict[str, Any], entry: str, value: str | float) -> dict[str, Any]:
-    """The entries of an axis with another value of one of them; parts of a list are counted from 1.
+    """The entries of an axis with another value of a single entry; parts of a list are counted from 1.
 
     Examples
     --------

@@ -27,7 +27,7 @@ def fastest_of(cycles: Mapping[str, Cycle], file: Path) -> dict[str, FastestCycl
 
 
 def at_greatest_speed(axes: Axes, fastest: Mapping[str, FastestCycle]) -> Axes:
-    """All axes at the greatest speed that every one of them allows; as they are where none was sought."""
+    """All axes at the greatest speed that every axis allows; unchanged where no speed is sought."""
     if not fastest:
         return axes
     period = max(axis.period for axis in fastest.values())

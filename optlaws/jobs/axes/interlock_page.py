@@ -27,7 +27,7 @@ def add_interlocks(result: Page, title: str, axes: Axes, overlap: Overlap | None
 
 
 def interlock_facts(axes: Axes, overlap: Overlap | None) -> dict[str, Any]:
-    """The least clearances of interlocks, where there are any, and what the overlap gains, where it is sought."""
+    """The least clearances of the interlocks, if any, and the gain of the overlap, if it is sought."""
     known: dict[str, Any] = {"interlocks": [least.to_row() for least in axes.clearances]} if axes.rules else {}
     if overlap is not None:
         names = ("goal", "objective", "lower_bound", "gain")

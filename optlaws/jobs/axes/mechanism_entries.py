@@ -40,7 +40,7 @@ def _cam(
     loads: Loads = NO_LOADS,
     over: Any = None,  # noqa: ANN401
 ) -> Mechanism:
-    """The mechanism of a cam and its follower, whose motion over the cam's angle is made of segments."""
+    """The mechanism of a cam and its follower, whose motion over the cam's angle consists of segments."""
     cam = _disc(prime_radius, follower, segment, turning)
     return cam_mechanism(cam, moved, inertia=inertia, loads=loads, over=over)
 

@@ -111,7 +111,7 @@ def _sought(move: MoveEntries, space: Problem, folder: Path) -> SoughtMove:
 
 
 def arguments_of(move: MoveEntries, folder: Path) -> dict[str, Any]:
-    """What `fastest` takes of a move beside its laws and its stroke.
+    """The arguments of `fastest` besides a move's laws and its stroke.
 
     Examples
     --------
@@ -131,7 +131,7 @@ def arguments_of(move: MoveEntries, folder: Path) -> dict[str, Any]:
 def front_of(
     quickest: FastestMove, move: MoveEntries, minimise: str, given: dict[str, Any], extent: tuple[str | None, int]
 ) -> TimeFront:
-    """The front of a move over its time, to the longest time with so many points; `given` are its `arguments_of`."""
+    """The front of a move over its time, up to the longest time; `given` holds its `arguments_of`."""
     machine: dict[str, Any] = {}
     if minimise in AT_MOTOR and "drive" in given:
         machine = {"drive": given["drive"], "start": given["start"]}

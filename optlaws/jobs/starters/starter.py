@@ -24,7 +24,7 @@ _FOLDER = Path(__file__).parent
 
 @dataclass(frozen=True)
 class Question:
-    """One number, or one text, that a starter needs.
+    """A number, or a text, that a starter needs.
 
     Attributes
     ----------

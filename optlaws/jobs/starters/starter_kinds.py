@@ -1,4 +1,4 @@
-"""The kinds of problem files to begin with: what each asks for, and what follows from the answers."""
+"""The kinds of problem files to begin with: the questions of each, and the entries that follow from the answers."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ def _si(answers: Answers, name: str, *dimensions: str) -> tuple[str, float]:
 
 
 def _of_cycle(answers: Answers) -> Answers:
-    """The jerk that modified sine has in the shorter motion, and the names that an angle or a length asks for."""
+    """Modified sine's jerk in the shorter motion, and the names of the quantities of an angle or a length."""
     axis, stroke = _si(answers, "stroke", *_EITHER)
     speed = positive_quantity(answers["speed"], "angular velocity", "--speed")
     durations = []
@@ -76,7 +76,7 @@ def _inertia(mass: str | None, axis: str) -> str:
 
 
 def _of_law(answers: Answers) -> Answers:
-    """Bounds without dimension, and what makes quantities of numbers."""
+    """Bounds without dimension, and factors that convert numbers to quantities."""
     axis, stroke = _si(answers, "stroke", *_EITHER)
     duration = positive_quantity(answers["duration"], "time", "--duration")
     unit, turning = ("rad", "angular ") if axis == "angle" else ("m", "")
