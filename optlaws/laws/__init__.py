@@ -1,4 +1,4 @@
-"""Motion laws: what they are, their values and their peaks. Imports no optimiser."""
+"""Motion laws: their definitions, their values and their peaks. Imports no optimiser."""
 
 from optlaws.lazy import face
 

@@ -331,14 +331,14 @@ class Curve(ABC):
         return draw_curve(self, ax, **style)
 
     def _sampled(self, count: int) -> tuple[Array, dict[str, Array]]:
-        """Places, and what a table has there."""
+        """Places, and the values of a table there."""
         (k, a), (_, b), (_, c), (_, j) = (self.samples(count, nu) for nu in range(4))
         with np.errstate(invalid="ignore"):
             d = np.where(np.isfinite(c), b * c, self.d(k))
         return k, {"a": a, "b": b, "c": c, "d": d, "j": j}
 
     def _whole(self, nu: int) -> Sides:
-        """Places with values among which the extremes of the derivative of order nu are, infinite ones included."""
+        """Places and values that contain the extremes of the derivative of order nu, infinite values included."""
         if nu not in self._known_sides:
             (k, values), (places, heights) = self._sides(nu), self._impulses(nu)
             joined = (np.append(k, places), np.append(values, heights)) if places.size else (k, values)
@@ -346,7 +346,7 @@ class Curve(ABC):
         return self._known_sides[nu]
 
     def _whole_power(self) -> Sides:
-        """Places with values among which the extremes of d are, infinite ones included."""
+        """Places and values that contain the extremes of d, infinite values included."""
         return self._power_sides()
 
     def _extremes(
@@ -388,7 +388,7 @@ class Curve(ABC):
 
     @abstractmethod
     def _times(self, k: Any) -> Array:  # noqa: ANN401 - whatever users give
-        """The k at which values are asked, as floats; InputError where there are none."""
+        """The requested k, as floats; InputError where there are none."""
 
     @abstractmethod
     def _derivative(self, k: Array, nu: int) -> Array:

@@ -12,7 +12,7 @@ Interpolation = Literal["linear", "cubic", "spline", "akima", "c1", "quintic", "
 
 
 class AxesExportOptions(TypedDict, total=False):
-    """The options of exports to controllers, of which each format takes some; `optlaws export --list` says which.
+    """The options of exports to controllers; each format has some of them, as `optlaws export --list` shows.
 
     Parameters
     ----------
@@ -44,7 +44,7 @@ class ExportOptions(AxesExportOptions, total=False):
 
 
 class LawExport:
-    """The export of a law, or of a value that has one with what is proven of it."""
+    """The export of a law, or of a value with a law and its proof."""
 
     @keywords_of(ExportOptions)
     def export(
@@ -57,7 +57,7 @@ class LawExport:
         start: Quantity | None = None,
         **options: Unpack[ExportOptions],
     ) -> Any:  # noqa: ANN401 - made above
-        """The law in the format of a controller, with what the controller will run and what is proven of the law.
+        """The law in the format of a controller, with the executed motion and the proof of the law.
 
         Parameters
         ----------
@@ -103,5 +103,5 @@ class LawExport:
         )
 
     def _exported(self) -> tuple[Any, tuple[str, ...]]:
-        """The law, and what is proven of it, for files to say."""
+        """The law and its proof, as text for files."""
         return self, ()

@@ -212,7 +212,7 @@ class MotionLaw(Curve, LawExport, StoredLaw):
 
     @abstractmethod
     def _summary(self) -> str:
-        """The text of the repr besides the constants."""
+        """The text of the repr without the constants."""
 
 
 def motion_law(value: Any, name: str = "law") -> MotionLaw:  # noqa: ANN401 - whatever a caller hands over

@@ -1,4 +1,4 @@
-"""Polynomial laws, kept as the Chebyshev series of their acceleration."""
+"""Polynomial laws, stored as the Chebyshev series of their acceleration."""
 
 from __future__ import annotations
 
@@ -105,7 +105,7 @@ class PolynomialLaw(MotionLaw, kind="polynomial"):
         return cls(exact.rounded(_exact_derivative(velocity)), a0, b0)
 
     def to_powers(self) -> tuple[float, ...]:
-        """Coefficients of a in ascending powers of k, each the float nearest to that of this very law.
+        """Coefficients of a in ascending powers of k, each the float nearest to the exact coefficient of this law.
 
         Above degree 15 or so, rounded powers do not describe the law to full accuracy: use `to_dict` to keep
         a law and `exact_powers` to compute with its powers.
@@ -228,7 +228,7 @@ def smoothstep(order: int) -> PolynomialLaw:
 
 
 def _fixed(k: Array, values: Array) -> tuple[Array, Array]:
-    """Places and values as arrays that cannot be written to, kept for the next call."""
+    """Places and values as read-only arrays, cached for the next call."""
     k.flags.writeable = values.flags.writeable = False
     return k, values
 

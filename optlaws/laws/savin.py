@@ -49,7 +49,7 @@ def acceleration_peak(u: int, H: int, M: float, alpha: Fraction) -> Peak:
 
 
 def _positive_roots(constant: float, linear: float, square: float) -> list[float]:
-    """Positive roots of a quadratic that has real ones, without loss where it is nearly linear."""
+    """Positive roots of a quadratic with real roots, without cancellation where it is nearly linear."""
     half = -0.5 * (
         linear + (1.0 if linear >= 0.0 else -1.0) * sqrt(max(linear * linear - 4.0 * constant * square, 0.0))
     )
@@ -284,7 +284,7 @@ class SavinFamily:
         return best, self.D(best)
 
     def alphas(self, *, B: float | None = None, C: float | None = None, D: float | None = None) -> tuple[float, ...]:
-        """Every alpha whose member has the peak given, ascending: one for B, one or two for C and D.
+        """Every alpha whose member has the given peak, ascending: a single one for B, up to two for C and D.
 
         C and D fall with alpha to their least value and rise again, so that the first of two members is the one on
         the side of the next family's base law.

@@ -1,4 +1,4 @@
-"""How laws are kept: as plain data or JSON text that names its format and its kind."""
+"""The storage of laws: as plain data or JSON text that names its format and its kind."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ class StoredLaw(JsonText, ABC):
             StoredLaw.kinds[kind] = cls
 
     def to_dict(self) -> dict[str, Any]:
-        """The law as plain data (numbers, strings, lists), from which `from_dict` makes an equal one.
+        """The law as plain data (numbers, strings, lists), from which `from_dict` constructs an equal one.
 
         >>> from optlaws import MotionLaw, smoothstep
         >>> smoothstep(1).to_dict()
@@ -117,7 +117,7 @@ def contents(value: Any) -> dict[str, Any]:  # noqa: ANN401 - any frozen datacla
 
 
 def known_fields(kind: type, fields: Mapping[str, Any], what: str) -> dict[str, Any]:
-    """Contents whose keys are the fields of a dataclass; `what` is what an error calls it.
+    """Contents whose keys are the fields of a dataclass; errors call them `what`.
 
     >>> from optlaws.laws.segments import PowerSegment
     >>> known_fields(PowerSegment, {"b0": 0.0, "b2": 1.0}, "a power segment")

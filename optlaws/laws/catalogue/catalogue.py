@@ -147,7 +147,7 @@ def plain(name: str) -> str:
 
 
 def _rank(entry: CatalogueEntry, text: str) -> float | None:
-    """How far an entry is from a text: None where it is too far."""
+    """The distance of an entry from a text: None where it is too large."""
     from difflib import SequenceMatcher
 
     words = plain(text)

@@ -35,7 +35,7 @@ BUILDERS = ("smoothstep", "sines", "cosines", "half", "scca", "trapezoid", "code
 
 @dataclass(frozen=True)
 class Published:
-    """Constants as somebody printed them, and whether they are those of the law to the digits printed.
+    """Constants as printed in a publication, and whether they agree with the law to the printed digits.
 
     Examples
     --------

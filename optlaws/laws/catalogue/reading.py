@@ -278,7 +278,7 @@ def _value(text: str) -> float:
 
 
 def resolution_of(texts: list[str], values: list[float]) -> float:
-    """The unit of the last digit of the large values: small ones have more decimals, round ones fewer."""
+    """The unit of the last digit of the large values: small values have more decimals, round ones fewer."""
     large = 0.1 * max(map(abs, values))
     return min(_last_digit(text) for text, value in zip(texts, values, strict=True) if abs(value) >= large)
 
@@ -361,7 +361,7 @@ def read_law(
 
 
 def _of_table(text: str) -> tuple[str, dict[str, Any]]:
-    """The name of a file, and what is said of its table in brackets."""
+    """The name of a file, with the remark on its table in brackets."""
     match = _OF_TABLE.fullmatch(text)
     if match is None or not match[1].lower().endswith(_TABLES):
         return text, {}
@@ -400,7 +400,7 @@ def is_stored(text: str) -> bool:
 
 
 def is_file(text: str) -> bool:
-    """Whether a text is taken for a file: it ends as one of a law or a table, or is no law's name and a file is there.
+    """Whether a text means a file: it has the ending of a law or a table, or is no law's name but an existing file's.
 
     Examples
     --------
@@ -482,7 +482,7 @@ def stored_law(file: Path) -> MotionLaw:
 
 
 def family_of(text: str) -> str | None:
-    """The name I to IV if a text is that of a family, without a member.
+    """The name I to IV if a text names a family, without a member.
 
     Examples
     --------

@@ -17,7 +17,7 @@ _COSINE = re.compile(r"KC(\d\d)", re.IGNORECASE)
 
 
 def canonical(text: str) -> str | None:
-    """A code as it is printed, with a decimal comma and without an exponent of 1; None where a text is no code.
+    """A code as printed, with a decimal comma and without an exponent of 1; None where a text is no code.
 
     Examples
     --------

@@ -1,1 +1,1 @@
-"""Laws made: by their shape, from other laws, by the multiplier method."""
+"""Construction of laws: by their shape, from other laws, by the multiplier method."""

@@ -1,4 +1,4 @@
-"""Input shaping: a law run faster and repeated, so that what it leaves of vibrations cancels."""
+"""Input shaping: a law is executed faster and repeated, so that its residual vibrations cancel."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ def shaped_law(
     damping: float | Sequence[float] = 0.0,
     shaper: Shaper = "ZV",
 ) -> PiecewiseLaw:
-    """A law shaped for one vibration or several, in the same total time: itself made faster, and repeated.
+    """A law shaped for one vibration or several, in the same total time: the law is accelerated and repeated.
 
     | shaper | repetitions | lasts, in damped periods | what it leaves |
     |---|---|---|---|

@@ -27,7 +27,7 @@ _ROUNDS, _HALVINGS = 30, 12
 
 
 def multiplied_law(law: MotionLaw, y: Multiplier) -> MotionLaw:
-    """The law with the acceleration s c y (eq. 1.6), s such that the stroke stays what it was (eq. 1.7).
+    """The law with the acceleration s c y (eq. 1.6), where s keeps the stroke unchanged (eq. 1.7).
 
     y is even about k = 1/2 and nowhere negative, so that the area of c wanders to the ends of the interval where y
     has its minimum in the middle, and to the middle where it has its maximum there. The velocity at the ends stays.
@@ -75,7 +75,7 @@ def multiplier_for(
     J: float | None = None,
     c0: float | None = None,
 ) -> tuple[float, ...]:
-    """The multiplier y of (1.6) with m coefficients that gives a law m - 1 wanted constants, and its own stroke.
+    """The multiplier y of (1.6) with m coefficients that gives a law m - 1 prescribed constants, and its own stroke.
 
     y is a sum of m even powers of 2k - 1, and is found by a search; `multiplied_law(law, y)` is the law that has them.
 
@@ -157,7 +157,7 @@ def _scaled_powers(law: MotionLaw, count: int) -> list[list[Fraction]]:
 
 
 def _combined(powers: Sequence[Sequence[Fraction]], weights: Array) -> list[Fraction]:
-    """A sum of scaled powers; their weights add up to 1, and the first one is what the others leave."""
+    """A sum of scaled powers whose weights add up to 1, so that the first weight follows from the others."""
     first = 1 - sum(map(Fraction, weights), start=Fraction(0))
     total = [Fraction(0)] * len(powers[-1])
     for weight, power in zip((first, *map(Fraction, weights)), powers, strict=True):
@@ -167,7 +167,7 @@ def _combined(powers: Sequence[Sequence[Fraction]], weights: Array) -> list[Frac
 
 
 def _searched(missing: Callable[[Array], Array], count: int) -> Array:
-    """The weights that miss least, sought from y = 1, from a y that is less in the middle and from one that is more."""
+    """The weights of least error, searched from y = 1, from a y smaller in the middle and from a larger one."""
     answers = []
     for first in (0.0, 0.5, -0.5):
         start = np.zeros(count)

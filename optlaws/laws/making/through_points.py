@@ -44,7 +44,7 @@ class LawSpline(NamedTuple):
 
 
 def divisions(most: int) -> Iterator[int]:
-    """Numbers of pieces to try, each larger than the one before.
+    """Numbers of pieces to try, in ascending order.
 
     Examples
     --------
@@ -140,7 +140,7 @@ _AS_GOOD = 1.5
 
 
 def noise(places: Array, heights: Array) -> float:
-    """The standard deviation of what scatters the points; 0 where none is seen, or the points are too few to tell.
+    """The standard deviation of the points' scatter; 0 where it is zero, or there are too few points.
 
     Divided differences of points on a smooth law become small as their order rises, those of white noise do not; joints
     of the law may show in them as noise.
@@ -162,7 +162,7 @@ def noise(places: Array, heights: Array) -> float:
 
 
 def of_rounding(size: float, unit: float, count: int) -> bool:
-    """Whether noise of a size, estimated from so many points, may be that of rounding to a unit alone.
+    """Whether noise of a size, estimated from a number of points, may be rounding to a unit alone.
 
     Examples
     --------
@@ -173,7 +173,7 @@ def of_rounding(size: float, unit: float, count: int) -> bool:
 
 
 def through_noise(places: Array, heights: Array, *, rest: bool) -> tuple[float, LawSpline]:
-    """How far points scatter about the spline that foretells left-out ones best, and the simplest that does as well.
+    """The scatter about the spline that best predicts left-out points, and the simplest spline as good.
 
     The first is that of generalised cross-validation (Craven and Wahba); of the others that scatter no more than
     chance explains the one of fewest pieces is taken. Its ends are free, for the first and the last point scatter too.
@@ -191,7 +191,7 @@ def through_noise(places: Array, heights: Array, *, rest: bool) -> tuple[float, 
 
 
 def _scatter(places: Array, heights: Array, order: int) -> float:
-    """The size of white noise whose divided differences are as large as those of the points."""
+    """The size of white noise whose divided differences are as large as the points' divided differences."""
     k, a = sliding_window_view(places / np.median(np.diff(places)), order + 1), sliding_window_view(heights, order + 1)
     apart = k[:, :, None] - k[:, None, :] + np.eye(order + 1)
     weights = 1.0 / apart.prod(axis=2)

@@ -1,4 +1,4 @@
-"""Laws made from laws: with an end velocity (eq. 1.17), reversed in time, mirrored, between two laws, a part of one."""
+"""Laws from laws: with an end velocity (eq. 1.17), reversed in time, mirrored, between two laws, a part of one."""
 
 from __future__ import annotations
 
@@ -74,7 +74,7 @@ def reversed_law(law: MotionLaw) -> MotionLaw:
 
 
 def mirrored_law(law: MotionLaw) -> MotionLaw:
-    """The law run backwards in time alone, a(1 - k): the fall whose flank mirrors that of the rise.
+    """The law reversed in time, a(1 - k): a fall whose flank is the mirror image of the rise's flank.
 
     The fall that runs like the rise, 1 - a(k), is the mirrored law of the reversed one.
 

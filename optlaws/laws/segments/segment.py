@@ -31,7 +31,7 @@ class Wave(NamedTuple):
 
 
 class Waves(NamedTuple):
-    """An acceleration made of a Chebyshev series in 2u - 1 and of sines, with the velocity at its start."""
+    """An acceleration as the sum of a Chebyshev series in 2u - 1 and of sines, with the velocity at its start."""
 
     acceleration: tuple[float, ...]
     b0: float
@@ -160,7 +160,7 @@ class Segment(JsonText, ABC):
         return b + once * c + twice * j
 
     def to_dict(self) -> dict[str, Any]:
-        """The segment as plain data, from which `from_dict` makes an equal one."""
+        """The segment as plain data, from which `from_dict` constructs an equal one."""
         return {"kind": self.kind, **contents(self)}
 
     @classmethod

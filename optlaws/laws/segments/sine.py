@@ -19,7 +19,7 @@ from optlaws.tolerances import SLOWEST_FREQUENCY
 
 
 class SwingingSegment(Segment):
-    """A segment that swings, whose extremes are looked for in panels as short as its highest frequency asks."""
+    """A segment with vibration, whose extremes are searched in panels shorter than its highest frequency's period."""
 
     @property
     @abstractmethod
