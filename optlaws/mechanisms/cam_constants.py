@@ -30,7 +30,7 @@ _ORDER, _JERK_ORDER = 4, 5
 
 @dataclass(frozen=True, repr=False)
 class CamPeak(CombinedPeak):
-    """Peak of a derivative of the cam law; made by `cam_constant`."""
+    """Peak of a derivative of the cam law; constructed by `cam_constant`."""
 
     frequency: float = 1.0
     damping: float = 0.0
@@ -52,7 +52,7 @@ class CamPeak(CombinedPeak):
 
 @dataclass(frozen=True, repr=False)
 class CamPower(CombinedPower):
-    """Peak of the power b c of the cam law; made by `cam_constant`."""
+    """Peak of the power b c of the cam law; constructed by `cam_constant`."""
 
     frequency: float = 1.0
     damping: float = 0.0
@@ -71,7 +71,7 @@ class CamPower(CombinedPower):
 
 
 def cam_constant(name: str, *, frequency: float, damping: float = 0.0) -> Functional:
-    """A constant of the cam law that makes an elastic follower's mass move by the law that is sought.
+    """A constant of the cam law with which an elastic follower's mass executes the sought law.
 
     Parameters
     ----------

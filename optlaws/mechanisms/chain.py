@@ -163,7 +163,7 @@ class MassChain:
         return panels.roots_of(series, lambda s: slope(i, s, 0), lambda s: slope(i, s, 1))
 
     def _resolved(self, f: Callable[[Array], Array], length: float, negligible: float) -> tuple[Panels, Array]:
-        """Panels of a stretch on which a function is known but for what is negligible, and its series there."""
+        """Panels of a stretch on which a function is known up to a negligible error, with its series there."""
         count, deepest = max(1, ceil(self.oscillator.fastest * length / RADIANS)), DEEPEST
         if count > MANY:  # a vibration that has died out needs no short panels
             count, deepest = 1, DEEPEST + ceil(log2(count))

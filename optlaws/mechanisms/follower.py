@@ -67,7 +67,7 @@ class Follower:
 
     @classmethod
     def from_units(cls, *, mass: float, stiffness: float, duration: float, damping: float = 0.0) -> Follower:
-        """The follower of a machine; a rotating one with moment of inertia, torsional stiffness and damping alike.
+        """The follower of a machine; for a rotating one, moment of inertia, torsional stiffness and damping.
 
         Parameters
         ----------

@@ -168,7 +168,7 @@ class RiseReturnCycle:
         return 1.0 + self.dwell + self.fall_duration + self.rest
 
     def _course(self, driven: Callable[..., Sequence[Any]], still: Callable[..., Any]) -> list[Any]:
-        """The cycle in parts: laws as `driven` makes them, pauses as `still` does."""
+        """The cycle in parts: each law by `driven`, each pause by `still`."""
         low, high = float(self.rise.a(0.0)), float(self.rise.a(1.0))
         fall = driven(self.fall, 1.0 + self.dwell, self.fall_duration, high, -1.0)
         return around(driven(self.rise), fall, (high, low), (self.dwell, self.fall_duration, self.rest), still)

@@ -122,7 +122,7 @@ def parts_of(spectrum: Spectrum) -> tuple[WeightPart, ...]:
 
 
 def above(frequency: Any, amplitude: Any, points: int = _FROM_FILE) -> Spectrum:  # noqa: ANN401 - numbers of any kind
-    """A spectrum of fewer points that is nowhere below one of many.
+    """A spectrum of fewer points that is nowhere below the original.
 
     At each point stands the greatest amplitude of the two intervals beside it: what is linear between is above all.
 

@@ -1,4 +1,4 @@
-"""Particular solutions of u'' + 2 n u' + nu² u = -(c + 2 n b), u = a_m - a: how far the mass is off its cam.
+"""Particular solutions of u'' + 2 n u' + nu² u = -(c + 2 n b), u = a_m - a, the mass's deviation from its cam.
 
 The closed form, (1.25) in Chebyshev series or the transfer function of a sine, sums derivatives of the law divided by
 powers of nu. Where these grow instead of falling, because nu is small for the law, the closed form is a large number
@@ -27,7 +27,7 @@ SPARE = 31  # coefficients beyond those of the forcing that resolve the vibratio
 
 
 class Particular(Protocol):
-    """One solution over one stretch."""
+    """A particular solution over a stretch."""
 
     def derivative(self, s: Array, nu: int) -> Array:
         """Derivative of order `nu` of u, s counted from the stretch's start."""

@@ -1,4 +1,4 @@
-"""Polydyne laws: the cam that makes an elastic follower's mass move by a given law (1.27), and back (1.25)."""
+"""Polydyne laws: the cam with which an elastic follower's mass executes a given law (1.27), and back (1.25)."""
 
 from __future__ import annotations
 

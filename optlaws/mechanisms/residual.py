@@ -125,7 +125,7 @@ def roots(frequency: Any, damping: float) -> tuple[Array, Complex, Array]:  # no
 
 @dataclass(frozen=True, repr=False)
 class Residual(Functional):
-    """Greatest residual acceleration over an interval of frequencies, weighed or not; made by `residual_vibration`.
+    """Greatest residual acceleration over an interval of frequencies; constructed by `residual_vibration`.
 
     Attributes
     ----------
@@ -166,7 +166,7 @@ class Residual(Functional):
 
     @property
     def parts(self) -> tuple[WeightPart, ...]:
-        """The intervals of frequencies over which the weight is linear; one where there is none."""
+        """The intervals of frequencies on which the weight is linear; a single interval without a weight."""
         if self.spectrum is None:
             return (WeightPart(self.low, self.high, 1.0, 1.0),)
         return parts_of(self.spectrum)
@@ -177,7 +177,7 @@ class Residual(Functional):
         return (self.name, *(f"{self.name}, part {i + 1}" for i in range(1, len(self.parts))))
 
     def families(self, space: LawSpace, slack: Array, bound: float) -> tuple[ConeFamily, ...]:
-        """One cone for each frequency. A bound becomes 1, so that residuals are measured by it."""
+        """A cone for each frequency; a bound is scaled to 1, so that residuals are measured by it."""
         if self.design is not None:
             check_order(self.name, space, _MOST_POLYDYNE)
         elif space.start_velocity != 0.0 or space.velocity_change != 0.0 or space.boundary.order < 2:
@@ -359,7 +359,7 @@ def widened(columns: Complex, count: int) -> Complex:
 
 
 def cached_columns(space: LawSpace, key: tuple[object, ...], computed: Callable[[], Complex]) -> Complex:
-    """Complex columns that a space keeps as the real ones that it can keep."""
+    """Complex columns, cached by a space as pairs of real columns."""
     return space.cached(key, lambda: computed().view(np.float64)).view(np.complex128)
 
 

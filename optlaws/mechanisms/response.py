@@ -67,7 +67,7 @@ class MassMotion(Curve):
 
 @dataclass(frozen=True, repr=False)
 class Response(MassMotion):
-    """Motion of the mass during the rise, 0 <= k <= 1, and in the dwell after it, k > 1; made by a `Follower`.
+    """Motion of the mass during the rise, 0 <= k <= 1, and in the dwell after it, k > 1; computed by a `Follower`.
 
     Call it like a law: ``response(k, nu=2)``, ``response.c(k)``. Its interval is the rise: `peak`, `extrema`,
     `power_peak`, `rms` and `samples` look at its whole length, `dwell_peak` at all that follows.
@@ -96,7 +96,7 @@ class Response(MassMotion):
     initial: tuple[float, float]
 
     def dynamic_factor(self, reference: MotionLaw | None = None, *, dwell: bool = False) -> float:
-        """Greatest acceleration of the mass over that of a law, max |a_m''| / C.
+        """Greatest acceleration of the mass over a law's peak acceleration, max |a_m''| / C.
 
         Parameters
         ----------
@@ -196,7 +196,7 @@ class Response(MassMotion):
 
 @dataclass(frozen=True, repr=False)
 class CycleResponse(RiseReturnCycle, MassMotion):
-    """Periodic motion of the mass under a periodic cam; made by `Follower.cycle`.
+    """Periodic motion of the mass under a periodic cam; computed by `Follower.cycle`.
 
     Call it like a law, at any k; time is in durations of the rise. Peaks, extrema, root mean squares and samples are
     those of the whole cycle.

@@ -1,4 +1,4 @@
-"""Response spectrum: what a law does to followers of every frequency, marched over short panels in closed form."""
+"""Response spectrum: the effect of a law on followers of every frequency, over short panels in closed form."""
 
 from __future__ import annotations
 
@@ -136,7 +136,7 @@ def _polished(series: Array, t: Array) -> Array:
 
 @dataclass(frozen=True, eq=False)
 class ResponseSpectrum:
-    """Free vibration and peak acceleration over the follower's frequency; made by `response_spectrum`.
+    """Free vibration and peak acceleration over the follower's frequency; computed by `response_spectrum`.
 
     Parameters
     ----------
@@ -183,7 +183,7 @@ class ResponseSpectrum:
 
     @kept_property
     def peak_acceleration(self) -> Array:
-        """Greatest |a_m''| of the rise, shape (m,), to about 1e-6; computed when first asked for."""
+        """Greatest |a_m''| of the rise, shape (m,), to about 1e-6; computed at the first use."""
         _, w, _ = roots(self.frequency, self.damping)
         return peak_accelerations(self.law, self.frequency, w)
 

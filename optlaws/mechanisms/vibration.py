@@ -76,7 +76,7 @@ class Oscillator:
         return Peak(float(size[best]), float(places[best]))
 
     def _first_stop(self, h0: float, v0: float) -> float:
-        """The first s > 0 where the velocity is zero; 0 if there is none."""
+        """The first s > 0 of zero velocity; 0 without such an s."""
         pull = self.n * v0 + self.frequency**2 * h0
         if self.damped > 0.0:
             angle = atan2(self.damped * v0, pull) if pull else 0.5 * pi

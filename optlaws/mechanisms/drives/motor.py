@@ -40,7 +40,7 @@ class MotorLosses(TypedDict, total=False):
 
 @dataclass(frozen=True, init=False)
 class Motor(JsonText):
-    """A motor as its data sheet says it; what is not given limits nothing. Numbers are in SI units, speeds in rad/s.
+    """A motor, as in its data sheet; omitted entries impose no limit. SI units, speeds in rad/s.
 
     Parameters
     ----------
@@ -126,7 +126,7 @@ class Motor(JsonText):
 
     @property
     def peak_lines(self) -> tuple[tuple[float, float], ...]:
-        """Straight lines over the speed that the peak torque is below: each a torque at rest, and how much it falls.
+        """Straight lines over the speed that bound the peak torque from above: a torque at rest, and its slope.
 
         They are those of the concave hull of the curve, and of the peak torque.
 

@@ -50,7 +50,7 @@ class MotorMotion:
     duration: float
 
     def with_ratio(self, ratio: float) -> MotorMotion:
-        """The same move with another ratio of the gear."""
+        """The same move with another gear ratio."""
         return replace(self, ratio=ratio)
 
     def speed(self, k: Array) -> Array:
@@ -92,7 +92,7 @@ class MotorMotion:
 
     @staticmethod
     def _direction(speed: Array) -> Array:
-        """1 or -1, of a motion at rest that of the stroke."""
+        """The direction of the motion, 1 or -1; at rest, the direction of the stroke."""
         size = float(np.max(np.abs(speed), initial=0.0))
         return np.where(speed < -VALUE_ROUNDING * size, -1.0, 1.0)
 
@@ -105,5 +105,5 @@ class MotorMotion:
 
     @kept_property
     def parts(self) -> SmoothParts:
-        """Parts of the move on which speed, load and torque are smooth: from breaks and signs to the next ones."""
+        """Parts of the move on which speed, load and torque are smooth, between breaks and changes of sign."""
         return SmoothParts.between(0.0, 1.0, breaks=self.law.breaks, signs=(self.speed, self.load, self.torque))

@@ -23,7 +23,7 @@ _FAR = 10.0
 
 
 class Margin(NamedTuple):
-    """A limit of the motor: what the move needs, what there is, and their ratio.
+    """A limit of the motor: the required value, the limit, and their ratio.
 
     Attributes
     ----------
@@ -100,7 +100,7 @@ class DriveSheet(PlainNumbers):
 
     @property
     def margins(self) -> tuple[Margin, ...]:
-        """The limits that the motor has, with what the move uses of them."""
+        """The limits of the motor, with the move's use of them."""
         known = (
             Margin("peak torque", self.peak_torque, self.peak_limit, self.peak_torque / self.peak_limit),
             Margin("torque-speed curve", self.curve_use, 1.0, self.curve_use),
@@ -175,7 +175,7 @@ class BestRatio:
 
 
 def drive_sheet(motion: MotorMotion, motor: Motor, period: float, regeneration: float) -> DriveSheet:
-    """The sheet of a move that is made once in a period, with the share of the braking energy that is fed back."""
+    """The sheet of a move that is repeated with a period, with the recovered share of the braking energy."""
     peak = motion.parts.greatest(lambda k: np.abs(motion.torque(k)))
     speed = motion.parts.greatest(lambda k: np.abs(motion.speed(k)))
     given, taken = motion.parts.greatest(motion.power).value, motion.parts.greatest(lambda k: -motion.power(k)).value
@@ -199,7 +199,7 @@ def drive_sheet(motion: MotorMotion, motor: Motor, period: float, regeneration: 
 
 
 def share_used(torque: Array, limit: Array) -> Array:
-    """The share of a limit that a torque uses; no end of it where there is none left."""
+    """The use of a limit by a torque; infinite where the limit leaves nothing."""
     with np.errstate(divide="ignore", invalid="ignore"):
         return np.where(torque == 0.0, 0.0, torque / limit)
 

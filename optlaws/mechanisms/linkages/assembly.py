@@ -44,7 +44,7 @@ def check_four_bar(crank: float, coupler: float, rocker: float, frame: float, en
 
 
 def _unreached(crank: float, coupler: float, rocker: float, frame: float) -> list[tuple[float, float, str]]:
-    """Intervals of the crank's angle in which the links do not meet, with what they do at their ends."""
+    """Intervals of the crank's angle in which the links cannot be assembled, and the failures at their ends."""
     unreached = []
     middle, swing = crank**2 + frame**2, 2.0 * crank * frame
     # the distance of the crank's pin from the rocker's pivot is sqrt(middle - swing cos x)

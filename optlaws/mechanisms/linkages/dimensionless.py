@@ -51,7 +51,7 @@ class DimensionlessMechanism:
 
     @property
     def branches(self) -> tuple[str, ...]:
-        """The torques of which `torque` is the greatest: one, where no gear loses power."""
+        """The torques whose maximum is `torque`: a single torque without gear losses."""
         return (self.torque,)
 
     @property

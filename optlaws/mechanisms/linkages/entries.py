@@ -28,7 +28,7 @@ def formula_of(
     variable: str = "x",
     interpolation: TableKind = "spline",
 ) -> Formula:
-    """The formula that a number, a quantity, a text, a formula or a table says; `name` is what an error calls it.
+    """The formula of a number, a quantity, a text, a formula or a table; errors call it `name`.
 
     Parameters
     ----------

@@ -366,7 +366,7 @@ class Mechanism(JsonText):
         return move_limit(moved.torque, minimise, scales, bounds, MoveCosts.read(recovered, heat))
 
     def with_friction(self, *, coulomb: NumberOrQuantity = 0.0, viscous: NumberOrQuantity = 0.0) -> Self:
-        """The mechanism with this friction at its input in place of what it has."""
+        """The mechanism with this friction at its input in place of its own."""
         return self._changed(coulomb=coulomb, viscous=viscous)
 
     def with_inertia(self, inertia: NumberOrQuantity) -> Self:

@@ -1,4 +1,4 @@
-"""Mechanisms whose driven links move in proportion to the input, or as a function of Python says."""
+"""Mechanisms whose driven links move in proportion to the input, or by a Python function."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def mechanism_of_motion(
     over: tuple[NumberOrQuantity, NumberOrQuantity],
     name: str = "mechanism",
 ) -> Mechanism:
-    """The mechanism whose driven links move as a function of Python says; it is traced, so that derivatives are exact.
+    """The mechanism whose driven links move by a Python function; the function is traced for exact derivatives.
 
     Parameters
     ----------

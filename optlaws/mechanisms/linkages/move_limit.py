@@ -162,7 +162,7 @@ class MoveBounds(NamedTuple):
         return self._replace(windows=tuple(windows))
 
     def within(self, velocity: float, torques: Sequence[tuple[float, float]]) -> MoveBounds:
-        """The bounds with those of a motor as well."""
+        """The bounds, with the motor's bounds added."""
         return self._replace(velocity=min(self.velocity, velocity), torques=(*self.torques, *torques))
 
 

@@ -1,4 +1,4 @@
-"""Laws as drives of a machine: what they are at every time, as Chebyshev series of a, b and c."""
+"""Laws as drives of a machine: Chebyshev series of a, b and c at every time."""
 
 from __future__ import annotations
 

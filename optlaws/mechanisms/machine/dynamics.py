@@ -92,7 +92,7 @@ class Dynamics:
 
     @kept_property
     def vibrations(self) -> list[Complex]:
-        """Roots that vibrate, those above the real axis, the slowest first; equal ones are together."""
+        """Roots with vibration, in the upper half plane, the slowest first; equal roots are grouped."""
         upper = self.roots[self.roots.imag > VIBRATING * np.abs(self.roots)]
         groups: list[list[complex]] = []
         for root in upper[np.argsort(np.abs(upper))].tolist():
@@ -132,7 +132,7 @@ class Dynamics:
         return panels, state
 
     def _over(self, drive: DriveStretch, initial: Complex, radians: float) -> list[Panel]:
-        """The motion over one drive: one triangular equation after the other, each over all panels."""
+        """The motion over one drive: triangular equations in sequence, each over all panels."""
         edges = self.edges(drive.length, radians)
         parts = list(pairwise(edges))
         lengths = [(high - low) * drive.length for low, high in parts]
@@ -159,7 +159,7 @@ class Dynamics:
         return [Panel(*panel) for panel in zip(starts, lengths, states, series, strict=True)]
 
     def edges(self, length: float, radians: float) -> list[float]:
-        """Shares of a stretch between which its panels lie: equal ones, and short ones at first for what decays.
+        """Shares of a stretch that separate its panels: equal ones, with short ones at first for fast decays.
 
         Where that spares most of them, panels are also longer as soon as fast vibrations have died away.
         """
@@ -207,7 +207,7 @@ class _Group:
         self._shares: Complex = np.empty((panels, columns), dtype=np.complex128)
 
     def solve(self, i: int) -> None:
-        """One solution of equation i on every panel, and the free one; those after it are solved."""
+        """A particular solution of equation i on every panel, and the free one; later equations are solved already."""
         row = self._dynamics.triangle[i, i + 1 :]
         if len(row):
             self.states[i] += np.tensordot(self._half * row, self.states[i + 1 :], axes=1)
@@ -228,7 +228,7 @@ class _Group:
         return values
 
     def join(self, i: int) -> None:
-        """The share of the free solution on every panel that its start asks for."""
+        """The share of the free solution on every panel that matches the panel's initial value."""
         self.states[i] += np.multiply.outer(self._free, self._shares)
 
 
@@ -300,7 +300,7 @@ def _steep(step: Complex, right: Complex) -> Complex:
 
 
 def inverse_gain(A: Array, load: Array, states: Array, direct: Array) -> tuple[int, float]:
-    """An order and a factor: the mean of |a^(order)| from rest on is at most the factor times that of |output|.
+    """An order and a factor: the mean of |a^(order)| from rest on is at most the factor times the mean |output|.
 
     Of the output states . x + direct . (a, b, c), x' = A x + load (a, b, c). The highest derivative that enters it
     directly is what the inverse machine makes of the output: as much as is fed through, and the integral of its

@@ -1,4 +1,4 @@
-"""Linear machines that a law drives: made from matrices, masses, modes or systems; their responses and constants."""
+"""Linear machines driven by a law, from matrices, masses, modes or systems; their responses and constants."""
 
 from __future__ import annotations
 
@@ -114,7 +114,7 @@ class Machine(StateSpace):
         stroke: NumberOrQuantity = 1.0,
         outputs: Mapping[str, str] | Sequence[str] | None = None,
     ) -> Self:
-        """The machine of vibrations that were measured: frequencies and damping ratios, and how much of each shows.
+        """The machine of measured vibrations: frequencies, damping ratios, and the amplitude of each in an output.
 
         What the drive carries moves by the law and bends by the sum of its modes, each of which the acceleration of the
         drive excites.
@@ -222,7 +222,7 @@ class Machine(StateSpace):
         )
 
     def at_speed(self, factor: float) -> Self:
-        """The same machine running `factor` times as fast: the rise takes 1/factor of its duration.
+        """The same machine `factor` times as fast: the rise takes 1/factor of its duration.
 
         Examples
         --------

@@ -90,7 +90,7 @@ class MachineModel(ABC):
         return states[:, : 2 * size], states[:, 2 * size :], rows[:, : 2 * size], rows[:, 2 * size :]
 
     def named(self, outputs: Any) -> dict[str, str]:  # noqa: ANN401 - whatever users give
-        """The names of outputs for users, with those of the model; all outputs unless some are chosen."""
+        """The user's output names with the model's names; all outputs unless some are chosen."""
         if outputs is None:
             return {name: name for name in self.outputs}
         given = outputs.items() if isinstance(outputs, Mapping) else ((name, name) for name in _many(outputs))

@@ -1,4 +1,4 @@
-"""Vibrations of a machine: its modes, how much of each a law leaves in an output, and machines of measured ones."""
+"""Vibrations of a machine: its modes, the residual of each in an output, and machines of measured modes."""
 
 from __future__ import annotations
 
@@ -149,7 +149,7 @@ def _vibration(number: int, given: Any, example: str) -> tuple[float, float, flo
 
 
 def _hertz(value: Any, name: str) -> float:  # noqa: ANN401
-    """A frequency in Hz; an angular velocity, such as "53 rad/s", is that of the phase."""
+    """A frequency in Hz; an angular velocity, such as "53 rad/s", is the phase's rate."""
     if isinstance(value, str) or hasattr(value, "units"):
         dimension, number = either(value, ("frequency", "angular velocity"), name)
         value = number if dimension == "frequency" else number / (2.0 * pi)

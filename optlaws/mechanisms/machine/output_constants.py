@@ -106,7 +106,7 @@ class OutputConstant(Functional):
 
     @kept_property
     def _gain(self) -> tuple[int, float] | None:
-        """An order and by how much its mean exceeds that of the output: the inverse machine's response to it."""
+        """An order, and the factor by which its mean can exceed the output's mean: the inverse machine's gain."""
         whole = self.cycle is None and not self.steady and self.within[0] == 0.0 and self.within[1] >= 1.0
         place = self.machine.place(self.output)
         rows = np.array(self.machine.C[place]), self.machine.direct[place]
@@ -115,7 +115,7 @@ class OutputConstant(Functional):
         return (order, gain * self.duration) if gain * self.scale < _MOST_GAIN else None
 
     def sizes(self, space: LawSpace) -> tuple[tuple[int, float, float], ...]:
-        """Bounds of a law's derivatives by its output: of one at once, or of all among the laws of the space."""
+        """Bounds of a law's derivatives from its output: of a single derivative, or of all in the law space."""
         if self.steady and self.both:
             return by_norm(space, self.rows_of_output(space))
         if self._gain is not None and self.both:
@@ -126,7 +126,7 @@ class OutputConstant(Functional):
 
     @property
     def both(self) -> bool:
-        """Whether it is small only where the output is."""
+        """Whether the constant can be small only if the output is."""
         return True
 
     @abstractmethod
@@ -205,7 +205,7 @@ def _along_a_wave(machine: StateSpace, output: str) -> float:
 
 @dataclass(frozen=True, repr=False)
 class OutputPeak(OutputConstant):
-    """Greatest magnitude of an output, or of one side; made by `Machine.peak`."""
+    """Greatest magnitude of an output, or its greatest or least value; constructed by `Machine.peak`."""
 
     _what: ClassVar[str] = "peak of"
     signs: tuple[float, ...] = (1.0, -1.0)
@@ -217,7 +217,7 @@ class OutputPeak(OutputConstant):
 
     @property
     def both(self) -> bool:
-        """Whether it is small only where the output is."""
+        """Whether the constant can be small only if the output is."""
         return len(self.signs) == 2
 
     def floor(self, conditions: BoundaryConditions) -> float:
@@ -264,7 +264,7 @@ class OutputPeak(OutputConstant):
         )
 
     def unit(self, space: LawSpace) -> float:
-        """The size of the rows: what the base law's output is, nearly."""
+        """The size of the rows: nearly the base law's output."""
         rows = self._kept(space, lambda: self._rows(space))
         return float(np.abs(rows[:, 1:, -1]).max()) or float(np.abs(rows[:, 1:]).max()) or 1.0
 
@@ -299,7 +299,7 @@ def _terms(series: Array) -> int:
 
 @dataclass(frozen=True, repr=False)
 class OutputRms(OutputConstant):
-    """Root mean square of an output; made by `Machine.rms`."""
+    """Root mean square of an output; constructed by `Machine.rms`."""
 
     _what: ClassVar[str] = "RMS of"
 
@@ -321,12 +321,12 @@ class OutputRms(OutputConstant):
         return (NormFamily(self.name, slack / unit, bound / unit, matrix=wide),)
 
     def unit(self, space: LawSpace) -> float:
-        """The size of the rows: what the base law's output is."""
+        """The size of the rows: the base law's output."""
         matrix = self._matrix(space)
         return float(np.linalg.norm(matrix[:, -1])) or float(np.linalg.norm(matrix, axis=0).max()) or 1.0
 
     def along(self, space: LawSpace, direction: Sequence[float]) -> MotionLaw | None:
-        """The law of a space whose output has a direction, as a certificate says it; None where there is none."""
+        """The law of a space whose output has a direction, for a certificate; None without such a law."""
         matrix = self._matrix(space) / self.scale
         if len(direction) != len(matrix):
             return None

@@ -64,7 +64,7 @@ class OutputCurve(Curve):
         return draw_output(self, ax, **style)
 
     def plus(self, offset: float) -> OutputCurve:
-        """The curve with a number added to it, in its units: a constant load, such as a weight that is held.
+        """The curve plus a number in its units, such as the constant load of a weight.
 
         Examples
         --------
@@ -147,7 +147,7 @@ class OutputCurve(Curve):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class MachineMotion(ABC):
-    """The outputs of a machine over time, by their names: each a curve, an `InputError` where there is none."""
+    """The outputs of a machine over time, by their names: each a curve, or an `InputError` where it is undefined."""
 
     machine: StateSpace
 
@@ -209,7 +209,7 @@ class MachineMotion(ABC):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class MachineResponse(MachineMotion):
-    """The outputs of a machine during a rise, 0 <= k <= 1, and the dwell after it; made by `Machine.response`.
+    """The outputs of a machine during a rise, 0 <= k <= 1, and the dwell after it; computed by `Machine.response`.
 
     Attributes
     ----------
@@ -268,7 +268,7 @@ class MachineResponse(MachineMotion):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class MachineCycle(RiseReturnCycle, MachineMotion):
-    """The steady outputs of a machine over a cycle that repeats; made by `Machine.cycle`. Time is in rises' durations.
+    """The steady outputs of a machine over a repeated cycle; computed by `Machine.cycle`. Time is in rises' durations.
 
     Attributes
     ----------
@@ -312,7 +312,7 @@ class MachineCycle(RiseReturnCycle, MachineMotion):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class RepeatedMotion(MachineMotion):
-    """The steady outputs of a machine under a motion that repeats, whatever it is made of; made by a whole cycle.
+    """The steady outputs of a machine under any repeated motion; computed by a whole cycle.
 
     `drives` are its stretches in the machine's unit of time, `jumps` where the velocity jumps inside, and by how much.
 
@@ -361,7 +361,7 @@ def steady(machine: StateSpace, cycle: Sequence[DriveStretch], radians: float = 
 
 
 def jumps(law: MotionLaw) -> list[tuple[float, float]]:
-    """The places where the velocity of a law jumps inside, and by how much."""
+    """The places and sizes of jumps of a law's velocity inside its interval."""
     return list(law.jumps(1)) if isinstance(law, PiecewiseLaw) else []
 
 

@@ -1,4 +1,4 @@
-"""Spectra of machines: what a law does to a machine over any of its parameters."""
+"""Spectra of machines: the effect of a law on a machine over any of its parameters."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from optlaws.numbers import Array, not_negative, numbers
 
 @dataclass(frozen=True, eq=False)
 class MachineSpectrum:
-    """Outputs and vibrations of a machine over a parameter; made by `machine_spectrum`.
+    """Outputs and vibrations of a machine over a parameter; computed by `machine_spectrum`.
 
     Attributes
     ----------

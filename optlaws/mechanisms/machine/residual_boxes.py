@@ -51,7 +51,7 @@ class BoxEdge:
 
     @property
     def single(self) -> bool:
-        """Whether it is one root only."""
+        """Whether the edge is a single root."""
         return self.first == self.last
 
     def roots(self, u: Array) -> Complex:
@@ -73,7 +73,7 @@ class BoxEdge:
 
 @dataclass(frozen=True, repr=False)
 class ModeResidual(Functional):
-    """Greatest amplitude of a mode in an output after the motion, over a box; made by `Machine.residual`.
+    """Greatest amplitude of a mode in an output after the motion, over a box; constructed by `Machine.residual`.
 
     The mode's frequency may be off by the share `spread`, either way; `dampings` are the least and the greatest ratio,
     or None for the mode's own.
@@ -131,7 +131,7 @@ class ModeResidual(Functional):
         return tuple(counted)
 
     def families(self, space: LawSpace, slack: Array, bound: float) -> tuple[ConeFamily, ...]:
-        """One cone for each place of each edge. In units of the bound, or of what the base law leaves."""
+        """A cone for each place of each edge, in units of the bound, or of the base law's residual."""
         check_rest(self.name, space)
         families = []
         for i, edge in enumerate(self.edges):

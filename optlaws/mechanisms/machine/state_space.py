@@ -35,7 +35,7 @@ STIFFEST = 1e8  # the same for what decays
 
 @dataclass(frozen=True, init=False, repr=False)
 class StateSpace(JsonText):
-    """x' = A x + B w, y = C x + D w in durations of the rise; w are those of a, b and c that `inputs` names: "ab"."""
+    """x' = A x + B w, y = C x + D w in durations of the rise; w holds the signals a, b, c in `inputs`, such as "ab"."""
 
     _json_name = "a machine"
 

@@ -17,7 +17,7 @@ _LATEST = 100.0
 
 
 def text_of(machine: StateSpace, output: str) -> str:
-    """A machine with one of its outputs as JSON in quotes.
+    """A machine with a selected output, as quoted JSON.
 
     >>> print(text_of(StateSpace([[-2.0]], [[2.0]], [[1.0]], outputs=["speed"]), "speed"))
     '{"A":[[-2.0]],"B":[[2.0]],"C":[[1.0]],"D":[[0.0]],"inputs":"a","outputs":["speed"]}'
