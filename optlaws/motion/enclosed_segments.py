@@ -95,7 +95,7 @@ def _sizes(segment: Segment, length: float, last: int) -> tuple[tuple[float, ...
 
 
 def _size(waves: Waves, length: float, nu: int) -> float:
-    """Sum of the magnitudes of what the derivative of order nu is made of."""
+    """Sum of the magnitudes of the terms in the derivative of order nu."""
     series = np.abs(np.array(waves.acceleration))
     total = float(series.sum())
     if nu >= 2:

@@ -81,7 +81,7 @@ class Motion:
 
     @property
     def length(self) -> float:
-        """How far the master goes."""
+        """The distance that the master covers."""
         return self.stop - self.start
 
     @kept_property
@@ -108,7 +108,7 @@ class Motion:
 
     @property
     def advance(self) -> float:
-        """How much further than it began the motion ends."""
+        """The net displacement of the motion, its end value less its start value."""
         return self.pieces[-1].end(0, 1) - self.pieces[0].end(0, 0)
 
     def __call__(self, x: Any, nu: int = 0) -> Any:  # noqa: ANN401 - a number for a number, an array for arrays
@@ -121,7 +121,7 @@ class Motion:
         return number_or_array(values_of_pieces(self.pieces, places, nu))
 
     def sides(self, nu: int) -> Iterator[tuple[float, float, float]]:
-        """Every joint of pieces inside, and jumps within laws: the place, the value before it and the one after."""
+        """Every inner joint of pieces, and every jump within laws: the place, and the values on both sides."""
         for before, after in pairwise(self.pieces):
             yield after.start, before.end(nu, 1), after.end(nu, 0)
         for piece in self.pieces:
@@ -190,7 +190,7 @@ def motion_of_law(
     master: Quantity | None = None,
     start: Quantity | None = None,
 ) -> Motion:
-    """The motion that a law makes, from rest to rest in one shot.
+    """The motion of a law, a single stroke from rest to rest.
 
     Parameters
     ----------
@@ -263,7 +263,7 @@ def _without_conversion_rounding(x: float) -> float:
 
 
 def _span(master: Quantity | None, seconds: float | None) -> Given:
-    """How far the master goes, in its unit."""
+    """The distance that the master covers, in its unit."""
     if master is None:
         return Given("time", seconds or 0.0, "s")
     either(master, MASTERS, "master")

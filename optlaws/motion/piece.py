@@ -1,4 +1,4 @@
-"""A law in its place in a motion: the conversion of dimensionless laws to machine units, and nowhere else.
+"""A law at its place in a motion: the only conversion of dimensionless laws to machine units.
 
 A law a(k) with the stroke h in the duration T moves the machine by y = y0 + h a(t/T). So
 
@@ -32,7 +32,7 @@ from optlaws.tolerances import CLOSURE, INSIDE_PIECE, SAME_TIME
 
 
 def named_law(given: Any, where: str) -> MotionLaw:  # noqa: ANN401 - it is checked here
-    """The law of a name, a file or a value; `where` is what an error calls the segment."""
+    """The law with a name, from a file or as a value; errors call the segment `where`."""
     try:
         law = given if isinstance(given, MotionLaw) else _read(given)
     except InputError as error:
@@ -136,12 +136,12 @@ class Piece:
 
 
 def values_of_pieces(pieces: Sequence[Piece], times: Array, nu: int) -> Array:
-    """The derivative of order nu of pieces one after the other; where they meet that of the later one."""
+    """The derivative of order nu of consecutive pieces; at a joint, the later piece's value."""
     return by_pieces(pieces, [partial(piece.values, nu=nu) for piece in pieces], times)
 
 
 def by_pieces(pieces: Sequence[Piece], functions: Sequence[Callable[[Array], Array]], times: Array) -> Array:
-    """The values of functions of the time, one for each piece; where pieces meet that of the later one."""
+    """The values of functions of the time, one for each piece; at a joint, the later piece's value."""
     which = np.searchsorted([piece.start for piece in pieces[1:]], times, side="right")
     values = np.empty(np.shape(times))
     for i, function in enumerate(functions):

@@ -131,7 +131,7 @@ class PiecewiseMotion:
         return table[:, 0].copy(), _horner(table, self.lengths)
 
     def jumps(self, nu: int) -> Array:
-        """The jump of the derivative of order nu at each break inside: the value after it less the one before.
+        """The jump of the derivative of order nu at each inner break: the value after it less the value before.
 
         Examples
         --------
@@ -142,7 +142,7 @@ class PiecewiseMotion:
         return first[1:] - last[:-1]
 
     def seam(self, nu: int) -> float:
-        """The jump of the derivative of order nu where the motion begins again; for nu 0 how far it leads back.
+        """The jump of the derivative of order nu at the repetition of the motion; for nu 0, the net displacement.
 
         Examples
         --------
@@ -341,7 +341,7 @@ def _horner(table: Array, x: Any) -> Any:  # noqa: ANN401 - numbers or arrays
 
 
 def _rows(coefficients: Any, count: int) -> tuple[tuple[float, ...], ...]:  # noqa: ANN401 - rows of numbers, arrays too
-    """Rows of finite floats, one for each piece; those of an array are checked all at once."""
+    """Rows of finite floats, one for each piece; an array is checked as a whole."""
     rows = listed(_plain(coefficients), "coefficients", count + 1)
     if len(rows) != count:
         raise InputError(f"coefficients must be {count} rows, one between breaks, got {len(rows)}")

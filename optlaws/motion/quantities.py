@@ -1,4 +1,4 @@
-"""Quantities with units, as people write them: one door, which gives floats in SI units (metres, radians, seconds)."""
+"""Quantities with units, as people write them, converted to floats in SI units (metres, radians, seconds)."""
 
 from __future__ import annotations
 
@@ -112,7 +112,7 @@ _SEPARATED = re.compile(r"\s*[+-]?[\d.]*\d[,_'’]\d[\d.,_'’]*")
 
 
 def quantity(value: Any, dimension: str, name: str) -> float:  # noqa: ANN401 - it is checked here
-    """A quantity such as "616 mm/s" as a float in SI units; `name` is what an error calls it.
+    """A quantity such as "616 mm/s" as a float in SI units; errors call it `name`.
 
     Parameters
     ----------
@@ -189,7 +189,7 @@ def either(value: Any, dimensions: tuple[str, ...], name: str) -> tuple[str, flo
 
 
 def si_number(value: Any, dimensions: tuple[str, ...], name: str) -> Any:  # noqa: ANN401 - what is none is checked later
-    """A quantity of one of several dimensions as a float in SI units; what has no unit, as a bare number, as it is.
+    """A quantity with one of several dimensions as a float in SI units; bare numbers are kept unchanged.
 
     Raises
     ------
@@ -224,7 +224,7 @@ def table(entries: Any, name: str, example: str) -> Mapping[str, Any]:  # noqa: 
 
 
 def written(value: Any) -> Any:  # noqa: ANN401 - whatever is given
-    """A quantity of pint as the text that says the same, in SI units where its own are not known here; else the value.
+    """A quantity of pint as equivalent text, in SI units where its own are unknown here; other values unchanged.
 
     Examples
     --------
@@ -268,7 +268,7 @@ class Given(NamedTuple):
 
 
 def given_quantity(value: Any, dimensions: tuple[str, ...], name: str) -> Given:  # noqa: ANN401 - it is checked here
-    """A quantity of one of several dimensions, in the unit in which it is written: tables of machines are in such.
+    """A quantity with one of several dimensions, in its written unit, as tables of machines have it.
 
     Raises
     ------

@@ -32,7 +32,7 @@ class Greatest(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class SmoothParts:
-    """Parts between ascending edges; a function may have kinks and jumps at the edges, and nowhere else.
+    """Parts between ascending edges; kinks and jumps of a function are at the edges only.
 
     Examples
     --------
@@ -49,7 +49,7 @@ class SmoothParts:
     def between(
         cls, start: float, stop: float, *, breaks: Iterable[float] = (), signs: Iterable[RealFunction] = ()
     ) -> SmoothParts:
-        """The parts of an interval: even ones, cut at breaks and where functions change their signs."""
+        """The parts of an interval: equal ones, cut at breaks and at sign changes of functions."""
         even = np.unique([*np.linspace(start, stop, _PANELS + 1), *breaks])
         return cls(np.unique(np.concatenate([even, *(_crossings(function, even) for function in signs)])))
 

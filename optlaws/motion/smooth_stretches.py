@@ -140,7 +140,7 @@ def jet_of_parts(
 
 
 def _segments(law: MotionLaw) -> Sequence[Segment]:
-    """The law between its breaks: exact where it is made of segments or a polynomial, else interpolated to rounding."""
+    """The law between its breaks: exact for segments or a polynomial, else interpolated to rounding."""
     if isinstance(law, PiecewiseLaw):
         return law.segments
     if isinstance(law, PolynomialLaw):
