@@ -88,7 +88,7 @@ def in_parts(control: Array) -> Array:
 
 
 def _first(places: Array, least: float) -> tuple[int, float]:
-    """Row and place of the first of the highest tops: of rows, places and values, those of at least a value count."""
+    """Row and place of the first of the highest tops; only tops above a threshold count."""
     rows, u, values = places[:, places[2] >= least]
     first = int(np.lexsort((u, rows))[0])
     same_top = (rows == rows[first]) & (u <= u[first] + TOP_WIDTH)
@@ -114,7 +114,7 @@ def _of_values(count: int) -> Array:
 
 @lru_cache(maxsize=64)
 def _cuts(degree: int) -> Array:
-    """The matrices that take control points to those of eight equal parts, side by side."""
+    """The matrices from control points to the control points of eight equal parts, side by side."""
     left = np.array([[comb(i, j) / 2.0**i for i in range(degree + 1)] for j in range(degree + 1)])
     matrices = [np.eye(degree + 1)]
     while len(matrices) < PARTS:

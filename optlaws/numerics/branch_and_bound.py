@@ -52,7 +52,7 @@ _BLUR = 4.0
 
 
 class Extremes(NamedTuple):
-    """Least and greatest value of a function: what it reaches, and what it is proven not to pass.
+    """Least and greatest value of a function: attained values, and proven bounds.
 
     Attributes
     ----------

@@ -27,7 +27,7 @@ _CUT = -0.004849834917525  # no place that anybody would choose for a root
 
 @lru_cache(maxsize=256)
 def nodes(count: int) -> Array:
-    """The Chebyshev nodes in (-1, 1), falling, where values fix a series of so many terms.
+    """The Chebyshev nodes in (-1, 1), descending, at which values determine a series with this number of terms.
 
     >>> nodes(3).round(6) + 0.0
     array([ 0.866025,  0.      , -0.866025])
@@ -141,7 +141,7 @@ def basis_values(x: Array, count: int) -> Array:
 
 
 def derivative(series: Array) -> Array:
-    """Series of the derivative with respect to k (twice that with respect to x).
+    """Series of the derivative with respect to k (twice the derivative with respect to x).
 
     >>> derivative(np.array([0.0, 0.0, 1.0]))
     array([0., 8.])
@@ -175,7 +175,7 @@ def integral(series: Array, start: float) -> Array:
 
 
 def mean_product(first: Array, second: Array) -> float:
-    """Integral over k in [0, 1] of the product of two series, exact but for rounding.
+    """Integral over k in [0, 1] of the product of two series, exact up to rounding.
 
     >>> mean_product(np.array([0.0, 1.0]), np.array([0.0, 3.0]))
     1.0

@@ -111,7 +111,7 @@ class Interval:
 
 
 def between(low: Array, high: Array) -> Interval:
-    """The interval from low to high; all numbers where one of them is not finite.
+    """The interval from low to high; all numbers if an end is not finite.
 
     >>> interval = between(np.array([1.0]), np.array([2.0]))
     >>> bool(interval.low[0] <= 1.0), bool(interval.high[0] >= 2.0)
@@ -125,7 +125,7 @@ def between(low: Array, high: Array) -> Interval:
 
 
 def bearing(y: Interval, x: Interval) -> Interval:
-    """The direction of the vectors (x, y) around that of their middle, rad; nothing is known where one may vanish.
+    """The direction of the vectors (x, y) relative to their midpoint's, rad; unbounded where one may vanish.
 
     >>> turn = bearing(exact(np.array([2.0])), exact(np.array([0.0])))
     >>> bool(turn.low[0] <= 0.5 * np.pi <= turn.high[0])
@@ -177,7 +177,7 @@ def _sum_of_products(pairs: Sequence[tuple[Interval, Interval]]) -> tuple[Array,
 
 
 def _radius_of_product(left: Interval, right: Interval) -> Any:  # noqa: ANN401 - an array, or a number
-    """How far a product is off that of the middles, but for its rounding."""
+    """The deviation of a product from the product of the midpoints, without its rounding."""
     radius = np.abs(left.middle) * right.radius
     # in place: what such steps cost is the memory that they take
     radius += (np.abs(right.middle) + right.radius) * left.radius

@@ -1,4 +1,4 @@
-"""Peaks over the whole interval: what they are, and how they are chosen and polished."""
+"""Peaks over the whole interval: their definition, selection and refinement."""
 
 from __future__ import annotations
 
@@ -93,7 +93,7 @@ def _tie(size: Array) -> float:
 
 
 def polished(x: Array, residual: Callable[[Array], tuple[Array, Array]]) -> Array:
-    """Candidates in [-1, 1] moved by Newton steps towards roots of a residual, where that makes it smaller.
+    """Candidates in [-1, 1] improved by Newton steps towards roots of a residual, where that reduces it.
 
     `residual(x)` gives the residual and its derivative with respect to x. A step is short and stays only
     where the residual shrinks, so that a candidate that is already good cannot be lost.

@@ -89,7 +89,7 @@ def _parts(
 
 
 def cut_at_roots(function: Callable[[float, float], Callable[[Array], Array]], edges: list[float]) -> list[float]:
-    """The edges, and between them the places where functions change their sign, but for those next to another one.
+    """The edges and, between them, the sign changes of functions, except for nearly coincident ones.
 
     >>> cut_at_roots(lambda low, high: np.cos, [0.0, 2.0, 3.0])
     [0.0, 1.570796..., 2.0, 3.0]
@@ -226,7 +226,7 @@ def _changes(function: Callable[[Array], Array], places: Array) -> list[float]:
 
 
 def bisect(holds: Callable[[float], bool], inside: float, outside: float, halvings: int = 200) -> tuple[float, float]:
-    """Neighbours between two places, or what so many halvings leave: it holds at the first, not at the second.
+    """Neighbours after a number of halvings: a condition holds at the first and fails at the second.
 
     For conditions; where a function's sign changes and scipy is at hand, `scipy.optimize.brentq` needs fewer steps.
 
@@ -246,7 +246,7 @@ def bisect(holds: Callable[[float], bool], inside: float, outside: float, halvin
 
 
 def holds_throughout(holds: Callable[[float, float], bool], low: float, high: float, deepest: int = 60) -> bool:
-    """Whether a condition on ranges holds in all of some that together make a whole one: halved where it does not.
+    """Whether a condition on ranges holds on a partition of the whole range, halved where it fails.
 
     >>> holds_throughout(lambda low, high: high - low < 0.3, 0.0, 1.0)
     True
@@ -279,7 +279,7 @@ def bisect_each(
 
 
 def crossings(f: Callable[[float], float], places: Array, after: Array, before: Array, value: float) -> Array:
-    """All places, ascending, where a function takes a value; of a stretch on which it rests there, both ends.
+    """All places, ascending, where a function has a value; for a stretch of constant value, both ends.
 
     A jump over the value is no place that has it.
 
