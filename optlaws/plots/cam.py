@@ -1,4 +1,4 @@
-"""Pictures of cams: the profile with its follower at several angles, to scale, and what the follower does and bears."""
+"""Pictures of cams: the profile with its follower at several angles, to scale, and the follower's motion and load."""
 
 from __future__ import annotations
 
@@ -111,7 +111,7 @@ def _draw_body(cam: DiscCam, axes: Axes, at: Array, colour: str, reach: float) -
 
 
 def _linked(first: DiscCam, second: DiscCam) -> Array:
-    """The line from the one follower to the other, by the slide or by the pivot that they share."""
+    """The line between the two followers, along their common slide or through their common pivot."""
     joints = [_MILLI * cam.pitch_curve(np.array(0.0)) for cam in (first, second)]
     if first.contact.pivot is not None:
         turned = _phase(first, 0.0)
@@ -209,7 +209,7 @@ def _draw_follower(cam: DiscCam, axes: Axes, angle: float, colour: str) -> None:
 
 
 def _holder(cam: DiscCam, contact: FollowerContact, angle: float, centre: Array) -> Array:
-    """The end of a rod as it is shown, or the pivot of an arm, mm."""
+    """The displayed end of a rod, or the pivot of an arm, mm."""
     turned = -contact.turning * angle + _phase(cam, angle)
     if contact.pivot is not None:
         return _MILLI * contact.pivot * np.array([np.cos(turned), np.sin(turned)])
@@ -229,7 +229,7 @@ _MARGIN = 6.0
 
 
 def animated(cam: DiscCam, seconds: float = 4.0) -> str:
-    """The picture of one turn in so many seconds, over and over, in millimetres; y points up."""
+    """The picture of a turn in a number of seconds, repeated, in millimetres; y points up."""
     from optlaws.cams.curves.cam_files import beziers
     from optlaws.cams.curves.spline import spline
 
@@ -254,7 +254,7 @@ def animated(cam: DiscCam, seconds: float = 4.0) -> str:
 
 
 def _reach(cam: DiscCam) -> float:
-    """How far from the centre anything is."""
+    """The greatest distance of the picture's contents from the centre."""
     angles = np.linspace(*cam.displacement.interval, _FRAMES)
     far = float(np.linalg.norm(cam.pitch_curve(angles), axis=1).max()) + 2.0 * cam.contact.roller
     return max(far, cam.contact.pivot or 0.0)
@@ -271,7 +271,7 @@ def _svg_motion(cam: DiscCam) -> tuple[str, str]:
 
 
 def _svg_follower(cam: DiscCam) -> str:
-    """The follower as it is at first."""
+    """The follower in its initial position."""
     contact, first = cam.contact, np.array(cam.displacement.interval[0])
     s = cam.displacement.jet(first, 2)
     x, y = (_MILLI * float(coordinate.terms[0]) for coordinate in contact.point(s))

@@ -80,7 +80,7 @@ def draw_cycle(cycle: Cycle, axes: Any = None, **style: Any) -> list[Artist]:  #
 
 
 def _draw_together(cycle: Cycle, axes: Axes, style: dict[str, Any]) -> list[Artist]:
-    """All four, each divided by its peak, with the limits that are near."""
+    """All four derivatives, each divided by its peak, with the nearby limits."""
     artists: list[Artist] = []
     for nu, colour in enumerate((GREY, GREEN, BLUES[3], WARM)):
         lines, share = _draw_share(cycle, axes, nu, QUANTITIES[nu], {"color": colour} | style)
@@ -92,14 +92,14 @@ def _draw_together(cycle: Cycle, axes: Axes, style: dict[str, Any]) -> list[Arti
 
 
 def _draw_share(cycle: Cycle, axes: Axes, nu: int, name: str, style: dict[str, Any]) -> tuple[list[Artist], float]:
-    """One derivative divided by its peak, which the legend tells; and by how much it is divided."""
+    """A derivative divided by its peak, which the legend states; also returns the divisor."""
     unit, size = UNITS[cycle.axis][nu]
     peak = (cycle.peak(nu) or 1.0) * size
     return draw_curve(cycle, axes, nu, {"label": f"{name} / {peak:.6g} {unit}"} | style, share=1.0 / peak), 1.0 / peak
 
 
 def name_segments(cycle: Cycle, axes: Axes) -> None:
-    """Say above the axes what each segment is called."""
+    """Write each segment's name above the axes."""
     above: Any = {"xycoords": ("data", "axes fraction"), "ha": "center", "va": "bottom", "fontsize": 8.0}
     for peaks in cycle.peaks:
         place = 1e3 * (peaks.start + 0.5 * peaks.duration)
@@ -107,7 +107,7 @@ def name_segments(cycle: Cycle, axes: Axes) -> None:
 
 
 def draw_curve(cycle: Cycle, axes: Axes, nu: int, style: dict[str, Any], share: float = 1.0) -> list[Artist]:
-    """One derivative over the whole cycle."""
+    """A derivative over the whole cycle."""
     unit, factor = UNITS[cycle.axis][nu]
     times, values = samples(cycle, nu, _EACH)
     axes.set_ylabel(f"{QUANTITIES[nu]}, {unit}")
@@ -115,14 +115,14 @@ def draw_curve(cycle: Cycle, axes: Axes, nu: int, style: dict[str, Any], share: 
 
 
 def samples(cycle: Cycle, nu: int, count: int) -> tuple[Array, Array]:
-    """Times and values of a derivative, so many in a piece with its breaks: a jump is upright between two pieces."""
+    """Times and values of a derivative, at points in each piece and at its breaks; jumps are vertical lines."""
     times = [_times(piece, count) for piece in cycle.pieces]
     values = [piece.values(inside, nu) for piece, inside in zip(cycle.pieces, times, strict=True)]
     return np.concatenate(times), np.concatenate(values)
 
 
 def samples_of_drive(cycle: Cycle, function: Callable[[Array], Array], count: int) -> tuple[Array, Array]:
-    """Times and values of the drive's force or power, as those of a derivative."""
+    """Times and values of the drive's force or power, in the same form as for a derivative."""
     times = [_times(piece, count) for piece in cycle.pieces]
     # the end of a piece has its values, not those of the next
     ends = [piece.stop - INSIDE_PIECE * cycle.duration for piece in cycle.pieces]

@@ -1,4 +1,4 @@
-"""Plots of fronts: one constant over another, a third in colour, or what is least over the time of a move."""
+"""Plots of fronts: a constant over another, a third in colour, or the least objective over a move's time."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ def _label(name: str) -> str:
 
 
 def draw_front(front: Front, axes: Axes | None = None, **style: Any) -> list[Artist]:
-    """Draw a front into axes, new ones unless given, and return the artists; a third constant gives the colour."""
+    """Draw a front into axes, new ones by default, and return the artists; a third constant gives the colour."""
     axes = axes or new_axes()
     for axis, name in zip("xy", front.over, strict=False):
         axes.set(**{f"{axis}label": _label(name)})
@@ -50,7 +50,7 @@ def draw_front(front: Front, axes: Axes | None = None, **style: Any) -> list[Art
 
 
 def draw_proven_front(front: ProvenFront, axes: Axes | None = None, **style: Any) -> list[Artist]:
-    """Draw a proven front into axes, new ones unless given, as it is at every value, and return the artists."""
+    """Draw a proven front as a continuous line into axes, new ones by default, and return the artists."""
     axes = axes or new_axes()
     for axis, name in zip("xy", front.over, strict=True):
         axes.set(**{f"{axis}label": _label(name)})
@@ -58,7 +58,7 @@ def draw_proven_front(front: ProvenFront, axes: Axes | None = None, **style: Any
 
 
 def draw_time_front(front: TimeFront, axes: Axes | None = None, **style: Any) -> list[Artist]:
-    """Draw a front over the time into axes, new ones unless given, with what no law is below; return the artists."""
+    """Draw a front over the time into axes, new ones by default, with its lower bound; return the artists."""
     axes = axes or new_axes()
     colour = style.pop("color", BLUES[-1])
     label = style.pop("label", front.minimise)

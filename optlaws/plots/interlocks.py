@@ -55,7 +55,7 @@ def draw_interlocked(
     interlock: int | str,
     style: dict[str, Any],
 ) -> list[Artist]:
-    """Draw what is asked of axes and their interlocks, and return the artists."""
+    """Draw the axes with the conditions of their interlocks, and return the artists."""
     if what not in get_args(AxesPicture):
         raise InputError(unknown_key(what, get_args(AxesPicture), "picture"))
     if what == "timing":
@@ -177,7 +177,7 @@ def _plane(
 
 
 def plane_axes(rule: Interlock) -> tuple[str, str]:
-    """Which axis of an interlock goes to the right in its plane, and which up."""
+    """The axis of an interlock on the horizontal of its plane, and the axis on the vertical."""
     if isinstance(rule, Clearance):
         return rule.over, rule.axis
     return rule.axes
@@ -200,7 +200,7 @@ def _forbidden(
 def forbidden_region(
     cycles: Mapping[str, Cycle], rule: Interlock, plane: tuple[str, str], limits: Sequence[tuple[float, float]]
 ) -> Array | None:
-    """The corners of what an interlock forbids in a plane of two axes, of shape (n, 2), in small units; None of others.
+    """The corners of an interlock's forbidden region in the plane of two axes, shape (n, 2), small units; or None.
 
     `limits` are the least and the greatest position to the right and up, up to which the forbidden side of a bound
     reaches.

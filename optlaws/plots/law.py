@@ -1,4 +1,4 @@
-"""Pictures of laws: displacement, velocity, acceleration and jerk, with peaks and with what a problem asks of them."""
+"""Pictures of laws: displacement, velocity, acceleration and jerk, with peaks and with a problem's constraints."""
 
 from __future__ import annotations
 
@@ -113,7 +113,7 @@ def broken(curve: Curve, nu: int, count: int = _SAMPLES) -> tuple[Array, Array]:
 
 
 def _jumps(curve: Curve, nu: int) -> Array:
-    """The places where the curve's derivative jumps; those of lower order make it infinite there."""
+    """The places where the curve's derivative jumps; jumps of lower order make it infinite there."""
     if not isinstance(curve, MotionLaw):
         return np.empty(0)
     return np.unique([place for lower in range(1, nu + 1) for place, _ in curve.jumps(lower)])
@@ -169,7 +169,7 @@ def _sides(axes: Axes, k: Array, values: Array, colour: Any) -> Iterator[Artist]
 
 
 def _keep_to(axes: Axes, values: Array) -> None:
-    """Show what is finite, but for the highest hundredth: it may grow without limit towards a break."""
+    """Set the range to the finite values except the highest hundredth, which may be unbounded near a break."""
     low, high = np.nanpercentile(values, [1.0, 99.0])
     room = _MARGIN * ((high - low) or 1.0)
     axes.set_ylim(min(low, 0.0) - room, max(high, 0.0) + room)
@@ -177,7 +177,7 @@ def _keep_to(axes: Axes, values: Array) -> None:
 
 @dataclass(frozen=True)
 class Mark:
-    """A value of a, b, c or j that a law may not pass, over a part of the motion, and what asks it."""
+    """A limit of a, b, c or j over a part of the motion, and the constraint that sets it."""
 
     nu: int
     value: float

@@ -23,7 +23,7 @@ def draw_spectrum(
     over: float = 1.0,
     **style: Any,
 ) -> list[Artist]:
-    """Draw residual or peak acceleration over the frequency into axes, new ones unless given, and return the artists.
+    """Draw residual or peak acceleration over the frequency into axes, new ones by default; return the artists.
 
     `over` divides the acceleration, for example by C of the law meant for the mass.
     """
@@ -40,7 +40,7 @@ def draw_output(
     count: int = 801,
     **style: Any,
 ) -> list[Artist]:
-    """Draw an output of a machine over time into axes, new ones unless given."""
+    """Draw an output of a machine over time into axes, new ones by default."""
     axes = axes or new_axes()
     axes.set(xlabel="time, durations of the rise", ylabel=curve.name)
     return list(axes.plot(*curve.samples(count), **{"color": DISTINCT[0], **style}))
@@ -51,7 +51,7 @@ def draw_machine_spectrum(
     axes: Axes | None = None,
     **style: Any,
 ) -> list[Artist]:
-    """Draw an output's peak and what is left in it of each mode into axes, new ones unless given."""
+    """Draw an output's peak and each mode's residual in it into axes, new ones by default."""
     axes = axes or new_axes()
     axes.set(xlabel=spectrum.parameter, ylabel=spectrum.output)
     lines = axes.plot(spectrum.values, spectrum.peaks[spectrum.output], **{"color": GREY, "label": "peak", **style})

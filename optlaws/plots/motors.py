@@ -70,7 +70,7 @@ def draw_torque_over_speed(
 
 
 def draw_best_ratio(best: BestRatio, axes: Axes | None = None, **style: Any) -> list[Artist]:
-    """Draw root mean square and peak torque over the ratio into axes, new ones unless given; return the artists."""
+    """Draw root mean square and peak torque over the ratio into axes, new ones by default; return the artists."""
     axes = axes or new_axes()
     artists: list[Artist] = []
     for values, name, colour in ((best.rms_torques, "RMS torque", BLUES[3]), (best.peak_torques, "peak torque", GREY)):

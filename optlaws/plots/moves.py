@@ -1,4 +1,4 @@
-"""Pictures of moves: least times within limits, cams into a cycle and out of it, and what a controller runs."""
+"""Pictures of moves: least times within limits, run-ins and run-outs of cams, and executed motions."""
 
 from __future__ import annotations
 
@@ -153,7 +153,7 @@ _INSIDE_RUN = 25
 
 
 def draw_export(export: Export, axes: Any = None, **style: Any) -> list[Artist]:  # noqa: ANN401 - matplotlib's
-    """Draw the exported motion and what the controller runs over the master into four axes; return the artists."""
+    """Draw the exported motion and the executed motion over the master into four axes; return the artists."""
     if axes is None:
         with plot_style():
             axes = list(new_figure(8.6, 8.2).subplots(4, 1, sharex=True))

@@ -56,7 +56,7 @@ def draw_old_table(table: OldTable, axes: Any = None, new: OldTable | None = Non
 
 
 def _difference(table: OldTable, new: OldTable, panel: Any) -> list[Artist]:  # noqa: ANN401 - matplotlib's
-    """How far the points, and the new law, are from the old law."""
+    """The deviation of the points, and of the new law, from the old law."""
     at = np.linspace(table.places[0], table.places[-1], 8 * _EACH)
     points: dict[str, Any] = {"linestyle": "", "marker": ".", "markersize": 2.0, "color": GREY}
     artists = list(panel.plot(table.places, table.heights - table.at(table.places), **points))

@@ -67,7 +67,7 @@ def empty_figure(width: float = 7.2, height: float = 4.6) -> Figure:
 
 
 def new_figure(width: float = 7.2, height: float = 4.6) -> Figure:
-    """An empty figure for a user's plot: one of pyplot's, so that it is shown, where the user has imported pyplot."""
+    """An empty figure for a user's plot; a figure of pyplot's, to be shown, if the user has imported pyplot."""
     pyplot = sys.modules.get("matplotlib.pyplot")
     if pyplot is None:
         return empty_figure(width, height)
@@ -110,7 +110,7 @@ def name_point(axes: Axes, text: str, point: tuple[float, float], at: tuple[floa
 
 
 def save_picture(drawing: Figure, place: Path) -> list[Path]:
-    """Write a figure as svg and png: `place` has no ending. Both are left as they are where they show the same.
+    """Write a figure as svg and png to `place`, without an ending; files with the same picture stay unchanged.
 
     Fonts and renderers differ between machines, so that the svg, whose places can be compared, speaks for its twin.
     """

@@ -19,7 +19,7 @@ _HEIGHT = 1.9
 
 
 def sweep_figure(headings: Sequence[str], rows: Sequence[Sequence[Cell]], title: str) -> Figure:
-    """The columns of numbers of a table over its first column, those of one unit in one panel; gaps where none is."""
+    """The numeric columns of a table over its first column, a panel for each unit; missing values are gaps."""
     panels: dict[str, list[int]] = {}
     for i, heading in enumerate(headings[2:], 2):
         unit = heading.rpartition(", ")[2] if ", " in heading else ""
