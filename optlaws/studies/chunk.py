@@ -1,4 +1,4 @@
-"""Solving a chunk of points in this process, as arrays or in turn: plain data in, rows out."""
+"""Solution of a chunk of points in this process, as arrays or in sequence: plain data in, rows out."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ def in_process(task: Mapping[str, Any]) -> list[bytes]:
 
 
 def blocks(task: Task, begin: int = 0) -> Iterator[list[bytes]]:
-    """The rows of a chunk from one of its points on, those that came together in one list.
+    """The rows of a chunk from one of its points on; rows that were solved together are in one list.
 
     Problems that differ in numbers are solved as arrays where they can be, unless the task wants each alone; others in
     turn. A chunk begins cold, and so does a point after one without a law: its rows depend on nothing solved before it.
@@ -81,7 +81,7 @@ def _row(task: Task, index: int, inputs: Inputs, results: Mapping[str, Any]) -> 
 
 
 def _in_turn(task: Task, run: Run) -> Iterator[list[bytes]]:
-    """The rows of points each of which starts from the one before it."""
+    """The rows of points in sequence, each started from its predecessor."""
     previous: Solution | None = None
     for index, inputs in run:
         results, previous = _solve(task, inputs, previous)
@@ -216,7 +216,7 @@ def along_B(base: Mapping[str, Any], run: Run) -> bool:
 
 
 def array_along_B(base: Mapping[str, Any], run: Run, bound: Bound) -> ProblemArray | None:
-    """The problems of a run along B as one array; None where they are none or are better solved in turn."""
+    """The problems of a run along B as an array; None where they are not, or are better solved in sequence."""
     try:
         fields = from_entries(entries(base, {**run[0][1], "B": 2.0}))
         problem = Problem(**fields)

@@ -88,7 +88,7 @@ class WorkerPool:
         return self._executor.submit(self._solve, task)
 
     def check(self) -> None:
-        """Refuse to wait for a Dask cluster that has lost all workers; other executors say when theirs are lost."""
+        """Refuse to wait for a Dask cluster without workers; other executors report lost workers themselves."""
         workers = getattr(self._client, "ncores", None)
         if not callable(workers) or workers():
             self._empty_since = None
@@ -238,7 +238,7 @@ class Processes:
 
 
 class SolverProcess:
-    """One process that serves chunks, and the pipes to it; worker.py is its side."""
+    """A process that solves chunks, and the pipes to it; worker.py is its side."""
 
     def __init__(self) -> None:
         environment = {**os.environ, **_THREADS, "PYTHONPATH": os.pathsep.join(path for path in sys.path if path)}
@@ -258,7 +258,7 @@ class SolverProcess:
         self._reader.start()
 
     def wait_ready(self) -> None:
-        """Wait until it has imported what it needs; SolverFailure with its complaint if it cannot."""
+        """Wait until the process has imported its modules; SolverFailure with its message if it cannot."""
         try:
             first = self._line(_START_SECONDS)
         except Lost as lost:
@@ -294,7 +294,7 @@ class SolverProcess:
             os.killpg(self._process.pid, signal.SIGKILL)
 
     def clear(self) -> None:
-        """End it and give back what it held."""
+        """End the process and release its resources."""
         self.kill()
         self._cleared = True
         with suppress(subprocess.TimeoutExpired):

@@ -1,4 +1,4 @@
-"""The points of a study by their index, in an order in which neighbours differ little; none is kept."""
+"""The points of a study by their index, in an order of small differences between neighbours; none is stored."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ class StudyAxis:
 
 
 def axes(study: StudyFile) -> list[StudyAxis]:
-    """The factors in the order of the file, that of B last: neighbours along it start each other."""
+    """The factors in the order of the file, B last: neighbours along B start each other."""
     factors = [StudyAxis(name, {name: _column(name, values)}) for name, values in study.vary.items()]
     for i, table in enumerate(study.together, 1):
         lengths = {len(values) for values in table.values()}
@@ -211,7 +211,7 @@ class StudyPoints:
 
     @kept_property
     def chunk(self) -> int:
-        """How many points are solved in turn, or together; it depends on the study alone, so that results do."""
+        """The number of points in a chunk; it depends on the study alone, so that results do too."""
         size = self.given or self.study.chunk
         if size is not None:
             return size

@@ -72,7 +72,7 @@ else:
 
 
 def problem(where: str, *parts: Mapping[str, Any]) -> Problem:
-    """The problem of entries of which later ones replace earlier ones; `where` is what an error calls it.
+    """The problem of entries in which later ones replace earlier ones; errors call it `where`.
 
     Examples
     --------
@@ -123,7 +123,7 @@ def gap(solution: Solution) -> str:
 
 
 def record(solution: Solution) -> dict[str, Any]:
-    """Data of a solution that results store: nothing that differs from run to run."""
+    """Data of a solution for the results: nothing that differs between runs."""
     names = ["status", "objective", "lower_bound", "limit", "constants", "z", "law", "problem", "certificate"]
     proofs = {
         "power_certificate": solution.power_certificate,

@@ -18,7 +18,7 @@ class Watch(Protocol):
     """Reports of a study's progress: points done by status, at the beginning, now and then, and at the end."""
 
     def begin(self, total: int, counts: Mapping[str, int]) -> None:
-        """A run begins; so many points are done already."""
+        """Begin a run with a number of finished points."""
 
     def advance(self, counts: Mapping[str, int]) -> None:
         """Set the number of points that are done and stored."""
@@ -66,7 +66,7 @@ class Bar:
         self._progress.update(self._task, completed=sum(counts.values()), rate=rate, counts=listed(counts))
 
     def end(self, counts: Mapping[str, int]) -> None:
-        """Leave it as it is."""
+        """Leave the bar unchanged."""
         self.advance(counts)
         self._progress.stop()
 

@@ -32,7 +32,7 @@ def run_study(
     workers: int | None = None,
     watch: Watch | None = None,
 ) -> Study:
-    """Solve every point of a study into a directory, or go on with one that was interrupted.
+    """Solve every point of a study into a directory, or continue an interrupted study.
 
     Parameters
     ----------

@@ -170,7 +170,7 @@ def filled(text: str, values: Mapping[str, Any]) -> str:
 
 
 def entries(base: Mapping[str, Any], inputs: Mapping[str, Any]) -> dict[str, Any]:
-    """The entries of a point's problem, as `Problem.from_dict` reads them: those of the base, and those that vary.
+    """The entries of a point's problem for `Problem.from_dict`: the base entries and the varied ones.
 
     Examples
     --------
@@ -195,6 +195,6 @@ def entries(base: Mapping[str, Any], inputs: Mapping[str, Any]) -> dict[str, Any
 
 
 def _bounded(bounds: Any, name: str, value: float) -> list[float | None]:  # noqa: ANN401
-    """Both bounds of a constant, one of them new; a value that fixed it is none any more."""
+    """Both bounds of a constant, one of them new; a bound replaces a fixed value."""
     low, high = bounds if isinstance(bounds, list) else (0.0, None)
     return [low, value] if name.startswith(AT_MOST) else [value, high]

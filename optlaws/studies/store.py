@@ -1,4 +1,4 @@
-"""The directory of a study: what it is, who writes in it, its chunks under way and its table when all are done."""
+"""The directory of a study: its definition, its writer, its finished chunks, and its table when all are finished."""
 
 from __future__ import annotations
 
@@ -203,7 +203,7 @@ class StudyDirectory:
 
     @contextmanager
     def locked(self) -> Iterator[None]:
-        """The directory with other runs kept out; the system frees the lock of a process, however it ended."""
+        """The directory, locked against other runs; the system frees the lock when the process ends."""
         with self._lock_file() as stream:
             try:
                 locked = _lock(stream)
@@ -272,7 +272,7 @@ class StudyDirectory:
                 _check_rows(self.table, points)
 
     def finished(self, points: int) -> bool:
-        """Whether the table is there and whole; a damaged one is made again where chunks are left of it."""
+        """Whether the table exists and is complete; a damaged table is rewritten from the remaining chunks."""
         if not self.table.exists():
             return False
         try:
@@ -284,7 +284,7 @@ class StudyDirectory:
         return True
 
     def remove_chunks(self) -> None:
-        """Remove what the table has made needless; a run may have been killed between the two."""
+        """Remove chunks that are in the table already; a run may have been killed between the two steps."""
         if self.table.exists():
             shutil.rmtree(self.chunks, ignore_errors=True)
 
@@ -339,7 +339,7 @@ def _lock(stream: IO[bytes]) -> bool:
 
 
 def digest(study: StudyFile) -> str:
-    """A hash of what a study says, whatever its file looks like.
+    """A hash of the definition of a study, independent of its file's form.
 
     Examples
     --------

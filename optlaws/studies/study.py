@@ -29,7 +29,7 @@ _SHOWN = 12
 
 
 class Study:
-    """A study's directory, read as far as it is there.
+    """A study's directory, read as far as it is complete.
 
     Parameters
     ----------
@@ -102,7 +102,7 @@ class Study:
             yield from map(self._of_line, batch.to_pylist())
 
     def __getitem__(self, index: int) -> StudyPoint:
-        """One point, by its index."""
+        """A single point, by its index."""
         if not 0 <= index < len(self):
             raise IndexError(f"{self.path} has the points 0 to {len(self) - 1}, not {index}")
         if self._tabled:
@@ -158,7 +158,7 @@ class Study:
         return best
 
     def to_arrow(self) -> pa.Table:
-        """All rows that are done as an Arrow table.
+        """All finished rows as an Arrow table.
 
         Raises
         ------
@@ -175,7 +175,7 @@ class Study:
         return pa.concat_tables([shape.empty_table(), *(arrow(group, shape) for group in groups)])
 
     def to_pandas(self) -> pd.DataFrame:
-        """All rows that are done as a data frame.
+        """All finished rows as a data frame.
 
         Raises
         ------
@@ -215,7 +215,7 @@ class Study:
 
     @property
     def _tabled(self) -> bool:
-        """Whether the rows are in the table, as those of a finished study are."""
+        """Whether the rows are in the table, as for a finished study."""
         return self._directory.table.exists()
 
     @kept_property
@@ -223,7 +223,7 @@ class Study:
         return Chunks(self._directory.chunks)
 
     def _chunks(self) -> Chunks:
-        """The chunks as far as they are there."""
+        """The finished chunks of the study."""
         self._known_chunks.refresh()
         return self._known_chunks
 

@@ -1,4 +1,4 @@
-"""The rows of a study as Arrow and xarray have them: one a point, with what varies and what came out."""
+"""The rows of a study for Arrow and xarray: a row for each point, with its varied entries and its results."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ _COLUMNS = {Kind.WHOLE: "int64", Kind.TEXT: "string", Kind.BASIS: "string", Kind
 
 
 class StudyPoint(msgspec.Struct, kw_only=True, omit_defaults=True, dict=True):
-    """One row of a study, with its law and its problem.
+    """A row of a study, with its law and its problem.
 
     Attributes
     ----------
@@ -101,7 +101,7 @@ def row_of(line: Mapping[str, Any], inputs: dict[str, Any]) -> StudyPoint:
 
 
 def column(name: str) -> str:
-    """The column of an entry that varies; what was asked of B is not what the law's B came out as.
+    """The column of a varied entry; the prescribed B has another column than the law's B.
 
     Examples
     --------
@@ -122,7 +122,7 @@ def _texts(values: Iterable[Any]) -> list[str]:
 
 
 def schema(points: StudyPoints, about: Mapping[str, bytes] | None = None) -> pa.Schema:
-    """The columns: what was asked, what came out, and the law as JSON that `MotionLaw.from_json` reads."""
+    """The columns: varied entries, results, and the law as JSON that `MotionLaw.from_json` reads."""
     import pyarrow as pa
 
     kinds = {"index": "int64", "key": "string"}
@@ -168,7 +168,7 @@ def _array(values: Sequence[Any], kind: pa.DataType) -> pa.Array:
 
 
 def dataset(rows: Iterable[StudyPoint], points: StudyPoints, about: Mapping[str, Any]) -> xr.Dataset:
-    """One dimension for each factor of the product; one variable for each number, and the status.
+    """A dimension for each factor of the product; a variable for each number, and the status.
 
     What varies alone is a coordinate of its dimension; what varies together shares one, "together 1" or "sample 1".
     """
