@@ -84,7 +84,7 @@ class Front(JsonText):
 
     @kept_property
     def values(self) -> Array:
-        """The constants of each point: one row a point, one column a constant of `over`."""
+        """The constants of each point: a row for each point, a column for each constant of `over`."""
         return values_of(self.points, self.over)
 
     @property
@@ -110,7 +110,7 @@ class Front(JsonText):
         ]
 
     def plot(self, ax: Any = None, **style: Any) -> list[Any]:  # noqa: ANN401 - matplotlib's
-        """Draw the points into matplotlib's axes, new ones unless given; a third constant as colour; the artists."""
+        """Draw the points into matplotlib's axes, new ones by default; returns the artists."""
         from optlaws.plots.front import draw_front
 
         return draw_front(self, ax, **style)
@@ -161,7 +161,7 @@ class Front(JsonText):
 
     @classmethod
     def from_dict(cls, data: Mapping[str, Any]) -> Self:
-        """Read what `to_dict` wrote; constants are computed from the laws and held against the values.
+        """Read the output of `to_dict`; constants are computed from the laws and checked against the values.
 
         Raises
         ------
@@ -278,7 +278,7 @@ def value_of(solution: Solution, name: str) -> float:
 
 
 def values_of(solutions: Sequence[Solution], names: Sequence[str]) -> Array:
-    """Constants of the laws of many solutions: one row a solution, one column a constant."""
+    """Constants of the laws of many solutions: a row for each solution, a column for each constant."""
     return np.column_stack([_column(solutions, name) for name in names])
 
 
@@ -359,7 +359,7 @@ def where_it_pays(problem: Problem, over: tuple[str, str]) -> tuple[float, float
 
 
 class _Curve:
-    """The front of two constants while it grows: solutions by the asked value of the first."""
+    """The growing front of two constants: solutions by the prescribed value of the first."""
 
     def __init__(
         self,
@@ -384,7 +384,7 @@ class _Curve:
         self.points = [self._first(low, pays), self._last(best, pays, high)]
 
     def grow(self, count: int) -> Front:
-        """Put a point into the stretch that wants one most, and so on, until so many are no worse than others."""
+        """Add points to the most important gaps, until the number of nondominated points is reached."""
         if count >= _MANY and self._problem(self.points[0][0]).convex:
             self._grow_together(count)
         with Steps(f"least {self.over[1]} over {self.over[0]}", count) as steps:
@@ -401,7 +401,7 @@ class _Curve:
         return Front(self.over, tuple(undominated_points), self.errors)
 
     def _halve(self) -> bool:
-        """Put a point into the stretch that wants one most; False where none does."""
+        """Add a point to the most important gap; False without such a gap."""
         widths = [0.0 if self.points[i][0] in self._dead else width for i, width in enumerate(self._widths())]
         i = int(np.argmax(widths))
         if widths[i] < AGREEMENT:
@@ -427,7 +427,7 @@ class _Curve:
         return np.array([known[value] for value, _ in self.points])
 
     def _grow_together(self, count: int) -> None:
-        """Put points into all stretches that want one a quarter as much as any; their laws are found many at a time."""
+        """Add points to all gaps at least a quarter as important as the first; their laws are computed together."""
         (low, _), (high, _) = self.points
         # the middles of the first stretches, and of their halves, and so on
         begun = 2 ** int(log2(count / _EVEN))
@@ -483,7 +483,7 @@ class _Curve:
             return pays, best
 
     def _widths(self) -> list[float]:
-        """How much each stretch wants a point: its length in normalised logarithms, more where the front turns."""
+        """The importance of each gap: its length in normalised logarithms, more where the front bends."""
         logs = np.log([[value, solution.objective] for value, solution in self.points])
         span = np.abs(logs[-1] - logs[0])
         if span[0] < NO_EXCHANGE:

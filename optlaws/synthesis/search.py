@@ -125,7 +125,7 @@ class LawSearch:
         return None if limit is None else self._try(None, starts.in_phase_plane(self.model, limit), near=True)
 
     def _near_limit(self, law: Candidate) -> bool:
-        """Whether the limit of a drive leaves a law little room."""
+        """Whether the limit of a drive leaves a law little slack."""
         limit = _limit_beside(self.problem)
         return limit is not None and law.objective <= limit.value * (1.0 + NEAR_LIMIT)
 
@@ -137,7 +137,7 @@ class LawSearch:
         return candidate
 
     def _tightened(self, best: Candidate) -> Candidate:
-        """The best law that the search for a tight bound comes upon; notes its proof."""
+        """The best law from the search for a tight bound; its proof is recorded."""
         if not self.tight or self.problem.convex:
             return best
         from optlaws.synthesis.proof.power.search import tightened
@@ -158,7 +158,7 @@ class LawSearch:
                 return best
 
     def _held_up(self, plain: Candidate, short: Mapping[Functional, float]) -> Candidate:
-        """The best law in which constants that are below their lower bounds are held up."""
+        """The best law in which constants below their lower bounds are raised to them."""
         from optlaws.synthesis.method.lower_bounds import active_lower_bounds
 
         best = self._best_of(active_lower_bounds(self.model, plain.optimum))
@@ -173,7 +173,7 @@ class LawSearch:
         )
 
     def _moved(self, plain: Candidate, best: Candidate, constant: Functional, low: float) -> Candidate:
-        """The best law to which steps of the place of a peak lead that is held up, as long as they pay."""
+        """The best law from steps of the raised peak's place, while the steps improve it."""
         alone = all(leaf == constant for _, leaf in leaves(self.problem.objective))
         if alone or not isinstance(constant, PeakConstant):
             return best
@@ -254,7 +254,7 @@ def _limit_beside(problem: Problem) -> DriveLimit | None:
 
 
 def best_available(search: LawSearch) -> Solution | None:
-    """The best law that any way leads to, with its proof; None where there is none, or where ever better ones are."""
+    """The best law of all strategies, with its proof; None where none exists or the objective is unbounded."""
     solution, problem = _of_any_way(search), search.problem
     # a law of which nothing is proven may be one of many that are less and less
     unproven = solution is not None and problem.convex and solution.lower_bound == -inf
@@ -266,7 +266,7 @@ def best_available(search: LawSearch) -> Solution | None:
 
 
 def _of_any_way(search: LawSearch) -> Solution | None:
-    """The answer of the problem itself or, where that is none, unproven or too good, that of a way around it."""
+    """The problem's own answer or, where it is missing, unproven or too good, the answer of an alternative strategy."""
     solution, problem = search.answer(), search.problem
     if solution is None or (problem.convex and search.outcomes[0].optimum is None):
         unfolded = from_symmetric(search) if problem.mirrored else None
@@ -290,7 +290,7 @@ def _from_vertices(search: LawSearch) -> Solution | None:
 
 
 def from_symmetric(search: LawSearch) -> Solution | None:
-    """The best symmetric law, which is one of the problem's, with what its contacts prove of all laws.
+    """The best symmetric law as a law of the problem, with the bound of its contacts for all laws.
 
     Among unsymmetric laws the optimum may be flat, so that no active set shows there.
     """
@@ -315,7 +315,7 @@ def from_symmetric(search: LawSearch) -> Solution | None:
 
 
 def solved_without_interior(search: LawSearch) -> Solution | None:
-    """The best of the laws that keep bounds which leave hardly any room, and what is proven of them."""
+    """The best law under bounds with hardly any interior, and its proof."""
     best: Solution | None = None
     for optimum, coordinates in fallbacks_without_interior(search.model):
         law = feasible(search.model, optimum.at(np.append(coordinates, optimum.x[len(coordinates) :])))
@@ -327,14 +327,14 @@ def solved_without_interior(search: LawSearch) -> Solution | None:
 
 
 class _Laws:
-    """The laws of a model, measured; the last one is remembered, for the optimum often is the one seen last."""
+    """The laws of a model, evaluated; the last one is cached, as the optimum is often the last."""
 
     def __init__(self, model: Model) -> None:
         self._model = model
         self._last: tuple[Array, MotionLaw, Worth] | None = None
 
     def at(self, x: Array) -> tuple[MotionLaw, Worth]:
-        """The law of some variables, and what it is worth."""
+        """The law of given variables, and its value."""
         if self._last is None or self._last[0] is not x:
             law = self._model.law(x)
             self._last = (x, law, worth(self._model.problem, law))

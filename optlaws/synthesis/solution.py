@@ -134,7 +134,7 @@ class Solution(LawExport, JsonText):
 
     @property
     def gap(self) -> float:
-        """(objective - lower bound) / objective; as a share of its scale where the objective is 0 but for rounding."""
+        """(objective - lower bound) / objective; relative to its scale where the objective is 0 up to rounding."""
         return (self.objective - self.lower_bound) / measure(self.objective, self.problem.objective.scale)
 
     @property
@@ -230,7 +230,7 @@ class Solution(LawExport, JsonText):
 
     @classmethod
     def from_dict(cls, data: Mapping[str, Any]) -> Self:
-        """Read what `to_dict` wrote; numbers are held against the law, bounds against the proofs.
+        """Read the output of `to_dict`; numbers are checked against the law, bounds against the proofs.
 
         Raises
         ------
@@ -286,7 +286,7 @@ class Solution(LawExport, JsonText):
 
 
 def partly_known(known: dict[str, Any], later: Mapping[str, Callable[[Solution], Any]]) -> Solution:
-    """A solution of which some attributes are computed when they are first needed; equal to one that has all."""
+    """A solution whose attributes are partly computed at first use; equal to a complete one."""
     solution = object.__new__(Solution)
     solution.__dict__.update(_DEFAULTS | known, _later=later)
     return solution

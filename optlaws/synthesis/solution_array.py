@@ -48,7 +48,7 @@ NUMBERS = ("objective", "lower_bound", "gap", "B", "C", "D", "J", "rms_c")
 
 @dataclass(frozen=True, eq=False)
 class SolvedPart:
-    """Problems of one kind that were solved together: which, their program but for numbers, and their optima."""
+    """Problems of one kind that were solved together: their indices, their common program, and their optima."""
 
     places: NDArray[np.intp]
     model: Model
@@ -87,7 +87,7 @@ class SolvedPart:
         return np.array([basis.coefficients(series) for series in self.z_series])
 
     def constant(self, name: str, *, one_objective: bool) -> Array:
-        """A constant of each law; `one_objective` says that all minimise what the first does."""
+        """A constant of each law; `one_objective` states that all problems have the first one's objective."""
         if one_objective and repr(self.model.problem.objective) == name:
             return self.optima.objective
         space = self.model.space
@@ -117,7 +117,7 @@ class SolvedPart:
         }
 
     def solution(self, row: int, problem: Problem, seconds: float) -> Solution:
-        """The solution of a row, of which only what the array holds is there before it is asked for."""
+        """The solution of a row; attributes that the array does not store are computed at first use."""
         model, bound, objective = self.model, float(self.optima.bound[row]), float(self.optima.objective[row])
         scale = problem.objective.scale
 
@@ -171,7 +171,7 @@ def _trimmed(row: list[float]) -> list[float]:
 
 
 def _constant(name: str, description: str) -> kept_property[Array]:
-    """A constant of each law as a property that is kept."""
+    """A constant of each law, as a cached property."""
 
     def values(laws: SolutionArray) -> Array:
         alone = laws.problems.one_objective
@@ -276,7 +276,7 @@ class SolutionArray(JsonText):
 
     @kept_property
     def gap(self) -> Array:
-        """(objective - lower bound) / objective; as a share of its scale where the objective is 0 but for rounding."""
+        """(objective - lower bound) / objective; relative to its scale where the objective is 0 up to rounding."""
         scale = self._gathered(
             lambda part: np.full(len(part.places), part.model.problem.objective.scale),
             lambda solution: solution.problem.objective.scale,
@@ -308,7 +308,7 @@ class SolutionArray(JsonText):
         return _frozen(limits.reshape(self.shape))
 
     def stored_laws(self) -> list[dict[str, Any] | None]:
-        """Each law as its `to_dict` gives it, in the order of the flattened array; None where there is none."""
+        """Each law's `to_dict`, in the order of the flattened array; None without a law."""
         laws: dict[int, dict[str, Any]] = {place: solution.law.to_dict() for place, solution in self._alone.items()}
         for part in self.parts:
             laws |= zip(part.places.tolist(), stored_laws(part.model.space, part.coordinates), strict=True)
@@ -316,12 +316,12 @@ class SolutionArray(JsonText):
 
     @kept_property
     def z_series(self) -> Array:
-        """Chebyshev coefficients of Z in 2k - 1, along the last axis; NaN beyond the end of shorter ones."""
+        """Chebyshev coefficients of Z in 2k - 1, along the last axis; NaN beyond the end of shorter series."""
         return self._rows(lambda part: part.z_series, lambda solution: np.array(solution.z_series))
 
     @kept_property
     def z(self) -> Array:
-        """Coefficients of Z in each problem's basis, along the last axis; NaN beyond the end of shorter ones."""
+        """Coefficients of Z in each problem's basis, along the last axis; NaN beyond the end of shorter series."""
         return self._rows(lambda part: part.z, lambda solution: np.array(solution.z or ()))
 
     @property
@@ -408,7 +408,7 @@ class SolutionArray(JsonText):
 
     @classmethod
     def from_dict(cls, data: Mapping[str, Any]) -> SolutionArray:
-        """Read what `to_dict` wrote, from JSON or as it is.
+        """Read the output of `to_dict`, from JSON or as plain data.
 
         Raises
         ------
@@ -502,7 +502,7 @@ class SolutionArray(JsonText):
 
 
 def _contacts(solution: Solution) -> dict[str, NDArray[Any]]:
-    """The contacts of a certificate, as a row of those of many."""
+    """The contacts of a certificate, as a row for many certificates."""
     contacts = solution.certificate.contacts
     columns = {"constraint": np.array([[contact.constraint for contact in contacts]], dtype=object)}
     return columns | {

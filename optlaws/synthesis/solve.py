@@ -24,7 +24,7 @@ BOUNDS = get_args(Bound)
 
 
 def synthesize(problem: Problem, *, start: Solution | None = None, bound: Bound = "quick") -> Solution:
-    """Find the law that minimises the problem's objective and prove it, or bound how much better one could be.
+    """Find the law that minimises the problem's objective, with a proof of its optimality or a bound of its gap.
 
     Parameters
     ----------
@@ -100,7 +100,7 @@ def _neighbours(first: Problem, second: Problem) -> bool:
 
 
 def _no_power_so_small(problem: Problem) -> InfeasibleProblem | None:
-    """The error to raise where the least D of the problem is proven to be above what is asked."""
+    """The error where the least D of the problem is proven to exceed the prescribed one."""
     limits = problem.range("D")
     if limits is None or not isfinite(limits.high):
         return None

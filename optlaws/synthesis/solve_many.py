@@ -1,4 +1,4 @@
-"""Many problems, as arrays, in order or in turn: together along lines on which their numbers differ, others alone.
+"""Many problems, as arrays or in sequence: together along lines on which their numbers differ, else singly.
 
 `solved` raises nothing but for wrong arguments: its `SolutionArray` has a `Solution` or an error of each problem.
 """
@@ -80,7 +80,7 @@ def completed(
 
 
 def _along(problems: ProblemArray, line: ProblemLine, bound: Bound) -> SolvedBatch:
-    """The laws of a line, as far as they are proven; of least power, those that no other branch is better than."""
+    """The laws of a line, as far as they are proven; for least power, laws that no other branch improves."""
     if line.path.model.problem.convex:
         return laws_along(line.path, line.t)
     if bound == TIGHT:
@@ -93,7 +93,7 @@ def _along(problems: ProblemArray, line: ProblemLine, bound: Bound) -> SolvedBat
 
 
 def _beyond(problems: ProblemArray, places: NDArray[np.intp], bound: Bound) -> Iterator[tuple[int, Result]]:
-    """The problems on a line beyond those with laws, the nearest first: these are a convex set, which ends for good."""
+    """The problems on a line outside the range with laws, the nearest first: the feasible range is convex."""
     previous: Solution | None = None
     ended: InfeasibleProblem | None = None
     for place in places.tolist():
@@ -164,7 +164,7 @@ def _others(problems: ProblemArray, places: NDArray[np.intp], bound: Bound) -> d
 
 
 def _alone(problems: ProblemArray, place: int, near: Solution | None, bound: Bound) -> Result:
-    """One problem by itself, begun at a neighbour's law."""
+    """A single problem by itself, started from a neighbour's law."""
     try:
         problem = problems.problem(place)
         convex = getattr(problem, "convex", False)
@@ -264,7 +264,7 @@ def synthesize_array(problems: ProblemArray, *, bound: Bound = "quick") -> Solut
 
 
 def synthesize_chunks(problems: ProblemArray, *, size: int = _CHUNK, bound: Bound = "quick") -> Iterator[SolutionArray]:
-    """Solve an array piece by piece, in the order of the flattened array: memory is that of one piece.
+    """Solve an array piece by piece, in the order of the flattened array, with the memory of one piece.
 
     Parameters
     ----------
@@ -343,7 +343,7 @@ def sweep(problems: Iterable[Problem], *, bound: Bound = "quick", errors: Errors
 def sweep(
     problems: Iterable[Problem], *, bound: Bound = "quick", errors: Errors = "raise"
 ) -> Iterator[Solution] | Iterator[Result]:
-    """Solve problems in turn, each warm started by the one before it where they are neighbours.
+    """Solve problems in sequence, each warm started from its predecessor where they are neighbours.
 
     Where the problems are there already, in a list, they are solved together, as `synthesize_many` does, if all are
     convex or of least power and along lines. Of a generator they are taken one by one, so that each may depend on the

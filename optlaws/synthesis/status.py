@@ -1,4 +1,4 @@
-"""How far solutions can be trusted, or why there are none, and what their gaps are shares of."""
+"""The status of a solution: how far it can be trusted, or why there is none; and the scale of its gap."""
 
 from __future__ import annotations
 
@@ -86,7 +86,7 @@ class Status(StrEnum):
 
 
 def status_of(objective: float, bound: float, scale: float, *, proven: bool) -> Status:
-    """`scale` is the objective's; `proven` says that the bound would meet the objective but for rounding."""
+    """The status by the gap; `scale` is the objective's, `proven` states a bound that meets it up to rounding."""
     if abs(objective - bound) <= OPTIMALITY_GAP * measure(objective, scale):
         return Status.OPTIMAL
     return Status.INACCURATE if proven else Status.LOCAL

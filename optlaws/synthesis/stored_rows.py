@@ -93,7 +93,7 @@ class StatedError(msgspec.Struct, forbid_unknown_fields=True):
 
 
 def plain_error(error: OptlawsError) -> Plain:
-    """An error as plain data, from which `read_solutions` makes one that says and proves the same."""
+    """An error as plain data, from which `read_solutions` rebuilds its text and its proof."""
     data: Plain = {"status": Status.of(error).value, "error": str(error.args[0]) if error.args else ""}
     for name in ("problem", "proof"):
         value = getattr(error, name, None)
@@ -158,7 +158,7 @@ def attributes(row: StatedSolution, state: StatedState, problem: Problem) -> Pla
 
 
 def check_status(status: Status, problem: Problem, objective: float, bound: float, name: str) -> None:
-    """Refuse a status that a solution cannot have; a law that a bound from below holds up is proven in part alone.
+    """Refuse a status that a solution cannot have; a law raised to a lower bound is only partly proven.
 
     Raises
     ------
@@ -204,7 +204,7 @@ def _proven(row: StatedSolution, problem: Problem) -> Iterator[float]:
 
 
 def _size(problem: Problem) -> float:
-    """How large the objective of a plain law is: what rounding is held against where an objective is nearly 0."""
+    """The size of the objective for a plain law: the scale of rounding where an objective is nearly 0."""
     value = _of_plain_law(problem.shape) if isinstance(problem.B, float) else _of_plain_law(problem)
     return value if isfinite(value) else 0.0
 
@@ -220,7 +220,7 @@ def bound_of(row: StatedSolution) -> float:
 
 
 def _check_z(series: list[float], problem: Problem, law: MotionLaw) -> None:
-    """Refuse coefficients of Z that do not make the law."""
+    """Refuse coefficients of Z that do not give the law."""
     basis, order = problem.basis, problem.order
     if not isinstance(basis, PolynomialBasis | PiecewiseBasis):
         wrong = bool(series)
@@ -293,7 +293,7 @@ def _is_problem(problem: Callable[[], Problem]) -> bool:
 
 
 def equal_data(first: Any, second: Any) -> bool:  # noqa: ANN401 - JSON
-    """Whether plain data are the same, numbers but for the rounding of the greatest beside them."""
+    """Whether plain data are equal, numbers up to the rounding of the greatest beside them."""
     if isinstance(first, dict) and isinstance(second, dict):
         return first.keys() == second.keys() and all(equal_data(first[name], second[name]) for name in first)
     if isinstance(first, list) and isinstance(second, list) and first and all(map(_is_number, [*first, *second])):

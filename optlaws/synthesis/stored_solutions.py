@@ -1,4 +1,4 @@
-"""Solutions of many problems as plain data that are read back as they were, with the errors of those without a law.
+"""Solutions of many problems as plain data that are read back unchanged, with the errors of missing ones.
 
 Nothing that is read is taken on trust: laws are those of their coordinates, numbers are those of their laws, bounds are
 what the proofs beside them prove, and a problem is said to have no law where its proof shows that of this problem.
@@ -206,7 +206,7 @@ def _check_optima(laws: SolvedBatch, count: int, program: Program) -> None:
 
 
 def _check_row(row: StatedSolution, problem: Problem, model: Model, laws: SolvedBatch, i: int) -> None:
-    """Refuse a row whose law, whose numbers or whose proof are not those of the arrays."""
+    """Refuse a row whose law, numbers or proof differ from the arrays."""
     law = model.law(laws.x[i])
     if not equal_data(as_json(law.to_dict()), row.law):
         raise InputError("its law is another than that of the arrays' coordinates")
@@ -219,7 +219,7 @@ def _check_row(row: StatedSolution, problem: Problem, model: Model, laws: Solved
 
 
 def _check_contacts(proof: Certificate, program: Program, laws: SolvedBatch, i: int) -> None:
-    """Refuse contacts and multipliers of the arrays that are not those of the row's certificate."""
+    """Refuse contacts and multipliers of the arrays that differ from the row's certificate."""
     contacts = [int(j) for family in range(len(program.families)) for j in np.flatnonzero(laws.family[i] == family)]
     kinds = [program.families[laws.family[i, j]] for j in contacts]
     same = [kind.name for kind in kinds] == [contact.constraint for contact in proof.contacts]

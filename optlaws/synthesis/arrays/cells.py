@@ -1,4 +1,4 @@
-"""Whether many laws keep a family of rows at every place: on each cell of its domain by a bound, nowhere by points.
+"""Proofs that many laws satisfy a family of constraints everywhere: by a bound on each cell, without sample points.
 
 On a cell a row's residual is a Chebyshev series in the cell's own coordinate. A law keeps the row on the cell if the
 series' first terms outweigh all others, or if the residual is convex there and a tangent shows that it stays up: at a
@@ -82,7 +82,7 @@ class Cells:
 
     @kept_property
     def reach(self) -> Array:
-        """How far from a contact of each family its tangent is relied on."""
+        """The distance from a contact of each family up to which its tangent is used as a bound."""
         least = np.empty(len(self.families))
         least[self.order] = [(_JOINED + 1) * float(np.diff(edges).max()) for edges in self.edges]
         return least
@@ -142,7 +142,7 @@ def excess_at(family: LinearFamily, point: Array, room: Array) -> Array:
 
 @dataclass(frozen=True, eq=False)
 class Residuals:
-    """The room that many laws leave on cells of some families."""
+    """The slack of many laws in the rows of some families, on cells."""
 
     cells: Cells
     point: Array  #: the laws' variables and 1
@@ -151,7 +151,7 @@ class Residuals:
     touching: Sequence[Array]
 
     def excess(self) -> Array:
-        """The greatest violation of rows by each law, relative to the right side or 1; 0 where there is none."""
+        """The greatest violation of rows by each law, relative to the right side or 1; 0 without a violation."""
         shortfalls = np.zeros(len(self.point))
         law, cell, sign = self._doubtful()
         if len(law):
@@ -161,7 +161,7 @@ class Residuals:
         return shortfalls
 
     def _doubtful(self) -> tuple[NDArray[np.intp], NDArray[np.intp], Array]:
-        """Laws, cells and signs for which neither the first terms nor a contact shows that rows are kept."""
+        """Laws, cells and signs for which neither the first terms nor a contact proves the rows."""
         both = self.cells.twofold
         first = (self.point @ self.cells.weighed).reshape(len(self.point), _WEIGHED, -1)
         beyond, bent = self._rest()
@@ -190,7 +190,7 @@ class Residuals:
         return np.asarray(self.room - CELL_MARGIN * np.maximum(1.0, np.abs(self.room)))
 
     def _reached(self, most: Array) -> Flags:
-        """On which cells the room is not known to be kept."""
+        """The cells on which the slack is not proven to be positive."""
         limit, above = self._limit, np.empty(most.shape, dtype=np.bool_)
         for i, block in zip(self.cells.order, self.cells.blocks, strict=True):
             np.greater_equal(most[:, block], limit[:, i, None], out=above[:, block])
@@ -224,7 +224,7 @@ class Residuals:
         return np.asarray(marked[law, cell])
 
     def _series(self, law: NDArray[np.intp], cell: NDArray[np.intp], sign: Array, room: Array) -> Array:
-        """The residuals on cells of some laws: their first terms, less what the others can be."""
+        """The residuals of some laws on cells: their first terms, less a bound of the remaining terms."""
         series = self.cells.by_cell
         leading = min(_LOOKED_AT, series.shape[1])
         rows = np.empty((len(law), leading))
@@ -244,7 +244,7 @@ def _bends(count: int) -> Array:
 
 
 def _below_zero(rows: Array) -> Array:
-    """How far each series may be below 0 on [-1, 1], halved until a bound shows it."""
+    """A bound of each series below 0 on [-1, 1], by repeated halving."""
     depths = np.zeros(len(rows))
     owner = np.arange(len(rows))
     for _ in range(_HALVINGS):
@@ -260,7 +260,7 @@ def _below_zero(rows: Array) -> Array:
 
 
 def _lowest(rows: Array) -> Array:
-    """A lower bound of each series on [-1, 1], at most 0 but for rounding where it matters; NaN where none shows."""
+    """A lower bound of each series on [-1, 1], capped at 0; NaN where no rule gives a bound."""
     n = np.arange(rows.shape[1])
     sizes = np.abs(rows)
     spread = sizes[:, 1:].sum(axis=1)
@@ -298,7 +298,7 @@ def _by_tangent(rows: Array) -> Array:
 
 @lru_cache(maxsize=16)
 def _halving(count: int) -> tuple[Array, Array]:
-    """Matrices from coefficients on an interval to those on its two halves."""
+    """Matrices from coefficients on an interval to coefficients on its two halves."""
     angle = (np.arange(count) + 0.5) * (np.pi / count)
     back = np.cos(np.outer(angle, np.arange(count))) * (2.0 / count)
     back[:, 0] /= 2.0

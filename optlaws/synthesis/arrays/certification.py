@@ -44,7 +44,7 @@ class Certification:
 
     @property
     def broken(self) -> Array:
-        """The greatest of what may not be above 0, but for rounding."""
+        """The greatest of several values that must not exceed 0, beyond rounding."""
         return np.asarray(np.maximum(np.maximum(self.excess, self.pull), self.inward))
 
     @property
@@ -135,7 +135,7 @@ class RowChecks:
 
     @kept_property
     def reach(self) -> Array:
-        """How far from a contact of each family its tangent is relied on: nowhere, but where cells are looked at."""
+        """The distance from a contact of each family up to which its tangent is used; 0 without cells."""
         shortfalls = np.zeros(len(self.families))
         if self._wide:
             shortfalls[list(self._wide)] = self._cells.reach

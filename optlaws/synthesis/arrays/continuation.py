@@ -127,11 +127,11 @@ class ParametricContinuation:
 
     @property
     def reach(self) -> float:
-        """How far it is from end to end."""
+        """The length of the continued range."""
         return self.greatest - self.least
 
     def whole(self, starts: Array) -> list[StructureSegment]:
-        """All segments from one end to the other, by ascending t, as far as they were found."""
+        """All segments from one end to the other, by ascending t, as far as they are known."""
         for t in starts.tolist():
             optimum = solve(self.path.program(t)).optimum
             first = None if optimum is None else self._begun(t, optimum)

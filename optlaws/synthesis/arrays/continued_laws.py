@@ -38,7 +38,7 @@ _STARTS = np.array([0.5, 0.25, 0.75, 0.0, 1.0])
 
 
 def laws_along(path: Path, t: Array) -> SolvedBatch:
-    """The optima at ascending t, as far as they are proven here.
+    """The optima at ascending t, as far as the continuation proves them.
 
     >>> from optlaws.synthesis.arrays.programs import between
     >>> from optlaws import Problem
@@ -123,7 +123,7 @@ def _fill(laws: SolvedBatch, path: Path, segment: StructureSegment, places: NDAr
 def _enter(
     target: SolvedBatch, path: Path, structure: Structure, places: NDArray[np.intp], near: tuple[Array, States]
 ) -> None:
-    """Enter laws at some t, with states near to theirs, as far as they are proven."""
+    """Add laws at some t, with nearby states, as far as they are proven."""
     (t, guess), size = near, _chunk(structure)
     for i in range(0, len(t), size):
         some = slice(i, i + size)
@@ -262,7 +262,7 @@ def _put(
 
 
 def _barycentric(nodes: Array, t: Array) -> Array:
-    """The matrix from values at nodes to those of the polynomial through them at t."""
+    """The matrix from values at nodes to values at t of the polynomial through them."""
     if len(nodes) == 1:
         return np.ones((len(t), 1))
     span = (nodes[-1] - nodes[0]) / 4.0

@@ -107,7 +107,7 @@ def _with_right_sides(structure: Structure, numbers: Numbers, states: States) ->
 
 
 def rounding_charge(model: Model, below: AprioriBounds, slope: Array, blur: Array) -> Array:
-    """Most that each slope, wherever it is within its blur, can be worth in laws of which a priori bounds are known."""
+    """The greatest effect of rounding in the slopes on the bound, for laws with known a priori bounds."""
     greatest, least, sizes = below
     terms, beyond = model.space.terms, np.zeros(len(slope))
     for name, place in model.places.items():
@@ -143,7 +143,7 @@ def _below(path: Path, claim: float) -> AprioriBounds:
 
 
 def sums_of_rows(start: Array, weights: Array, rows: Array) -> Array:
-    """Sums of a start and each law's weighted rows, rounded once but for the square of the error.
+    """Sums of a start and each law's weighted rows, rounded only once up to second-order errors.
 
     Parameters
     ----------

@@ -60,7 +60,7 @@ def along_velocities(
 
 
 def least_count(problem: Problem) -> int:
-    """With fewer problems on a line they take longer together than each alone."""
+    """The least number of problems on a line that are solved faster together than alone."""
     if is_usual(model_of(problem)):
         return _LEAST_OF_USUAL
     if not problem.convex:
@@ -108,7 +108,7 @@ def _line(problems: list[Problem], values: Array) -> ProblemLine | None:
 
 
 def _on(path: Path, t: float, problem: Problem) -> bool:
-    """Whether a problem's program is the path's at t, but for rounding."""
+    """Whether a problem's program is the path's program at t, up to rounding."""
     numbers, own_numbers = (
         path.numbers(np.array([t])),
         numbers_of(in_units_of(path.model.program, model_of(problem).program)),

@@ -160,7 +160,7 @@ def batch_families(model: Model) -> list[BatchFamily]:
 
 @dataclass(frozen=True, eq=False)
 class States:
-    """Variables, places, multipliers and those of the equations of many laws of one structure, one a row."""
+    """Variables, contacts and multipliers of many laws with the same structure, a row for each law."""
 
     x: Array
     u: Array
@@ -176,7 +176,7 @@ class States:
 
     @property
     def packed(self) -> Array:
-        """All of it, side by side."""
+        """All parts of the state in a single matrix."""
         return np.concatenate([self.x, self.u, self.weights, self.equations], axis=1)
 
     @classmethod
@@ -193,7 +193,7 @@ def packed(state: ActiveSet) -> Array:
 
 
 def step(structure: Structure, numbers: Numbers, states: States) -> tuple[States, Array]:
-    """The states one step of Newton's method further, and the size of each step; infinite where there is none."""
+    """The states after a step of Newton's method, and the size of each step; infinite where the step fails."""
     program, free = structure.model.program, structure.moving
     jets, point = _Jets.of(structure, states), with_one(states.x)
     turned = product(jets.slope, point)
@@ -222,7 +222,7 @@ def step(structure: Structure, numbers: Numbers, states: States) -> tuple[States
 
 @dataclass(frozen=True, eq=False)
 class _Jets:
-    """Planes of the contacts' rows, less the right sides' variables; of free ones their slopes and how they bend."""
+    """Planes of the contacts' rows, with right sides subtracted; for free contacts also their slopes and curvatures."""
 
     value: Array
     slope: Array

@@ -1,4 +1,4 @@
-"""Laws of least power along a path: locally best each, as they are alone, with the quick bound of each.
+"""Laws of least power along a path: local optima, as for single problems, with the quick bound of each.
 
 That a law is the best nearby, its state shows; that no other branch of laws is better, laws that are sought from all
 starts do, here and there on the path. Between two that are as good as those of the path, the path's are kept.
@@ -29,7 +29,7 @@ _PLACES = 256
 
 
 def least_power(problem: Problem) -> bool:
-    """Whether a problem asks for the least D alone, among laws that are a convex set.
+    """Whether a problem minimises D alone over a convex set of laws.
 
     >>> least_power(Problem(B=1.7, order=4, minimise="D")), least_power(Problem(B=1.7, order=4, D=(0.0, 6.0)))
     (True, False)

@@ -1,4 +1,4 @@
-"""A problem whose numbers are arrays: one problem for each place of their common shape."""
+"""A problem whose numbers are arrays: a problem for each element of their common shape."""
 
 from __future__ import annotations
 
@@ -93,7 +93,7 @@ class ProblemArray:
 
     @classmethod
     def of(cls, problems: Sequence[Problem | None], shape: tuple[int, ...] | None = None) -> ProblemArray:
-        """Problems that are there already, as an array of one dimension or of another shape; None where there is none.
+        """Existing problems as an array of a given shape; None where they have no common form.
 
         Examples
         --------
@@ -109,7 +109,7 @@ class ProblemArray:
 
     @property
     def shape(self) -> tuple[int, ...]:
-        """The common shape of the entries' arrays; () where there are none."""
+        """The common shape of the entries' arrays; () for scalars."""
         return self._shape
 
     @property
@@ -177,7 +177,7 @@ class ProblemArray:
 
     @kept_property
     def _first(self) -> Problem | None:
-        """A problem of which the others differ in the number for B alone; None where the other entries make none."""
+        """A problem from which the others differ in B alone; None if the other entries are arrays too."""
         try:
             return Problem(**{**self._entries, "B": 2.0})
         except InputError:
@@ -248,7 +248,7 @@ def map_arrays(function: Callable[..., Any], *arrays: Any) -> NDArray[Any]:
 
 
 def _with_arrays(value: Any, name: str) -> Any:  # noqa: ANN401
-    """The value with arrays for all in it that numpy makes some of; a pair stays one."""
+    """The value with arrays in place of array-like parts; a pair stays a pair."""
     if isinstance(value, Mapping):
         return {key: _with_arrays(entry, f"{name}[{key!r}]") for key, entry in value.items()}
     if isinstance(value, tuple) and len(value) == 2:

@@ -38,7 +38,7 @@ class Numbers:
 
 @dataclass(frozen=True, eq=False)
 class Path:
-    """Programs along a straight path: their numbers are affine in t, all else is that of the model."""
+    """Programs along a straight path: numbers that are affine in t, everything else as in the model."""
 
     model: Model  #: the program of one of them
     problems: tuple[Problem, ...]  #: the problems at its ends
@@ -170,7 +170,7 @@ class SolvedBatch(JsonText):
         return ~np.isnan(self.objective)
 
     def active_set(self, place: int) -> ActiveSet:
-        """One optimum in the terms of the solver of single programs."""
+        """An optimum in the form of the solver for single programs."""
         contacts = self.family[place] != NO_CONTACT
         return ActiveSet(
             x=self.x[place].copy(),

@@ -49,7 +49,7 @@ def _stored(segment: StructureSegment) -> StoredStructure:
 
 
 def structure_without_velocity(problem: Problem) -> list[StoredStructure]:
-    """The structure of the best law of a problem in which no B is asked; none where it does not show, or is flat.
+    """The structure of a problem's best law without a prescribed B; None where it is unclear or flat.
 
     Examples
     --------
@@ -68,7 +68,7 @@ def structure_without_velocity(problem: Problem) -> list[StoredStructure]:
 
 
 def usual_structures() -> dict[str, list[StoredStructure]]:
-    """All structures that are stored, by their keys."""
+    """All stored structures, by their keys."""
     structures: dict[str, list[StoredStructure]] = {}
     for minimise, degrees in _DEGREES.items():
         for order in _ORDERS:

@@ -1,1 +1,1 @@
-"""Constraints that hold at every k, and the semi-infinite programs made of them."""
+"""Constraints that hold at every k, and their semi-infinite programs."""

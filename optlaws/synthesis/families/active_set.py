@@ -41,7 +41,7 @@ class ActiveSet:
         return cls.of_columns(x=x, **known, equality_multipliers=equality_multipliers)
 
     def at(self, x: Array) -> ActiveSet:
-        """The active set with other variables; the same object for equal ones."""
+        """The active set with other variables; the same object if they are equal."""
         return self if x is self.x else replace(self, x=x)
 
     def moved(self, contact: int, u: float) -> ActiveSet:

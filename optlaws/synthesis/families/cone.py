@@ -31,7 +31,7 @@ class ConeFamily(SeriesFamily, NonlinearFamily):
         return 0.5 * (1.0 + u)
 
     def u(self, k: Array) -> Array:
-        """The u of such a number."""
+        """The place u in [-1, 1] of a number in [0, 1]."""
         return 2.0 * k - 1.0
 
     def nodes(self) -> Array | None:
@@ -43,7 +43,7 @@ class ConeFamily(SeriesFamily, NonlinearFamily):
         return np.asarray(chebyshev.chebpts2(count)[::-1])
 
     def tangent(self, u: float, direction: Array) -> Array:
-        """The affine function that a unit vector makes of p at u; |p| is nowhere below it."""
+        """The affine function of p at u along a unit vector; it is nowhere above |p|."""
         columns = self.columns(np.array([u]))[0, 0]
         return np.asarray(direction[0] * columns.real + direction[1] * columns.imag)
 

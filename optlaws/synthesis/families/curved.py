@@ -143,12 +143,12 @@ class CurvedFamily(FormulaFamily):
 
     @property
     def continuable(self) -> bool:
-        """Whether it is smooth over the whole interval."""
+        """Whether the family is smooth over the whole interval."""
         return self.edges == (1.0, -1.0)
 
     @property
     def proving(self) -> bool:
-        """Whether it is convex with every sign that counts."""
+        """Whether the family is convex with every relevant sign."""
         return set(self.signs) <= set(self.tangents)
 
     def planes(self, u: Array, point: Array) -> tuple[Array, Array, Array]:
@@ -219,7 +219,7 @@ class CurvedFamily(FormulaFamily):
         return np.asarray(peaks(signed) - size)
 
     def _series(self, formula: Formula, point: Array) -> Array | None:
-        """The series of a formula along each law; None where too few points resolve it."""
+        """The series of a formula along each law; None where a limited number of points cannot resolve it."""
         degrees = {name: len(part.series) - 1 for name, part in self.parts}
         known = degree(formula, {**degrees, "k": 1})
         if known is not None:
@@ -362,7 +362,7 @@ class IntegralFamily(WholeLawFamily, FormulaFamily):
         return size, 0.5 / size
 
     def touched(self, total: Array) -> tuple[Array, Array]:
-        """The tangent at a sum over the nodes, and its slope with respect to the sum; f is nowhere below it.
+        """The tangent at a sum over the nodes, and its slope in the sum; f is nowhere below the tangent.
 
         Near 0, where the slope of a root is kept finite, the rest of the tangent is one of slope 0.
         """

@@ -50,7 +50,7 @@ class Energy:
         return {count: self._rule(count) for count in _NODES}
 
     def _rule(self, count: int) -> tuple[Array, Array, Array, Array]:
-        """t² at so many nodes, their weights, and rows of both there."""
+        """Nodes t² of a quadrature rule with a number of points, their weights, and the rows on both sides there."""
         nodes, weights = legendre.leggauss(count)
         t = 0.5 * (nodes + 1.0)
         below, above = (family.columns(2.0 * t * t - 1.0)[0] for family in (self.below, self.above))
@@ -229,7 +229,7 @@ class EnergyFamily(ConstraintFamily):
         return real_parts_of_roots(slope)
 
     def minorant(self, x: Array) -> Array:
-        """An affine function, the constant last, that Y B is nowhere below in laws of the B that the law x has.
+        """An affine lower bound of Y B, the constant last, for all laws with the same B as the law x.
 
         1/I is at least its tangent 2/J - I/J² at any J, and the integral I at most its tangent at any law.
         """

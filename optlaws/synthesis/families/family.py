@@ -1,4 +1,4 @@
-"""Families of constraints that hold at every k, and the semi-infinite programs made of them."""
+"""Families of constraints that hold at every k, and their semi-infinite programs."""
 
 from __future__ import annotations
 
@@ -171,7 +171,7 @@ def last_result(method: Callable[..., Result]) -> Callable[..., Result]:
 
 
 class NonlinearFamily(BatchFamily):
-    """A batch family that is not affine in the law; of one law it says what it does of a batch of one."""
+    """A batch family that is not affine in the law; a single law is a batch of one."""
 
     @abstractmethod
     def hessians(self, u: Array, point: Array, weights: Array) -> Array:
@@ -198,7 +198,7 @@ class NonlinearFamily(BatchFamily):
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class SeriesFamily(BatchFamily):
-    """f is made of Chebyshev series in u: one for each variable, and one that belongs to none as the last column."""
+    """A family whose f consists of Chebyshev series in u: one for each variable, the constant series last."""
 
     series: NDArray[Any]
 
@@ -349,7 +349,7 @@ class RatioFamily(EvenFamily):
     scale: Array = field(default_factory=lambda: np.ones(1))
 
     def in_units(self, units: Array, unit: float) -> Self:
-        """The base's column in other units; those of the coordinates stay."""
+        """The base's column in other units; the columns of the coordinates are unchanged."""
         factors = np.append(units[: len(self.scale) - 1] / unit, 1.0 / unit)
         return replace(super().in_units(units, unit), scale=self.scale * factors)
 
@@ -401,7 +401,7 @@ class ProductFamily(NonlinearFamily):
         return [factor.columns(u.reshape(-1)).reshape(3, *u.shape, -1) for factor in (self.first, self.second)]
 
     def hessians(self, u: Array, point: Array, weights: Array) -> Array:  # noqa: ARG002
-        """The sum of weights times the rows of one factor by those of the other."""
+        """The weighted sum of products of the factors' rows, as second derivatives."""
         g, h = (columns[0, :, :, :-1] for columns in self._columns(u))
         half = np.matmul((g * weights[:, :, None]).transpose(0, 2, 1), h)
         return np.asarray(half + half.transpose(0, 2, 1))
@@ -428,7 +428,7 @@ class ProductFamily(NonlinearFamily):
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class WholeLawFamily(NonlinearFamily):
-    """f says one number of a law as a whole, such as a norm or an integral. It has no place: u is 1."""
+    """A family for a single number of the whole law, such as a norm or an integral; u is always 1."""
 
     domain: tuple[float, float] = (1.0, 1.0)
 
@@ -510,7 +510,7 @@ class Program:
         return np.ones(len(self.right)) if self.equation_units is None else self.equation_units
 
     def multipliers_of_equations(self, stated: Sequence[float]) -> Array:
-        """The program's own multipliers, from those of the equations and the objective as the problem has them."""
+        """The program's multipliers, from the multipliers of the problem's equations and objective."""
         units = self._units
         return np.array(stated[: len(units)], dtype=np.float64) * units[: len(stated)] / self.unit
 

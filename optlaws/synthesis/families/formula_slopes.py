@@ -51,7 +51,7 @@ class FactorTables:
 
     @kept_property
     def _reach(self) -> tuple[float, float]:
-        """The middle of all cells, and how far from it positions may be."""
+        """The centre of all cells, and the greatest distance of positions from it."""
         low, high = float(self.edges[0]), float(self.edges[-1])
         return (low + high) / 2.0, (high - low) / 2.0 + BESIDE_TABLE
 
@@ -82,7 +82,7 @@ class FactorTables:
 
 @lru_cache(maxsize=256)
 def tabulated(formulas: tuple[Formula, ...]) -> tuple[tuple[Formula, ...], FactorTables | None]:
-    """The formulas with names for their long factors of the position, and tables of these; None where there are none.
+    """The formulas with names for their long factors of the position, and the factors' tables; None without factors.
 
     >>> from optlaws.formulas.reading import read
     >>> [outer], tables = tabulated((read("(1 + sin(a)^2/(2 + cos(3*a)))*c + b"),))
@@ -185,7 +185,7 @@ class Slopes:
 
     @kept_property
     def _outer(self) -> tuple[_Symbolic, FactorTables] | None:
-        """The formula over its names and those of factors, and the factors' tables."""
+        """The formula over its names and the names of factors, with the factors' tables."""
         tables = self.tables
         formulas, tables = tabulated((self.formula,)) if tables is None else ((self.formula,), tables)
         return None if tables is None else (_Symbolic(formulas[0], (*self.names, *tables.factors)), tables)
@@ -307,5 +307,5 @@ def _values(formulas: Together, at: Mapping[str, Array]) -> Array:
 
 
 def _slopes(values: Array) -> Array:
-    """The values of slopes; 0 where there is none: at the tip of a norm that is a slope of some tangent."""
+    """The values of slopes; 0 at the tip of a norm, where 0 is the slope of a valid tangent."""
     return np.where(np.isnan(values), 0.0, values)

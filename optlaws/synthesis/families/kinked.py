@@ -51,7 +51,7 @@ class KinkSplit:
     weights: Array
 
     def by_formula(self) -> Iterator[tuple[Formula, dict[str, Array], Array, Array]]:
-        """Each smooth formula but 0 with what the names are where it holds, their columns, and the weights."""
+        """Each smooth nonzero formula with the names' values where it applies, their columns, and the weights."""
         count = len(self.weights) // len(self.stretches)
         for formula in dict.fromkeys(stretch.formula for stretch in self.stretches):
             if formula != _ZERO:
@@ -72,7 +72,7 @@ class KinkedIntegralFamily(IntegralFamily):
 
     @kept_property
     def _tabulated(self) -> tuple[Formula, Together, Together, FactorTables | None]:
-        """The formula and its switches, plain and bent ones, over names for factors of the position; their tables."""
+        """The formula and its switches over names for factors of the position, with the factors' tables."""
         plain, bent = knots(self.formula, self.names)
         (formula, *switches), tables = tabulated((self.formula, *plain, *bent))
         return formula, Together(tuple(switches[: len(plain)])), Together(tuple(switches[len(plain) :])), tables
@@ -99,7 +99,7 @@ class KinkedIntegralFamily(IntegralFamily):
         return False
 
     def columns_at(self, k: Array, turn: int = 0) -> Array:
-        """The names' columns at places, or those of their slopes by k."""
+        """The names' columns at places, or the columns of their slopes in k."""
         return self.rows(turn, k) * self.units
 
     def _names(self, point: Array, k: Array, columns: Array) -> dict[str, Array]:

@@ -65,17 +65,17 @@ def part_number(name: str) -> int | None:
 
 
 def branch(number: int, name: str) -> str:
-    """One of the smooth formulas, counted from 1, of which a constant's is the greatest."""
+    """The name of a smooth formula, counted from 1, among several whose maximum is a constant's formula."""
     return f"branch {number} of {name}"
 
 
 def envelope(number: int, name: str, sign: float) -> str:
-    """One of the convex formulas, counted from 1, that a formula is nowhere below, times a sign."""
+    """The name of a convex lower bound of a formula, counted from 1, times a sign."""
     return f"beneath {number} of {name}, {_SIDES[sign]}"
 
 
 def plane(number: int, name: str) -> str:
-    """One of the planes that a formula's rows are above in a box: from the middle (0) or from a corner on."""
+    """The name of a plane below a formula's rows in a box: at the centre (0) or at a corner."""
     return f"plane {number} of {name}"
 
 
@@ -111,7 +111,7 @@ def at(symbol: str, k: float) -> str:
 
 
 def velocity_at_peak(k: float | None) -> str:
-    """The equation that B is the velocity at k; with None, that B is what it is wherever b is greatest."""
+    """The name of the equation that B is the velocity at k; with None, B is the velocity at the free peak."""
     return "B" if k is None else f"{at('b', k)} = B"
 
 

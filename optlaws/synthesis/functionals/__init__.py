@@ -1,1 +1,1 @@
-"""Constants made of formulas: peaks, root mean squares, integrals and values of what a formula says of a motion."""
+"""Constants from formulas: peaks, root mean squares, integrals and values of formulas of a motion."""

@@ -1,4 +1,4 @@
-"""Formulas from callables: what they make of CasADi's symbols, read as a tree."""
+"""Formulas from callables, which are traced with CasADi's symbols and read as a tree."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Rows of formulas that are not affine in the law, and of what they are not below where derivatives are bounded."""
+"""Constraints from formulas that are not affine in the law, and their lower bounds where derivatives are bounded."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ class Branch:
 
     @property
     def convex(self) -> bool:
-        """Whether it is convex, with its sign."""
+        """Whether the formula is convex, with its sign."""
         kind = self.motion.curvature
         return kind.convex if self.sign > 0.0 else kind.concave
 
@@ -166,7 +166,7 @@ def _known_edges(space: LawSpace, motion: MotionFormula) -> list[float]:
 
 
 def _cells(space: LawSpace, motion: MotionFormula, edges: list[float]) -> int:
-    """Into how many cells the parts between edges are cut: until twice as many say the same along some laws."""
+    """The numbers of cells between edges, doubled until the values along some laws no longer change."""
     count, before, laws = rule_length(space, motion), np.full(_LAWS, np.nan), _some_laws(space)
     for power in range(_MOST_POWER + 1):
         k, weights = _rule(_cut(edges, 1 << power), count)
@@ -196,7 +196,7 @@ def _cut(edges: list[float], cells: int) -> list[float]:
 
 
 def rule_cells(space: LawSpace, motion: MotionFormula, count: int) -> Array:
-    """The k between which the formula is smooth, as many cells between them as make up a count at least."""
+    """The breaks between which the formula is smooth, with at least a given number of cells between them."""
     edges = rule_edges(space, motion)
     return np.array(_cut(edges, -(-count // (len(edges) - 1))))
 
@@ -215,7 +215,7 @@ def columns_of(space: LawSpace, nu: int, k: Array) -> Array:
 
 
 def envelopes(motion: MotionFormula, boxes: Boxes) -> list[Formula]:
-    """Convex formulas that a quadratic one is nowhere below while derivatives are in their boxes (McCormick 1976).
+    """Convex lower bounds of a quadratic formula while derivatives are in their boxes (McCormick 1976).
 
     None where the formula is not quadratic, a factor changes its sign or a derivative in a product has no bounds.
 

@@ -1,4 +1,4 @@
-"""Constants made of a formula: its peak, its root mean square, its integral, its value at a place."""
+"""Constants from a formula: its peak, its root mean square, its integral, its value at a place."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ _SHOWN = 200  # letters of a formula in an error
 
 @dataclass(frozen=True, repr=False)
 class OfFormula(Functional):
-    """A constant made of a formula of the motion."""
+    """A constant from a formula of the motion."""
 
     motion: MotionFormula  #: the formula, and over which part of the interval
 
@@ -56,7 +56,7 @@ class OfFormula(Functional):
 
     @property
     def why(self) -> str:
-        """The rule that says whether the constant is convex."""
+        """The rule that decides whether the constant is convex."""
         return self.motion.verdict.why
 
     @property
@@ -89,15 +89,15 @@ class OfFormula(Functional):
 
     @kept_property
     def sign(self) -> int:
-        """1 where the formula is nowhere below 0 whatever the law, -1 where nowhere above, 0 where neither is known."""
+        """1 where the formula is nonnegative for every law, -1 where nonpositive, 0 where neither is known."""
         return Judge(frozenset(ORDERS), self.motion.start, self.motion.stop).sign(self.motion.formula)
 
     def parts(self, *, symmetric: bool) -> tuple[MotionFormula, ...]:
-        """The formula, or of symmetric laws what says the same on the first half."""
+        """The formula, or for symmetric laws equivalent formulas on the first half."""
         return self.motion.halves() if symmetric else (self.motion,)
 
     def sizes(self, space: LawSpace) -> tuple[tuple[int, float, float], ...]:
-        """A bound of the law's size, kept for the space."""
+        """A bound of the law's size, cached by the space."""
         known = space.cached(("size", self.name), lambda: np.array(self._size(space) or ()))
         return ((int(known[0]), float(known[1]), float(known[2])),) if len(known) else ()
 
@@ -108,7 +108,7 @@ class OfFormula(Functional):
     def convex_families(
         self, space: LawSpace, slack: Array, bound: float, problem: Asked
     ) -> tuple[ConstraintFamily, ...]:
-        """The rows themselves where they are convex; else convex ones beneath, and what the constant is at least."""
+        """The rows themselves where they are convex; else rows of convex lower bounds, and a bound of the constant."""
         if self.convex:
             return self.families(space, slack, bound)
         floor = self.floor(space.boundary)
@@ -125,11 +125,11 @@ class OfFormula(Functional):
         return []
 
     def beneath(self, boxes: Boxes, *, symmetric: bool) -> list[Branch]:  # noqa: ARG002
-        """Convex formulas that the constant is nowhere below while derivatives are in their boxes."""
+        """Convex lower bounds of the constant's formula while derivatives are in their boxes."""
         return []
 
     def floor(self, conditions: BoundaryConditions) -> float:  # noqa: ARG002
-        """Zero where the formula is nowhere below 0 or its sign does not count, else minus infinity."""
+        """Zero where the formula is nonnegative or both signs count, else minus infinity."""
         return 0.0 if self.of_magnitude or self.sign > 0 else -inf
 
     def families(self, space: LawSpace, slack: Array, bound: float) -> tuple[ConstraintFamily, ...]:
@@ -145,7 +145,7 @@ class OfFormula(Functional):
 
 @dataclass(frozen=True, repr=False)
 class FormulaPeak(OfFormula):
-    """Peak of a formula: magnitude, or one sign only; made by `peak`."""
+    """Peak of a formula: of its magnitude, or of one sign only; constructed by `peak`."""
 
     signs: tuple[float, ...] = (1.0, -1.0)
 
@@ -156,11 +156,11 @@ class FormulaPeak(OfFormula):
 
     @property
     def counted(self) -> tuple[float, ...]:
-        """The signs that may count: of what is nowhere below 0 only one."""
+        """The relevant signs: a single one for a formula that is nonnegative everywhere."""
         return (float(self.sign),) if self.of_magnitude and self.sign and not self.affine else self.signs
 
     def floor(self, conditions: BoundaryConditions) -> float:
-        """A peak of one sign may be below 0; what the end conditions say of the formula it is not below."""
+        """A lower bound of the peak: a one-sided peak may be negative, but not below the formula's end values."""
         known = known_values(self.motion, conditions)
         least = 0.0 if self.of_magnitude or self.sign == self.signs[0] else -inf
         return max([least, *(sign * value - VALUE_ROUNDING * size for value, size in known for sign in self.signs)])
@@ -196,14 +196,14 @@ class FormulaPeak(OfFormula):
         return [branch for branches in several for branch in branches or []]
 
     def _families(self, space: LawSpace, slack: Array, bound: float) -> tuple[ConstraintFamily, ...]:
-        """The families of the formula: one, or two if it is not symmetric and laws are symmetric."""
+        """The families of the formula: one, or two for symmetric laws if the formula is not symmetric."""
         if self.affine:
             halves = sides(self.motion, self.name, self.signs, symmetric=space.symmetric)
             return tuple(rows(space, side, slack, bound) for side in halves)
         return super()._families(space, slack, bound)
 
     def beneath(self, boxes: Boxes, *, symmetric: bool) -> list[Branch]:
-        """Convex formulas that those of the peak are nowhere below, with the peak's convex ones themselves."""
+        """Convex lower bounds of the peak's formulas, and the formulas that are convex themselves."""
         convex = []
         for branch in self.branches(symmetric=symmetric):
             if branch.convex:
@@ -220,7 +220,7 @@ class FormulaPeak(OfFormula):
 
 @dataclass(frozen=True, repr=False)
 class FormulaRms(OfFormula):
-    """Root mean square of a formula over its part of the interval; made by `rms`."""
+    """Root mean square of a formula over its part of the interval; constructed by `rms`."""
 
     @property
     def of_magnitude(self) -> bool:
@@ -265,7 +265,7 @@ class FormulaRms(OfFormula):
 
 @dataclass(frozen=True, repr=False)
 class FormulaIntegral(OfFormula):
-    """Integral of a formula over its part of the interval; made by `integral`."""
+    """Integral of a formula over its part of the interval; constructed by `integral`."""
 
     @property
     def scale(self) -> float:
@@ -287,7 +287,7 @@ class FormulaIntegral(OfFormula):
 
 @dataclass(frozen=True, repr=False)
 class FormulaValue(OfFormula):
-    """Value of a formula at one k; made by `value`."""
+    """Value of a formula at a single k; constructed by `value`."""
 
     def value(self, law: MotionLaw) -> float:
         """The value along a law."""
@@ -309,7 +309,7 @@ def greatest_along(motion: MotionFormula, sign: float, law: MotionLaw) -> float:
 
 
 def refusal(constant: OfFormula) -> str | None:
-    """Why a formula cannot be minimised or bounded: its kinks are not those of a greatest of smooth formulas."""
+    """The reason why a formula cannot be optimised: its kinks are not those of a maximum of smooth formulas."""
     signs = constant.counted if isinstance(constant, FormulaPeak) else (1.0,)
     bad = [sign for sign in signs if split(constant.motion, sign, constant.name) is None]
     if not bad or not isinstance(constant, FormulaPeak | FormulaValue):
@@ -322,7 +322,7 @@ def refusal(constant: OfFormula) -> str | None:
 
 
 def boxes_of(problem: Asked) -> dict[str, tuple[float, float]]:
-    """Between which values derivatives are in every law of a problem, as far as it says.
+    """The ranges of the derivatives in all laws of a problem, as far as its bounds imply them.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""Constants made from formulas: `peak("c + 0.2*b")`, `rms(...)`, and the torque of a drive."""
+"""Constructors of constants from formulas: `peak("c + 0.2*b")`, `rms(...)`, and the torque of a drive."""
 
 from __future__ import annotations
 
@@ -210,7 +210,7 @@ def drive_torque(*, inertia: str = "1", friction: str = "0", load: str = "0") ->
 
 
 def _motion(formula: Any, start: float, stop: float) -> MotionFormula:  # noqa: ANN401 - it is checked here
-    """The formula that a text or a tree says, which must depend on the law."""
+    """The formula of a text or a tree, which must depend on the law."""
     if isinstance(formula, Formula):
         motion, text = checked(MotionFormula(formula, start, stop), str(formula)), str(formula)
     elif isinstance(formula, str) or callable(formula):

@@ -60,7 +60,7 @@ class SizeBound(NamedTuple):
 
     @classmethod
     def of_acceleration(cls, factor: float, offset: float) -> Self:
-        """The bound of |c|, with room for rounding."""
+        """The bound of |c|, with a margin for rounding."""
         return cls(_ORDER, _ROUNDED * factor, _ROUNDED * offset)
 
     def times(self, share: float) -> Self:
@@ -203,7 +203,7 @@ def _turning(rows: Array, right: Array, weights: Array) -> tuple[Array, float] |
 
 
 def _balanced(rows: Array, weights: Array, near: Array) -> Array:
-    """The weights nearest to given ones that no law moves."""
+    """The weights nearest to given ones for which the weighted sum does not depend on the law."""
     roots = np.sqrt(weights)
     scaled = roots[:, None] * rows
     return np.asarray(near - roots * (scaled @ np.linalg.lstsq(scaled, near / roots, rcond=None)[0]))
@@ -339,7 +339,7 @@ def _by_tangents(space: LawSpace, plain: IntegralFamily, family: IntegralFamily)
 
 
 def _summed(space: LawSpace, lowest: Array, steps: Array, heights: Array, shares: Array) -> SizeBound:
-    """The bound that weighted tangents say."""
+    """The bound that follows from weighted tangents."""
     rule = space.quadrature(2)
     means = rule.weights @ np.abs(rule.values[:, :-1] @ steps)
     factors = shares.sum(axis=1).reshape(2, -1).max(axis=0)
@@ -386,7 +386,7 @@ def _tangents(family: IntegralFamily, lowest: Array, ways: Array, steps: Array) 
 
 
 def _shares(slopes: Array) -> Array | None:
-    """Weights of tangents, all at least 0, that leave each coordinate in turn, then each with its sign turned."""
+    """Nonnegative weights of tangents that isolate each coordinate in turn, with both signs."""
     count = slopes.shape[1]
     units = np.vstack([np.eye(count), -np.eye(count)])
     if len(slopes) < 2 * count + 1 or not np.isfinite(slopes).all():

@@ -43,7 +43,7 @@ def check_ends(motion: MotionFormula, conditions: BoundaryConditions) -> None:
 
 
 def _no_value(formula: Formula, part: Formula, what: str) -> FormulaError:
-    """The error that points at a part of a formula as it is printed."""
+    """The error that points at a part of a formula in its printed form."""
     text = str(formula)
     places = (same.place for same in read(text).walk() if same == part)
     return FormulaError(what, text, next(places, 0))

@@ -44,7 +44,7 @@ def law_in_time(move: TimedMove, duration: float, warm: ActiveSet | None, shorte
 def _no_law(
     move: TimedMove, duration: float, error: InfeasibleProblem | SolverFailure
 ) -> InfeasibleProblem | SolverFailure:
-    """The error of a space without laws: in any time from rest to rest, else in one that the limits need."""
+    """The error of a space without laws: without any from rest to rest, or in a time that the limits require."""
     if isinstance(error, SolverFailure):
         return error
     message = f"no time is long enough: {error.args[0]}"

@@ -1,4 +1,4 @@
-"""A limit of the vibration that a move leaves in what it drives, whose number of vibrations grows with the time."""
+"""A limit of the residual vibration after a move, in a follower that vibrates more often in longer times."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ class LawSize(NamedTuple):
 
 @dataclass(frozen=True)
 class FollowerResidual(JsonText):
-    """The residual acceleration of an elastic follower after a move, and what it is at most.
+    """The residual acceleration of an elastic follower after a move, with its limit.
 
     Attributes
     ----------

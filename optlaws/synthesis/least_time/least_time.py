@@ -155,7 +155,7 @@ class LeastTime(JsonText):
 
     @classmethod
     def from_dict(cls, data: Mapping[str, Any]) -> LeastTime:
-        """Read what `to_dict` wrote; the law and the proofs are held against the move and its limits.
+        """Read the output of `to_dict`; the law and the proofs are checked against the move and its limits.
 
         Raises
         ------

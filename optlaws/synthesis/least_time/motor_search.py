@@ -116,7 +116,7 @@ def _exclude(trials: _Trials, proofs: list[TimeProof], duration: float) -> float
 
 
 def _bracket(trials: _Trials, logarithm: float) -> tuple[float, float]:
-    """Logarithms of a time that is too short and of one that is enough.
+    """Logarithms of a time that is too short and of a time that is long enough.
 
     Raises
     ------

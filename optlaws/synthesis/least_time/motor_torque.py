@@ -28,7 +28,7 @@ _MOST_LINES = 100
 
 @dataclass(frozen=True)
 class LossyGear(JsonText):
-    """A gear that loses power, and what the motor before it takes itself: J c + g b + Q beside the load X behind it.
+    """A gear with losses, with the load J c + g b + Q on its motor side, and the load X behind it.
 
     The torque at the motor is J c + g b + Q + max(X/eta_1, X eta_2).
 
@@ -95,7 +95,7 @@ class LossyGear(JsonText):
 
 
 class TimedLimit(NamedTuple):
-    """A limit of a law in a time: its name, the constant of the law and what it is at most."""
+    """A limit of a law in a time: its name, the constant of the law and the greatest allowed value."""
 
     name: str
     constant: Functional
@@ -169,7 +169,7 @@ class MotorTorque(JsonText):
 
     @property
     def lines(self) -> tuple[tuple[float, float], ...]:
-        """The limit of the peak and the lines of the curve: a torque at rest, and how much it falls with b."""
+        """The limit of the peak and the lines of the motor's curve: a torque at rest, and its decrease with b."""
         return (*(() if self.peak is None else ((self.peak, 0.0),)), *self.curve)
 
     @property
@@ -236,7 +236,7 @@ class MotorTorque(JsonText):
         ) and (greatest < inf or all(self.unit * steep + fall <= 0.0 for _, fall in self.lines))
 
     def text(self, duration: float) -> str:
-        """T² times the torque in the time T, in its unit: the inertia's part stays as it is."""
+        """T² times the torque in the time T, in its unit: so the inertia's part does not depend on T."""
         load = self._behind(duration)
         return load if self.gear is None else self.gear.text(load, duration)
 

@@ -1,4 +1,4 @@
-"""Limits of velocity, acceleration, jerk and snap of a move, and the problem that they make of its time."""
+"""Limits of velocity, acceleration, jerk and snap of a move, and the problem that they define in a given time."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ class RateLimit(NamedTuple):
 
 @dataclass(frozen=True)
 class MoveLimits(JsonText):
-    """Limits of a move, in units of the stroke and seconds; None where there is none.
+    """Limits of a move, in units of the stroke and seconds; None for no limit.
 
     Attributes
     ----------
@@ -99,7 +99,7 @@ class MoveLimits(JsonText):
         return tuple(RateLimit(name, of, nu, limit / stroke) for name, of, nu, limit in known if limit is not None)
 
     def scaled(self, name: str, factor: float) -> MoveLimits:
-        """The limits with one of them times a factor; the acceleration's both ways where they are one.
+        """The limits with one of them multiplied by a factor; both sides of a common acceleration limit are scaled.
 
         Examples
         --------
@@ -209,17 +209,17 @@ class TimedMove:
 
     @property
     def at_rest(self) -> bool:
-        """Whether both ends are at rest: then limits that are kept in one time are kept in any longer one."""
+        """Whether both ends are at rest: then limits that hold in a time hold in any longer time."""
         return self.start_velocity == self.end_velocity == 0.0 and self.concave
 
     @property
     def concave(self) -> bool:
-        """Whether multipliers leave a concave function of the time: nothing but velocities moves at the ends."""
+        """Whether multipliers give a concave function of the time: only velocities may be nonzero at the ends."""
         return self.end_acceleration == self.end_jerk == 0.0
 
     @property
     def stays_possible(self) -> bool:
-        """Whether a law that keeps every limit but that of the vibration left keeps them in every longer time."""
+        """Whether a law that keeps all limits but the residual's keeps them in every longer time."""
         if self.torque is None:
             return self.at_rest
         greatest = inf if self.limits.velocity is None else self.limits.velocity / self.stroke
@@ -238,7 +238,7 @@ class TimedMove:
         return (*of_rates, *torques, *left)
 
     def limits_over(self, shortest: float, longest: float) -> tuple[TimedLimit, ...]:
-        """Limits of every law from rest to rest that keeps those of the move in some time from one to another.
+        """Limits of every law from rest to rest that keeps the move's limits in some time of an interval.
 
         Limits that are kept in a time are kept in every longer one, but for that of the vibration that is left.
         """
@@ -259,7 +259,7 @@ class TimedMove:
 
     @property
     def without_residual(self) -> TimedMove:
-        """The move without its limit of the vibration that is left: none of its laws is lost."""
+        """The move without its residual limit; every law of the original move remains a law of this one."""
         return replace(self, residual=None)
 
     @property

@@ -88,7 +88,7 @@ class MoveObjective(JsonText):
             raise InputError(f"{self._json_name}: regeneration must be a share from 0 to 1 of an energy, got {share!r}")
 
     def in_time(self, duration: float, stroke: float) -> TimedLimit:
-        """The constant of the law that is least, and what of it is 1 in SI units."""
+        """The constant of the law that is minimised, and its unit in SI."""
         if self.name in RATES:
             nu, of = RATES[self.name]
             return TimedLimit(self.name, of, power(duration, nu) / stroke)

@@ -1,4 +1,4 @@
-"""Proofs that no law keeps the limits of a move in any time of an interval: one set of multipliers for all of them.
+"""Proofs that no law keeps the limits of a move in any time of an interval: the same multipliers for all times.
 
 Multipliers m of rows |a^(nu)(k)| <= limit T^nu / h leave of every law f(T) = A + V T - sum m limit T^nu / h, in which V
 comes from the velocities at the ends: no law keeps the limits where f > 0. It is concave, so that f > 0 at two times is
@@ -132,7 +132,7 @@ class Multipliers:
         return cls(proof, weights, constant, tuple(ends))
 
     def of_stroke(self, ratio: float) -> Multipliers:
-        """These multipliers for a longer or shorter stroke, from rest to rest: the limits weigh accordingly."""
+        """These multipliers for a longer or shorter stroke, from rest to rest: the limits are scaled accordingly."""
         return replace(self, weights=tuple((nu, weight / ratio) for nu, weight in self.weights))
 
     def above(self, duration: float) -> float:
@@ -150,7 +150,7 @@ class Multipliers:
         }
 
     def longest(self, duration: float) -> float:
-        """The time up to which f stays above 0, from one at which it is, or back to which it is not."""
+        """The time up to which f stays positive, from a time at which it is, or back to a time at which it is not."""
         if self.above(duration) > 0.0:
             high = next(iter(self._roots(duration, 1.0)), inf)
             if high < inf:
@@ -169,7 +169,7 @@ class Multipliers:
         return self._crossing(low, high)
 
     def shortest(self, duration: float) -> float:
-        """The time down to which f stays above 0, from one at which it is; 0 where it is above at once."""
+        """The time down to which f stays positive, from a time at which it is; 0 where it is positive throughout."""
         low = next(iter(self._roots(duration, -1.0)), 0.0)
         if low == 0.0 and self.above(0.0) > 0.0:
             return 0.0
@@ -203,7 +203,7 @@ class Multipliers:
 
 
 def proof_by(certificate: Certificate, move: TimedMove, shortest: float, longest: float) -> TimeProof:
-    """The proof of an interval by the multipliers of an optimum, without those of the parts of the greatest share."""
+    """The proof of an interval by the multipliers of an optimum, without multipliers of the share's parts."""
     problem = move.within(longest, shortest if shortest and move.residual is not None else None)
     # rows of an amplitude are in units of its bound, where it has one
     units = {constant.name: bound.high for constant, bound in problem.bounds.items() if constant.normalised}
@@ -245,7 +245,7 @@ def covering(move: TimedMove, known: Sequence[tuple[float, Multipliers]], durati
 
 
 def _in_parts(multipliers: Multipliers, move: TimedMove, shortest: float, longest: float) -> list[TimeProof]:
-    """The proofs of an interval, the longest times first: one, or several for its parts."""
+    """The proofs of an interval, the longest times first: a single proof, or several for its parts."""
     middle = 0.5 * (shortest + longest)
     if move.concave or multipliers.above_between(shortest, longest) or not shortest < middle < longest:
         return [multipliers.proof(move, shortest, longest)]
@@ -267,7 +267,7 @@ def _weights(move: TimedMove, duration: float, contacts: Sequence[Contact]) -> t
 
 
 def covers(move: TimedMove, proofs: Sequence[TimeProof], duration: float) -> bool:
-    """Whether proofs speak of every time that is conceivable and shorter than a duration, but for the gap allowed."""
+    """Whether proofs cover every time shorter than a duration, up to the allowed gap."""
     least = duration * (1.0 - LEAST_TIME_GAP)
     if not proofs and move.torque is not None:
         return True  # nothing is claimed but the limit of all laws

@@ -54,7 +54,7 @@ _Known = list[tuple[float, Multipliers]]
 
 
 def _from_either_side(move: TimedMove, near: LeastTime | None) -> tuple[float, Solution, _Known]:
-    """Steps from rest to rest: what the multipliers of any time say holds from no time at all to the next."""
+    """Steps from rest to rest: the multipliers of any time prove an interval from zero up to the next time."""
     duration, warm = _first(move) if near is None else _beside(move, near)
     for step in range(_STEPS):
         solution = law_in_time(move, duration, warm)
@@ -70,7 +70,7 @@ def _from_either_side(move: TimedMove, near: LeastTime | None) -> tuple[float, S
 
 
 def _first(move: TimedMove) -> tuple[float, ActiveSet | None]:
-    """A time a little above that of all laws."""
+    """An initial time slightly above the least time of all laws."""
     known = time_of_any_law(move.stroke, move.limits, move.problem.order)
     return _SLOWER * max(known or 0.0, move.least_conceivable()), None
 
@@ -84,7 +84,7 @@ def _beside(move: TimedMove, near: LeastTime) -> tuple[float, ActiveSet | None]:
 
 
 def _from_below(move: TimedMove) -> tuple[float, Solution, _Known]:
-    """Steps from a time that is too short for any motion: none of them leaves out a time in which a law would do."""
+    """Steps from a time that is too short for any motion: no step skips a time with a law."""
     duration, warm = move.least_conceivable(), None
     known: _Known = []
     for _ in range(_STEPS):

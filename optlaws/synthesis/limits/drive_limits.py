@@ -91,7 +91,7 @@ class DriveLimit(JsonText):
         return _bound(self)
 
     def is_of(self, problem: Problem) -> bool:
-        """Whether it is the limit of a problem's objective within its bounds."""
+        """Whether the limit belongs to a problem's objective within its bounds."""
         return plane_of(problem) == (self.plane, self.minimise, self.unit)
 
     def velocity(self, a: Any) -> Array:  # noqa: ANN401 - numbers of any shape
@@ -229,7 +229,7 @@ def drive_limit(
 
 
 def phase_torque(torque: str) -> AnyTorque:
-    """The torque of a text, as one of the phase plane."""
+    """The torque of a text, in the form of the phase plane."""
     form = torque_of(read(torque, ("a", "b", "c", "k")))
     if form is None:
         raise InputError(
@@ -260,7 +260,7 @@ def limit_of_plane(plane: PhasePlane, minimise: DriveObjective, unit: float = 1.
 
 
 def _finer(plane: PhasePlane, minimise: DriveObjective, unit: float, limit: DriveLimit) -> DriveLimit:
-    """The limit or, where its gap is not small, that on finer elements if it proves more."""
+    """The limit or, where its gap is not small, a limit on finer elements if it proves more."""
     if limit.gap <= SMALL_PHASE_GAP:
         return limit
     try:
@@ -283,7 +283,7 @@ def _least_time(plane: PhasePlane) -> DriveLimit:
 
 
 def _limit(plane: PhasePlane, minimise: DriveObjective, unit: float, motion: PhaseOptimum) -> DriveLimit:
-    """The limit by the potential that was found or, where that proves little, by one that falls more."""
+    """The limit by the computed potential or, where that proves little, by a steeper potential."""
     potential = Potential(motion.edges, motion.potential)
     attained = _in_units(max(motion.objective, 0.0), minimise, unit, inf)
     size, best = float(np.abs(motion.potential).max()), None
@@ -394,7 +394,7 @@ def _plane_of(problem: Problem) -> tuple[PhasePlane, DriveObjective, float] | No
 
 
 def _objective(term: OfFormula) -> tuple[float, PhasePlane | None]:
-    """The unit of a constant made of a formula, and the plane in which it is minimised; None where it is none."""
+    """The unit of a constant from a formula, and the phase plane of its minimum; None if it is no such constant."""
     formula = term.motion.formula
     if isinstance(term, FormulaIntegral):
         return _of_integral(formula)

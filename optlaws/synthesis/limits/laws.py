@@ -189,7 +189,7 @@ def _linear(breaks: Sequence[float], series: Sequence[Pair], b: float) -> Piecew
 def _mirrored(
     times: Sequence[float], first: Sequence[Piece], second: Sequence[Piece], middle: Piece | None
 ) -> tuple[list[float], list[Piece]]:
-    """Breaks and pieces on [0, 1] from those on [0, 1/2]; `middle` is one piece on both sides of 1/2, if there is one.
+    """Breaks and pieces on [0, 1] from their first halves; `middle` is a piece across 1/2, if there is one.
 
     Stretches without length, of which the limits between two forms of law have some, are left out.
     """

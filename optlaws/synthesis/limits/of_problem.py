@@ -119,7 +119,7 @@ def _uneven(problem: Problem, constant: str) -> Fraction | None:
 
 
 def _held_up_anywhere(problem: Problem, constant: str) -> bool:
-    """Whether B is raised above its best by a bound that does not say where: elsewhere than at 1/2 it may cost less."""
+    """Whether a bound raises B above its best value at an unspecified place, where it may cost less than at 1/2."""
     limits = problem.range("B")
     if limits is None or limits.fixed or problem.inflexion is not None:
         return False

@@ -52,7 +52,7 @@ class TorqueLimit:
 
     @property
     def everywhere(self) -> bool:
-        """Whether it holds in the whole stroke."""
+        """Whether the limit holds in the whole stroke."""
         return (self.start, self.stop) == (0.0, 1.0)
 
     def to_data(self) -> list[Any]:
@@ -158,7 +158,7 @@ class PhasePlane(JsonText):
 
     @property
     def bounds(self) -> tuple[TorqueLimit, ...]:
-        """The limits, those over parts of the stroke first, and as the last of them that of the acceleration."""
+        """The limits: limits over parts of the stroke first, the limit of the acceleration last."""
         limits = sorted(self.limits, key=lambda limit: limit.everywhere)
         return (*limits, *([TorqueLimit(ACCELERATION, self.C)] if inf > self.C else []))
 
@@ -169,13 +169,13 @@ class PhasePlane(JsonText):
 
     @property
     def gear_load(self) -> PhaseTorque | None:
-        """The load whose sign is the direction of the power through a gear with losses; None without such a gear."""
+        """The load whose sign gives the direction of power through a gear with losses; None without such a gear."""
         geared = [torque for torque in self.torques if isinstance(torque, GearTorque)]
         return geared[0].load if geared else None
 
     @kept_property
     def branches(self) -> tuple[PhasePlane, ...]:
-        """The planes of torques of one form each of which every motion is in one at every position.
+        """Planes with torques of a single form; at every position, every motion is in one of them.
 
         Behind a gear with losses that is one with a load of at least 0, and one with a load of at most 0.
         """

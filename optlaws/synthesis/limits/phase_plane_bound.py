@@ -160,7 +160,7 @@ def _proven(first: ProofCells, other: ProofCells | None) -> CellBounds:
 
 
 def _lower_of(driving: CellBounds, braking: CellBounds, cells: ProofCells) -> tuple[Array, Array]:
-    """A lower bound of the mean of the lower of two inner minima, and of how much more may be lost."""
+    """A lower bound of the mean of the minimum of two inner minima, and of its further possible loss."""
     at, over = (first - second for first, second in zip(driving.below, braking.below, strict=True))
     with np.errstate(invalid="ignore"):
         more = exact(braking.loss) - driving.loss

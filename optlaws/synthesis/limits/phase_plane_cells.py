@@ -280,7 +280,7 @@ class ProofCells:
         return mean
 
     def range(self, at: Jet, over: Jet) -> Interval:
-        """All values of a function in every cell."""
+        """The range of a function in every cell."""
         moved = exact(_greatest(at.terms[1])) * self.half
         bent = exact(_greatest(over.terms[2])) * self.half * self.half
         around: Interval = at.terms[0] + Interval(np.zeros(len(self.half)), moved.high + bent.high)
@@ -395,7 +395,7 @@ class ProofCells:
         return self._positive(changed[0], changed[1])
 
     def _ends(self, at: Jet, over: Jet) -> tuple[list[Interval], Array]:
-        """A function's values at the ends of every cell but for a bend, and twice that: it is so near to their line."""
+        """A function's values at the ends of every cell up to its curvature, and its distance from their line."""
         ends = [at.terms[0] + at.terms[1] * (sign * self.half) for sign in (-1.0, 1.0)]
         return ends, 2.0 * _greatest(over.terms[2]) * self.half**2
 
@@ -476,7 +476,7 @@ def _spreads(plane: PhasePlane, side: int) -> list[float]:
 
 
 def _of_side(ends: Array, side: int) -> Array:
-    """Prices at the ends of cells, those of a bound of one side surely of its sign in the whole cell."""
+    """Prices at the ends of cells; a one-sided bound's prices have its sign in the whole cell."""
     if side == 0:
         return ends
     sizes = np.maximum(side * ends, 0.0)

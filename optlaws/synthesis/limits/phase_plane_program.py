@@ -116,7 +116,7 @@ _Driven: TypeAlias = tuple[tuple[float, ...], tuple[bool, ...]]
 
 
 def _first(plane: PhasePlane, edges: Array) -> PhaseOptimum:
-    """The optimum as if power flowed back wherever a motor brakes or, where there is none, nowhere."""
+    """The optimum as if power flowed back wherever a motor brakes or, where that fails, nowhere."""
     try:
         return _Program(plane, edges, 0.0, ((0.5,), (False, False))).solved()
     except SolverFailure:
@@ -205,7 +205,7 @@ class _Program:
         return PhaseOptimum(self.edges, potential, weight, self.s, b, c, objective, self.driven, beyond)
 
     def _write_motion(self, x: Array) -> None:
-        """The equation of motion, tested with J phi/sin(pi s), whose slope by a is that of w, and twice itself of c."""
+        """The equation of motion, tested with functions J phi/sin(pi s), as equality constraints of the program."""
         import clarabel
 
         values, slopes = _bernstein(x)
@@ -230,7 +230,7 @@ class _Program:
         return (elements * DEGREE + self.before[elements])[:, None] + np.arange(DEGREE + 1)
 
     def _smooth_tests(self, tests: int) -> Any:  # noqa: ANN401 - a matrix of scipy
-        """The functions of elements by those of the program, of lower degree after a jump: as many as there are places.
+        """The elements' test functions by the program's, of lower degree after a jump, so that they match the places.
 
         Of degree 4 there is one that vanishes at all places of an element, and nothing would hold it.
         """
@@ -255,7 +255,7 @@ class _Program:
             self.entries.append((rows, column, np.concatenate([-size, size])))
 
     def _write(self) -> None:
-        """All other rows with their cones, and what is minimised."""
+        """All other rows with their cones, and the objective."""
         import clarabel
 
         plane, ones = self.plane, np.ones(self.count)

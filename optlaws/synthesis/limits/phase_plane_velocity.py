@@ -146,7 +146,7 @@ class InnerMinimum:
         return Prices(prices, shares, follows, beside)
 
     def _shares(self, b: Array, c: Array, follows: Array, rest: Array) -> tuple[list[Array], Array, Array]:
-        """The shares of first torques in maxima, what follows from q, and what the prices still to come add up to."""
+        """The shares of first torques in maxima, the values that follow from q, and the sum of the remaining prices."""
         shares = []
         for i, (torque, other) in enumerate(self.maxima, len(self.entries)):
             more = self._torque(torque, b, c) - self._torque(other, b, c)
@@ -167,7 +167,7 @@ class InnerMinimum:
         return np.asarray(np.abs(self._torque(entry.torque, b, c)) >= self._most(entry, b) * (1.0 - PHASE_TIE))
 
     def _at_vertices(self, b: Array, c: Array, prices: list[Array]) -> None:
-        """Prices of a bound and of one of one side that are active together: so that no other velocity is better."""
+        """Prices of a two-sided and a one-sided bound that are active together, so that no other velocity is better."""
         if self.squared is not None or self.maxima:
             return
         for j in (j for j, entry in enumerate(self.entries) if entry.side):

@@ -1,4 +1,4 @@
-"""Torques over position and velocity: one that is affine in the acceleration, and one behind a gear with losses."""
+"""Torques over position and velocity: affine in the acceleration, or behind a gear with losses."""
 
 from __future__ import annotations
 
@@ -247,7 +247,7 @@ def torque_of(formula: Formula) -> AnyTorque | None:
 
 
 def greater_power(arguments: Sequence[Formula]) -> tuple[AnyTorque, AnyTorque] | None:
-    """The two torques that, times b, are powers whose greater is that of some; None where it is none of two torques.
+    """The two torques whose powers, times b, have a given maximum; None where there are not two torques.
 
     Behind a gear with losses these are three or four: a power has two forms, and so has the share that is recovered.
 
@@ -300,7 +300,7 @@ def _of_all(terms: Sequence[Formula]) -> PhaseTorque | None:
 
 
 def _share(formula: Formula) -> tuple[float, Formula]:
-    """A number, and what it multiplies."""
+    """A number, and the factor that it multiplies."""
     first = formula.factors[0] if isinstance(formula, Product) else None
     if isinstance(formula, Product) and isinstance(first, Number) and first.value > 0.0:
         return first.value, product(list(formula.factors[1:]))

@@ -36,7 +36,7 @@ def ratio_rounded_down(numerator: int, denominator: int) -> float:
 
 
 def root_ratio_rounded_down(whole: int, square: int, denominator: int) -> float:
-    """A double just below (whole + root of square) / denominator, of whole numbers above 0 but for the first.
+    """A double just below (whole + root of square) / denominator; all integers but `whole` are positive.
 
     >>> root_ratio_rounded_down(1, 9, 4), root_ratio_rounded_down(0, 2, 1) ** 2 <= 2.0
     (1.0, True)
@@ -66,7 +66,7 @@ def rounded_up(value: Fraction) -> float:
 
 
 def not_above(value: float, below: Callable[[Fraction], bool]) -> float:
-    """A computed value, lowered by as little as makes it true that it is `below` the exact one.
+    """A computed value, lowered by the least amount that makes `below` true for the exact value.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""The equations of a program: which of them say something new, and the multipliers that show a contradiction."""
+"""The equations of a program: the independent ones, and the multipliers that prove a contradiction."""
 
 from __future__ import annotations
 

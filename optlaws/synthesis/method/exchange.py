@@ -1,4 +1,4 @@
-"""How a program is solved: in units, without equations that say nothing new, by one way after the other.
+"""The solution of a program: in units, without redundant equations, by several strategies in order.
 
 A neighbour's optimum or a guess leads to the exact contacts by Newton's method; else IPOPT on few points does, and what
 is linear or conic may need vertices. All are rounds of answers, and what an answer breaks is held in the next round.
@@ -33,7 +33,7 @@ DEPTH = 1e5  # beyond what laws of the field have
 
 @dataclass(frozen=True, eq=False)
 class Outcome:
-    """How a program ended: the optimum (None where there is none), IPOPT's iterations and last word, the rounds.
+    """The result of a program's solution: the optimum (or None), IPOPT's iterations and message, the rounds.
 
     Where there is no optimum `tried` are the answers to the program on points, whose laws may be of use.
     """
@@ -152,7 +152,7 @@ def _solved(program: Program, start: Array | None, holds: Callable[[Array], bool
 
 
 def _by_interior_points(way: ByInteriorPoints, points: list[Points]) -> Outcome:
-    """The solution on few points, with amplitudes that vanish as equations, with the objective held up if it falls."""
+    """The solution on few points, with vanishing amplitudes as equations, and a bounded objective if it diverges."""
     program, start, rounds = way.program, way.start, way.rounds
     tried = [] if start is None else [of_variables(program, start)]
     optimum, _ = cutting_plane_loop(way, points)
@@ -177,7 +177,7 @@ def _by_interior_points(way: ByInteriorPoints, points: list[Points]) -> Outcome:
 
 
 def grounded(program: Program) -> Program:
-    """The program with its objective held above what laws of the field have: without that IPOPT may run away."""
+    """The program with a lower bound on its objective from the law space, without which IPOPT may diverge."""
     row = np.append(-program.objective, 0.0)[None, :]
     ground = LinearFamily("objective at least", np.zeros(program.size), DEPTH, (1.0,), (1.0, 1.0), series=row)
     return replace(program, families=(*program.families, ground))

@@ -41,7 +41,7 @@ def of_variables(program: Program, x: Array) -> ActiveSet:
 
 
 def initial_guess(program: Program, points: list[Points]) -> Array:
-    """The base law with room for its own constants: from below them curved programs are hard to enter."""
+    """The base law with slack for its constants: curved programs are hard to enter from infeasible values."""
     x = np.zeros(program.size)
     for family, grid in zip(program.families, points, strict=True):
         needed = float((grid.s * family.value(np.zeros(program.size), grid.u)).max()) - family.bound
@@ -70,7 +70,7 @@ def _is_size(family: ConstraintFamily) -> bool:
 
 
 def _least(program: Program, sizes: list[ConstraintFamily]) -> Array:
-    """Coordinates that make the sum of integrals and of squares of norms least under the equations, to second order."""
+    """Coordinates of least sum of integrals and squared norms under the equations, to second order."""
     if not sizes:
         return np.zeros(program.size)
     models = [_second_order(family, program.size) for family in sizes]

@@ -1,4 +1,4 @@
-"""Lower bounds of peaks: rows hold a peak down everywhere, but it is held up at one place, and which is to be model.
+"""Lower bounds of peaks, which hold at a single place: the search for the best place.
 
 The optimum without the lower bound is continued: one extremum of the constant is held as an equation, first at the
 value that it has and then, step by step, at the bound. Where no extremum leads there, the peak is asked at one place
@@ -151,7 +151,7 @@ def _continued(
 def _asked(
     program: Program, family: ConstraintFamily, plain: ActiveSet, lower_bound: tuple[str, float], where: Array
 ) -> list[tuple[Program, ActiveSet]]:
-    """Optima of the programs in which the peak is asked at one place, let go from there."""
+    """Optima of the programs with the peak at a fixed place, then released from there."""
     name, low = lower_bound
     # held at the bound from both sides, c would have no slope at the place: the upper side waits until it may move
     loose = [replace(other, bound=other.bound + _ROOM) if other.name == name else other for other in program.families]
@@ -188,7 +188,7 @@ def _shows_contacts(program: Program, state: ActiveSet) -> bool:
 def _stayed(
     program: Program, ways: list[tuple[Program, ActiveSet]], stuck: list[tuple[float, ConstraintFamily]]
 ) -> list[tuple[Program, ActiveSet]]:
-    """Optima with the peak where it was asked, of a linear program, as long as they may be better than the ways."""
+    """Optima of a linear program with the peak at a fixed place, while they may be better than the paths."""
     best = min((program.objective_at(state.x) for _, state in ways), default=inf)
     stayed = []
     for worth, row in sorted(stuck, key=lambda placed: placed[0]):
@@ -215,7 +215,7 @@ def _let_go(
 
 
 def _rested(program: Program, family: ConstraintFamily, state: ActiveSet, low: float) -> tuple[Program, ActiveSet]:
-    """A state in which the peak is held up, as one of the program in which it is asked where it is."""
+    """A state with a moving peak, as a state of the program that fixes the peak at the same place."""
     last = state.family == len(program.families)
     row = _row(family, float(state.u[last][0]), float(state.s[last][0]), low)
     return _with(program, row), _turned(state, last, free=False)
@@ -232,7 +232,7 @@ def _turned(state: ActiveSet, last: NDArray[np.bool_], *, free: bool) -> ActiveS
 
 
 def _row(family: ConstraintFamily, u: float, s: float, low: float) -> ConstraintFamily:
-    """The one row s f(u) >= low."""
+    """The row s f(u) >= low."""
     return replace(family, signs=(-s,), bound=-low, domain=(u, u))
 
 
@@ -251,7 +251,7 @@ _SMOOTH = {"C": "rms_c", "C_plus": "rms_c", "C_minus": "rms_c", "J": "rms_j", "D
 
 
 def family_of(model: Model, constant: Functional, low: float) -> tuple[ConstraintFamily, float]:
-    """The rows of a constant that is to be held up, near 1, and its lower bound in their units.
+    """The rows of a constant with a lower bound, scaled to values near 1, and the bound in the same scale.
 
     Raises
     ------
@@ -266,7 +266,7 @@ def family_of(model: Model, constant: Functional, low: float) -> tuple[Constrain
 
 
 def places(problem: Problem, family: ConstraintFamily) -> Array:
-    """Some places of a family's domain, ends included; those of one half where the mirror image of a law is as good."""
+    """Some places of a family's domain, ends included; half the domain where mirrored laws are equally good."""
     low, high = family.domain
     if problem.mirrored:
         low = (low + high) / 2.0
@@ -321,6 +321,6 @@ def _without(problem: Problem, constant: Functional) -> Problem:
 
 
 def _met(value: Callable[[Array], float], low: float, short: Array, beyond: Array) -> Array:
-    """On the way from a law with too little to one with enough, the first found that has enough: by halving."""
+    """The first law with the required value on the path from an insufficient to a sufficient law, by bisection."""
     _, share = bisect(lambda share: value(short + share * (beyond - short)) < low, 0.0, 1.0, _HALVINGS)
     return short + share * (beyond - short)

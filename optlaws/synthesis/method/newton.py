@@ -109,7 +109,7 @@ def _with_few_digits(numbers: Array) -> Array:
 
 
 def _distance(first: ActiveSet, last: ActiveSet) -> float:
-    """How far the variables of two optima are from each other, as a share of the greatest."""
+    """The distance of the variables of two optima, as a share of the greatest."""
     return float(np.abs(first.x - last.x).max() / max(1.0, np.abs(first.x).max()))
 
 

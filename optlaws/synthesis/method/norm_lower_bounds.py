@@ -48,7 +48,7 @@ def along_directions(
 
 
 def _directions(family: NormFamily, plain: ActiveSet) -> Iterator[Array]:
-    """Directions of the norm without the bound, and those in which it grows most with the coordinates."""
+    """Directions of the norm without the bound, and directions in which the coordinates increase it most."""
     image = _image(family, plain.x)
     if np.linalg.norm(image) > FLAT_DIRECTION:
         yield image / np.linalg.norm(image)

@@ -63,7 +63,7 @@ class StoredStructure:
         return np.asarray(np.clip(np.cos(np.arange(len(self.places)) * angle) @ self.places, -1.0, 1.0))
 
     def away(self, B: float) -> float:
-        """How far B is from those of the structure."""
+        """The distance of B from the structure's range of B."""
         return max(self.begin - B, B - self.end, 0.0)
 
     def packed(self) -> list[int]:
@@ -75,7 +75,7 @@ class StoredStructure:
 
 
 def key_of(model: Model) -> str | None:
-    """By what the structures of a problem are found; None where none of its kind are stored.
+    """The key of a problem's stored structures; None where none of its kind are stored.
 
     Examples
     --------
@@ -93,7 +93,7 @@ def key_of(model: Model) -> str | None:
 
 
 def is_usual(model: Model) -> bool:
-    """Whether structures are stored for problems like this one that differ in B.
+    """Whether structures are stored for problems that differ from this one in B only.
 
     >>> from optlaws.synthesis.problem.problem import Problem
     >>> from optlaws.synthesis.program.writer import model_of

@@ -1,4 +1,4 @@
-"""Programs of great laws in units of their size: tolerances are made for numbers near 1.
+"""Programs of large laws in units of their size: tolerances are meant for numbers near 1.
 
 A law with B = 1e6 has coordinates and peaks of that size, and a power of its square. Divided by these the program is
 that of a law of stroke 1e-6 with B = 1, and its multipliers are the same but for what the rows were divided by.
@@ -53,7 +53,7 @@ class ProgramUnits:
         )
 
     def outward(self, state: ActiveSet) -> ActiveSet:
-        """A state in these units as one of the program itself."""
+        """A state in these units as a state of the program itself."""
         rows = np.append(self.rows, 1.0)[np.minimum(state.family, len(self.rows))]
         return replace(
             state,
@@ -90,7 +90,7 @@ def units_of(program: Program) -> ProgramUnits | None:
 
 
 def units_near(program: Program, x: Array) -> ProgramUnits | None:
-    """Units in which a small objective is 1, and so are small amplitudes, as they are near x; None if none is small."""
+    """Units in which a small objective and small amplitudes near x become 1; None if none is small."""
     value = program.objective_at(x)
     if not 0.0 < value < SMALL_COST:
         return None

@@ -32,7 +32,7 @@ def amplitudes(program: Program) -> list[int]:
 
 
 def nearly_vanished(program: Program, x: Array) -> list[int]:
-    """Amplitudes that nearly vanish, in units of those of a law which ignores them."""
+    """Amplitudes that nearly vanish, relative to the amplitudes of a law that ignores them."""
     return [i for i in amplitudes(program) if program.families[i].right_side(x) < NEARLY_APEX]
 
 

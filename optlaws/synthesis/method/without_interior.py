@@ -1,4 +1,4 @@
-"""Laws of problems that leave hardly any room: a constant that is bounded by its own least value, or nearly.
+"""Laws of problems with hardly any interior: a constant is bounded by its own least value, or nearly.
 
 There the little by which a solver breaks a bound grows to its square root in the objective, and the law looks better
 than any law is. With the bounds loosened there is room; on the way from the optimum then to the law with most room
@@ -64,7 +64,7 @@ def _loosened(problem: Problem, share: float) -> Problem:
 
 
 def _closer(program: Program, state: ActiveSet, roomy: Array) -> ActiveSet:
-    """A guess of the optimum with a hundredth of the room: a norm leaves a tenth of the way then, and pulls tenfold."""
+    """A guess of the optimum at a hundredth of the slack, with a tenth of a norm's distance and ten times its price."""
     x = state.x.copy()
     x[: len(roomy)] = roomy + _CLOSER * (x[: len(roomy)] - roomy)
     norms = [isinstance(family, NormFamily) and not family.slack.any() for family in program.families]

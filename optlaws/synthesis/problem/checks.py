@@ -1,4 +1,4 @@
-"""Checks of what a problem is made of; each error names the entry and what it may be."""
+"""Checks of the entries of a problem; each error names the entry and its allowed values."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ def listed(values: Any, name: str) -> tuple[Any, ...]:  # noqa: ANN401 - it is c
 
 
 def windows(given: Any) -> tuple[Window, ...]:  # noqa: ANN401 - they are checked here
-    """One window or several as a tuple."""
+    """A single window or several, as a tuple."""
     several = tuple(given) if isinstance(given, list | tuple) else (given,)
     for window in several:
         if not isinstance(window, Window):
@@ -98,12 +98,12 @@ AS_IT_FITS: Any = AsItFits(1)
 
 
 def is_open(given: object) -> bool:
-    """Whether nobody asked for symmetric laws or others."""
+    """Whether the user leaves the symmetry of the laws open."""
     return isinstance(given, AsItFits)
 
 
 def symmetric(given: Any) -> Any:  # noqa: ANN401 - it is checked here
-    """True, False, or what nobody asked."""
+    """True, False, or the value for an open symmetry."""
     return given if is_open(given) else switch(given, "symmetric")
 
 
@@ -113,7 +113,7 @@ def order(given: Any) -> int:  # noqa: ANN401 - it is checked here
 
 
 def order_with(given: int, ends: BoundaryConditions | None) -> int:
-    """The order l that is given, or that of the boundary conditions."""
+    """The given order l, or the order of the boundary conditions."""
     missing = isinstance(given, NotGiven)
     if ends is None:
         if missing:

@@ -49,7 +49,7 @@ class CombinedPeak(Combined):
         return power_of_two(sum(abs(float(weight)) * _STEEPER**i for i, weight in enumerate(self.weights)))
 
     def families(self, space: LawSpace, slack: Array, bound: float) -> tuple[ConstraintFamily, ...]:
-        """One family; two where symmetric laws count on half the interval but the combination is not symmetric."""
+        """A single family; two for symmetric laws if the combination is not symmetric."""
         self.check(space)
         return tuple(
             space.combination(self.nu, floats(weights), name, slack, bound, signs=signs)
@@ -85,7 +85,7 @@ class CombinedPower(Combined, PowerConstant):
 
 
 def facing(weights: tuple[Fraction, ...]) -> tuple[Fraction, ...]:
-    """The weights that say on the first half what these say on the second, in symmetric laws.
+    """The weights on the first half that equal these on the second half, for symmetric laws.
 
     >>> facing((Fraction(1), Fraction(2), Fraction(3)))
     (Fraction(1, 1), Fraction(-2, 1), Fraction(3, 1))

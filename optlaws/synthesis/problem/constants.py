@@ -124,7 +124,7 @@ class Functional(Term, ABC):
 
     @property
     def even(self) -> bool:
-        """Whether it says the same of a law and of its mirror image, 1 - a(1-k), so that symmetric laws may be best."""
+        """Whether a law and its mirror image, 1 - a(1-k), have the same value, so that symmetric laws may be best."""
         return True
 
     @property
@@ -150,7 +150,7 @@ class Functional(Term, ABC):
 
     @property
     def convexity(self) -> str:
-        """Whether it is known to be convex in the law, in words, and the rule that says so.
+        """Whether the constant is known to be convex in the law, in words, and the rule behind it.
 
         Examples
         --------
@@ -164,7 +164,7 @@ class Functional(Term, ABC):
         return f"k = {k:.4g}"
 
     def check_problem(self, problem: Asked) -> None:
-        """Refuse a problem among whose laws the constant cannot be sought; the error says what helps."""
+        """Refuse a problem in whose laws the constant cannot be optimised; the error states the remedy."""
 
     def limit(self, problem: Asked) -> Fraction | None:  # noqa: ARG002 - what it is may depend on it
         """A limit for laws of the problem of any degree, if it is more than the constant's least value."""
@@ -205,7 +205,7 @@ class _InUnitsOfLaws(Functional):
 
     @property
     def scale(self) -> float:
-        """One, as the law's own."""
+        """One, as the law itself has this scale."""
         return 1.0
 
 
@@ -362,7 +362,7 @@ def warn_of_mixture(objective: Expression, order: int) -> None:
 
 
 def present_name(name: str) -> str:
-    """The name of a constraint as it is written today: earlier files call the snap jounce.
+    """The current name of a constraint: earlier files call the snap jounce.
 
     >>> present_name("rms_jounce at most"), present_name("C")
     ('rms_snap at most', 'C')

@@ -42,7 +42,7 @@ class Kind(Enum):
 
 @dataclass(frozen=True)
 class Entry:
-    """One entry as files, studies and commands call it."""
+    """An entry, with its names in files, studies and commands."""
 
     name: str  #: what it is called
     kind: Kind  #: what its values are
@@ -57,7 +57,7 @@ def _entry(name: str, kind: Kind, about: str, heading: str | None = None, *, def
 
 @dataclass(frozen=True)
 class Field:
-    """One field of `Problem`, with the entries that make it up."""
+    """A field of `Problem`, with the entries for its parts."""
 
     name: str  #: the name of the field
     check: Callable[[Any], Any]  #: whatever was given -> what the problem keeps; its error names the field

@@ -247,7 +247,7 @@ class _Reader(Scanner):
 
 @lru_cache(maxsize=256)
 def expression(text: str) -> Expression:
-    """The objective that a text says.
+    """The objective of a text, such as "C + 0.1*J".
 
     >>> expression("0.5*C/4 + C_cam(frequency=20)")
     0.125*C + C_cam(frequency=20.0)
@@ -283,7 +283,7 @@ def title_of(name: str) -> str:
 
 
 def is_named(term: Term) -> bool:
-    """Whether its name alone tells what it is, so that text can stand for it.
+    """Whether the constant's name identifies it, so that text can stand for it.
 
     >>> from optlaws import C
     >>> is_named(C)

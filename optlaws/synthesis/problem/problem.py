@@ -137,7 +137,7 @@ class Problem(JsonText):
 
     @property
     def mirrored(self) -> bool:
-        """Whether unsymmetric laws are sought but every bound of symmetric ones holds for them too.
+        """Whether unsymmetric laws are sought although every bound of symmetric laws holds for them too.
 
         Where the objective is convex the mean of a law and its mirror image is no worse; where D is in it, that is
         so for the relaxed program.
@@ -151,14 +151,14 @@ class Problem(JsonText):
 
     @property
     def peak_at(self) -> float | None:
-        """The k at which b is asked to be greatest and c is 0; None where it may be greatest anywhere."""
+        """The k at which b is required to be greatest and c is 0; None where the peak is free."""
         if self.inflexion is not None:
             return self.inflexion
         return 0.5 if self.boundary is None and _fixed_above_mean(self.range("B")) else None
 
     @property
     def peak_is_variable(self) -> bool:
-        """Whether programs have a variable B for the peak velocity that is asked, beside those of the objective."""
+        """Whether programs have a variable B for a prescribed peak velocity, besides the objective's variables."""
         limits = self.range("B")
         if limits is None:
             return False
@@ -170,7 +170,7 @@ class Problem(JsonText):
 
     @kept_property
     def bounded(self) -> tuple[tuple[Functional, Range], ...]:
-        """The constants but B of which something is asked, and what."""
+        """The bounded constants except B, with their bounds."""
         of_entries = ((constant, self._ranges[constant.name]) for constant in _NAMED if constant.name != "B")
         return (*((constant, limits) for constant, limits in of_entries if limits is not None), *self.bounds.items())
 
@@ -187,7 +187,7 @@ class Problem(JsonText):
 
     @property
     def uneven(self) -> list[Functional]:
-        """The constants that say another thing of a law than of its mirror image, by name.
+        """The names of constants that differ between a law and its mirror image.
 
         Examples
         --------
@@ -264,7 +264,7 @@ class Problem(JsonText):
 
     @property
     def as_code(self) -> str:
-        """Python that makes the problem again: its repr, but that long names of constants stand after it, once each.
+        """Python code of the problem: its repr, with long names of constants written once, after it.
 
         Examples
         --------
@@ -293,7 +293,7 @@ class Problem(JsonText):
 
     @property
     def _said(self) -> list[str]:
-        """The entries that the problem says: some always, others where they are given."""
+        """The entries of the problem's text: some always, others where they are given."""
         given = {entry.name for entry in fields(self) if getattr(self, entry.name) != entry.default}
         if self.symmetric and self.uneven:
             # what does not fit has been asked

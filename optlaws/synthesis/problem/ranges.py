@@ -17,7 +17,7 @@ from optlaws.synthesis.problem.named_constants import is_named, named
 
 @dataclass(frozen=True, repr=False)
 class Range:
-    """A constant between two values, dimensionless; `low` is 0 where there is none, `high` infinite.
+    """A constant between two values, dimensionless; without a bound, `low` is 0 and `high` infinite.
 
     Examples
     --------
@@ -101,7 +101,7 @@ def at_least(low: float) -> Range:
 
 
 def as_range(value: Any, name: str) -> Range | None:  # noqa: ANN401 - it is checked here
-    """A number, a Range, a pair [low, high] or None as a Range or None; `name` is what an error calls it.
+    """A number, a Range, a pair [low, high] or None as a Range or None; errors call it `name`.
 
     >>> as_range(2, "B")
     between(2.0, 2.0)

@@ -128,12 +128,12 @@ class Window(JsonText):
 
     @property
     def point(self) -> bool:
-        """Whether it speaks of one k."""
+        """Whether the window is a single k."""
         return self.start == self.stop
 
     @property
     def value(self) -> bool:
-        """Whether it gives a value at one k."""
+        """Whether the window prescribes a value at a single k."""
         return self.point and self.low == self.high
 
     def mirrored(self) -> Window:
@@ -208,7 +208,7 @@ def via(quantity: str, value: float, *, at: float) -> Window:
 
 
 def read_window(text: str) -> Window:
-    """A window from text: what is asked of a, b, c or j, then where; the whole motion unless said.
+    """A window from text: a condition on a, b, c or j, then its range; the whole motion by default.
 
     >>> read_window("b <= 1.2 @ 0.2..0.3"), read_window("a = 0.3 @ 0.4")
     (Window('b', high=1.2, start=0.2, stop=0.3), via('a', 0.3, at=0.4))

@@ -1,1 +1,1 @@
-"""Problem -> semi-infinite program, and what a law is worth to a problem."""
+"""The semi-infinite program of a problem, and the value of a law for a problem."""

@@ -83,7 +83,7 @@ def _velocity_excess(problem: Problem, law: MotionLaw) -> float:
 
 
 def shortfalls(problem: Problem, law: MotionLaw) -> dict[Functional, float]:
-    """Constants that are below their lower bound, with that bound: a peak can be held down by rows, but not up."""
+    """Constants below their lower bound, with that bound: rows limit a peak from above only."""
     # where the place of the peak is asked rows hold it up
     velocity = problem.range("B") if problem.peak_at is None else None
     ranges = [*problem.bounded, *([] if velocity is None else [(B, velocity)])]
@@ -95,7 +95,7 @@ def shortfalls(problem: Problem, law: MotionLaw) -> dict[Functional, float]:
 
 
 def reaches(law: MotionLaw, constant: Functional, low: float) -> bool:
-    """Whether a constant of a law is no less than its lower bound, but for rounding."""
+    """Whether a constant of a law is at least its lower bound, up to rounding."""
     return constant.value(law) >= low * (1.0 - BOUND_SHORT)
 
 
@@ -112,7 +112,7 @@ def _total(expression: Expression, law: MotionLaw, values: dict[str, float]) -> 
 
 
 def check_rows(constant: Functional, space: LawSpace) -> None:
-    """Refuse a user's class whose rows say another thing of laws than its value: no law or bound could be trusted."""
+    """Refuse a user's class whose rows contradict its value: its laws and bounds could not be trusted."""
     if not type(constant).__module__.startswith("optlaws."):
         _check(constant, space)
 

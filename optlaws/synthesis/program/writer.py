@@ -46,7 +46,7 @@ class Model:
 
     @property
     def unit(self) -> float:
-        """The factor from the program's objective to that of the problem."""
+        """The factor from the program's objective to the problem's objective."""
         return self.program.unit
 
     @property
@@ -95,7 +95,7 @@ def _model(problem: Problem, *, scaled: bool) -> Model:
 
 
 def relaxed(problem: Problem, tangent: float) -> Model:
-    """A convex program whose least value bounds that of a problem with D from below.
+    """A convex program whose least value is a lower bound for a problem with D.
 
     From (b²/2)' = d follows b² <= 2 D min(k, 1-k). With r for the root of D that is b <= r sqrt(2k), linear; and
     D >= r² >= 2 t r - t² for any t, best where the tangent t is the root of D itself.
@@ -113,12 +113,12 @@ def _relaxed(problem: Problem, tangent: float) -> Model:
 
 
 def _objective_terms(expression: Expression) -> tuple[list[Term], list[Maximum]]:
-    """The constants and the maxima that an objective is made of, each once, in its order."""
+    """The constants and the maxima in an objective, without duplicates, in its order."""
     return list(dict.fromkeys(leaf for _, leaf in leaves(expression))), list(dict.fromkeys(maxima(expression)))
 
 
 def _objective_names(problem: Problem) -> list[str]:
-    """Names of the variables that the objective is made of."""
+    """Names of the variables in the objective."""
     return [repr(term) for terms in _objective_terms(problem.objective) for term in terms]
 
 
@@ -129,7 +129,7 @@ def relaxed_power(problem: Problem) -> PowerConstant | None:
 
 
 def least_violation(problem: Problem) -> Model:
-    """Minimise t so that every constraint holds but for t: above 0 if and only if they contradict."""
+    """Minimise t so that every constraint holds up to t: it is positive if and only if they contradict each other."""
     writer = _Writer(problem, [], extra=VariableName.VIOLATION)
     writer.spare = writer.cost = writer.unit(VariableName.VIOLATION)
     # laws with no bound to their size may have any room to spare; more than this is none of our business
@@ -217,7 +217,7 @@ class _Writer:
                 self.row(names.maximum_part(i, repr(term)), self.sum(part) - self.unit(repr(term), scale), 0.0, scale)
 
     def row(self, name: str, row: Array, bound: float, unit: float = 1.0) -> None:
-        """One row, row . x <= bound, divided by its unit."""
+        """A row, row . x <= bound, divided by its unit."""
         series = np.append(row / unit, 0.0)[None, :]
         self.families.append(LinearFamily(name, self.spare, bound / unit, (1.0,), (1.0, 1.0), unit=unit, series=series))
 
@@ -260,7 +260,7 @@ class _Writer:
             self._value(names.acceleration_at_peak(peak), 2, peak, 0.0)
 
     def _velocity(self, velocity: Range) -> None:
-        """Rows |b| <= B, but for what others say already, and the bounds of B."""
+        """Rows |b| <= B that other rows do not imply, and the bounds of B."""
         problem = self.problem
         if not problem.peak_is_variable and not velocity.fixed:
             self._bounded(B, velocity)

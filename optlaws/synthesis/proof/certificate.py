@@ -201,7 +201,7 @@ class Certificate(JsonText):
         return None if peak is None else PeakRows(self.problem, peak, claim)
 
     def to_dict(self) -> dict[str, Any]:
-        """Plain JSON-able dict with the recomputed bound (None where there is none): docs/reference/proof-format.md."""
+        """Plain JSON-able dict with the recomputed bound (None without one): docs/reference/proof-format.md."""
         from optlaws.synthesis.proof import data as stored
 
         entries: dict[str, Any]

@@ -74,7 +74,7 @@ class StatedCell(msgspec.Struct, forbid_unknown_fields=True):
 
 
 class StatedPlaces(msgspec.Struct, forbid_unknown_fields=True):
-    """A certificate whose regions are places of a peak: its leaves, which say where it is split."""
+    """A certificate whose regions are places of a peak; its leaves state the splits."""
 
     problem: dict[str, Any]
     constant: str
@@ -85,7 +85,7 @@ class StatedPlaces(msgspec.Struct, forbid_unknown_fields=True):
 
 
 def stated(data: object, kind: type[Stated], name: str) -> Stated:
-    """Plain data as a value of which every key is known and of its type; `name` is what an error calls it.
+    """Plain data as a typed value, in which every key must be known; errors call it `name`.
 
     >>> stated({"constraint": "C", "sign": 1, "k": 0.25, "multiplier": 0.5}, StatedContact, "contact").k
     0.25

@@ -1,4 +1,4 @@
-"""Rows of contacts, and their weighted sum: what it proves by weak duality, every rounding counted against it.
+"""Rows of contacts, and their weighted sum: the bound by weak duality, with every rounding against it.
 
 What rounding leaves of the sum's dependence on the law is charged, for which laws that contradict the claim must be
 bounded.
@@ -57,7 +57,7 @@ def row_of(program: Program, contact: Contact) -> tuple[Array, float]:
 
 
 def _tangent(program: Program, family: ConstraintFamily, contact: Contact, u: Array) -> Array | None:
-    """A row that a family which is not linear is nowhere below, by the contact's direction; None where it is none."""
+    """A row below a nonlinear family, by the contact's direction; None where it has no meaning."""
     if isinstance(family, NormFamily) and len(contact.direction) == len(family.matrix):
         return _at_most_one(contact.direction) @ family.matrix
     if isinstance(family, ConeFamily) and len(contact.direction) == 2:
@@ -70,7 +70,7 @@ def _tangent(program: Program, family: ConstraintFamily, contact: Contact, u: Ar
 
 
 def _at_most_one(direction: Sequence[float]) -> Array:
-    """A direction whose length is at most 1, which bounds a norm too where it is shorter; one that overflows is 0."""
+    """A direction of length at most 1, as a bound of a norm needs; a direction that overflows becomes 0."""
     given = np.array(direction)
     with np.errstate(over="ignore"):
         return np.asarray(given / max(float(np.linalg.norm(given)), 1.0))
@@ -150,7 +150,7 @@ def _halves(values: Array) -> tuple[Array, Array]:
 
 
 def rounding_error_bound(model: Model, total: RowSum, claim: float) -> float:
-    """Most that rounding in the slope can be worth, over all laws that contradict the claim."""
+    """The greatest effect of rounding in the slope, over all laws that contradict the claim."""
     terms, slope = model.space.terms, total.slope
     known = greatest_values(model, max(claim, 0.0))
     greatest, least = model.in_scales(known), model.in_scales(least_values(model.problem, model.space))

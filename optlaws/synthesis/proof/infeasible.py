@@ -44,7 +44,7 @@ _TEXT = {
 
 
 def failure(problem: Problem, outcome: Outcome) -> InfeasibleProblem | SolverFailure:
-    """The error to raise; an elastic phase tells which constraints contradict each other, or a limit does."""
+    """The error for a program without a law; an elastic phase finds the contradicting constraints, or a limit does."""
     outcome_text, rounds = f"the solver said {outcome.status!r}", f"{outcome.rounds} rounds of exchange"
     tried = f"{outcome_text} after {outcome.iterations} iterations, {rounds}"
     straight = convex_part(problem)
@@ -93,7 +93,7 @@ def failure(problem: Problem, outcome: Outcome) -> InfeasibleProblem | SolverFai
 
 
 def falls_for_ever(problem: Problem) -> bool:
-    """Whether the objective, which peaks of one sign may make negative, is held by nothing but a row that says so."""
+    """Whether the objective, negative for some one-sided peaks, is bounded only by an artificial row."""
     if not problem.convex:
         return False
     model = model_of(problem)
@@ -114,7 +114,7 @@ def _contradiction(proof: Certificate) -> str:
 
 
 def _out_of_reach(problem: Problem, elastic: Model) -> Certificate | None:
-    """Proof that an amplitude cannot be as small as asked, from its least under all other constraints."""
+    """Proof that an amplitude cannot be as small as prescribed, from its minimum under all other constraints."""
     cones = {family.name for family in elastic.program.families if isinstance(family, ConeFamily)}
     for constant, limits in problem.bounds.items():
         if constant.name in cones:
@@ -161,7 +161,7 @@ def _at_vertices(elastic: Model) -> Certificate | None:
 
 @dataclass(frozen=True)
 class _Contradicting(Strategy[list[Points], Certificate]):
-    """Vertices of least violation; their rows may contradict each other before all active ones are known."""
+    """Vertices of least violation; their rows may contradict each other before all active rows are known."""
 
     elastic: Model
     rounds: int = _ROUNDS

@@ -121,7 +121,7 @@ def _settled(model: Model, optimum: ActiveSet, proof: Certificate) -> Certificat
 
 
 def _shifted(model: Model, optimum: ActiveSet, proof: Certificate) -> Certificate | None:
-    """One step of that; None where nothing can be changed."""
+    """A single step of the correction; None where nothing can be changed."""
     program, contacts = model.program, proof.contacts
     equations = program.multipliers_of_equations(proof.equations)
     rows = [row_of(program, contact)[0] for contact in contacts]
@@ -294,7 +294,7 @@ def _held_exactly(model: Model, proof: Certificate, places: list[int]) -> Certif
 
 
 def _exactly(model: Model, proof: Certificate, place: int, paying: list[int]) -> Certificate | None:
-    """The certificate with one of some contacts' multipliers such that they hold a variable to the last bit.
+    """The certificate with one contact's multipliers adjusted to balance a variable to the last bit.
 
     The lightest is tried first, whose last bit is finest; None where none does.
     """
@@ -367,7 +367,7 @@ def _slope(model: Model, proof: Certificate) -> Array:
 
 
 def _with_direction(contact: Contact, direction: Array) -> Contact:
-    """A direction beyond length 1 is made one, and its multiplier greater."""
+    """A contact whose direction is scaled to length 1, with a greater multiplier."""
     length = max(float(np.linalg.norm(direction)), 1.0)
     return replace(contact, multiplier=contact.multiplier * length, direction=tuple((direction / length).tolist()))
 

@@ -1,4 +1,4 @@
-"""A symmetric optimum as one of the unsymmetric problem, where the mean of a law and its mirror image is no worse."""
+"""A symmetric optimum for the unsymmetric problem, if the mean of a law and its mirror image is no worse."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from optlaws.synthesis.program.writer import Model
 
 
 def unfolded(model: Model, half: Model, optimum: ActiveSet) -> ActiveSet:
-    """The optimum of the program of symmetric laws as a point of that of all laws, with multipliers that fit it.
+    """The optimum of symmetric laws as a point of the program of all laws, with matching multipliers.
 
     Each contact is there twice, at k and at 1 - k, with half its multiplier. The equations' multipliers are those that
     leave least of the sum of rows; what the whole proves is for a certificate to say.

@@ -1,4 +1,4 @@
-"""Proofs that a problem has no law, whichever problem they were first made for."""
+"""Proofs that a problem has no law, including proofs computed for other problems."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from optlaws.tolerances import VALUE_ROUNDING
 
 
 class Ground(NamedTuple):
-    """Why a problem has no law: what a proof has to speak of, and what its lower bound has to exceed."""
+    """The reason why a problem has no law: the subject of the proof, and the value that its bound must exceed."""
 
     problem: Problem  #: what the proof is of
     #: a bound that is asked of a constant, which no law keeps whose least value is greater; None where the constraints
@@ -67,7 +67,7 @@ def _least_values(problem: Problem) -> Iterator[Ground]:
 
 
 def proof_of_no_law(problem: Problem, proof: object) -> Certificate | None:
-    """The proof as one of this very problem, if its multipliers show that the problem has no law; else None.
+    """The proof for this very problem, if its multipliers prove that the problem has no law; else None.
 
     Multipliers that prove it of one problem mostly prove it of those beyond: what they prove is affine in the numbers.
 
@@ -94,7 +94,7 @@ def proof_of_no_law(problem: Problem, proof: object) -> Certificate | None:
 
 
 def beyond_limit(problem: Problem) -> str:
-    """The constant whose bound is below the limit of all laws; empty if there is none.
+    """The constant whose bound is below the limit of all laws; empty without one.
 
     >>> beyond_limit(Problem(B=1.7, order=4, C=(0.0, 3.0)))
     'no law of any degree has C <= 3 with the other constraints: its limit is 4.128571 (optlaws.limit). ...'

@@ -126,7 +126,7 @@ class PlaceRange(NamedTuple):
 
     @property
     def reach(self) -> float:
-        """How far the ends are from the middle."""
+        """The distance of the ends from the middle."""
         return (self.high - self.low) / 2.0
 
     def holds(self, other: PlaceRange) -> bool:

@@ -1,4 +1,4 @@
-"""The rows of a problem under a claim, and what they say of a derivative at one place and around it.
+"""The rows of a problem under a claim, and their consequences for a derivative at a place and around it.
 
 Where a peak is held up its place is not known, and the problem is not convex. But for each place k the greatest value
 that laws below the claim can have there is a convex problem, and contacts bound it. At a peak inside the interval the
@@ -37,7 +37,7 @@ def peak_of(problem: Problem, name: str) -> PeakConstant | None:
 
 
 def roots_of(problem: Problem, name: str) -> list[PlaceRange]:
-    """The places at which laws may have a peak, the last ones first: an end, where the slope need not be 0, alone.
+    """The places of possible peaks, the last ones first; an end, where the slope may be nonzero, is separate.
 
     The first half says all if laws are symmetric, or if their mirror images are laws too.
     """

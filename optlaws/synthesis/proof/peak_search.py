@@ -67,7 +67,7 @@ def search(problem: Problem, peak: PeakConstant, claim: float) -> PlaceSearch:
 
 
 def _too_wide(rows: PeakRows, part: _Part) -> bool:
-    """Whether it is not worth a program to see that the part is to be cut."""
+    """Whether the part is so wide that it is split without solving a program."""
     remainder = rows.remainder(part.places.k, part.places.reach)
     room = None if part.margin is None else max(part.margin, HARDLY * rows.low)
     return part.places.reach > LEAST_REACH and (

@@ -52,7 +52,7 @@ def greatest_values(model: Model, claim: float) -> dict[str, float]:
 
 
 def _mean_of_acceleration(problem: Problem, space: LawSpace, greatest: Mapping[str, float]) -> float:
-    """A bound of the integral of |c|: c is nowhere further from its mean than the integral of |j|."""
+    """A bound of the integral of |c|: c differs from its mean by at most the integral of |j|."""
     known = dict(means(problem, space, greatest))
     if problem.conditions.order == 1:
         return known.get(2, inf)
@@ -60,7 +60,7 @@ def _mean_of_acceleration(problem: Problem, space: LawSpace, greatest: Mapping[s
 
 
 def moments(model: Model, greatest: Mapping[str, float]) -> list[tuple[Array, Array]]:
-    """Bounds of the moments of a derivative in laws with such constants, but for the base law, for each one known.
+    """Bounds of the moments of a derivative relative to the base law's, one for each known constant.
 
     Beside each the matrix from a functional's values on the free functions to weights of these moments.
     """
@@ -95,7 +95,7 @@ def _from_one_sign(problem: Problem, space: LawSpace, greatest: Mapping[str, flo
 
 
 def spread(expression: Expression, claim: float, bounds: dict[str, float], least: Mapping[str, float]) -> None:
-    """Note in `bounds` what the constants of an expression are at most, where its value is below the claim."""
+    """Record in `bounds` the upper bounds of an expression's constants, from its value below the claim."""
     for weight, term in expression.terms:
         name = repr(term)
         others = sum(share * least[repr(other)] for share, other in expression.terms if other is not term)
@@ -155,7 +155,7 @@ def means(problem: Problem, space: LawSpace, greatest: Mapping[str, float]) -> l
 
 
 def _base_moments(space: LawSpace, nu: int) -> Array:
-    """Magnitudes of the base law's moments: coordinates say by how much the moments of a law differ from them."""
+    """Magnitudes of the base law's moments, to which the coordinates' moments are added."""
 
     def computed() -> Array:
         rule = space.quadrature(nu)

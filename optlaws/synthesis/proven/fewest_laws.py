@@ -51,7 +51,7 @@ class ChordSelection:
         self.below = np.concatenate([low, below])[order]
 
     def fewest(self, gap: float, points: int | None = None) -> tuple[list[int], float]:
-        """Places of laws, each as far from the one before as the gap allows, and the greatest gap between them.
+        """Places of laws, each as far from its predecessor as the gap allows, and the greatest gap between them.
 
         Raises
         ------
@@ -94,7 +94,7 @@ class ChordSelection:
         return places, reached
 
     def _reached(self, points: int) -> float:
-        """A gap that so many laws reach."""
+        """A gap that is reached with a given number of laws."""
         low, high = 0.0, 1.0
         for _ in range(_STEPS):
             middle = 0.5 * (low + high)

@@ -33,7 +33,7 @@ RUN_TIME = (f"{AT_MOST}B", "C")
 
 
 class LazySequence(Sequence[T]):
-    """Items that are made when they are first asked for, and kept; equal to others with equal items."""
+    """Items that are computed at their first use and cached; equal to others with equal items."""
 
     def __init__(self, count: int, make: Callable[[int], T]) -> None:
         self._count, self._make = count, make
@@ -66,7 +66,7 @@ class LazySequence(Sequence[T]):
 
 @dataclass(frozen=True)
 class FrontPoint(JsonText):
-    """A law of a proven front, with the proof of how much better one could be at most.
+    """A law of a proven front, with the proof of its gap to the best law.
 
     Attributes
     ----------
@@ -111,7 +111,7 @@ class FrontPoint(JsonText):
         return self.law.constants
 
     def to_dict(self) -> dict[str, Any]:
-        """Plain JSON-able dict, which `optlaws verify` takes as it takes that of a `Solution`."""
+        """Plain JSON-able dict, which `optlaws verify` accepts like the dict of a `Solution`."""
         return {
             "value": self.value,
             "problem": self.problem.to_dict(),
@@ -219,7 +219,7 @@ class ProvenFront(JsonText):
         certificates: LazySequence[Certificate],
         sides: Array,
     ) -> ProvenFront:
-        """A front whose laws are made when they are asked for, with what is known at each already."""
+        """A front whose laws are computed when needed, with the known values of each."""
         front = cls(number, tuple(values.tolist()), laws, certificates)
         front.__dict__["sides"] = sides
         return front
@@ -363,7 +363,7 @@ class ProvenFront(JsonText):
         )
 
     def plot(self, ax: Any = None, **style: Any) -> list[Any]:  # noqa: ANN401 - matplotlib's
-        """Draw the front as it is at every value, into matplotlib's axes, new ones unless given; the artists."""
+        """Draw the continuous front into matplotlib's axes, new ones by default; returns the artists."""
         from optlaws.plots.front import draw_proven_front
 
         return draw_proven_front(self, ax, **style)

@@ -140,7 +140,7 @@ class _Refined:
         return solution
 
     def _insert(self, parts: NDArray[np.int_], gap: float) -> None:
-        """Cut each interval into so many parts."""
+        """Cut each interval into a number of parts."""
         new = np.concatenate(
             [
                 np.linspace(low, high, count + 1)[1:-1]
@@ -276,7 +276,7 @@ def _least_known(number: SweptParameter) -> str:
 
 
 def lower_lines(part: SolvedPart, values: Array, number: SweptParameter, ends: tuple[float, float]) -> Array | None:
-    """Value and slope of what the certificates of a part prove between the ends; None where a row is not linear."""
+    """Value and slope of the certificates' bounds between the ends of a part; None where a row is not linear."""
     families = part.model.program.families
     if number.name != "B" or not all(isinstance(family, LinearFamily) for family in families):
         return None

@@ -160,7 +160,7 @@ def _check_convex(problem: Problem) -> None:
 
 
 class LowerLine(NamedTuple):
-    """An affine function of the running number: its value where the certificate was made, and its slope."""
+    """An affine function of the swept number: its value where the certificate was computed, and its slope."""
 
     value: float
     slope: float
@@ -169,7 +169,7 @@ class LowerLine(NamedTuple):
 def lower_line(
     certificate: Certificate, at: float, number: SweptParameter, ends: Ends, claim: float = -inf
 ) -> LowerLine:
-    """An affine function that is nowhere above the least objective between two ends of the running number.
+    """An affine lower bound of the least objective between two values of the swept number.
 
     Of a weight it is a bound at the certificate's own problem, with slope 0. What rounding hides is charged as much as
     it can be worth anywhere between the ends: it grows with every bound, with the objective that is claimed, and as a

@@ -33,7 +33,7 @@ from optlaws.tolerances import MIRROR
 
 
 def places(breaks: int | Sequence[float]) -> tuple[float, ...]:
-    """Breaks as floats; a number asks for so many pieces of equal length.
+    """Breaks as floats; an integer means as many pieces of equal length.
 
     >>> places(4), places([0, 0.3, 1])
     ((0.0, 0.25, 0.5, 0.75, 1.0), (0.0, 0.3, 1.0))
@@ -98,7 +98,7 @@ class Basis(JsonText, ABC):
 
     @property
     def mirrored(self) -> bool:
-        """Whether it is known to hold with every law from rest to rest its mirror image too."""
+        """Whether the basis contains the mirror image of every law from rest to rest."""
         return False
 
     @abstractmethod
@@ -133,7 +133,7 @@ class Basis(JsonText, ABC):
 
 @dataclass(frozen=True)
 class PolynomialBasis(Basis):
-    """A chosen basis W_0, ..., W_degree for Z(k), dimensionless; subclasses say which.
+    """A chosen basis W_0, ..., W_degree for Z(k), dimensionless; subclasses define it.
 
     A new basis is one subclass: give it a `name` and the two conversions.
 
@@ -292,7 +292,7 @@ class Pieces(Basis):
 
     @classmethod
     def around(cls, switches: Sequence[float], width: float, degree: int = 4, continuity: int = 3) -> Pieces:
-        """Pieces that leave room for quick changes of acceleration around the given switches, `width` each.
+        """Pieces that allow quick changes of acceleration around the given switches, `width` each.
 
         Take the breaks of a limit law: the optimum then comes near the limit as the width goes to 0.
 

@@ -132,7 +132,7 @@ class PieceSpace(PiecewiseSpace):
         return PieceSeries(pieces.breaks, np.stack(integrals))
 
     def forward(self, slack: Array) -> ConstraintFamily:
-        """Rows b >= 0, from rest to rest divided by what they vanish like at the ends."""
+        """Rows b >= 0, divided by their zeros at the ends for laws from rest to rest."""
         order = self.boundary.order
         whole = len(self.k) == 2 and not self.symmetric
         if order == 1 or whole or self.boundary != BoundaryConditions.rest(order):
@@ -184,5 +184,5 @@ class PieceSpace(PiecewiseSpace):
 def piece_space(
     boundary: BoundaryConditions, breaks: tuple[float, ...], degree: int, continuity: int, *, symmetric: bool
 ) -> PieceSpace:
-    """The space, kept for the next call."""
+    """The law space, cached for the next call."""
     return PieceSpace(boundary, breaks, degree, continuity, symmetric=symmetric)

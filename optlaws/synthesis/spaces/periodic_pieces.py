@@ -1,4 +1,4 @@
-"""Laws that repeat: polynomials between breaks whose derivatives at 1 are those at 0, straight where it is said."""
+"""Periodic laws: polynomials between breaks whose derivatives at 1 equal those at 0, straight where required."""
 
 from __future__ import annotations
 
@@ -126,5 +126,5 @@ class PeriodicSpace(PieceSpace):
 
 @lru_cache(maxsize=16)
 def periodic_space(boundary: BoundaryConditions, basis: PeriodicPieces) -> PeriodicSpace:
-    """The space, kept for the next call."""
+    """The law space, cached for the next call."""
     return PeriodicSpace(boundary, basis)

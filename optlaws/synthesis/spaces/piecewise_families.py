@@ -86,7 +86,7 @@ class PieceFamily(LinearFamily):
 
     @property
     def continuable(self) -> bool:
-        """False: contacts at kinks are neither held at an end nor free."""
+        """False: contacts at kinks are neither fixed at an end nor free."""
         return False
 
     @kept_property
@@ -132,7 +132,7 @@ class PieceFamily(LinearFamily):
 
     @kept_property
     def _last(self) -> dict[bytes, Array]:
-        """Stationary places of the last variables, which a round asks for more than once."""
+        """Stationary places of the last variables, cached for repeated calls in a round."""
         return {}
 
     def pinned(self, u: Array) -> NDArray[np.bool_]:

@@ -174,7 +174,7 @@ class PiecewiseSpace(LawSpace):
 
     @property
     def edges(self) -> tuple[float, ...]:
-        """The breaks, of symmetric laws those of the first half."""
+        """The breaks; for symmetric laws, the breaks of the first half."""
         return tuple(self.pieces(2).breaks.tolist())
 
     def jumps(self, nu: int) -> bool:
@@ -185,7 +185,7 @@ class PiecewiseSpace(LawSpace):
         return np.asarray(self.pieces(nu).values(np.array([1.0 - 2.0 * k]))[0])
 
     def below(self, slack: Array, peak: float = 0.5) -> ConstraintFamily:
-        """Rows b <= b(peak), divided by what they vanish like there: undivided they would be ill posed."""
+        """Rows b <= b(peak), divided by their zeros there, without which they would be ill posed."""
         centre = 1.0 - 2.0 * peak
         smooth = self.continuity > 1 or centre not in self.pieces(2).breaks
         series = below_peak(self.pieces(2), self.pieces(3), centre, smooth=smooth)

@@ -131,7 +131,7 @@ class PolynomialSpace(LawSpace):
 
     @kept_property
     def scale(self) -> Array:
-        """Scales that make the peak acceleration of each free function 1."""
+        """Scales of the free functions, with which each has the peak acceleration 1."""
         return np.asarray(1.0 / np.abs(self._shapes[2]).max(axis=1))
 
     def series(self, nu: int) -> Array:
@@ -273,7 +273,7 @@ class PolynomialSpace(LawSpace):
 
 @lru_cache(maxsize=128)
 def polynomial_space(boundary: BoundaryConditions, degree: int, *, symmetric: bool) -> PolynomialSpace:
-    """The space, kept for the next call."""
+    """The law space, cached for the next call."""
     return PolynomialSpace(boundary, degree, symmetric=symmetric)
 
 

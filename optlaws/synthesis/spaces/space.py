@@ -173,7 +173,7 @@ class LawSpace(ABC):
         """Rows b <= b(peak) of laws with c(peak) = 0; symmetric ones have their peak at 1/2."""
 
     def forward(self, slack: Array) -> ConstraintFamily:
-        """Rows b >= 0; those of laws from rest to rest may be divided by what they vanish like at the ends."""
+        """Rows b >= 0, which may be divided by their zeros at the ends for laws from rest to rest."""
         return self.derivative(1, RowName.FORWARD, slack, signs=(-1.0,))
 
     def from_rest(

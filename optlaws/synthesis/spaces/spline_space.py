@@ -144,7 +144,7 @@ def _continue(c: Array, lengths: Array, velocities: Array, flat: int) -> None:
 
 @lru_cache(maxsize=16)
 def spline_space(boundary: BoundaryConditions, basis: PiecewiseBasis, *, symmetric: bool) -> SplineSpace:
-    """The space, kept for the next call."""
+    """The law space, cached for the next call."""
     return SplineSpace(boundary, basis, symmetric=symmetric)
 
 

@@ -26,7 +26,7 @@ _NOTHING = 16.0
 
 
 def conic(program: Program) -> bool:
-    """Whether every family is linear, a norm, quadratic or made of cones, but not all of them linear."""
+    """Whether every family is linear, a norm, quadratic or conic, but not all are linear."""
     return program.curved and all(map(of_cones, program.families))
 
 
@@ -99,7 +99,7 @@ def _turned(s: Array) -> Array:
 
 
 def optimum_on_points(program: Program, points: list[Points], near: Array | None = None) -> Answer | None:
-    """The optimum of the program with its families held at the points only; None where none is found.
+    """The optimum of the program with its families enforced at the points only; None if it is not found.
 
     Parameters
     ----------
@@ -178,7 +178,7 @@ def _block(family: ConstraintFamily, points: Points) -> _Block:
 
 
 def _stacked(square: SumOfSquares, room: Array) -> Array:
-    """The rows of the cone that a sum of squares is in where it is at most its room."""
+    """The conic rows that bound a sum of squares by its slack."""
     triangle = np.asarray(np.linalg.qr(square.rows, mode="r")) if len(square.rows) > len(room) else square.rows
     if square.root:
         return np.vstack([room, triangle])

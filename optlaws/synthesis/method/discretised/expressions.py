@@ -169,7 +169,7 @@ class RowShape:
         return [ca.MX.sym("numbers", *size) for size in self.sizes]
 
     def expression(self, x: Any, symbols: list[Any]) -> Any:  # noqa: ANN401 - casadi's
-        """The rows less what the variables say of their right sides."""
+        """The rows with their right sides subtracted."""
         import casadi as ca
 
         *numbers, slack = symbols

@@ -45,7 +45,7 @@ def _points(family: ConstraintFamily, size: int, even_share: float) -> Points:
 
 
 def with_extrema(program: Program, points: list[Points], x: Array) -> list[Points]:
-    """The points of every family, and those of its extrema at x that bind or nearly do."""
+    """The points of every family, with the extrema at x that are active or nearly active."""
     return [_joined(family, grid, x) for family, grid in zip(program.families, points, strict=True)]
 
 

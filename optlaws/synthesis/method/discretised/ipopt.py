@@ -78,7 +78,7 @@ class Answer:
 
 
 def solve_on_points(program: Program, points: list[Points], start: Array | None, *, fine: bool = False) -> Answer:
-    """Solve the program with its families held at the points only.
+    """Solve the program with its families enforced at the points only.
 
     `fine` asks for smaller tolerances, by which contacts of little weight are told from points that are merely near.
 
@@ -178,7 +178,7 @@ def _solved(shape: _Shapes, **numbers: Array) -> _Result:
 
 
 def _solver(shape: _Shapes) -> Any:  # noqa: ANN401 - a casadi Function, imported late
-    """The solver of a shape; those used last are kept, as many as their rows allow. The lock must be held."""
+    """The solver of a shape; recent solvers are cached up to a limit of rows. The caller must hold the lock."""
     solver = _solvers.pop(shape, None)
     if solver is None:
         solver = _build(shape)

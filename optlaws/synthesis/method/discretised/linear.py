@@ -103,11 +103,11 @@ class LinearTable:
         self.s = np.concatenate([np.empty(0), *(grid.s for grid in points)])
 
     def residuals(self, x: Array) -> Array:
-        """Rows . x - right: negative where a row has room."""
+        """Rows . x - right: negative where a row has slack."""
         return np.asarray(self.rows @ x - self.right)
 
     def vertex_at(self, binding: NDArray[np.bool_], x: Array) -> Array | None:
-        """The nearest x at which the binding rows and the equations hold exactly; None if there is none."""
+        """The nearest x at which the active rows and the equations hold exactly; None without such an x."""
         matrix = np.vstack([self.rows[binding], self.equations])
         right = np.concatenate([self.right[binding], self.equation_right])
         for _ in range(2):
@@ -116,7 +116,7 @@ class LinearTable:
         return x if left <= VERTEX_HELD * max(1.0, float(np.abs(x).max())) else None
 
     def balanced(self, binding: NDArray[np.bool_], weights: Array, equations: Array) -> tuple[Array, Array] | None:
-        """Multipliers near the given ones that balance the objective exactly; None if there are none above 0.
+        """Multipliers near the given ones that balance the objective exactly; None if any would be negative.
 
         Those of the rows belong to rows of length 1, those of the equations to the program's own.
         """
@@ -150,7 +150,7 @@ class LinearTable:
 
 
 def vertex_on_points(program: Program, points: list[Points], near: Array | None = None) -> Answer | None:
-    """An optimal vertex of the program with its families held at the points only; None where none is found.
+    """An optimal vertex of the program with its families enforced at the points only; None if it is not found.
 
     Parameters
     ----------
@@ -194,7 +194,7 @@ def vertex_on_points(program: Program, points: list[Points], near: Array | None 
 
 
 def by_family(values: Array, points: list[Points]) -> list[Array]:
-    """Values of all rows, those of each family apart."""
+    """Values of all rows, separated by family."""
     return np.split(values, np.cumsum([len(grid.u) for grid in points])[:-1])
 
 

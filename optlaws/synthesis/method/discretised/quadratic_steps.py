@@ -42,7 +42,7 @@ _TANGENTS = 60
 
 @dataclass(frozen=True, eq=False)
 class _Rows:
-    """All rows at some variables: residuals, and gradients as rows of length 1 with what they were divided by."""
+    """All rows at some variables: residuals, unit gradients, and the gradients' original lengths."""
 
     residual: Array
     gradient: Array
@@ -216,7 +216,7 @@ class _Descent:
         return np.asarray((axes * np.maximum(sizes, 0.0)) @ axes.T)
 
     def _step(self, x: Array, rows: _Rows, residual: Array, bend: Array, damping: float) -> _Step | None:
-        """The step of least cost, with one variable more: by how much every row may be exceeded."""
+        """The step of least cost, with one more variable: the allowed violation of all rows."""
         import clarabel
 
         program, size = self.program, self.program.size

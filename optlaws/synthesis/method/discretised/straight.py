@@ -27,7 +27,7 @@ _OPTIMAL = 0
 
 @dataclass(frozen=True, eq=False)
 class _LinearRows:
-    """Rows of variables and, in a sparse matrix, of the places' local variables, with what they are at most."""
+    """Rows of variables and, in a sparse matrix, of the places' local variables, with their right sides."""
 
     matrix: Array
     local: Any
@@ -35,7 +35,7 @@ class _LinearRows:
 
 
 class _Epigraph:
-    """A formula with kinks as one of its names and of local ones, which are above or below what they stand for."""
+    """A formula with kinks, as a name and local variables that bound its parts from above or below."""
 
     def __init__(self, formula: Formula, names: tuple[str, ...], k: Array) -> None:
         self.names, self.k = names, k
@@ -44,7 +44,7 @@ class _Epigraph:
         self.whole = self._of(formula, 1)
 
     def _of(self, formula: Formula, sign: int) -> Formula:
-        """The formula, whose factor has a sign; what is no sum of greatest ones stays."""
+        """The epigraph form of a formula times a signed factor; parts that are no sums of maxima stay."""
         if not switches(formula, self.names):
             return formula
         if isinstance(formula, Negative):
@@ -72,7 +72,7 @@ class _Epigraph:
 
 
 def straight_step(program: Program, points: list[Points], x: Array, reach: float) -> Array | None:
-    """The step from x to the optimum of a program that is linear but for kinks that are those of a maximum.
+    """The step from x to the optimum of a program that is linear except for kinks of maxima.
 
     None where the program is another, or has no optimum.
 
@@ -125,7 +125,7 @@ def _rows(family: ConstraintFamily, points: Points) -> _LinearRows | None:
 
 
 def _rows_of_integral(family: KinkedIntegralFamily) -> _LinearRows | None:
-    """The rows of its local variables, and the integral's; None unless it is convex, and affine but for its kinks."""
+    """The rows of its local variables and the integral's row; None unless it is convex and piecewise affine."""
     from scipy import sparse
 
     if not family.convex or family.root:

@@ -1,4 +1,4 @@
-"""Newton's method on the contacts: a guess of them, corrected by what each answer on it says."""
+"""Newton's method on the active contacts: an initial guess, corrected after each answer."""
 
 from __future__ import annotations
 

@@ -158,7 +158,7 @@ class ByInteriorPoints(Strategy[list[Points], ActiveSet]):
         return self.sound is None or bool(self.program.objective @ (x - self.sound.x) < 0.0)
 
     def _answer(self, program: Program, points: list[Points]) -> Answer:
-        """Clarabel's solution of a conic program; for other programs, or if it fails, that of IPOPT."""
+        """Clarabel's solution of a conic program; IPOPT's solution of any other program, or if Clarabel fails."""
         quick = optimum_on_points(program, points) if conic(program) else None
         if quick is not None:
             return self._noted(quick)
@@ -176,7 +176,7 @@ class ByInteriorPoints(Strategy[list[Points], ActiveSet]):
         return answer
 
     def _vertices_help(self, *, lost: bool) -> bool:
-        """Whether vertices are asked about the same points."""
+        """Whether vertices are computed on the same points."""
         large = not self.program.curved and self.program.size > _LARGE
         return (not self.program.curved or conic(self.program)) and (large or lost or self.count == self.rounds)
 
@@ -191,7 +191,7 @@ class ByInteriorPoints(Strategy[list[Points], ActiveSet]):
 
 
 def _only(program: Program, *kinds: type[ConstraintFamily]) -> bool:
-    """Whether every family is one of these kinds."""
+    """Whether every family is of one of these kinds."""
     return all(isinstance(family, kinds) for family in program.families)
 
 

@@ -1,4 +1,4 @@
-"""Integrals with kinks, or that are not convex: a linear program shows the kinks, quadratic ones the optimum."""
+"""Integrals with kinks or without convexity: a linear program finds the kinks, quadratic programs the optimum."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ _RADIUS = 0.2
 
 
 def bends_both_ways(program: Program) -> bool:
-    """Whether an integral of a formula with kinks, or of one that is not convex, is in a program.
+    """Whether a program contains an integral with kinks or without convexity.
 
     Interior points lose their way there; quadratic programs never leave the start for a worse law.
     """
@@ -64,7 +64,7 @@ class ByQuadratics(Strategy[list[Points], ActiveSet]):
     answer: Answer | None = None
 
     def answered(self, points: list[Points]) -> tuple[ActiveSet | None, list[Points] | None]:
-        """The optimum, or the points with the extrema of the answer; neither where there is none."""
+        """The optimum, or the points with the extrema of the answer; neither if the step fails."""
         if self.count == 0 and not self.straight:
             self._smoothed(points)
         if self.count == 0 and self.straight:

@@ -35,7 +35,7 @@ _SLACK = 10.0
 
 
 def many_pieces(program: Program) -> bool:
-    """Whether a program is linear or conic and has so many pieces that its optimum is flat."""
+    """Whether a program is linear or conic with so many pieces that its optimum is flat."""
     counts = [len(family.pieces.breaks) - 1 for family in program.families if isinstance(family, PieceFamily)]
     return (not program.curved or conic(program)) and max(counts, default=0) >= _PIECES
 
@@ -123,7 +123,7 @@ def _excess(program: Program, x: Array) -> float:
 
 
 def _exact(program: Program, points: list[Points], vertex: Answer, excess: float) -> tuple[Answer, float]:
-    """The vertex with what binds and the equations held, and the multipliers balanced, as exactly as numbers do.
+    """The vertex that satisfies active rows and equations, with balanced multipliers, to machine precision.
 
     The solver's tolerance is that of rows of length 1, which for a snap is far from what the law needs.
     """

@@ -47,7 +47,7 @@ class Box:
 
 @dataclass(frozen=True, eq=False)
 class Places:
-    """Places k with rows over a box's variables there, one matrix for each quantity that curved rows are made of."""
+    """Places k with rows over a box's variables, a matrix for each quantity in the curved rows."""
 
     k: Array
     rows: tuple[Array, ...]
@@ -108,20 +108,20 @@ class BoxRows(ABC):
 
     @abstractmethod
     def kinds(self, box: Box) -> list[tuple[str, float]]:
-        """Names and signs of the curved rows that say something in a box."""
+        """Names and signs of the curved rows that are useful in a box."""
 
     @abstractmethod
     def curved(self, box: Box, places: Places, name: str, signs: Array) -> Array:
-        """Rows of a name in a box, each at most 0 with its constant; zeros where they say nothing."""
+        """Rows of a name in a box, each at most 0 with its constant; zeros where they are useless."""
 
     @property
     @abstractmethod
     def names(self) -> tuple[str, ...]:
-        """Names of all the curved rows that there may be."""
+        """Names of all possible curved rows."""
 
     @property
     def alone(self) -> tuple[str, ...]:
-        """Names of the rows that belong to no place, such as those of integrals."""
+        """Names of the rows without a place, such as rows of integrals."""
         return ()
 
     def beside(self, box: Box) -> list[tuple[Contact, Array]]:
@@ -130,21 +130,21 @@ class BoxRows(ABC):
         return []
 
     def row_beside(self, box: Box, contact: Contact) -> Array:
-        """The row of such a contact."""
+        """The row of a contact from `beside`."""
         return {contact_beside.constraint: row for contact_beside, row in self.beside(box)}[contact.constraint]
 
     def worth(self, box: Box) -> Array | None:
-        """How much is gained where a variable's range is cut; None where that is not known."""
+        """The gain from a split of each variable's range; None where it is not known."""
         del box
         return None
 
     def remember(self, values: Array) -> None:
-        """Take note of a law, by its variables of a box, near which rows may be worth having."""
+        """Remember a law, by its variables of a box, near which further rows may be useful."""
         del values
 
     @property
     def branched(self) -> list[int]:
-        """The variables beyond the velocities that are worth a cut."""
+        """The variables, besides the velocities, for which a split is useful."""
         return []
 
     @property
@@ -168,7 +168,7 @@ class BoxRows(ABC):
         return coordinates
 
     def mapped(self, rows: Array) -> Array:
-        """Rows over the program's variables, the constant last, as rows over those of a box."""
+        """Rows over the program's variables, the constant last, converted to rows over a box's variables."""
         inverse, base = self._map
         free, nothing = rows[:, : self.terms], np.zeros((len(rows), self.extra))
         variables = rows[:, self.terms : -1]

@@ -45,7 +45,7 @@ _LAST = 6
 
 
 def applies(problem: Problem) -> bool:
-    """Whether boxes bound the problem's formulas: those of polynomials whose velocities some constant bounds."""
+    """Whether boxes bound the problem's formulas: polynomials whose velocities some constant bounds."""
     model = model_of(problem)
     known = isinstance(model.space, PolynomialSpace) and model.space.order > 1
     open_ones = (
@@ -70,7 +70,7 @@ def _bent(family: ConstraintFamily) -> bool:
 
 
 def _greatest(model: Model, claim: float) -> dict[str, float]:
-    """Greatest values of the constants in laws below the claim, with one of |b|."""
+    """Greatest values of the constants in laws below the claim, with a bound of |b|."""
     bounds = asked_or_claimed(model, claim)
     for order, mean in means(model.problem, model.space, bounds):
         # b is nowhere further from its mean, the stroke, than the mean of |c|, nor c from its own than that of |j|
@@ -131,7 +131,7 @@ class Plane:
 
 
 class FormulaRows(BoxRows):
-    """The rows of a problem with peaks of formulas in it, one that `applies`; parameters as of `BoxRows`."""
+    """The rows of a problem with peaks of formulas, where `applies` is true; parameters as for `BoxRows`."""
 
     def __init__(self, problem: Problem, claim: float, points: Sequence[float]) -> None:
         super().__init__(problem, claim, points)
@@ -153,7 +153,7 @@ class FormulaRows(BoxRows):
         return box
 
     def brackets_at(self, k: Array) -> tuple[Array, Array]:
-        """Least and greatest velocity at the places k: those of the peak, and of what C leaves from the ends on."""
+        """Least and greatest velocity at the places k: the peak's, and the bounds by C from the ends."""
         low, high = np.full(k.shape, -self.greatest["B"]), np.full(k.shape, self.greatest["B"])
         if self.problem.monotone:
             low = np.maximum(low, 0.0)
@@ -203,7 +203,7 @@ class FormulaRows(BoxRows):
         self._near = [*self._near[:1], *self._near[1:][-_LAST + 1 :], values[: self.terms]]
 
     def beside(self, box: Box) -> list[tuple[Contact, Array]]:
-        """Planes of integrals that touch at the middle of the box, and at laws worth it."""
+        """Planes of integrals that touch at the middle of the box, and at remembered laws."""
         if not self.integrals:
             return []
         middle = ((box.low + box.high) / 2.0)[: self.terms]
@@ -234,7 +234,7 @@ class FormulaRows(BoxRows):
         return beneath.row(box, np.array(contact.direction), self._limits, self._room(beneath.family))
 
     def is_curved(self, family: ConstraintFamily) -> bool:
-        """Whether it is of a formula."""
+        """Whether the family belongs to a formula."""
         return isinstance(family, CurvedFamily)
 
     @kept_property
@@ -251,7 +251,7 @@ class FormulaRows(BoxRows):
 
     @property
     def names(self) -> tuple[str, ...]:
-        """The names of all planes that there may be."""
+        """The names of all possible planes."""
         return tuple(dict.fromkeys(name for name, _ in self._planes))
 
     def kinds(self, box: Box) -> list[tuple[str, float]]:

@@ -24,7 +24,7 @@ _TOLERANCES = {"primal_feasibility_tolerance": 1e-10, "dual_feasibility_toleranc
 
 @dataclass(frozen=True, eq=False)
 class Linear:
-    """Rows A z <= h and E z = f over the unit cube that a box is scaled to, with what they were before."""
+    """Rows A z <= h and E z = f over the unit cube of a scaled box, with the original rows."""
 
     matrix: Array
     right: Array
@@ -53,7 +53,7 @@ def _solved(goal: Array, rows: tuple[Array, Array], equations: tuple[Array, Arra
 
 
 class Grid:
-    """The places k at which rows are held, for every family of the program and for the power."""
+    """The places k at which rows are enforced, for every family of the program and for the power."""
 
     def __init__(self, rows: BoxRows, x: Array) -> None:
         self.rows = rows

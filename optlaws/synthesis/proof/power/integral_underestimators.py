@@ -64,7 +64,7 @@ class CurvatureBound:
 
 
 class ConvexUnderestimator:
-    """Planes that the integral of a formula, or its root, is nowhere below in a box."""
+    """Planes that are lower bounds of the integral of a formula, or of its root, in a box."""
 
     def __init__(self, rows: BoxRows, family: IntegralFamily, motion: MotionFormula) -> None:
         self.rows, self.family, self.motion = rows, family, motion
@@ -143,7 +143,7 @@ class ConvexUnderestimator:
         return planes
 
     def _anywhere(self, low: Array, high: Array) -> Array:
-        """A form over the velocities that second derivatives of the integral are nowhere below in the ranges."""
+        """A quadratic form in the velocities below the integral's second derivatives, over the ranges."""
         within = self._intervals(low, high)
         count, widths = len(self.family.names), np.maximum(high - low, TINY)
         bend = np.zeros((count, count, len(self.middle)))
@@ -228,7 +228,7 @@ class ConvexUnderestimator:
         return np.asarray(ways[rank:].T)
 
     def row(self, box: Box, at: Array, limits: Mapping[str, float], room: Array) -> Array:
-        """The plane that touches at the law with these velocities, less the room for the integral; at most 0."""
+        """The plane that touches at the law with these velocities, less the integral's slack; at most 0."""
         terms = self.rows.terms
         at = np.clip(at, box.low[:terms], box.high[:terms])
         bend = self._bend_of(box, limits)
@@ -274,7 +274,7 @@ class ConvexUnderestimator:
         return np.asarray(row)
 
     def _off(self, at: Array, bend: CurvatureBound) -> Array | None:
-        """How far derivatives in the box may be from those of a law on the cells; None if it is not among them."""
+        """The greatest distance of derivatives in the box from a law's, on the cells; None for a law outside."""
         law, rows = self._law(at), []
         for low, high, series in zip(bend.low, bend.high, self._series, strict=True):
             value, bent = series[0] @ law, np.abs(series[1:] @ law).sum(axis=0)
@@ -284,7 +284,7 @@ class ConvexUnderestimator:
         return np.array(rows)
 
     def _square(self, box: Box, room: Array) -> Array:
-        """The chord of the square of the room for a root."""
+        """The secant of the slack's square, for a root."""
         least, most = (max(float(end[0]), 0.0) for end in box.extent(room[None]))
         square = (least + most) * room
         square[-1] -= least * most

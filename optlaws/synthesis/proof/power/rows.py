@@ -49,7 +49,7 @@ def greatest(model: Model, claim: float) -> dict[str, float]:
 
 
 class PowerRows(BoxRows):
-    """The rows of a problem with D in it, one that `applies`; parameters as of `BoxRows`."""
+    """The rows of a problem with D, where `applies` is true; parameters as for `BoxRows`."""
 
     def __init__(self, problem: Problem, claim: float, points: Sequence[float]) -> None:
         super().__init__(problem, claim, points)
@@ -69,7 +69,7 @@ class PowerRows(BoxRows):
         return [] if self.place is None or alone else [self.place]
 
     def is_curved(self, family: ConstraintFamily) -> bool:
-        """Whether it is the power."""
+        """Whether the family is the power."""
         return isinstance(family, ProductFamily)
 
     def kinds(self, box: Box) -> list[tuple[str, float]]:

@@ -1,4 +1,4 @@
-"""Rows of a box for the peaks of a body that shares a law's energy: B, C and D of its loader made linear.
+"""Rows of a box for the peaks of a body that shares a law's energy: B, C and D of its loader, linearised.
 
 With I, the integral of sqrt(B² - b²) over the first half, as a variable beside the velocities, C at most M says
 4 |p| <= 2 M I h(q), h = sqrt(q r)/b a function of q alone, and D at most M says |c| <= 4 M I²/b. In a box h, 1/b and I²
@@ -33,7 +33,7 @@ _STEPS = 4
 
 @dataclass(frozen=True, eq=False)
 class SecantOverestimator:
-    """A straight line that a function is nowhere above in a range, and the function's least and greatest values."""
+    """A straight line above a function in a range, and the function's least and greatest values."""
 
     slope: Array
     height: Array
@@ -98,7 +98,7 @@ def _root(B: float, square: Array, q: Array) -> Array:
 
 
 def _turn(B: float, square: Array, slope: Array) -> Array:
-    """The end of the range of small q on which h is concave; inf if there is none."""
+    """The end of the range of small q on which h is concave; inf if the range is unbounded."""
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         eta = 1.0 / (B * slope) ** 2
         kappa = square * eta
@@ -132,7 +132,7 @@ def applies(problem: Problem) -> bool:
 
 
 class EnergyRows(BoxRows):
-    """The rows of a problem with peaks of a loader in it, one that `applies`; parameters as of `BoxRows`."""
+    """The rows of a problem with peaks of a loader, where `applies` is true; parameters as for `BoxRows`."""
 
     extra = 1
 
@@ -167,11 +167,11 @@ class EnergyRows(BoxRows):
         return len(list(leaves(self.problem.objective))) == 1
 
     def is_curved(self, family: ConstraintFamily) -> bool:
-        """Whether it is a peak of the body."""
+        """Whether the family is a peak of the body."""
         return isinstance(family, EnergyFamily) and family.name in self.peaks
 
     def kinds(self, box: Box) -> list[tuple[str, float]]:
-        """Both signs of all planes; without those that say nothing more where a peak has one bound."""
+        """Both signs of all planes, without redundant ones where a peak has a single bound."""
         del box
         rows = []
         for name in self.peaks:
@@ -253,7 +253,7 @@ class EnergyRows(BoxRows):
         return least * (1.0 - ENERGY_OUTWARD), np.minimum(most * (1.0 + ENERGY_OUTWARD), self.B)
 
     def curved(self, box: Box, places: Places, name: str, signs: Array) -> Array:
-        """Rows s p <= M I h/2 or s c <= 4 M I²/b by the planes that the name tells."""
+        """Rows s p <= M I h/2 or s c <= 4 M I²/b by the planes with the given name."""
         peak, _, planes = name.rpartition(", ")
         family = self.peaks[peak]
         velocity, below, fall, acceleration = places.rows
