@@ -1,4 +1,4 @@
-"""Proofs checked with every rounding enclosed, without a solver: what a file claims, and what of it is proven.
+"""Proofs checked with every rounding enclosed, without a solver: the claims of a file, and the proven ones.
 
 It needs python-flint (``pip install "optlaws[verify]"``), which is imported at the first use.
 """

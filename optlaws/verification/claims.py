@@ -246,7 +246,7 @@ def _proof_claims(
     *,
     accurate: bool = True,
 ) -> Iterator[Claim]:
-    """Claims of a certificate: those of its leaves, and its bound."""
+    """Claims of a certificate: the claims of its leaves, and its bound."""
     if certificate.peak:
         verdict = "holds" if certificate.proven else "does not hold"
         unchecked = "proofs over the places of a peak are not checked in exact arithmetic yet"
@@ -313,7 +313,7 @@ def claims_in_context(entry: FileEntry, verification: Verification) -> Iterator[
 
 
 def _no_law(verification: Verification, above: float | None) -> bool:
-    """Whether no law exists: the constraints contradict each other, or a least value is above what is asked."""
+    """Whether no law exists: the constraints contradict each other, or a least value exceeds its bound."""
     bound = verification.bound
     return verification.infeasible or (above is not None and bound is not None and bound > above)
 

@@ -37,7 +37,7 @@ class Excess:
 
     @property
     def holds(self) -> bool:
-        """Whether the condition holds but for rounding."""
+        """Whether the condition holds up to rounding."""
         return self.by <= self.allowed
 
 
@@ -175,7 +175,7 @@ def _constant(law: ExactLaw, constant: Functional, limits: Range) -> Iterator[Ex
 
 
 def _extremes(window: Window, law: ExactLaw) -> Extremes:
-    """Least and greatest value of what a window bounds, where it does."""
+    """Least and greatest value of the quantity that a window bounds, over its range."""
     if window.motion is None:
         return law.extremes(window.nu, Fraction(window.start), Fraction(window.stop))
     greatest = law.greatest_of(window.motion, 1.0) if isfinite(window.high) else arb(0)

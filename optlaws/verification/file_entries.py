@@ -28,7 +28,7 @@ NO_FILE = "not a file of solutions or certificates"
 
 
 class SolutionFile(msgspec.Struct, forbid_unknown_fields=True):
-    """What `Solution.to_dict` writes, and the file of a command; what is claimed is checked elsewhere."""
+    """The output of `Solution.to_dict`, and of commands; its claims are checked elsewhere."""
 
     problem: Any
     law: Any
@@ -61,7 +61,7 @@ class LawFile(msgspec.Struct, forbid_unknown_fields=True):
 
 
 class LeastTimeFile(msgspec.Struct, forbid_unknown_fields=True):
-    """What `FastestMove.to_dict` writes; in units of metres or radians, and seconds."""
+    """The output of `FastestMove.to_dict`; in units of metres or radians, and seconds."""
 
     stroke: float
     limits: dict[str, float]
@@ -81,7 +81,7 @@ class LeastTimeFile(msgspec.Struct, forbid_unknown_fields=True):
 
 
 class TimeFrontFile(msgspec.Struct, forbid_unknown_fields=True):
-    """What `TimeFront.to_dict` writes."""
+    """The output of `TimeFront.to_dict`."""
 
     minimise: dict[str, Any]
     fastest: dict[str, Any]
@@ -99,7 +99,7 @@ class TableRow(msgspec.Struct, forbid_unknown_fields=True):
 
 
 class FrontFile(msgspec.Struct, forbid_unknown_fields=True):
-    """What `Front.to_dict` writes; where nothing was found claims nothing."""
+    """The output of `Front.to_dict`; `failed` points claim nothing."""
 
     over: list[str]
     values: list[list[float]]
@@ -110,7 +110,7 @@ class FrontFile(msgspec.Struct, forbid_unknown_fields=True):
 
 
 class SolutionArrayFile(msgspec.Struct, forbid_unknown_fields=True):
-    """What `SolutionArray.to_dict` writes; its solutions are claimed, from its arrays they are computed again."""
+    """The output of `SolutionArray.to_dict`; its solutions are recomputed from its arrays, and claimed."""
 
     shape: list[int]
     solutions: list[dict[str, Any]]
@@ -134,7 +134,7 @@ class Around:
 
 @dataclass(frozen=True)
 class FileEntry:
-    """A solution, certificate, law or array, and what is said around it; without data only that is said."""
+    """A solution, certificate, law or array, with the entries around it; without data, the entries alone."""
 
     data: Data
     around: Around = Around()
@@ -153,7 +153,7 @@ def entries(data: Data) -> dict[str, FileEntry]:
 
 
 def is_entry(data: Data) -> bool:
-    """Whether this is a solution, a certificate, a law, a proven front or a least time, whatever else it says."""
+    """Whether this is a solution, a certificate, a law, a proven front or a least time, whatever its other entries."""
     solution = {"problem", "law", "certificate"} <= data.keys()
     certificate = {"problem", "contacts"} <= data.keys() or {"problem", "steps"} <= data.keys()
     of_drive = is_drive_limit(data) or is_move_limit(data)
@@ -192,7 +192,7 @@ def is_time_front(data: Data) -> bool:
 
 
 def check_keys(data: Data) -> None:
-    """Refuse an entry that says what no entry of its kind says."""
+    """Refuse an entry with keys that no entry of its kind has."""
     if is_least_time(data):
         _stated(data, LeastTimeFile, "the least time")
     elif is_time_front(data):
@@ -265,7 +265,7 @@ def _array(array: SolutionArrayFile, data: Data, path: str) -> Iterator[tuple[st
 
 
 def _no_law(row: Data, path: str) -> Iterator[tuple[str, FileEntry]]:
-    """The proof that the problem of a row has no law, as one of that problem, whichever it says it is of."""
+    """The proof that the problem of a row has no law, converted to that problem from any other."""
     proof = row.get("proof")
     if not isinstance(proof, Mapping):
         yield path, FileEntry({}, Around(status="infeasible"))

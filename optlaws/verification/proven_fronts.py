@@ -1,4 +1,4 @@
-"""Proven fronts with every rounding enclosed: laws and certificates one by one, and what convexity says between."""
+"""Proven fronts with every rounding enclosed: single laws and certificates, and the bounds between by convexity."""
 
 from __future__ import annotations
 

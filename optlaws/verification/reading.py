@@ -1,4 +1,4 @@
-"""Files as plain data, strictly: nothing twice, every number finite, and no size that would run for days."""
+"""Files as plain data, strictly: no repeated keys, every number finite, and no size that would run for days."""
 
 from __future__ import annotations
 

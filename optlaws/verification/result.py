@@ -11,7 +11,7 @@ from optlaws.synthesis.problem.problem import Problem
 
 @dataclass(frozen=True)
 class Claim:
-    """Something a file says or implies, whether it is proven, and the numbers.
+    """A statement of a file, or an implied one, whether it is proven, and its numbers.
 
     Attributes
     ----------

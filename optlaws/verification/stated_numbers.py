@@ -1,4 +1,4 @@
-"""Numbers that a file states beside its proof, held against what is computed from the law."""
+"""Numbers that a file states beside its proof, compared with values computed from the law."""
 
 from __future__ import annotations
 

@@ -1,1 +1,1 @@
-"""Numbers, pieces of laws and formulas with every rounding enclosed: what exact rows, laws and bounds are made of."""
+"""Numbers, pieces of laws and formulas with every rounding enclosed, for exact rows, laws and bounds."""

@@ -22,7 +22,7 @@ def _tanh(x: Any) -> Any:  # noqa: ANN401 - a ball or a series
 
 
 def _power(base: Any, exponent: Any) -> Any:  # noqa: ANN401 - balls or series
-    """A whole exponent is one of repeated multiplication, so that the base may be negative."""
+    """The power of a ball; a whole exponent means repeated multiplication, so that the base may be negative."""
     plain = _plain(exponent)
     if plain.is_integer():
         whole = int(str(plain.unique_fmpz()))
@@ -62,7 +62,7 @@ def _may_vanish(x: arb) -> bool:
 
 
 def _plain(x: Any) -> arb:  # noqa: ANN401 - a ball or a series
-    """The value, without what a series says of its neighbourhood."""
+    """The value of a series, without its higher terms."""
     return x[0] if isinstance(x, arb_series) else x
 
 
@@ -94,7 +94,7 @@ def _on_pieces(table: Table, at: Any) -> Any:  # noqa: ANN401 - a ball or a seri
 
 
 def exact_pieces(table: Table) -> list[list[fmpq]]:
-    """On each piece of a table powers of (x - start); straight lines exactly, a spline as its rounded coefficients say.
+    """On each piece of a table powers of (x - start); exact for straight lines, rounded coefficients for a spline.
 
     >>> from optlaws.formulas.tree import Name
     >>> exact_pieces(Table(Name("k"), (0.0, 0.5, 1.0), (0.0, 1.0, 0.0)))

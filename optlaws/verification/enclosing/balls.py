@@ -30,13 +30,13 @@ def ball(value: float | Fraction | fmpq) -> arb:
 
 
 def lower(value: arb) -> Fraction:
-    """A number that is nowhere above the ball, to 128 binary places."""
+    """A lower bound of the ball, with 128 bits."""
     mantissa, exponent = (int(part) for part in _end(value).man_exp())
     return Fraction(floor(Fraction(mantissa) * Fraction(2) ** (exponent + _PLACES)), 2**_PLACES)
 
 
 def upper(value: arb) -> Fraction:
-    """A number that is nowhere below the ball, to 128 binary places."""
+    """An upper bound of the ball, with 128 bits."""
     mantissa, exponent = (int(part) for part in _end(value, upper=True).man_exp())
     return Fraction(ceil(Fraction(mantissa) * Fraction(2) ** (exponent + _PLACES)), 2**_PLACES)
 
@@ -66,7 +66,7 @@ def root(square: arb) -> arb:
 
 @contextmanager
 def series_length(count: int) -> Iterator[None]:
-    """Taylor series of so many terms."""
+    """Set the number of terms of Taylor series for the time of a `with` block."""
     before: Any = ctx.cap
     ctx.cap = count
     try:

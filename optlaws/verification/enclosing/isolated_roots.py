@@ -18,7 +18,7 @@ _NARROWER = 0.9
 
 
 def real_roots(polynomial: fmpq_poly, low: fmpq, high: fmpq) -> list[arb]:
-    """Balls that hold the real roots from one place to another, perhaps among others; an even or odd one is one of y².
+    """Balls that contain all real roots in a range; even and odd polynomials are solved in y².
 
     >>> [round(float(root), 9) for root in real_roots(fmpq_poly([0, -2, 0, 1]), fmpq(-1), fmpq(2))]
     [0.0, -1.414213562, 1.414213562]
@@ -67,7 +67,7 @@ def _changes_of_sign(polynomial: fmpz_poly) -> int:
 
 
 def _enclosed(polynomial: fmpz_poly) -> arb:
-    """The one root between 0, where it does not vanish, and 1; as narrow as the precision at work lets it be."""
+    """The single root between 0, which is no root, and 1, as narrow as the working precision permits."""
     slope, rises = polynomial.derivative(), polynomial[0] < 0
     middle, half = fmpq(1, 2), fmpq(1, 2)
     # a ball may reach a little beyond what it is to hold: in one where the slope has a sign no other root is near

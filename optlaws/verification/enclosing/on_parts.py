@@ -26,7 +26,7 @@ _RATIONALS = Arithmetic(number=Fraction, functions={}, power=_whole_power)
 
 
 def kinks(motion: MotionFormula) -> list[Fraction]:
-    """The k at which what depends on k alone may have a kink; those of straight lines exactly, others nearly.
+    """The k of possible kinks of a function of k alone; exact for straight lines, else nearly.
 
     >>> from optlaws.formulas.of_motion import of_text
     >>> kinks(of_text("table(1 - k, 0:1, 0.25:2, 1:0)*c + abs(k - 0.5)*b"))

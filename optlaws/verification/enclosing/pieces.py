@@ -226,7 +226,7 @@ class PowerPiece(ExactPiece):
         return least_and_greatest([self.value(nu, start), self.value(nu, stop)])
 
     def power(self) -> Extremes:
-        """The one value of b c on the piece, twice."""
+        """The constant value of b c on the piece, twice."""
         return ball(self.rate / 2), ball(self.rate / 2)
 
     def square(self, nu: int) -> arb:

@@ -56,7 +56,7 @@ def cells(
     terms: int = _TERMS,
     most: float = _MOST,
 ) -> Iterator[tuple[Ends, list[Taylor]]]:
-    """Many cells with the Taylor polynomials of functions there, and how far these are off.
+    """Many cells with Taylor polynomials of functions there, and their greatest errors.
 
     A polynomial is of what runs from -1 to 1 over the cell, and has as many terms as the function is smooth; where that
     is none, it is a number.

@@ -44,7 +44,7 @@ _NEAR, _SHARE = Fraction(1, 2**20), Fraction(1, 2**22)
 
 @dataclass(frozen=True)
 class Proof:
-    """The bound that a certificate proves, and what it took."""
+    """The bound that a certificate proves, and the corrections of its multipliers."""
 
     #: the lower bound; of a proof that no law exists, by how much the constraints contradict each other. None if
     #: nothing is proven
@@ -85,7 +85,7 @@ def prove(certificate: Certificate) -> Proof:
 
 @dataclass(frozen=True)
 class Along:
-    """A number on the right side of rows, or a weight of the objective, along which a bound is asked."""
+    """A number on the right side of rows, or a weight of the objective, along which a bound is computed."""
 
     #: the problem with the number greater by `width`; None for a weight, along which bounds are averaged
     step: Problem | None
@@ -166,7 +166,7 @@ class _System:
         self.rates = self._rates()
 
     def _rates(self) -> list[arb]:
-        """How fast the right side of each row runs along the number that was asked for."""
+        """The rate of each row's right side with respect to the swept number."""
         if self.along is None or self.along.step is None:
             return []
         there = _System(replace(self.certificate, problem=self.along.step), beside=self.beside)
@@ -334,7 +334,7 @@ class _System:
 
 
 def _better(proof: Proof, than: Proof, scale: Fraction) -> bool:
-    """Whether a proof bounds more, or as much but for a rounding with multipliers that are corrected much less."""
+    """Whether a proof gives a greater bound, or an equal one up to rounding with smaller corrections."""
     if proof.value is None or than.value is None:
         return proof.value is not None
     rounding = _SAME * max(scale, abs(than.value))

@@ -40,7 +40,7 @@ Vector = list[arb]
 
 @dataclass(frozen=True, eq=False)
 class BallBox:
-    """Points that are nowhere above the least values, and nowhere below the greatest."""
+    """Points between the least and the greatest values, which are balls."""
 
     low: Vector
     high: Vector
@@ -89,7 +89,7 @@ class BoxSteps(ABC):
 
     @abstractmethod
     def own_sides(self, name: str) -> tuple[arb, arb]:
-        """Least and greatest values of one of the program's own variables but B."""
+        """Least and greatest values of one of the program's own variables except B."""
 
     @abstractmethod
     def outer(self, k: Fraction) -> tuple[arb, arb]:
@@ -97,7 +97,7 @@ class BoxSteps(ABC):
 
     @abstractmethod
     def curved(self, contact: Contact, box: BallBox) -> Vector | None:
-        """The row of a contact that depends on the box; None where it is no such row, or says nothing there."""
+        """The row of a contact that depends on the box; None for any other contact, or where it is useless."""
 
     def holds(self) -> bool:
         """Whether the tree leaves no box."""
@@ -157,7 +157,7 @@ class BoxSteps(ABC):
         return self.mapped([*free, *[arb(0)] * len(self.rows.names), base])
 
     def contact(self, contact: Contact, box: BallBox) -> Vector:
-        """The row of a contact, at most 0; zeros where the problem asks for nothing of the kind."""
+        """The row of a contact, at most 0; zeros where the problem has no such constraint."""
         curved = self.curved(contact, box)
         row = self.rows.row(contact) if curved is None else None
         if row is not None:
@@ -231,7 +231,7 @@ class _PowerProof(BoxSteps):
         return (low.max(arb(0)) if self.problem.monotone else low), high.min(self.B)
 
     def curved(self, contact: Contact, box: BallBox) -> Vector | None:
-        """The row of the power at a contact, zeros where it says nothing."""
+        """The row of the power at a contact, zeros where it is useless."""
         if contact.constraint not in POWER_ROWS:
             return None
         return self.power(contact, box) or [arb(0)] * (len(box.low) + 1)
@@ -264,7 +264,7 @@ class _FormulaProof(BoxSteps):
     """The proof over boxes of a problem with peaks of formulas that are not convex."""
 
     def greatest_velocity(self) -> arb:
-        """B, or what a bound of a mean of |c|, or of |j|, says: b is no further from its mean, and c from its own."""
+        """An upper bound of the velocity: B, or bounds by the mean of |c| or |j| and the distance from the mean."""
         bounds = [ball(self.greatest["B"])] if "B" in self.greatest else []
         bounds += [self.stroke + ball(self.greatest[name]) for name in ("C", "rms_c") if name in self.greatest]
         drop = abs(self.ends[1] - self.ends[0])
@@ -272,7 +272,7 @@ class _FormulaProof(BoxSteps):
         return reduce(lambda low, other: low.min(other), bounds) if bounds else arb.pos_inf()
 
     def own_sides(self, name: str) -> tuple[arb, arb]:
-        """A constant is at least what its formula is where the ends say it."""
+        """Bounds of a constant from its formula's values at the ends."""
         constants = (leaf for _, leaf in leaves(self.problem.objective) if isinstance(leaf, Functional))
         floors = {leaf.name: floor(leaf, self.problem.conditions) for leaf in constants}
         return ball(floors[name]), ball(self.greatest[name])
@@ -287,7 +287,7 @@ class _FormulaProof(BoxSteps):
         return low, high
 
     def curved(self, contact: Contact, box: BallBox) -> Vector | None:
-        """A plane that the formula is nowhere below."""
+        """A plane that is nowhere above the formula."""
         branch_there = self._branches.get((contact.constraint, contact.sign))
         if branch_there is None:
             return None
@@ -310,7 +310,7 @@ class _FormulaProof(BoxSteps):
 
     @kept_property
     def _branches(self) -> dict[tuple[str, float], tuple[Branch, Way, dict[str, float], float]]:
-        """Formulas with where their planes touch and what they are at most, by the names and signs of rows."""
+        """Formulas with the contact points of their planes and their bounds, by the names and signs of rows."""
         sought = (leaf for _, leaf in leaves(self.problem.objective) if isinstance(leaf, Functional))
         bounded: list[tuple[Functional, dict[str, float], float]] = [(leaf, {leaf.name: -1.0}, 0.0) for leaf in sought]
         bounded += [(constant, {}, limits.high) for constant, limits in self.problem.bounded if isfinite(limits.high)]
@@ -335,7 +335,7 @@ class _FormulaProof(BoxSteps):
 
 
 def _plane(branch: Branch, way: Way, ranges: dict[str, tuple[arb, arb]], k: Fraction) -> tuple[Vector, arb] | None:
-    """Slopes by the derivatives and height of a plane that sign times the formula is nowhere below in the ranges.
+    """Slopes by the derivatives and height of a plane below sign times the formula in the ranges.
 
     None where it has none. What Taylor's formula leaves is half the form of second derivatives somewhere in the ranges.
     """

@@ -1,4 +1,4 @@
-"""A law as it is stored, taken exactly, and rigorous enclosures of its constants."""
+"""A stored law as exact numbers, and rigorous enclosures of its constants."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ _TOLD = (*_OF_CAMS, "residual(", "mode_residual(", "output_peak(", "output_rms("
 
 
 def known(term: Term) -> Known:
-    """The constant, if it is one of a law, of its cam, of a machine, or of a formula, as optlaws itself defines them.
+    """The constant, if optlaws itself defines it, for a law, a cam, a machine, or a formula.
 
     Raises
     ------
@@ -99,7 +99,7 @@ class ExactLaw:
         self._extremes: dict[tuple[int, Fraction, Fraction], Extremes] = {}
 
     def _raise(self) -> None:
-        """Let each polynomial begin where the one before ends."""
+        """Let each polynomial begin at the end value of its predecessor."""
         height = rational(self.start)
         for piece in self.pieces:
             if not isinstance(piece, PolynomialPiece):
@@ -109,14 +109,14 @@ class ExactLaw:
 
     @property
     def polynomials(self) -> list[PolynomialPiece]:
-        """The pieces of a law that is made of polynomials alone."""
+        """The pieces of a law that consists of polynomials alone."""
         polynomials = [piece for piece in self.pieces if isinstance(piece, PolynomialPiece)]
         if len(polynomials) < len(self.pieces):
             raise InputError("the law of a solution must be made of polynomials")
         return polynomials
 
     def value(self, nu: int, k: Fraction) -> fmpq:
-        """The derivative of order nu at k, exact; at a break that of the later piece."""
+        """The derivative of order nu at k, exact; at a break, the later piece's value."""
         return [piece for piece in self.polynomials if piece.start <= k][-1].exact(nu, k)
 
     def extremes(self, nu: int, start: Fraction = Fraction(0), stop: Fraction = Fraction(1)) -> Extremes:
@@ -187,7 +187,7 @@ class ExactLaw:
         return {name: enclosed(value) for name, value in self.constants().items()}
 
     def of_machine(self, constant: OfMachine) -> arb:
-        """A ball that holds a constant of a machine: the residual of a follower or of a mode, or one of an output."""
+        """A ball that contains a machine's constant: the residual of a follower or a mode, or an output's constant."""
         with ctx.workprec(2 * self.precision):
             if isinstance(constant, ResidualConstant):
                 return ExactResidual(constant).peak(self.polynomials)

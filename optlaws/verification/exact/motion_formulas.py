@@ -133,7 +133,7 @@ def _columns(space: ExactSpace, motion: MotionFormula, k: arb, piece: int) -> li
 
 
 def tangent_columns(space: ExactSpace, branch: Branch, point: Sequence[float], k: Fraction) -> list[arb]:
-    """The affine function that touches a convex formula where the derivatives are as given; nowhere above it.
+    """The affine function that touches a convex formula at given derivatives; nowhere above it.
 
     LookupError unless the point gives each of them.
     """
@@ -182,7 +182,7 @@ def tangent_integral(space: ExactSpace, motion: MotionFormula, point: Sequence[f
 
 
 def straight_integral(space: ExactSpace, motion: MotionFormula, point: Sequence[float]) -> list[arb]:
-    """An affine function that the integral of a greatest of straight formulas is nowhere below.
+    """An affine lower bound of the integral of a maximum of affine formulas.
 
     On every stretch it is the integral of that one which is the greatest there in a law, whose variables the point
     gives: whichever it is, the formula is nowhere below it. LookupError where the formula is no such greatest.
@@ -223,7 +223,7 @@ class _Tangent:
         return [derivative(self.formula, name) for name in self.along]
 
     def columns(self, space: ExactSpace) -> list[list[fmpq_poly]]:
-        """What the slopes, what is left and the formula are multiplied with, for each function; last for its size."""
+        """The factors of the slopes, the remainder and the formula for each function; the last is for its size."""
         nothing, unit = fmpq_poly([0]), fmpq_poly([1])
         several = [polynomials_between(space, ORDERS[name], self.ends) for name in self.along]
         columns = [[*column, nothing, nothing] for column in zip(*several, strict=True)]
@@ -231,7 +231,7 @@ class _Tangent:
         return [*columns, [*[nothing] * (len(several) + 1), unit]]
 
     def series(self, k: arb_series) -> list[arb_series]:
-        """The slopes, what the tangent is beside them, and the formula; half the slopes of a square."""
+        """The slopes, the tangent's remainder, and the formula; half the slopes of a square."""
         low, high = self.ends
         local = (k - ball((low + high) / 2)) / ball((high - low) / 2)
         at = {name: composed(function, local) for name, function in self.along.items()}
@@ -253,7 +253,7 @@ class _Tangent:
 
 
 def norm_columns(space: ExactSpace, parts: Sequence[MotionFormula], direction: Sequence[float]) -> list[arb]:
-    """An affine function that the root of the integrals of squares of affine formulas is nowhere below.
+    """An affine lower bound of the root of the integrals of squares of affine formulas.
 
     It is the integral of the formulas times a function whose square integrates to 1: piece by piece the polynomial
     through the direction, which is given at the places of the product's rule, each with the root of its weight.
@@ -321,7 +321,7 @@ def _within(
 
 
 def _inner(whole: tuple[Fraction, Fraction], ends: tuple[Fraction, Fraction]) -> fmpq_poly:
-    """The local coordinate of the whole interval as a function of that of a part."""
+    """The local coordinate of the whole interval as a function of a part's local coordinate."""
     low, high = (2 * (k - whole[0]) / (whole[1] - whole[0]) - 1 for k in ends)
     return fmpq_poly([rational((low + high) / 2), rational((high - low) / 2)])
 

@@ -114,7 +114,7 @@ def _kept_by(basis: PeriodicPieces, functions: list[Functions]) -> list[Function
 
 
 def _null_space(rows: list[list[fmpq]]) -> list[list[fmpq]]:
-    """Vectors that every row makes 0, as many as there are independent ones."""
+    """Independent vectors that every row maps to 0, as many as exist."""
     whole, _ = fmpq_mat(rows).numer_denom()
     vectors, count = whole.nullspace()
     return [[fmpq(vectors[i, j]) for i in range(whole.ncols())] for j in range(count)]

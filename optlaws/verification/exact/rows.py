@@ -112,7 +112,7 @@ class ExactRows:
         return space_of(self.problem.basis, self.problem.conditions, symmetric=self.problem.symmetric)
 
     def row(self, contact: Contact, k: Fraction | None = None) -> BallRow | None:
-        """The row of a contact, or of one like it at another k; None if the problem asks for nothing of the kind."""
+        """The row of a contact, or of a similar one at another k; None if the problem has no such constraint."""
         place = Fraction(contact.k) if k is None else k
         for make in self._makers.get((contact.constraint, contact.sign), ()):
             with suppress(LookupError):
@@ -418,7 +418,7 @@ def parts(window: Window, *, symmetric: bool) -> Iterator[WindowPart]:
 
 
 def _is_bounded(power: PowerConstant, problem: Problem) -> bool:
-    """Whether it is bounded from above, by the objective or by a number: only then do rows have its root."""
+    """Whether the constant is bounded from above, by the objective or a number: only then rows contain its root."""
     high = (constant for constant, limits in problem.bounded if isfinite(limits.high))
     return any(constant == power for constant in (*(leaf for _, leaf in leaves(problem.objective)), *high))
 

@@ -70,7 +70,7 @@ class ExactSpace:
         self._derivatives = [list(functions)]
 
     def piece(self, k: Fraction) -> int:
-        """The piece that k belongs to, the later one at a break; LookupError beyond the breaks."""
+        """The piece that contains k, the later one at a break; LookupError beyond the breaks."""
         if not self.breaks[0] <= k <= self.breaks[-1]:
             raise LookupError
         return max(i for i, start in enumerate(self.breaks[:-1]) if start <= k)
@@ -189,7 +189,7 @@ class ExactSpace:
         return moments
 
     def gauss(self, nu: int, count: int) -> list[tuple[list[arb], arb]]:
-        """Values of the derivatives of order nu at so many Gauss points, with weights that add up to 1.
+        """Values of the derivatives of order nu at a number of Gauss points, with weights that add up to 1.
 
         LookupError unless the rule is exact for squares.
         """
@@ -210,7 +210,7 @@ class ExactSpace:
 
 
 def values(polynomials: Functions, x: arb) -> list[arb]:
-    """All the polynomials' values at one place."""
+    """Values of all polynomials at one place."""
     return [at(polynomial, x) for polynomial in polynomials]
 
 

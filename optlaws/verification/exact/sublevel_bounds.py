@@ -57,13 +57,13 @@ def least_values(problem: Problem, rows: ExactRows) -> dict[str, Fraction | floa
 
 
 def least_objective(problem: Problem, rows: ExactRows) -> Fraction | None:
-    """A lower bound of the objective by those of its constants; None if nothing is known."""
+    """A lower bound of the objective by its constants' lower bounds; None if nothing is known."""
     value = _least_sum(problem.objective, least_values(problem, rows))
     return None if isinstance(value, float) else value
 
 
 def _least_sum(expression: Expression, least: dict[str, Fraction | float]) -> Fraction | float:
-    """A lower bound of an expression; stores those of its maxima."""
+    """A lower bound of an expression; records the lower bounds of its maxima."""
     total: Fraction | float = Fraction(0)
     for weight, term in expression.terms:
         if isinstance(term, Maximum):
@@ -157,7 +157,7 @@ _SLIGHTLY_LESS = 1 - Fraction(1, 10**13)
 
 
 def exact_limit(problem: Problem) -> Fraction | None:
-    """A number that no law of the problem beats; None where the closed forms say nothing of the objective.
+    """A lower bound of the objective for all laws of the problem; None where no closed form exists.
 
     Only C and D count, the law's and its cam's; every other constant is to be at least 0.
 

@@ -1,4 +1,4 @@
-"""Rows of certificates in balls, and those of machines: outputs at a time, their mean squares, amplitudes of modes."""
+"""Rows of certificates in balls, for machines too: outputs at a time, their mean squares, amplitudes of modes."""
 
 from __future__ import annotations
 
@@ -76,7 +76,7 @@ def cone(amplitudes: Callable[[Fraction], list[acb]], limit: UpperLimit, unit: a
 def residual_parts(
     constant: ResidualConstant, drives: Sequence[DrivenStretch], limit: UpperLimit
 ) -> tuple[dict[str, Maker], dict[Corner, tuple[Corner, float]]]:
-    """A cone for each part of the frequencies by its name, and where a part begins at the end of the one before."""
+    """A cone for each part of the frequencies by its name, and the start of a part at its predecessor's end."""
     exact, names = ExactResidual(constant), constant.part_names
     unit = arb(limit.high or 1.0)
     makers = {name: cone(partial(exact.rows, drives, i), limit, unit) for i, name in enumerate(names)}
@@ -111,7 +111,7 @@ def mode_edges(
 
 
 def together(contacts: Iterable[Contact], corners: Mapping[Corner, tuple[Corner, float]]) -> list[Contact]:
-    """Contacts at one corner, which two edges have, as one: what they say together is at most as much.
+    """Contacts at a corner of two edges, combined: together they bound at most as much.
 
     Apart they would be two rows that are the same but for rounding, which could be exchanged for each other at will.
     """

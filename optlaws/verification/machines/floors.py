@@ -1,4 +1,4 @@
-"""Lower bounds of constants, in exact numbers for those of a machine."""
+"""Lower bounds of constants, in exact numbers for machines' constants."""
 
 from __future__ import annotations
 

@@ -48,7 +48,7 @@ class DrivenStretch:
 
     @kept_property
     def ends(self) -> tuple[list[list[fmpq]], list[list[fmpq]]]:
-        """All derivatives of the displacements where the stretch begins and where it ends, a row for each order."""
+        """All derivatives of the displacements at both ends of the stretch, a row for each order."""
         begin, end, columns = [self.first], [self.last], self.columns
         while any(column.degree() > 0 for column in columns):
             columns = [column.derivative() for column in columns]
@@ -67,7 +67,7 @@ class Space(Protocol):
 
 
 def of_pieces(pieces: Sequence[PolynomialPiece]) -> list[DrivenStretch]:
-    """A stored law: one column."""
+    """The motion of a stored law, in a single column."""
     drives = []
     for piece in pieces:
         local = fmpq_poly([fmpq(-1), piece.rate])
@@ -76,7 +76,7 @@ def of_pieces(pieces: Sequence[PolynomialPiece]) -> list[DrivenStretch]:
 
 
 def of_space(space: Space) -> list[DrivenStretch]:
-    """All laws of a space: free functions, then the base law; of symmetric laws the second half mirrors the first."""
+    """The motion of all laws of a space: free functions, then the base law; symmetric laws are mirrored at 1/2."""
     drives = []
     for part, (low, high) in zip(space.derivative(0), pairwise(space.breaks), strict=True):
         local = fmpq_poly([rational(2 * low - 1), fmpq(2)])
@@ -122,7 +122,7 @@ def cycle(rise: Sequence[DrivenStretch], dwell: Fraction, pause: Fraction) -> li
 
 
 def with_column(rise: Sequence[DrivenStretch], other: Sequence[DrivenStretch]) -> list[DrivenStretch]:
-    """One more law, given on stretches of its own, each continued over the stretch whose middle it covers."""
+    """The motion with one more law, whose stretches are continued over the stretches around their middles."""
     drives = []
     for drive in rise:
         middle = drive.start + drive.length / 2
@@ -153,7 +153,7 @@ class OutputStretch:
 
     @property
     def size(self) -> arb:
-        """The sum of the magnitudes of what the outputs are made of."""
+        """The sum of the magnitudes of the outputs' terms."""
         numbers = [*(arb(value) for polynomial in self.polynomials for value in polynomial.coeffs())]
         return sum(map(abs, [*numbers, *(value for free in self.free for value in free.entries())]), arb(0))
 
@@ -184,7 +184,7 @@ class OutputMotion:
             return [output[0] for output in self.series(stretch, arb_series([ball(time), arb(1)]))]
 
     def series(self, stretch: OutputStretch, time: arb_series) -> list[arb_series]:
-        """The outputs of all laws on a stretch as Taylor series, from that of the time."""
+        """The outputs of all laws on a stretch as Taylor series, from the Taylor series of the time."""
         s = time - ball(stretch.start)
         total = [composed(polynomial, s) for polynomial in stretch.polynomials]
         for pole, free in zip(self.poles, stretch.free, strict=True):
@@ -210,7 +210,7 @@ def response(transfer: Transfer, drives: Sequence[DrivenStretch], *, repeats: bo
 
 
 class _Chains:
-    """States of each pole: a chain, the first driven by the law, each of the others by the one before."""
+    """States of each pole, as a chain: the law drives the first, and each state drives the next."""
 
     def __init__(self, transfer: Transfer, laws: int) -> None:
         self.transfer, self.poles, self.laws = transfer, transfer.poles(), laws
@@ -232,7 +232,7 @@ class _Chains:
         return states
 
     def moved(self, driven: Sequence[DrivenStretch], states: States) -> Iterator[OutputStretch]:
-        """The output on each stretch, from given states on; leaves the last ones."""
+        """The output on each stretch, from given states on; the states are updated."""
         for drive in driven:
             forced = [_forced(pole, drive) for pole in self.poles]
             away = [state - part for state, (part, _) in zip(states, forced, strict=True)]
@@ -289,7 +289,7 @@ def _integrated(pole: Pole, drive: DrivenStretch) -> tuple[acb_mat, acb_mat]:
 
 
 def _weighted(pole: Pole, away: acb_mat) -> arb_mat:
-    """The factors of s^l/l! exp(root s) in the output, real parts with imaginary ones below."""
+    """The factors of s^l/l! exp(root s) in the output, real parts above imaginary ones."""
     count = len(pole.shares)
     turn = [[pole.shares[j + row] if j + row < count else acb(0) for j in range(count)] for row in range(count)]
     rows = (acb_mat(turn) * away).tolist()
@@ -297,14 +297,14 @@ def _weighted(pole: Pole, away: acb_mat) -> arb_mat:
 
 
 def _chain(pole: Pole, length: arb) -> acb_mat:
-    """The matrix that takes a chain's states to those of its free motion after a time."""
+    """The matrix from a chain's states to its states of free motion after a time."""
     wave, count = (pole.root * length).exp(), len(pole.shares)
     terms = [wave * length**i / factorial(i) for i in range(count)]
     return acb_mat([[terms[i - j] if j <= i else acb(0) for j in range(count)] for i in range(count)])
 
 
 def _returned(pole: Pole, period: arb, gained: acb_mat) -> acb_mat:
-    """The states of a chain that after a cycle are what they were, if at rest they become as given."""
+    """The initial states of a chain in periodic motion, from the states after a cycle that starts at rest."""
     whole = _chain(pole, period)
     count = len(pole.shares)
     away = acb_mat([[(1 if i == j else 0) - whole[i, j] for j in range(count)] for i in range(count)])

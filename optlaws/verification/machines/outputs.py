@@ -62,7 +62,7 @@ class KnownOutput(MachineConstant, Protocol):
 
 @runtime_checkable
 class KnownOutputPeak(KnownOutput, Protocol):
-    """A greatest magnitude, or one of one side."""
+    """A greatest magnitude, or a one-sided peak."""
 
     @property
     def signs(self) -> tuple[float, ...]:
@@ -113,7 +113,7 @@ class ExactOutput:
         return response(self.transfer, followed(rise, self.stop))
 
     def peak(self, pieces: Sequence[PolynomialPiece]) -> arb:
-        """A ball that holds the greatest magnitude under a stored law, or that of one side."""
+        """A ball that contains the greatest magnitude, or the one-sided peak, under a stored law."""
         signs = self.constant.signs if isinstance(self.constant, KnownOutputPeak) else (1.0, -1.0)
         return greatest_value(self.response(of_pieces(pieces), [0]), self.start, self.stop, signs)
 
@@ -124,7 +124,7 @@ class ExactOutput:
 
 
 class OutputRows:
-    """An output under all laws of a problem, at the precision at work when it is first asked."""
+    """An output under all laws of a problem, at the working precision of its first use."""
 
     def __init__(self, constant: KnownOutput, space: Space) -> None:
         self.exact, self.space = ExactOutput(constant), space
@@ -173,7 +173,7 @@ _TERMS, _MOST = 48, 20000
 
 
 def _cells(motion: OutputMotion, start: Fraction, stop: Fraction) -> Iterator[tuple[Ends, list[Taylor]]]:
-    """Cells between two times, on each of which outputs are polynomials but for next to nothing."""
+    """Cells between two times, on each of which outputs are polynomials up to a negligible error."""
     left = _MOST
     for stretch in motion.stretches:
         ends = max(start, stretch.start), min(stop, stretch.start + stretch.length)
@@ -188,17 +188,17 @@ def _cells(motion: OutputMotion, start: Fraction, stop: Fraction) -> Iterator[tu
 
 
 def _next_to_nothing(least: arb, parts: Sequence[Taylor], _: Fraction) -> bool:
-    """Whether all rests are small; what only rounding is made of needs no smaller cells."""
+    """Whether all errors are negligible; errors of rounding alone need no smaller cells."""
     return all(bool(rest < least) for _, rest in parts) or not any(bool(rest > 0) for _, rest in parts)
 
 
 def greatest_value(motion: OutputMotion, start: Fraction, stop: Fraction, signs: Sequence[float] = (1.0, -1.0)) -> arb:
-    """A ball that holds the greatest magnitude of a single law's output between two times, or that of one side."""
+    """A ball that contains the greatest magnitude of a single law's output between two times, or its one-sided peak."""
     return greatest_magnitude([(arb_poly(centre), off) for _, [(centre, off)] in _cells(motion, start, stop)], signs)
 
 
 def products(motion: OutputMotion, start: Fraction, stop: Fraction) -> list[arb]:
-    """Balls that hold the integrals between two times of each law's output times that of the last law."""
+    """Balls that contain the integrals between two times of each law's output times the last law's output."""
     total = arb_mat(1, motion.laws)
     for (low, high), parts in _cells(motion, start, stop):
         total += integrals_of_products(parts[-1:], parts) * ball((high - low) / 2)

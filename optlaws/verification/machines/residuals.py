@@ -55,7 +55,7 @@ def greatest_modulus(functions: Sequence[Callable[[Any], Any]], low: Fraction, h
 def _parts(
     function: Callable[[acb_series], acb_series], low: Fraction, high: Fraction
 ) -> Iterator[tuple[arb_poly, arb]]:
-    """Polynomials of which the squared magnitude is made, on short stretches, and how far the function is off."""
+    """Polynomials of the squared magnitude on short stretches, and their errors."""
     several = cells(lambda nu: [function(nu)], acb_series, (low, high), 2 * _SHORTEST, _next_to_nothing)
     yield from ((_squared(centre), rest) for _, [(centre, rest)] in several)
 
@@ -103,7 +103,7 @@ class ExactResidual:
         self.design = None if constant.design is None else Fraction(constant.design)
 
     def amplitudes(self, frequency: Number, drives: Sequence[DrivenStretch]) -> list[Number]:
-        """Of laws given by the ends of their pieces; where the breaks end at 1/2, b(1-k) = b(k)."""
+        """The amplitudes of laws given by the ends of their pieces; where the breaks end at 1/2, b(1-k) = b(k)."""
         sine = ball((1 - self.damping) * (1 + self.damping)).sqrt()
         root = acb(ball(-self.damping), sine)
         w = frequency * root
@@ -111,7 +111,7 @@ class ExactResidual:
         return [scale * transform for transform in velocity_transforms(w, drives)]
 
     def _detuning(self, frequency: Number, w: Number) -> Number:
-        """The factor of the residual of a cam made for the design frequency."""
+        """The factor of the residual of a cam for the design frequency."""
         if self.design is None:
             return frequency * 0 + 1
         square = 1 / ball(self.design**2)
@@ -176,7 +176,7 @@ class ExactEdge:
 
 
 class ExactModeResidual:
-    """The greatest amplitude over the box, at the precision at work when it is first asked."""
+    """The greatest amplitude over the box, at the working precision of its first use."""
 
     def __init__(self, constant: ModeConstant) -> None:
         self.constant = constant

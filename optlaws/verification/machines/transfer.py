@@ -64,7 +64,7 @@ class MachineConstant(Protocol):
 
 @dataclass(frozen=True)
 class Pole:
-    """A root of the denominator, real or above the real line, with what it does to the output."""
+    """A root of the denominator, real or in the upper half plane, with its effect on the output."""
 
     root: acb  #: where it is; the imaginary part of a real one is exactly 0
     shares: tuple[acb, ...]  #: factors of 1/(s - root), 1/(s - root)², ..., as many as the root is multiple
@@ -104,7 +104,7 @@ class Rational:
         return {i - self.zeros: value for i, value in enumerate(series)}
 
     def poles(self) -> list[Pole]:
-        """All of them, at the precision at work; of two conjugate ones the upper."""
+        """All poles, at the working precision; of two conjugate ones the upper."""
         rest = self.denominator
         poles = []
         if self.zeros:
@@ -116,14 +116,14 @@ class Rational:
         return poles
 
     def _pole(self, root: acb, multiplicity: int) -> Pole:
-        """By Taylor series of numerator and denominator about the root."""
+        """A pole, by Taylor series of numerator and denominator about the root."""
         above, below = (acb_poly(part)(acb_poly([root, 1])).coeffs() for part in (self.numerator, self.denominator))
         shares = quotient(acb_series, above, below[multiplicity:], multiplicity)
         return Pole(root, tuple(reversed(shares)))
 
 
 class Transfer(Rational):
-    """The output's transform over that of the law's derivative `order`: 0 where the machine sees the displacement.
+    """The output's transform over the transform of the law's derivative `order`: 0 for the displacement.
 
     Where it does not, it is driven by the velocity, which need not come back after a cycle.
     """
