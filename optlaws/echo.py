@@ -1,4 +1,4 @@
-"""How errors show what they were given: cut where it is long, whatever it is."""
+"""The display of given values in errors: shortened where they are long."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ _ECHO = _Echo()
 
 
 def shortened(value: object) -> str:
-    """The repr of a value, cut where it is long or deep: how an error shows what was given.
+    """The repr of a value, shortened where it is long or deep, for the text of an error.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""The errors that optlaws raises: one small tree, so that one `except` can catch them all."""
+"""The errors that optlaws raises: a small tree, so that a single `except` can catch them all."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ class OptlawsError(Exception):
 
 
 class InputError(OptlawsError, ValueError):
-    """An input is wrong; the message names the input, what it was and what it may be.
+    """An input is wrong; the message names the input, its value and its allowed values.
 
     Examples
     --------
@@ -59,7 +59,7 @@ def located(where: str) -> Iterator[None]:
 
 
 class NotNormalised(UserWarning):
-    """A mixed objective whose parts differ much in size, so that only one of them counts.
+    """A mixed objective whose parts differ much in size, so that a single part decides.
 
     Examples
     --------
@@ -112,7 +112,7 @@ class InfeasibleProblem(OptlawsError):  # noqa: N818
 
 
 class SolverFailure(OptlawsError, RuntimeError):  # noqa: N818
-    """The solver found no answer that stands its checks, although the problem may have one.
+    """The solver found no answer that passes its checks, although the problem may have a solution.
 
     Parameters
     ----------

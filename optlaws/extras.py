@@ -1,4 +1,4 @@
-"""Libraries that an extra of optlaws brings, or that a user has left out: what is said where one is missing."""
+"""Libraries of optlaws' extras, or libraries that a user has removed, and the errors where they are missing."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A property computed at the first use and kept, without a lock."""
+"""A property that is computed at its first use and cached, without a lock."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ _T = TypeVar("_T")
 
 
 class kept_property(cached_property[_T]):  # noqa: N801 - as the one of functools
-    """`functools.cached_property` as it is from Python 3.12 on, in 3.11 as well.
+    """A `functools.cached_property` without a lock, as in Python 3.12, for Python 3.11 too.
 
     There one lock is held for all objects of a class while the value of one is computed: two threads whose properties
     need each other's wait for ever, and so does the child of a fork by another thread. Without it a value may be

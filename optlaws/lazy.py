@@ -1,4 +1,4 @@
-"""Names and kinds that are imported when they are first asked for, so that a package's face costs nothing."""
+"""Names and kinds that are imported at their first use, so that importing a package costs nothing."""
 
 from __future__ import annotations
 
@@ -74,7 +74,7 @@ def face(package: str, modules: Mapping[str, str]) -> tuple[Callable[[str], Any]
 
 
 def declare(subject: str, modules: Mapping[str, str]) -> None:
-    """Say which module registers which names of a subject, separated by blanks."""
+    """Declare the module that registers the given names of a subject, separated by blanks."""
     _MODULES[subject].update({name: module for module, names in modules.items() for name in names.split()})
 
 

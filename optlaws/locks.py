@@ -11,7 +11,7 @@ if TYPE_CHECKING:
 
 
 def process_lock() -> Lock:
-    """A lock that a forked child finds free, and what it guards whole.
+    """A lock that is free in a forked child, with its data in a consistent state.
 
     A fork waits until no thread holds it: a child has none of its parent's other threads, so that one of them could
     neither finish its work nor give the lock back there.

@@ -1,4 +1,4 @@
-"""The doors through which numbers come in: each checks one kind, and its error names the number and the remedy."""
+"""Checks of numbers from users: a function for each kind, whose error names the number and the remedy."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ _DENOMINATOR_BITS = 100_000
 
 
 def whole(value: Any, name: str, least: int = 0, most: int = MOST_WHOLE) -> int:  # noqa: ANN401
-    """The value as an int, if it is an integer from `least` to `most`; `name` is what an error calls it.
+    """The value as an int, if it is an integer from `least` to `most`; errors call it `name`.
 
     Examples
     --------
@@ -85,7 +85,7 @@ def real(value: Any) -> float | None:  # noqa: ANN401
 
 
 def bounded(value: float) -> float | None:
-    """The value as JSON holds it, which has no infinity: None where there is no bound."""
+    """The value for JSON, which has no infinity: None where there is no bound."""
     return value if isfinite(value) else None
 
 
@@ -103,7 +103,7 @@ def power_of_two(size: float) -> float:
 
 
 def finite(value: Any, name: str) -> float:  # noqa: ANN401
-    """The value as a float; `name` is what an error calls it.
+    """The value as a float; errors call it `name`.
 
     Examples
     --------
@@ -152,7 +152,7 @@ def not_negative(value: Any, name: str) -> float:  # noqa: ANN401
 
 
 def numbers(values: Any, name: str, most: int = MOST_VALUES) -> tuple[float, ...]:  # noqa: ANN401
-    """The values as a tuple of floats; `name` is what an error calls them."""
+    """The values as a tuple of floats; errors call them `name`."""
     if type(values) in {tuple, list} and len(values) <= most and all(map(_plain, values)):
         return tuple(values)
     return tuple(float(value) for value in fractions(values, name, most))
@@ -163,7 +163,7 @@ def _plain(value: object) -> bool:
 
 
 def fractions(values: Iterable[Any], name: str, most: int = MOST_TERMS) -> list[Fraction]:
-    """The exact values of ints, floats and Fractions; `name` is what an error calls them.
+    """The exact values of ints, floats and Fractions; errors call them `name`.
 
     Examples
     --------
@@ -174,7 +174,7 @@ def fractions(values: Iterable[Any], name: str, most: int = MOST_TERMS) -> list[
 
 
 def listed(values: Any, name: str, most: int = MOST_TERMS) -> list[Any]:  # noqa: ANN401
-    """The values as a list of at most so many."""
+    """The values as a list up to a given length."""
     items: list[Any] = []
     try:
         if isinstance(values, str | bytes):
@@ -243,7 +243,7 @@ def _array(values: Any) -> Array | None:  # noqa: ANN401
 
 
 def number_or_array(values: Array) -> float | Array:
-    """Values as those were given that they are of: one of no axes is a float."""
+    """Values in the shape of the given argument: a float for a scalar, else an array."""
     return values if np.ndim(values) else float(values)
 
 

@@ -82,7 +82,7 @@ class Page:
         return self._add(f"![{caption}]({name}.svg)")
 
     def table(self, headings: Sequence[str], rows: Sequence[Sequence[Cell]], *, digits: int = 7) -> Page:
-        """A table with aligned columns, its numbers to so many digits."""
+        """A table with aligned columns and a given number of digits."""
         self._parts.append(tables.to_markdown(headings, rows, digits=digits))
         return self
 
@@ -99,7 +99,7 @@ Spec = TypeVar("Spec", bound="Entries")
 
 
 class Entries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
-    """The entries that the problem file of every script has; a script's own are those of a subclass.
+    """The entries that problem files of all scripts have; a subclass adds a script's own entries.
 
     Attributes
     ----------
@@ -142,7 +142,7 @@ def read(file: Path, entries: type[Struct]) -> Struct:
 
 
 class Results:
-    r"""Tables, pictures and pages that a script makes of its problem file, written together when all are made.
+    r"""Tables, pictures and pages that a script computes from its problem file, written together at its end.
 
     Parameters
     ----------
@@ -174,22 +174,22 @@ class Results:
 
     @property
     def about(self) -> str:
-        """Title and file, which the first line of every table tells."""
+        """Title and file, as in the first line of every table."""
         return f"{self.title}; from {self.file.name}"
 
     @kept_property
     def entries(self) -> dict[str, Any]:
-        """All entries of the problem file, as they stand there."""
+        """All entries of the problem file, unchanged."""
         return reading.toml(self.file)
 
     def read(self, entries: type[Spec]) -> Spec:
-        """Entries of the problem file as a typed value; the title becomes that of the results."""
+        """Entries of the problem file as a typed value; the title becomes the title of the results."""
         spec = convert(self.entries, entries, self.file)
         self.title = spec.title
         return spec
 
     def table(self, name: str, headings: Sequence[str], rows: Sequence[Sequence[Cell]], note: str = "") -> None:
-        """A table `name`.csv; its first line tells what it is of, and the note."""
+        """A table `name`.csv; its first line describes its contents, with the note."""
         self.text(f"{name}.csv", tables.to_csv(headings, rows, about=f"{self.about}; {note}" if note else self.about))
 
     def page(self, name: str, title: str | None = None) -> Page:
@@ -198,7 +198,7 @@ class Results:
         return page
 
     def data(self, name: str, content: Mapping[str, Any]) -> None:
-        """Data as JSON, behind an entry that tells what they are of."""
+        """Data as JSON, after an entry that describes them."""
         self.text(name, json.dumps({"about": f"{self.about}; {MARK}", **content}, indent=1) + "\n")
 
     def text(self, name: str, content: str) -> None:
@@ -220,7 +220,7 @@ class Results:
         return {f"{name}.svg": rendered(figure, "svg").decode() for name, figure in self._pictures.items()}
 
     def write(self, out: Path | None = None) -> list[Path]:
-        """Write what was made into a folder, `results/NAME` where you are unless given, and return the files.
+        """Write the results into a folder, `results/NAME` in the current folder by default, and return the files.
 
         Files that say the same are left as they are; one that a user changed is kept as `name.orig`.
         """

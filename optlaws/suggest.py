@@ -90,7 +90,7 @@ def keywords_of(options: type, **defaults: Any) -> Callable[[FunctionT], Functio
 
 
 def _nearest(name: str, names: list[str], words: Mapping[str, str]) -> str | None:
-    """The name but for its case, one that another word stands for, or one that is written alike."""
+    """The name with other capitals, the name of a synonym, or the most similar name."""
     folded = name.casefold()
     same = [known for known in names if known.casefold() == folded]
     meant = [known for word, known in words.items() if word in folded.split("_") and known in names]

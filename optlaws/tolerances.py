@@ -1,4 +1,4 @@
-"""Tolerances of the whole package by what they mean, each with its reason; shares are of the greatest value around.
+"""Tolerances of the whole package by their meaning, each with its reason; shares are of the greatest value nearby.
 
 Numbers of one meaning and one size are one constant. Where two meanings have the same size they stay two, so that one
 can be changed without the other.

@@ -1,4 +1,4 @@
-"""Types in annotations of public names: what functions return, what they take, and strings of choice."""
+"""Types in annotations of public names: return values, arguments, and strings of choice."""
 
 from optlaws.lazy import face
 

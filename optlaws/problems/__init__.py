@@ -1,4 +1,4 @@
-"""Scripts that come with optlaws, over its public names alone: one a published problem, run by its name.
+"""Scripts that come with optlaws and use its public names only: one for each published problem, run by its name.
 
 They lie in `problems/` of a checkout and in the package where it is installed. No file of a user's is ever run.
 """

@@ -49,7 +49,7 @@ def page(title: object, *parts: str) -> str:
 
 
 def facts(named: Mapping[str, object]) -> str:
-    """A table of names and what they are; what is None is left out.
+    """A table of names and values; values of None are omitted.
 
     Examples
     --------

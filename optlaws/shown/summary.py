@@ -35,7 +35,7 @@ class Row(NamedTuple):
     note: str = ""
 
     def text(self, digits: int = 10) -> str:
-        """The value to so many digits.
+        """The value to a number of digits.
 
         Examples
         --------
@@ -49,7 +49,7 @@ class Row(NamedTuple):
 
 
 class Summary(tuple[Row, ...]):  # noqa: SLOT001 - what places are is kept beside the rows
-    """Rows of what is known of a result, which print as a table and show as one in a notebook.
+    """Rows of facts on a result, which print as a table and appear as one in a notebook.
 
     Parameters
     ----------
