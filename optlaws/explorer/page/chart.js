@@ -5,7 +5,7 @@
 // a handle {key, at, along, low, high, step, label, text, name}. `told` is the picture in words.
 
 import { frame, scale, ticks } from "./axes.js";
-import { path, svg } from "./svg.js";
+import { path, sized, svg } from "./svg.js";
 
 const BOX = { left: 58, right: 16, top: 14, bottom: 44 };
 const HALO = 13;
@@ -38,6 +38,7 @@ export function spanOf(values, { free = false, room = 0.08 } = {}) {
 
 export class Chart {
   #root;
+  #size;
   #moved;
   #shown = null;
   #svg = svg("svg", { class: "plane chart" });
@@ -53,7 +54,7 @@ export class Chart {
     this.#moved = moved;
     this.#svg.append(this.#back);
     root.append(this.#svg);
-    new ResizeObserver(() => this.#draw()).observe(root);
+    this.#size = sized(root, () => this.#draw());
     this.#svg.addEventListener("pointermove", (event) => this.#move(event));
     this.#svg.addEventListener("pointerup", () => this.#release());
     this.#svg.addEventListener("pointercancel", () => this.#release());
@@ -65,7 +66,7 @@ export class Chart {
   }
 
   #draw() {
-    const [width, height] = [this.#root.clientWidth, this.#root.clientHeight];
+    const [width, height] = this.#size();
     this.#svg.toggleAttribute("hidden", !this.#shown);
     if (!this.#shown || width < 120 || height < 90) return;
     const { x, y, lines = [], marks = [], labels = [], zones = [], handles = [], told } = this.#shown;

@@ -1,12 +1,14 @@
 // Questions to the server: one in flight a path, and of those that wait the last one wins. One that takes long can be
 // stopped or given more time; while the server is away the last one is asked again.
 
+const DIM = 400; // ms after which what is shown is dimmed: it is not of now
 const SLOW = 1000; // ms after which a question can be stopped, and gives way to a newer one
 const AGAIN = 1500; // ms between attempts while the server does not answer
 const PATIENCE = 120; // s that a question has where the reader lets it go on
 
 const all = new Set();
 let observer = () => {};
+let dimming = null;
 
 /** `told({lost, slow, late})` is called when the server is lost or back, when questions become slow, when one is late. */
 export function observe(told) {
@@ -15,7 +17,15 @@ export function observe(told) {
 
 function changed() {
   const questions = [...all];
-  document.body.dataset.work = questions.some(({ busy }) => busy) ? "busy" : "settled";
+  const busy = questions.some((one) => one.busy);
+  document.body.dataset.work = busy ? "busy" : "settled";
+  // a transition with a delay would make layers for each answer, also for those that come before it
+  if (busy) dimming ??= setTimeout(() => document.body.classList.add("late"), DIM);
+  else {
+    clearTimeout(dimming);
+    dimming = null;
+    document.body.classList.remove("late");
+  }
   const those = (name) => questions.filter((one) => one[name]);
   observer({ lost: those("lost").length > 0, slow: those("slow"), late: those("late") });
 }

@@ -2,13 +2,14 @@
 
 import { ticks } from "./axes.js";
 import { Mechanism } from "./mechanism.js";
-import { html, path, svg } from "./svg.js";
+import { html, path, sized, svg } from "./svg.js";
 
 const ROOM = 26;
 const SCALE = 90; // pixels that the bar of the scale is at most long
 
 export class Linkage {
   #root;
+  #size;
   #plain = html("div", { class: "fill" });
   #turning = html("div", { class: "fill cam-drawing" });
   #cam = new Mechanism(this.#turning);
@@ -20,7 +21,7 @@ export class Linkage {
   constructor(root) {
     this.#root = root;
     root.append(this.#plain, this.#turning);
-    new ResizeObserver(() => this.#draw()).observe(root);
+    this.#size = sized(root, () => this.#draw());
   }
 
   /** What is drawn, or null. */
@@ -49,7 +50,7 @@ export class Linkage {
   }
 
   #draw() {
-    const [width, height] = [this.#root.clientWidth, this.#root.clientHeight];
+    const [width, height] = this.#size();
     if (!this.#shown) return this.#plain.replaceChildren();
     if (this.#shown.kind === "cam" || width < 100 || height < 80) return this.at(this.#share);
     const { kind, paths = [] } = this.#shown;

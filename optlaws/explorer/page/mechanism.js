@@ -2,7 +2,7 @@
 // dimensions, and the force at the contact where it is known.
 
 import { label } from "./axes.js";
-import { path, svg } from "./svg.js";
+import { path, sized, svg } from "./svg.js";
 
 const ROOM = 1.12;
 const CIRCLES = { "prime circle": -50, "base circle": -130 }; // where each is named, degrees
@@ -11,6 +11,7 @@ const LINE = 14;
 
 export class Mechanism {
   #root;
+  #size;
   #shown = null;
   #angle = 0;
   #cam = null;
@@ -23,7 +24,7 @@ export class Mechanism {
 
   constructor(root) {
     this.#root = root;
-    new ResizeObserver(() => this.#draw()).observe(root);
+    this.#size = sized(root, () => this.#draw());
   }
 
   show(answer) {
@@ -102,7 +103,7 @@ export class Mechanism {
   }
 
   #draw() {
-    const [width, height] = [this.#root.clientWidth, this.#root.clientHeight];
+    const [width, height] = this.#size();
     if (!this.#shown || width < 100 || height < 100) {
       this.#root.replaceChildren();
       this.#cam = null;

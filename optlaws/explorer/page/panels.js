@@ -12,7 +12,7 @@ import { label } from "./axes.js";
 import { Cursor } from "./cursor.js";
 import { FOOT, Panel } from "./panel.js";
 import { Span } from "./span.js";
-import { html } from "./svg.js";
+import { html, sized } from "./svg.js";
 import { panelsInUnits } from "./units.js";
 
 const TURN = { range: [0, 360], ticks: [0, 45, 90, 135, 180, 225, 270, 315, 360] };
@@ -22,6 +22,7 @@ const CLICK = 4; // pixels within which a press is no drag
 
 export class Panels {
   #root;
+  #size;
   #drawings = html("div", { class: "drawings" });
   #dial = html("input", { type: "range", class: "dial", "aria-label": "Cursor along the curves" });
   #value = html("output", { class: "cursor-value" });
@@ -58,7 +59,7 @@ export class Panels {
     listen("pointercancel", () => (this.#drag = null));
     listen("dblclick", this.#reset);
     this.#drawings.addEventListener("wheel", (event) => this.#wheel(event), { passive: false });
-    new ResizeObserver(() => this.#draw()).observe(this.#drawings);
+    this.#size = sized(this.#drawings, () => this.#draw());
   }
 
   show(answer) {
@@ -79,7 +80,7 @@ export class Panels {
   }
 
   #draw() {
-    const [width, room] = [this.#drawings.clientWidth, this.#drawings.clientHeight];
+    const [width, room] = this.#size();
     if (!this.#shown || width < 100) return;
     const nothing = this.#shown.refused;
     this.#root.classList.toggle("empty", Boolean(nothing));
@@ -100,7 +101,7 @@ export class Panels {
     ));
     this.#drawings.replaceChildren(...this.#panels.map(({ element }) => element));
     // what is scrolled is reached by keys too
-    if (this.#drawings.scrollHeight > this.#drawings.clientHeight + 1) this.#drawings.tabIndex = 0;
+    if (height * panels.length + FOOT > room) this.#drawings.tabIndex = 0;
     else this.#drawings.removeAttribute("tabindex");
     this.#strip?.show(answer, span);
     this.#dial.min = span[0];

@@ -1,7 +1,7 @@
 // The plane of two constants: front, limit, standard laws, Savin's families, and the laws of the study; one is dragged.
 
 import { frame, scale, ticks } from "./axes.js";
-import { path, svg } from "./svg.js";
+import { path, sized, svg } from "./svg.js";
 
 const BOX = { left: 58, right: 16, top: 12, bottom: 44 };
 const HALO = 13;
@@ -16,6 +16,7 @@ const overlap = (one, other) => Math.abs(one.y - other.y) < 11 && one.left < oth
 
 export class Plane {
   #root;
+  #size;
   #svg = svg("svg", { class: "plane" });
   #back = svg("g");
   #points = svg("g");
@@ -39,7 +40,7 @@ export class Plane {
     this.#picked = picked;
     this.#svg.append(this.#back, this.#points, this.#handle, this.#tip);
     root.append(this.#svg);
-    new ResizeObserver(() => this.#draw()).observe(root);
+    this.#size = sized(root, () => this.#draw());
     this.#svg.addEventListener("pointerdown", (event) => this.#grasp(event));
     this.#svg.addEventListener("pointermove", (event) => this.#dragging && this.#move(event));
     this.#svg.addEventListener("pointerup", () => this.#release());
@@ -60,7 +61,7 @@ export class Plane {
   }
 
   #draw() {
-    const [width, height] = [this.#root.clientWidth, this.#root.clientHeight];
+    const [width, height] = this.#size();
     if (!this.#front || width < 120 || height < 120) return;
     const { x, y, ranges } = this.#front;
     const box = { left: BOX.left, right: width - BOX.right, top: BOX.top, bottom: height - BOX.bottom };

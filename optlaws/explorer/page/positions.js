@@ -1,7 +1,7 @@
 // The plane of two positions: the path, what is forbidden to it, where it is nearest, and where it is now.
 
 import { frame, scale, ticks } from "./axes.js";
-import { html, path, renew, svg } from "./svg.js";
+import { html, path, renew, sized, svg } from "./svg.js";
 import { valueAt } from "./timing.js";
 import { shownUnit } from "./units.js";
 
@@ -9,6 +9,7 @@ const BOX = { left: 66, right: 16, top: 12, bottom: 40 };
 
 export class Positions {
   #root;
+  #size;
   #svg = svg("svg", { class: "curve plane positions", role: "group" });
   #shown = null;
   #plane = null;
@@ -25,7 +26,7 @@ export class Positions {
     this.#moved = moved;
     this.#svg.addEventListener("pointermove", (event) => this.#drag && this.#pull(event));
     for (const kind of ["pointerup", "pointercancel"]) this.#svg.addEventListener(kind, () => this.#release());
-    new ResizeObserver(() => this.#draw()).observe(root);
+    this.#size = sized(root, () => this.#draw());
   }
 
   /** The plane of that number of an answer, and the least clearances by their interlocks, where they are known. */
@@ -46,7 +47,7 @@ export class Positions {
   }
 
   #draw() {
-    const [width, height] = [this.#root.clientWidth, this.#root.clientHeight];
+    const [width, height] = this.#size();
     if (!this.#shown || width < 100 || height < 100) return;
     this.#place = null;
     if (!this.#plane) {

@@ -2,7 +2,7 @@
 
 import { label, scale } from "./axes.js";
 import { BOX } from "./panel.js";
-import { html } from "./svg.js";
+import { html, sized } from "./svg.js";
 
 const NARROW = 7; // pixels a letter of a name takes
 
@@ -15,6 +15,8 @@ export class Strip {
   #x = null;
   #last = null;
   #step;
+  #size;
+  #shown = null;
 
   /** `moved(i, at)` asks for the end of segment i at a place, where ends can be moved; `chosen(i)` is a click on a bar. */
   constructor({ moved = null, rested = () => {}, chosen, step = 1 }) {
@@ -22,10 +24,12 @@ export class Strip {
     this.#moved = moved;
     this.#rested = rested;
     this.#chosen = chosen;
+    this.#size = sized(this.element, () => this.#shown && this.show(...this.#shown));
   }
 
   show({ segments = [], range }, span) {
-    const width = this.element.clientWidth;
+    this.#shown = [{ segments, range }, span];
+    const [width] = this.#size();
     this.#x = scale(span, [BOX.left, width - BOX.right]);
     const x = (value) => Math.min(width - BOX.right, Math.max(BOX.left, this.#x(value)));
     const names = JSON.stringify(segments.map(({ name }) => name));

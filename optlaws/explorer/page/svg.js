@@ -21,6 +21,18 @@ export function svg(tag, attributes = {}, ...children) {
   return fill(document.createElementNS(SVG, tag), attributes, children);
 }
 
+/** The width and the height of an element, as a function; `draw` is called when they change. What is read amid writing
+    would lay out the page once more, so that they are read after it is laid out. */
+export function sized(element, draw) {
+  let known = [0, 0];
+  const read = () => [element.clientWidth, element.clientHeight];
+  new ResizeObserver(() => {
+    known = read();
+    draw();
+  }).observe(element);
+  return () => (known[0] ? known : read());
+}
+
 /** New children for an element; what had the focus has it again, or where it is gone the first that can have it. */
 export function renew(root, ...children) {
   const named = (one) => one.dataset.key ?? one.getAttribute("aria-label") ?? one.textContent;

@@ -2,7 +2,7 @@
 
 import { frame, scale } from "./axes.js";
 import { moved, roomOf } from "./instants.js";
-import { html, path, renew, svg } from "./svg.js";
+import { html, path, renew, sized, svg } from "./svg.js";
 
 const BOX = { left: 84, right: 16, top: 8, foot: 40 };
 const TURN = [0, 45, 90, 135, 180, 225, 270, 315, 360];
@@ -13,6 +13,7 @@ const SHORT = 30; // a bar of fewer pixels is moved only
 
 export class Timing {
   #root;
+  #size;
   #svg;
   #shown = null;
   #study = null;
@@ -32,7 +33,7 @@ export class Timing {
     this.#svg = svg("svg", { class: "curve timing", role: "group", "aria-label": "Timing diagram" });
     this.#svg.addEventListener("pointermove", (event) => this.#drag && this.#pull(event));
     for (const kind of ["pointerup", "pointercancel"]) this.#svg.addEventListener(kind, () => this.#release());
-    new ResizeObserver(() => this.#draw()).observe(root);
+    this.#size = sized(root, () => this.#draw());
   }
 
   /** An answer of the axes for a study, the status of each interlock, where it is known, and whether it is the last one. */
@@ -59,7 +60,7 @@ export class Timing {
   }
 
   #draw() {
-    const width = this.#root.clientWidth - 16;
+    const width = this.#size()[0] - 16;
     if (!this.#shown || width < 100) return;
     if (this.#shown.refused) {
       this.#root.replaceChildren(html("div", { class: "nothing" }, html("strong", { text: this.#shown.refused.word }), html("span", { text: "there is nothing to draw" })));
