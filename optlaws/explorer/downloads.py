@@ -6,13 +6,15 @@ import ast
 import json
 import re
 from collections.abc import Callable, Mapping
+from dataclasses import fields
 from pprint import pformat
+from textwrap import indent
 from typing import Annotated, Any, Literal
 
 import msgspec
 
 import optlaws
-from optlaws import Cycle, Drive, Mechanism, MotionLaw, Problem, Solution
+from optlaws import Axes, Cycle, Drive, Mechanism, MotionLaw, Problem, Solution
 from optlaws.cams.curves import cam_files
 from optlaws.cams.curves.file_options import Cutting
 from optlaws.errors import InputError
@@ -243,6 +245,8 @@ def _of_cycle(request: FileRequest, shown: cycle_view.CycleRequest | None) -> Fi
         raise InputError("there is no cycle to save")
     if request.kind == "problem":
         return _file("cycle.toml", "application/toml", to_toml(shown.study))
+    if request.view == "axes" and request.kind == "python":
+        return _file("axes.py", "text/x-python", axes_python(axes_view.axes_of(shown.study)))
     spec, axis = cycle_view.read(shown)
     cycle = cycle_view.cycle(shown)
     if request.kind == "table":
@@ -304,19 +308,62 @@ def _of_cam(request: FileRequest) -> File:
 
 def cycle_python(cycle: Cycle, follower: ElasticFollowerEntries | None = None) -> str:
     """Python lines that compute the same cycle, or the cycle of the cam whose follower moves so."""
-    entries = {name: getattr(cycle, name) for name in ("speed", "period", "minimise", "limits", "start", "advance")}
-    entries |= {"load": cycle.load, "order": cycle.order, "degree": cycle.degree}
-    given = ", ".join(f"{name}={value!r}" for name, value in entries.items() if value not in (None, {}))
-    given += "" if cycle.drive is None else f", drive={_drive_text(cycle.drive)}"
-    segments = "\n".join(f"    {segment!r}," for segment in cycle.segments)
     lines = [
-        f"segments = [\n{segments}\n]",
-        f"cycle = Cycle(segments, {given})"
+        f"cycle = {_cycle_text(cycle)}"
         + ("" if follower is None else f".cam({follower.period!r}, damping={follower.damping!r})"),
         "print(cycle.status.value, cycle.objective, cycle.lower_bound)",
         'cycle.plot()[0].figure.savefig("cycle.png")',
     ]
     return _with_imports(lines)
+
+
+def axes_python(axes: Axes) -> str:
+    """Lines that make the same axes with their interlocks, and say what is clear.
+
+    Examples
+    --------
+    >>> from optlaws import Axes, Dwell, Rise
+    >>> table = {"segments": [Rise("90 deg", "1 s"), Dwell()], "advance": "90 deg"}
+    >>> print(axes_python(Axes({"table": table}, period="2 s")), end="")
+    from optlaws import Axes, Cycle, Dwell, Rise
+    <BLANKLINE>
+    axes = Axes({
+        'table': Cycle([
+            Rise(by='90 deg', duration='1 s'),
+            Dwell(),
+        ], period='2 s', minimise='acceleration', advance='90 deg', order=3, degree=9),
+    })
+    for least in axes.clearances:
+        print(least.interlock.label, least.status, least.clearance)
+    axes.plot(what="timing")[0].figure.savefig("axes.png")
+    """
+    cycles = "".join(f"    {name!r}: {indent(_cycle_text(cycle), '    ').lstrip()},\n" for name, cycle in axes.items())
+    rules = "".join(f"    {_plainly(rule)},\n" for rule in axes.rules)
+    lines = [
+        f"axes = Axes({{\n{cycles}}}" + (f", interlocks=[\n{rules}])" if rules else ")"),
+        "for least in axes.clearances:",
+        "    print(least.interlock.label, least.status, least.clearance)",
+        'axes.plot(what="timing")[0].figure.savefig("axes.png")',
+    ]
+    return _with_imports(lines)
+
+
+def _cycle_text(cycle: Cycle) -> str:
+    """A cycle as Python."""
+    entries = {name: getattr(cycle, name) for name in ("speed", "period", "minimise", "limits", "start", "advance")}
+    entries |= {"load": cycle.load, "order": cycle.order, "degree": cycle.degree}
+    given = "".join(f", {name}={value!r}" for name, value in entries.items() if value not in (None, {}))
+    given += "" if cycle.drive is None else f", drive={_drive_text(cycle.drive)}"
+    segments = "\n".join(f"    {_plainly(segment)}," for segment in cycle.segments)
+    return f"Cycle([\n{segments}\n]{given})"
+
+
+def _plainly(value: Any) -> str:  # noqa: ANN401 - a dataclass
+    """A segment or an interlock as Python, without what is as it is by default."""
+    usual = {each.name: each.default for each in fields(value) if each.init}
+    given = {name: getattr(value, name) for name in usual}
+    entries = [f"{name}={entry!r}" for name, entry in given.items() if entry != usual[name] and entry not in ({}, None)]
+    return f"{type(value).__name__}({', '.join(entries)})"
 
 
 def _drive_text(drive: Mapping[str, Any] | Mechanism | Drive) -> str:

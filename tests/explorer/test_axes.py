@@ -92,6 +92,14 @@ def test_axes_open_and_save_as_a_problem_file(served: Server) -> None:
     assert found["view"] == "axes"
     asked = {"kind": "problem", "view": "axes", "laws": [OPTIMAL], "axes": {"study": found["axes"]}}
     assert tomllib.loads(served.ask("save", asked)["text"]) == tomllib.loads(FILE.read_text("utf-8"))
+    shown = axes_of(found["axes"])
+    made: dict[str, Any] = {}
+    text = served.ask("save", asked | {"kind": "python"})["text"]
+    exec("\n".join(text.splitlines()[:-1]), made)  # noqa: S102 - all but its picture
+    assert [least.clearance for least in made["axes"].clearances] == [least.clearance for least in shown.clearances]
+    assert {name: cycle.peak(2) for name, cycle in made["axes"].items()} == {
+        name: cycle.peak(2) for name, cycle in shown.items()
+    }
 
 
 @pytest.mark.parametrize(
@@ -171,3 +179,33 @@ def test_the_corner_of_a_forbidden_region_is_moved(page: Page, served: Server) -
     changed["interlocks"] = [BOX | {"corners": [*BOX["corners"][:2], ["280 mm", "31 mm"], BOX["corners"][3]]}]
     (told,) = served.ask("axes-clearances", {"study": changed})["rows"]
     assert told["cells"][0] in page.locator("#axes-table").inner_text()
+
+
+def test_axes_are_added_renamed_and_removed_with_what_names_them(page: Page, served: Server) -> None:
+    go(page, f"http://{served.host}/")
+    page.get_by_role("tab", name="Axes").click()
+    settle(page)
+    assert "die 0 mm" in page.locator("#axes-reading").inner_text()
+    page.get_by_label("put the moves together for").select_option("acceleration")
+    page.get_by_label("name of axis 1").fill("turret")
+    page.keyboard.press("Tab")
+    settle(page)
+    assert "interlocks clear" in page.locator("#axes-trust").inner_text()
+    assert page.get_by_label("interlock 1 of").input_value() == "turret"
+    page.get_by_role("button", name="+ axis").click()
+    settle(page)
+    assert page.get_by_label("Axes with their peaks").locator("tbody th").all_inner_texts() == [
+        "turret",
+        "die",
+        "axis 3",
+    ]
+    page.get_by_label("name of axis 3").fill("die")  # which another one is called
+    page.keyboard.press("Tab")
+    assert page.get_by_label("name of axis 3").input_value() == "axis 3"
+    page.get_by_role("button", name="Remove axis 1").click()
+    settle(page)
+    assert page.get_by_label("Axes with their peaks").locator("tbody th").all_inner_texts() == ["die", "axis 3"]
+    assert "no interlocks" in page.locator("#axes-trust").inner_text()
+    page.get_by_role("button", name="Undo").click()
+    settle(page)
+    assert "interlocks clear" in page.locator("#axes-trust").inner_text()

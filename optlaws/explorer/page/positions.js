@@ -100,7 +100,7 @@ export class Positions {
     const text = `${least.name}: ${least.cells[0]}`;
     const end = at[0] > (box.left + box.right) / 2;
     const line = free && least.status !== "broken" ? svg("path", { class: "shaft-of-arrow", d: path([at, nearest(corners.map(([across, up]) => [x(across), y(up)]), at)]) }) : null;
-    return svg("g", { class: `interlock ${least.status}` }, line, svg("circle", { cx: at[0], cy: at[1], r: 4.5 }), svg("text", { class: "tip", x: at[0] + (end ? -9 : 9), y: Math.max(box.top + 12, at[1] - 8), "text-anchor": end ? "end" : "start", text }));
+    return svg("g", { class: `interlock ${least.status}` }, line, svg("circle", { cx: at[0], cy: at[1], r: 4.5 }), svg("text", { class: "tip", x: at[0] + (end ? -9 : 9), y: at[1] - 8 < box.top + 12 ? at[1] + 18 : at[1] - 8, "text-anchor": end ? "end" : "start", text }));
   }
 
   #corner({ rule, name, turned }, i, [across, up], x, y) {

@@ -1,6 +1,7 @@
 // The view of several axes: their timing diagram with interlocks, the plane of two positions, clearances, a run.
 
 import { label } from "../axes.js";
+import { AxisNames } from "../axis_names.js";
 import { Cursor } from "../cursor.js";
 import { group } from "../fields.js";
 import { Interlocks } from "../interlocks.js";
@@ -16,6 +17,7 @@ import { showTrust, unanswered } from "../trust.js";
 const told = (value) => JSON.stringify(value);
 const GOALS = { "": "as they are given", acceleration: "least acceleration", period: "least period" };
 const FILES = [
+  { kind: "python", text: "Python", about: "Lines that reproduce what is seen" },
   { kind: "problem", text: "Problem file (TOML)", about: "For optlaws cycle" },
   { kind: "table", text: "Table of values of this axis (CSV)", about: "Angle, time, position, velocity, acceleration and jerk" },
 ];
@@ -24,6 +26,7 @@ export class View {
   files = FILES;
   drawings = "#axes-timing svg, #axes-plane svg, #axes-rooms svg";
   #study;
+  #names;
   #programme;
   #interlocks;
   #timing;
@@ -44,18 +47,19 @@ export class View {
     const panel = (id, attributes = {}, ...children) => html("div", { id, class: "panel", ...attributes }, ...children);
     const part = (id) => html("div", { id });
     this.#parts = {
-      programme: part("axes-programme"), interlocks: part("axes-interlocks"), together: part("axes-together"),
+      names: part("axes-names"), programme: part("axes-programme"), interlocks: part("axes-interlocks"), together: part("axes-together"),
       trust: panel("axes-trust", { role: "status", "aria-live": "polite" }), timing: html("div", { id: "axes-timing" }),
       run: html("div", { id: "axes-run" }), read: html("p", { class: "facts", id: "axes-reading" }), plane: html("div", { id: "axes-plane", class: "picture" }), choice: html("select", { "aria-label": "plane of two positions" }),
       rooms: panel("axes-rooms"), table: panel("axes-table"),
     };
-    const { programme, interlocks, together, trust, timing, run, read, plane, choice, rooms, table } = this.#parts;
+    const { names, programme, interlocks, together, trust, timing, run, read, plane, choice, rooms, table } = this.#parts;
     root.append(
-      html("aside", { id: "axes-ask", "aria-label": "Axes, their segments and interlocks" }, together, interlocks, programme),
+      html("aside", { id: "axes-ask", "aria-label": "Axes, their segments and interlocks" }, names, together, interlocks, programme),
       html("section", { id: "axes-middle", "aria-label": "Timing diagram and positions" }, trust, html("div", { class: "panel" }, timing, run, read), html("div", { class: "panel" }, html("div", { class: "panel-head" }, html("span", { class: "quiet", text: "positions" }), choice), plane)),
       html("section", { id: "axes-right", "aria-label": "Clearances" }, rooms, table),
     );
     const held = (state) => state.axes;
+    this.#names = new AxisNames(names, study, held);
     this.#programme = new Programme(programme, study, held);
     this.#interlocks = new Interlocks(interlocks, study, held);
     this.#timing = new Timing(timing, (row, segments) => this.#moved(row, segments));
@@ -80,6 +84,7 @@ export class View {
   }
 
   show(state) {
+    this.#names.show(state);
     this.#programme.show(state);
     this.#interlocks.show(state);
     this.#goal(state.axes);
@@ -119,15 +124,17 @@ export class View {
     if (told(names) !== told([...choice.options].map(({ text }) => text))) choice.replaceChildren(...names.map((text, value) => html("option", { value, text, translate: "no" })));
     choice.hidden = names.length < 2;
     choice.value = String(Math.min(this.#study.state.plane ?? 0, names.length - 1));
+    this.#turn(this.#cursor.at);
   }
 
   /** Where all axes are at an angle of the master. */
   #turn(at) {
     this.#timing.turn(at);
     this.#positions.turn(at);
-    const rows = at === null || this.#answer?.refused ? [] : this.#answer?.rows ?? [];
-    const places = rows.map(({ name, values, unit }) => `${name} ${label(Number(valueAt(this.#answer.at, values, at).toPrecision(4)))} ${unit}`);
-    this.#parts.read.textContent = at === null ? "" : [`at ${label(Number(at.toFixed(1)))} deg`, ...places].join(" · ");
+    const angle = at ?? 0;
+    const rows = this.#answer?.refused ? [] : this.#answer?.rows ?? [];
+    const places = rows.map(({ name, values, unit }) => `${name} ${label(Number(valueAt(this.#answer.at, values, angle).toPrecision(4)))} ${unit}`);
+    this.#parts.read.textContent = [`at ${label(Number(angle.toFixed(1)))} deg`, ...places].join(" · ");
   }
 
   #facts() {
