@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-HEADINGS = ("type", "section", "from", "to", "way")
+HEADINGS = ("type", "section", "from", "to", "travel")
 
 
 class Drawing(Entries):
@@ -62,7 +62,7 @@ def run(results: Results) -> None:
     criteria = "; ".join(f"{kind}: a = {mechanism.a:.5g}, b = {mechanism.b:.5g}" for kind, mechanism in types.items())
     page = results.page("drawing").text(f"Law {spec.law}; {criteria}.")
     page.figure("mechanism", "The cams").figure("motion", "The motions")
-    page.text("Cam angles in degrees, ways of the rocker in strokes of the executive link.").table(HEADINGS, rows)
+    page.text("Cam angles in degrees, travel of the rocker in strokes of the executive link.").table(HEADINGS, rows)
     assert [f"{mechanism.a:.4f}" for mechanism in types.values()] == ["1.7854", "1.0000", "1.5951"]
     assert [f"{mechanism.b:.4f}" for mechanism in types.values()] == ["0.0000", "1.9827", "0.1500"]
 
@@ -108,7 +108,7 @@ def _scale(axes: Axes, x: float, y: float) -> None:
 
 
 def draw_motions(types: Mapping[str, DwellMechanism]) -> Figure:
-    """Way and speed of the rocker over the cam angle, with the sections of the dwells."""
+    """Position and speed of the rocker over the cam angle, with the sections of the dwells."""
     from matplotlib.patches import Patch
 
     with plot_style():
@@ -124,7 +124,7 @@ def draw_motions(types: Mapping[str, DwellMechanism]) -> Figure:
             left.plot(place, ways, color=BLUES[3], linestyle="--")
             right.plot(place, mechanism.motion.b(k) / mechanism.cycle, color=GREEN)
             left.set_title(f"type {kind}")
-            left.set_ylabel("way (S)")
+            left.set_ylabel("position (S)")
             right.set_ylabel("speed (S per radian)")
             left.set(xlim=(0.0, degrees(mechanism.cycle)), xticks=np.arange(0.0, degrees(mechanism.cycle) + 1.0, 45.0))
         for axes in panels[-1]:

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from math import inf, isfinite
+from textwrap import fill
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -23,6 +24,7 @@ from optlaws.tolerances import LOOKS_EQUAL
 if TYPE_CHECKING:
     from matplotlib.artist import Artist
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 Panels = Sequence["Axes"]
 
@@ -33,6 +35,9 @@ _SAMPLES = 801
 _MARGIN = 0.08
 #: of the interval: how near to the highest peak a place is its own
 _BESIDE = 0.01
+#: of a sheet of laws
+_COLUMNS = 6
+_NAME_WIDTH = 22
 #: curves drawn into one pair of axes, each by its peak
 _COLOURS = (GREY, GREEN, BLUES[3], WARM)
 _ABOVE: Any = {
@@ -252,6 +257,26 @@ def draw_comparison(comparison: Comparison, axes: Panels | None = None, **style:
         figure: Any = by_order[0].get_figure(root=True)
         figure.legend(firsts, list(comparison.laws), loc="outside lower center", ncols=3, frameon=False)
     return artists
+
+
+def accelerations_figure(laws: Mapping[str, MotionLaw]) -> Figure:
+    """The acceleration of each law in a panel of its own, all to one scale, with the peaks B and C."""
+    columns = min(len(laws), _COLUMNS)
+    rows = -(-len(laws) // columns)
+    with plot_style():
+        figure = new_figure(max(3.2, 1.9 * columns), 0.5 + 1.7 * rows)
+        axes = figure.subplots(rows, columns, sharex=True, sharey=True, squeeze=False)
+        for panel, (name, law) in zip(axes.flat, laws.items(), strict=False):
+            list(_with_peak(law, panel, 2, {"color": BLUES[3]}, titled=False))
+            panel.set_title(
+                f"{fill(name, _NAME_WIDTH)}\nB {law.peak(1).value:.4g}, C {law.peak(2).value:.4g}", fontsize=7.5
+            )
+            panel.tick_params(labelsize=7.5)
+        for panel in axes.flat[len(laws) :]:
+            panel.set_axis_off()
+        figure.supxlabel("k", fontsize=9.0)
+        figure.supylabel("acceleration c (dimensionless)", fontsize=9.0)
+    return figure
 
 
 def _without_idle(solution: Solution) -> list[Mark]:

@@ -1,21 +1,24 @@
-"""Pictures of sweeps: columns of a table over the values that an entry takes."""
+"""Pictures of sweeps and studies: columns of a table over the values of an entry."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optlaws.plots.style import BLUES, GREEN, GREY, WARM, new_figure, plot_style, titled
+from optlaws.plots.style import BLUES, DISTINCT, GREEN, GREY, WARM, new_figure, plot_style, titled
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from optlaws.files.tables import Cell
+    from optlaws.numbers import Array
 
 _COLOURS = (BLUES[3], GREY, WARM, GREEN, BLUES[1])
 _HEIGHT = 1.9
+#: more points are drawn as pixels
+_VECTORS = 2_000
 
 
 def sweep_figure(headings: Sequence[str], rows: Sequence[Sequence[Cell]], title: str) -> Figure:
@@ -25,9 +28,7 @@ def sweep_figure(headings: Sequence[str], rows: Sequence[Sequence[Cell]], title:
         unit = heading.rpartition(", ")[2] if ", " in heading else ""
         # what has no unit of its own, a bound, is in that of the column before
         panels.setdefault(unit or next(reversed(panels), ""), []).append(i)
-    values = [row[0] for row in rows]
-    numeric = all(isinstance(value, int | float) for value in values)
-    places = np.array(values if numeric else range(len(values)), dtype=np.float64)
+    places, names = _places([row[0] for row in rows])
     with plot_style():
         figure = new_figure(7.2, 1.2 + _HEIGHT * max(1, len(panels)))
         axes = figure.subplots(max(1, len(panels)), 1, sharex=True, squeeze=False)[:, 0]
@@ -43,6 +44,54 @@ def sweep_figure(headings: Sequence[str], rows: Sequence[Sequence[Cell]], title:
             panel.set_ylim(bottom=min(0.0, panel.get_ylim()[0]))
             panel.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=3, frameon=False, fontsize=8.0)
         axes[-1].set_xlabel(headings[0])
-        if not numeric:
-            axes[-1].set_xticks(places, [str(value) for value in values])
+        if names is not None:
+            axes[-1].set_xticks(range(len(names)), names)
         return titled(figure, title)
+
+
+def _places(values: Sequence[Any]) -> tuple[Array, list[str] | None]:
+    """Numbers as places on an axis; other values by their order, with their names."""
+    if all(isinstance(value, int | float) and not isinstance(value, bool) for value in values):
+        return np.array(values, dtype=np.float64), None
+    names = list(dict.fromkeys(map(str, values)))
+    return np.array([names.index(str(value)) for value in values], dtype=np.float64), names
+
+
+def points_figure(
+    entries: Mapping[str, Sequence[Any]], objective: Array, peaks: Mapping[str, Array], title: str
+) -> Figure:
+    """The objective and the peaks of points over their entry of most values, coloured by the next entry."""
+    along, *others = sorted(entries, key=lambda name: -len(set(map(str, entries[name]))))
+    places, names = _places(entries[along])
+    colours, named = _places(entries[others[0]]) if others else (np.zeros(len(places)), None)
+    kinds = np.unique(colours).tolist() if others else []
+    style: dict[str, Any] = {"s": 12.0, "linewidths": 0.0, "rasterized": len(places) > _VECTORS}
+    # a peak that is the objective, or the entry along the axis, needs no panel
+    known = (places, objective)
+    results = {"objective": objective} | {
+        name: peak
+        for name, peak in peaks.items()
+        if np.isfinite(peak).any() and not any(np.allclose(peak, each) for each in known)
+    }
+    with plot_style():
+        figure = new_figure(7.2, 1.2 + _HEIGHT * len(results))
+        axes = figure.subplots(len(results), 1, sharex=True, squeeze=False)[:, 0]
+        for panel, (name, result) in zip(axes, results.items(), strict=True):
+            panel.set_ylabel(name)
+            if len(kinds) > len(DISTINCT):
+                points = panel.scatter(places, result, c=colours, cmap="viridis", **style)
+                continue
+            for i, kind in enumerate(kinds or [0.0]):
+                chosen = colours == kind
+                panel.scatter(places[chosen], result[chosen], color=DISTINCT[i], **style)
+        axes[-1].set_xlabel(along)
+        if names is not None:
+            axes[-1].set_xticks(range(len(names)), names)
+        if len(kinds) > len(DISTINCT):
+            bar = figure.colorbar(points, ax=axes, label=others[0], aspect=40.0)
+            if named is not None:
+                bar.set_ticks(range(len(named)), labels=named)
+        elif kinds:
+            labels = [f"{others[0]} = {value}" for value in named or [f"{kind:g}" for kind in kinds]]
+            figure.legend(axes[0].collections, labels, loc="outside lower center", ncols=3, frameon=False)
+    return titled(figure, title)

@@ -20,6 +20,6 @@ def cam(file: Path, /, *, out: Path | None = None, plot: Plot = None, as_json: A
     plot
         Draw the cam into this file, PNG or SVG.
     as_json
-        Print one JSON object on stdout and write nothing.
+        Print one JSON object on stdout; of all files only that of --plot is written.
     """
     do_job("cam", file, out, plot, as_json=as_json)

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from importlib import import_module
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
 from optlaws.cli.app import NotProven
@@ -45,7 +46,7 @@ def cycle(
         Draw all axes, the points and laws of an old cam, or with `--fastest` the motion at that speed, into this file,
         PNG or SVG.
     as_json
-        Print one JSON object on stdout and write nothing.
+        Print one JSON object on stdout; of all files only that of --plot is written.
     """
     if file.suffix and file.suffix.lower() != ".toml":
         if fastest:
@@ -96,29 +97,28 @@ def do_job(job: str, file: Path, out: Path | None, plot: Path | None, *, as_json
     """The job of a problem file, with its main picture in the file of --plot too; or its data for programs."""
     from optlaws.files import writing
     from optlaws.files.packaged import problem_of_job
+    from optlaws.jobs.job import run
 
     check_files(plot=plot)
-    if as_json and plot is not None:
-        raise InputError("--json writes nothing: leave out --plot")
     source, folder, entries = problem_of_job(file, job)
     if not as_json:
         if out is not None or folder is not None:
             writing.check_place((out or folder or Path()) / "results.md")
         written = done(source, out=out or folder)
         if plot is not None:
-            drawn = next(path for path in written if path.name == f"{_main_picture(job, entries)}{plot.suffix}")
-            writing.write(plot, drawn.read_bytes())
+            writing.write(plot, _main_picture(job, entries, written, plot.suffix))
         return
-    with busy(f"{file}"):
+    with busy(f"{file}"), TemporaryDirectory() as results:
         data = import_module(f"optlaws.jobs.{job}").answer(entries, source)
+        if plot is not None:
+            writing.write(plot, _main_picture(job, entries, run(source, Path(results)), plot.suffix))
     print_json(data)
 
 
-def _main_picture(job: str, entries: Mapping[str, Any]) -> str:
-    """The name of the most informative picture of a job: the cam, the single axis, or all axes."""
+def _main_picture(job: str, entries: Mapping[str, Any], written: Sequence[Path], suffix: str) -> bytes:
+    """The most informative picture among the results of a job: the cam, the single axis, or all axes."""
     from optlaws.jobs.cycle import TOGETHER, plain_name
 
-    if job != "cycle":
-        return job
-    names = [plain_name(axis["name"]) for axis in entries["axis"]]
-    return names[0] if len(names) == 1 else TOGETHER
+    names = [job] if job != "cycle" else [plain_name(axis["name"]) for axis in entries["axis"]]
+    name = names[0] if len(names) == 1 else TOGETHER
+    return next(path for path in written if path.name == f"{name}{suffix}").read_bytes()

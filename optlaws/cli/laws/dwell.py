@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import asdict, dataclass
+from importlib import import_module
 from math import degrees, gcd, inf
 from typing import TYPE_CHECKING, Any
 
 from cyclopts import Parameter
 
 import optlaws
-from optlaws.cli.options import AsJson, Whole, read_law
+from optlaws.cli.options import AsJson, Plot, Whole, check_files, read_law, save_figure
 from optlaws.cli.show import print_json, show, table
 from optlaws.errors import InputError
 
@@ -59,6 +60,30 @@ class DwellAngles:
         return {name: value if name.endswith("ratio") else optlaws.deg(value) for name, value in given.items()}
 
 
+@Parameter(name="*")
+@dataclass(frozen=True, kw_only=True)
+class DwellLaws:
+    """Laws of the loader in the dwells, as names of the catalogue or files.
+
+    Parameters
+    ----------
+    law_1
+        Law of run-out and run-up of type II; the executive law by default.
+    law_2
+        Law of the reverse motion of type II and of run-out and run-up of type III; the executive law by default.
+    """
+
+    law_1: str | None = None
+    law_2: str | None = None
+
+    def read(self) -> dict[str, Any]:
+        """The given laws by their names."""
+        return {name: read_law(text) for name, text in asdict(self).items() if text is not None}
+
+
+_EXECUTIVE = DwellLaws()
+
+
 def dwell(
     name: str,
     /,
@@ -66,12 +91,12 @@ def dwell(
     angles: DwellAngles,
     most_torque: float,
     most_size: float = inf,
-    law_1: str | None = None,
-    law_2: str | None = None,
+    laws: DwellLaws = _EXECUTIVE,
     teeth: Whole = 120,
+    plot: Plot = None,
     as_json: AsJson = False,
 ) -> None:
-    """Balancing mechanisms of types I, II and III for an executive link that dwells, and which of them to take.
+    """Compare balancing mechanisms of types I, II and III for an executive link that dwells, and choose one.
 
     Parameters
     ----------
@@ -81,25 +106,26 @@ def dwell(
         Greatest residual torque b that is acceptable.
     most_size
         Greatest size a of the cam that is acceptable.
-    law_1
-        Law of run-out and run-up of type II; the executive law unless given.
-    law_2
-        Law of the reverse motion of type II and of run-out and run-up of type III; the executive law unless given.
     teeth
         Greatest number of teeth of the clutch.
+    plot
+        Draw position and speed of each type's loader over the cam's angle into this file, PNG or SVG.
     as_json
         Print one JSON object on stdout and nothing else; angles in radians.
     """
+    check_files(plot=plot)
     _check_turn(angles.rise, angles.dwell, angles.lower_dwell)
     comparison = optlaws.compare_dwell_mechanisms(
         law=read_law(name),
         most_torque=most_torque,
         most_size=most_size,
-        law_1=None if law_1 is None else read_law(law_1),
-        law_2=None if law_2 is None else read_law(law_2),
+        **laws.read(),
         **angles.in_radians(),
     )
     clutches = {kind: optlaws.Clutch(mechanism) for kind, mechanism in comparison.mechanisms.items() if kind != "I"}
+    if plot is not None:
+        # a script that comes with optlaws, which type checkers find under problems/
+        save_figure(plot, import_module("optlaws.problems.dwell_drawing").draw_motions(comparison.mechanisms))
     if as_json:
         print_json(_plain(comparison, clutches, teeth))
     else:

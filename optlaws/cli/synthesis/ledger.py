@@ -23,6 +23,8 @@ def ledger(
 ) -> None:
     """Show printed numbers, formulas, figures and claims, computed again, with their verdicts.
 
+    No picture is drawn: the ledger is a list of verdicts, and its figures are redrawn by `optlaws run`.
+
     Ends with 0 if every verdict that is declared holds, 1 if one does not, 2 if an item cannot be computed.
 
     Parameters
@@ -36,7 +38,7 @@ def ledger(
     id
         One item.
     file
-        The problem file of the ledger; where it is not there the one that comes with optlaws.
+        The problem file of the ledger; by default, if it does not exist, the one that comes with optlaws.
     as_json
         Print a list of the items on stdout and nothing else.
     """

@@ -8,13 +8,18 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 import optlaws
-from optlaws.cli.options import AsJson, Whole
+from optlaws.cli.options import AsJson, Plot, Whole, check_files, save_figure
 from optlaws.cli.show import print_json, progress, show
 from optlaws.errors import InputError
 
 if TYPE_CHECKING:
     from optlaws.studies.study import Study
+
+_PEAKS = ("B", "C", "D", "J")
+_DRAWN = 20_000
 
 
 def study(
@@ -24,6 +29,7 @@ def study(
     workers: Whole | None = None,
     dask: str | None = None,
     status: Path | None = None,
+    plot: Plot = None,
     as_json: AsJson = False,
 ) -> None:
     """Solve every point of a study; the same command continues an interrupted study.
@@ -33,20 +39,23 @@ def study(
     file
         Study file (TOML).
     out
-        Directory of the study; studies/NAME beside the folder of the study file unless given.
+        Directory of the study; by default, studies/NAME beside the folder of the study file.
     workers
-        How many points are solved at a time; all cores, or all threads of the cluster, unless given.
+        The number of points solved at a time; by default, all cores, or all threads of the cluster.
     dask
         Address of a Dask scheduler, such as tcp://10.0.0.1:8786.
     status
-        Say how far the study in this directory is, and solve nothing.
+        Report the progress of the study in this directory, and solve nothing.
+    plot
+        Draw objective and peaks of the finished points over the entry of most values into this file, PNG or SVG.
     as_json
         Print one JSON object on stdout and nothing else.
     """
+    check_files(plot=plot)
     if status is not None:
         if file is not None or out is not None or dask is not None:
             raise InputError("--status takes a directory and neither a study file nor --out nor --dask")
-        _show(optlaws.open_study(status), as_json=as_json)
+        _show(optlaws.open_study(status), plot, as_json=as_json)
         return
     if file is None:
         raise InputError("name a study file, or a directory by --status DIR")
@@ -60,7 +69,7 @@ def study(
     watch = Bar(console) if console.is_terminal else Lines(console)
     with _cluster(dask) as (executor, threads):
         study = optlaws.run_study(file, target, executor=executor, workers=workers or threads, watch=watch)
-    _show(study, as_json=as_json)
+    _show(study, plot, as_json=as_json)
 
 
 @contextmanager
@@ -82,8 +91,11 @@ def _cluster(address: str | None) -> Iterator[tuple[Executor | None, int | None]
         yield client.get_executor(), max(1, sum(client.nthreads().values()))
 
 
-def _show(study: Study, *, as_json: bool) -> None:
+def _show(study: Study, plot: Path | None, *, as_json: bool) -> None:
     from optlaws.studies.progress import listed
+
+    if plot is not None:
+        _draw(study, plot)
 
     counts, total, running = study.counts, len(study), study.running
     done = sum(counts.values())
@@ -95,3 +107,18 @@ def _show(study: Study, *, as_json: bool) -> None:
         "finished" if done == total else "under way" if running else "interrupted: run the same command again"
     )
     show(f"{study.path}: {done} of {total} points, {state_in_words}", *([listed(counts)] if counts else []))
+
+
+def _draw(study: Study, file: Path) -> None:
+    """Draw the points that have a law; of many, evenly spaced ones."""
+    from optlaws.plots.sweep import points_figure
+
+    solved = [point for point in study if point.objective is not None]
+    if not solved:
+        raise InputError(f"{study.path} has no point with a law yet: there is nothing to draw")
+    solved = solved[:: -(-len(solved) // _DRAWN)]
+    entries = {name: [point.inputs[name] for point in solved] for name in solved[0].inputs}
+    objective, *peaks = (
+        np.array([getattr(point, name) for point in solved], dtype=np.float64) for name in ("objective", *_PEAKS)
+    )
+    save_figure(file, points_figure(entries, objective, dict(zip(_PEAKS, peaks, strict=True)), study.about["title"]))

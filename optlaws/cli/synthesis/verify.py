@@ -17,6 +17,8 @@ if TYPE_CHECKING:
 def verify(*files: Path, as_json: AsJson = False) -> None:
     """Check solutions or certificates with every rounding enclosed; no solver takes part.
 
+    No picture is drawn: a verdict has no curve, and `optlaws law FILE --plot` draws the law of a solution.
+
     Ends with 0 if every claim of every file is proven, 1 if one is false or not proven, 2 if a file cannot be checked.
 
     Parameters
