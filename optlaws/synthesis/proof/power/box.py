@@ -85,6 +85,8 @@ class BoxRows(ABC):
         self.terms, self.variables = self.space.terms, self.model.program.size
         self.size = self.variables + self.extra
         self._families = {nu: self.space.derivative(nu, "", np.zeros(self.variables)) for nu in (1, 2)}
+        self._of_places: dict[float, tuple[Array, ...]] = {}
+        self._of_contacts: dict[tuple[object, ...], Array] = {}
 
     @abstractmethod
     def root(self) -> Box:
@@ -190,25 +192,46 @@ class BoxRows(ABC):
         for name in self.names:
             mine = [i for i, contact in enumerate(contacts) if contact.constraint == name]
             if mine:
-                k = np.array([contacts[i].k for i in mine])
-                stacked[mine] = self.curved(box, self.places(k), name, np.array([contacts[i].sign for i in mine]))
+                places = self._places_at([contacts[i].k for i in mine])
+                stacked[mine] = self.curved(box, places, name, np.array([contacts[i].sign for i in mine]))
         for i, contact in enumerate(contacts):
             if contact.constraint in self.alone:
                 stacked[i] = self.row_beside(box, contact)
             elif contact.constraint not in self.names:
-                row, right = row_of(self.model.program, contact)
-                stacked[i] = self.mapped(np.append(row, -right)[None])[0]
+                stacked[i] = self._fixed_row(contact)
         return stacked
+
+    def _places_at(self, k: Sequence[float]) -> Places:
+        """Coefficients of the curved rows at places, of which a proof speaks again and again."""
+        new = [place for place in dict.fromkeys(k) if place not in self._of_places]
+        if new:
+            rows = zip(*self.places(np.array(new)).rows, strict=True)
+            self._of_places |= zip(new, rows, strict=True)
+        together = zip(*(self._of_places[place] for place in k), strict=True)
+        return Places(np.array(k), tuple(map(np.array, together)))
+
+    def _fixed_row(self, contact: Contact) -> Array:
+        """The row of a contact that does not depend on the box."""
+        key = (contact.constraint, contact.sign, contact.k, contact.direction)
+        if key not in self._of_contacts:
+            row, right = row_of(self.model.program, contact)
+            self._of_contacts[key] = self.mapped(np.append(row, -right)[None])[0]
+        return self._of_contacts[key]
 
     def equations(self) -> Array:
         """The program's equations, each 0 with its constant."""
-        program = self.model.program
-        return self.mapped(np.column_stack([program.equalities, -program.right]))
+        return self._sums[:-1]
 
     def objective(self) -> Array:
         """The objective less the claim, at most 0."""
-        nothing = np.zeros(self.extra)
-        return np.concatenate([self.model.program.objective, nothing, [-self.claim / self.model.unit]])
+        return np.asarray(self._sums[-1])
+
+    @kept_property
+    def _sums(self) -> Array:
+        """The equations, and the objective less the claim, over the variables of a box."""
+        program, nothing = self.model.program, np.zeros(self.extra)
+        equations = self.mapped(np.column_stack([program.equalities, -program.right]))
+        return np.vstack([equations, np.concatenate([program.objective, nothing, [-self.claim / self.model.unit]])])
 
     def after(self, box: Box, node: Node) -> list[Box] | None:
         """The boxes that a node leaves of one; None where it speaks of no variable of theirs."""

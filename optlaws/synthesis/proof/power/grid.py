@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from math import inf
-from typing import Any
 
 import numpy as np
 from numpy.polynomial.chebyshev import chebpts2
@@ -15,11 +13,10 @@ from optlaws.numbers import Array
 from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, NormFamily
 from optlaws.synthesis.proof.nodes import Contact, Leaf, Tightening
 from optlaws.synthesis.proof.power.box import Box, BoxRows, Places
+from optlaws.synthesis.proof.power.dual_simplex import multipliers_in_cube
 from optlaws.tolerances import GRID_EMPTY, GRID_LIGHT, GRID_NEAR
 
 _PLACES = 16
-_INFEASIBLE = 2
-_TOLERANCES = {"primal_feasibility_tolerance": 1e-10, "dual_feasibility_tolerance": 1e-10}
 
 
 @dataclass(frozen=True, eq=False)
@@ -33,23 +30,6 @@ class Linear:
     equal: Array
     equal_right: Array
     equal_length: Array
-
-
-def _solved(goal: Array, rows: tuple[Array, Array], equations: tuple[Array, Array], last: float = 1.0) -> Any:  # noqa: ANN401
-    # scipy's result, imported late; its types know nothing of the tolerances
-    from scipy.optimize import linprog
-
-    solve: Any = linprog
-    return solve(
-        goal,
-        A_ub=rows[0],
-        b_ub=rows[1],
-        A_eq=equations[0],
-        b_eq=equations[1],
-        bounds=[(-1.0, 1.0)] * (len(goal) - 1) + [(-1.0, last)],
-        method="highs-ds",
-        options=_TOLERANCES,
-    )
 
 
 class Grid:
@@ -160,44 +140,39 @@ class Grid:
             divisor,
         )
 
-    def node(self, box: Box, variable: int, side: int) -> tuple[Leaf | None, Array | None]:
-        """The tightening that a linear program proves, and its answer; a leaf where it has none."""
-        linear, size = self.scaled(box), self.rows.size
-        goal = np.zeros(size)
-        goal[variable] = side
-        answer = _solved(goal, (linear.matrix, linear.right), (linear.equal, linear.equal_right))
-        if answer.status == _INFEASIBLE:
-            return self._empty(box, linear), None
-        if answer.x is None:
-            return None, None
-        half = (box.high - box.low) / 2.0
-        weights = (-answer.ineqlin.marginals * half[variable], -answer.eqlin.marginals * half[variable])
-        point = (box.low + box.high) / 2.0 + half * answer.x
-        leaf = self._leaf(box, linear, weights)
-        return Tightening(leaf.contacts, leaf.equations, leaf.claim, variable=variable, side=side), point
+    def nodes(self, box: Box, variables: Sequence[int]) -> tuple[list[Leaf], list[Array]]:
+        """The tightenings of both sides of variables that linear programs prove, and their answers; or one leaf.
 
-    def _empty(self, box: Box, linear: Linear) -> Leaf | None:
-        """Multipliers of the least common violation of the rows."""
-        count, size = linear.matrix.shape
-        goal = np.append(np.zeros(size), 1.0)
-        matrix = np.column_stack([linear.matrix, -np.ones(count)])
-        equal = np.column_stack([linear.equal, np.zeros(len(linear.equal))])
-        answer = _solved(goal, (matrix, linear.right), (equal, linear.equal_right), inf)
-        if answer.x is None:
-            return None
-        return self._leaf(box, linear, (-answer.ineqlin.marginals, -answer.eqlin.marginals))
+        A leaf shows that the box is empty; there are no answers then.
+        """
+        linear, half = self.scaled(box), (box.high - box.low) / 2.0
+        goals = np.zeros((2 * len(variables), self.rows.size))
+        each, sides = np.repeat(variables, 2), np.tile([1.0, -1.0], len(variables))
+        goals[np.arange(len(goals)), each] = sides
+        matrix = np.vstack([linear.matrix, linear.equal, -linear.equal])
+        right = np.concatenate([linear.right, linear.equal_right, -linear.equal_right])
+        weights, points = multipliers_in_cube(goals, matrix, right)
+        empty = np.flatnonzero(np.isnan(points[:, 0]))
+        if len(empty):
+            return [self._leaf(box, linear, weights[empty[0]])], []
+        leaves = (self._leaf(box, linear, row * half[i]) for row, i in zip(weights, each.tolist(), strict=True))
+        nodes: list[Leaf] = [
+            Tightening(leaf.contacts, leaf.equations, leaf.claim, variable=i, side=int(side))
+            for leaf, i, side in zip(leaves, each.tolist(), sides.tolist(), strict=True)
+        ]
+        return nodes, list((box.low + box.high) / 2.0 + half * points)
 
-    def _leaf(self, box: Box, linear: Linear, weights: tuple[Array, Array]) -> Leaf:
-        multipliers = np.maximum(weights[0], 0.0) / linear.length
-        least = GRID_LIGHT * float(multipliers.max(initial=0.0))
+    def _leaf(self, box: Box, linear: Linear, weights: Array) -> Leaf:
+        """The sum of rows with weights, in which an equation is two rows."""
+        count, equal = len(linear.matrix), len(linear.equal)
+        multipliers = weights[:count] / linear.length
         contacts = []
         objective = 0.0
-        for i, weight in zip(linear.which.tolist(), multipliers.tolist(), strict=True):
-            if weight > least:
-                contact = self._contact(box, i, weight)
-                if contact is None:
-                    objective = weight
-                else:
-                    contacts.append(contact)
-        equations = tuple((weights[1] / linear.equal_length).tolist())
-        return Leaf(tuple(contacts), equations, objective)
+        for i in np.flatnonzero(multipliers > GRID_LIGHT * multipliers.max(initial=0.0)).tolist():
+            contact = self._contact(box, int(linear.which[i]), float(multipliers[i]))
+            if contact is None:
+                objective = float(multipliers[i])
+            else:
+                contacts.append(contact)
+        pulls = (weights[count : count + equal] - weights[count + equal :]) / linear.equal_length
+        return Leaf(tuple(contacts), tuple(pulls.tolist()), objective)

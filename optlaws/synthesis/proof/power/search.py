@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -103,35 +103,34 @@ class BoxSearch:
         self.certificate = proof if proof.proven else None
 
     def _shrunk(self, box: Box) -> Box | None:
+        """The box with its sides moved as long as that goes on; None where it is empty."""
         for _ in range(_ROUNDS):
+            if self.left <= 0:
+                break
             before = (box.high - box.low)[self._variables]
-            for i in np.argsort(-before):
-                for side in (1, -1):
-                    moved = self._moved(box, self._variables[i], side)
-                    if moved is None:
-                        return None
-                    box = moved
+            nodes, points = self.grid.nodes(box, [self._variables[i] for i in np.argsort(-before)])
+            self.left -= len(nodes)
+            self._exchange(box, points)
+            for node in nodes:
+                moved = next(iter(self.rows.moved(box, node)), None)
+                if moved is not box:
+                    self._tree.append(node)
+                if moved is None:
+                    return None
+                box = moved
             after = (box.high - box.low)[self._variables]
             ratio = np.maximum(after, TINY) / np.maximum(before, TINY)
-            if self.left <= 0 or float(np.exp(np.log(ratio).mean())) > _STALLED:
+            if float(np.exp(np.log(ratio).mean())) > _STALLED:
                 break
         return box
 
-    def _moved(self, box: Box, variable: int, side: int) -> Box | None:
-        self.left -= 1
-        if self.left < 0:
-            return box
-        node, point = self.grid.node(box, variable, side)
-        if point is not None:
+    def _exchange(self, box: Box, points: Sequence[Array]) -> None:
+        """Take rows that answers of linear programs break into the grid: those of the mean of either side."""
+        width = float((box.high - box.low)[: self.rows.terms].max())
+        for point in points:
             self.rows.remember(point)
-            width = float((box.high - box.low)[: self.rows.terms].max())
-            self.grid.exchange(self._variables_of(point), _SPACING * width)
-        if node is None:
-            return box
-        moved = next(iter(self.rows.moved(box, node)), None)
-        if moved is not box:
-            self._tree.append(node)
-        return moved
+        for side in (points[::2], points[1::2]) if points else ():
+            self.grid.exchange(self._variables_of(np.mean(side, axis=0)), _SPACING * width)
 
     def _variables_of(self, values: Array) -> Array:
         return np.append(self.rows.coordinates(values), values[self.rows.terms : self.rows.variables])
