@@ -90,8 +90,8 @@ class LawSearch:
         return self.certified(plain.optimum, best, held_up=bool(short))
 
     def least(self) -> float | None:
-        """The best objective that the starts lead to, of which nothing is proven; None where they lead to no law."""
-        self._try_starts()
+        """The best objective that all starts lead to, of which nothing is proven; None where they lead to no law."""
+        self._try_starts(stored=False)
         return self.candidates[0].objective if self.candidates else None
 
     def error(self) -> InfeasibleProblem | SolverFailure:
@@ -100,13 +100,19 @@ class LawSearch:
 
         return failure(self.problem, self.outcomes[0])
 
-    def _try_starts(self) -> None:
-        """A drive's limit, the default start or a neighbour's optimum; where several may be, others until two agree."""
+    def _try_starts(self, *, stored: bool = True) -> None:
+        """A drive's limit, a neighbour's optimum or the default start; where several may be, others until two agree.
+
+        A structure that is stored led to the best of several starts when it was stored.
+        """
         first = self._try_drive() if self.warm is None else None
         if first is not None and self._near_limit(first):
             return
-        last = self._try(stored_guess(self.model) or self.warm, None)
+        guess = stored_guess(self.model) if stored else None
+        last = self._try(guess or self.warm, None)
         if self.problem.convex or self.warm is not None or _agree(first, last):
+            return
+        if guess is not None and last is not None and self.outcomes[-1].continued:
             return
         from optlaws.synthesis.method import starts
 

@@ -1,28 +1,35 @@
-"""The structures that come with optlaws, computed: `python -m optlaws.synthesis.arrays.structure_table` writes them.
+"""The structures that come with optlaws, computed: `python -m optlaws.synthesis.structure_table` writes them.
 
 It takes some minutes. Nothing depends on them but time.
 """
 
 from __future__ import annotations
 
+import numpy as np
+
+from optlaws.numbers import Array
 from optlaws.numerics.chebyshev import from_values, nodes
 from optlaws.synthesis.arrays.continuation import StructureSegment
 from optlaws.synthesis.arrays.continued_laws import segments_of
 from optlaws.synthesis.arrays.newton_steps import structure_of
 from optlaws.synthesis.arrays.programs import between
 from optlaws.synthesis.method.exchange import solve
-from optlaws.synthesis.method.stored_structures import STORED, StoredStructure, key_of, written
+from optlaws.synthesis.method.stored_structures import STORED, StoredStructure, guess_of, key_of, written
+from optlaws.synthesis.method.strategies.contacts import polished
 from optlaws.synthesis.problem.problem import Problem
-from optlaws.synthesis.program.writer import model_of
+from optlaws.synthesis.program.writer import Model, model_of
+from optlaws.synthesis.search import LawSearch
 from optlaws.synthesis.spaces.bases import Chebyshev
-from optlaws.tolerances import SHORT_STRETCH
+from optlaws.tolerances import AGREEMENT, SHORT_STRETCH
 
 #: the kinds of problems: orders, degrees by what is minimised, and the range of B
 _ORDERS = range(2, 7)
-_DEGREES = {"C": (*range(3, 42, 2), 51, 61), "J": range(3, 22, 2)}
+_DEGREES = {"C": (*range(3, 42, 2), 51, 61), "J": range(3, 22, 2), "D": range(3, 22, 2)}
 _LEAST, _GREATEST = 1.1, 3.0
 #: coefficients of a place along B, where it moves
 _TERMS = 4
+#: where on a stretch laws of problems that are not convex are sought from several starts too
+_SOUGHT = (0.02, 0.26, 0.5, 0.74, 0.98)
 
 
 def structures_along_velocity(problem: Problem) -> list[StoredStructure]:
@@ -35,7 +42,22 @@ def structures_along_velocity(problem: Problem) -> list[StoredStructure]:
     """
     path = between(problem.at_velocity(_LEAST), problem.at_velocity(_GREATEST))
     segments = [] if path is None else segments_of(path, 0.0, 1.0)
-    return [_stored(segment) for segment in segments if segment.end - segment.begin > SHORT_STRETCH]
+    structures = [_stored(segment) for segment in segments if segment.end - segment.begin > SHORT_STRETCH]
+    return structures if problem.convex else [known for known in structures if _none_better(problem, known)]
+
+
+def _none_better(problem: Problem, structure: StoredStructure) -> bool:
+    """Whether searches from several starts lead to no better laws than those of a structure."""
+    for share in _SOUGHT:
+        B = structure.begin + share * (structure.end - structure.begin)
+        model = model_of(problem.at_velocity(B) if B else problem)
+        optimum = polished(model.program, guess_of(model.program, structure, B), None)
+        least = LawSearch(model).least()
+        if optimum is None or least is None:
+            return False
+        if model.unit * model.program.objective_at(optimum.x) > least * (1.0 + AGREEMENT):
+            return False
+    return True
 
 
 def _stored(segment: StructureSegment) -> StoredStructure:
@@ -43,9 +65,15 @@ def _stored(segment: StructureSegment) -> StoredStructure:
     middle, half = (segment.begin + segment.end) / 2.0, (segment.end - segment.begin) / 2.0
     # of an affine structure the places stay
     count = 1 if structure.affine else _TERMS
-    places = from_values(segment.interpolated(middle + half * nodes(count)).u)
+    states = segment.interpolated(middle + half * nodes(count))
     ends = (_LEAST + reach * segment.begin, _LEAST + reach * segment.end)
-    return StoredStructure(*ends, structure.family, structure.sign, structure.free, places)
+    variables = from_values(_variables(structure.model, states.x))
+    return StoredStructure(*ends, structure.family, structure.sign, structure.free, from_values(states.u), variables)
+
+
+def _variables(model: Model, x: Array) -> Array:
+    """The variables of laws as they are stored, a row for each: none of a linear program."""
+    return x if model.program.curved else np.empty((len(x), 0))
 
 
 def structure_without_velocity(problem: Problem) -> list[StoredStructure]:
@@ -64,7 +92,9 @@ def structure_without_velocity(problem: Problem) -> list[StoredStructure]:
     inside = (structure.domains != optimum.u[order, None]).all(axis=1)
     if (inside & ~structure.free).any():
         return []
-    return [StoredStructure(0.0, 0.0, structure.family, structure.sign, structure.free, optimum.u[order][None])]
+    parts = (structure.family, structure.sign, structure.free, optimum.u[order][None])
+    stored = StoredStructure(0.0, 0.0, *parts, _variables(model, optimum.x[None]))
+    return [stored] if problem.convex or _none_better(problem, stored) else []
 
 
 def usual_structures() -> dict[str, list[StoredStructure]]:

@@ -7,7 +7,6 @@ from optlaws.synthesis.arrays.dual_bounds import sums_of_rows
 from optlaws.synthesis.arrays.newton_steps import States, converged, locally_optimal
 from optlaws.synthesis.arrays.powers import least_power, on_global_branch
 from optlaws.synthesis.arrays.programs import Path, SolvedBatch, between
-from optlaws.synthesis.arrays.structure_table import structure_without_velocity, structures_along_velocity
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.cone import ConeFamily, stationary_places
 from optlaws.synthesis.families.curved import CurvedFamily, FormulaFamily
@@ -89,3 +88,4 @@ from optlaws.synthesis.spaces.of_basis import space_of
 from optlaws.synthesis.spaces.polynomial_space import polynomial_space
 from optlaws.synthesis.spaces.space import LawSpace
 from optlaws.synthesis.spaces.spline_space import spline_space
+from optlaws.synthesis.structure_table import structure_without_velocity, structures_along_velocity

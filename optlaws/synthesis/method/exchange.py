@@ -28,6 +28,7 @@ if TYPE_CHECKING:
 
 _ROUNDS = 12
 _DIVERGING = "Diverging_Iterates"
+_CONTINUED = "continued from a neighbour"
 DEPTH = 1e5  # beyond what laws of the field have
 
 
@@ -43,6 +44,11 @@ class Outcome:
     rounds: int
     status: str
     tried: tuple[ActiveSet, ...] = ()
+
+    @property
+    def continued(self) -> bool:
+        """Whether the contacts of a neighbour's optimum, or of a guess, led to it."""
+        return self.status == _CONTINUED
 
     def mapped(self, change: Callable[[ActiveSet], ActiveSet]) -> Outcome:
         """The same outcome for a program in other variables or equations."""
@@ -102,7 +108,7 @@ def _in_own_units(
     if warm is not None:
         optimum = polished(program, warm, holds)
         if optimum is not None:
-            return Outcome(optimum, 0, 0, "continued from a neighbour")
+            return Outcome(optimum, 0, 0, _CONTINUED)
     chosen = independent(program.equalities)
     if chosen.all():
         return _solved(program, start, holds, rounds)

@@ -1,7 +1,8 @@
 """Structures of usual problems that come with optlaws: which constraints bind where, as Newton's method may begin.
 
-They are those of symmetric laws from rest to rest with least C or J, along B, by order and number of coordinates. What
-they lead to is verified as every law is: a structure that is wrong costs time and nothing else.
+They are those of symmetric laws from rest to rest with least C, J or D, along B, by order and number of coordinates.
+What they lead to is verified as every law is: a structure that is wrong costs time and nothing else. Of D, whose
+problems are not convex, only those are stored from which no search from several starts led to a better law.
 """
 
 from __future__ import annotations
@@ -9,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import lru_cache
+from math import frexp
 from pathlib import Path
 
 import numpy as np
@@ -16,7 +18,7 @@ from numpy.typing import NDArray
 
 from optlaws.numbers import Array
 from optlaws.synthesis.families.active_set import ActiveSet
-from optlaws.synthesis.families.family import Program
+from optlaws.synthesis.families.family import LinearFamily, ProductFamily, Program
 from optlaws.synthesis.program.writer import Model
 from optlaws.synthesis.spaces.polynomial_space import PolynomialSpace
 
@@ -24,6 +26,10 @@ STORED = Path(__file__).with_name("structures.bin")
 
 #: units of B - 1 and of the coefficients of places
 _OF_VELOCITY, _OF_PLACE = 2.0**13, 2.0**14
+#: of the greatest coefficient of variables, whose exponent is stored beside them
+_BITS = 14
+#: numbers of a structure before its rows
+_HEADER = 6
 #: units of B: structures change as near as this to where they are stored to end
 _BESIDE_CHANGE = 2.0
 
@@ -40,6 +46,8 @@ class StoredStructure:
         The contacts' rows: the place of the family in the program, the sign, and whether a contact may move.
     places
         Where the contacts are, as Chebyshev series along B, shape (coefficients, contacts).
+    variables
+        The program's variables, as such series too where its rows are curved; else there are none of them.
     """
 
     begin: float
@@ -48,19 +56,22 @@ class StoredStructure:
     sign: Array
     free: NDArray[np.bool_]
     places: Array
+    variables: Array
 
     @property
     def count(self) -> int:
         """The number of contacts."""
         return len(self.sign)
 
-    def at(self, B: float) -> Array:
-        """The places of the contacts."""
-        if len(self.places) == 1:
-            return np.asarray(self.places[0])
-        share = (2.0 * B - self.begin - self.end) / (self.end - self.begin)
+    def at(self, B: float) -> tuple[Array, Array]:
+        """The places of the contacts, and the program's variables where they are stored."""
+        width = self.end - self.begin
+        share = (2.0 * B - self.begin - self.end) / width if width else 0.0
         angle = np.arccos(min(max(share, -1.0), 1.0))
-        return np.asarray(np.clip(np.cos(np.arange(len(self.places)) * angle) @ self.places, -1.0, 1.0))
+        places, variables = (
+            np.cos(np.arange(len(series)) * angle) @ series for series in (self.places, self.variables)
+        )
+        return np.clip(places, -1.0, 1.0), variables
 
     def away(self, B: float) -> float:
         """The distance of B from the structure's range of B."""
@@ -70,8 +81,11 @@ class StoredStructure:
         """The structure as whole numbers of 16 bits."""
         ends = [round((end - 1.0) * _OF_VELOCITY) if end else 0 for end in (self.begin, self.end)]
         rows = self.family * 4 + 2 * (self.sign > 0.0) + self.free
-        places = np.round(self.places * _OF_PLACE).astype(np.int16)
-        return [*ends, len(rows), len(places), *rows.tolist(), *places.ravel().tolist()]
+        count = self.variables.shape[1]
+        exponent = frexp(float(np.abs(self.variables).max()))[1] if count else 0
+        series = np.hstack([self.places * _OF_PLACE, self.variables * 2.0 ** (_BITS - exponent)])
+        header = [*ends, len(rows), len(series), count, exponent]
+        return [*header, *rows.tolist(), *np.round(series).astype(int).ravel().tolist()]
 
 
 def key_of(model: Model) -> str | None:
@@ -87,7 +101,8 @@ def key_of(model: Model) -> str | None:
     space, program = model.space, model.program
     if not isinstance(space, PolynomialSpace) or not space.symmetric or not space.at_rest:
         return None
-    if program.curved or len(program.right) > 1:
+    curved = [family for family in program.families if not isinstance(family, LinearFamily)]
+    if len(program.right) > 1 or not all(isinstance(family, ProductFamily) for family in curved):
         return None
     return f"{space.order} {space.terms} {','.join(family.name for family in program.families)}"
 
@@ -125,24 +140,29 @@ def stored_guess(model: Model) -> ActiveSet | None:
 def guess_of(program: Program, structure: StoredStructure, B: float) -> ActiveSet:
     """The variables and multipliers that go with the places of a structure's contacts.
 
-    Multipliers balance the objective, and show what it is: what the rows leave open of the variables gives that.
+    Multipliers balance the objective. Of a linear program they show what it is, and what the rows leave open of the
+    variables gives that.
     """
-    u = structure.at(B)
+    u, x = structure.at(B)
+    linear = not len(x)
+    x = np.zeros(program.size) if linear else x
     count, size = len(u), program.size
     rows, slopes = np.empty((2, count, size))
     value, slope = np.empty((2, count))
     for i in set(structure.family.tolist()):
         contacts = structure.family == i
-        jet = program.families[i].jet(np.zeros(size), u[contacts], structure.sign[contacts])
+        jet = program.families[i].jet(x, u[contacts], structure.sign[contacts])
         rows[contacts], slopes[contacts] = jet.gradient, jet.slope_gradient
         value[contacts], slope[contacts] = jet.value, jet.slope
     balancing = np.vstack([rows, program.equalities])
     multipliers = np.asarray(np.linalg.lstsq(balancing.T, -program.objective, rcond=None)[0], dtype=np.float64)
-    right = np.concatenate([-value, program.right])
-    system = np.vstack([balancing, slopes[structure.free], program.objective])
-    sides = np.concatenate([right, -slope[structure.free], [-float(multipliers @ right)]])
+    if linear:
+        right = np.concatenate([-value, program.right])
+        system = np.vstack([balancing, slopes[structure.free], program.objective])
+        sides = np.concatenate([right, -slope[structure.free], [-float(multipliers @ right)]])
+        x = np.linalg.lstsq(system, sides, rcond=None)[0]
     return ActiveSet(
-        x=np.linalg.lstsq(system, sides, rcond=None)[0],
+        x=x,
         family=structure.family,
         u=u,
         s=structure.sign,
@@ -189,12 +209,20 @@ def stored_structures(key: str) -> tuple[StoredStructure, ...]:
 def _read(numbers: list[int]) -> Iterable[StoredStructure]:
     begin = 0
     while begin < len(numbers):
-        low, high, contacts, terms = numbers[begin : begin + 4]
-        begin += 4
+        low, high, contacts, terms, count, exponent = numbers[begin : begin + _HEADER]
+        begin += _HEADER
         rows = np.array(numbers[begin : begin + contacts])
         begin += contacts
-        places = np.array(numbers[begin : begin + contacts * terms]).reshape(terms, contacts) / _OF_PLACE
-        begin += contacts * terms
+        width = contacts + count
+        series = np.array(numbers[begin : begin + terms * width]).reshape(terms, width)
+        begin += terms * width
         ends = [1.0 + end / _OF_VELOCITY if high else 0.0 for end in (low, high)]
-        sign = np.where(rows & 2, 1.0, -1.0)
-        yield StoredStructure(ends[0], ends[1], rows >> 2, sign, (rows & 1).astype(np.bool_), places)
+        yield StoredStructure(
+            begin=ends[0],
+            end=ends[1],
+            family=rows >> 2,
+            sign=np.where(rows & 2, 1.0, -1.0),
+            free=(rows & 1).astype(np.bool_),
+            places=series[:, :contacts] / _OF_PLACE,
+            variables=series[:, contacts:] * 2.0 ** (exponent - _BITS),
+        )
