@@ -226,7 +226,7 @@ class CamForces:
 
     @kept_property
     def mean_torque(self) -> tuple[float, float]:
-        """The interval of the mean torque, which is 0 over a turn without friction."""
+        """The interval of the mean torque, 0 over a turn without friction and process force."""
         low, high = integral(self._torque, self.edges, share=FORCE_EXTREMES)
         return low / self._angle, high / self._angle
 
