@@ -13,6 +13,7 @@ author = copyright = "the optlaws developers"
 version = release = optlaws.__version__
 
 extensions = [
+    "code_lines",
     "docstrings",
     "mathml",
     "myst_parser",

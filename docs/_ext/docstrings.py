@@ -75,6 +75,12 @@ def _shown_module(module: str, name: str) -> str:
     return "" if isclass(value) and len(rooms) > _PUBLIC else f"{module}."
 
 
+def skip(_app: Sphinx, what: str, name: str, _obj: object, skipped: bool, options: object) -> bool | None:  # noqa: FBT001
+    """Leave out what a list of members does not name: inherited members of classes bring all of a module else."""
+    listed = getattr(options, "members", None)
+    return True if what == "module" and isinstance(listed, list) and name not in listed else skipped or None
+
+
 class IndexedNames(SphinxTransform):
     """Entries of the index with the modules from which names are imported, before the index takes them."""
 
@@ -108,6 +114,7 @@ def setup(app: Sphinx) -> dict[str, bool]:
     """Register the first hook before napoleon's, the other once a page is read."""
     app.setup_extension("sphinx.ext.autodoc")
     app.connect("autodoc-process-docstring", prepare, priority=100)
+    app.connect("autodoc-skip-member", skip)
     app.connect("autodoc-process-signature", prepare_signature)
     app.add_transform(IndexedNames)
     app.connect("doctree-read", finish)

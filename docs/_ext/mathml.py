@@ -41,6 +41,28 @@ def to_mathml(node: nodes.Element, display: str) -> str:
     return mathml
 
 
+#: where a displayed formula may go on in the next line, outside brackets and environments
+_BREAK = re.compile(r"\\qquad(?![a-z])|\\allowbreak(?![a-z])")
+_OPENS, _CLOSES = re.compile(r"(?<!\\)\{|\\left(?![a-z])|\\begin"), re.compile(r"(?<!\\)\}|\\right(?![a-z])|\\end")
+
+
+def parts(latex: str) -> list[str]:
+    r"""The parts of a displayed formula that a narrow page sets in lines of their own.
+
+    Examples
+    --------
+    >>> parts(r"b = a', \qquad c = \frac{b' \qquad}{1}")
+    ["b = a',", "c = \\frac{b' \\qquad}{1}"]
+    """
+    found, start = [], 0
+    for place in _BREAK.finditer(latex):
+        before = latex[start : place.start()]
+        if len(_OPENS.findall(before)) == len(_CLOSES.findall(before)):
+            found.append(before.strip())
+            start = place.end()
+    return [part for part in (*found, latex[start:].strip()) if part]
+
+
 def visit_math(translator: HTML5Translator, node: nodes.math) -> None:
     """Write a formula in the running text."""
     translator.body.append(to_mathml(node, "inline"))
@@ -63,14 +85,15 @@ def visit_math_block(translator: HTML5Translator, node: nodes.math_block) -> Non
     """Write a formula on a line of its own, with its number if it has one."""
     translator.body.append(translator.starttag(node, "div", CLASS="math"))
     latex, tag = split_tag(node.astext())
-    node.children = [nodes.Text(latex)]
     if tag:
         translator.body.append(f'<span class="eqno">({escape(tag)})</span>')
     if node["number"]:
         translator.body.append(f'<span class="eqno">({get_node_equation_number(translator, node)})')
         translator.add_permalink_ref(node, "Link to this equation")
         translator.body.append("</span>")
-    translator.body.append(to_mathml(node, "block"))
+    for part in parts(latex):
+        node.children = [nodes.Text(part)]
+        translator.body.append(f'<span class="part">{to_mathml(node, "block")}</span> ')
     translator.body.append("</div>\n")
     raise nodes.SkipNode
 
