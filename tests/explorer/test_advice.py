@@ -91,7 +91,7 @@ def test_the_law_to_take_is_taken_by_a_click(page: Page, served: Server) -> None
     answer = served.ask("advice", {"study": example() | {"speed": "150 rpm"}})
     words = page.locator("#advice-words").inner_text()
     assert all(sentence in words for sentence in answer["sentences"])
-    assert page.locator("#advice-table tbody tr[aria-current] th").inner_text() == answer["chosen"]
+    assert page.locator("#advice-table tbody tr[aria-current] .row-name").inner_text() == answer["chosen"]
     cells = page.locator("#advice-table tbody tr >> nth=0 >> td.number").all_inner_texts()
     assert cells[: len(answer["headings"]) - 2] == answer["rows"][0]["cells"]
     assert answer["chosen"] in (page.locator("#advice-chart [role=img]").get_attribute("aria-label") or "")
@@ -125,3 +125,15 @@ def test_a_follower_is_switched_on(page: Page, served: Server) -> None:
     page.get_by_label("least", exact=True).select_option("jerk")
     settle(page)
     assert "its jerk is" in page.locator("#advice-words").inner_text()
+
+
+def test_standard_laws_are_there_before_those_that_are_searched_for(page: Page, served: Server) -> None:
+    machine = start(str(PROBLEMS / "cycle_rocker.toml"))["machine"]
+    quick = served.ask("advice-standard", {"study": machine})
+    page.goto(served.link(laws=[OPTIMAL], view="advice", machine=machine, advice={"of": "machine"}))
+    page.locator("#advice-words").get_by_role("button", name="Stop").click()
+    page.locator("#advice-words").get_by_role("button", name="Go on").wait_for()
+    settle(page)
+    names = page.locator("#advice-table .row-name").all_inner_texts()
+    assert names[: len(quick["rows"])] == [row["name"] for row in quick["rows"]]
+    assert page.get_by_label("steps of the advice").get_attribute("max") == "3"

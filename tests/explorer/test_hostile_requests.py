@@ -36,6 +36,7 @@ SEEDS: dict[str, list[Any]] = {
     "front": [{"law": OPTIMAL, "over": ["B", "C"]}],
     "nearest": [{"problem": {"order": 4, "degree": 9, "B": 1.7, "J": [0, 20]}, "weights": {"C": 1.0}}],
     "advice": [CYCLE | {"follower": {"low": "20 Hz", "high": "24 Hz", "damping": 0.05}, "minimise": "jerk"}],
+    "advice-standard": [CYCLE],
     "axes": [AXES],
     "axes-clearances": [AXES],
     "axes-together": [{"study": axes_view.example() | {"overlap": {"goal": "acceleration", "of": ["die"]}}}],

@@ -79,7 +79,12 @@ class Advice:
     def rows(self) -> list[list[float | str]]:
         """A row for each law, with a cell for each heading."""
         return [
-            [law.name, *(law.values[measure.name] for measure in self.measures), _limits(law), self._proof(law)]
+            [
+                law.name,
+                *(law.values[measure.name] for measure in self.measures),
+                limits_in_words(law),
+                proof_in_words(law),
+            ]
             for law in self.laws
         ]
 
@@ -91,14 +96,6 @@ class Advice:
             for name, error in self.errors.items()
         }
         return tuple(f"{name}: {text.splitlines()[0][:_LONGEST]}" for name, text in why.items())
-
-    def _proof(self, law: AdvisedLaw) -> str:
-        if law.proof is None:
-            return ""
-        bound = law.proof.lower_bound
-        if law.proof.status == "optimal" or not bound or bound <= 0.0:
-            return str(law.proof.status.value)
-        return f"{law.proof.status.value}, gap {1.0 - bound / law.values[law.proof.minimise]:.1e}"
 
     def summary(self) -> Summary:
         """The recommended law, its demands, the proven bounds, and the reason for the recommendation.
@@ -188,9 +185,27 @@ class Advice:
         return page("Advice", facts({"take": str(chosen), "rule": chosen.rule}), table(self.headings, self.rows))
 
 
-def _limits(law: AdvisedLaw) -> str:
-    """Whether a law keeps the limits, and which it breaks."""
+def limits_in_words(law: AdvisedLaw) -> str:
+    """Whether a law keeps the limits, or which it breaks and by how much.
+
+    Examples
+    --------
+    >>> import optlaws
+    >>> rise = optlaws.Rise("35 mm", "0.1 s", limits={"velocity": "600 mm/s"})
+    >>> limits_in_words(optlaws.advise(rise, points=0)["modified sine"])
+    'velocity 2.6 % beyond'
+    """
     if not law.limits:
         return ""
     broken = (f"{taken.name} {100.0 * (taken.share - 1.0):.2g} % beyond" for taken in law.broken)
     return ", ".join(broken) or "kept"
+
+
+def proof_in_words(law: AdvisedLaw) -> str:
+    """The status of an optimal law, with its gap where that is not proven to be none; nothing of another law."""
+    if law.proof is None:
+        return ""
+    bound = law.proof.lower_bound
+    if law.proof.status == "optimal" or not bound or bound <= 0.0:
+        return str(law.proof.status.value)
+    return f"{law.proof.status.value}, gap {1.0 - bound / law.values[law.proof.minimise]:.1e}"

@@ -103,6 +103,25 @@ def advise(
     >>> chosen.law.kind, chosen.usual.name, chosen.gain > 0.05
     ('optimal', 'modified sine', True)
     """
+    count = whole(points, "points", least=0, most=_MOST_POINTS)
+    candidates = standard_candidates(
+        motion, minimise=minimise, limits=limits, follower=follower, drive=drive, laws=laws, degree=degree
+    )
+    candidates.add_optimal()
+    return advice_from(candidates, count)
+
+
+def standard_candidates(
+    motion: Move | Cycle | Problem,
+    *,
+    minimise: str | None = None,
+    limits: Mapping[str, Any] | None = None,
+    follower: Mapping[str, Any] | None = None,
+    drive: Mapping[str, Any] | Mechanism | Drive | None = None,
+    laws: Sequence[str] = STANDARD,
+    degree: int | None = None,
+) -> Candidates:
+    """The standard laws of a motion with their demands, to which optimal ones can be added, as `advise` takes them."""
     if isinstance(motion, Problem):
         _refuse_units(limits, drive)
         known: AdvisedMotion = _problem(motion, minimise, follower, degree)
@@ -111,19 +130,21 @@ def advise(
     names = list(dict.fromkeys(_checked(laws)))
     if known.usual is not None:
         names = list(dict.fromkeys([known.usual, *names]))
-    count = whole(points, "points", least=0, most=_MOST_POINTS)
     candidates = Candidates(known)
     candidates.add_standard(names)
-    candidates.add_optimal()
-    front = candidates.front(count) if count > 1 else ()
-    chosen = recommended(candidates, front)
+    return candidates
+
+
+def advice_from(candidates: Candidates, points: int) -> Advice:
+    """The advice that standard and optimal laws give, with so many points of the front; 0 for none."""
+    front = candidates.front(points) if points > 1 else ()
     return Advice(
-        known.minimise,
+        candidates.minimise,
         candidates.second,
-        known.measures,
+        candidates.motion.measures,
         tuple(candidates.laws.values()),
         front,
-        chosen,
+        recommended(candidates, front),
         tuple(candidates.most()),
         candidates.errors,
     )

@@ -19,13 +19,15 @@ function scaled({ range, log = false }, ends) {
   return to;
 }
 
-function marked({ range: [low, high], log = false }, count) {
+const PARTS = [[1, 1.5, 2, 3, 5, 7], [1, 2, 5], [1, 3], [1]]; // of a power of ten
+const APART = 44; // pixels between the middles of two labels
+
+/** Round ticks of an axis; of a logarithmic one as many as have room for their labels. */
+function marked({ range: [low, high], log = false }, count, to) {
   if (!log) return ticks(low, high, count);
-  const found = [];
-  for (let power = Math.floor(Math.log10(low)); power <= Math.ceil(Math.log10(high)); power += 1) {
-    for (const part of [1, 1.5, 2, 3, 5, 7]) if (part * 10 ** power >= low && part * 10 ** power <= high) found.push(Number((part * 10 ** power).toPrecision(3)));
-  }
-  return found;
+  const powers = Array.from({ length: Math.ceil(Math.log10(high)) - Math.floor(Math.log10(low)) + 1 }, (_, i) => 10 ** (Math.floor(Math.log10(low)) + i));
+  const sets = PARTS.map((parts) => powers.flatMap((power) => parts.map((part) => Number((part * power).toPrecision(3)))).filter((value) => value >= low && value <= high));
+  return sets.find((found) => found.every((value, i) => i === 0 || Math.abs(to(value) - to(found[i - 1])) >= APART)) ?? sets.at(-1);
 }
 
 /** A range around values with room for what is written; 0 is in it unless `free`. */
@@ -84,7 +86,7 @@ export class Chart {
     const written = labels.map(({ at: place, text, name = "", anchor = "start", up = 5 }) => svg("text", { class: name, x: at(place)[0].toFixed(1), y: Math.max(box.top + 10, at(place)[1] - up).toFixed(1), "text-anchor": anchor, text }));
     this.#back.replaceChildren(
       svg("clipPath", { id: clipped }, svg("rect", { x: box.left, y: box.top, width: Math.max(1, box.right - box.left), height: Math.max(1, box.bottom - box.top) })),
-      frame(box, this.#x, this.#y, { xs: marked(x, 7), ys: marked(y, 5), xname: x.name, yname: y.name }),
+      frame(box, this.#x, this.#y, { xs: marked(x, 7, this.#x), ys: marked(y, 5, this.#y), xname: x.name, yname: y.name }),
       inner,
       svg("g", { class: "names", "aria-hidden": "true" }, ...written),
     );

@@ -4,14 +4,17 @@ from __future__ import annotations
 
 import json
 from collections.abc import Sequence
+from dataclasses import replace
 from functools import lru_cache
 from typing import Annotated, Any
 
 import msgspec
 import numpy as np
 
-from optlaws import AdvisedLaw, Cycle, advise
-from optlaws.cycles.advising.advice import Advice
+from optlaws import AdvisedLaw, Cycle
+from optlaws.cycles.advising.advice import limits_in_words, proof_in_words
+from optlaws.cycles.advising.advised_motion import advice_from, standard_candidates
+from optlaws.cycles.advising.candidates import Candidates
 from optlaws.cycles.specification.segments import OPTIMAL, Move
 from optlaws.errors import OptlawsError
 from optlaws.explorer.views import cycle_view
@@ -44,47 +47,89 @@ class AdviceRequest(CycleRequest, kw_only=True, forbid_unknown_fields=True):
 
     minimise: ShortText | None = None
     follower: FollowerEntries | None = None
+    points: Annotated[int, msgspec.Meta(ge=0, le=_POINTS)] = _POINTS
+
+
+def standard(request: AdviceRequest) -> dict[str, Any]:
+    """The standard laws side by side, which take no search; or the reason why there is none.
+
+    Examples
+    --------
+    >>> from optlaws.explorer.views import cycle_view
+    >>> [row["name"] for row in standard(AdviceRequest(study=cycle_view.example()))["rows"]][:2]
+    ['modified sine', 'modified trapezoid']
+    """
+    try:
+        cycle, candidates = _standard(_question(request))
+    except OptlawsError as error:
+        return {"refused": refusal(error)}
+    return _side_by_side(cycle, candidates, [candidates.usual], ())
 
 
 def answer(request: AdviceRequest) -> dict[str, Any]:
     """The laws side by side with the recommended one, or the reason why there is none."""
     try:
-        return _view(*_advice(msgspec.json.encode(request)))
+        cycle, candidates = _all(_question(request))
+        advice = advice_from(_copy(candidates), request.points)
     except OptlawsError as error:
         return {"refused": refusal(error)}
-
-
-@lru_cache(maxsize=16)
-def _advice(question: bytes) -> tuple[Cycle, Advice]:
-    request = msgspec.json.decode(question, type=AdviceRequest)
-    cycle = cycle_view.stored(*cycle_view.read(request))
-    known = request.follower
-    follower = None if known is None else {"frequency": (known.low, known.high), "damping": known.damping}
-    return cycle, advise(cycle, minimise=request.minimise or None, follower=follower, points=_POINTS)
-
-
-def _view(cycle: Cycle, advice: Advice) -> dict[str, Any]:
     chosen = advice.recommendation
     return {
-        "headings": list(advice.headings[1:]),
-        "rows": [_row(cycle, advice, law, row) for law, row in zip(advice, advice.rows, strict=True)],
+        **_side_by_side(cycle, candidates, [chosen.usual, chosen.law], advice.front),
         "sentences": list(chosen.sentences),
         "rule": chosen.rule,
         "chosen": chosen.law.name,
         "remarks": list(advice.remarks),
-        "picture": _picture(advice),
-        "curves": _curves([law for law in (chosen.usual, chosen.law) if law is not None]),
     }
 
 
-def _row(cycle: Cycle, advice: Advice, law: AdvisedLaw, row: Sequence[float | str]) -> dict[str, Any]:
+def _question(request: AdviceRequest) -> bytes:
+    """What the laws depend on: not the points of the front."""
+    return msgspec.json.encode(msgspec.structs.replace(request, points=_POINTS))
+
+
+@lru_cache(maxsize=16)
+def _standard(question: bytes) -> tuple[Cycle, Candidates]:
+    request = msgspec.json.decode(question, type=AdviceRequest)
+    cycle = cycle_view.stored(*cycle_view.read(request))
+    known = request.follower
+    follower = None if known is None else {"frequency": (known.low, known.high), "damping": known.damping}
+    return cycle, standard_candidates(cycle, minimise=request.minimise or None, follower=follower)
+
+
+@lru_cache(maxsize=16)
+def _all(question: bytes) -> tuple[Cycle, Candidates]:
+    cycle, known = _standard(question)
+    candidates = _copy(known)
+    candidates.add_optimal()
+    return cycle, candidates
+
+
+def _copy(candidates: Candidates) -> Candidates:
+    return replace(candidates, laws=dict(candidates.laws), errors=dict(candidates.errors))
+
+
+def _side_by_side(
+    cycle: Cycle, candidates: Candidates, drawn_laws: Sequence[AdvisedLaw | None], front: Sequence[AdvisedLaw]
+) -> dict[str, Any]:
+    headings = [measure.heading for measure in candidates.motion.measures]
+    return {
+        "headings": [*headings, "limits", "proof"],
+        "rows": [_row(cycle, candidates, law) for law in candidates.laws.values()],
+        "picture": _picture(candidates, front),
+        "curves": _curves([law for law in drawn_laws if law is not None]),
+    }
+
+
+def _row(cycle: Cycle, candidates: Candidates, law: AdvisedLaw) -> dict[str, Any]:
+    measures = candidates.motion.measures
     return {
         "name": law.name,
         "kind": law.kind,
-        "cells": [digits(law.values[measure.name], _DIGITS) for measure in advice.measures],
-        "limits": row[-2],
-        "proof": row[-1],
-        "take": _entries(cycle, law, vibrates=any(measure.name.startswith("residual") for measure in advice.measures)),
+        "cells": [digits(law.values[measure.name], _DIGITS) for measure in measures],
+        "limits": limits_in_words(law),
+        "proof": proof_in_words(law),
+        "take": _entries(cycle, law, vibrates=any(measure.name.startswith("residual") for measure in measures)),
     }
 
 
@@ -122,26 +167,21 @@ def _plain(limits: Any) -> dict[str, Any]:  # noqa: ANN401 - a mapping of texts,
     return {name: list(value) if isinstance(value, tuple) else value for name, value in limits.items()}
 
 
-def _picture(advice: Advice) -> dict[str, Any]:
+def _picture(candidates: Candidates, front: Sequence[AdvisedLaw]) -> dict[str, Any]:
     """The laws in the plane of what is minimised over the second measure, with the front and its bounds."""
-    units = {measure.name: measure.unit for measure in advice.measures}
-    usual = advice.recommendation.usual
-    others = [name for name in advice.guarded if name != advice.second]
+    units = {measure.name: measure.unit for measure in candidates.motion.measures}
+    usual, minimise, second = candidates.usual, candidates.minimise, candidates.second
+    others = candidates.most(second)
     return {
-        "x": {"name": advice.second, "unit": units[advice.second]},
-        "y": {"name": advice.minimise, "unit": units[advice.minimise]},
+        "x": {"name": second, "unit": units[second]},
+        "y": {"name": minimise, "unit": units[minimise]},
         "points": [
-            {
-                "name": law.name,
-                "kind": law.kind,
-                "x": bounded(law.values[advice.second]),
-                "y": bounded(law.values[advice.minimise]),
-            }
-            for law in advice
+            {"name": law.name, "kind": law.kind, "x": bounded(law.values[second]), "y": bounded(law.values[minimise])}
+            for law in candidates.laws.values()
         ],
         "front": sorted(
-            [law.values[advice.second], law.values[advice.minimise], law.proof.lower_bound or 0.0]
-            for law in advice.front
+            [law.values[second], law.values[minimise], law.proof.lower_bound or 0.0]
+            for law in front
             if law.proof is not None
         ),
         "beside": "" if usual is None or not others else f"no more {', '.join(others)} than {usual.name}",
@@ -151,6 +191,8 @@ def _picture(advice: Advice) -> dict[str, Any]:
 def _curves(laws: Sequence[AdvisedLaw]) -> dict[str, Any]:
     """Velocity, acceleration and jerk of the usual law and of the recommended one, over the time."""
     cycles = [law.motion for law in laws if isinstance(law.motion, Cycle)]
+    if not cycles:
+        return {"panels": []}
     duration = cycles[0].duration
     panels = []
     for nu in (1, 2, 3):
@@ -175,4 +217,4 @@ def example() -> dict[str, Any]:
     return {"of": "", "minimise": "", "follower": {"on": False, "low": "27 Hz", "high": "33 Hz", "damping": 0.05}}
 
 
-QUESTIONS: dict[str, Question] = {"advice": (AdviceRequest, answer)}
+QUESTIONS: dict[str, Question] = {"advice": (AdviceRequest, answer), "advice-standard": (AdviceRequest, standard)}

@@ -16,6 +16,9 @@ const OPTIMAL = "optimal";
 const LETTER = 0.018; // of the width of a picture
 const LINE = 0.07; // of its height
 const WIDE = 10; // values further apart are drawn by their logarithms
+const PATIENCE = 120; // s that the laws have where the reader came here; an address that is opened has less
+const POINTS = 6; // of the front
+const STEPS = ["standard laws", "optimal laws", "the front"];
 
 const told = (value) => JSON.stringify(value);
 const word = (value) => String(Number(value.toPrecision(4))).replace("-", "−");
@@ -31,7 +34,10 @@ export class View {
   #shows = [];
   #chart;
   #curves;
+  #standard;
   #advice;
+  #question = "";
+  #step = 0; // of STEPS, that is under way
   #at;
 
   constructor(root, study, start) {
@@ -40,7 +46,9 @@ export class View {
     this.#at = layout(root);
     this.#chart = new Chart(this.#at.chart, () => {});
     this.#curves = new Panels(this.#at.curves);
-    this.#advice = new Latest("api/advice", (answer) => this.#answered(answer), (error) => this.#answered(unanswered(error)));
+    const failed = (error, question) => this.#failed(error, question);
+    this.#standard = new Latest("api/advice-standard", (answer, question) => this.#answered(answer, question, 1), failed);
+    this.#advice = new Latest("api/advice", (answer, question) => this.#answered(answer, question, question.points ? 3 : 2), failed);
   }
 
   /** Nothing of this view is saved: a law that is taken is of the cycle or the machine. */
@@ -54,7 +62,11 @@ export class View {
     const { minimise, follower } = this.#asked(state);
     const question = { study: this.#motion(state), axis: state.axis, ...(minimise && { minimise }) };
     if (follower?.on) question.follower = { low: follower.low, high: follower.high, damping: Number(follower.damping) || 0 };
-    this.#advice.ask(question);
+    if (told(question) === this.#question) return;
+    this.#question = told(question);
+    this.#step = 0;
+    this.#advice.stop();
+    this.#standard.ask(question);
   }
 
   #asked({ advice }) {
@@ -126,14 +138,47 @@ export class View {
 
   // --- what is answered ---
 
-  #answered(answer) {
-    this.#answer = answer;
+  /** What is quick is shown first; then the laws that are searched for, then the front between them. */
+  #answered(answer, question, step) {
+    if (!this.#isLast(question)) return;
+    this.#step = answer.refused ? STEPS.length : step;
+    if (answer.refused && step === STEPS.length) this.#answer.remarks.push(`front: ${answer.refused.reason}`);
+    else this.#answer = answer;
+    this.#draw();
+    if (this.#step < STEPS.length) this.#advice.ask({ ...JSON.parse(this.#question), points: step === 1 ? 0 : POINTS }, navigator.userActivation?.hasBeenActive ? PATIENCE : null);
+  }
+
+  /** What was stopped, or took too long, can be gone on with; what is known stays. */
+  #failed(error, question) {
+    if (!this.#isLast(question)) return;
+    if (this.#step === 0) this.#answer = unanswered(error);
+    this.#draw(error);
+  }
+
+  #isLast({ points, ...question }) {
+    return told(question) === this.#question;
+  }
+
+  #draw(error = null) {
+    const answer = this.#answer;
     this.#at.words.classList.toggle("none", Boolean(answer.refused));
-    renew(this.#at.words, ...(answer.refused ? refusal(answer.refused) : this.#words(answer)));
-    renew(this.#at.table, ...(answer.refused ? [] : [this.#table(answer), ...answer.remarks.map((text) => html("p", { class: "quiet", translate: "no", text }))]));
+    renew(this.#at.words, ...(answer.refused ? refusal(answer.refused) : [...(answer.chosen ? this.#words(answer) : []), ...this.#progress(error)]));
+    renew(this.#at.table, ...(answer.refused ? [] : [this.#table(answer), ...(answer.remarks ?? []).map((text) => html("p", { class: "quiet", translate: "no", text }))]));
     this.#chart.show(answer.refused ? null : pictured(answer));
     this.#curves.show(answer.refused ? answer : answer.curves);
-    renew(this.#at.names, ...(answer.refused ? [] : answer.curves.panels[0].series.map(({ law, name }) => html("span", { class: "name-of-curve" }, html("span", { class: `swatch law-${law}`, text: "AB"[law] }), ` ${name}`))));
+    renew(this.#at.names, ...(answer.refused ? [] : answer.curves.panels[0]?.series ?? []).map(({ law, name }) => html("span", { class: "name-of-curve" }, html("span", { class: `swatch law-${law}`, text: "AB"[law] }), ` ${name}`)));
+  }
+
+  /** Which step is under way, with a button that ends it; or goes on with it. */
+  #progress(error) {
+    if (this.#step >= STEPS.length) return [];
+    const text = `${STEPS[this.#step]}: ${error ? error.message : "computing …"}`;
+    const again = () => {
+      this.#draw();
+      this.#advice.ask({ ...JSON.parse(this.#question), points: this.#step === 1 ? 0 : POINTS }, PATIENCE);
+    };
+    const button = error ? html("button", { type: "button", text: "Go on", onclick: again }) : html("button", { type: "button", text: "Stop", onclick: () => this.#advice.stop() });
+    return [html("p", { class: "progress" }, html("progress", { max: STEPS.length, value: this.#step, "aria-label": "steps of the advice" }), html("span", { class: "quiet", text }), button)];
   }
 
   #words({ sentences, rule, rows, chosen }) {
@@ -148,12 +193,12 @@ export class View {
   }
 
   #table({ headings, rows, chosen }) {
-    const head = html("tr", {}, html("th", { scope: "col", text: "law" }), html("td"), ...headings.map((text) => html("th", { scope: "col", class: "number", text })));
+    const head = html("tr", {}, html("th", { scope: "col", text: "law" }), ...headings.map((text) => html("th", { scope: "col", class: "number", text })));
     const lines = rows.map((row) => {
       const take = row.take ? html("button", { type: "button", class: "link", "data-key": `take ${row.name}`, "aria-label": `Take ${row.name}`, text: "take", onclick: () => this.#take(row) }) : "";
       const ends = [["limits", row.limits, row.limits && row.limits !== "kept" ? "number over" : "number"], ["proof", row.proof, "number"]];
       return html("tr", { class: row.name === chosen ? "active" : "", "aria-current": row.name === chosen ? "true" : null },
-        html("th", { scope: "row" }, html("span", { class: "row-name", translate: "no", text: row.name })), html("td", {}, take), ...row.cells.map((text) => html("td", { class: "number", text })), ...ends.map(([key, text, name]) => html("td", { "data-column": key, class: name, text })));
+        html("th", { scope: "row" }, html("span", { class: "row-name", translate: "no", text: row.name }), take), ...row.cells.map((text) => html("td", { class: "number", text })), ...ends.map(([key, text, name]) => html("td", { "data-column": key, class: name, text })));
     });
     return html("table", { "aria-label": "Laws with what they take" }, html("thead", {}, head), html("tbody", {}, ...lines));
   }
