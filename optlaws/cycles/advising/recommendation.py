@@ -165,8 +165,8 @@ class _Words:
             return f"its {self.second} is {self._with_unit(self.second, self.law.values[self.second])}{self._exchange}"
         changes = [*self._changes("more", 1.0), *self._changes("less", -1.0)]
         if not changes:
-            return f"nothing else changes by 1 % beside {usual.name}"
-        return f"beside {usual.name} it takes {_listed(changes)}"
+            return f"nothing else differs by 1 % from {usual.name}"
+        return f"compared with {usual.name}, the law to take needs {_listed(changes)}"
 
     @property
     def _exchange(self) -> str:
