@@ -90,7 +90,7 @@ nitpick_ignore = [
     ("py:class", "optlaws.mechanisms.machine.state_space.StateSpace"),
     ("py:class", "optlaws.synthesis.families.active_set.ActiveSet"),
     ("py:class", "optlaws.synthesis.families.cone.ConeFamily"),
-    ("py:class", "optlaws.synthesis.problem.constants.Asked"),
+    ("py:class", "optlaws.synthesis.problem.constants.ProblemView"),
     ("py:class", "optlaws.synthesis.proven.front.LazySequence"),
     ("py:class", "optlaws.synthesis.proven.swept_parameter.SweptParameter"),
     ("py:class", "optlaws.synthesis.solution_array.SolvedPart"),

@@ -84,7 +84,7 @@ __getattr__, __dir__, __all__ = face(
         "optlaws.synthesis.least_time.time_proof": "TimeProof",
         "optlaws.synthesis.limits.drive_limits": "DriveObjective",
         "optlaws.synthesis.limits.phase_plane": "PhasePlane",
-        "optlaws.synthesis.problem.constants": "Asked",
+        "optlaws.synthesis.problem.constants": "ProblemView",
         "optlaws.synthesis.problem.expression": "Maximum Term",
         "optlaws.synthesis.proof.nodes": "Node",
         "optlaws.synthesis.proven.front": "LazySequence",

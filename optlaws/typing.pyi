@@ -109,7 +109,7 @@ from optlaws.synthesis.least_time.move_objective import MoveObjective as MoveObj
 from optlaws.synthesis.least_time.time_proof import TimeProof as TimeProof
 from optlaws.synthesis.limits.drive_limits import DriveObjective as DriveObjective
 from optlaws.synthesis.limits.phase_plane import PhasePlane as PhasePlane
-from optlaws.synthesis.problem.constants import Asked as Asked
+from optlaws.synthesis.problem.constants import ProblemView as ProblemView
 from optlaws.synthesis.problem.expression import Maximum as Maximum
 from optlaws.synthesis.problem.expression import Term as Term
 from optlaws.synthesis.proof.nodes import Node as Node
@@ -126,7 +126,6 @@ from optlaws.synthesis.spaces.splines import PiecewiseBasis as PiecewiseBasis
 __all__ = [
     "ActiveSet",
     "Array",
-    "Asked",
     "AxesPicture",
     "BestBreaks",
     "BestCam",
@@ -212,6 +211,7 @@ __all__ = [
     "PlotOver",
     "Polynomial",
     "PolynomialBasis",
+    "ProblemView",
     "ProcessByAngle",
     "ProvenLeast",
     "Quantity",

@@ -105,9 +105,9 @@ def test_a_terminal_watches_unless_it_is_told_otherwise(monkeypatch: pytest.Monk
     monkeypatch.setattr(steps, "find_spec", lambda _: None)
     monkeypatch.setattr("sys.stderr.isatty", lambda: True, raising=False)
     assert steps.watched()
-    with steps.said_otherwise():
+    with steps.without_bars():
         assert not steps.watched()
-        with steps.said_otherwise():
+        with steps.without_bars():
             assert not steps.watched()
         assert not steps.watched()
     assert steps.watched()

@@ -102,9 +102,9 @@ def busy(text: str) -> Iterator[None]:
     """Show the current step while a terminal displays the output."""
     console = progress()
     if console.is_terminal:
-        from optlaws.shown.steps import said_otherwise
+        from optlaws.shown.steps import without_bars
 
-        with console.status(text), said_otherwise():
+        with console.status(text), without_bars():
             yield
     else:
         yield

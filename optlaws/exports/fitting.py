@@ -102,7 +102,7 @@ def fitted(
     ]
     parts = [_FittedSection(0.0, i, piece, stretch) for i, (piece, stretch) in enumerate(pairs)]
     if len(parts) > (most if count is None else count):
-        raise InputError(f"the motion has {len(parts)} pieces of its own, {_asked(most, count)}: export its parts")
+        raise InputError(f"the motion has {len(parts)} pieces of its own, {_requested(most, count)}: export its parts")
     open_parts = [part for part in parts if part.stretch.exact_powers is None]
     peak = motion.peak(2) if open_parts else 0.0
     if not np.isfinite(peak):
@@ -150,7 +150,7 @@ def _cut(stretch: LawSection) -> Iterator[LawSection]:
         yield LawSection(stretch.law, (low, high), tuple(exact.shifted(exact_powers, by)))
 
 
-def _asked(most: int, count: int | None) -> str:
+def _requested(most: int, count: int | None) -> str:
     return f"and the target holds {most}" if count is None else f"more than the {count} that were asked for"
 
 

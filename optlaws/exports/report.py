@@ -230,7 +230,7 @@ def travel_of_run(run: PiecewiseMotion) -> float:
     control = bernstein.from_powers(table * run.lengths[:, None] ** np.arange(table.shape[1]))
     # where all Bernstein coefficients of the velocity have one sign it does not change it
     rows = np.flatnonzero(_turns(control))
-    moved[rows] = _back_and_forth(control[rows], run.lengths[rows])
+    moved[rows] = _travelled(control[rows], run.lengths[rows])
     return float(moved.sum())
 
 
@@ -250,7 +250,7 @@ def _turns(control: Array) -> NDArray[np.bool_]:
     return np.asarray((control.min(axis=1) < 0.0) & (control.max(axis=1) > 0.0))
 
 
-def _back_and_forth(control: Array, lengths: Array) -> Array:
+def _travelled(control: Array, lengths: Array) -> Array:
     """The ways of pieces given by Bernstein coefficients of their velocities, cut where they may turn."""
     ways, rows = np.zeros(len(control)), np.arange(len(control))
     for cut in range(_CUTS + 1):

@@ -169,7 +169,9 @@ def page(findings: Findings) -> Page:
     if findings.as_made:
         unit = "um" if findings.cam.displacement.axis == "length" else "urad"
         headings = ("what", f"deviation, {unit}", "peak acceleration, ratio", "peak jerk, ratio")
-        result.heading("As made").table(headings, [_made_row(*item) for item in findings.as_made.items()], digits=5)
+        result.heading("As made").table(
+            headings, [_manufactured_row(*item) for item in findings.as_made.items()], digits=5
+        )
         if None in findings.as_made.values():
             result.text("Where nothing stands the follower does not reach all of the cam: it has hollows.")
     if spec.animation:
@@ -284,7 +286,7 @@ def _spring_rows(findings: Findings) -> list[list[tables.Cell]]:
     ]
 
 
-def _made_row(name: str, peaks: AsMade | None) -> list[tables.Cell]:
+def _manufactured_row(name: str, peaks: AsMade | None) -> list[tables.Cell]:
     if peaks is None:
         return [name, None, None, None]
     return [name, _MICRO * peaks.deviation, peaks.acceleration_ratio, peaks.jerk_ratio]

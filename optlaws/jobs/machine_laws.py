@@ -98,7 +98,7 @@ class Measure(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
         return machine.residual(self.residual or 0, self.output, spread=self.spread, damping=self.damping)
 
 
-class Kept(Measure, kw_only=True, forbid_unknown_fields=True):
+class BoundedMeasure(Measure, kw_only=True, forbid_unknown_fields=True):
     """A constant with its upper bound, of the machine, or of the law by its name."""
 
     most: float
@@ -114,7 +114,7 @@ class Sought(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
 
     name: Text
     minimise: Text | Measure = "C"
-    keep: list[Kept] = []
+    keep: list[BoundedMeasure] = []
     problem: dict[str, Any] = {}
 
     def stated(self, machine: Machine) -> Problem:

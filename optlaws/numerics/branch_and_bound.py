@@ -287,8 +287,8 @@ class _Search:
     def _reached(self, places: Array, values: Interval) -> None:
         low, high = values.low[np.isfinite(values.low)], values.high[np.isfinite(values.high)]
         size = max(np.abs(low).max(initial=0.0), np.abs(high).max(initial=0.0), _finite(self.least), _finite(self.most))
-        self.least, self.lows = _kept(self.least, self.lows, values.high, places, NEAR_TIE * size)
-        negative, self.highs = _kept(-self.most, self.highs, -values.low, places, NEAR_TIE * size)
+        self.least, self.lows = _with_ties(self.least, self.lows, values.high, places, NEAR_TIE * size)
+        negative, self.highs = _with_ties(-self.most, self.highs, -values.low, places, NEAR_TIE * size)
         self.most = -negative
 
     def take(self, cells: _Cells, done: NDArray[np.bool_]) -> None:
@@ -417,7 +417,7 @@ def _finite(value: float) -> float:
     return abs(value) if np.isfinite(value) else 0.0
 
 
-def _kept(
+def _with_ties(
     best: float, known: list[tuple[Array, Array]], values: Array, places: Array, tie: float
 ) -> tuple[float, list[Any]]:
     """The least value with further candidates, and all values that are equal to it up to rounding."""

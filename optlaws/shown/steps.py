@@ -29,7 +29,7 @@ def watched() -> bool:
 
 
 @contextmanager
-def said_otherwise() -> Iterator[None]:
+def without_bars() -> Iterator[None]:
     """Hide progress bars for the time of a `with` block, as another display reports the progress."""
     global _said_otherwise  # noqa: PLW0603 - of the one terminal that a process has
     before, _said_otherwise = _said_otherwise, True

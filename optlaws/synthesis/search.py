@@ -21,7 +21,7 @@ from optlaws.synthesis.method.without_interior import fallbacks_without_interior
 from optlaws.synthesis.problem.constants import Functional, PeakConstant
 from optlaws.synthesis.problem.expression import leaves
 from optlaws.synthesis.problem.problem import Problem
-from optlaws.synthesis.program.evaluation import Worth, shortfalls, worth
+from optlaws.synthesis.program.evaluation import LawEvaluation, evaluate, shortfalls
 from optlaws.synthesis.program.writer import Model, model_of
 from optlaws.synthesis.proof.certificate import Certificate
 from optlaws.synthesis.proof.make import certify, lower_bound
@@ -81,13 +81,13 @@ class LawSearch:
         plain = best = self._tightened(self.candidates[0])
         short = shortfalls(self.problem, plain.law)
         if short:
-            best = self._held_up(plain, short)
+            best = self._raised(plain, short)
             # where the mirror image is as good, places have been tried on either side; of several constants each step
             # would ask all others at every place again
             settled = self.problem.mirrored or len(short) > 1
             moved = best if settled else self._moved(plain, best, *next(iter(short.items())))
             best = self._placed(plain, moved, short) if self.tight else moved
-        return self.certified(plain.optimum, best, held_up=bool(short))
+        return self.certified(plain.optimum, best, raised=bool(short))
 
     def least(self) -> float | None:
         """The best objective that all starts lead to, of which nothing is proven; None where they lead to no law."""
@@ -163,7 +163,7 @@ class LawSearch:
             if best is better[-1]:
                 return best
 
-    def _held_up(self, plain: Candidate, short: Mapping[Functional, float]) -> Candidate:
+    def _raised(self, plain: Candidate, short: Mapping[Functional, float]) -> Candidate:
         """The best law in which constants below their lower bounds are raised to them."""
         from optlaws.synthesis.method.lower_bounds import active_lower_bounds
 
@@ -224,7 +224,7 @@ class LawSearch:
         laws = (feasible(self.model, state) for state in states)
         return min((law for law in laws if law is not None), key=lambda law: law.objective, default=None)
 
-    def certified(self, bounding: ActiveSet, best: Candidate, *, held_up: bool) -> Solution:
+    def certified(self, bounding: ActiveSet, best: Candidate, *, raised: bool) -> Solution:
         """The best law with its proof by an optimum without lower bounds of constants, which bounds the objective."""
         problem, limit = self.problem, known_limit(self.problem)
         proof = certify(self.model, bounding, best.objective, limit)
@@ -241,7 +241,7 @@ class LawSearch:
             certificate=proof,
             lower_bound=bound,
             limit=limit,
-            status=status_of(best.objective, bound, problem.objective.scale, proven=problem.convex and not held_up),
+            status=status_of(best.objective, bound, problem.objective.scale, proven=problem.convex and not raised),
             iterations=sum(outcome.iterations for outcome in self.outcomes),
             seconds=perf_counter() - self.began,
             starts=tuple(candidate.objective for candidate in self.candidates) if several else (),
@@ -284,7 +284,7 @@ def _of_any_way(search: LawSearch) -> Solution | None:
     if problem.mirrored and solution.status is Status.INACCURATE:
         unfolded = from_symmetric(search)
         # a law that breaks a bound by the little that is allowed may seem nearer its bound
-        exact = worth(problem, solution.law).excess <= UNDIVIDED_ROUNDING
+        exact = evaluate(problem, solution.law).excess <= UNDIVIDED_ROUNDING
         return solution if unfolded is None or (exact and unfolded.gap >= solution.gap) else unfolded
     return solution
 
@@ -315,9 +315,9 @@ def from_symmetric(search: LawSearch) -> Solution | None:
     if best is None:
         return None
     plain = _Laws(model).candidate(optimum)
-    held_up = plain is not None and bool(shortfalls(search.problem, plain.law))
+    raised = plain is not None and bool(shortfalls(search.problem, plain.law))
     outcome = Outcome(optimum, symmetric.iterations, 0, "from the symmetric law")
-    return LawSearch(model, outcomes=[outcome], began=search.began).certified(optimum, best, held_up=held_up)
+    return LawSearch(model, outcomes=[outcome], began=search.began).certified(optimum, best, raised=raised)
 
 
 def solved_without_interior(search: LawSearch) -> Solution | None:
@@ -326,7 +326,7 @@ def solved_without_interior(search: LawSearch) -> Solution | None:
     for optimum, coordinates in fallbacks_without_interior(search.model):
         law = feasible(search.model, optimum.at(np.append(coordinates, optimum.x[len(coordinates) :])))
         if law is not None:
-            solution = LawSearch(search.model, began=search.began).certified(optimum, law, held_up=False)
+            solution = LawSearch(search.model, began=search.began).certified(optimum, law, raised=False)
             if best is None or _beyond_proof(best) or (not _beyond_proof(solution) and solution.gap < best.gap):
                 best = solution
     return best
@@ -337,13 +337,13 @@ class _Laws:
 
     def __init__(self, model: Model) -> None:
         self._model = model
-        self._last: tuple[Array, MotionLaw, Worth] | None = None
+        self._last: tuple[Array, MotionLaw, LawEvaluation] | None = None
 
-    def at(self, x: Array) -> tuple[MotionLaw, Worth]:
+    def at(self, x: Array) -> tuple[MotionLaw, LawEvaluation]:
         """The law of given variables, and its value."""
         if self._last is None or self._last[0] is not x:
             law = self._model.law(x)
-            self._last = (x, law, worth(self._model.problem, law))
+            self._last = (x, law, evaluate(self._model.problem, law))
         return self._last[1:]
 
     def candidate(self, optimum: ActiveSet) -> Candidate | None:

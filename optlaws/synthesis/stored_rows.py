@@ -24,7 +24,7 @@ from optlaws.synthesis.families.family import Program
 from optlaws.synthesis.limits.drive_limits import DriveLimit
 from optlaws.synthesis.limits.of_problem import known_limit
 from optlaws.synthesis.problem.problem import Problem
-from optlaws.synthesis.program.evaluation import shortfalls, worth
+from optlaws.synthesis.program.evaluation import evaluate, shortfalls
 from optlaws.synthesis.program.writer import model_of
 from optlaws.synthesis.proof.certificate import Certificate
 from optlaws.synthesis.proof.data import problem_of, stated
@@ -166,8 +166,8 @@ def check_status(status: Status, problem: Problem, objective: float, bound: floa
         If it is another's; `name` is what the error calls the solution.
     """
     velocity = problem.range("B")
-    held_up = any(limits.low > 0.0 for _, limits in problem.bounded) or (velocity is not None and velocity.low > 0.0)
-    ways = {True: [True, False] if held_up else [True], False: [False]}[problem.convex]
+    raised = any(limits.low > 0.0 for _, limits in problem.bounded) or (velocity is not None and velocity.low > 0.0)
+    ways = {True: [True, False] if raised else [True], False: [False]}[problem.convex]
     possible = [status_of(objective, bound, problem.objective.scale, proven=proven) for proven in ways]
     if status not in possible:
         raise InputError(f"the status of {name} is {status.value!r}, but it is {' or '.join(possible)}")
@@ -175,7 +175,7 @@ def check_status(status: Status, problem: Problem, objective: float, bound: floa
 
 def check_numbers(row: StatedSolution, problem: Problem, law: MotionLaw) -> None:
     """Refuse an objective that is not the law's, a law that breaks its problem, and a bound that nothing proves."""
-    value, size = worth(problem, law), _size(problem)
+    value, size = evaluate(problem, law), _size(problem)
     if not value.sound or shortfalls(problem, law):
         raise InputError("its law does not keep the constraints of its problem")
     if not abs(row.objective - value.objective) <= STORED_VALUE * max(abs(value.objective), size):
@@ -211,7 +211,7 @@ def _size(problem: Problem) -> float:
 
 @lru_cache(maxsize=256)
 def _of_plain_law(problem: Problem) -> float:
-    return abs(worth(problem, smoothstep(min(problem.order, 10))).objective)
+    return abs(evaluate(problem, smoothstep(min(problem.order, 10))).objective)
 
 
 def bound_of(row: StatedSolution) -> float:

@@ -64,7 +64,7 @@ from optlaws.synthesis.problem.named_constants import expression, is_named, name
 from optlaws.synthesis.problem.ranges import Bounds, read_bounds
 from optlaws.synthesis.problem.windows import QUANTITIES, read_window
 from optlaws.synthesis.program import writer
-from optlaws.synthesis.program.evaluation import shortfalls, worth
+from optlaws.synthesis.program.evaluation import evaluate, shortfalls
 from optlaws.synthesis.program.writer import Model, least_violation, model_of, relaxed
 from optlaws.synthesis.proof import make
 from optlaws.synthesis.proof.certificate import RELAXED, VIOLATION, _model

@@ -21,7 +21,7 @@ from optlaws.numerics.chebyshev import product
 from optlaws.synthesis.families import names
 from optlaws.synthesis.families.energy import Energy, EnergyFamily
 from optlaws.synthesis.families.family import ConstraintFamily, EvenFamily, LinearFamily
-from optlaws.synthesis.problem.constants import PLAIN, Asked, C, Functional
+from optlaws.synthesis.problem.constants import PLAIN, C, Functional, ProblemView
 from optlaws.synthesis.problem.expression import Expression, Term
 from optlaws.synthesis.problem.named_constants import parse
 from optlaws.synthesis.spaces.polynomial_space import PolynomialSpace
@@ -64,7 +64,7 @@ class LoaderPeak(Functional):
         except InputError:
             return inf
 
-    def check_problem(self, problem: Asked) -> None:
+    def check_problem(self, problem: ProblemView) -> None:
         """Refuse problems whose laws need not have their peak velocity at k = 1/2, where their loaders reverse."""
         if not problem.symmetric or problem.peak_at != _MIDDLE:
             raise InputError(
@@ -72,7 +72,7 @@ class LoaderPeak(Functional):
                 f"number above 1, or inflexion=0.5, and leave symmetric=True; got {shortened(problem)}"
             )
 
-    def limit(self, problem: Asked) -> Fraction | None:
+    def limit(self, problem: ProblemView) -> Fraction | None:
         """The lower limit for laws with the problem's B; with any B where that is free."""
         if not problem.symmetric or (self.of != "B" and not problem.monotone):
             return None
@@ -102,7 +102,7 @@ class LoaderPeak(Functional):
         return (EnergyFamily(self.name, slack, bound, signs, space.domain, factors=both, energy=shared, degree=2),)
 
     def convex_families(
-        self, space: LawSpace, slack: Array, bound: float, problem: Asked
+        self, space: LawSpace, slack: Array, bound: float, problem: ProblemView
     ) -> tuple[ConstraintFamily, ...]:
         """B of the loader itself, which is convex at one B of the law; of the others what no law is below."""
         if self.of == "B" and isinstance(problem.B, float):

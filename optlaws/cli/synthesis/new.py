@@ -59,7 +59,7 @@ def new(
     writing.check_place(place)
     given = _named(starter, answers)
     if not defaults and sys.stdin is not None and sys.stdin.isatty():
-        given = _asked(starter, given)
+        given = _prompted(starter, given)
     text = starter.text(given, place)
     try:
         with place.open("x", encoding="utf-8", newline="\n") as out:
@@ -80,7 +80,7 @@ def _named(starter: Starter, answers: Mapping[str, str]) -> dict[str, str]:
     return dict(answers)
 
 
-def _asked(starter: Starter, given: dict[str, str]) -> dict[str, str]:
+def _prompted(starter: Starter, given: dict[str, str]) -> dict[str, str]:
     """The given numbers, and the numbers entered at the terminal; an empty answer takes the default."""
     _say("Enter takes what stands in brackets.")
     answers = dict(given)

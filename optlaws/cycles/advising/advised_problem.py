@@ -17,7 +17,7 @@ from optlaws.laws.catalogue.reading import read_law
 from optlaws.synthesis.least_time.follower_residual import RESIDUAL
 from optlaws.synthesis.problem.constants import B, C, D, Functional, J, rms_c
 from optlaws.synthesis.problem.problem import Problem
-from optlaws.synthesis.program.evaluation import worth
+from optlaws.synthesis.program.evaluation import evaluate
 from optlaws.synthesis.solve import synthesize
 
 _CONSTANTS: dict[str, tuple[Functional, str]] = {
@@ -143,7 +143,7 @@ class AdvisedProblem:
 
     def _advised(self, name: str, kind: Any, law: MotionLaw) -> AdvisedLaw:  # noqa: ANN401
         values = {measure: float(constant.value(law)) for measure, constant in self._constants.items()}
-        values.setdefault(self.minimise, worth(self.problem, law).objective)
+        values.setdefault(self.minimise, evaluate(self.problem, law).objective)
         return AdvisedLaw(name, kind, law, values, tuple(self._limits(law)))
 
     def _limits(self, law: MotionLaw) -> list[LimitTaken]:
@@ -157,7 +157,7 @@ class AdvisedProblem:
             for constant, limits in bounded
             if limits.high < inf
         ]
-        excess = worth(replace(problem, B=None, C=None, D=None, J=None, bounds={}), law).excess
+        excess = evaluate(replace(problem, B=None, C=None, D=None, J=None, bounds={}), law).excess
         if problem.windows or problem.monotone:
             taken.append(LimitTaken("windows", "", 1.0 + max(excess, 0.0), 1.0, ""))
         return taken

@@ -1,9 +1,10 @@
 """A limit of the root mean square of the force, or of the energy, over a whole cycle: its motions share it.
 
-Motors are rated by the one. Each motion by itself is a problem; the limit of a sum joins them. Where a peak is least,
-the least sum of laws that keep a peak falls with the peak: the least peak is where that sum meets the limit, and no
-less is possible where even the lower bounds sum to more. Where a root mean square or a sum is least, a multiplier of
-the limit parts the motions: what the laws have at least with it, less what the limit is worth, no law can beat.
+Motors are rated by the root mean square. Each motion is a problem of its own; the limit of a sum joins them. Where a
+peak is minimised, the least sum of laws that keep a peak falls with the peak: the least peak is where that sum meets
+the limit, and no lower peak is possible where even the lower bounds sum to more. Where a root mean square or a sum is
+minimised, a multiplier of the limit separates the motions: their least sum with the multiplier, less multiplier times
+limit, is a lower bound.
 """
 
 from __future__ import annotations
@@ -37,7 +38,7 @@ from optlaws.synthesis.solution import Solution
 from optlaws.tolerances import FEASIBILITY, LEAST_PEAK_SLACK, PEAK_BRACKET
 
 _ROUNDS = 8
-_FARTHEST = 30.0  # logarithm of what a limit may be worth
+_FARTHEST = 30.0  # logarithm of a limit's greatest multiplier
 #: times the greatest of what is minimised without the limit: up to there the least energy is looked for
 _HIGHEST = 8.0
 _NONE = 1.0  # by how much a limit counts as missed where there is no law
@@ -246,9 +247,9 @@ class _SharedLimit:
 
         tried: dict[float, tuple[tuple[Piece, Solution], ...]] = {}
 
-        def over(worth: float) -> float:
-            tried[worth] = tuple(self._with_worth(span, exp(worth)) for span in self.layout.spans)
-            return log(self._taken(tried[worth]) / self.left)
+        def over(multiplier: float) -> float:
+            tried[multiplier] = tuple(self._with_multiplier(span, exp(multiplier)) for span in self.layout.spans)
+            return log(self._taken(tried[multiplier]) / self.left)
 
         nu, _ = kind_of(self.objective.minimise)
         first = log(abs(total([piece for piece, _ in laws], nu, self.drive)) / self._taken(laws))
@@ -262,18 +263,20 @@ class _SharedLimit:
                 )
             high += 4.0
         brentq(over, low, high, xtol=PEAK_BRACKET, rtol=PEAK_BRACKET)
-        least = min(worth for worth, laws in tried.items() if self._taken(laws) <= self.left * (1.0 + FEASIBILITY))
+        least = min(
+            multiplier for multiplier, laws in tried.items() if self._taken(laws) <= self.left * (1.0 + FEASIBILITY)
+        )
         pieces = [*self.layout.pieces, *(piece for piece, _ in tried[least])]
         attained = self._of_total(total(pieces, nu, self.drive))
         # the laws may miss the limit by a rounding, the bound is of those that keep it: it is no better than they are
-        proven = max(self._with_worth_at_least(tried[least], exp(least)), bound)
+        proven = max(self._bound_with_multiplier(tried[least], exp(least)), bound)
         return Best(tried[least], (), min(proven, attained))
 
-    def _with_worth(self, span: LawSpan, worth: float) -> tuple[Piece, Solution]:
+    def _with_multiplier(self, span: LawSpan, multiplier: float) -> tuple[Piece, Solution]:
         """The law of a span that minimises the objective plus a multiple of the limited quantity."""
         stroke = scale(span)
         minimised, limited = self._sums(span, stroke)
-        weight = worth * limited.unit / minimised.unit
+        weight = multiplier * limited.unit / minimised.unit
         formula = f"{minimised.formula} + ({weight!r})*({limited.formula})"
         plain = replace(span_problem(span, self.objective, self.axis, stroke), minimise=integral(formula))
         # the limit as if the others took nothing: it only says how great laws may be
@@ -281,15 +284,15 @@ class _SharedLimit:
         solution = solved(problem, span)
         return Piece(span.start, span.duration, span.offset, stroke, solution.law), solution
 
-    def _with_worth_at_least(self, laws: Sequence[tuple[Piece, Solution]], worth: float) -> float:
+    def _bound_with_multiplier(self, laws: Sequence[tuple[Piece, Solution]], multiplier: float) -> float:
         """The lower bound for laws that keep the limit: the bound with the multiplier, less multiplier times limit."""
         nu, _ = kind_of(self.objective.minimise)
         if not self._exact:
             return 0.0 if nu not in SUMS else -inf
-        least = -worth * self.left + total(self.layout.pieces, nu, self.drive)
+        least = -multiplier * self.left + total(self.layout.pieces, nu, self.drive)
         for span, (piece, solution) in zip(self.layout.spans, laws, strict=True):
             minimised, limited = self._sums(span, piece.stroke)
-            least += minimised.unit * solution.lower_bound + minimised.constant + worth * limited.constant
+            least += minimised.unit * solution.lower_bound + minimised.constant + multiplier * limited.constant
         return self._of_total(least)
 
     def _sums(self, span: LawSpan, stroke: float) -> tuple[SpanSum, SpanSum]:

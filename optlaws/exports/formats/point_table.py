@@ -117,8 +117,8 @@ def hermite_table(
         )
     x = number_format.numbers(exact)
     derivatives = number_format.numbers(values[1:]) if with_derivatives else values[1:]
-    held_values = np.vstack([number_format.positions(values[0], motion)[None], derivatives])
-    return PointTable(x, held_values, hermite_powers(x, held_values), number_format.resolution(motion), 0.0)
+    stored_values = np.vstack([number_format.positions(values[0], motion)[None], derivatives])
+    return PointTable(x, stored_values, hermite_powers(x, stored_values), number_format.resolution(motion), 0.0)
 
 
 def table_by_interpolation(

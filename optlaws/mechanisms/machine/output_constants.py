@@ -182,7 +182,7 @@ class OutputConstant(Functional):
         # a norm is that of the triangle alone
         return np.ascontiguousarray(np.linalg.qr(np.vstack(rows), mode="r"))
 
-    def _kept(self, space: LawSpace, make: Callable[[], Array]) -> Array:
+    def _cached(self, space: LawSpace, make: Callable[[], Array]) -> Array:
         return space.cached((type(self).__name__, self.name), make)
 
 
@@ -246,7 +246,7 @@ class OutputPeak(OutputConstant):
 
     def families(self, space: LawSpace, slack: Array, bound: float) -> tuple[ConstraintFamily, ...]:
         """The output's series, on pieces where it has many."""
-        rows = self._kept(space, lambda: self._rows(space))
+        rows = self._cached(space, lambda: self._rows(space))
         breaks, series = 1.0 - 2.0 * rows[:, 0, 0] / self.duration, rows[:, 1:]
         wide = np.zeros((*series.shape[:2], len(slack) + 1))
         wide[:, :, : space.terms], wide[:, :, -1] = series[:, :, :-1], series[:, :, -1]
@@ -265,7 +265,7 @@ class OutputPeak(OutputConstant):
 
     def unit(self, space: LawSpace) -> float:
         """The size of the rows: nearly the base law's output."""
-        rows = self._kept(space, lambda: self._rows(space))
+        rows = self._cached(space, lambda: self._rows(space))
         return float(np.abs(rows[:, 1:, -1]).max()) or float(np.abs(rows[:, 1:]).max()) or 1.0
 
     def _jumps(self, space: LawSpace) -> bool:
@@ -337,7 +337,7 @@ class OutputRms(OutputConstant):
         return space.law(np.array(weights)) if length > 0.0 else None
 
     def _matrix(self, space: LawSpace) -> Array:
-        return self._kept(space, lambda: self.rows_of_output(space))
+        return self._cached(space, lambda: self.rows_of_output(space))
 
 
 def output_peak(

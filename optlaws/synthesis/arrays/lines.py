@@ -129,8 +129,8 @@ def form_of(problem: Problem) -> Form:
     """
     bounded = problem.bounded
     velocity = problem.B
-    held_up = any(limits.low > 0.0 for _, limits in bounded) or (isinstance(velocity, Range) and velocity.low > 0.0)
-    if held_up or not (problem.convex or least_power(problem)) or not isinstance(problem.basis, PolynomialBasis):
+    raised = any(limits.low > 0.0 for _, limits in bounded) or (isinstance(velocity, Range) and velocity.low > 0.0)
+    if raised or not (problem.convex or least_power(problem)) or not isinstance(problem.basis, PolynomialBasis):
         return Form(None, ())
     terms = problem.objective.terms
     nested = any(isinstance(term, Maximum) for _, term in terms)

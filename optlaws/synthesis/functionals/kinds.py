@@ -32,7 +32,7 @@ from optlaws.synthesis.functionals.curved_rows import (
 )
 from optlaws.synthesis.functionals.sizes import SizeBound, by_integral, by_tangents, known_values, reach
 from optlaws.synthesis.functionals.undefined import check_ends, check_passed, pitfalls
-from optlaws.synthesis.problem.constants import Asked, Functional
+from optlaws.synthesis.problem.constants import Functional, ProblemView
 from optlaws.synthesis.problem.ranges import as_range
 from optlaws.tolerances import VALUE_ROUNDING
 
@@ -106,7 +106,7 @@ class OfFormula(Functional):
         return None
 
     def convex_families(
-        self, space: LawSpace, slack: Array, bound: float, problem: Asked
+        self, space: LawSpace, slack: Array, bound: float, problem: ProblemView
     ) -> tuple[ConstraintFamily, ...]:
         """The rows themselves where they are convex; else rows of convex lower bounds, and a bound of the constant."""
         if self.convex:
@@ -321,7 +321,7 @@ def refusal(constant: OfFormula) -> str | None:
     return f"{cut(str(formula), _SHOWN)} has kinks, but not those of a maximum: it is neither smooth nor known{hint}"
 
 
-def boxes_of(problem: Asked) -> dict[str, tuple[float, float]]:
+def boxes_of(problem: ProblemView) -> dict[str, tuple[float, float]]:
     """The ranges of the derivatives in all laws of a problem, as far as its bounds imply them.
 
     Examples

@@ -74,7 +74,7 @@ def _of_term(problem: Problem, term: Term) -> Fraction | None:
 
 
 def _of_constant(problem: Problem, constant: str) -> Fraction | None:
-    if problem.inflexion not in {None, 0.5} or _held_up_anywhere(problem, constant):
+    if problem.inflexion not in {None, 0.5} or _raised_anywhere(problem, constant):
         return _uneven(problem, constant)
     B = _best(problem.range("B"), constant, problem.order)
     if problem.order == 1 and B is None:
@@ -118,7 +118,7 @@ def _uneven(problem: Problem, constant: str) -> Fraction | None:
     return max(least, slopes, B * B / (B - 1))
 
 
-def _held_up_anywhere(problem: Problem, constant: str) -> bool:
+def _raised_anywhere(problem: Problem, constant: str) -> bool:
     """Whether a bound raises B above its best value at an unspecified place, where it may cost less than at 1/2."""
     limits = problem.range("B")
     if limits is None or limits.fixed or problem.inflexion is not None:

@@ -61,7 +61,7 @@ def active_lower_bounds(model: Model, optimum: ActiveSet) -> list[ActiveSet]:
     constant, low = next(iter(short.items()))
     # where nothing else is minimised, every law with the constant at its lower bound is best, and no contact shows one
     alone = all(leaf == constant for _, leaf in leaves(problem.objective))
-    ways = [] if alone else _held_up(model, optimum, constant, low)
+    ways = [] if alone else _raised(model, optimum, constant, low)
     ways.sort(key=lambda way: way[0].program.objective_at(way[1].x))
     led = [
         state
@@ -103,7 +103,7 @@ def active_lower_bounds_at(
 ) -> list[ActiveSet]:
     """Candidates in which the peak is asked at k, and let go to where it is best nearby."""
     family, low = family_of(model, constant, low)
-    ways = _asked(model.program, family, optimum, (constant.name, low), family.u(np.array([k])))
+    ways = _at_fixed_places(model.program, family, optimum, (constant.name, low), family.u(np.array([k])))
     return [
         candidate
         for program, state in ways
@@ -111,7 +111,7 @@ def active_lower_bounds_at(
     ]
 
 
-def _held_up(model: Model, plain: ActiveSet, constant: Functional, low: float) -> list[tuple[Model, ActiveSet]]:
+def _raised(model: Model, plain: ActiveSet, constant: Functional, low: float) -> list[tuple[Model, ActiveSet]]:
     """Optima in which the constant is `low` at one place, with the programs that ask it there."""
     family, low = family_of(model, constant, low)
     raised = replace(family, as_equation=True)
@@ -125,7 +125,7 @@ def _held_up(model: Model, plain: ActiveSet, constant: Functional, low: float) -
     if not ways and isinstance(family, NormFamily):
         ways = along_directions(model.program, family, plain, low)
     elif not ways:
-        ways = _asked(model.program, family, plain, (constant.name, low), places(model.problem, family))
+        ways = _at_fixed_places(model.program, family, plain, (constant.name, low), places(model.problem, family))
     return [(replace(model, program=program), state) for program, state in ways]
 
 
@@ -148,7 +148,7 @@ def _continued(
     return state
 
 
-def _asked(
+def _at_fixed_places(
     program: Program, family: ConstraintFamily, plain: ActiveSet, lower_bound: tuple[str, float], where: Array
 ) -> list[tuple[Program, ActiveSet]]:
     """Optima of the programs with the peak at a fixed place, then released from there."""

@@ -19,7 +19,7 @@ from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.family import NormFamily, Program
 from optlaws.synthesis.method.exchange import solve
 from optlaws.synthesis.problem.problem import Problem
-from optlaws.synthesis.program.evaluation import worth
+from optlaws.synthesis.program.evaluation import evaluate
 from optlaws.synthesis.program.writer import Model, least_violation, model_of
 from optlaws.tolerances import EQUATIONS_RANK, LEAST_INTERIOR
 
@@ -40,7 +40,7 @@ def fallbacks_without_interior(model: Model) -> Iterator[tuple[ActiveSet, Array]
         return
 
     def excess(coordinates: Array) -> float:
-        return worth(problem, model.space.law(coordinates)).excess
+        return evaluate(problem, model.space.law(coordinates)).excess
 
     elastic = least_violation(problem)
     anchor = solve(elastic.program).optimum

@@ -36,7 +36,7 @@ _SMOOTH = 4  # the order of the law that scales are taken from
 _NO_ACCELERATION = 3  # the order from which laws begin and end without acceleration
 
 
-class Asked(Protocol):
+class ProblemView(Protocol):
     """Protocol of a problem, as far as a constant may need to know it."""
 
     @property
@@ -163,10 +163,10 @@ class Functional(Term, ABC):
         """The place of a certificate's contact in words."""
         return f"k = {k:.4g}"
 
-    def check_problem(self, problem: Asked) -> None:
+    def check_problem(self, problem: ProblemView) -> None:
         """Refuse a problem in whose laws the constant cannot be optimised; the error states the remedy."""
 
-    def limit(self, problem: Asked) -> Fraction | None:  # noqa: ARG002 - what it is may depend on it
+    def limit(self, problem: ProblemView) -> Fraction | None:  # noqa: ARG002 - what it is may depend on it
         """A limit for laws of the problem of any degree, if it is more than the constant's least value."""
         return None
 
@@ -175,7 +175,7 @@ class Functional(Term, ABC):
         space: LawSpace,
         slack: Array,
         bound: float,
-        problem: Asked,  # noqa: ARG002 - a constant that is not convex may need it
+        problem: ProblemView,  # noqa: ARG002 - a constant that is not convex may need it
     ) -> tuple[ConstraintFamily, ...]:
         """Convex rows that hold if the constant is at most slack . x + bound, for a bound of all laws."""
         return self.families(space, slack, bound)

@@ -272,27 +272,27 @@ class Problem(JsonText):
         "Problem(B=1.859, order=4, basis=Chebyshev(degree=9), minimise='C')"
         """
         short = {name: f"constant_{i}" for i, name in enumerate(self._titles, 1)}
-        values = {name: getattr(self, name) for name in self._said}
+        values = {name: getattr(self, name) for name in self._shown}
         texts = {name: repr(value) for name, value in values.items()}
         if isinstance(self.minimise, str):
             texts["minimise"] = _as_code(texts["minimise"], short)
         if "bounds" in texts:
             texts["bounds"] = _as_code(texts["bounds"], short)
         code = f"Problem({', '.join(f'{name}={text}' for name, text in texts.items())})"
-        return "\n".join([code, *(f"where {name_kept} = {name!r}" for name, name_kept in short.items())])
+        return "\n".join([code, *(f"where {abbreviation} = {name!r}" for name, abbreviation in short.items())])
 
     def _repr_html_(self) -> str:
         from optlaws.shown.showing import facts, page
 
-        given = {name: getattr(self, name) for name in self._said}
+        given = {name: getattr(self, name) for name in self._shown}
         texts = {name: "free" if value is None else self.titled(str(value)) for name, value in given.items()}
         return page("Problem", facts(texts))
 
     def __repr__(self) -> str:
-        return f"Problem({', '.join(f'{name}={getattr(self, name)!r}' for name in self._said)})"
+        return f"Problem({', '.join(f'{name}={getattr(self, name)!r}' for name in self._shown)})"
 
     @property
-    def _said(self) -> list[str]:
+    def _shown(self) -> list[str]:
         """The entries of the problem's text: some always, others where they are given."""
         given = {entry.name for entry in fields(self) if getattr(self, entry.name) != entry.default}
         if self.symmetric and self.uneven:

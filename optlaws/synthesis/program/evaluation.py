@@ -26,7 +26,7 @@ _LAWS = 3
 
 
 @dataclass(frozen=True)
-class Worth:
+class LawEvaluation:
     """The objective of a law, and its greatest violation of a constraint, relative to the constraint's bound."""
 
     objective: float
@@ -38,7 +38,7 @@ class Worth:
         return self.excess <= BOUND_FEASIBILITY and isfinite(self.objective)
 
 
-def worth(problem: Problem, law: MotionLaw) -> Worth:
+def evaluate(problem: Problem, law: MotionLaw) -> LawEvaluation:
     """Objective and greatest excess over the constraints."""
     values: dict[str, float] = {}
     objective = _total(problem.objective, law, values)
@@ -49,7 +49,7 @@ def worth(problem: Problem, law: MotionLaw) -> Worth:
             excess = max(excess, value / limits.high - 1.0)
     for window in problem.windows:
         excess = max(excess, *_window_excess(window, law))
-    return Worth(objective, excess)
+    return LawEvaluation(objective, excess)
 
 
 def _window_excess(window: Window, law: MotionLaw) -> tuple[float, float]:

@@ -279,11 +279,11 @@ def _held(model: Model, proof: Certificate) -> Certificate:
             contacts[most] = replace(contacts[most], multiplier=nextafter(greater, np.copysign(np.inf, slope[place])))
     bounding = proof.with_leaf(contacts=contacts)
     if max(bounding.bound, proof.bound) == -np.inf:
-        bounding = _held_exactly(model, proof, [model.places[name] for name in falling])
+        bounding = _balanced_exactly(model, proof, [model.places[name] for name in falling])
     return bounding if bounding.bound > proof.bound else proof
 
 
-def _held_exactly(model: Model, proof: Certificate, places: list[int]) -> Certificate:
+def _balanced_exactly(model: Model, proof: Certificate, places: list[int]) -> Certificate:
     """The certificate with multipliers that hold variables to the last bit, as far as there are such."""
     rows = [row_of(model.program, contact)[0] for contact in proof.contacts]
     for place in places:

@@ -23,7 +23,7 @@ from optlaws.tolerances import SUBLEVEL_RANK, VALUE_ROUNDING
 _ACCELERATION = 2
 
 
-def asked_or_claimed(model: Model, claim: float) -> dict[str, float]:
+def greatest_constants(model: Model, claim: float) -> dict[str, float]:
     """Upper bounds of the objective's constants, and of bounded ones, in laws below the claim."""
     problem = model.problem
     bounds: dict[str, float] = {}
@@ -39,7 +39,7 @@ def asked_or_claimed(model: Model, claim: float) -> dict[str, float]:
 def greatest_values(model: Model, claim: float) -> dict[str, float]:
     """Greatest values of the program's variables in a law that contradicts the claim."""
     problem, space = model.problem, model.space
-    bounds = asked_or_claimed(model, claim)
+    bounds = greatest_constants(model, claim)
     if VariableName.VIOLATION in model.places:
         bounds[VariableName.VIOLATION] = 0.0
     power = relaxed_power(problem)

@@ -19,7 +19,7 @@ from optlaws.laws.curve import Many
 from optlaws.laws.making.transform import law_between
 from optlaws.numbers import Array, bounded, finite, real
 from optlaws.synthesis.problem.problem import Problem
-from optlaws.synthesis.program.evaluation import worth
+from optlaws.synthesis.program.evaluation import evaluate
 from optlaws.synthesis.proof.certificate import OBJECTIVE, Certificate
 from optlaws.synthesis.proof.data import StatedContact, brief_sum_of, contacts_of, problem_of, stated
 from optlaws.synthesis.proof.nodes import Contact
@@ -137,7 +137,7 @@ class FrontPoint(JsonText):
         problem, law, certificate = problem_of(plain), MotionLaw.from_dict(stored), Certificate.from_dict(proof)
         if certificate.problem != problem or certificate.program != OBJECTIVE:
             raise InputError("the certificate of a point of a front is not of its problem")
-        return cls(finite(value, "value"), problem, law, worth(problem, law).objective, certificate)
+        return cls(finite(value, "value"), problem, law, evaluate(problem, law).objective, certificate)
 
 
 class StatedPoint(msgspec.Struct, forbid_unknown_fields=True):
@@ -205,8 +205,8 @@ class ProvenFront(JsonText):
             raise InputError("a proven front needs at least two certified laws, at ascending values")
         if not len(self.values) == len(self.laws) == len(self.certificates):
             raise InputError("a proven front needs a law and a certificate for each value")
-        made_here = isinstance(self.certificates, LazySequence)
-        for value, certificate in () if made_here else zip(self.values, self.certificates, strict=True):
+        computed_here = isinstance(self.certificates, LazySequence)
+        for value, certificate in () if computed_here else zip(self.values, self.certificates, strict=True):
             if certificate.program != OBJECTIVE or certificate.problem != self.number.at(value):
                 raise InputError(f"the certificate at {self.number.name} = {value!r} is not of the problem there")
 
@@ -243,7 +243,7 @@ class ProvenFront(JsonText):
     def sides(self) -> Array:
         """Upper and lower values of the least objective at each certified law, with the slope there."""
         problems = [proof.problem for proof in self.certificates]
-        tops = np.array([worth(problem, law).objective for problem, law in zip(problems, self.laws, strict=True)])
+        tops = np.array([evaluate(problem, law).objective for problem, law in zip(problems, self.laws, strict=True)])
         slopes = np.array([weighted_value(self.number, law) for law in self.laws]) if self.number.concave else None
         claims = np.full(len(tops), -np.inf)
         if slopes is not None:
@@ -327,11 +327,15 @@ class ProvenFront(JsonText):
         law = self.laws[i + 1] if share == 1.0 else law_between(self.laws[i], self.laws[i + 1], share)
         proofs = [replace(certificate, problem=problem) for certificate in self.certificates[i : i + 2]]
         return FrontPoint(
-            value, problem, law, worth(problem, law).objective, max(proofs, key=lambda certificate: certificate.bound)
+            value,
+            problem,
+            law,
+            evaluate(problem, law).objective,
+            max(proofs, key=lambda certificate: certificate.bound),
         )
 
     def _averaged(self, i: int, share: float, value: float, problem: Problem) -> FrontPoint:
-        sums = [worth(problem, law).objective for law in self.laws[i : i + 2]]
+        sums = [evaluate(problem, law).objective for law in self.laws[i : i + 2]]
         best = int(np.argmin(sums))
         contacts: list[Contact] = []
         equations = np.zeros(len(self.certificates[i].equations))
@@ -349,7 +353,7 @@ class ProvenFront(JsonText):
     def __iter__(self) -> Iterator[FrontPoint]:
         """The certified laws, each with its own certificate."""
         for value, law, proof in zip(self.values, self.laws, self.certificates, strict=True):
-            yield FrontPoint(value, proof.problem, law, worth(proof.problem, law).objective, proof)
+            yield FrontPoint(value, proof.problem, law, evaluate(proof.problem, law).objective, proof)
 
     def __len__(self) -> int:
         return len(self.values)
@@ -460,4 +464,4 @@ def front_of(stated_front: StatedFront) -> ProvenFront:
 
 def weighted_value(number: SweptParameter, law: MotionLaw) -> float:
     """The value in a law of the term whose weight varies, before it is weighted."""
-    return worth(replace(number.problem, minimise=number.weighted), law).objective
+    return evaluate(replace(number.problem, minimise=number.weighted), law).objective

@@ -20,7 +20,7 @@ from optlaws.synthesis.problem.constants import FUNCTIONALS
 from optlaws.synthesis.problem.fields import CONSTANTS
 from optlaws.synthesis.problem.named_constants import apart
 from optlaws.synthesis.problem.problem import Problem
-from optlaws.synthesis.program.evaluation import worth
+from optlaws.synthesis.program.evaluation import evaluate
 from optlaws.synthesis.program.writer import Model, model_of
 from optlaws.synthesis.proof.sublevel_bounds import greatest_values
 from optlaws.synthesis.proven.front import LazySequence, ProvenFront, weighted_value
@@ -189,7 +189,7 @@ class _Refined:
     def _known(self, value: float, law: _Law) -> tuple[float, float, float]:
         """Bounds of the least objective, above and below, and the slope of the line from there."""
         assert isinstance(law, Solution)  # noqa: S101 - as it came from `_alone`
-        top, claim, slope = worth(law.problem, law.law).objective, -inf, 0.0
+        top, claim, slope = evaluate(law.problem, law.law).objective, -inf, 0.0
         if self.number.concave:
             slope = weighted_value(self.number, law.law)
             claim = max(top + slope * (end - value) for end in self.ends)

@@ -75,17 +75,17 @@ class LawSpace(ABC):
     stroke: float
 
     def __init__(self) -> None:
-        self._kept: dict[Hashable, Array] = {}
+        self._cache: dict[Hashable, Array] = {}
 
     def cached(self, key: Hashable, make: Callable[[], Array]) -> Array:
         """The value of `make`, cached for the latest keys."""
-        known = self._kept.get(key)
+        known = self._cache.get(key)
         if known is None:
             known = make()
-            if len(self._kept) >= _KEPT:
+            if len(self._cache) >= _KEPT:
                 # a copy of the keys, for another thread may be changing them
-                self._kept.pop(next(iter(self._kept.copy())), None)
-            self._kept[key] = known
+                self._cache.pop(next(iter(self._cache.copy())), None)
+            self._cache[key] = known
         return known
 
     @abstractmethod

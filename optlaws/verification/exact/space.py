@@ -124,9 +124,9 @@ class ExactSpace:
 
     @kept_property
     def _chords(self) -> Callable[[Fraction], list[Functions]]:
-        return cache(self._made_chords)
+        return cache(self._computed_chords)
 
-    def _made_chords(self, peak: Fraction) -> list[Functions]:
+    def _computed_chords(self, peak: Fraction) -> list[Functions]:
         centre, power = rational(2 * peak - 1), 2 if (smooth := self._smooth_at(peak)) else 1
         edges = [rational(2 * k - 1) for k in self.breaks]
         touching = [i for i, (low, high) in enumerate(pairwise(self.breaks)) if low <= peak <= high]

@@ -28,10 +28,10 @@ _ROUNDED = 1.0 + 2.0**-40
 
 def never_negative(problem: Problem) -> bool:
     """Whether every constant of the objective is at least 0: a peak of one sign need not be if the velocity changes."""
-    leaves_found = [leaf for _, leaf in leaves(problem.objective)]
-    if any(isinstance(leaf, Functional) and floor(leaf, problem.conditions) < 0 for leaf in leaves_found):
+    constants = [leaf for _, leaf in leaves(problem.objective)]
+    if any(isinstance(leaf, Functional) and floor(leaf, problem.conditions) < 0 for leaf in constants):
         return False
-    one_sided = any(isinstance(leaf, PeakConstant) and len(leaf.signs) == 1 for leaf in leaves_found)
+    one_sided = any(isinstance(leaf, PeakConstant) and len(leaf.signs) == 1 for leaf in constants)
     return not one_sided or (problem.boundary is None and problem.order > 1)
 
 

@@ -22,7 +22,7 @@ from optlaws import (
     slider_crank,
     synthesize,
 )
-from tests.internals.synthesis import attempt, limit_beside, model_of, starts, worth
+from tests.internals.synthesis import attempt, evaluate, limit_beside, model_of, starts
 
 LOADED = drive_torque(inertia="1 + 0.6*a^2", load="3*a")
 PRESS = slider_crank("0.1 m", "0.4 m", bodies={"crank": "0.02 kg m^2", "slider": "5 kg"})
@@ -83,7 +83,7 @@ def test_the_start_is_near_the_motion() -> None:
     assert np.abs(law.a(k) - a).max() < 2e-3
     assert np.abs(law.b(k) - b).max() < 0.12
     # at degree 21 the start itself is within some per cent of what no law can beat
-    assert worth(problem, law).objective < 1.03 * limit.value
+    assert evaluate(problem, law).objective < 1.03 * limit.value
 
 
 def test_times_of_a_motion_are_those_of_its_closed_form() -> None:

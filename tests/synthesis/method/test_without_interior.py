@@ -3,7 +3,7 @@
 import pytest
 
 from optlaws import Basis, BSplines, Chebyshev, Pieces, Problem, at_most, synthesize
-from tests.internals.synthesis import worth
+from tests.internals.synthesis import evaluate
 from tests.sampling import sampled
 
 UNSYMMETRIC = [Chebyshev(5), Pieces(8, 5, 3), BSplines(4, 4, 3)]
@@ -19,10 +19,10 @@ def test_a_bound_at_the_least_value_is_kept(basis: Basis, bounded: str, minimise
     solution = synthesize(problem)
     assert solution.lower_bound <= solution.objective
     assert solution.gap < 1e-4
-    assert worth(problem, solution.law).excess <= 1e-13
+    assert evaluate(problem, solution.law).excess <= 1e-13
     # the norm has one least law, and those with a little room lie within its square root
     there = Problem(order=3, basis=basis, symmetric=False, minimise=minimise)
-    assert solution.objective == pytest.approx(worth(there, least.law).objective, rel=30.0 * (room + 1e-13) ** 0.5)
+    assert solution.objective == pytest.approx(evaluate(there, least.law).objective, rel=30.0 * (room + 1e-13) ** 0.5)
 
 
 def test_a_peak_at_its_least_value_beside_another() -> None:

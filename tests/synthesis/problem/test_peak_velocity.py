@@ -21,7 +21,7 @@ from optlaws import (
     synthesize,
 )
 from optlaws.verification import verify
-from tests.internals.synthesis import worth
+from tests.internals.synthesis import evaluate
 from tests.synthesis.judge import judge
 
 K = np.linspace(0.0, 1.0, 4001)
@@ -65,10 +65,10 @@ def test_a_law_that_is_faster_elsewhere_breaks_an_inflexion_with_a_peak_below_ze
     ends = BoundaryConditions((0.0, -1.0), (-1.0, -1.0))
     even = Problem(boundary=ends, symmetric=False, minimise="rms_c")
     uniform = synthesize(even).law
-    assert worth(replace(even, inflexion=0.3), uniform).excess < 1e-9  # b is -1 everywhere
+    assert evaluate(replace(even, inflexion=0.3), uniform).excess < 1e-9  # b is -1 everywhere
     slower = synthesize(replace(even, inflexion=0.7, B=None, bounds={"J": between(50, 60)})).law
     assert slower.b(0.7) < 0.0
-    assert worth(replace(even, inflexion=0.3), slower).excess > 1e-3
+    assert evaluate(replace(even, inflexion=0.3), slower).excess > 1e-3
 
 
 def test_the_b_that_an_inflexion_has_is_asked_of_it() -> None:

@@ -1,4 +1,4 @@
-"""What a law is worth to a problem, on laws whose numbers are known by hand: 3k² - 2k³ has B 3/2, C 6 and J 12."""
+"""The value of a law for a problem, on laws whose numbers are known by hand: 3k² - 2k³ has B 3/2, C 6 and J 12."""
 
 from math import inf, sqrt
 from typing import Any
@@ -22,7 +22,7 @@ from optlaws import (
     snap,
     via,
 )
-from tests.internals.synthesis import shortfalls, worth
+from tests.internals.synthesis import evaluate, shortfalls
 
 CUBIC = smoothstep(2)
 #: b = 7/4 T3(2k-1) - 1/4, from -2 at k = 0 and 3/4 up to 3/2 at k = 1/4 and 1; c(1/4) = 0
@@ -50,7 +50,7 @@ def cubic(**asked: Any) -> Problem:
     ],
 )
 def test_the_objective_is_the_sum_of_its_terms(minimise: str, value: float) -> None:
-    values = worth(cubic(minimise=minimise), CUBIC)
+    values = evaluate(cubic(minimise=minimise), CUBIC)
     assert values.objective == pytest.approx(value, rel=1e-14)
     assert values.excess == 0.0
 
@@ -90,7 +90,7 @@ def test_the_objective_is_the_sum_of_its_terms(minimise: str, value: float) -> N
     ids=str,
 )
 def test_the_excess_is_the_greatest_of_all_that_is_broken(asked: dict[str, Any], excess: float) -> None:
-    assert worth(cubic(**asked), CUBIC).excess == pytest.approx(excess, rel=1e-12, abs=1e-15)
+    assert evaluate(cubic(**asked), CUBIC).excess == pytest.approx(excess, rel=1e-12, abs=1e-15)
 
 
 @pytest.mark.parametrize(
@@ -109,17 +109,17 @@ def test_the_excess_is_the_greatest_of_all_that_is_broken(asked: dict[str, Any],
 )
 def test_a_law_that_goes_back_is_judged_by_its_speed(asked: dict[str, Any], excess: float) -> None:
     problem = Problem(boundary=ENDS, symmetric=False, **asked)
-    assert worth(problem, SWAYING).excess == pytest.approx(excess, rel=1e-12, abs=1e-15)
+    assert evaluate(problem, SWAYING).excess == pytest.approx(excess, rel=1e-12, abs=1e-15)
 
 
 def test_laws_of_other_strokes() -> None:
     back = BoundaryConditions((0, 0), (-1, 0))
-    assert worth(Problem(boundary=back, symmetric=False, B=at_most(1.2)), BACK).excess == pytest.approx(0.25)
-    assert worth(Problem(boundary=back, symmetric=False, monotone=True), BACK).excess == pytest.approx(1.5)
+    assert evaluate(Problem(boundary=back, symmetric=False, B=at_most(1.2)), BACK).excess == pytest.approx(0.25)
+    assert evaluate(Problem(boundary=back, symmetric=False, monotone=True), BACK).excess == pytest.approx(1.5)
     short = BoundaryConditions((0, 0), (0.4, 0))
     # speeds below the mean velocity of a rise are measured by that
     slow = Problem(boundary=short, symmetric=False, inflexion=0.25)
-    assert worth(slow, SHORT).excess == pytest.approx(0.6 - 0.45)
+    assert evaluate(slow, SHORT).excess == pytest.approx(0.6 - 0.45)
 
 
 @pytest.mark.parametrize(
@@ -155,5 +155,5 @@ def test_a_velocity_is_too_small_only_where_its_place_is_not_asked() -> None:
 
 
 def test_a_range_without_an_end_asks_nothing() -> None:
-    assert worth(cubic(B=at_most(inf), C=at_most(inf)), CUBIC).excess == 0.0
-    assert np.isfinite(worth(cubic(), CUBIC).objective)
+    assert evaluate(cubic(B=at_most(inf), C=at_most(inf)), CUBIC).excess == 0.0
+    assert np.isfinite(evaluate(cubic(), CUBIC).objective)

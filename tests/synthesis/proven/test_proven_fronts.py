@@ -20,7 +20,7 @@ from optlaws import (
     synthesize,
 )
 from tests.internals.laws import law_between
-from tests.internals.synthesis import worth
+from tests.internals.synthesis import evaluate
 from tests.sampling import sampled
 
 REST = Problem(order=4)
@@ -54,8 +54,8 @@ def test_between_the_laws_too_the_gap_is_as_stated(case: str) -> None:
     middles = (np.array(front.values[1:]) + np.array(front.values[:-1])) / 2.0
     for value in [*between, *random.uniform(*between, 4).tolist(), *random.choice(middles, 2).tolist()]:
         point, best = front(value), synthesize(front.number.at(value))
-        assert worth(point.problem, point.law).excess <= 1e-12
-        assert point.objective == worth(point.problem, point.law).objective
+        assert evaluate(point.problem, point.law).excess <= 1e-12
+        assert point.objective == evaluate(point.problem, point.law).objective
         assert point.gap <= front.gap + 1e-15
         # each side is on its side of what synthesize proves of the same problem
         assert point.lower_bound <= best.objective * (1.0 + 1e-12)

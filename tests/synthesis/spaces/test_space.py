@@ -23,13 +23,13 @@ def test_the_last_32_that_were_made_are_kept() -> None:
 
         return space.cached(("mine", key), anew)
 
-    space._kept.clear()
+    space._cache.clear()
     for key in range(32):
         assert make(key) == float(key)
     assert [make(key)[0] for key in range(32)] == list(range(32))
     assert made == list(range(32))
     assert make(32) == 32.0
-    assert len(space._kept) == 32
+    assert len(space._cache) == 32
     # the first one had to go, and no other
     assert [make(key)[0] for key in range(1, 33)] == list(range(1, 33))
     assert made == list(range(33))

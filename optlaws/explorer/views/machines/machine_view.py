@@ -48,7 +48,7 @@ def answer(request: CycleRequest) -> dict[str, Any]:
         spec, axis = _read(request)
         laws = [_law(spec, other) for other in _beside(spec, axis)]
         shown = laws[_place(spec, axis)]
-        known = {"laws": [_told(law) for law in laws], "active": _place(spec, axis)}
+        known = {"laws": [_described(law) for law in laws], "active": _place(spec, axis)}
         if isinstance(shown, OptlawsError):
             return known | {"refused": refusal(shown)}
         return known | _view(shown, axis, [law for law in laws if isinstance(law, Cycle)], laws)
@@ -84,7 +84,7 @@ def _law(spec: CycleProblemFile, axis: AxisEntries) -> Cycle | OptlawsError:
     return cycle
 
 
-def _told(law: Cycle | OptlawsError) -> dict[str, Any]:
+def _described(law: Cycle | OptlawsError) -> dict[str, Any]:
     return {"refused": refusal(law)} if isinstance(law, OptlawsError) else {"trust": cycle_view.trust(law)}
 
 

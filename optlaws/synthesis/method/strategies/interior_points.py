@@ -163,10 +163,10 @@ class ByInteriorPoints(Strategy[list[Points], ActiveSet]):
         if quick is not None:
             return self._noted(quick)
         fine = self.count > 1 and _only(program, LinearFamily, ConeFamily, EnergyFamily)
-        answer = self._asked(program, points, fine=fine)
-        return self._asked(program, points, fine=False) if fine and not answer.usable else answer
+        answer = self._answer_on(program, points, fine=fine)
+        return self._answer_on(program, points, fine=False) if fine and not answer.usable else answer
 
-    def _asked(self, program: Program, points: list[Points], *, fine: bool) -> Answer:
+    def _answer_on(self, program: Program, points: list[Points], *, fine: bool) -> Answer:
         return self._noted(solve_on_points(program, points, self.start, fine=fine))
 
     def _noted(self, answer: Answer) -> Answer:

@@ -23,7 +23,7 @@ from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import model_of
 from optlaws.synthesis.proof.nodes import Contact
 from optlaws.synthesis.proof.power.box import Box, BoxRows, Places
-from optlaws.synthesis.proof.sublevel_bounds import asked_or_claimed
+from optlaws.synthesis.proof.sublevel_bounds import greatest_constants
 from optlaws.tolerances import AWAY_FROM_REST, ENERGY_OUTWARD, FLAT_SECANT, MIDDLE, SECANT_SERIES
 
 #: X² (1 - X) is nowhere above
@@ -124,7 +124,7 @@ def applies(problem: Problem) -> bool:
     known = [family for family in shared if len(family.factors) > 1]
     if not known or not problem.monotone or not isinstance(problem.B, float):
         return False
-    bounds = asked_or_claimed(model, 1.0)
+    bounds = greatest_constants(model, 1.0)
     names = {family.name for family in shared}
     return all(constant.convex or constant.name in names for constant in problem.constants) and all(
         isfinite(bounds.get(name, inf)) for name in model.places
@@ -143,7 +143,7 @@ class EnergyRows(BoxRows):
         self.shared = [family for family in self.model.program.families if isinstance(family, EnergyFamily)]
         self.peaks = {family.name: family for family in self.shared if len(family.factors) > 1}
         self.energy: Energy = self.shared[0].energy
-        self.greatest = asked_or_claimed(self.model, claim)
+        self.greatest = greatest_constants(self.model, claim)
         self.least = {constant.name: float(constant.limit(problem) or 0.0) for constant in problem.constants}
 
     @property
