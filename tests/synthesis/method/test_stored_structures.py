@@ -30,6 +30,9 @@ USUAL = [
     Problem(B=1.7, order=4, basis=Chebyshev(9), minimise="J"),
     Problem(B=2.389, order=3, basis=Chebyshev(18), minimise="J", monotone=True),
     Problem(order=4, basis=Chebyshev(7), minimise="J"),
+    Problem(B=1.641, order=4, basis=Chebyshev(9), minimise="D"),
+    Problem(B=2.3, order=2, basis=Chebyshev(20), minimise="3*D", monotone=True),
+    Problem(order=5, basis=Chebyshev(5), minimise="D"),
 ]
 
 
@@ -54,12 +57,13 @@ def test_the_last_digit_is_that_of_the_general_way(problem: Problem) -> None:
     quick, general, misled = synthesize(problem), solved_with(none, problem), solved_with(wrong, problem)
     assert quick.iterations == 0 < general.iterations
     for other in (general, misled):
-        assert quick == other
+        # of a problem that is not convex several starts were tried when its structure was stored
+        assert quick == replace(other, starts=quick.starts)
         assert quick.law == other.law
         assert quick.certificate == other.certificate
 
 
-@pytest.mark.parametrize("minimise", ["C", "J"])
+@pytest.mark.parametrize("minimise", ["C", "J", "D"])
 @pytest.mark.parametrize("monotone", [False, True])
 def test_the_file_holds_what_is_computed(minimise: str, monotone: bool) -> None:  # noqa: FBT001
     problem = Problem(order=4, basis=Chebyshev(3), minimise=minimise, monotone=monotone)
