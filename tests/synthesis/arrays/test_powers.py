@@ -25,7 +25,7 @@ from tests.internals.synthesis import (
     SolvedBatch,
     States,
     between,
-    laws_along,
+    laws_on,
     least_power,
     locally_optimal,
     on_global_branch,
@@ -102,11 +102,12 @@ def path_of(degree: int) -> Path:
 
 def test_laws_of_least_power_where_their_structure_changes() -> None:
     path = path_of(9)
-    edges = np.array([segment.end for segment in ParametricContinuation(path, 0.0, 1.0).whole(np.array([0.5]))[:-1]])
+    segments = ParametricContinuation(path, 0.0, 1.0).whole(np.array([0.5]))
+    edges = np.array([segment.end for segment in segments[:-1]])
     assert len(edges) == 4
     beside = np.concatenate([edges + away for away in (-1e-6, 0.0, 1e-6)])
     t = np.sort(np.concatenate([np.linspace(0.0, 1.0, 40), beside]))
-    laws = laws_along(path, t)
+    laws = laws_on(path, segments, t)
     assert laws.solved.all()
     for row in np.flatnonzero(np.isin(t, edges)):
         alone = synthesize(Problem(order=4, basis=Chebyshev(9), B=float(1.42 + 1.18 * t[row]), minimise="D"))
