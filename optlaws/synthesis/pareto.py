@@ -30,7 +30,7 @@ from optlaws.synthesis.problem.ranges import Range
 from optlaws.synthesis.program.writer import extreme_velocity
 from optlaws.synthesis.proof.data import as_json, problem_of, stated
 from optlaws.synthesis.solution import Solution
-from optlaws.synthesis.solve import Bound, check_bound, synthesize
+from optlaws.synthesis.solve import TIGHT, Bound, check_bound, synthesize
 from optlaws.synthesis.solve_many import SolvedLine
 from optlaws.synthesis.status import Status
 from optlaws.tolerances import AGREEMENT, NEARLY_NOTHING, NO_EXCHANGE
@@ -329,7 +329,7 @@ def pareto_front(
         Least and greatest value of the first constant; where it pays unless given. Beyond the value that the law of
         least last constant has, both constants get worse, so no points lie there.
     bound
-        As of `synthesize`: "tight" proves the points of fronts with D, too, in up to some seconds each.
+        As of `synthesize`: "tight" proves the points of fronts with D, too, fifty of them in some seconds.
 
     Raises
     ------
@@ -464,6 +464,9 @@ class _Curve:
             return NEARLY_NOTHING * pays, self._best(self._problem(NEARLY_NOTHING * pays))
         value = least * (1.0 + _ABOVE[0])
         solution = self._best(self._problem(value))
+        if self.bound == TIGHT and not solution.problem.convex:
+            # nearer, boxes that bound all laws are so thin that rounding fills them
+            return value, solution
         for above in _ABOVE[1:]:
             # so near to its least value the constant leaves the solver no room: the contacts are continued instead
             nearer = self._tried(self._problem(least * (1.0 + above)), solution)
@@ -497,10 +500,13 @@ class _Curve:
 
     def _solved(self, value: float, left: Solution, right: Solution) -> Solution | OptlawsError:
         problem = self._problem(value)
-        if problem.convex:
+        if problem.convex or self.bound == TIGHT:
+            # what is proven of all laws needs no other start
             near = self._tried(problem, left)
-            optimal = isinstance(near, Solution) and near.status is Status.OPTIMAL
-            return near if optimal else self._tried(problem, None)
+            if isinstance(near, Solution) and near.status is Status.OPTIMAL:
+                return near
+        if problem.convex:
+            return self._tried(problem, None)
         # a branch of local optima may cease to be the best, so it is only continued where the starts lead to worse
         best = self._tried(problem, None)
         if not isinstance(best, Solution) or best.objective > left.objective or best.objective < right.objective:

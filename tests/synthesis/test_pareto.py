@@ -110,14 +110,16 @@ def test_three_constants_give_a_surface() -> None:
     assert max(solution.gap for solution in front) < 1e-7
 
 
-@pytest.mark.long
-def test_fronts_of_power_are_proven() -> None:
-    proven = pareto_front(Problem(B=1.641, order=4, basis=Chebyshev(3)), over=("C", "D"), points=3, bound="tight")
-    assert len(proven) == 3
+@pytest.mark.parametrize(("problem", "over"), [(Problem(B=1.641, order=4), ("C", "D")), (Problem(order=3), ("B", "D"))])
+def test_fronts_of_power_are_proven(problem: Problem, over: tuple[str, str]) -> None:
+    proven = pareto_front(problem, over=over, points=4, bound="tight")
+    assert len(proven) == 4
     assert falls(proven)
-    # at the least C hardly any law is left, and the search stops at a gap of 1e-4
-    assert max(solution.gap for solution in proven) < 1e-3
-    assert [solution.status for solution in proven][1:] == [Status.OPTIMAL] * 2
+    assert max(solution.gap for solution in proven) < 1e-8
+    assert [solution.status for solution in proven] == [Status.OPTIMAL] * 4
+    for solution in proven:
+        alone = synthesize(solution.problem, bound="tight")
+        assert solution.objective == pytest.approx(alone.objective, rel=1e-9)
 
 
 def test_fronts_of_power_are_ordered_and_as_many_as_given(power: Front) -> None:

@@ -63,8 +63,9 @@ class Path:
     def program(self, t: float) -> Program:
         """The program at one t."""
         numbers, program = self.numbers(np.array([t])), self.model.program
+        # what a family has computed stays with it
         families = tuple(
-            replace(family, bound=float(bound))
+            family if family.bound == bound else replace(family, bound=float(bound))
             for family, bound in zip(program.families, numbers.bounds[0], strict=True)
         )
         return replace(program, families=families, right=numbers.right[0], objective=numbers.cost[0])
