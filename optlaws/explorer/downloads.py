@@ -111,6 +111,9 @@ def _proof(request: FileRequest) -> File:
     if request.fastest is not None and request.view == "fastest":
         stated = {"about": MARK, **fastest_view.proof_of(request.fastest)}
         return _file("fastest.json", "application/json", json.dumps(stated) + "\n")
+    if request.old is not None and request.view == "old":
+        solutions = [law for law in request.old.laws if law is not None]
+        return _file("old_cam.json", "application/json", json.dumps({"about": MARK, "solutions": solutions}) + "\n")
     if request.view not in ("cycle", "axes", "machine"):
         return _file(f"{_stem(_title(request.law))}.json", "application/json", stored(request.law))
     shown: cycle_view.CycleRequest | None = getattr(request, request.view)

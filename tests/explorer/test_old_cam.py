@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from optlaws import Cycle, catalogue, read_cycle_table
+from optlaws.verification import verify
 from tests.documents import ROOT
 from tests.explorer.talk import OPTIMAL, Server
 from tests.explorer.test_page import go
@@ -76,7 +77,9 @@ def test_better_laws_are_the_library_s_and_so_are_their_files(served: Server, tu
         assert f"({100.0 * gain.share(2):+.1f} %)".replace("-", "−") in shown["cells"][1]
         assert max(map(abs, shown["curves"][1]["values"])) <= 0.1 * (1.0 + 1e-6)
         assert not isinstance(part.law, str)
-        assert shown["law"] == json.loads(json.dumps(part.law.to_dict()))  # type: ignore[union-attr]
+        assert part.solution is not None
+        stored = json.loads(json.dumps(part.solution.to_dict()))
+        assert {**shown["law"], "seconds": 0.0} == {**stored, "seconds": 0.0}
     old = {"study": study, "laws": [shown["law"] for shown in moves]}
     cycle = better.cycle(speed="200 rpm")
     told = served.ask("export", {"format": "csv", "view": "old", "laws": LAWS, "old": old, "points": 91})
@@ -84,6 +87,9 @@ def test_better_laws_are_the_library_s_and_so_are_their_files(served: Server, tu
     kept = served.ask("save", {"kind": "law", "view": "old", "laws": LAWS, "old": old})
     assert Cycle.from_json(kept["text"]).peak(2) == cycle.peak(2)
     assert "have no name" in served.ask("save", {"kind": "problem", "view": "old", "laws": LAWS, "old": old})["error"]
+    proof = served.ask("save", {"kind": "proof", "view": "old", "laws": LAWS, "old": old})["text"]
+    (solution,) = json.loads(proof)["solutions"]
+    assert verify(solution).proven
     plain = served.ask("save", {"kind": "problem", "view": "old", "laws": LAWS, "old": {"study": STUDY}})
     assert plain["name"] == "turn.toml"
     assert 'law = "modified sine"' in plain["text"]
@@ -138,6 +144,11 @@ def test_a_dropped_table_is_shown_and_bettered_within_a_dragged_band(page: Page,
         "old-move?patience=20", {"study": {"file": "turn.csv", "text": STUDY["text"], "within": 0.2}, "move": 0}
     )
     assert wide["cells"][1].split("(")[1] in page.locator("#old-gains").inner_text()
+    page.get_by_role("button", name="check this proof").click()
+    # of windows of a formula `optlaws verify` alone knows the proof, and the page says so
+    page.locator("#proof-verdict", has_text="partly checked old_cam.json").wait_for(timeout=30_000)
+    assert "not proven" not in page.locator("#proof-view").inner_text()
+    page.get_by_role("button", name="Undo").click()
     page.get_by_role("button", name="Undo").click()
     bettered(page)
     assert band.input_value() == "0.07"

@@ -18,6 +18,7 @@ from optlaws.numerics.bernstein import greatest_difference
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.problem.ranges import at_most
 from optlaws.synthesis.problem.windows import Window
+from optlaws.synthesis.solution import Solution
 from optlaws.synthesis.solve import synthesize
 from optlaws.synthesis.spaces.bases import Chebyshev
 from optlaws.tolerances import MODERNISED_JERK, WITHIN_TOLERANCE
@@ -67,12 +68,12 @@ def better(part: Stretch, room: float, order: int, degree: int) -> Stretch:
     if share < least_distance(old, order, degree):
         return part
     for places in _PLACES:
-        law = _nearby(old, share, places, order, degree)
-        if law is None or law.constants.C.value >= old.constants.C.value:
+        solution = _nearby(old, share, places, order, degree)
+        if solution is None or solution.law.constants.C.value >= old.constants.C.value:
             return part
         # between its places the spline is not the old law
-        if deviation(law, old) <= share * (1.0 + WITHIN_TOLERANCE):
-            return replace(part, law=law)
+        if deviation(solution.law, old) <= share * (1.0 + WITHIN_TOLERANCE):
+            return replace(part, law=solution.law, solution=solution)
     return part
 
 
@@ -91,7 +92,7 @@ def least_distance(old: MotionLaw, order: int, degree: int) -> float:
     return float(np.sqrt(np.mean(left**2)))
 
 
-def _nearby(old: MotionLaw, share: float, places: int, order: int, degree: int) -> MotionLaw | None:
+def _nearby(old: MotionLaw, share: float, places: int, order: int, degree: int) -> Solution | None:
     k = np.linspace(0.0, 1.0, places)
     points = ", ".join(f"{place:.9g}:{height:.9g}" for place, height in zip(k, old(k), strict=True))
     near = Window(f"a - spline(k, {points})", low=-share, high=share)
@@ -101,7 +102,7 @@ def _nearby(old: MotionLaw, share: float, places: int, order: int, degree: int) 
         J=at_most(jerk) if np.isfinite(jerk) else None,
     )  # fmt: skip
     try:
-        return synthesize(problem).law
+        return synthesize(problem)
     except (InfeasibleProblem, SolverFailure):
         return None
 

@@ -14,6 +14,7 @@ from optlaws.laws import MotionLaw
 from optlaws.laws.catalogue.catalogue import catalogue
 from optlaws.laws.making.through_points import law_through
 from optlaws.numbers import Array
+from optlaws.synthesis.solution import Solution
 from optlaws.tolerances import CLOSE_FIT, ROUGH_FIT
 
 StretchKind: TypeAlias = Literal["dwell", "rise", "return"]
@@ -46,6 +47,8 @@ class Stretch:
         The standard law that is nearest.
     distance
         How far the points are from that at most, in units of the table.
+    solution
+        Of a better law: the solution that it is from, with its certificate.
     """
 
     kind: StretchKind
@@ -56,6 +59,7 @@ class Stretch:
     law: str | MotionLaw | None = None
     nearest: str = ""
     distance: float = 0.0
+    solution: Solution | None = None
 
     @property
     def stroke(self) -> float:

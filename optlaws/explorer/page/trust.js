@@ -19,8 +19,13 @@ function trust({ status, word, advice, gap, facts, proof }) {
   return [
     html("p", {}, html("strong", { class: `word ${status}`, text: word }), ` ${advice} `, html("span", { class: "quiet", text: gap })),
     html("p", { class: "facts", text: facts.join(" · ") }),
-    proof ? html("p", {}, html("button", { type: "button", class: "link", "data-key": "prove", text: "check this proof", onclick: ({ target }) => target.dispatchEvent(new Event("prove", { bubbles: true })) })) : null,
+    proof ? checking() : null,
   ].filter(Boolean);
+}
+
+/** The button by which the second checker is given what is shown. */
+export function checking() {
+  return html("p", {}, html("button", { type: "button", class: "link", "data-key": "prove", text: "check this proof", onclick: ({ target }) => target.dispatchEvent(new Event("prove", { bubbles: true })) }));
 }
 
 function refusal({ word, reason, tried }, ways, go) {

@@ -12,7 +12,7 @@ from typing import Annotated, Any
 import msgspec
 import numpy as np
 
-from optlaws import Cycle, MotionLaw
+from optlaws import Cycle, MotionLaw, Solution
 from optlaws.cycles.old_tables.better_moves import better, gain, law_of_move
 from optlaws.cycles.old_tables.reading import points_in
 from optlaws.cycles.old_tables.stretches import Stretch
@@ -228,7 +228,7 @@ def _better(study: bytes, number: int) -> dict[str, Any]:
     places, heights = _of_part(new, 0)
     curves = [(places, heights), (places, heights - old.at(places)), *(_of_part(new, nu) for nu in (1, 2, 3))]
     return {
-        "law": new.law.to_dict(),
+        "law": None if new.solution is None else new.solution.to_dict(),
         "curves": [{"at": drawn(at, 6), "values": drawn(values, 8)} for at, values in curves],
         "peaks": [list(_peak(new, nu)) for nu in (1, 2, 3)],
         "cells": [
@@ -268,8 +268,13 @@ def with_laws(request: OldCycleRequest) -> OldTable:
     stretches = []
     for part in old.stretches:
         law = None if part.law is None else next(chosen)
-        stretches.append(part if law is None else replace(part, law=MotionLaw.from_dict(law)))
+        stretches.append(part if law is None else replace(part, law=_law_of(law)))
     return replace(old, stretches=tuple(stretches))
+
+
+def _law_of(entries: dict[str, Any]) -> MotionLaw:
+    """A law as it is stored, or that of a stored solution."""
+    return Solution.from_dict(entries).law if "certificate" in entries else MotionLaw.from_dict(entries)
 
 
 def example() -> dict[str, Any]:

@@ -7,7 +7,7 @@ import { textOf } from "../opening.js";
 import { Panels } from "../panels.js";
 import { Strip } from "../strip.js";
 import { html, renew } from "../svg.js";
-import { showTrust, unanswered } from "../trust.js";
+import { checking, showTrust, unanswered } from "../trust.js";
 
 const told = (value) => JSON.stringify(value);
 const FIELDS = {
@@ -146,7 +146,8 @@ export class View {
       this.#draw();
       this.#ask(this.#study.state.old);
     } });
-    renew(this.#gains, html("p", { class: "quiet", text: words }), this.#wanted ? table("Better laws within the tolerance", headings, rows) : button);
+    const check = this.#found.some((one) => one?.law) ? [checking()] : [];
+    renew(this.#gains, html("p", { class: "quiet", text: words }), this.#wanted ? table("Better laws within the tolerance", headings, rows) : button, ...check);
   }
 
   /** The tolerance is dragged up to a fiftieth of the stroke, or typed. */
