@@ -117,7 +117,7 @@ def _at(pair: Pair, which: NDArray[np.intp]) -> Pair:
 
 
 def spline_through(points: Array) -> PiecewiseCurve:
-    """The closed cubic spline through points, m, shape (n, 2), over chords between them: what drawing programs draw.
+    """The closed cubic spline through points, m, shape (n, 2), over chord lengths, as drawing programs compute it.
 
     Its curvature is continuous everywhere; the last point is the first again.
     """

@@ -38,7 +38,7 @@ from optlaws.tolerances import CAM_FEASIBILITY, CAM_GAIN
 
 
 class SolvedPiece(NamedTuple):
-    """A piece of a cycle with its law, with its solution if it was looked for, and a bound better than that one's."""
+    """A piece of a cycle with its law, its solution if the law is optimised, and possibly a better bound."""
 
     piece: Piece
     solution: Solution | None

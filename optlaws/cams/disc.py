@@ -1,4 +1,4 @@
-"""A disc cam: a motion, a prime circle and a follower, and what follows from them as functions of the cam's angle."""
+"""A disc cam: a motion, a prime circle and a follower, with all its curves as functions of the cam's angle."""
 
 from __future__ import annotations
 

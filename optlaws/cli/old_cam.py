@@ -210,7 +210,7 @@ def _facts(file: Path, old: OldTable, new: OldTable | None) -> dict[str, Any]:
 
 
 def refuse_options(options: OldCamOptions, points: TableOptions) -> None:
-    """Refuse, of a problem file, what is of the table of an old cam."""
+    """Refuse options for the table of an old cam where a problem file is given."""
     given = {**vars(options), **vars(points)}
     for name, value in given.items():
         if value is not None:

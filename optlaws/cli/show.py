@@ -80,7 +80,7 @@ def _show_table(rows: Table, console: Console) -> None:
 
 
 def number(value: float, size: float, form: str = ".10g") -> str:
-    """A number as people read it: what is rounding beside the size of its kind is 0.
+    """A number in readable form: rounding errors relative to its kind's size become 0.
 
     Examples
     --------

@@ -1,1 +1,1 @@
-"""Whole cycles of machines in physical units: segments, their laws, peaks, drives, and what is optimal of it all."""
+"""Whole cycles of machines in physical units: segments, their laws, peaks, drives, and optimal cycles."""

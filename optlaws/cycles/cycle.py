@@ -67,7 +67,7 @@ _STRICTER = (
 
 @dataclass(frozen=True, repr=False)
 class Cycle(CycleInterchange):
-    """A cycle that repeats: segments, and how fast the master turns; call it for motion in SI units over time.
+    """A cycle that repeats: segments and the speed of the master; call it for motion in SI units over time.
 
     Positions are lengths or angles, whichever the first displacement is. Laws that are to be optimal are looked for
     when they are first needed; between joints that are known the cycle decouples, and each law is proven by itself.
@@ -170,7 +170,7 @@ class Cycle(CycleInterchange):
 
     @kept_property
     def solutions(self) -> tuple[Solution, ...]:
-        """The solution of each motion that was looked for, in order, with its proof; dimensionless."""
+        """The solution of each optimised motion, in order, with its proof; dimensionless."""
         return tuple(solution for _, solution in self._best.laws)
 
     @kept_property
@@ -181,7 +181,7 @@ class Cycle(CycleInterchange):
 
     @property
     def status(self) -> Status:
-        """The worst status of the solutions; optimal where nothing was to be looked for."""
+        """The worst status of the solutions; optimal where no motion is optimised."""
         ranks = (Status.OPTIMAL, Status.LOCAL, Status.INACCURATE)
         worst = max((solution.status for solution in self.solutions), key=ranks.index, default=Status.OPTIMAL)
         if self.solutions and worst == Status.OPTIMAL and self.lower_bound is not None:

@@ -1,4 +1,4 @@
-"""The fastest cycle: the greatest speed under its limits, what binds there, and the proof that none is greater."""
+"""The fastest cycle: the greatest speed under its limits, the active limit there, and the proof of optimality."""
 
 from __future__ import annotations
 

@@ -51,7 +51,7 @@ class CycleInterchange(JsonText):
         return self
 
     def to_dict(self) -> dict[str, Any]:
-        """The entries of the cycle, plain and JSON-able; its laws are looked for again when it is read.
+        """The entries of the cycle, plain and JSON-able; its laws are optimised again after reading.
 
         Examples
         --------
@@ -132,7 +132,7 @@ class CycleInterchange(JsonText):
         return f"Cycle([{names}{more}], period={cycle.duration:.6g} s, minimise={cycle.minimise!r})"
 
     def motion(self, master: Quantity | None = "360 deg", unit: str | None = None) -> Motion:
-        """The exact motion over its master in machine units, which repeats; optimal laws are looked for now.
+        """The exact motion over its master in machine units, which repeats; laws are optimised at this call.
 
         Parameters
         ----------

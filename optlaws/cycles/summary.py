@@ -1,4 +1,4 @@
-"""Rows that summarise a cycle: what is proven of it, its peaks, its drive, its joints; and its page in a notebook."""
+"""Rows that summarise a cycle: its proof, its peaks, its drive, its joints; and its page in a notebook."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ def force_name(cycle: Cycle) -> str:
 
 
 def proof_rows(cycle: Cycle) -> list[Row]:
-    """The value of the objective and its proof; nothing where no law was looked for."""
+    """The value of the objective and its proof; nothing where no law was optimised."""
     if not cycle.solutions:
         return []
     unit = objective_unit(cycle)
@@ -112,10 +112,10 @@ def drive_rows(cycle: Cycle) -> list[Row]:
     if isinstance(cycle.drive, Drive):
         rows = list(cycle.sheet.summary())
     elif cycle.drive is not None:
-        effort, force = cycle.effort, force_unit(cycle)
+        effort, force, name = cycle.effort, force_unit(cycle), force_name(cycle)
         rows = [
-            Row(f"peak of {force_name(cycle)}", effort.peak_force, force),
-            Row("RMS of it", effort.rms_force, force),
+            Row(f"peak of {name}", effort.peak_force, force),
+            Row(f"RMS of {name}", effort.rms_force, force),
             Row("peak of power", effort.peak_power, "W"),
             Row("mean of power", effort.mean_power, "W"),
             Row("peak torque at the master's shaft", effort.shaft_torque(2.0 * pi / cycle.duration), "N m"),

@@ -1,4 +1,4 @@
-"""Files that the page offers: what is seen as Python, as a problem file, as laws and tables, for a controller."""
+"""Files that the page offers: its state as Python, as a problem file, as laws and tables, for a controller."""
 
 from __future__ import annotations
 
@@ -59,7 +59,7 @@ class SeenRequest(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
 
 
 class FileRequest(SeenRequest, kw_only=True, forbid_unknown_fields=True):
-    """A file of what is seen."""
+    """A file of the page's state."""
 
     kind: Literal["python", "problem", "law", "table", "cut", "proof"]
     view: Literal["laws", "cycle", "axes", "cam", "machine", "fastest", "study", "old"] = "laws"

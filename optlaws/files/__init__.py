@@ -1,1 +1,1 @@
-"""Files in and out: what comes in is read whole and checked, what goes out is written whole or not at all."""
+"""Files in and out: inputs are read completely and checked, outputs are written completely or not at all."""

@@ -249,7 +249,7 @@ class Solution(LawExport, JsonText):
         return cls(**read_row(data))
 
     def claims(self) -> dict[str, Any]:
-        """The data of `to_dict` without `state`: what can be verified, and how the search went."""
+        """The data of `to_dict` without `state`: the verifiable part, and the course of the search."""
         beside = {"peak_certificate": self.peak_certificate, "drive_limit": self.drive_limit}
         placed = {name: proof.to_dict() for name, proof in beside.items() if proof is not None}
         return placed | {

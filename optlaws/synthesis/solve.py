@@ -85,7 +85,7 @@ def _check_types(problem: object, start: object, bound: object) -> None:
 
 
 def check_bound(bound: object) -> None:
-    """Refuse what is no way to bound a problem."""
+    """Refuse unknown kinds of bounds."""
     if bound not in BOUNDS:
         raise InputError(unknown_key(bound, BOUNDS, "bound"))
 

@@ -230,7 +230,7 @@ class SolvedLine:
 
 
 def synthesize_array(problems: ProblemArray, *, bound: Bound = "quick") -> SolutionArray:
-    """Find the best law of each of many problems and prove it: what `synthesize` gives for each, in far less time.
+    """Find and prove the best law of each of many problems: results as from `synthesize`, in far less time.
 
     A problem without a law, or a number that makes no problem, spoils its own place alone.
 
@@ -374,7 +374,7 @@ def sweep(
 
 
 def check_errors(errors: object) -> None:
-    """Refuse what is no way to deal with errors."""
+    """Refuse unknown treatments of errors."""
     if errors not in ERRORS:
         raise InputError(unknown_key(errors, ERRORS, "errors"))
 

@@ -117,19 +117,19 @@ class DwellMechanism(JsonText):
 
     @property
     def S_sp(self) -> float:
-        """Way of the rocker while the clutch acts, in S (eq. 11); 0 for type I."""
+        """Travel of the rocker while the clutch acts, in S (eq. 11); 0 for type I."""
         return 0.0 if self.kind == "I" else self.speed * self.clutch_angle
 
     @property
     def S1(self) -> float:
-        """Way in the upper dwell (I, eq. 7) or of run-out and run-up together (II, eq. 14), in S; 0 for type III."""
+        """Travel in the upper dwell (I, eq. 7) or of run-out and run-up together (II, eq. 14), in S; 0 for III."""
         if self.kind == "I":
             return self.speed * self.dwell
         return self.speed * self.phi1 / self.law_1.constants.B.value
 
     @property
     def S2(self) -> float:
-        """Way of the reverse motion (II, eq. 9) or of run-out and run-up together (III, eq. 26), in S; 0 for type I."""
+        """Travel of the reverse motion (II, eq. 9) or of run-out and run-up together (III, eq. 26), in S; 0 for I."""
         if self.kind == "I":
             return 0.0
         return self.S1 + 2.0 * self.S_sp if self.kind == "II" else self.speed * self.phi2 / self.law_2.constants.B.value

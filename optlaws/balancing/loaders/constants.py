@@ -104,7 +104,7 @@ class LoaderPeak(Functional):
     def convex_families(
         self, space: LawSpace, slack: Array, bound: float, problem: ProblemView
     ) -> tuple[ConstraintFamily, ...]:
-        """B of the loader itself, which is convex at one B of the law; of the others what no law is below."""
+        """B of the loader itself, which is convex at a fixed B of the law; lower bounds of its other peaks."""
         if self.of == "B" and isinstance(problem.B, float):
             families = self.families(space, slack, bound)
             return tuple(replace(family, convex=True) for family in families if isinstance(family, EnergyFamily))

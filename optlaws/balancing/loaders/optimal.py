@@ -27,7 +27,7 @@ _LEAST_DEGREE, _AT_REST = 3, 2
 
 @dataclass(frozen=True, repr=False)
 class BalancedLaw(JsonText):
-    """An executive law with its loader, and what is proven of it; all numbers are recomputed from the law.
+    """An executive law with its loader and its proven bounds; all numbers are recomputed from the law.
 
     Attributes
     ----------

@@ -71,7 +71,7 @@ def first_least(*known: EnclosedExtreme) -> EnclosedExtreme:
 
 @dataclass(frozen=True)
 class Undercut:
-    """Whether a follower undercuts its cam, and what is proven of it.
+    """The undercut of a cam by its follower, with its proof.
 
     Attributes
     ----------

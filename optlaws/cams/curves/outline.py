@@ -1,4 +1,4 @@
-"""Outlines: what is known of a closed curve that is to be cut, and how it is divided where it bends more."""
+"""Outlines of closed curves to be cut, and their division, finer where they bend more."""
 
 from __future__ import annotations
 

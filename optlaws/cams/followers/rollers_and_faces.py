@@ -38,11 +38,11 @@ class RollerContact(FollowerContact):
 
     @abstractmethod
     def components(self, s: Jet) -> Pair:
-        """How fast the centre goes along the follower's way and across it, seen from the cam."""
+        """The velocity components of the centre along the follower's path and across it, relative to the cam."""
 
     @abstractmethod
     def rate(self, s: Jet) -> Jet | float:
-        """How fast the follower's way turns against the cam."""
+        """The rotation of the follower's path relative to the cam, per radian."""
 
     @abstractmethod
     def curvature_terms(self, displacement: str, slope: str) -> CurvatureTerms:

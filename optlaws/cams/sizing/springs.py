@@ -1,4 +1,4 @@
-"""Springs that keep a follower on its cam over a range of speeds: the least that does, with what proves it."""
+"""Springs that keep a follower on its cam over a range of speeds: the least sufficient spring, with its proof."""
 
 from __future__ import annotations
 

@@ -92,7 +92,7 @@ class BarOptions:
     period: float | None = None
 
     def check(self) -> None:
-        """Refuse what goes with nothing."""
+        """Refuse options without the options that they need."""
         if self.period is not None and self.stiffness is not None:
             raise InputError("--period and --stiffness exclude each other: one gives the other")
         if (self.inertia is None) != (self.period is None and self.stiffness is None):

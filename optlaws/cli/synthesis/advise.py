@@ -192,7 +192,7 @@ def _without_solutions(data: dict[str, Any]) -> dict[str, Any]:
 
 
 def _page(advice: Advice) -> Iterable[Any]:
-    """The table of the laws, why others are missing, and what to take."""
+    """The table of the laws, the reasons for missing ones, and the recommendation."""
     sizes = {measure.name: max(abs(law.values[measure.name]) for law in advice) for measure in advice.measures}
     rows = []
     for law, row in zip(advice, advice.rows, strict=True):

@@ -127,7 +127,7 @@ def front(
 
 
 def _export(front: optlaws.ProvenFront, files: FileOptions, *, as_json: bool) -> None:
-    """Functions to their file or to stdout, and what is proven of them."""
+    """Write functions to their file or to stdout, and report their proof."""
     assert files.to is not None  # noqa: S101 - that is what it is called for
     export = front.export(files.to, files.within, name=files.name)
     if files.output is not None:

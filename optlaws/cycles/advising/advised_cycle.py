@@ -106,14 +106,14 @@ class AdvisedCycle:
         return tuple(name for name in names if name in (*OBJECTIVES, RESIDUAL, self.minimise))
 
     def given(self) -> AdvisedLaw | None:
-        """The cycle as it stands; None where all of its moves are looked for."""
+        """The cycle with its given laws; None where all of its moves are optimised."""
         if all(is_optimal(self.cycle.segments[i]) for i in self._compared):
             return None
         return self._advised("as it stands", "given", self._standing)
 
     @property
     def usual(self) -> str | None:
-        """The name of the law that all of its moves have; None where they have several, or are looked for."""
+        """The common law name of its moves; None where they have several, or are optimised."""
         laws = [getattr(self.cycle.segments[i], "law", OPTIMAL) for i in self._compared]
         first = laws[0]
         return first if isinstance(first, str) and first != OPTIMAL and all(law == first for law in laws) else None
@@ -256,7 +256,7 @@ class AdvisedCycle:
         return ProvenLeast(minimise, max(scaled), None, space, Status.OPTIMAL if proven else Status.LOCAL)
 
     def _tighter(self, limits: Mapping[str, Any], name: str, most: float) -> dict[str, Any]:
-        """A limit that is no wider than a value in SI units, beside those that there are."""
+        """A limit that is no wider than a value in SI units, in addition to existing limits."""
         axis = self.cycle.axis
         if name.startswith(LOAD):
             unit = _unit(self.cycle, name)
@@ -279,7 +279,7 @@ class AdvisedCycle:
 
 
 def _may_change(segment: CycleSegment) -> bool:
-    """Whether another law could take the place of a segment's: it is looked for, or goes from rest to rest."""
+    """Whether a segment's law may be replaced: it is optimised, or goes from rest to rest."""
     if is_optimal(segment):
         return True
     if not isinstance(segment, Move):

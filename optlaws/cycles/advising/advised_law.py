@@ -133,7 +133,7 @@ class AdvisedLaw:
 
     @property
     def solution(self) -> Solution | None:
-        """The solution with its certificate; None of a law that was not looked for.
+        """The solution with its certificate; None for a law that was not optimised.
 
         Raises
         ------
@@ -205,7 +205,7 @@ class AdvisedMotion(Protocol):
         ...
 
     def given(self) -> AdvisedLaw | None:
-        """The laws that it has; None where all are looked for."""
+        """The given laws; None where all laws are optimised."""
         ...
 
     def standard(self, name: str) -> AdvisedLaw:

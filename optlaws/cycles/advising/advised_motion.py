@@ -50,7 +50,7 @@ def advise(
     degree: int | None = None,
     points: int = 7,
 ) -> Advice:
-    """Advice on the law of a motion: standard and optimal laws side by side, what each costs, and which to take.
+    """Advice on the law of a motion: standard and optimal laws side by side, their costs, and a recommendation.
 
     Of the laws that keep every limit, and take no more than the usual law of what has no limit (peak velocity,
     acceleration, jerk, residual vibration, peak and RMS torque), those within 1 % of the least objective are equally

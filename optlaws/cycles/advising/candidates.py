@@ -82,7 +82,7 @@ class Candidates:
         self.usual = first if first in fit else min(fit, key=self._objective, default=first)
 
     def add_optimal(self) -> None:
-        """The laws that are least in what matters; the first must be there.
+        """Add the laws that are least in the objective and the second measure; the first of them must exist.
 
         Raises
         ------
@@ -147,7 +147,7 @@ class Candidates:
 
     @property
     def _twice(self) -> float:
-        """Twice the least of what is minimised: nobody pays more for anything else."""
+        """Twice the least objective, as the greatest acceptable price."""
         best = self.proven or self.laws[f"least {self.minimise}"]
         return 2.0 * best.values[self.minimise]
 
@@ -166,7 +166,7 @@ class Candidates:
         return law
 
     def _drop_equal(self, name: str) -> None:
-        """Leave a law out that takes what another one takes."""
+        """Remove a law that equals another law in all measures."""
         law = self.laws.get(name)
         others = [other for other in self.laws.values() if other is not law]
         if law is not None and any(_is_equal(law, other) for other in others):

@@ -54,7 +54,7 @@ class Recommendation:
 
 
 def recommended(candidates: Candidates, front: Sequence[AdvisedLaw] = ()) -> Recommendation:
-    """The law to take of those that were found.
+    """The recommended law among the known ones.
 
     Of the laws that keep every limit, and take no more than the usual one of what has no limit, those within 1 % of the
     least are equally good; of these the one that takes least of the second measure.

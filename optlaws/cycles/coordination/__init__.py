@@ -1,1 +1,1 @@
-"""Laws of several axes on one clock, looked for together with the instants at which they wait for each other."""
+"""Laws of several axes on one clock, optimised together with the instants at which they wait for each other."""

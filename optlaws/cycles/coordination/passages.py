@@ -1,4 +1,4 @@
-"""Interlocks as conditions on chains: what holds when an axis passes a place, and while it is between two."""
+"""Interlocks as conditions on chains: when an axis passes a position, and while it is between two positions."""
 
 from __future__ import annotations
 

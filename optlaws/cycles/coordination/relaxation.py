@@ -103,7 +103,7 @@ class InstantPlaces:
     known: Array | None
 
     def entry(self, j: int, weight: float) -> tuple[list[int], list[float], float]:
-        """InstantPlaces and values of a row, and what goes to the right side, of a multiple of a position."""
+        """Indices and coefficients of a multiple of a position in a row, and its part of the right side."""
         if self.first is None:
             assert self.known is not None  # noqa: S101 - one of both
             return [], [], -weight * float(self.known[j])

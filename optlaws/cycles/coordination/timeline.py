@@ -36,7 +36,7 @@ class Rest:
 
 @dataclass(frozen=True)
 class BentMove:
-    """A move whose law is looked for: the number of its segment, its name, and its limits in SI units."""
+    """A move with an optimised law: the number of its segment, its name, and its limits in SI units."""
 
     segment: int
     name: str
@@ -110,7 +110,7 @@ def timeline_of(cycle: Any, name: str, *, bends: bool) -> Timeline:  # noqa: ANN
 
 
 def bends_at(cycle: Any) -> bool:  # noqa: ANN401 - a cycle
-    """Whether the laws of all moves of a cycle are to be looked for, each from rest to rest."""
+    """Whether the laws of all moves of a cycle are optimised, each from rest to rest."""
     moves = [stretch.given for stretch in cycle.programme.stretches if isinstance(stretch.given, Move)]
     still = all(move.start_velocity is None and move.end_velocity is None for move in moves)
     known = all(isinstance(stretch.given, Move | Dwell) for stretch in cycle.programme.stretches)
@@ -130,7 +130,7 @@ def _limits(cycle: Any, stretch: TimedSegment, where: str) -> Sides:  # noqa: AN
 
 @dataclass(frozen=True)
 class Node:
-    """A time of a chain: a spell after an instant that is looked for, or after the start of the cycle.
+    """A time of a chain: a duration after an unknown instant, or after the start of the cycle.
 
     `rest` is the number of the rest that begins or ends there, None where a position is passed.
     """

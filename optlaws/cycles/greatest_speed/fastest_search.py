@@ -56,7 +56,7 @@ class TimedSpan:
 
 @dataclass(frozen=True)
 class FastestLaws:
-    """The laws of a cycle at its least period, with the solutions of those that were looked for there."""
+    """The laws of a cycle at its least period, with the solutions of the optimised ones."""
 
     period: float
     starts: tuple[float, ...]
@@ -283,7 +283,7 @@ class FastestSearch:
         return TimedSpan((i,), stretch.where, piece.duration, least, span, given=True)
 
     def _of_span(self, span: LawSpan) -> TimedSpan:
-        """A motion whose law is looked for."""
+        """A motion with an optimised law."""
         places = tuple(stretch.number - 1 for stretch in span.stretches)
         stroke = scale(span)
         rows = self._rows(span, stroke)
@@ -315,7 +315,7 @@ class FastestSearch:
         return all(self.ranges[i].fixed and not self.ranges[i].turns for i in span.places)
 
     def _check(self, span: TimedSpan) -> None:
-        """Refuse motions that move at their ends in cycles that do not turn as one, and those that have no time."""
+        """Refuse motions with moving ends in cycles whose segments are not all angles, and motions without a time."""
         if self.turning:
             return
         if len(span.places) > 1 and not self._turns(span):

@@ -1,4 +1,4 @@
-"""The least period of a cycle from the least times of its motions: what turns with the master, stays, or is free."""
+"""The least period of a cycle from the least times of its motions: angles, fixed times and free durations."""
 
 from __future__ import annotations
 
@@ -107,7 +107,7 @@ def _binding(given: DurationRange, needed: float, period: float) -> Extent:
 
 
 def durations_at(ranges: Sequence[DurationRange], needed: Sequence[float], period: float) -> tuple[float, ...]:
-    """The durations at a period: free motions share what is left in proportion to the least times that they need.
+    """The durations at a period: free motions share the remaining time in proportion to their least times.
 
     >>> free = DurationRange(Extent(0.0, 0.0), Extent(inf, 0.0))
     >>> durations_at([free, DurationRange(Extent(0.25, 0.0), Extent(0.25, 0.0)), free], [0.1, 0.0, 0.2], 1.0)

@@ -136,7 +136,7 @@ def _least_share(base: Problem, rows: Sequence[SpanLimit], scale: float, start: 
 
 
 def limited(base: Problem, rows: Sequence[SpanLimit], scale: float) -> Problem:
-    """The problem of laws that keep all limits at a scale of the time; it minimises what its first limit bounds."""
+    """The problem of laws that keep all limits at a scale of the time; it minimises the first limited constant."""
     terms = [row.term(scale) for row in rows]
     bounds: dict[object, Range] = {}
     for constant, weight in terms:

@@ -170,7 +170,7 @@ def least(
     share: float,
     within: tuple[float, float] | None = None,
 ) -> Extremes:
-    """Least and greatest value of a function of what axes do, proven over a cycle or a window of it."""
+    """Least and greatest value of a function of axis motions, proven over a cycle or a window of it."""
     start, stop = within or (0.0, axes[0].duration)
     breaks = sorted({place for axis in axes for place in axis.breaks if start < place < stop})
     return extremes(function, [start, *breaks, stop], share=share, parts=2)

@@ -115,7 +115,7 @@ class Interlock(JsonText, ABC):
 
     @abstractmethod
     def check(self, cycles: Mapping[str, Any]) -> None:
-        """Refuse what is wrong before any law is looked for."""
+        """Refuse wrong data before any law is optimised."""
 
     def least_clearance(self, cycles: Mapping[str, Any]) -> LeastClearance:
         """The least clearance over the whole cycle that cycles by the names of their axes leave it."""

@@ -52,7 +52,7 @@ class Optimum:
 
 @dataclass(frozen=True)
 class BestInstants:
-    """Durations of all segments, the period, the pace, the proven bound of the objective, and names of what binds."""
+    """Durations of all segments, the period, the pace, the proven bound of the objective, and the active conditions."""
 
     durations: dict[str, list[float]]
     period: float
@@ -99,7 +99,7 @@ class Overlapping:
 
     @kept_property
     def base(self) -> tuple[list[Array], list[float], list[str]]:
-        """Rows, right sides and names of what holds whatever is chosen: row @ unknowns >= right side."""
+        """Rows, right sides and names of the conditions without choices: row @ unknowns >= right side."""
         rows: list[Array] = []
         sides: list[float] = []
         names: list[str] = []
@@ -186,7 +186,7 @@ class Overlapping:
         raise SolverFailure(f"who waits for whom has more than {_NODES} ways: give fewer moves or interlocks")
 
     def _solved(self, choices: Choices, rules: Sequence[Any] | None = None, margin: float = 0.0) -> Optimum | None:
-        """The program with the rows of what is chosen; None where it has no solution."""
+        """The program with the rows of a choice; None where it has no solution."""
         from scipy.optimize import linprog
 
         rows, sides, _ = self._rows(choices, rules, margin)
@@ -265,7 +265,7 @@ class Overlapping:
         return {**choices, **others}
 
     def _added(self, unknowns: Array, choices: Choices) -> bool:
-        """Whether places at which a choice is broken were added to those that are looked at."""
+        """Whether places of violations of a choice were added to the sampled places."""
         added = False
         for i, option in choices.items():
             if self.requirements[i].extended:

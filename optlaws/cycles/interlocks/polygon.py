@@ -34,7 +34,7 @@ class SimplePolygon:
 
     @classmethod
     def through(cls, corners: Sequence[Corner]) -> SimplePolygon:
-        """The polygon through corners in either order; what has no area or crosses itself is refused."""
+        """The polygon through corners in either order; polygons without area or with crossing sides are refused."""
         points = _bends(corners)
         sides = _sides(points)
         for i, first in enumerate(sides):
@@ -159,7 +159,7 @@ def _sides(points: Sequence[Corner]) -> list[tuple[Corner, Corner]]:
 
 
 def _bends(corners: Sequence[Corner]) -> list[Corner]:
-    """Corners without those that come twice or lie on a straight side."""
+    """Corners without duplicates and without corners on straight sides."""
     points = [(float(x), float(y)) for x, y in corners]
     i = 0
     while len(points) > 2 and i < len(points):

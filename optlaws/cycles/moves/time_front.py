@@ -1,4 +1,4 @@
-"""Fronts over the time of a move: what is least at each time, with a law and a proof at every point."""
+"""Fronts over the time of a move: the least objective at each time, with a law and a proof at every point."""
 
 from __future__ import annotations
 
@@ -109,12 +109,12 @@ class TimeFront(JsonText):
 
     @property
     def minimise(self) -> str:
-        """The name of what is least."""
+        """The name of the objective."""
         return self.objective.name
 
     @property
     def unit(self) -> str:
-        """The unit of what is least."""
+        """The unit of the objective."""
         nu = 2 if self.minimise == RESIDUAL else self.objective.nu
         return AT_MOTOR.get(self.minimise) or unit_of(AXES[self.fastest.unit], nu)
 

@@ -217,7 +217,7 @@ def _read_limits(given: Any, angular: str) -> _Read:  # noqa: ANN401 - it is che
 
 
 def _check_names(entries: Mapping[str, Any]) -> None:
-    """Refuse what is no limit of a motion."""
+    """Refuse names that are no limits of a motion."""
     for name in entries:
         if name in TORQUES:
             raise InputError(f"limits: {name} is at a motor: give its drive")

@@ -165,7 +165,7 @@ def _lines_of(tree: ET.Element) -> Iterator[str]:
 
 
 def _of_yaml(text: str, cam: str | None) -> str:
-    """The points of one joint of a trajectory as fields."""
+    """The points of a single joint of a trajectory as fields."""
     joints = [name.strip("\"' ") for name in re.findall(r"^\s*-\s*([\"']?[^\s:\[{]+)\s*$", text, re.MULTILINE)]
     inline = re.search(r"joint_names:\s*\[([^\]]*)\]", text)
     joints = [name.strip("\"' ") for name in inline[1].split(",")] if inline else joints
@@ -265,7 +265,7 @@ def _profile(layout: FieldLayout, record: _Record) -> str | None:
 
 
 class _at:  # noqa: N801 - as contextlib's
-    """Errors of what is in an element, with its line."""
+    """A context that adds an element's line to errors in it."""
 
     def __init__(self, record: _Record) -> None:
         self.line = next(iter(record.values())).line

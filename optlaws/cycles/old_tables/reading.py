@@ -237,7 +237,7 @@ def _through(
 
 
 def rate_of(places: Array, heights: Array, velocities: Array, lines: Sequence[int]) -> float:
-    """How fast the master goes where velocities are by the second; 1 where they are by the master.
+    """The speed of the master where velocities are per second; 1 where they are per unit of the master.
 
     The integral of their magnitude by the trapezium rule, which is sharp between rests, is the way of the positions
     times the rate.

@@ -1,4 +1,4 @@
-"""Tables of whole cycles from old cams and controllers: their dwells, rises and returns, and what laws these are."""
+"""Tables of whole cycles from old cams and controllers: their dwells, rises and returns, and the laws of these."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Lower bounds of a cycle: of its spans by their proofs or by energy, and of the whole with what given laws take.
+"""Lower bounds of a cycle: of its spans by proofs or by energy, and of the whole with the given laws.
 
 Power is the rate at which kinetic energy and the work against springs, weight and friction grow. From rest they are,
 after the share k of a move, no more than k times the greatest power; what is left of them before the end, no more than
@@ -114,7 +114,7 @@ Solved = Sequence[tuple[Piece, Solution]]
 
 
 def bound_of(layout: Layout, solved: Solved, objective: CycleObjective, period: float) -> float | None:
-    """The lower bound of a cycle in the same times, from bounds of laws looked for and what the others take."""
+    """The lower bound of a cycle in the same times, from bounds of optimised laws and values of the others."""
     nu, mean = kind_of(objective.minimise)
     if nu == LOADED and not solved:
         return None

@@ -115,7 +115,7 @@ def driven_mean(span: LawSpan, drive: CycleDrive | PositionDrive | None, stroke:
 
 
 def force_unit(span: LawSpan, drive: CycleDrive | PositionDrive, stroke: float) -> float:
-    """About how great the force along a span is: a unit in which it is near 1."""
+    """The order of magnitude of the force along a span, as its unit."""
     return drive.size(stroke, span.times, span.origin)
 
 

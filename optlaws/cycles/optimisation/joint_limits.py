@@ -28,7 +28,7 @@ Solved = tuple[tuple[Piece, Solution], ...]
 
 @dataclass(frozen=True)
 class SegmentEnd:
-    """An end of a stretch whose law is looked for, where velocity and acceleration are known."""
+    """An end of a stretch with an optimised law, where velocity and acceleration are known."""
 
     stretch: TimedSegment
     name: str

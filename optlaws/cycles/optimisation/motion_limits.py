@@ -87,7 +87,7 @@ def _both(name: str, value: Any, axis: str, place: str) -> Limits:  # noqa: ANN4
 
 
 def _check_other(name: str, where: str) -> None:
-    """Refuse what is no limit, or none of a segment."""
+    """Refuse names that are no limits, or no limits of a segment."""
     if where != "limits" and name in TOTALS:
         raise InputError(f"{where}, {name} is of the whole cycle: give it among the limits of the Cycle")
     if name not in TOTALS and (where != "limits" or not name.removeprefix("rms ").startswith(LOAD)):

@@ -67,7 +67,7 @@ class CycleObjective:
 
 
 def kind_of(minimise: str) -> tuple[int, bool]:
-    """The order of what is minimised, and whether its root mean square.
+    """The order of the minimised quantity, and whether its root mean square is minimised.
 
     -1 is a force, -2 of the load, -3 the power, -4 the energy, -5 the heat.
 
@@ -78,7 +78,7 @@ def kind_of(minimise: str) -> tuple[int, bool]:
 
 
 def check_objective(minimise: Any, load: Load | None) -> None:  # noqa: ANN401 - it is checked here
-    """Refuse what cannot be minimised."""
+    """Refuse objectives that cannot be minimised."""
     if not isinstance(minimise, str) or (minimise not in OBJECTIVES and load_output(minimise, load) is None):
         raise InputError(f"minimise: {unknown_key(minimise, (*OBJECTIVES, 'load acceleration'), 'objective')}")
 

@@ -1,4 +1,4 @@
-"""The spaces in which the laws of a cycle are looked for: splines over joined segments, and their names in words."""
+"""The spaces in which the laws of a cycle are optimised: splines over joined segments, and their names in words."""
 
 from __future__ import annotations
 

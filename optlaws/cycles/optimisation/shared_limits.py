@@ -48,7 +48,7 @@ _BELOW = (2e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2)
 
 @dataclass(frozen=True)
 class Best:
-    """The best laws of a cycle with their solutions, why these of equals, and what no others of their spaces beat."""
+    """The best laws of a cycle with their solutions, the choice among equals, and the lower bound in their spaces."""
 
     laws: tuple[tuple[Piece, Solution], ...]
     remarks: tuple[str, ...]
@@ -77,7 +77,7 @@ def _solved(span: LawSpan, objective: CycleObjective, axis: str) -> tuple[Piece,
 
 @dataclass(frozen=True)
 class _SharedLimit:
-    """Spans that share a limit of what their motions sum to: the squared force, or the energy."""
+    """Spans that share a limit of a sum over their motions: the squared force, or the energy."""
 
     layout: Layout
     objective: CycleObjective
@@ -236,7 +236,7 @@ class _SharedLimit:
         return bound
 
     def _greatest(self, laws: Sequence[tuple[Piece, Solution]]) -> float:
-        """The greatest of what is minimised over the whole cycle, whatever the laws were sought for."""
+        """The greatest value of the objective over the whole cycle, for any laws."""
         nu, _ = kind_of(self.objective.minimise)
         pieces = [*(piece for piece, _ in laws), *self.layout.pieces]
         return max(size_of(piece, nu, self.drive) for piece in pieces)

@@ -1,4 +1,4 @@
-"""The sheet that sizes the motor of a cycle: what all its motions and rests ask, with the margins to the limits."""
+"""The sheet that sizes the motor of a cycle: the load of all its motions and rests, with margins to the limits."""
 
 from __future__ import annotations
 

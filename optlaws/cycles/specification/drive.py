@@ -73,7 +73,7 @@ class CycleDrive:
         return moved + self.stiffness * position + self.constant + self.dry * direction
 
     def size(self, stroke: float, span: tuple[float, float], offset: float) -> float:
-        """About how great the force is along a motion: a unit in which it is near 1."""
+        """The order of magnitude of the force along a motion, as its unit."""
         spring, damper, inertia = (abs(factor) for factor in self._factors(stroke, span[1]))
         return 4.0 * inertia + 2.0 * damper + spring + abs(self.constant + self.stiffness * offset) + self.dry
 

@@ -83,7 +83,7 @@ class LawSpan:
 
 @dataclass(frozen=True)
 class Layout:
-    """A cycle with known durations: pieces whose law is known, and spans whose law is looked for."""
+    """A cycle with known durations: pieces with known laws, and spans with optimised laws."""
 
     starts: tuple[float, ...]
     pieces: tuple[Piece, ...]
@@ -91,7 +91,7 @@ class Layout:
 
 
 def layout(programme: Programme, durations: Sequence[float], *, whole: bool = False, absolute: bool = False) -> Layout:
-    """The laws that are known and the spans whose law is looked for.
+    """The known laws, and the spans with optimised laws.
 
     Where nothing is known at the start of the cycle, or `whole` asks for it, its motions are one law that repeats; of
     positions if it is to be `absolute`.

@@ -128,7 +128,7 @@ class PositionDrive:
         return not rubs and isinstance(mechanism.inertia_formula, Number) and mechanism.load_formula == Number(0.0)
 
     def size(self, stroke: float, span: tuple[float, float], offset: float) -> float:
-        """About how great the torque is along a motion: a unit in which it is near 1."""
+        """The order of magnitude of the torque along a motion, as its unit."""
         return 4.0 * self.moved(stroke, span, offset).unit
 
 

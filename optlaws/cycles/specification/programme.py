@@ -185,7 +185,7 @@ def _check_closed(moved: float, forward: float, stretches: Sequence[TimedSegment
 
 
 def is_optimal(segment: CycleSegment) -> bool:
-    """Whether its law is looked for."""
+    """Whether the segment's law is optimised."""
     return isinstance(segment, Free) or (
         isinstance(segment, Move) and isinstance(segment.law, str) and segment.law == OPTIMAL
     )

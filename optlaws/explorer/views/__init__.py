@@ -1,1 +1,1 @@
-"""Views of the explorer's page: what each computes for its questions, a file a view."""
+"""Views of the explorer's page: the computation behind each view's requests, a file for each view."""

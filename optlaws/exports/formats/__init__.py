@@ -1,1 +1,1 @@
-"""Formats of controllers, a file for each manufacturer or language, and what tables and programs share."""
+"""Formats of controllers, a file for each manufacturer or language, and the common parts of tables and programs."""

@@ -1,1 +1,1 @@
-"""Entries of the axes of a cycle: segments, mechanisms and drives, and the pages of what drives them."""
+"""Entries of the axes of a cycle: segments, mechanisms and drives, and the pages of the drives."""

@@ -1,1 +1,1 @@
-"""Single moves in problem files: their least times, and what less speed would save."""
+"""Single moves in problem files: their least times, and the savings of longer times."""

@@ -141,6 +141,6 @@ def _front(front: TimeFront) -> dict[str, Any]:
 
 
 def _solution(solution: Solution) -> dict[str, Any]:
-    """The parts of a solution that its stored form has, without how it was found."""
+    """The parts of a solution's stored form that do not depend on its computation."""
     whole = replace(solution, seconds=0.0, iterations=0).to_dict()
     return {name: whole[name] for name in whole if name != "versions"}

@@ -1,4 +1,4 @@
-"""Segments of piecewise laws: each kind is one class, exact as it stands."""
+"""Segments of piecewise laws: each kind is one class with exact closed forms."""
 
 from optlaws.lazy import face
 

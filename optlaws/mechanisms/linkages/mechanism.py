@@ -494,7 +494,7 @@ def _end(value: Any, axis: Any) -> tuple[Any, float]:  # noqa: ANN401
 
 
 def duration_of(minimise: str, duration: NumberOrQuantity | None) -> NumberOrQuantity:
-    """The duration of a move, or a second where the least time is looked for.
+    """The duration of a move, or one second where the least time is sought.
 
     Raises
     ------

@@ -1,1 +1,1 @@
-"""The least time of a move: its limits, the search with its proof, and what no law of any degree is faster than."""
+"""The least time of a move: its limits, the search with its proof, and the infimum over laws of any degree."""

@@ -101,7 +101,7 @@ def _begun(model: Model, placed: Model, plain: ActiveSet) -> Array:
 def active_lower_bounds_at(
     model: Model, optimum: ActiveSet, constant: Functional, low: float, k: float
 ) -> list[ActiveSet]:
-    """Candidates in which the peak is asked at k, and let go to where it is best nearby."""
+    """Candidates with the peak fixed at k, then released to the best place nearby."""
     family, low = family_of(model, constant, low)
     ways = _at_fixed_places(model.program, family, optimum, (constant.name, low), family.u(np.array([k])))
     return [

@@ -1,4 +1,4 @@
-"""How large a law can be whose objective is below a claim: its constants, and the moments of its derivatives.
+"""A priori bounds of laws whose objective is below a claim: of their constants, and of moments of derivatives.
 
 A law that contradicts the claim has a small objective, so small constants, and they bound its coordinates.
 """
@@ -71,7 +71,7 @@ def moments(model: Model, greatest: Mapping[str, float]) -> list[tuple[Array, Ar
 
 
 def means_by(model: Model, name: str) -> list[tuple[Array, Array, float]]:
-    """Bounds of means of derivatives by the variable of a constant, for any size.
+    """Bounds of means of derivatives as affine functions of a constant's variable.
 
     For each derivative whose mean the constant bounds in proportion: bounds of its moments where the constant is 0,
     but for the base law, the matrix of `moments`, and by how much the bounds grow with the variable.

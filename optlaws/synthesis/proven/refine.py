@@ -106,7 +106,7 @@ def proven_front(
 
 
 class _Refined:
-    """The certified laws found so far, and what is known above and below at each."""
+    """The certified laws, with the known upper and lower bound at each."""
 
     def __init__(self, number: SweptParameter, ends: tuple[float, float]) -> None:
         self.number, self.ends = number, ends
@@ -156,7 +156,7 @@ class _Refined:
         self.values, self.known = together[order], np.concatenate([self.known, known])[order]
 
     def _solved(self, values: Array, most: float) -> tuple[list[_Law], Array]:
-        """Laws at some values, and what is known there: as arrays where they were found so, with no greater gap."""
+        """Laws at some values, with their known bounds; from arrays where their gap is small enough."""
         laws: list[_Law] = []
         known = np.full((len(values), 3), np.nan)
         for begin in range(0, len(values), _CHUNK):
@@ -203,12 +203,12 @@ class _Refined:
 
     @property
     def own_gaps(self) -> Array:
-        """The gap of each certified law itself."""
+        """Refuse a gap below the certified laws' own gaps, which further laws could not reduce."""
         top, bottom, _ = self.known.T
         return np.asarray((top - bottom) / measure(top, self._scale))
 
     def _check(self, gap: float) -> None:
-        """Refuse a gap that certified laws have themselves: no law between them would mend it."""
+        """Refuse a gap below the certified laws' own gaps, which further laws could not reduce."""
         gaps = self.own_gaps
         worst = int(np.argmax(gaps))
         narrow = np.diff(self.values).min() <= NARROWEST * float(np.ptp(self.values))

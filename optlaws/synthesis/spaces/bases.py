@@ -103,7 +103,7 @@ class Basis(JsonText, ABC):
 
     @abstractmethod
     def check(self, *, symmetric: bool) -> None:
-        """Refuse what leaves no freedom, by an InputError."""
+        """Refuse a basis without free coefficients, by an InputError."""
 
     @abstractmethod
     def to_dict(self) -> dict[str, Any]:

@@ -93,7 +93,7 @@ class BoxSteps(ABC):
 
     @abstractmethod
     def outer(self, k: Fraction) -> tuple[arb, arb]:
-        """Between what values b(k) is in every law below the claim."""
+        """The range of b(k) in all laws below the claim."""
 
     @abstractmethod
     def curved(self, contact: Contact, box: BallBox) -> Vector | None:
@@ -219,7 +219,7 @@ class _PowerProof(BoxSteps):
         return arb(0), ball(self.greatest[name])
 
     def outer(self, k: Fraction, anchors: Sequence[tuple[Fraction, arb, arb]] | None = None) -> tuple[arb, arb]:
-        """Between what values b(k) is: b |b| changes no faster than 2 D."""
+        """The range of b(k), as b |b| changes no faster than 2 D."""
         low = high = None
         for at, least, most in self.anchors if anchors is None else anchors:
             change = 2 * self.D * ball(abs(k - at))

@@ -1,1 +1,1 @@
-"""The views of what moves a mechanism: machines with their drives, and moves in their least times."""
+"""The views of driven mechanisms: machines with their drives, and moves in their least times."""

@@ -98,7 +98,7 @@ class BoxRows(ABC):
 
     @abstractmethod
     def brackets_at(self, k: Array) -> tuple[Array, Array]:
-        """Least and greatest velocity at the places k of all those laws."""
+        """Least and greatest velocity at the places k in all laws below the claim."""
 
     @abstractmethod
     def is_curved(self, family: ConstraintFamily) -> bool:

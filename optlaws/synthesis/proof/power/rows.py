@@ -73,7 +73,7 @@ class PowerRows(BoxRows):
         return isinstance(family, ProductFamily)
 
     def kinds(self, box: Box) -> list[tuple[str, float]]:
-        """Both signs of both, if D has a least value."""
+        """Both signs of each curved row; the second row applies only if D has a lower bound."""
         names = POWER_ROWS if self.place is not None and box.low[self.place] > 0.0 else POWER_ROWS[:1]
         return [(name, sign) for name in names for sign in (1.0, -1.0)]
 

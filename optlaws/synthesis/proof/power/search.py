@@ -125,7 +125,7 @@ class BoxSearch:
         return box
 
     def _exchange(self, box: Box, points: Sequence[Array]) -> None:
-        """Take rows that answers of linear programs break into the grid: those of the mean of either side."""
+        """Add rows to the grid that the solutions of linear programs violate, by the mean solution of each side."""
         width = float((box.high - box.low)[: self.rows.terms].max())
         for point in points:
             self.rows.remember(point)

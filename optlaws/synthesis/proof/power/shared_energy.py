@@ -224,7 +224,7 @@ class EnergyRows(BoxRows):
         return np.maximum(first, least), np.minimum(last, most)
 
     def _rates(self, peaks: dict[str, float], integral: float) -> tuple[float, float]:
-        """How fast sqrt(B² - b²) and b² change at most."""
+        """Upper bounds of the rates of sqrt(B² - b²) and b²."""
         speed, power = inf, inf
         for name, family in self.peaks.items():
             peak = peaks.get(name, self._greatest(name))
@@ -277,7 +277,7 @@ class EnergyRows(BoxRows):
         return np.where(good[:, None], bounding - share * over, 0.0)
 
     def _product(self, box: Box, family: EnergyFamily, plane: str) -> tuple[Array, tuple[float, float]]:
-        """A row that M I, or M I², is at most in the box, and its least and greatest value."""
+        """A row above M I, or above M I², in the box, with the least and greatest value of that product."""
         least, most = float(box.low[self.place]), float(box.high[self.place])
         row = np.zeros(self.size + 1)
         row[self.place] = 1.0
