@@ -38,8 +38,20 @@ const pattern = new RegExp(`(${NUMBER}(?: to ${NUMBER})?) (${Object.keys(table).
 
 /** The unit that is shown for one, and by how much its numbers are multiplied. */
 export function shownUnit(unit) {
+  const [, above, below, power] = /^(mm|deg)\/(deg)([²³]?)$/.exec(unit) ?? []; // a derivative by the master
+  if (above) {
+    const [one, other] = [shownUnit(above), shownUnit(below)];
+    return { unit: `${one.unit}/${other.unit}${power}`, factor: one.factor / other.factor ** { "": 1, "²": 2, "³": 3 }[power] };
+  }
   const [name, factor] = table[unit] ?? [unit, 1];
   return { unit: name, factor };
+}
+
+/** A name with its unit, "velocity, m/s", and what turns texts of its numbers into the unit that is shown. */
+export function measured(name, of = "") {
+  const [, word, known] = of ? [null, name, of] : /^(.*), ([^,]+)$/.exec(name) ?? [null, name, ""];
+  const { unit, factor } = shownUnit(known);
+  return { title: unit ? `${word}, ${unit}` : word, shown: (text) => (text === null ? null : inUnit(text, factor)) };
 }
 
 /** A number as text in another unit, with as many digits as it had. */

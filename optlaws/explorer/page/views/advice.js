@@ -8,6 +8,7 @@ import { localised, plain } from "../language.js";
 import { Panels } from "../panels.js";
 import { html, renew } from "../svg.js";
 import { unanswered } from "../trust.js";
+import { measured } from "../units.js";
 
 const SOURCES = { cycle: "the cycle", machine: "the machine" };
 const OBJECTIVES = ["", "acceleration", "jerk", "rms acceleration", "torque", "rms torque", "force", "rms force", "residual acceleration"];
@@ -193,12 +194,13 @@ export class View {
   }
 
   #table({ headings, rows, chosen }) {
-    const head = html("tr", {}, html("th", { scope: "col", text: "law" }), ...headings.map((text) => html("th", { scope: "col", class: "number", text })));
+    const columns = headings.map((name) => measured(name));
+    const head = html("tr", {}, html("th", { scope: "col", text: "law" }), ...columns.map(({ title: text }) => html("th", { scope: "col", class: "number", text })));
     const lines = rows.map((row) => {
       const take = row.take ? html("button", { type: "button", class: "link", "data-key": `take ${row.name}`, "aria-label": `Take ${row.name}`, text: "take", onclick: () => this.#take(row) }) : "";
       const ends = [["limits", row.limits, row.limits && row.limits !== "kept" ? "number over" : "number"], ["proof", row.proof, "number"]];
       return html("tr", { class: row.name === chosen ? "active" : "", "aria-current": row.name === chosen ? "true" : null },
-        html("th", { scope: "row" }, html("span", { class: "row-name", translate: "no", text: row.name }), take), ...row.cells.map((text) => html("td", { class: "number", text })), ...ends.map(([key, text, name]) => html("td", { "data-column": key, class: name, text })));
+        html("th", { scope: "row" }, html("span", { class: "row-name", translate: "no", text: row.name }), take), ...row.cells.map((text, i) => html("td", { class: "number", text: columns[i].shown(text) })), ...ends.map(([key, text, name]) => html("td", { "data-column": key, class: name, text })));
     });
     return html("table", { "aria-label": "Laws with what they take" }, html("thead", {}, head), html("tbody", {}, ...lines));
   }

@@ -11,6 +11,7 @@ import { Programme } from "../programme.js";
 import { Strip } from "../strip.js";
 import { html, renew, svg } from "../svg.js";
 import { showTrust, unanswered } from "../trust.js";
+import { measured } from "../units.js";
 
 const told = (value) => JSON.stringify(value);
 const word = (value, digits = 5) => String(Number(value.toPrecision(digits))).replace("-", "−");
@@ -283,6 +284,6 @@ function legend({ names, shares }) {
 
 function table({ rows }) {
   const head = html("tr", {}, ...["", "value", "of the limit"].map((text, i) => html("th", { scope: "col", class: i ? "number" : null, text })));
-  const body = rows.map(({ name, unit, text, use, full }) => html("tr", {}, html("th", { scope: "row", text: unit ? `${name}, ${unit}` : name }), html("td", { class: "number", text }), html("td", { class: `number${full ? " best" : ""}`, text: use === null ? "" : `${use} %${full ? " binds" : ""}` })));
+  const body = rows.map((row) => ({ ...row, ...measured(row.name, row.unit) })).map(({ title, shown, text, use, full }) => html("tr", {}, html("th", { scope: "row", text: title }), html("td", { class: "number", text: shown(text) }), html("td", { class: `number${full ? " best" : ""}`, text: use === null ? "" : `${use} %${full ? " binds" : ""}` })));
   return html("table", { "aria-label": "What is taken of each limit" }, html("thead", {}, head), html("tbody", {}, ...body));
 }

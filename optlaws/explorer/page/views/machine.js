@@ -11,6 +11,7 @@ import { Programme } from "../programme.js";
 import { Strip } from "../strip.js";
 import { html, renew } from "../svg.js";
 import { showTrust, unanswered } from "../trust.js";
+import { measured } from "../units.js";
 
 const told = (value) => JSON.stringify(value);
 const PICTURES = { speed: "torque over speed", ratio: "over the ratio", input: "J and T" };
@@ -369,9 +370,9 @@ function layout(root) {
 
 function table({ rows, active }, names) {
   const head = html("tr", {}, html("th", { scope: "col", text: "at the drive" }), ...names.slice(0, MOST).map((name, i) => html("th", { scope: "col", class: "number", title: name }, html("span", { class: `swatch law-${i}`, text: "ABCD"[i] }))));
-  const body = rows.map(({ name, unit, texts, over }) => html(
-    "tr", {}, html("th", { scope: "row", text: unit ? `${name}, ${unit}` : name, title: name }),
-    ...texts.map((text, i) => html("td", { class: `number${over[i] ? " over" : ""}${i === active ? " active" : ""}`, title: over[i] ? "the motor is too weak" : null, text: text === null ? "—" : over[i] ? `${text} !` : text })),
+  const body = rows.map(({ name, unit, texts, over }) => ({ name, over, texts, ...measured(name, unit) })).map(({ name, title, shown, texts, over }) => html(
+    "tr", {}, html("th", { scope: "row", text: title, title: name }),
+    ...texts.map(shown).map((text, i) => html("td", { class: `number${over[i] ? " over" : ""}${i === active ? " active" : ""}`, title: over[i] ? "the motor is too weak" : null, text: text === null ? "—" : over[i] ? `${text} !` : text })),
   ));
   return html("table", { "aria-label": "What each law asks of the drive" }, html("thead", {}, head), html("tbody", {}, ...body));
 }

@@ -8,6 +8,7 @@ import { Panels } from "../panels.js";
 import { Strip } from "../strip.js";
 import { html, renew } from "../svg.js";
 import { checking, showTrust, unanswered } from "../trust.js";
+import { measured } from "../units.js";
 
 const told = (value) => JSON.stringify(value);
 const FIELDS = {
@@ -137,9 +138,10 @@ export class View {
     });
     this.#curves.show({ ...answer, panels: shown, active: 0 });
     this.#moves.replaceChildren(table("Moves of the table", MOVES, answer.rows), html("p", { class: "facts", text: ["A old law · B new law · C points", drawn].filter(Boolean).join(" · ") }));
-    const rows = moves.map((part, i) => [answer.rows[part][0], answer.rows[part][1], ...(this.#found[i] ? this.#found[i].cells ?? [this.#found[i].refused.reason] : ["…"])]);
-    const powers = ["", "²", "³"].map((power) => `${unit}/${answer.symbol}${power}`);
-    const headings = ["move", "from", ...["velocity", "acceleration", "jerk"].map((name, i) => `${name}, ${powers[i]}`), "off by"];
+    const columns = ["velocity", "acceleration", "jerk"].map((name, i) => measured(name, `${unit}/${answer.symbol}${["", "²", "³"][i]}`));
+    const inColumns = (cells) => cells.map((text, i) => (cells.length > 1 && columns[i] ? text.replace(/^[^(]+/, (part) => part.replace(/[−-]?[\d.]+(?:e[−-]?\d+)?/g, columns[i].shown)) : text));
+    const rows = moves.map((part, i) => [answer.rows[part][0], answer.rows[part][1], ...(this.#found[i] ? inColumns(this.#found[i].cells ?? [this.#found[i].refused.reason]) : ["…"])]);
+    const headings = ["move", "from", ...columns.map(({ title }) => title), "off by"];
     const words = `Laws of least acceleration within ${this.#tolerance} ${unit} of the old ones at every place; jerk at most a fifth above.`;
     const button = html("button", { type: "button", text: "Find better laws", onclick: () => {
       this.#wanted = true;
