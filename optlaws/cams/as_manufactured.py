@@ -250,7 +250,9 @@ def run_against(cam: DiscCam, curve: Outline, outside: float = 0.0, *, jumps: bo
 
 def _following(cam: DiscCam, curve: Outline, outside: float = 0.0) -> Following:
     if not cam.displacement.closed:
-        raise InputError("a cam as made is run over a whole turn: make it of a Cycle, with dwells and the way back")
+        raise InputError(
+            "a manufactured cam is evaluated over a whole turn: build it from a Cycle, with dwells and the return"
+        )
     return Following(cam.contact, curve, quantity(cam.phase, "angle", "phase"), outside)
 
 

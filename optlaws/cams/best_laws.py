@@ -239,7 +239,7 @@ def linear_limits(
 def _with_solutions(cycle: Cycle) -> Solved:
     """The pieces of a cycle, each with the solution of its problem if its law is optimal."""
     if not cycle.solutions:
-        raise InputError("cycle: none of its laws is looked for: leave the law of a move out, or give law='optimal'")
+        raise InputError("cycle: none of its laws is optimised: leave the law of a move out, or give law='optimal'")
     if OBJECTIVES[cycle.minimise][0] < 0:
         raise InputError(f"cycle: minimise a peak or a root mean square of the motion, not the {cycle.minimise}")
     known = {id(solution.law): solution for solution in cycle.solutions}

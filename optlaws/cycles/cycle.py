@@ -444,7 +444,7 @@ class Cycle(CycleInterchange):
         """
         laws = self._best.laws
         if len(solutions) != len(laws):
-            raise InputError(f"the cycle has {len(laws)} motions that are looked for, got {len(solutions)} solutions")
+            raise InputError(f"the cycle has {len(laws)} optimised motions, got {len(solutions)} solutions")
         placed = tuple(
             (replace(piece, law=solution.law), solution) for (piece, _), solution in zip(laws, solutions, strict=True)
         )

@@ -293,7 +293,7 @@ def _axis_entries(axis: str, cycle: CycleInterchange) -> dict[str, Any]:
         if not isinstance(segment.get("law", ""), str):
             raise InputError(f"segment {i}: a problem file names its law: save the law as a JSON file and name that")
     if "A" in data.get("load", {}):
-        raise InputError("load: a problem file takes a mass on a spring: a machine is kept by Cycle.to_json")
+        raise InputError("load: a problem file takes a mass on a spring only: Cycle.to_json stores a machine")
     return {"name": axis, **data, **_drive_tables(cycle._cycle.drive), "segment": segments}  # noqa: SLF001
 
 

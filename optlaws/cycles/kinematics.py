@@ -137,7 +137,7 @@ class TimedCycle:
         natural = positive_quantity(period, "time", "follower: period")
         if len(self.pieces) != len(self.programme.stretches):
             raise InputError(
-                "the cam of an elastic follower is made move by move: take moves in place of free motions that meet"
+                "the cam of an elastic follower is computed move by move: use moves in place of adjacent free motions"
             )
         segments: list[CycleSegment] = []
         for segment, piece in zip(self.programme.stretches, self.pieces, strict=True):

@@ -216,9 +216,7 @@ def problem_file(law: LawRequest) -> str:
     B = [1.7]
     """
     if law.problem is None:
-        raise InputError(
-            "a law that is given is of no problem: save it as a law, or ask for an optimal one in its place"
-        )
+        raise InputError("a given law belongs to no problem: save it as a law, or request an optimal law in its place")
     problem = problem_of(law)
     entries = problem.to_dict()
     swept = "B" if isinstance(entries.get("B"), float) else "order"

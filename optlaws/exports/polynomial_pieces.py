@@ -103,7 +103,7 @@ def _tame(stretch: Stretch, cancelled: float) -> Iterator[Stretch]:
 def stretches(law: MotionLaw) -> Iterator[Stretch]:
     """The polynomials of a law in exact arithmetic."""
     if not is_polynomial(law):
-        raise InputError("the law is not made of polynomials: approximate it by pieces within a stated deviation")
+        raise InputError("the law is not piecewise polynomial: approximate it by pieces within a stated deviation")
     if isinstance(law, PolynomialLaw):
         yield Fraction(0), Fraction(1), law.exact_powers()
     if isinstance(law, PiecewiseLaw):

@@ -218,7 +218,7 @@ def _problem(degree: int, minimise: str, order: int, B: float | None, most: Mapp
 def read(file: Path) -> list[AtlasPoint]:
     """The stored points of an atlas that have a law."""
     if not file.exists():
-        raise InputError(f"there is no atlas {file}; `optlaws run problems/atlas.toml` makes one")
+        raise InputError(f"there is no atlas {file}; `optlaws run problems/atlas.toml` computes one")
     lines = [line for line in reading.text(file).splitlines() if not line.startswith("#")]
     rows = list(csv.DictReader(lines))
     if not rows or tuple(rows[0]) != COLUMNS:

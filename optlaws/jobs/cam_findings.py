@@ -80,12 +80,10 @@ class Findings:
         if given is None and (self.spec.best in {"laws", "offset"} or not self._limited):
             raise InputError(
                 "prime_radius is missing: give it, such as '60 mm'; or give pressure_angle or radius_of_curvature, and "
-                "the least one that keeps them is taken; or ask for best = 'prime circle'"
+                "the least one that keeps them is taken; or give best = 'prime circle'"
             )
         if self.spec.best == "prime circle" and given is not None:
-            raise InputError(
-                "prime_radius is what best = 'prime circle' looks for: leave it out, or ask for best = 'laws'"
-            )
+            raise InputError("best = 'prime circle' computes prime_radius: leave it out, or give best = 'laws'")
         return given or ""
 
     @kept_property
@@ -106,7 +104,7 @@ class Findings:
         if spec.best != "offset":
             return None
         if "offset" in spec.follower:
-            raise InputError("follower: offset is what best = 'offset' looks for: leave it out")
+            raise InputError("follower: best = 'offset' computes the offset: leave it out")
         if not isinstance(follower, TranslatingRoller):
             raise InputError(f"best = 'offset' is of a translating roller, got a {follower.kind}")
         return best_offset(self.cycle, self.prime_radius, follower, turning=spec.limits["turning"])

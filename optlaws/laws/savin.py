@@ -393,7 +393,7 @@ def savin(
         raise InputError(f"a member is given by one of alpha, B, C and D, got {' and '.join(given) or 'none'}")
     if alpha is not None:
         if branch is not None:
-            raise InputError("branch tells two members of one C or D apart; alpha alone names a member")
+            raise InputError("branch selects one of two members with the same C or D; alpha alone identifies a member")
         return known.law(alpha)
     if branch not in (None, "lower", "upper"):
         raise InputError(f"branch must be 'lower' or 'upper', got {shortened(branch)}")

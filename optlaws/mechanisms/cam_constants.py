@@ -158,7 +158,7 @@ def check_order(name: str, space: LawSpace, order: int) -> None:
     if continuity < order - 1:
         raise InputError(
             f"{name} needs mass laws whose derivatives up to {order - 1} are continuous at the breaks, so that its "
-            f"cam's {jump} does not jump; ask a continuity of at least {order - 1}, got {continuity}"
+            f"cam's {jump} does not jump; give a continuity of at least {order - 1}, got {continuity}"
         )
 
 

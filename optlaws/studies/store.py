@@ -164,7 +164,7 @@ class StudyDirectory:
         except OSError as error:
             raise InputError(f"{self.about} cannot be read: {error.strerror}") from None
         if not there:
-            raise InputError(f"{self.path} holds no study; optlaws study FILE --out {self.path} makes one")
+            raise InputError(f"{self.path} contains no study; optlaws study FILE --out {self.path} begins one")
         text = reading.text(self.about)
         with located(f"{self.about} is damaged"):
             about = reading.json_text(text, str(self.about))
@@ -293,7 +293,7 @@ class StudyDirectory:
         try:
             self.path.mkdir(parents=True, exist_ok=True)
             if not self.about.exists() and not all(map(self._begun, self.path.iterdir())):
-                raise InputError(f"{self.path} holds no study but other files; choose an empty or a new directory")
+                raise InputError(f"{self.path} contains other files and no study; choose an empty or a new directory")
             return self.lock.open("a+b")
         except OSError as error:
             raise InputError(

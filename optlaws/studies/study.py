@@ -64,7 +64,7 @@ class Study:
         points = StudyPoints.of(self.file, self._about["chunk"])
         if len(points) != len(self):
             raise InputError(
-                f"{self._directory.about} is damaged: it says {len(self)} points, its study has {len(points)}"
+                f"{self._directory.about} is damaged: it states {len(self)} points, its study has {len(points)}"
             )
         return points
 
@@ -261,6 +261,6 @@ def open_study(path: Path | str) -> Study:
     --------
     >>> open_study("nowhere")
     Traceback (most recent call last):
-    optlaws.errors.InputError: nowhere holds no study; optlaws study FILE --out nowhere makes one
+    optlaws.errors.InputError: nowhere contains no study; optlaws study FILE --out nowhere begins one
     """
     return Study(path)

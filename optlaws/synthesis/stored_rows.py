@@ -266,7 +266,7 @@ def read_error(row: StatedError, problem: Callable[[], Problem]) -> OptlawsError
         if row.problem is not None or row.proof is not None:
             raise InputError(f"a row that is {row.status.value!r} has neither problem nor proof")
         if _is_problem(problem):
-            raise InputError("it is said to be no problem, but it is one")
+            raise InputError("it states that its entries are no problem, but they are one")
         return InputError(row.error)
     if row.status is Status.FAILED:
         if row.proof is not None:
@@ -276,11 +276,11 @@ def read_error(row: StatedError, problem: Callable[[], Problem]) -> OptlawsError
         raise InputError(f"a row without a law is infeasible, failed or invalid, got {row.status.value!r}")
     if row.proof is None:
         if not beyond_limit(problem()):
-            raise InputError("it is said to have no law, but no proof stands beside it")
+            raise InputError("it states that no law exists, but it has no proof")
         return InfeasibleProblem(row.error, problem=problem(), tried=row.tried)
     proof = proof_of_no_law(problem(), Certificate.from_dict(row.proof))
     if proof is None:
-        raise InputError("it is said to have no law, but its proof does not show that of its problem")
+        raise InputError("it states that no law exists, but its proof does not prove this for its problem")
     return InfeasibleProblem(row.error, problem=problem(), tried=row.tried, proof=proof)
 
 

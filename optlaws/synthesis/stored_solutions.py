@@ -108,7 +108,7 @@ def read_solutions(data: object) -> StoredSolutions:
     if sum(len(part.places) for part in entries.parts) != len(together) or not together <= set(range(size)):
         raise InputError("the parts of an array of solutions name a place twice, or one that it does not have")
     if not entries.alone.keys() <= alone:
-        raise InputError("an array of solutions says of a law that it was found alone and is none of those")
+        raise InputError("an array of solutions lists a law as found singly that is not among its laws")
     return plainly(lambda: _Reading(entries, shape).stored(), "this is no array of solutions")
 
 

@@ -294,7 +294,7 @@ def test_what_is_no_table_is_said_to_be_none(tmp_path: Path) -> None:
         ("<a><b/></a>", "holds no points"),
         ("<!DOCTYPE a [<!ENTITY b 'c'>]><a>&b;</a>", "entities of its own"),
         ("x : ARRAY[0..2] OF LREAL := [1.0, 2.0", "line 1: an array does not end"),
-        ("5\n0;0\n1;1\n2;1\n", "says that it has 5 points and holds 3"),
+        ("5\n0;0\n1;1\n2;1\n", "states 5 points and contains 3"),
         ("CYCLIC;YES;\nTABLE_BEGIN;;\n0;0;SPLINE\n1;1;SPLINE\n", "no TABLE_END"),
     ):
         (tmp_path / "cam.txt").write_text(text)

@@ -210,7 +210,7 @@ EXAMPLES = {
             ('radius = "12 mm"\n', "", "prime_radius|a translating roller needs its radius"),
             ('"translating roller"', '"translating rollr"', "kind"),
             ('by = "20 mm"', 'by = "20 deg"', "drive: unknown key 'mass'"),
-            ('"profile.nc"', '"profile.igs"', "says no format"),
+            ('"profile.nc"', '"profile.igs"', "names no format"),
             ('"profile.nc"', '"../profile.nc"', "file: name must be that of a file in the folder"),
             ('tolerance = "20 um"', 'tolerance = "20 s"', "tolerance must be a length"),
             ("mass =", "inertia =", "drive: .*inertia"),

@@ -175,7 +175,7 @@ def test_the_command_study_says_what_it_did(tmp_path: Path, capsys: pytest.Captu
         ([], "name a study file"),
         ([str(file), "--status", out], "--status takes a directory and neither"),
         ([str(tmp_path / "no.toml")], "cannot read"),
-        (["--status", str(tmp_path)], "holds no study"),
+        (["--status", str(tmp_path)], "contains no study"),
     ):
         assert exit_code(["study", *wrong]) == 2
         assert text in capsys.readouterr().err

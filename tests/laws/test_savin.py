@@ -177,7 +177,7 @@ def test_names_are_exponents() -> None:
         ({"alpha": "7"}, "alpha"),
         ({}, "one of alpha, B, C and D, got none"),
         ({"alpha": 1.0, "B": 1.75}, "got alpha and B"),
-        ({"alpha": 1.0, "branch": "lower"}, "branch tells two members"),
+        ({"alpha": 1.0, "branch": "lower"}, "branch selects one of two members"),
         ({"B": 3.0}, "B of family III reaches from 1.640625 to 2.4609375, got 3.0"),
         ({"C": 6.7}, "C of family III reaches from 6.7357.* to 9.3719"),
         ({"D": 1.0}, "D of family III reaches from 6.78262"),

@@ -83,7 +83,7 @@ def test_a_law_of_polynomials_is_converted_without_loss() -> None:
             near = np.abs(k[:, None] - np.array(law.breaks)[1:-1]).min(axis=1, initial=1.0) > 1e-9
             assert motion(places, nu)[near] == pytest.approx(factor * law(k, nu)[near], rel=0, abs=2e-12 * factor)
             assert motion.peak(nu).value == pytest.approx(factor * law.peak(nu).value, rel=1e-11)
-    with pytest.raises(InputError, match="not made of polynomials"):
+    with pytest.raises(InputError, match="not piecewise polynomial"):
         polynomials_of_law(catalogue["cycloidal"].law)
 
 

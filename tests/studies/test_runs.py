@@ -265,10 +265,10 @@ def test_a_study_knows_every_library_that_finds_laws(small: Study) -> None:
 
 def test_a_directory_with_other_files_is_left_alone(tmp_path: Path) -> None:
     (tmp_path / "thesis.tex").write_text("years of work")
-    with pytest.raises(InputError, match="holds no study but other files"):
+    with pytest.raises(InputError, match="contains other files and no study"):
         serially(SMALL, tmp_path)
     assert [file.name for file in tmp_path.iterdir()] == ["thesis.tex"]
-    with pytest.raises(InputError, match="holds no study; optlaws study FILE --out"):
+    with pytest.raises(InputError, match="contains no study; optlaws study FILE --out"):
         open_study(tmp_path)
 
 

@@ -283,7 +283,7 @@ def format_of(file: Path, name: str | None = None) -> str:
     known = ENDINGS.get(file.suffix.lower())
     if known is None:
         raise InputError(
-            f"the ending of {file.name!r} says no format: end it with {', '.join(sorted(ENDINGS))}, or name one of "
+            f"the ending of {file.name!r} names no format: use the ending {', '.join(sorted(ENDINGS))}, or name one of "
             f"{', '.join(FORMATS)}"
         )
     return known

@@ -54,7 +54,7 @@ def divided(outline: Outline, density: Density, factor: float = 1.0) -> Array:
     shares = [_accumulated(density, *ends) for ends in stretches(outline)]
     parts = factor * sum(float(sums[-1]) for _, sums in shares)
     if parts > MOST_PARTS:
-        raise InputError(f"tolerance asks for {parts:.3g} parts, more than {MOST_PARTS}: give a wider one")
+        raise InputError(f"tolerance requires {parts:.3g} parts, more than {MOST_PARTS}: give a wider one")
     cuts = [np.zeros(1)]
     for places, sums in shares:
         count = max(1, ceil(factor * float(sums[-1])))

@@ -68,7 +68,7 @@ def spline(outline: Outline, tolerance: float, degree: int = 3) -> Spline:
             return fitted
         # the error of an interpolating spline falls with the power degree + 1 of the distance of its knots
         parts = int(parts * max(_GROWTH, 1.02 * (fitted.deviation / tolerance) ** (1.0 / (degree + 1)))) + 1
-    raise InputError(f"tolerance asks for more than {MOST_PARTS} pieces of degree {degree}: give a wider one")
+    raise InputError(f"tolerance requires more than {MOST_PARTS} pieces of degree {degree}: give a wider one")
 
 
 def even(outline: Outline, parts: int) -> Array:

@@ -112,7 +112,7 @@ def stated_prime_radius(prime_radius: Any, base_radius: Any, follower: CamFollow
     if base_radius is None:
         return prime_radius
     if prime_radius is not None:
-        raise InputError("base_radius: the prime_radius says the size of the cam: leave base_radius out")
+        raise InputError("base_radius: prime_radius gives the size of the cam: leave base_radius out")
     roller = getattr(follower, "radius", None)
     if roller is None:
         return base_radius

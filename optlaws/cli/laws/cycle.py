@@ -50,7 +50,9 @@ def cycle(
     """
     if file.suffix and file.suffix.lower() != ".toml":
         if fastest:
-            raise InputError("--fastest is of a problem file: --save makes one of the table, whose limits you enter")
+            raise InputError(
+                "--fastest needs a problem file: --save writes one from the table, in which you enter the limits"
+            )
         old_cam(file, cam, points, out, plot, as_json=as_json)
         return
     refuse_options(cam, points)

@@ -70,7 +70,7 @@ def law(
 
     check_files(csv, plot=plot)
     if samples is not None and csv is None:
-        raise InputError("--samples says how many lines --csv FILE has: name the file")
+        raise InputError("--samples is the number of lines of --csv FILE: name the file")
     alpha, peak_velocity = member.alpha, member.peak_velocity
     motion_law = read_law(name, alpha, peak_velocity, by="--alpha or --peak-velocity", points=points)
     about = _about(name, alpha, peak_velocity, motion_law)

@@ -197,7 +197,7 @@ def _records(layout: FieldLayout, fields: Sequence[tuple[str | None, str, _Value
             yield record
             record = _Record()
         if role in record:
-            raise InputError(f"line {value.line}: {name} stands twice in an element of {layout.name}")
+            raise InputError(f"line {value.line}: {name} is repeated in an element of {layout.name}")
         if role == begins and index is not None:
             if int(index) != before + 1:
                 raise InputError(f"line {value.line}: element {index} follows element {before}; mend the file")
@@ -416,7 +416,7 @@ def _of_source(text: str, named: dict[str, tuple[str, int, str]]) -> Decoded:
         stated = int(bounds[2]) - int(bounds[1]) + 1 if bounds else int(np.prod(sizes)) if sizes else None
         if stated is not None and stated != len(cells[name]):
             line = _line(text, start)
-            raise InputError(f"line {line}: {name} are said to be {stated} numbers and are {len(cells[name])}")
+            raise InputError(f"line {line}: {name} are stated as {stated} numbers and are {len(cells[name])}")
     breaks, flat = ([_number_of_c(cell) for cell in cells[name]] for name in ("breaks", "coefficients"))
     if len(breaks) < 2 or len(flat) % (len(breaks) - 1):
         raise InputError(f"{len(flat)} coefficients are no rows for {len(breaks) - 1} pieces")

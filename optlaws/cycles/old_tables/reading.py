@@ -182,7 +182,7 @@ def _columns_layout(content: str, points: TablePoints) -> tuple[str, float]:
 
 def _compare(stated: int, count: int) -> None:
     if stated != count:
-        raise InputError(f"the file says that it has {stated} points and holds {count}: lines are missing or too many")
+        raise InputError(f"the file states {stated} points and contains {count}: lines are missing or superfluous")
 
 
 def sampled(pieces: Sequence[CurvePiece]) -> tuple[Array, Array]:

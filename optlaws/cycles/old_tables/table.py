@@ -147,7 +147,7 @@ class OldTable:
         """
         pairs = list(zip(self.moves, old.moves, strict=False))
         if len(self.moves) != len(old.moves) or any(a != b for a, b in _places(pairs)):
-            raise InputError("gains are told of two tables with the same moves, one made from the other")
+            raise InputError("gains need two tables with the same moves, one computed from the other")
         return tuple(gain(new, was) for new, was in pairs)
 
     def plot(self, ax: Any = None, *, new: OldTable | None = None, **style: Any) -> list[Any]:  # noqa: ANN401 - matplotlib's

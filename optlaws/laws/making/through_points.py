@@ -370,7 +370,7 @@ def _within(places: Array, heights: Array, room: float, *, rest: bool) -> Piecew
             return law
         least = min(least, missed)
     raise InputError(
-        f"no law of at most {_MOST_PIECES} even pieces keeps within the tolerance, {room:.3g} of the stroke, and none "
+        f"no law of at most {_MOST_PIECES} equal pieces is within the tolerance, {room:.3g} of the stroke, and none "
         f"goes through the points: the nearest misses one by {least:.3g}; raise the tolerance, or take one motion "
         "from rest to rest"
     )

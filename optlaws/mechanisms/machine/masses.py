@@ -198,7 +198,7 @@ def assembly(
     for name in masses:
         _check_name(name)
         if name == GROUND:
-            raise InputError('"ground" is what stands still: it has no mass')
+            raise InputError('"ground" is the fixed frame: it has no mass')
     pair = (GROUND, drive) if isinstance(drive, str) else tuple(drive) if isinstance(drive, Iterable) else ()
     if len(pair) != 2:
         raise InputError(

@@ -57,7 +57,7 @@ def mode(machine: StateSpace, number: object) -> Mode:
     """The vibration of a machine with a given number."""
     vibrations = modes(machine)
     if not vibrations:
-        raise InputError("the machine has no mode that vibrates: ask for peaks of its outputs in the dwell instead")
+        raise InputError("the machine has no vibrating mode: use peaks of its outputs in the dwell instead")
     if isinstance(number, str):
         raise InputError(f"mode is a number from 1 to {len(vibrations)}, before the output: residual(1, {number!r})")
     if not isinstance(number, int | float) or isinstance(number, bool) or number not in range(1, len(vibrations) + 1):

@@ -153,7 +153,7 @@ class OutputConstant(Functional):
         else:
             check_rest(self.name, space)
         if self.machine.output_rows(self.output)[1][2] and getattr(space, "continuity", 2) < 1:
-            raise InputError(f"{self.output!r} is beyond every bound where the velocity jumps: ask a continuity of 1")
+            raise InputError(f"{self.output!r} is beyond every bound where the velocity jumps: give a continuity of 1")
         states, direct = self.machine.output_rows(self.output)
         panels = [(panel.start, panel.length, panel.output(states, direct)) for panel in self._moved(space)]
         for *_, series in panels:

@@ -243,7 +243,7 @@ class MachineResponse(MachineMotion):
             If no dwell was asked for.
         """
         if self.dwell <= SHORTEST_STRETCH:
-            raise InputError("this response has no dwell: ask for one, machine.response(law, dwell=1.0)")
+            raise InputError("this response has no dwell: request one, machine.response(law, dwell=1.0)")
         return self._greatest(output, (1.0, self[output].interval[1]))
 
     def _greatest(self, output: str, within: tuple[float, float]) -> Peak:

@@ -223,9 +223,7 @@ def mode_residual(
 def _mode_number(machine: StateSpace, number: float, output: str) -> int:
     vibration = mode(machine, number)
     if vibration.frequency > _WIDEST * 10.0 or vibration.damping > _MOST_DAMPING:
-        raise InputError(
-            f"mode {vibration.number} hardly vibrates: ask for the peak of {output!r} in the dwell instead"
-        )
+        raise InputError(f"mode {vibration.number} hardly vibrates: use the peak of {output!r} in the dwell instead")
     return vibration.number
 
 

@@ -168,7 +168,7 @@ def functional(
     if kind not in tuple(_KINDS):
         raise InputError(unknown_key(kind, _KINDS, "kind"))
     if (kind == "value") != (at is not None):
-        raise InputError(f"a value needs at, the k at which it is asked, and nothing else takes one; got {at!r}")
+        raise InputError(f"a value needs at, its k, and no other constant takes it; got {at!r}")
     if at is not None:
         return value(function, at=at)
     if kind == "peak":

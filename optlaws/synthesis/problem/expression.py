@@ -72,7 +72,7 @@ class Expression:
         gathered: dict[Term, float] = {}
         for weight, term in _pairs(self.terms):
             if not isinstance(term, Term):
-                raise InputError(f"an objective is made of constants of the law and maxima, got {shortened(term)}")
+                raise InputError(f"an objective consists of constants of the law and maxima, got {shortened(term)}")
             if (number := real(weight)) is None or not 0.0 <= number <= MAGNITUDE_LIMIT:
                 raise _no_weight(weight, f" for {getattr(term, 'title', '') or shortened(term)}")
             gathered[term] = gathered.get(term, 0.0) + float(weight)

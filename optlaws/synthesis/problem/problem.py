@@ -96,14 +96,14 @@ class Problem(JsonText):
             object.__setattr__(self, "symmetric", not self.uneven)
         if self.symmetric and self.inflexion not in {None, 0.5}:
             raise InputError(
-                f"a symmetric law has its inflexion at 1/2, not at {self.inflexion!r}: ask symmetric=False"
+                f"a symmetric law has its inflexion at 1/2, not at {self.inflexion!r}: give symmetric=False"
             )
         self._drop_implied_inflexion()
         if self.boundary is not None:
             if self.boundary == BoundaryConditions.rest(self.order):
                 object.__setattr__(self, "boundary", None)
             elif self.symmetric:
-                raise InputError("a law with these boundary conditions is not symmetric: ask symmetric=False")
+                raise InputError("a law with these boundary conditions is not symmetric: give symmetric=False")
         self.basis.check(symmetric=self.symmetric)
 
     def _give_bounds_their_entries(self) -> None:

@@ -217,7 +217,7 @@ class _Refined:
         value = float(self.values[worst])
         raise SolverFailure(
             f"the law at {self.number.name} = {value!r} has a gap of {gaps[worst]:.1e} itself: a front cannot be "
-            f"proven to {gap:g}; ask a greater gap, or another range",
+            f"proven to {gap:g}; give a greater gap, or another range",
             problem=self.number.at(value),
         )
 

@@ -74,7 +74,7 @@ class PeriodicPieces(Pieces):
     def check(self, *, symmetric: bool) -> None:
         """Refuse symmetric laws, which are not periodic."""
         if symmetric:
-            raise InputError("a law that repeats is not symmetric about 1/2: ask symmetric=False")
+            raise InputError("a law that repeats is not symmetric about 1/2: give symmetric=False")
 
     def to_dict(self) -> dict[str, Any]:
         """Plain data as of `Pieces`, with the straight pieces."""

@@ -137,7 +137,7 @@ class PiecewiseSpace(LawSpace):
         if nu > self.continuity + 1 and len(self.breaks) > 2:
             raise InputError(
                 f"with continuity {self.continuity} the derivative of order {nu} has impulses at the breaks, which are "
-                f"beyond every bound: ask a continuity of at least {nu - 1}"
+                f"beyond every bound: give a continuity of at least {nu - 1}"
             )
 
     def _wide(self, pieces: PieceSeries, size: int) -> PieceSeries:

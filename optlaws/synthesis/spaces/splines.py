@@ -65,7 +65,7 @@ class PiecewiseBasis(Basis):
     def check(self, *, symmetric: bool) -> None:
         """Refuse what leaves no freedom, and breaks that are not symmetric where the law is to be."""
         if self.size < (2 if symmetric else 1):
-            raise InputError(f"{self!r} leaves no freedom: ask more pieces or a higher degree")
+            raise InputError(f"{self!r} leaves no freedom: give more pieces or a higher degree")
         if symmetric and not mirrored(self.breaks):
             raise InputError(f"a symmetric law needs breaks symmetric about 1/2, got {shortened(self.breaks)}")
 

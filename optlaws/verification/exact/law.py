@@ -112,7 +112,7 @@ class ExactLaw:
         """The pieces of a law that consists of polynomials alone."""
         polynomials = [piece for piece in self.pieces if isinstance(piece, PolynomialPiece)]
         if len(polynomials) < len(self.pieces):
-            raise InputError("the law of a solution must be made of polynomials")
+            raise InputError("the law of a solution must be piecewise polynomial")
         return polynomials
 
     def value(self, nu: int, k: Fraction) -> fmpq:

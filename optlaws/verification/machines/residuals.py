@@ -251,6 +251,6 @@ def vibrations(poles: Sequence[tuple[acb, int]]) -> list[list[tuple[acb, int]]]:
             near[0].append(pole)
             continue
         if groups and not size > abs(groups[-1][0][0]) * ball(1 + SAME_FREQUENCY):
-            raise InputError("two modes of the machine have the same frequency: which is the first cannot be told")
+            raise InputError("two modes of the machine have the same frequency: their order cannot be decided")
         groups.append([pole])
     return groups

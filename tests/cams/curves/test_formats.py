@@ -115,7 +115,7 @@ def test_wrong_entries_name_themselves(tmp_path: Path) -> None:
     ):
         with pytest.raises(InputError, match=match):
             write_outline(ELLIPSE, tmp_path / "profile.dxf", **said)
-    with pytest.raises(InputError, match="says no format"):
+    with pytest.raises(InputError, match="names no format"):
         write_outline(ELLIPSE, tmp_path / "profile.iges")
     with pytest.raises(InputError, match="turns back as seen from the centre"):
         write_outline(aside(), tmp_path / "p.csv", "csv polar")

@@ -102,7 +102,7 @@ def test_splines_get_nearer_with_the_power_of_their_degree() -> None:
 def test_what_cannot_be_cut_says_why() -> None:
     with pytest.raises(InputError, match="whole turn"):
         polygon(Ellipse(0.06, 0.03, (0.0, 2.0)), 1e-6)
-    with pytest.raises(InputError, match="tolerance asks for"):
+    with pytest.raises(InputError, match="tolerance requires"):
         polygon(CIRCLE, 1e-15)
     with pytest.raises(InputError, match="degree"):
         spline(CIRCLE, 1e-6, 4)

@@ -323,7 +323,7 @@ def test_wrong_constants_are_named(says: str, make: object) -> None:
 def test_decays_and_defective_modes_have_no_residual() -> None:
     decaying = Machine([[-3.0]], [[3.0]], [[1.0]])
     assert decaying.modes == ()
-    with pytest.raises(InputError, match="no mode that vibrates"):
+    with pytest.raises(InputError, match="no vibrating mode"):
         decaying.residual()
     values = np.array([[-0.1, 9.0], [-9.0, -0.1]])
     driving = Machine(np.block([[values, np.eye(2)], [np.zeros((2, 2)), values]]), np.ones((4, 1)), np.eye(4))

@@ -117,7 +117,7 @@ def test_neighbours_are_continued() -> None:
         ({"inflexion": 0.0}, "between 0 and 1"),
         ({"inflexion": "0.4"}, "between 0 and 1"),
         ({"inflexion": True}, "between 0 and 1"),
-        ({"symmetric": True}, "ask symmetric=False"),
+        ({"symmetric": True}, "give symmetric=False"),
     ],
 )
 def test_inflexions_that_make_no_sense_are_refused(given: dict[str, Any], text: str) -> None:
