@@ -222,7 +222,7 @@ class Results:
     def write(self, out: Path | None = None) -> list[Path]:
         """Write the results into a folder, `results/NAME` in the current folder by default, and return the files.
 
-        Files that say the same are left as they are; one that a user changed is kept as `name.orig`.
+        Files with the same contents are left unchanged; a file that a user changed is kept as `name.orig`.
         """
         from optlaws.plots.style import save_pictures
 

@@ -54,7 +54,7 @@ class BarrelCam:
     Raises
     ------
     InputError
-        If there is no such groove, or an argument of a method is none; the error says the remedy.
+        If there is no such groove, or an argument of a method is none; the error states the remedy.
 
     Examples
     --------
@@ -155,7 +155,7 @@ class BarrelCam:
     def margin(self) -> EnclosedExtreme:
         """The least of v - R r |s''|/v² - R² s'²/v³ at the bottom of the groove, v² = r² + s'², in m; enclosed.
 
-        By so much a flank goes on with every radian; where it is not above 0, the flank has a cusp.
+        The advance of a flank per radian; where it is not above 0, the flank has a cusp.
         """
         return self._rest(steep=False)
 

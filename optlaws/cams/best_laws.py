@@ -59,7 +59,7 @@ class BestCam:
     cam
         With the laws found.
     objective
-        What is minimised over the whole cycle, as the cycle says; SI units.
+        The value of the cycle's objective over the whole cycle; SI units.
     lower_bound
         What no other laws of this order and degree in the same times that keep the limits can beat.
     status
@@ -112,7 +112,7 @@ def best_cam(
     Parameters
     ----------
     cycle
-        Its optimal motions are looked for again; what it minimises and its limits stay.
+        Its optimal motions are optimised again; its objective and its limits stay.
     prime_radius, follower, turning
         As of a `DiscCam`.
     pressure_angle, radius_of_curvature
@@ -170,7 +170,7 @@ def best_prime_circle(
     Parameters
     ----------
     cycle
-        Its limits and its given laws stay; its optimal motions are looked for.
+        Its limits and its given laws stay; its optimal motions are optimised again.
     follower
         A roller on a slide, with a limit of the pressure angle, or a flat face on a slide, with one of the radius.
     pressure_angle, radius_of_curvature, turning

@@ -39,7 +39,7 @@ def conjugate_cam(
     Raises
     ------
     InputError
-        If the followers are not of one kind or pivot, or there is no such mechanism; the error says the remedy.
+        If the followers are not of one kind or pivot, or there is no such mechanism; the error states the remedy.
 
     Examples
     --------

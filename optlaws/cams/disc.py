@@ -64,7 +64,7 @@ class DiscCam:
     Raises
     ------
     InputError
-        If there is no such mechanism, or an argument of a method is none; the error says the remedy.
+        If there is no such mechanism, or an argument of a method is none; the error states the remedy.
 
     Examples
     --------
@@ -180,7 +180,7 @@ class DiscCam:
         feed
             Of a tool, such as "200 mm/min"; left to the machine unless given.
         about
-            What the file says of itself.
+            The comment in the file.
 
         Raises
         ------

@@ -61,7 +61,7 @@ class TableOptions:
     ----------
     tolerance
         Of a table of points: how far the law may be off them, in the unit of the displacements, 0 for a law through
-        them; the last digit, or what the noise of the table asks for, unless given.
+        them; by default, the last digit or the noise of the table.
     columns
         Of a table of more than two: those of the time or angle and of the displacement, by headings or numbers, as 1,3.
     """

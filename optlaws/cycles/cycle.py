@@ -90,7 +90,7 @@ class Cycle(CycleInterchange):
     start
         Position at the start, 0 unless given.
     advance
-        How far each cycle goes on from the one before; 0 unless given.
+        The advance of each cycle over the previous one; 0 by default.
     drive
         What the motion drives: `{"mass": "2 kg", "stiffness": "3 N/mm", "viscous": ..., "dry": ..., "gravity": ...}`,
         with inertia in place of mass for tables; a `Mechanism` whose input moves as the cycle does, or the `Drive` of
@@ -110,7 +110,7 @@ class Cycle(CycleInterchange):
     Raises
     ------
     InputError
-        If durations do not sum, positions do not close or velocities do not meet; the error says the remedy, as it
+        If durations do not sum, positions do not close or velocities do not meet; the error states the remedy, as it
         does where a method is given what is no time, speed or angle, or is asked for a load or drive that is not there.
     InfeasibleProblem
         If a joint takes more force than a limit allows; limits that no law keeps are told when laws are looked for.

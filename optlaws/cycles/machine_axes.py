@@ -47,7 +47,7 @@ class Axes(JsonText, Mapping[str, Cycle]):
         is needed.
     interlocks
         Conditions between two axes each: `After`, `Clearance`, `Forbidden`, `Synchronous`, or the plain data of such.
-        `clearances` says which are clear and where they are nearest.
+        `clearances` states which are clear and where they are nearest.
 
     Raises
     ------

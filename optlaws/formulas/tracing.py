@@ -176,7 +176,7 @@ def traced(function: Callable[[Any], Any], name: str = "x") -> dict[str, Formula
     Raises
     ------
     InputError
-        If the function does what formulas cannot say, such as branches on values; the error says the remedy.
+        If the function does what formulas cannot say, such as branches on values; the error states the remedy.
 
     Examples
     --------

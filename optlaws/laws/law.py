@@ -35,7 +35,7 @@ class MotionLaw(Curve, LawExport, StoredLaw):
 
     At a break a derivative takes its right-hand value, at k = 1 the left-hand one; peaks and extrema look at both
     sides of every break. Where a derivative jumps inside (0, 1), those of higher order are impulses: J is inf at
-    the first k where c jumps, C (and D) where b jumps, and `jumps` tells how much. What happens at k = 0 and k = 1
+    the first k where c jumps, C (and D) where b jumps, and `jumps` gives the size. What happens at k = 0 and k = 1
     is not counted: rest before and after the motion is no part of it.
 
     A new representation is one subclass, a frozen dataclass declared with its kind, for example

@@ -297,7 +297,7 @@ class SavinFamily:
         Raises
         ------
         InputError
-            If not exactly one is given, or no member has it; the message says the reachable range.
+            If not exactly one is given, or no member has it; the message states the reachable range.
 
         Examples
         --------

@@ -35,7 +35,7 @@ def polydyne(law: MotionLaw, frequency: float, damping: float = 0.0) -> MotionLa
     Raises
     ------
     InputError
-        If the law is not smooth enough (the message says which derivative and where), or a number is out of range.
+        If the law is not smooth enough (the message states which derivative and where), or a number is out of range.
 
     Examples
     --------

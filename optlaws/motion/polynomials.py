@@ -37,7 +37,7 @@ class PiecewiseMotion:
     """Polynomials between breaks, in ascending powers of x - x_i, in machine units; call it with an order nu.
 
     x is what the controller counts: time or the position of the master. What is not continuous at a break stays so:
-    a value there is the one after it, extremes look at both sides, and `jumps` tells how much. Derivatives are those
+    a value there is the one after it, extremes look at both sides, and `jumps` gives the size. Derivatives are those
     of the pieces; where one jumps, those above it are no impulses here.
 
     Parameters

@@ -120,7 +120,7 @@ def quantity(value: Any, dimension: str, name: str) -> float:  # noqa: ANN401 - 
         Text: a number, with a decimal point, and its unit; or a quantity of pint, of any registry. Angles are no bare
         numbers: 45 deg, 0.5 rad, 1 turn. An angular velocity in 1/min is one in turns.
     dimension
-        What is asked, one of `DIMENSIONS`.
+        The required dimension, one of `DIMENSIONS`.
     name
         What an error calls it.
 

@@ -39,13 +39,13 @@ def run_study(
     source
         The study file, or the same as a dict.
     out
-        The directory. The same call goes on where an earlier one stopped, whatever stopped it.
+        The directory. The same call continues an interrupted run.
     executor
         Anything that speaks `concurrent.futures.Executor`; watched processes of this machine unless given.
     workers
         How many points are solved at a time; all cores, or what the executor has, unless given.
     watch
-        What is told of the progress; a bar on a terminal or in a notebook unless given.
+        The display of the progress; by default, a bar on a terminal or in a notebook.
 
     Returns
     -------

@@ -41,7 +41,7 @@ class StudyPoint(msgspec.Struct, kw_only=True, omit_defaults=True, dict=True):
     problem
         The whole problem; InputError where the point asks for none.
     status
-        How far the law can be trusted or, where there is none, why; `error` says more.
+        How far the law can be trusted or, where there is none, why; `error` has the details.
     objective, lower_bound, gap, limit
         As in `Solution`; None where there is no law.
     constants

@@ -319,7 +319,7 @@ def pareto_front(
     Parameters
     ----------
     problem
-        What else is asked; its `minimise` does not count.
+        The rest of the problem; its `minimise` does not count.
     over
         Two or three constants, by their names or themselves: B, C, D, J, or any that can be minimised and bounded,
         such as "peak(c + 0.2*b)", "residual(frequency=20)" or `machine.peak("torque")`.

@@ -50,9 +50,9 @@ class Solution(LawExport, JsonText):
     certificate
         Contacts and multipliers; `certificate.bound` is a lower bound, by numpy alone.
     power_certificate
-        Where D is in the problem and the bound was asked to be tight: the proof that closes the gap.
+        Where D is in the problem and a tight bound was requested: the proof that closes the gap.
     peak_certificate
-        Where a peak is bounded from below and the bound was asked to be tight: the proof that no place is better.
+        Where a peak is bounded from below and a tight bound was requested: the proof that no place is better.
     drive_limit
         Of a drive's torque or energy that is not convex, where laws must not turn back: what none of them can beat.
     lower_bound

@@ -78,7 +78,7 @@ class Status(StrEnum):
             Status.INACCURATE: "The law is sound but the bound does not meet it; change the degree a little.",
             Status.INFEASIBLE: "No law of this problem exists, and a proof shows it; loosen a bound.",
             Status.FAILED: "No law was found and none is known not to exist; change the degree, or loosen a bound.",
-            Status.INVALID: "The entries make no problem; the error says which and why.",
+            Status.INVALID: "The entries make no problem; the error states which and why.",
             Status.TIME_LIMIT: "The point took longer than the study's time limit; raise it, or lower the degree.",
             Status.DIED: "The process ended, mostly for want of memory; solve the point by itself.",
             Status.ERROR: "An error of the library itself, which its developers would like to see.",

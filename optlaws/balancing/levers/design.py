@@ -67,7 +67,7 @@ def find_torsion_levers(
     Raises
     ------
     InputError
-        If a value is out of reach (the message says what is within reach), or the numbers of values and ranges differ.
+        If a value is out of reach (the message states the reachable range), or the numbers of values and ranges differ.
 
     Examples
     --------

@@ -68,7 +68,7 @@ class CamMotion:
         Raises
         ------
         InputError
-            If the cycle goes on from where it ends, as no cam can.
+            If the cycle continues from its end, as no cam can.
         """
         pieces = cycle.pieces
         moved = sum(stretch.displacement for stretch in cycle.programme.stretches)

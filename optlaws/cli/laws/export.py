@@ -116,11 +116,11 @@ def export(
     law
         A law by its name or file, or a problem file of the job "cycle" (.toml).
     to
-        The format; --list tells which there are.
+        The format; --list shows all formats.
     listed
         List the formats: who takes them, how it interpolates, what it cannot hold.
     output
-        The file to write; one that is there and says something else is kept as NAME.orig.
+        The file to write; an existing file with other contents is kept as NAME.orig.
     as_json
         Print one JSON object on stdout and nothing else: the report, and the text without --output.
     """

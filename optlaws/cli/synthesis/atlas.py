@@ -32,7 +32,7 @@ def atlas(
     file
         The atlas; where it is not there the one that comes with optlaws.
     plot
-        Draw the law as asked into this file, PNG or SVG.
+        Draw the law into this file, PNG or SVG.
     as_json
         Print one JSON object on stdout and nothing else.
     """

@@ -91,7 +91,7 @@ def decoded(content: str, cam: str | None = None) -> Decoded | None:
     Raises
     ------
     InputError
-        If it has the fields of a layout, and a value is missing or wrong; the error tells the line.
+        If it has the fields of a layout, and a value is missing or wrong; the error names the line.
     """
     if content.lstrip().startswith("<"):
         content = _of_xml(content, cam)

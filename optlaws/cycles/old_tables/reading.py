@@ -95,7 +95,7 @@ def read_points(
     Raises
     ------
     InputError
-        If the file cannot be read, holds no table, or is damaged; the error tells the line.
+        If the file cannot be read, holds no table, or is damaged; the error names the line.
     """
     return points_in(reading.text(path, LARGEST_TABLE, legacy=True), path, columns, unit=unit, master=master, cam=cam)
 
@@ -245,7 +245,7 @@ def rate_of(places: Array, heights: Array, velocities: Array, lines: Sequence[in
     Raises
     ------
     InputError
-        If velocities are not those of the positions; the error tells the line of the worst.
+        If velocities are not those of the positions; the error names the line of the worst.
 
     Examples
     --------

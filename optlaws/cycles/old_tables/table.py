@@ -341,7 +341,7 @@ def split_table(
     x, y
         Increasing places of the master and positions there, as many, at least 12.
     tolerance
-        How far laws may be off the points; what the noise asks for unless given.
+        The tolerance of the laws about the points; by default, the noise of the points.
     unit, master
         The units of positions and places.
     digit

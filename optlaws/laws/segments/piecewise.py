@@ -28,7 +28,7 @@ _GAUSS = 24  # points a segment for the mean square of a, of which nothing asks 
 class PiecewiseLaw(MotionLaw, kind="piecewise"):
     """A law of exact segments between breaks 0 = k_0 < k_1 < ... < k_n = 1; displacement is continuous.
 
-    Where a derivative jumps at a break, those of higher order are impulses, and `jumps` tells how much. Where c itself
+    Where a derivative jumps at a break, those of higher order are impulses, and `jumps` gives the size. Where c itself
     grows without limit (a constant-power segment that starts from rest), C, J and the RMS are inf.
 
     Parameters

@@ -279,7 +279,7 @@ class Drive(JsonText):
         InputError
             If the stroke leaves the range, or nothing keeps the acceleration finite.
         InfeasibleProblem
-            If the motor is too weak; the error says what is reachable, and its `proof` proves it.
+            If the motor is too weak; the error states what is reachable, and its `proof` proves it.
 
         Examples
         --------

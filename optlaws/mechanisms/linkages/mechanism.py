@@ -349,7 +349,7 @@ class Mechanism(JsonText):
         InputError
             If the stroke leaves the range, or nothing keeps the acceleration finite.
         InfeasibleProblem
-            If no motion keeps the limits; the error says what is reachable, and its `proof` proves it.
+            If no motion keeps the limits; the error states what is reachable, and its `proof` proves it.
 
         Examples
         --------

@@ -231,7 +231,7 @@ def move_limit(
     InputError
         If the torque is of another form, or nothing keeps the acceleration finite.
     InfeasibleProblem
-        If no motion keeps the bounds; the error says what is reachable.
+        If no motion keeps the bounds; the error states what is reachable.
     """
     if minimise not in get_args(DriveObjective):
         raise InputError(unknown_key(minimise, get_args(DriveObjective), "minimise"))

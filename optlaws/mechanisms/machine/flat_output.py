@@ -30,7 +30,7 @@ def flat_output(machine: StateSpace, output: str | None = None) -> tuple[float, 
     Raises
     ------
     InputError
-        If the output is not flat; the error says why.
+        If the output is not flat; the error states why.
 
     Examples
     --------

@@ -240,7 +240,7 @@ class MachineResponse(MachineMotion):
         Raises
         ------
         InputError
-            If no dwell was asked for.
+            If the response has no dwell.
         """
         if self.dwell <= SHORTEST_STRETCH:
             raise InputError("this response has no dwell: request one, machine.response(law, dwell=1.0)")

@@ -29,7 +29,7 @@ CONSTANTS = ("C", "D", "J", "RMS")
 def acceleration_limit(B: float, *, monotone: bool = False, order: int = 2) -> float:
     """Infimum of C over all laws with b <= B, b(1/2) = B, zero end positions (dimensionless).
 
-    Rest-to-rest laws (order >= 2) may come as near as they like; where `monotone`, b >= 0 is asked too. With order 1
+    Rest-to-rest laws (order >= 2) may come as near as they like; where `monotone`, b >= 0 is required too. With order 1
     the end velocities are free and the infimum is lower.
 
     Parameters
@@ -37,7 +37,7 @@ def acceleration_limit(B: float, *, monotone: bool = False, order: int = 2) -> f
     B
         Peak velocity, above 1.
     monotone
-        Whether b >= 0 is asked.
+        Whether b >= 0 is required.
     order
         Number l of boundary conditions at each end.
 
@@ -68,14 +68,14 @@ def acceleration_limit(B: float, *, monotone: bool = False, order: int = 2) -> f
 def power_limit(B: float, *, monotone: bool = False) -> float:
     """Infimum of D at given B: constant speed and constant power. The least of all is 9/4, at B = 3/2.
 
-    B³/(3(B-1)) for B <= 3/2; above, 2B³/3 where b >= 0 is asked, else B² + 2u² with 2u³ + 3u² = B²(B - 3/2).
+    B³/(3(B-1)) for B <= 3/2; above, 2B³/3 where b >= 0 is required, else B² + 2u² with 2u³ + 3u² = B²(B - 3/2).
 
     Parameters
     ----------
     B
         Peak velocity, above 1.
     monotone
-        Whether b >= 0 is asked.
+        Whether b >= 0 is required.
 
     Raises
     ------
@@ -106,14 +106,14 @@ def power_limit(B: float, *, monotone: bool = False) -> float:
 def rms_limit(B: float, *, monotone: bool = False) -> float:
     """Infimum of the RMS of c at given B: parabolas of velocity. The least of all is sqrt 12, at B = 3/2.
 
-    (4B/3) sqrt(B/(B-1)) for B <= 3/2 and 4 sqrt(B² - 3B + 3) above; where b >= 0 is asked, (4/3) sqrt(B³) for B >= 3.
+    (4B/3) sqrt(B/(B-1)) for B <= 3/2 and 4 sqrt(B² - 3B + 3) above; if b >= 0 is required, (4/3) sqrt(B³) for B >= 3.
 
     Parameters
     ----------
     B
         Peak velocity, above 1.
     monotone
-        Whether b >= 0 is asked.
+        Whether b >= 0 is required.
 
     Raises
     ------
@@ -141,14 +141,14 @@ def jerk_limit(B: float, *, monotone: bool = False, order: int = 3) -> float:
 
     End accelerations zero (order >= 3): 4B³/(B-1)² for B <= 2 and 16 (2(B-2) + sqrt(4(B-2)² + B²)) above. End
     accelerations free (order 2): 8B³/(9(B-1)²) for B <= 3/2 and 8B/(1 - 2r²) above, with the root r of
-    2B r³ - 6(B-1) r² + 2B - 3 = 0 in [0, 1/sqrt 2). Where b >= 0 is asked, 4B³ for B >= 2 at either order.
+    2B r³ - 6(B-1) r² + 2B - 3 = 0 in [0, 1/sqrt 2). Where b >= 0 is required, 4B³ for B >= 2 at either order.
 
     Parameters
     ----------
     B
         Peak velocity, above 1.
     monotone
-        Whether b >= 0 is asked.
+        Whether b >= 0 is required.
     order
         Number l of boundary conditions at each end, at least 2.
 
@@ -191,7 +191,7 @@ def _jerk_of_free_ends(B: float) -> float:
 def acceleration_limit_at_jerk(B: float, J: float, *, monotone: bool = False) -> float:
     """Infimum of C at given B over laws with |j| <= J and zero end accelerations: trapezoids of acceleration.
 
-    2B/(w + sqrt(w² - 4B/J)) with w = (B-1)/B for B <= 2, and w = 1/B for B >= 2 where b >= 0 is asked. Else, for
+    2B/(w + sqrt(w² - 4B/J)) with w = (B-1)/B for B <= 2, and w = 1/B for B >= 2 where b >= 0 is required. Else, for
     B > 2, a law that first moves back: the root above `acceleration_limit` of 4C³/J = C² - 4(B-2) C - 4B², or a closed
     form where the motion back is so short that its acceleration has no constant part.
 
@@ -202,7 +202,7 @@ def acceleration_limit_at_jerk(B: float, J: float, *, monotone: bool = False) ->
     J
         Peak jerk that is allowed, at least `jerk_limit(B, monotone=monotone)`.
     monotone
-        Whether b >= 0 is asked.
+        Whether b >= 0 is required.
 
     Raises
     ------
@@ -267,7 +267,7 @@ def limit(
         Number l of boundary conditions at each end. All orders from 3 (zero end accelerations) have the same limits;
         J is lower at order 2 (free end accelerations), C at order 1 (free end velocities).
     monotone
-        Whether b >= 0 is asked.
+        Whether b >= 0 is required.
     J
         For "C" alone: the peak jerk that is allowed; end accelerations are zero then (order >= 3).
 

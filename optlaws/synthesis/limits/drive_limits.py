@@ -199,7 +199,7 @@ def drive_limit(
     InputError
         If the torque is of another form, an inertia is below 0, or nothing keeps the acceleration finite.
     InfeasibleProblem
-        If no motion keeps the bounds in the time 1; the error says the least time.
+        If no motion keeps the bounds in the time 1; the error states the least time.
     SolverFailure
         If the conic program was not solved.
 

@@ -34,7 +34,7 @@ def limit_law(
     order
         Number l of boundary conditions at each end. All orders from 3 have the same laws.
     monotone
-        Whether b >= 0 is asked.
+        Whether b >= 0 is required.
     J
         For "C" alone: the peak jerk that is allowed; end accelerations are zero then.
 

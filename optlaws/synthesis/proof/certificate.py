@@ -42,7 +42,7 @@ class Certificate(JsonText):
     Attributes
     ----------
     problem
-        Of which problem it speaks: of every law of it, symmetric or not if that is not asked.
+        The problem, of which it bounds every law, symmetric or not unless symmetry is required.
     claim
         What no law's objective is below; None for what the only leaf proves, infinite where there is no law at all.
     tree

@@ -61,7 +61,7 @@ def proven_front(
     Parameters
     ----------
     problem
-        What else is asked.
+        The rest of the problem.
     over
         What runs, and what is minimised, such as ("B", "C") or ("rms_c", "J"); of one name alone the problem's own
         objective is. B is given as a number and taken at the middle, "at_most.B" and other constants are bounded from
@@ -83,7 +83,7 @@ def proven_front(
     InfeasibleProblem
         If there is no law at an end; the message names the least or greatest value that has one.
     SolverFailure
-        If a certified law was not found, or its own gap is above what is asked.
+        If a certified law was not found, or its own gap exceeds `gap`.
 
     Examples
     --------

@@ -47,7 +47,7 @@ class SweptParameter:
     Parameters
     ----------
     problem
-        What else is asked.
+        The rest of the problem.
     name
         "B", which is given as a number; "at_most.B", "C", "J", "rms_c" or another constant, which is bounded from
         above; or "weight of C", the weight of a term of the objective.

@@ -261,7 +261,7 @@ class Pieces(Basis):
     Parameters
     ----------
     breaks
-        Dimensionless times from 0 to 1, increasing; a number asks for so many pieces of equal length. Symmetric
+        Dimensionless times from 0 to 1, increasing; an integer is the number of equal pieces. Symmetric
         laws need 1/2 among them and the breaks symmetric about it.
     degree
         Degree of a(k) on each piece, at least 2.

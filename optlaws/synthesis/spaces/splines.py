@@ -29,7 +29,7 @@ class PiecewiseBasis(Basis):
     Parameters
     ----------
     breaks
-        Dimensionless times from 0 to 1, increasing; a number asks for so many pieces of equal length. Symmetric laws
+        Dimensionless times from 0 to 1, increasing; an integer is the number of equal pieces. Symmetric laws
         need breaks symmetric about 1/2.
     degree
         Degree of Z(k) on each piece, at least 2. The law's is 2l more.

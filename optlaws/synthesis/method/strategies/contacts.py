@@ -27,7 +27,7 @@ class ByContacts(Strategy[ActiveSet, ActiveSet]):
     program
         What is solved.
     holds
-        May tell from x alone, and more quickly than the families do, whether every constraint holds.
+        Checks from x alone, faster than the families do, whether every constraint holds.
     """
 
     program: Program

@@ -48,7 +48,7 @@ class ByInteriorPoints(Strategy[list[Points], ActiveSet]):
     start
         Where IPOPT begins; None leaves that to it.
     holds
-        May tell from x alone, and more quickly than the families do, whether every constraint holds.
+        Checks from x alone, faster than the families do, whether every constraint holds.
     rounds
         How many at most; a linear program is given fewer.
     units

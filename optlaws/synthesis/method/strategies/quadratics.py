@@ -47,7 +47,7 @@ class ByQuadratics(Strategy[list[Points], ActiveSet]):
     x
         Where the next round begins.
     holds
-        May tell from x alone, and more quickly than the families do, whether every constraint holds.
+        Checks from x alone, faster than the families do, whether every constraint holds.
     straight
         Whether a linear program shows the kinks first; else, near an optimum, smooth formulas do.
     count, iterations, answer

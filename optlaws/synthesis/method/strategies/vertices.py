@@ -49,7 +49,7 @@ class ByVertices(Strategy[list[Points], ActiveSet]):
     program
         A program that is linear or conic.
     holds
-        May tell from x alone, and more quickly than the families do, whether every constraint holds.
+        Checks from x alone, faster than the families do, whether every constraint holds.
     central
         Whether the middle of all optima on the points is taken, by Clarabel: where the optimum is flat, vertices of it
         stick out between the points, here and there, however many there are.
