@@ -36,27 +36,27 @@ class Problem(JsonText):
         A constant or a sum or maximum of constants: "C", "D", "0.6*C/4 + 0.4*D/2.25", `0.6 * C / 4 + 0.4 * D / 2.25`.
     B, C, D, J
         Peak velocity, acceleration, power and jerk: a number fixes the constant, a `Range` such as
-        `between(1.5, 1.8)` or `at_most(60)` bounds it, None leaves it free. `at_most` asks |b| <= B everywhere and
-        nothing else, `at_least` that the greatest |b| is no less, wherever it is. From rest to rest a number also puts
-        the peak in the middle, unless there is an inflexion: b(1/2) is B, the greatest |b|.
+        `between(1.5, 1.8)` or `at_most(60)` bounds it, None leaves it free. `at_most` only requires |b| <= B
+        everywhere, `at_least` a peak |b| >= B at any k. From rest to rest a number also puts the peak in the middle,
+        unless there is an inflexion: b(1/2) is B, the greatest |b|.
     bounds
-        The same for any constant: `{"rms_c": at_most(4), "C_minus": at_most(5)}`, by its name or itself.
+        Bounds of any constant, by its name or itself: `{"rms_c": at_most(4), "C_minus": at_most(5)}`.
     basis
-        Basis of Z(k) with its degree: `Powers(9)`, `Chebyshev(9)`, `BSplines(8, 3)`; `Chebyshev(9)` unless given, as
+        Basis of Z(k) with its degree: `Powers(9)`, `Chebyshev(9)`, `BSplines(8, 3)`; `Chebyshev(9)` by default, also
         on the command line.
     monotone
-        Ask b >= 0 too.
+        Require b >= 0.
     symmetric
-        Ask a(k) + a(1-k) = 1. From rest to rest the optimum is the same either way where the objective is convex and
-        treats rise and fall alike and there are no windows (the mean of a law and its mirror image is no worse).
-        Unless given it is True, but False where a formula that is minimised or bounded says another thing of a law
-        than of its mirror image, as a torque against a load over a does: then no symmetric law need be best.
+        Require a(k) + a(1-k) = 1. From rest to rest this does not change the optimum if the objective is convex and
+        equal for a law and its mirror image, and there are no windows: the mean of both laws is no worse. The default
+        is True; it is False where a minimised or bounded formula differs between a law and its mirror image, such as a
+        torque against a load over a: then no symmetric law need be optimal.
     boundary
-        End conditions; rest to rest unless given. Others make the law unsymmetric.
+        End conditions; rest to rest by default. Other conditions make the law unsymmetric.
     inflexion
-        The k at which b is greatest: b <= b(inflexion) everywhere and c is 0 there, whatever the sign of b. A fixed
-        or lower bounded B is asked of b there. Without an inflexion that is k = 1/2 for laws from rest to rest with
-        a fixed B, else wherever it falls. Symmetric laws can have it at 1/2 only.
+        The k at which b is greatest: b <= b(inflexion) everywhere and c is 0 there, for either sign of b. A fixed or
+        lower bounded B is then prescribed for b at this k. Without an inflexion it is k = 1/2 for laws from rest to
+        rest with a fixed B, else any k. Symmetric laws can have it at 1/2 only.
     windows
         Values and windows of a, b, c, j or formulas: `via("a", 0.3, at=0.4)`, `Window("c + 2*b", high=5, start=0.2)`.
 
@@ -116,7 +116,7 @@ class Problem(JsonText):
         object.__setattr__(self, "bounds", Bounds(others))
 
     def _drop_implied_inflexion(self) -> None:
-        """Problems that ask the same are equal: of symmetric laws B may put the peak in the middle already."""
+        """Equivalent problems are equal: for symmetric laws a fixed B may imply the peak in the middle."""
         if self.symmetric and self.inflexion is not None and _fixed_above_mean(as_range(self.B, "B")):
             object.__setattr__(self, "inflexion", None)
 
