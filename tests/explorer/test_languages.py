@@ -61,6 +61,21 @@ def test_the_page_speaks_the_language_of_its_reader(spoken: Page, served: Server
         assert not lacking, f"page/texts.js lacks texts of the view {view}"
 
 
+@pytest.mark.parametrize("spoken", LOCALES, indirect=True)
+def test_an_advice_is_said_in_the_language_of_the_page(spoken: Page, served: Server) -> None:
+    spoken.locator("#views [data-key=advice]").click()
+    spoken.locator("#advice-words .advice").wait_for()
+    settle(spoken)
+    english = served.ask("advice", {"study": example()})["sentences"]
+    sentences = spoken.locator("#advice-words p").all_inner_texts()[:2]
+    for sentence, said in zip(english, sentences, strict=True):
+        numbers = [text.rstrip(".") for text in re.findall(r"\d[\d.]*", sentence)]
+        # every number of a sentence, and none of its words
+        assert sorted(re.findall(r"\d[\d,]*\d|\d", said)) == sorted(text.replace(".", ",") for text in numbers)
+        assert not re.search(r"\b(?:than|takes|none|less|limit)\b", said)
+    assert violations(spoken) == []
+
+
 @pytest.mark.parametrize("spoken", ["de"], indirect=True)
 def test_numbers_have_the_decimal_sign_of_the_language_in_and_out(spoken: Page, served: Server) -> None:
     def constants() -> list[str]:

@@ -102,6 +102,9 @@ export function say(english, asIs = false) {
   return before + (comma ? said.replace(DECIMAL, "$1,$2") : said) + after;
 }
 
+/** Whether a text is said in the language of the page: all of it is in the table. */
+export const known = (english) => texts === null || neutral(english) || found(english) !== null;
+
 /** What needs no translation: numbers, units, symbols. */
 const neutral = (text) => !/\p{L}{4,}/u.test(text.replace(/\b(?:deg|rad|rpm|min|rms|mm|ms)\b/g, ""));
 

@@ -4,7 +4,7 @@
 import { Chart, spanOf } from "../chart.js";
 import { group } from "../fields.js";
 import { Latest } from "../latest.js";
-import { localised, plain } from "../language.js";
+import { known, localised, plain } from "../language.js";
 import { Panels } from "../panels.js";
 import { html, renew } from "../svg.js";
 import { unanswered } from "../trust.js";
@@ -12,6 +12,9 @@ import { measured } from "../units.js";
 
 const SOURCES = { cycle: "the cycle", machine: "the machine" };
 const OBJECTIVES = ["", "acceleration", "jerk", "rms acceleration", "torque", "rms torque", "force", "rms force", "residual acceleration"];
+// between the clauses of a sentence, but not within the quoted name of a law
+const CLAUSES = /([;:,] |(?<=, )and (?=[\d.]+ %)| and (?=[\d.]+ %)| \(|\)(?=[;,.])|\.$)(?=(?:[^"]*"[^"]*")*[^"]*$)/;
+const SEPARATOR = /^(?:[;:,] | ?and | \(|\)|\.)$/;
 const MOVES = ["rise", "return", "move"];
 const OPTIMAL = "optimal";
 const LETTER = 0.018; // of the width of a picture
@@ -186,9 +189,9 @@ export class View {
     const row = rows.find(({ name }) => name === chosen);
     const take = row.take ? [html("button", { type: "button", class: "main-button", text: "Take this law", onclick: () => this.#take(row) })] : [];
     return [
-      html("p", { class: "advice" }, html("strong", { class: "word optimal", text: "advice" }), html("span", { translate: "no", text: ` ${sentences[0]}` })),
-      html("p", { translate: "no", text: sentences[1] }),
-      html("p", { class: "quiet", translate: "no", text: `Rule: ${rule}.` }),
+      html("p", { class: "advice" }, html("strong", { class: "word optimal", text: "advice" }), " ", clauses(sentences[0])),
+      html("p", {}, clauses(sentences[1])),
+      html("p", { class: "quiet", translate: "no", lang: "en", text: `Rule: ${rule}.` }),
       ...take,
     ];
   }
@@ -200,7 +203,7 @@ export class View {
       const take = row.take ? html("button", { type: "button", class: "link", "data-key": `take ${row.name}`, "aria-label": `Take ${row.name}`, text: "take", onclick: () => this.#take(row) }) : "";
       const ends = [["limits", row.limits, row.limits && row.limits !== "kept" ? "number over" : "number"], ["proof", row.proof, "number"]];
       return html("tr", { class: row.name === chosen ? "active" : "", "aria-current": row.name === chosen ? "true" : null },
-        html("th", { scope: "row" }, html("span", { class: "row-name", translate: "no", text: row.name }), take), ...row.cells.map((text, i) => html("td", { class: "number", text: columns[i].shown(text) })), ...ends.map(([key, text, name]) => html("td", { "data-column": key, class: name, text })));
+        html("th", { scope: "row" }, html("span", { class: "row-name", text: row.name }), take), ...row.cells.map((text, i) => html("td", { class: "number", text: columns[i].shown(text) })), ...ends.map(([key, text, name]) => html("td", { "data-column": key, class: name, text })));
     });
     return html("table", { "aria-label": "Laws with what they take" }, html("thead", {}, head), html("tbody", {}, ...lines));
   }
@@ -222,6 +225,13 @@ export class View {
       state.view = source;
     });
   }
+}
+
+/** A sentence by its clauses, each of which has its own text in the table; in English where that lacks one. */
+function clauses(sentence) {
+  const parts = sentence.split(CLAUSES).filter(Boolean);
+  const whole = parts.every((part) => SEPARATOR.test(part) || known(part));
+  return html("span", whole ? {} : { lang: "en", translate: "no" }, ...parts.map((part) => html("span", { text: part })));
 }
 
 function refusal({ word: title, reason, tried }) {
