@@ -21,7 +21,7 @@ from optlaws.cycles.optimisation.drive_formulas import known_drive
 from optlaws.cycles.optimisation.durations import durations
 from optlaws.cycles.optimisation.joint_limits import check_limits_at_joints
 from optlaws.cycles.optimisation.motion_limits import FORCE, POWER, both_sides, read_limits, tightest
-from optlaws.cycles.optimisation.motor_limits import motor_limits
+from optlaws.cycles.optimisation.motor_limits import MOTOR, motor_limits
 from optlaws.cycles.optimisation.objectives import (
     LOADED,
     SUMS,
@@ -49,6 +49,7 @@ from optlaws.cycles.specification.segments import CycleSegment
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.mechanisms.drives.drive_train import Drive
+from optlaws.mechanisms.drives.motor import OF_TORQUE, Motor
 from optlaws.mechanisms.linkages.mechanism import Mechanism
 from optlaws.mechanisms.machine.over_time import RepeatedMotion
 from optlaws.motion.piece import Piece, by_pieces
@@ -452,6 +453,41 @@ class Cycle(CycleInterchange):
         bound = None if objective.shares else bound_of(self._layout, placed, objective, self.duration)
         other = replace(self)
         vars(other).update(durations=self.durations, _layout=self._layout, _best=Best(placed, (), bound))
+        return other
+
+    def with_motor(self, motor: Motor) -> Cycle:
+        """The same laws by a motor with other limits: torques and proofs stay, the margins of its sheet are new.
+
+        Raises
+        ------
+        InputError
+            If the cycle has no motor, its laws keep the limits of the motor, or the other motor has another inertia,
+            friction or motor constant, so that other laws may be optimal.
+
+        Examples
+        --------
+        >>> from optlaws import Drive, Dwell, Mechanism, Motor, Rise
+        >>> drive = Drive(Mechanism("0.8 kg m^2"), Motor("3e-4 kg m^2", rated_torque="2 N m"), ratio=20)
+        >>> moves = [Rise("45 deg", "0.25 s", law="modified sine"), Dwell()]
+        >>> cycle = Cycle(moves, period="0.6 s", advance="45 deg", drive=drive)
+        >>> weak = cycle.with_motor(Motor("3e-4 kg m^2", rated_torque="1 N m"))
+        >>> [round(each.sheet.margins[0].use, 6) for each in (cycle, weak)]
+        [0.729259, 1.458518]
+        """
+        source, known = self.drive, self._drive
+        if not isinstance(source, Drive) or not isinstance(known, PositionDrive):
+            raise InputError("the cycle has no motor: give one, as drive=Drive(mechanism, Motor(...), ratio=20)")
+        if self.limits.get(MOTOR):
+            raise InputError("the laws keep the limits of the motor: make the cycle anew with the other motor")
+        if any(getattr(motor, name) != getattr(source.motor, name) for name in OF_TORQUE):
+            raise InputError(
+                f"the motor has another {', '.join(OF_TORQUE[:-1])} or {OF_TORQUE[-1]}: make the cycle anew"
+            )
+        driven = replace(source, motor=motor)
+        other = replace(self, drive=driven)
+        same = ("durations", "_layout", "_best", "pieces", "_timed", "peaks", "effort")
+        vars(other).update({name: getattr(self, name) for name in same})
+        vars(other)["_along"] = tuple(each.of_drive(replace(known, source=driven)) for each in self._along)
         return other
 
     def fastest(self) -> FastestCycle:

@@ -212,3 +212,21 @@ def test_least_rms_torque_behind_a_gear_with_losses_has_the_bound_of_its_strokes
     assert cycle.lower_bound == pytest.approx(sqrt(0.3 * sum(limit**2 for limit in limits)), rel=1e-6)
     assert cycle.lower_bound is not None
     assert 0.98 < cycle.lower_bound / cycle.objective < 1.0
+
+
+def test_another_motor_of_the_same_torque_has_the_same_laws() -> None:
+    moves = [Rise("45 deg", "0.25 s", law="cycloidal"), Dwell()]
+
+    def driven(**limits: Any) -> Cycle:
+        return Cycle(moves, **EACH, drive=Drive(TABLE, Motor("3e-4 kg m^2", **limits), ratio=20, efficiency=0.9))
+
+    cycle, other = driven(rated_torque="2 N m"), Motor("3e-4 kg m^2", curve=[("0 rpm", "4 N m"), ("2000 rpm", "3 N m")])
+    weak = cycle.with_motor(other)
+    anew = driven(curve=other.curve)
+    assert (weak.sheet, weak.efforts, weak.effort) == (anew.sheet, anew.efforts, anew.effort)
+    with pytest.raises(InputError, match="another inertia, coulomb, viscous or constant"):
+        cycle.with_motor(Motor("4e-4 kg m^2"))
+    with pytest.raises(InputError, match="no motor"):
+        Cycle(moves, **EACH, drive=TABLE).with_motor(other)
+    with pytest.raises(InputError, match="keep the limits of the motor"):
+        Cycle(INDEXED, **EACH, drive=cycle.drive, limits={"motor": True}).with_motor(other)

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
-from optlaws import Cycle, Drive
+from optlaws import Cycle, Drive, InputError
 from tests.explorer.talk import Server
 from tests.explorer.test_page import go, saves, settle
 from tests.internals.explorer import FileRequest, LawRequest, cycle_view, downloads, law_view, machine_view, start
@@ -106,6 +106,21 @@ def test_a_motor_that_is_too_weak_is_no_verdict_of_the_law(served: Server) -> No
     answer = served.ask("machine", {"study": asked, "axis": 1})
     assert answer["trust"]["word"] == "beyond a limit"
     assert "the motor's torque-speed curve" in answer["trust"]["advice"]
+
+
+def test_laws_stay_while_a_limit_of_the_motor_is_dragged() -> None:
+    asked = study("cycle_geared_table")
+    before = cycle_view.cycle(cycle_view.CycleRequest(study=asked, axis=1))
+    for axis in asked["axis"]:
+        axis["drive"]["motor"]["rated_torque"] = "1.1 N m"
+    after = cycle_view.cycle(cycle_view.CycleRequest(study=asked, axis=1))
+    assert after.solutions == before.solutions
+    anew = dict(read_of_cycle_entries(asked, PROBLEMS / "cycle_geared_table.toml")[1])["least RMS torque"]
+    assert (after.drive, after.effort, after.lower_bound) == (anew.drive, anew.effort, anew.lower_bound)
+    assert after.sheet == anew.sheet
+    asked["axis"][1]["drive"]["motor"]["rated_torque"] = "1.1 s"
+    with pytest.raises(InputError, match="drive: motor: rated_torque"):
+        cycle_view.cycle(cycle_view.CycleRequest(study=asked, axis=1))
 
 
 def test_files_of_a_machine_are_its_study_and_python_that_makes_it(tmp_path: Path) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import sqrt
 
 import numpy as np
@@ -92,6 +92,12 @@ class PieceEffort:
     drive: CycleDrive | PositionDrive
     piece: Piece
     ends: tuple[float, float] | None = None
+
+    def of_drive(self, drive: PositionDrive) -> PieceEffort:
+        """The same effort by a drive whose torque is the same, with what is known of it."""
+        other = replace(self, drive=drive)
+        vars(other).update({**vars(self), "drive": drive})
+        return other
 
     def force(self, times: Array) -> Array:
         """The force or torque."""

@@ -16,7 +16,7 @@ from optlaws.cycles.kinematics import SegmentPeaks
 from optlaws.cycles.optimisation.motion_limits import LIMITS, both_sides, limits_of_segment, read_limits
 from optlaws.cycles.optimisation.objectives import OBJECTIVES
 from optlaws.cycles.summary import drive_rows, joint_rows, objective_unit
-from optlaws.errors import InfeasibleProblem, InputError, OptlawsError, SolverFailure
+from optlaws.errors import InfeasibleProblem, InputError, OptlawsError, SolverFailure, located
 from optlaws.explorer.views.law_view import TITLES, digits, drawn, gap_text, refusal
 from optlaws.explorer.views.picture_points import refined
 from optlaws.explorer.views.requests import MOST_DEGREE, MOST_ORDER, Question
@@ -24,6 +24,7 @@ from optlaws.files.problem_file import convert
 from optlaws.jobs.cycle_entries import AxisEntries, CycleProblemFile, cycle_of
 from optlaws.laws.catalogue import reading
 from optlaws.mechanisms.drives.drive_train import Drive
+from optlaws.mechanisms.drives.motor import CURVES, Motor
 from optlaws.motion.quantities import QUANTITIES, either
 from optlaws.numbers import bounded
 from optlaws.plots.cycle import UNITS, samples
@@ -32,6 +33,8 @@ from optlaws.tolerances import AGREEMENT, BOUND_SLACK, CYCLE_ROUNDING
 _EACH = 100
 _TURN = 360.0
 _WHERE = Path("the cycle")
+#: entries of a motor that change no torque
+LIMITING = {"rated_torque", "peak_torque", "greatest_speed", *CURVES}
 #: limits of a cycle's drive, and what its effort calls that
 _OF_DRIVE = {
     "force": "peak_force",
@@ -106,6 +109,14 @@ def stored(spec: CycleProblemFile, axis: AxisEntries) -> Cycle:
 @lru_cache(maxsize=128)
 def _solved(question: bytes) -> Cycle:
     axis, speed, period = msgspec.json.decode(question, type=tuple[AxisEntries, str | None, str | None])
+    motor, drive = (axis.drive or {}).get("motor"), axis.drive or {}
+    if isinstance(motor, Mapping) and LIMITING & motor.keys() and not axis.limits.get("motor"):
+        # the laws stay while a limit of the motor is dragged
+        free = {name: entry for name, entry in motor.items() if name not in LIMITING}
+        same = msgspec.structs.replace(axis, drive={**drive, "motor": free})
+        with located("drive"), located("motor"):
+            limited = Motor.from_dict(motor)
+        return _solved(msgspec.json.encode((same, speed, period))).with_motor(limited)
     cycle_of_axis = cycle_of(axis, speed, period)
     _ = cycle_of_axis.peaks  # what cannot be found is told here
     return cycle_of_axis

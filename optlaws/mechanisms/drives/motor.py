@@ -28,6 +28,8 @@ ENTRIES = {
     "viscous": "rotary viscous friction",
 }
 CURVES = ("curve", "continuous")
+#: what a motor's torque depends on; all else limits it
+OF_TORQUE = ("inertia", "coulomb", "viscous", "constant")
 Curve = tuple[tuple[float, float], ...]
 
 
