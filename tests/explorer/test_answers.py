@@ -250,7 +250,7 @@ def test_a_problem_file_is_the_same_problem(entries: dict[str, Any], tmp_path: P
     file = tmp_path / "problem.toml"
     file.write_text(downloads.answer(FileRequest(kind="problem", laws=[law(entries)]))["text"], "utf-8")
     assert problem_of(law(start(str(file))["laws"][0])) == problem_of(law(entries))
-    with pytest.raises(InputError, match="of no problem"):
+    with pytest.raises(InputError, match="belongs to no problem"):
         downloads.answer(FileRequest(kind="problem", laws=[law(STORED)]))
 
 
