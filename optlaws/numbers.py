@@ -24,7 +24,7 @@ Array: TypeAlias = NDArray[np.float64]
 Complex: TypeAlias = NDArray[np.complex128]
 #: a number with its unit: a text such as "35 mm", or a quantity of pint, of any registry
 Quantity: TypeAlias = "str | pint.Quantity[Any]"
-#: a bare number in the unit that is said beside it, or one with its own unit
+#: a bare number in a documented unit, or a quantity with its own unit
 NumberOrQuantity: TypeAlias = "float | str | pint.Quantity[Any]"
 
 MAGNITUDE_LIMIT = 1e100

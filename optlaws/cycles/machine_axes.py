@@ -81,7 +81,7 @@ class Axes(JsonText, Mapping[str, Cycle]):
                 "axes are a table of segments by name, such as {'table': [Rise('45 deg', '0.4 s'), Dwell()]}"
             )
         object.__setattr__(self, "axes", dict(given))
-        # what is wrong of an axis is said at once
+        # errors of an axis are raised at once
         object.__setattr__(self, "interlocks", checked(self.interlocks, self._cycles))
 
     def __getitem__(self, name: str) -> Cycle:

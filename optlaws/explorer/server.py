@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     import uvicorn
 
 ADDRESS = "127.0.0.1"
-#: where the explorer is unless asked, so that a link leads to it another day too
+#: the explorer's default port, the same every day, so that links stay valid
 PORT = 8337
 _MOST_PORT = 65535
 _GRACE = 2  # seconds for answers that are being written

@@ -86,7 +86,7 @@ def _costs(points: Sequence[StudyPoint], constant: str) -> tuple[list[str], list
     return headings, rows
 
 
-#: by order, so that curves are told apart without colours too
+#: by order, so that curves differ without colours too
 _STROKES = ((0, (1, 1.2)), (0, (4, 1.5)), "-.", "-")
 _ROOM = 2.5
 

@@ -11,7 +11,7 @@ from optlaws.numbers import MOST_VALUES, whole
 from optlaws.tolerances import VALUE_ROUNDING
 
 LETTERS = ("a", "b", "c", "j", "d")
-#: lines unless others are asked
+#: the default number of lines
 SAMPLES = 201
 _DIGITS = 15
 

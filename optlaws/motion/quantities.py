@@ -44,7 +44,7 @@ hertz = 1 / second = Hz
 standard_gravity = 9.80665 * meter / second ** 2 = g_n
 """
 
-#: what is asked: the unit of SI in which it is computed, and how an error shows one
+#: by dimension: the SI unit of computations, and an example for errors
 DIMENSIONS = {
     "length": ("meter", "35 mm"),
     "angle": ("radian", "45 deg"),

@@ -159,7 +159,7 @@ def _first_peak(curve: Curve, nu: int, k: Array, values: Array) -> tuple[list[fl
     first = int(np.nanargmax(np.abs(values) >= (1.0 - LOOKS_EQUAL) * abs(peak.value)))
     if abs(peak.value) * (1.0 - LOOKS_EQUAL) > abs(values[first]) or abs(k[first] - peak.k) < _BESIDE:
         return [peak.k], [peak.value]
-    # the place where a flat peak comes near its height hangs on roundings, its top does not
+    # rounding decides where a flat peak comes near its height, but not where its top is
     while first + 1 < len(values) and abs(values[first + 1]) > abs(values[first]):
         first += 1
     return [float(k[first])], [float(values[first])]
@@ -230,7 +230,7 @@ def draw_solution(
     return artists
 
 
-#: curves that can be told apart, in colour and in grey
+#: curves that differ in colour and in grey
 _COMPARED = (
     {"color": GREY, "linestyle": "--"},
     {"color": BLUES[3], "linestyle": "-"},

@@ -267,7 +267,7 @@ class StudyDirectory:
         if changed:
             raise DamagedTable(self.table, f"its content is not what {self.checksum.name} says was written")
         if not stated:
-            # without pyarrow there is nothing to read it with, which whoever reads it is told
+            # without pyarrow the table cannot be read, and reading it raises the error
             with suppress(ImportError):
                 _check_rows(self.table, points)
 

@@ -295,7 +295,7 @@ def _column(solutions: Sequence[Solution], name: str) -> Array:
 # how far above its least value a constant is held while the next one is minimised: as near as the solver can go
 _ABOVE = (1e-5, 1e-7, 1e-9)
 _BENT = 2.0
-#: from so many points on those of convex problems are put in many at a time, where they are a quarter as wanted as any
+#: from this number on, points of convex problems are added in groups, in gaps a quarter as important as the first
 _MANY, _SHARE, _EVEN = 100, 0.25, 4
 #: where laws are worse than others, so many times as many are looked for at most
 _AGAIN = 2
@@ -372,7 +372,7 @@ class _Curve:
         self.errors: dict[float, OptlawsError] = {}
         #: first values of the stretches in which no law was found
         self._dead: set[float] = set()
-        #: constants of laws that were found many at a time, by the asked value of the first
+        #: constants of laws that were computed in groups, by the prescribed value of the first
         self._values: dict[float, Sequence[float]] = {}
         low, high = between if between is not None else (0.0, inf)
         best = self._best(_with(self.problem, over[0], Range(1.0 if over[0] == "B" else 0.0, inf)))

@@ -37,7 +37,7 @@ from optlaws.synthesis.solution_array import SolutionArray, SolvedPart
 from optlaws.synthesis.solve import TIGHT, Bound, check_bound, synthesize
 
 ERRORS = ("raise", "return")
-#: in a piece of `synthesize_chunks` unless asked otherwise
+#: the default size of a piece of `synthesize_chunks`
 _CHUNK = 10_000
 #: how many problems are solved together: the first ones come soon, and memory is that of the last
 _CHUNKS = (64, 512, 4096)

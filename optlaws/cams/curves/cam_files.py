@@ -262,7 +262,7 @@ FORMATS: dict[str, Format] = {
     "g-code": as_line_moves,
     "g-code arcs": as_arc_moves,
 }
-#: which of them a file is written in unless it is said
+#: the default of these for a file
 ENDINGS = {
     ".dxf": "dxf spline",
     ".svg": "svg",

@@ -47,7 +47,7 @@ class CamFollower(ABC):
     axis: ClassVar[str]
     #: its entries, as errors and the explorer show them
     examples: ClassVar[dict[str, str]]
-    #: its entries that are lengths, by which its size is told
+    #: its entries that are lengths, from which its size follows
     lengths: ClassVar[tuple[str, ...]] = ()
     #: the limit that is linear in the law and says the least prime circle of all laws; None where none is
     sizing_limit: ClassVar[str | None] = None

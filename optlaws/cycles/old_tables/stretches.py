@@ -23,7 +23,7 @@ StretchKind: TypeAlias = Literal["dwell", "rise", "return"]
 _FEWEST = 3
 #: and in the middle of one of as many points the motion rests indeed
 _LONG = 12
-#: points of a move by which laws far from it are told, and how many laws are compared by all points
+#: points of a move that exclude laws far from it, and the number of laws that are compared at all points
 _COARSE, _NEAREST = 40, 4
 #: steps to which the ends of moves are rounded where the points allow it, in parts of the master's turn
 _ROUND = (1.0 / 36.0, 1.0 / 72.0, 1.0 / 360.0, 1.0 / 720.0, 1.0 / 3600.0)

@@ -51,7 +51,7 @@ class FrontRequest(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     over: Annotated[list[str], msgspec.Meta(min_length=2, max_length=2)]
 
 
-#: pairs that may be exchanged: the first is swept, the second is told
+#: pairs that may be exchanged: the first is swept, the second is drawn over it
 PAIRS = (("B", "C"), ("B", "D"), ("B", "J"), ("C", "D"), ("J", "C"))
 
 
@@ -165,7 +165,7 @@ def _jerk_allows(problem: Problem, B: float) -> bool:
     return limit("J", B, order=problem.order, monotone=problem.monotone) <= bound.high
 
 
-#: those that the picture names without being asked
+#: the laws that the picture always names
 NAMED = {"cycloidal", "modified sine", "modified trapezoid", "3-4-5 polynomial", "4-5-6-7 polynomial", "cubic"}
 _MEMBERS = 33
 

@@ -47,7 +47,7 @@ class AxisTransition(NamedTuple):
         return f"{self.axis}, {self.cam.kind} from {first:.6g} to {last:.6g} deg"
 
 
-#: run-ins and run-outs by the names of their files: the axis, the kind and what is said of it
+#: run-ins and run-outs by the names of their files: the axis, the kind and the entries
 Named = dict[str, tuple[str, TransitionKind, TransitionEntries]]
 
 

@@ -292,7 +292,7 @@ _MEMBER = re.compile(r"\s*(?:family\s+)?(IV|I{1,3})\s*(?:\((.*)\))?\s*", re.IGNO
 _TABLES = (".csv", ".txt", ".tsv", ".tab", ".dat")
 _ENDINGS = (".json", *_TABLES)
 _OPTIONS: dict[str, Callable[[str], Any]] = {"tolerance": float, "columns": lambda text: tuple(text.split(","))}
-#: a file's name and what is said of its table in brackets
+#: a file's name, and the remark on its table in brackets
 _OF_TABLE = re.compile(r"(.+)\((?=[^()]*=)([^()]*)\)", re.DOTALL)
 _LONGEST = 100
 #: before a formula that stands for a law

@@ -169,7 +169,7 @@ def _at_fixed_places(
                 ways.append(way)
             elif state is not None:
                 stuck.append((at_u.objective_at(state.x), row))
-    # where a curved program has no way it may be that every law with the peak has it at an end of what else is asked
+    # a curved program without a path: every law with the peak may be on the boundary of the other constraints
     return ways if program.curved and ways else ways + _stayed(program, ways, stuck)
 
 

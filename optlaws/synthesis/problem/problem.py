@@ -296,7 +296,7 @@ class Problem(JsonText):
         """The entries of the problem's text: some always, others where they are given."""
         given = {entry.name for entry in fields(self) if getattr(self, entry.name) != entry.default}
         if self.symmetric and self.uneven:
-            # what does not fit has been asked
+            # an explicit symmetry differs from the default
             given.add("symmetric")
         return [entry.name for entry in fields(self) if entry.name in _ALWAYS or entry.name in given]
 

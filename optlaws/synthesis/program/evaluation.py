@@ -84,7 +84,7 @@ def _velocity_excess(problem: Problem, law: MotionLaw) -> float:
 
 def shortfalls(problem: Problem, law: MotionLaw) -> dict[Functional, float]:
     """Constants below their lower bound, with that bound: rows limit a peak from above only."""
-    # where the place of the peak is asked rows hold it up
+    # where the place of the peak is prescribed, rows bound it from below
     velocity = problem.range("B") if problem.peak_at is None else None
     ranges = [*problem.bounded, *([] if velocity is None else [(B, velocity)])]
     return {

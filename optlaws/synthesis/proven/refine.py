@@ -33,9 +33,9 @@ from optlaws.synthesis.status import Status, measure
 from optlaws.tolerances import NARROWEST, PROVEN_GAP
 
 _FIRST, _MOST_PIECES = 17, 8
-#: of the wanted gap, what is aimed at: widths are whole parts of others
+#: the target as a share of the required gap: widths are whole parts of others
 _AIM = 0.9
-#: of the objective, and of the wanted gap: laws whose own gap is greater than both are looked at alone
+#: shares of the objective and of the required gap: laws whose own gap exceeds both are solved singly
 _LEFT = 0.4
 _CHUNK = 4096
 
@@ -98,7 +98,7 @@ def proven_front(
         return _Refined(number, _checked(between)).until(greatest_gap)
     low, high = _where_it_pays(number)
     for above in _ABOVE:
-        # so near to the least value that has a law multipliers are great, and proofs may be worse than what is asked
+        # near the least feasible value multipliers are large, and proofs may miss the required gap
         with suppress(SolverFailure):
             return _Refined(number, (low, high)).until(greatest_gap)
         low = _least(number) * (1.0 + above)

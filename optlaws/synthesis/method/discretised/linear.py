@@ -26,7 +26,7 @@ from optlaws.tolerances import FLAT_GAP, SIZE_RANK, VERTEX_BALANCED, VERTEX_HELD
 #: together, the better they say where x is: as few as their own number, hardly independent, miss by 1e-10 in between
 _FEWER = (1e-2, 1.0, 1e2, 1e4)
 _MORE = (1.0, 1e-2, 1e-4, 1e-6, 1e-8)
-# where a way ends without an answer, the next is asked: a presolve or a tolerance may be what stops it
+# if a method ends without an answer, the next is tried: a presolve or a tolerance may be the obstacle
 _WAYS = (("highs-ds", True, 1e-10), ("highs-ds", False, 1e-10), ("highs-ds", False, 1e-9), ("highs-ipm", True, 1e-10))
 _OPTIMAL, _INFEASIBLE = 0, 2
 _MAGNIFIED = 2.0**14

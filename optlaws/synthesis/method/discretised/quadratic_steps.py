@@ -127,7 +127,7 @@ class _Descent:
                 damping *= _DAMPED
                 continue
             if step.left > STEP_FEASIBILITY and self.price < _MOST_DEAR:
-                # rows that could be kept are too cheap: what they cost is asked again
+                # rows that could be kept are too cheap: their costs are computed again
                 self.price *= _DAMPED
                 continue
             last, size = step, float(np.abs(step.x).max()) / max(1.0, float(np.abs(x).max()))
