@@ -53,36 +53,42 @@ def _imports(package: Path, _changed: tuple[int, ...]) -> list[Import]:
 
 
 def _imports_of(name: str, path: Path, known: dict[str, Path]) -> Iterator[Import]:
-    tree = ast.parse(path.read_text("utf-8"))
-    typing = {
-        id(child)
-        for node in ast.walk(tree)
-        if isinstance(node, ast.If) and ast.unparse(node.test).endswith("TYPE_CHECKING")
-        for statement in node.body
-        for child in ast.walk(statement)
-    }
-    handed_up = {
-        id(child)
-        for node in ast.walk(tree)
-        if isinstance(node, ast.ClassDef)
-        for method in node.body
-        if isinstance(method, ast.FunctionDef) and method.name in HANDED_UP
-        for child in ast.walk(method)
-        if isinstance(child, ast.ImportFrom) and f"{child.module}.".startswith(HANDED_UP[method.name])
-    }
     parent = name.split(".") if path.name == "__init__.py" else name.split(".")[:-1]
-    for node in ast.walk(tree):
+    for node, typing, handed_up in _statements(ast.parse(path.read_text("utf-8"))):
         if isinstance(node, ast.Import):
             for alias in node.names:
-                yield Import(name, alias.name, node.lineno, id(node) in typing)
-        elif isinstance(node, ast.ImportFrom) and id(node) not in handed_up:
+                yield Import(name, alias.name, node.lineno, typing)
+        elif not f"{node.module}.".startswith(handed_up):
             above = parent[: len(parent) - node.level + 1] if node.level else []
             origin = ".".join([*above, *([node.module] if node.module else [])])
             for alias in node.names:
                 # `from package import name` imports a module where there is one of that name.
                 submodule = f"{origin}.{alias.name}"
                 target = submodule if submodule in known else origin
-                yield Import(name, target, node.lineno, id(node) in typing)
+                yield Import(name, target, node.lineno, typing)
+
+
+_Statement = tuple[ast.Import | ast.ImportFrom, bool, tuple[str, ...]]
+
+
+def _statements(node: ast.AST, *, typing: bool = False, handed_up: tuple[str, ...] = ()) -> Iterator[_Statement]:
+    """The import statements below a node, each with whether a type checker alone sees it, and `HANDED_UP` there.
+
+    Statements stand in statements alone: expressions are not looked through.
+    """
+    for child in ast.iter_child_nodes(node):
+        if isinstance(child, ast.Import | ast.ImportFrom):
+            yield child, typing, handed_up
+        elif isinstance(child, ast.If):
+            checked = ast.unparse(child.test).endswith("TYPE_CHECKING")
+            for part in child.body:
+                yield from _statements(ast.Module([part], []), typing=typing or checked, handed_up=handed_up)
+            for part in child.orelse:
+                yield from _statements(ast.Module([part], []), typing=typing, handed_up=handed_up)
+        elif isinstance(child, ast.stmt | ast.excepthandler | ast.match_case):
+            method = isinstance(node, ast.ClassDef) and isinstance(child, ast.FunctionDef)
+            here = HANDED_UP.get(child.name, ()) if method and isinstance(child, ast.FunctionDef) else ()
+            yield from _statements(child, typing=typing, handed_up=handed_up + here)
 
 
 @cache
@@ -103,7 +109,8 @@ def declared(package: Path) -> list[tuple[str, Import]]:
 
 
 def _calls(path: Path, function: str) -> list[ast.Call]:
-    nodes = ast.walk(ast.parse(path.read_text("utf-8")))
+    source = path.read_text("utf-8")
+    nodes = ast.walk(ast.parse(source)) if function in source else ()
     return [node for node in nodes if isinstance(node, ast.Call) and ast.unparse(node.func) == function]
 
 

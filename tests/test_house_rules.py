@@ -20,31 +20,31 @@ from tests.imports import modules as known_modules
 PYTHON_BLOCK = re.compile(r"^```python\n(.*?)^```", re.DOTALL | re.MULTILINE)
 
 
-def nodes(folder: Path) -> Iterator[tuple[Path, ast.AST]]:
-    """Every node of the syntax trees below a folder, with its file."""
-    for path in sorted(folder.rglob("*.py")):
-        for node in ast.walk(ast.parse(path.read_text("utf-8"))):
-            yield path, node
-
-
 class Parts(NamedTuple):
     """What several rules look at in the package, which is parsed once: whole trees of it would take much memory."""
 
     classes: list[str]
     parameters: list[tuple[Path, ast.arg | ast.AnnAssign]]
     docstrings: list[tuple[Path, str, str]]
+    tolerances: dict[Path, list[str]]
+    vague: dict[Path, set[str]]
 
 
 @pytest.fixture(scope="module")
 def parts() -> Parts:
-    parts = Parts([], [], [])
-    for path, node in nodes(ROOT / "optlaws"):
-        if isinstance(node, ast.ClassDef):
-            parts.classes.append(node.name)
-        if isinstance(node, ast.arg | ast.AnnAssign):
-            parts.parameters.append((path, node))
-        if isinstance(node, ast.Module | ast.ClassDef | ast.FunctionDef | ast.AsyncFunctionDef):
-            parts.docstrings.append((path, getattr(node, "name", "module"), ast.get_docstring(node) or ""))
+    parts = Parts([], [], [], {}, {})
+    for path in sorted((ROOT / "optlaws").rglob("*.py")):
+        tree = ast.parse(path.read_text("utf-8"))
+        parts.tolerances[path] = tolerances(tree)
+        parts.vague[path] = set()
+        for node in ast.walk(tree):
+            parts.vague[path] |= vague_names_of(node)
+            if isinstance(node, ast.ClassDef):
+                parts.classes.append(node.name)
+            if isinstance(node, ast.arg | ast.AnnAssign):
+                parts.parameters.append((path, node))
+            if isinstance(node, ast.Module | ast.ClassDef | ast.FunctionDef | ast.AsyncFunctionDef):
+                parts.docstrings.append((path, getattr(node, "name", "module"), ast.get_docstring(node) or ""))
     return parts
 
 
@@ -100,10 +100,10 @@ def assigned(tree: ast.Module) -> Iterator[tuple[str, ast.expr]]:
                 yield from ((name.id, value) for name, value in pairs if isinstance(name, ast.Name))
 
 
-def tolerances(source: str) -> list[str]:
+def tolerances(tree: ast.Module) -> list[str]:
     """Constants of a module that are numbers above 0 and below a hundredth."""
     known: dict[str, float] = {}
-    for name, node in assigned(ast.parse(source)):
+    for name, node in assigned(tree):
         try:
             value = eval(compile(ast.Expression(node), "constant", "eval"), {"__builtins__": {}, **known})  # noqa: S307
         except Exception:  # noqa: BLE001, S112 - not a plain number
@@ -114,15 +114,15 @@ def tolerances(source: str) -> list[str]:
 
 
 @pytest.mark.parametrize("room", WITHOUT_TOLERANCES)
-def test_tolerances_stand_in_one_module(room: str) -> None:
-    files = [path for path in (ROOT / "optlaws" / room).rglob("*.py") if path != MODULE]
-    assert files
-    assert {str(path): names for path in files if (names := tolerances(path.read_text("utf-8")))} == {}
+def test_tolerances_stand_in_one_module(room: str, parts: Parts) -> None:
+    found = {path: names for path, names in parts.tolerances.items() if ROOT / "optlaws" / room in path.parents}
+    assert found
+    assert {str(path): names for path, names in found.items() if names} == {}
 
 
 def test_every_tolerance_has_a_reason_and_a_use() -> None:
     source = MODULE.read_text("utf-8")
-    names = tolerances(source)
+    names = tolerances(ast.parse(source))
     lines = {name: line for line in source.splitlines() for name in names if line.startswith(f"{name} = ")}
     assert [name for name in names if "  # " not in lines[name]] == []
     others = "".join(path.read_text("utf-8") for path in Path(ROOT / "optlaws").rglob("*.py") if path != MODULE)
@@ -130,20 +130,22 @@ def test_every_tolerance_has_a_reason_and_a_use() -> None:
 
 
 def test_a_tolerance_is_seen() -> None:
-    assert tolerances("A = 2.0**-48\nB, C = 3, 1e-9\nD: float = 4.0 * A\nE = -0.001\nF = 0.01\nG = 'x'") == [
-        "A",
-        "C",
-        "D",
-    ]
+    source = "A = 2.0**-48\nB, C = 3, 1e-9\nD: float = 4.0 * A\nE = -0.001\nF = 0.01\nG = 'x'"
+    assert tolerances(ast.parse(source)) == ["A", "C", "D"]
+
+
+#: such an import, or the same in a string or a comment
+DEEP = re.compile(r"\bfrom\s+optlaws\.\w+\.\w")
 
 
 def test_tests_look_inside_a_room_through_one_file() -> None:
     """A module that moves is followed in `tests/internals/` alone."""
     deep = {
         str(path.relative_to(ROOT)): node.module
-        for path, node in nodes(ROOT / "tests")
+        for path in sorted((ROOT / "tests").rglob("*.py"))
+        if "internals" not in path.parts and DEEP.search(source := path.read_text("utf-8"))
+        for node in ast.walk(ast.parse(source))
         if isinstance(node, ast.ImportFrom)
-        and "internals" not in path.parts
         and (node.module or "").count(".") > 1
         and (node.module or "").startswith("optlaws.")
     }
@@ -159,14 +161,19 @@ ROOMS = sorted(
 
 def vague_names(source: str) -> set[str]:
     """Names of a program that say nothing of what they stand for: variables, arguments, functions and attributes."""
-    entries = ("id", "arg", "name", "attr")
-    return VAGUE & {getattr(node, entry, None) for node in ast.walk(ast.parse(source)) for entry in entries}
+    return {name for node in ast.walk(ast.parse(source)) for name in vague_names_of(node)}
+
+
+def vague_names_of(node: ast.AST) -> set[str]:
+    """Those of one node."""
+    return VAGUE.intersection(getattr(node, entry, None) for entry in ("id", "arg", "name", "attr"))
 
 
 @pytest.mark.parametrize("room", ROOMS, ids=lambda path: path.stem)
-def test_names_say_what_a_thing_is(room: Path) -> None:
-    files = sorted(room.rglob("*.py")) or [room]
-    assert {str(file): names for file in files if (names := vague_names(file.read_text("utf-8")))} == {}
+def test_names_say_what_a_thing_is(room: Path, parts: Parts) -> None:
+    found = {path: names for path, names in parts.vague.items() if room in (path, *path.parents)}
+    assert found
+    assert {str(path): names for path, names in found.items() if names} == {}
 
 
 def test_names_in_examples_say_what_a_thing_is(parts: Parts) -> None:
