@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from scipy.interpolate import make_interp_spline
 
@@ -25,6 +25,7 @@ from optlaws import (
 )
 from tests.internals.jobs import table_of_motion
 from tests.internals.laws import law_of_table, table_of_values
+from tests.sampling import examples
 
 DENSE = np.linspace(0.0, 1.0, 1001)
 #: laws from rest to rest: a velocity that jumps at the ends is no rounding
@@ -33,7 +34,7 @@ RESTING = [(1, 0.0), (2, 0.0)]
 
 
 @given(count=st.integers(6, 40), rest=st.booleans(), seed=st.integers(0, 2**32 - 1))
-@settings(max_examples=20)
+@examples(60)
 def test_a_law_through_points_is_the_spline_of_scipy(*, count: int, rest: bool, seed: int) -> None:
     random = np.random.default_rng(seed)
     k = np.concatenate([[0.0], np.cumsum(random.uniform(0.5, 1.5, count - 1))])
@@ -96,7 +97,7 @@ def test_what_makes_no_law_is_refused() -> None:
     seed=st.integers(0, 2**32 - 1),
     tolerances=st.lists(st.floats(1e-6, 1.0), min_size=2, max_size=4),
 )
-@settings(max_examples=30)
+@examples(60)
 def test_a_law_through_points_keeps_within_any_tolerance_with_no_more_pieces_for_a_larger_one(
     *, points: int, rest: bool, seed: int, tolerances: list[float]
 ) -> None:
@@ -122,7 +123,7 @@ KNOWN = {"3-4-5 polynomial": 0.2, "modified sine": 0.3, "cycloidal": 0.3, "modif
     seed=st.integers(0, 2**32 - 1),
     stroke=st.sampled_from([1e-6, 1.0, -35.0]),
 )
-@settings(max_examples=15)
+@examples(40)
 def test_the_law_of_a_noisy_table_is_that_without_its_noise(
     *, name: str, points: int, share: float, seed: int, stroke: float
 ) -> None:
@@ -142,7 +143,7 @@ def test_the_law_of_a_noisy_table_is_that_without_its_noise(
 
 
 @given(name=st.sampled_from(EXACT), points=st.integers(6, 400), decimals=st.integers(2, 17))
-@settings(max_examples=25)
+@examples(60)
 def test_a_table_that_is_exact_to_its_digits_is_not_taken_for_noisy(name: str, points: int, decimals: int) -> None:
     k = np.linspace(0.0, 1.0, points)
     exact = catalogue[name].law(k)
