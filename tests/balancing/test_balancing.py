@@ -12,6 +12,7 @@ def cycle(law: str, back: str = "90 deg", **drive: str) -> Cycle:
     return Cycle(moves, speed="120 rpm", drive={"mass": "3 kg", **drive})
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize("law", ["K", "3-4-5", "modified sine"])
 def test_a_loader_takes_all_of_the_inertia_s_torque(law: str) -> None:
     balancing = Balancing(cycle(law))
@@ -22,6 +23,7 @@ def test_a_loader_takes_all_of_the_inertia_s_torque(law: str) -> None:
     assert balancing.after.rms < 1e-9 * peak
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize("law", ["K", "3-4-5", "modified trapezoid"])
 def test_torques_are_enclosed_over_the_turn(law: str) -> None:
     balancing = Balancing(cycle(law, stiffness="1 N/mm", dry="5 N", viscous="20 N s/m", gravity="9 N"), share=0.7)

@@ -73,6 +73,7 @@ def test_least_acceleration_under_a_pressure_angle_is_that_of_a_linear_program_o
     assert best.objective == pytest.approx(sized, rel=2e-2)
 
 
+@pytest.mark.long
 def test_the_least_prime_circle_of_all_laws_meets_its_bound() -> None:
     roller = TranslatingRoller("12 mm", "6 mm")
     best = best_prime_circle(PRESS, roller, pressure_angle="30 deg")

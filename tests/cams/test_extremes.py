@@ -203,6 +203,7 @@ def check_random_cams(count: int, seed: int) -> None:
     assert min(statuses.count(FREE), statuses.count(UNDERCUT)) > count // 8
 
 
+@pytest.mark.long
 def test_no_undercut_is_missed_in_random_cams() -> None:
     check_random_cams(24, 17)
 

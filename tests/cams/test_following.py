@@ -65,7 +65,7 @@ def test_a_follower_does_on_its_profile_what_was_meant(follower: CamFollower, st
             assert values == pytest.approx(disc.displacement(PLACES, nu), abs=1e-11)
 
 
-@pytest.mark.sample(2)
+@pytest.mark.sample(4)
 @pytest.mark.parametrize("form", ["csv", "csv polar", "dxf spline", "dxf arcs"])
 @pytest.mark.parametrize(("follower", "stroke"), FOLLOWERS)
 def test_peaks_as_made_are_enclosed_and_near(follower: CamFollower, stroke: str, form: str) -> None:

@@ -95,7 +95,7 @@ def test_extremes_are_enclosed_over_the_turn(kind: str) -> None:
     assert forces_of_cam.rms_torque[0] == pytest.approx(np.sqrt(squares), rel=1e-3)
 
 
-@pytest.mark.sample(2)
+@pytest.mark.sample(4)
 @pytest.mark.parametrize("kind", sorted(FOLLOWERS))
 def test_extremes_with_friction_are_enclosed_and_near(kind: str) -> None:
     slides = cam_of(kind).displacement.axis == "length"

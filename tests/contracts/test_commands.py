@@ -96,6 +96,7 @@ def test_every_command_is_here() -> None:
     assert set(CALLS) == set(COMMANDS)
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize("command", [name for name, options in COMMANDS.items() if "--json" in options])
 def test_json_is_strict_and_alone(command: str, capsys: Capture) -> None:
     if command == "verify":
@@ -107,6 +108,7 @@ def test_json_is_strict_and_alone(command: str, capsys: Capture) -> None:
     assert json.loads(out, parse_constant=refuse)
 
 
+@pytest.mark.sample(4)
 @pytest.mark.parametrize("command", [one for one, options in COMMANDS.items() if "--plot" in options and one != "cam"])
 def test_a_picture_is_drawn_of_what_was_found(command: str, capsys: Capture) -> None:
     assert exit_code([*call(command), "--plot", "picture.svg", "--json"]) == 0
@@ -115,6 +117,7 @@ def test_a_picture_is_drawn_of_what_was_found(command: str, capsys: Capture) -> 
     assert "--plot" in refused(capsys, [*call(command), "--plot", "picture.pdf"])
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize(("command", "option", "value"), WRONG)
 def test_a_wrong_value_is_refused_by_its_option(command: str, option: str, value: str, capsys: Capture) -> None:
     assert option in refused(capsys, call(command, **{option[2:]: value}))

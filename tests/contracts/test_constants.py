@@ -243,7 +243,7 @@ def test_every_kind_name_and_maker_is_here() -> None:
     assert {*ALIASES.values()} <= {*FUNCTIONALS.values()}
 
 
-@pytest.mark.sample(3, kind=kind_of)
+@pytest.mark.sample(2, kind=kind_of)
 @every_constant
 def test_its_value_is_that_of_a_grid_and_of_numpy(name: str) -> None:
     constant = EXAMPLES[name]
@@ -276,7 +276,7 @@ def test_its_rows_hold_if_and_only_if_it_is_bounded(name: str) -> None:
                 assert (max(family.extremes(full)[2].max() for family in rows) <= 0.0) == holds, where
 
 
-@pytest.mark.sample(4, kind=kind_of)
+@pytest.mark.sample(3, kind=kind_of)
 @every_constant
 def test_it_is_convex_if_it_says_so(name: str) -> None:
     constant = EXAMPLES[name]

@@ -60,6 +60,7 @@ def test_importing_optlaws_imports_no_subject() -> None:
     }
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize(
     ("subject", "where"),
     [

@@ -201,7 +201,7 @@ def test_derivatives_by_the_place_are_those_of_differences(family: ConstraintFam
             assert got == pytest.approx(moved, rel=1e-6, abs=1e-7 * (1.0 + np.abs(got).max()))
 
 
-@pytest.mark.sample(3)
+@pytest.mark.sample(2)
 @every_family
 def test_derivatives_by_the_variables_are_those_of_differences(family: ConstraintFamily) -> None:
     x, u = point(family), inside(family)

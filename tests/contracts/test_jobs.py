@@ -56,7 +56,7 @@ def test_a_job_is_imported_when_it_runs() -> None:
     assert said == f"True {len(EXAMPLES)} ['optlaws.jobs.job']\n"
 
 
-@pytest.mark.sample(3)
+@pytest.mark.sample(6)
 @pytest.mark.parametrize(
     "name", [pytest.param(name, marks=[pytest.mark.long] if name in SLOW else []) for name in EXAMPLES]
 )
@@ -78,6 +78,7 @@ def test_a_job_writes_sealed_files_and_the_same_again(
     assert {file: file.read_bytes() for file in (tmp_path / "out").iterdir()} == first
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", sampled(["force loaded", "cycle"]))
 def test_what_another_machine_rounds_otherwise_changes_no_file(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str
@@ -100,6 +101,7 @@ def test_what_another_machine_rounds_otherwise_changes_no_file(
     assert sorted((tmp_path / "out").iterdir()) == sorted(first)
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize(("name", "old", "new", "said"), WRONG)
 def test_errors_name_the_file_and_the_entry(tmp_path: Path, name: str, old: str, new: str, said: str) -> None:
     with pytest.raises(InputError, match=rf"(?s)small\.toml.*{said}"):

@@ -587,7 +587,7 @@ def exact(law: PiecewiseLaw, i: int, nu: int) -> Any:  # noqa: ANN401 - a functi
     return c if nu == 2 else lambda s: mpmath.diff(c, s, nu - 2)
 
 
-@pytest.mark.sample(3, kind=shape)
+@pytest.mark.sample(9, kind=shape)
 @pytest.mark.parametrize("name", [name for name, law in LAWS.items() if isinstance(law, PiecewiseLaw)])
 @pytest.mark.parametrize("nu", [2, 3])
 def test_peaks_are_those_of_many_digits(name: str, nu: int) -> None:

@@ -179,6 +179,7 @@ def test_velocities_and_orders_that_make_no_sense_are_refused(limits: Limit) -> 
             limit(limits.constant, 2.0, order=order)
 
 
+@pytest.mark.sample(3)
 @each_way
 @pytest.mark.parametrize("B", VELOCITIES)
 def test_the_acceleration_at_a_jerk_is_attained_and_falls_to_that_of_any_jerk(B: float, monotone: bool) -> None:  # noqa: FBT001

@@ -188,6 +188,7 @@ def test_the_command_solve_takes_every_entry(name: str, caught: list[Problem]) -
     assert caught == [Problem.from_dict({**base(name, others), name: value})]
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize("name", EXAMPLES)
 def test_the_command_front_takes_every_entry_but_the_objective(
     name: str, caught: list[Problem], capsys: pytest.CaptureFixture[str]

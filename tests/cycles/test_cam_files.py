@@ -58,7 +58,7 @@ def compared(made: Export, file: Path) -> None:
     assert np.abs(y - run).max() <= close * made.motion.stroke + read.digit
 
 
-@pytest.mark.sample(4)
+@pytest.mark.sample(8)
 @pytest.mark.parametrize("units", UNITS, ids=lambda units: f"{units[0]}-{units[1]}")
 @pytest.mark.parametrize("name", sorted(FORMATS))
 def test_every_format_is_read_back(name: str, units: tuple[str | None, str], tmp_path: Path) -> None:
@@ -252,7 +252,7 @@ def lines_of(name: str) -> list[str]:
     return exported(name).text.splitlines()
 
 
-@pytest.mark.sample(5)
+@pytest.mark.sample(10)
 @pytest.mark.parametrize("name", sorted(FORMATS))
 def test_a_file_with_a_line_missing_or_wrong_is_refused_or_says_the_same(name: str, tmp_path: Path) -> None:
     """A line removed, doubled, emptied of its numbers, or the end cut: an error with the file, or the same moves."""

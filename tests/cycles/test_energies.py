@@ -28,6 +28,7 @@ def powers(cycle: Cycle, drive: Drive, times: np.ndarray) -> tuple[Any, Any]:
     return torque, torque * drive.ratio * v
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize(("efficiency", "regeneration"), [(1.0, 0.0), (1.0, 1.0), (0.85, 0.4)])
 def test_energies_of_a_given_law_are_quadratures(efficiency: float, regeneration: float) -> None:
     drive = Drive(LOADED, MOTOR, ratio=20, efficiency=efficiency, regeneration=regeneration)

@@ -29,6 +29,7 @@ AWAY_AND_BACK = Cycle(
 )
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize("cycle", [PRESS, SHEAR, TURNING], ids=["press", "shear", "turning"])
 def test_a_cycle_goes_through_json_and_a_problem_file(cycle: Cycle, tmp_path: Path) -> None:
     again = Cycle.from_json(cycle.to_json())

@@ -41,6 +41,7 @@ def others() -> dict[str, Any]:
     return {law: cycle(law).load_motion for law in ("modified sine", "cycloidal", "345", "optimal")}
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize("minimise", ["load acceleration", "rms load acceleration", "load force"])
 def test_least_of_the_load_is_proven_and_less_than_under_any_other_law(minimise: str, others: dict[str, Any]) -> None:
     best = cycle(minimise=minimise, degree=9)
@@ -54,12 +55,14 @@ def test_least_of_the_load_is_proven_and_less_than_under_any_other_law(minimise:
     assert best([0.0, 0.2 / 3, 0.1, 0.2 / 6 * 5]) == pytest.approx([0.0, 0.03, 0.03, 0.0], abs=1e-11)
 
 
+@pytest.mark.long
 def test_a_stiff_load_moves_as_what_drives_it() -> None:
     best = cycle(load={"period": "0.2 ms", "damping": 0.3}, minimise="load acceleration")
     assert best.status == "optimal"
     assert best.objective == pytest.approx(max(part.peak(2) for part in best.peaks), rel=1e-2)
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize(("period", "says"), [("0.1 ms", "vibrates 10000 times"), ("0.02 ms", "below 63 us")])
 def test_a_load_with_too_many_peaks_is_refused(period: str, says: str) -> None:
     with pytest.raises(InputError, match=says):
@@ -74,6 +77,7 @@ def test_limits_of_the_load_are_kept() -> None:
     assert kept.status == "optimal"
 
 
+@pytest.mark.long
 def test_any_machine_in_seconds_is_a_load() -> None:
     axis = Machine.from_masses(
         {"motor": 0.0, "head": 2.0},

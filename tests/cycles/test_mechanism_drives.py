@@ -51,6 +51,7 @@ def test_torques_along_given_laws_are_those_of_the_mechanism() -> None:
     assert cycle.effort.rms_force == pytest.approx(7.979021 * sqrt(0.6), rel=1e-6)
 
 
+@pytest.mark.long
 def test_a_limit_of_the_torque_is_kept_or_refused_with_the_least() -> None:
     limits = {"torque": "5.3 N m", "acceleration": "420 rad/s^2"}
     cycle = Cycle(STROKES, period="1 s", minimise="rms torque", drive=PRESS, limits=limits)

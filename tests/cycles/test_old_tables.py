@@ -15,6 +15,7 @@ def table(rise: str, back: str, digits: int, step: float = 1.0, lead: float = 0.
     return x, np.round(35.0 * (up - down), digits)
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize("lead", [0.0, 20.0])
 @pytest.mark.parametrize("digits", [2, 4])
 @pytest.mark.parametrize("laws", [("modified sine", "cycloidal"), ("3-4-5 polynomial", "modified trapezoid")])

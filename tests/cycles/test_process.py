@@ -52,6 +52,7 @@ def test_the_torque_moves_the_crank_as_the_cycle_says(load: dict[str, Any]) -> N
     assert Cycle.from_json(cycle.to_json()).effort == cycle.effort
 
 
+@pytest.mark.long
 def test_least_torque_of_a_process_is_of_its_motor() -> None:
     """The objective of the law found is its torque by hand, of a gear with losses; less than of another law."""
     drive = Drive(PRESS, Motor("3e-4 kg m^2"), ratio=8, efficiency=0.9)

@@ -101,6 +101,7 @@ def test_compiled_functions_keep_limits_and_are_within_the_gap_of_synthesize(fol
     assert checked("lift", folder, 300, 27) == {0, 2, 3}
 
 
+@pytest.mark.sample(2)
 @needs_compiler
 @pytest.mark.parametrize("name", ["pieces", "skew"])
 def test_so_do_laws_of_pieces_and_laws_without_symmetry(name: str, folder: Path) -> None:

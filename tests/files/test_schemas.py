@@ -107,6 +107,7 @@ def written() -> dict[str, Any]:
 OPTIONAL: dict[str, set[str]] = {"law": set(), "certificate": {"bound", "about", "format"}}
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize(
     "kind",
     ["law", "solution", "array", "front", "proven_front", "fastest_move", "time_front", "cycle", "axes", "certificate"],

@@ -63,6 +63,7 @@ def test_a_law_is_looked_up_by_B_or_by_its_bounds() -> None:
     assert best.constants["C"] == min(p.constants["C"] for p in others)
 
 
+@pytest.mark.sample(4)
 @pytest.mark.parametrize(
     ("minimise", "order", "B", "most"),
     sampled(

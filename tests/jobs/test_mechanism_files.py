@@ -400,6 +400,7 @@ def test_a_sweep_of_the_ratio_says_what_each_costs(tmp_path: Path) -> None:
     assert rows[2][-1] == pytest.approx(100.0 * 1055.762 * 5.0 / 3000.0, rel=1e-5)  # of the speed
 
 
+@pytest.mark.long
 def test_a_sweep_of_a_limit_has_rows_without_a_law(tmp_path: Path) -> None:
     text = TURNTABLE.replace('law = "modified sine"\n', 'limits = { velocity = "4.8 rad/s" }\n')
     sweep = 'axis = "table"\nentry = "segment.1.limits.velocity"\nvalues = ["3 rad/s", "4.8 rad/s"]'
@@ -485,6 +486,7 @@ def test_a_stroke_of_a_mechanism_has_laws_of_least_torque(tmp_path: Path, capsys
         assert text in capsys.readouterr().err
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize("scale", [1e-12, 1e9])
 def test_machines_of_other_sizes_need_as_much_in_proportion(scale: float) -> None:
     """Inertias times a factor: torques, powers and energies times it, shares and speeds as they are."""

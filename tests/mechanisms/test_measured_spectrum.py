@@ -37,6 +37,7 @@ def test_the_greatest_is_that_of_many_frequencies(damping: float) -> None:
     assert peak.k == pytest.approx(nu[many.argmax()], abs=1e-3)
 
 
+@pytest.mark.long
 def test_a_law_within_a_weighed_residual_is_proven_over_the_whole_band() -> None:
     limit = residual_vibration(spectrum=SPECTRUM, damping=0.02)
     problem = Problem(order=3, basis=Chebyshev(9), bounds={limit: at_most(0.1)})

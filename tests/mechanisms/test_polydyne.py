@@ -60,7 +60,7 @@ LAWS: dict[str, MotionLaw] = {
 }
 
 
-@pytest.mark.sample(2)
+@pytest.mark.sample(6)
 @pytest.mark.parametrize("damping", [0.0, 0.05, 0.6, 1.0, 1.3])
 @pytest.mark.parametrize("nu", [4.0, 20.0, 90.0])
 @pytest.mark.parametrize("name", LAWS)

@@ -82,7 +82,7 @@ CASES = [
 ]
 
 
-@pytest.mark.sample(3)
+@pytest.mark.sample(2)
 @pytest.mark.parametrize("problem", CASES, ids=range(len(CASES)))
 def test_the_residual_of_a_robust_law_is_below_the_bound_everywhere(problem: Problem) -> None:
     ((constant, asked),) = problem.bounds.items()

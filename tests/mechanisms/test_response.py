@@ -25,7 +25,7 @@ def misses(case: Case) -> tuple[float, float]:
     return a / size, b / (size * case.nu)
 
 
-@pytest.mark.sample(5)
+@pytest.mark.sample(15)
 @pytest.mark.parametrize("seed", range(30))
 def test_random_laws_against_an_integrator(seed: int) -> None:
     assert max(misses(random_case(seed))) < 1e-9
@@ -37,7 +37,7 @@ def test_two_hundred_random_laws_against_an_integrator(seed: int) -> None:
     assert max(misses(random_case(seed))) < 1e-9
 
 
-@pytest.mark.sample(5)
+@pytest.mark.sample(15)
 @pytest.mark.parametrize("damping", DAMPINGS)
 @pytest.mark.parametrize("nu", NUS)
 @pytest.mark.parametrize("law", [smoothstep(2), savin("IV", 11.0), random_law(2, 30, 0.95)], ids=["S2", "IV", "30"])
@@ -61,7 +61,7 @@ def test_a_cycloid_in_closed_form_also_in_resonance(nu: float, damping: float) -
         assert follower(K, order) == pytest.approx(same(K, order), abs=1e-12 * max(nu, 8.0) ** order)
 
 
-@pytest.mark.sample(2)
+@pytest.mark.sample(6)
 @pytest.mark.parametrize("name", EXAMPLES)
 @pytest.mark.parametrize(("nu", "damping"), [(4.0, 0.1), (33.0, 0.0), (20.0, 1.0)])
 def test_the_equation_of_motion_holds(name: str, nu: float, damping: float) -> None:

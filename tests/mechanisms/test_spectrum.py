@@ -53,6 +53,7 @@ def test_chebyshev_to_legendre() -> None:
     assert legendre == pytest.approx(np.polynomial.chebyshev.chebval(x, series), abs=1e-11)
 
 
+@pytest.mark.sample(4)
 @pytest.mark.parametrize("damping", sampled([0.03, 0.0, 0.999]))
 @pytest.mark.parametrize("name", [*EXAMPLES, "modified sine", "0317(1,5)", "triple harmonic", "simple harmonic"])
 def test_the_residual_is_that_of_a_response(name: str, damping: float) -> None:

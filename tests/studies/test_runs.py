@@ -88,6 +88,7 @@ def test_tables_hold_every_row(small: Study) -> None:
     assert str(grid["status"].values[0, 0]) == "infeasible"
 
 
+@pytest.mark.long
 def test_watched_processes_give_the_rows_of_a_serial_run(small: Study, tmp_path: Path) -> None:
     assert rows(run_study(SMALL, tmp_path, workers=2)) == rows(small)
 
@@ -152,6 +153,7 @@ def registered() -> Iterator[None]:
     sys.modules.pop("tests.studies.troubles", None)
 
 
+@pytest.mark.sample(2)
 @pytest.mark.usefixtures("registered")
 @pytest.mark.parametrize(
     ("trouble", "status", "error"),

@@ -127,6 +127,7 @@ def test_text_with_a_place_for_B_is_no_line_along_it() -> None:
     assert array[1] == Problem(order=4, minimise="J", B=1.6)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("weights", sampled([[0.5], [0.5, 1.0]]))
 def test_any_number_may_run_and_the_rows_are_those_of_each_alone(weights: list[float]) -> None:
     length = 130 * len(weights)

@@ -70,7 +70,7 @@ def test_clarabel_finds_the_same_optima(seed: int) -> None:
     assert counter["undecided"] <= 0.1 * counter.total()
 
 
-@pytest.mark.sample(2)
+@pytest.mark.sample(4)
 @pytest.mark.parametrize("minimise", ["C", "J", "C_plus", "max(C/4, J/32)"])
 def test_both_references_agree(minimise: str) -> None:
     for symmetric in (True, False):

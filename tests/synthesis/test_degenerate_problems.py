@@ -201,6 +201,7 @@ CASES = {
 }
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize("name", CASES)
 def test_a_degenerate_optimum_is_proven(name: str) -> None:
     problem, least = CASES[name]
@@ -214,6 +215,7 @@ def test_a_degenerate_optimum_is_proven(name: str) -> None:
         assert verify(solution.to_dict()).proven
 
 
+@pytest.mark.long
 def test_an_amplitude_of_a_spread_that_nearly_vanishes_is_proven() -> None:
     problem = Problem(order=5, basis=BSplines(10, 3, 2), minimise=SLOW.residual(spread=0.05), symmetric=False)
     solution = synthesize(problem)
@@ -253,6 +255,7 @@ def test_constants_are_held_up_where_hardly_a_law_has_them(name: str) -> None:
     assert broken(solution.problem, solution.law) == []
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize("unit", [1e-11, 1.0, 1e6])
 @pytest.mark.parametrize("basis", [Powers(1), Chebyshev(5), HALVES])
 def test_an_objective_without_a_least_value_is_told_apart(unit: float, basis: Powers | Chebyshev | Pieces) -> None:
@@ -309,6 +312,7 @@ def test_an_objective_that_an_interior_point_runs_away_from_is_found() -> None:
     assert solution.status.value == "optimal"
 
 
+@pytest.mark.long
 def test_the_middle_of_a_flat_optimum_is_taken_where_vertices_stick_out() -> None:
     breaks = (0.0, 0.035, 0.1745, 0.2095, 0.4825, 0.5, 0.5175, 0.7905, 0.8255, 0.965, 1.0)
     problem = Problem(

@@ -59,6 +59,7 @@ def outcome(problem: Problem) -> str:
     return solution.status.value
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize("first", [20, 50])
 def test_random_problems_are_solved_and_judged(first: int) -> None:
     counter = Counter(outcome(problem) for problem in PROBLEMS[first : first + 10])
@@ -99,6 +100,7 @@ def agrees(problem: Problem) -> bool:
     return True
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("first", sampled(range(0, 30, 10)))
 def test_highs_and_clarabel_agree_on_random_problems(first: int) -> None:
     assert sum(agrees(problem) for problem in CONVEX[first : first + 10]) >= 9
@@ -122,7 +124,7 @@ def test_no_random_problem_takes_long() -> None:
 # --- unsymmetric laws, whose optimum is known from symmetric ones ---
 
 
-@pytest.mark.sample(2)
+@pytest.mark.sample(4)
 @pytest.mark.parametrize(
     ("B", "order", "degree"),
     [(1.2, 3, 9), (1.5, 3, 9), (1.641, 4, 9), (1.53, 5, 13), (1.4, 2, 15), (1.9, 6, 15), (2.3, 2, 9)],
@@ -138,6 +140,7 @@ def test_unsymmetric_laws_with_a_flat_top_are_solved(B: float, order: int, degre
     assert solution.objective == pytest.approx(wanted.objective, rel=1e-10)
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize(
     "given",
     [
@@ -174,7 +177,7 @@ def test_one_sided_peaks_of_symmetric_laws_are_the_peak(B: float | None, minimis
     assert one.objective == pytest.approx(other.objective, rel=1e-10)
 
 
-@pytest.mark.sample(3)
+@pytest.mark.sample(6)
 @pytest.mark.parametrize("minimise", ["C", "J", "rms_c", "rms_j", "snap", "C_plus", "C_minus", "max(C/4, J/32)"])
 @pytest.mark.parametrize("order", [2, 3, 4, 5])
 @pytest.mark.parametrize("symmetric", [True, False], ids=["symmetric", "unsymmetric"])
@@ -227,7 +230,7 @@ STARTS: list[tuple[dict[str, Any], dict[str, Any]]] = [
 ]
 
 
-@pytest.mark.sample(2)
+@pytest.mark.sample(4)
 @pytest.mark.parametrize(("given", "change"), STARTS, ids=str)
 def test_a_start_leads_to_the_cold_answer(given: dict[str, Any], change: dict[str, Any]) -> None:
     chosen: dict[str, Any] = {"order": 4, "basis": Chebyshev(9), **given}
@@ -240,6 +243,7 @@ def test_a_start_leads_to_the_cold_answer(given: dict[str, Any], change: dict[st
     assert warm.status == cold.status
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize(
     "given",
     [
@@ -311,6 +315,7 @@ def test_a_start_for_power_is_no_worse_than_none() -> None:
     assert warm.objective <= synthesize(replace(first, B=1.72)).objective * (1 + 1e-6)
 
 
+@pytest.mark.long
 def test_the_same_problem_gives_the_same_floats_whatever_was_solved_before() -> None:
     for one in PROBLEMS[:5]:
         try:

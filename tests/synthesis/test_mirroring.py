@@ -25,7 +25,7 @@ KINDS: list[dict[str, Any]] = [
 ]
 
 
-@pytest.mark.sample(2)
+@pytest.mark.sample(4)
 @pytest.mark.parametrize("kind", KINDS, ids=str)
 def test_the_unfolded_optimum_is_proven_for_all_laws(kind: dict[str, Any]) -> None:
     problem = Problem(**{"order": 3, "basis": Chebyshev(9), **kind}, symmetric=False)

@@ -58,6 +58,7 @@ def test_points_lie_evenly(velocity: Front) -> None:
     assert lengths.max() < 5.0 * lengths.min()
 
 
+@pytest.mark.long
 def test_points_with_power_agree_with_single_problems(power: Front) -> None:
     assert len(power) == 8
     assert falls(power)

@@ -14,7 +14,7 @@ from tests.synthesis.count_statuses import kinds, outcome, table
 from tests.synthesis.judge import Judged, as_range
 from tests.synthesis.random_options import ASKED, BASES, CONSTANTS, Drawn, every_option
 
-pytestmark = pytest.mark.filterwarnings("ignore::optlaws.errors.NotNormalised")
+pytestmark = [pytest.mark.long, pytest.mark.filterwarnings("ignore::optlaws.errors.NotNormalised")]
 #: constants of formulas and of machines, whose own tests draw them at random
 FORMULAS = {"integral", "peak", "rms", "value"}
 MACHINES = {"mode_residual", "output_peak", "output_rms"}

@@ -47,6 +47,7 @@ def solved(problem: Problem) -> bool:
     return True
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize("first", sampled(range(0, 200, 25), 4))
 def test_200_random_problems_are_each_solved_or_shown_to_be_infeasible(first: int) -> None:
     outcomes = [solved(problem) for problem in PROBLEMS[first : first + 25]]
@@ -73,11 +74,13 @@ def agrees_with_highs(problem: Problem) -> bool:
     return True
 
 
+@pytest.mark.sample(4)
 @pytest.mark.parametrize("problem", sampled([*PROBLEMS[:36], *SCARCE], 5), ids=shape)
 def test_highs_finds_the_same_optimum_among_all_laws_of_eq_8(problem: Problem) -> None:
     agrees_with_highs(problem)
 
 
+@pytest.mark.long
 def test_the_scarce_problems_are_both_feasible_and_not() -> None:
     outcomes = [solved(problem) for problem in SCARCE]
     assert set(outcomes) == {True, False}

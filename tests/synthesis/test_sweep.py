@@ -74,6 +74,7 @@ def test_laws_of_least_power_on_a_line_are_found_together() -> None:
         assert items[place].lower_bound == pytest.approx(alone.lower_bound, rel=1e-9)
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize("degree", [3, 9, 19, 39])
 @pytest.mark.parametrize("B", [1.53, 1.641, 2.203])
 def test_the_last_digit_does_not_depend_on_the_start(degree: int, B: float) -> None:

@@ -171,6 +171,7 @@ def _proofs(problems: Iterator[Problem]) -> Iterator[tuple[Any, float]]:
             yield certificate, float("-inf") if value is None else float(value)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("count", "seed"), [(10, 7), pytest.param(2000, 8, marks=pytest.mark.long)])
 def test_random_proofs_are_worth_the_same(count: int, seed: int, tmp_path: Path) -> None:
     proofs = list(_proofs(_problems(count, seed)))

@@ -383,7 +383,7 @@ def _polished(search: _BoxSearch, laws: BentLaws) -> BentLaws:
 
 
 def _met(search: _BoxSearch, pieces: int = 0) -> _BoxSearch:
-    """The search in the least period in which the laws at the best instants keep the limits."""
+    """The search in the period in which the laws at the best instants just keep the limits."""
     best, low, high = search, 0.0, inf
     feasible: _BoxSearch | None = None
     for _ in range(_STEPS):

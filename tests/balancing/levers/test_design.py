@@ -8,7 +8,7 @@ from tests.internals.balancing import QUANTITIES
 GIVEN = {"rho": 0.15, "nu": 0.15, "swing": deg(60)}
 
 
-@pytest.mark.sample(3)
+@pytest.mark.sample(9)
 @pytest.mark.parametrize("name", QUANTITIES)
 def test_a_known_lever_is_found_again(name: str) -> None:
     known = TorsionLever(beta=0.8, lam=1.7, **GIVEN)

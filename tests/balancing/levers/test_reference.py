@@ -108,6 +108,7 @@ def studied(row: Row) -> None:
     assert 100 * worst == pytest.approx(float(row["max_taylor_err_pct_of_Mmax"]), rel=1e-3, abs=1e-3)
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize(
     "row", [STUDY[8], STUDY[17], STUDY[24], STUDY[31]], ids=lambda r: f"{r['beta']}-{r['swing_deg']}"
 )

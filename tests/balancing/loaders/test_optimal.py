@@ -71,6 +71,7 @@ def on_grid(h: Any, k: np.ndarray, order: int) -> tuple[Any, Any]:  # noqa: ANN4
     return (w[:, None] * P) @ h, -2 * (dw[:, None] * P + w[:, None] * dP) @ h
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize(("B", "order"), [(1.875, 3), (1.6, 2)])
 def test_least_acceleration_by_ipopt_on_a_grid(B: float, order: int) -> None:
     # Z of degree 5 leaves b three powers of t² more than the base law's one
@@ -170,6 +171,7 @@ def test_the_limits_belong_to_motions_that_exist(B: float) -> None:
     assert rate / (2 * swing) == pytest.approx(limit, rel=1e-7)
 
 
+@pytest.mark.long
 def test_least_power_by_ipopt_on_a_grid() -> None:
     B, order = 1.7, 3
     base, free = powers(B, order, 4)
@@ -192,6 +194,7 @@ def test_least_power_by_ipopt_on_a_grid() -> None:
     assert float(found["f"]) == pytest.approx(least, rel=2e-5)
 
 
+@pytest.mark.long
 def test_power_of_the_loader_by_mpmath() -> None:
     """Y² times the greatest b c, from the law's own series, with 30 digits."""
     law = balanced_law(1.875, order=3, basis=Chebyshev(9), minimise="D_loader").law
@@ -286,6 +289,7 @@ def mixed(shares: list[float]) -> np.ndarray:
     return np.asarray(np.array(shares) @ corners() / sum(shares))
 
 
+@pytest.mark.long
 @settings(max_examples=15)
 @given(SHARES, SHARES)
 def test_no_law_is_below_a_limit_or_a_tangent(first: list[float], second: list[float]) -> None:

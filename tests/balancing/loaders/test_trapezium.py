@@ -10,7 +10,7 @@ from tests.mechanisms.reference import rows
 NOMOGRAM = rows("loader_nomogram")
 
 
-@pytest.mark.sample(3)
+@pytest.mark.sample(6)
 @pytest.mark.parametrize("row", NOMOGRAM[::4], ids=[f"{row['e13']}-{row['gamma_w']}" for row in NOMOGRAM[::4]])
 def test_the_nomogram(row: dict[str, str]) -> None:
     substitute = TrapeziumSubstitute(float(row["e13"]), float(row["gamma_w"]))

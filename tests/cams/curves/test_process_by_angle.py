@@ -63,6 +63,7 @@ def test_a_force_over_the_way_and_a_spline() -> None:
     assert smooth == pytest.approx(CubicSpline(places, values)(way), abs=1e-9)
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize(
     "process",
     [

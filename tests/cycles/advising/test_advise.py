@@ -132,6 +132,7 @@ def test_the_front_exchanges_one_for_the_other_and_no_law_betters_it(rise: Advic
                 assert no_calmer or law.values["acceleration"] >= point.values["acceleration"] * (1.0 - 1e-7)
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize(("length", "time"), [("35e-9 mm", "1e-4 s"), ("35e9 mm", "1e5 s"), ("0.035 m", "100 ms")])
 def test_other_units_are_the_same_advice(length: str, time: str) -> None:
     advice, known = (
@@ -234,6 +235,7 @@ def test_a_motor_is_asked_for_what_it_takes() -> None:
     assert "least rms torque" not in [law.name for law in advice]
 
 
+@pytest.mark.long
 def test_a_problem_is_compared_in_its_own_units() -> None:
     problem = Problem(order=3, B=at_most(1.8), J=at_most(65))
     advice = advise(problem, follower={"frequency": 20.0}, points=3)

@@ -60,6 +60,7 @@ def keeps(fastest: FastestCycle, **limits: float) -> bool:
     return all(fastest.cycle.peak(orders[name]) <= most * (1.0 + 1e-9) for name, most in limits.items())
 
 
+@pytest.mark.long
 def test_a_turning_cycle_is_as_fast_as_a_bisection_finds() -> None:
     fastest = cycle().fastest()
     low, high = bisected(cycle(), 0.34, 0.35, rounds=4)
@@ -177,6 +178,7 @@ def test_the_proofs_are_verified_from_their_file() -> None:
     assert not any(entry.infeasible for entry in verify_all(claims).values())
 
 
+@pytest.mark.long
 def test_gains_are_those_of_a_cycle_with_a_higher_limit() -> None:
     fastest = cycle().fastest()
     by_name = {gain.limit: gain for gain in fastest.gains}
@@ -215,6 +217,7 @@ def test_velocities_turn_with_the_master() -> None:
     assert max(abs(joint["velocity"]) for joint in fastest.cycle.joints) < 1e-8
 
 
+@pytest.mark.long
 def test_other_units_say_the_same() -> None:
     small = cycle(segments=[Rise("35 um", "120 deg"), Dwell("60 deg"), Return("35 um", "100 deg"), Dwell()],
                   limits={"velocity": "1 mm/s", "acceleration": "20 mm/s^2", "jerk": "2000 mm/s^3"})  # fmt: skip
@@ -223,6 +226,7 @@ def test_other_units_say_the_same() -> None:
     assert fast.fastest().period == pytest.approx(1e-6 * cycle().fastest().period, rel=1e-9)
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize(
     ("given", "error", "says"),
     [

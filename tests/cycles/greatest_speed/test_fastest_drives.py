@@ -80,6 +80,7 @@ def test_given_laws_meet_the_force_where_it_is_greatest() -> None:
 BESIDE = [Rise("35 mm", "120 deg"), Return(law="cycloidal")]
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize(
     ("drive", "limits", "segments"),
     [
@@ -106,6 +107,7 @@ def test_viscous_friction_and_the_power_of_a_mass_are_proven(
         assert verified.bound * 2.0 * 0.035**2 / (needed * (1.0 - 1e-6)) ** 3 > 20.0
 
 
+@pytest.mark.long
 def test_what_is_not_convex_or_does_not_scale_is_local() -> None:
     for drive, limits in (
         ({"mass": "2 kg", "viscous": "10 N s/m", "stiffness": "0.1 N/mm"}, {"force": "60 N"}),
@@ -134,6 +136,7 @@ def test_a_gear_that_loses_power_has_the_speed_of_accelerations() -> None:
     assert all(each.proven for each in verify_all(fastest.claims()).values())
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("efficiency", "friction", "status"),
     [(1.0, "0.5 N m s/rad", "optimal"), pytest.param(0.85, "0.5 N m s/rad", "local", marks=pytest.mark.long)],

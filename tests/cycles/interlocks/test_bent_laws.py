@@ -92,6 +92,7 @@ def test_laws_that_bend_keep_their_limits_and_interlocks(gentle: Any) -> None:  
 LONG = pytest.mark.long
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("moves", "size"), [(1, 1e-6), pytest.param(2, 1e-6, marks=LONG), pytest.param(2, 1e6, marks=LONG)]
 )

@@ -55,7 +55,7 @@ def distances(corners: Any) -> tuple[Any, Any]:  # noqa: ANN401 - rows of number
     return far, Path(points).contains_points(path)
 
 
-@pytest.mark.sample(2)
+@pytest.mark.sample(4)
 @pytest.mark.parametrize("corners", [BOX, BOX[::-1], CUP, DEEP])
 def test_a_path_keeps_away_from_a_polygon_as_far_as_samples_say(corners: Any) -> None:  # noqa: ANN401 - rows of texts
     known, (far, within) = least(Forbidden("x", "z", corners)), distances(corners)
@@ -82,6 +82,7 @@ def test_random_polygons_are_outside_where_their_function_is_positive() -> None:
         assert (np.abs(depth) <= 2.0 * far.max()).all()
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize("size", [1e-6, 1.0, 1e6])
 def test_bounds_that_are_functions_agree_with_samples(size: float) -> None:
     axes = Axes(

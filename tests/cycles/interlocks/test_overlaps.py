@@ -112,6 +112,7 @@ def path_is_clear(start: float, wait: float, times: tuple[float, float]) -> bool
     return bool((z[within] >= np.interp(x[within], across, up) - 1e-9).all() and x[-1] >= 299.0)
 
 
+@pytest.mark.long
 def test_a_pick_and_place_beside_a_grid_of_instants() -> None:
     """Both ways are one another backwards: of one the least wait of z is looked for over the instants of x."""
     times = sqrt(2.0 * pi * 0.3 / 20.0), sqrt(2.0 * pi * 0.08 / 20.0)
@@ -150,7 +151,7 @@ def test_a_bound_that_is_a_function_holds_at_every_position() -> None:
     assert "door" in best.binding
 
 
-@pytest.mark.sample(2)
+@pytest.mark.sample(4)
 @pytest.mark.parametrize("corners", [3, 4, 7])
 def test_no_random_instants_are_better_than_the_bound(corners: int) -> None:
     """A polygon whose sides are upright but for rounding, and paths at random that keep clear of it."""

@@ -113,6 +113,7 @@ def test_a_crank_is_bounded_by_the_phase_plane() -> None:
     assert drive.sheet(smoothstep(3), "0 deg", "180 deg", move.duration).peak_torque > 4.0
 
 
+@pytest.mark.long
 def test_a_gear_that_loses_power_makes_the_acceleration_one_sided() -> None:
     """The load costs more before the gear while it is driven, and gives back less while it is braked."""
     lossy = Drive(Mechanism("0.8 kg m^2", "20 N m"), Motor("3e-4 kg m^2"), ratio=20, efficiency=(0.9, 0.8))
@@ -157,6 +158,7 @@ def feasible(drive: Drive, duration: float, terms: int) -> bool:
     return linprog(np.zeros(terms), np.vstack(rows), right, ends, [0.0, 0.0, 0.0, 1.0], bounds=(None, None)).status == 0
 
 
+@pytest.mark.long
 def test_it_runs_along_the_motors_curve_and_no_faster(curved: tuple[Drive, FastestMove]) -> None:
     drive, move = curved
     k, turn = np.linspace(0.0, 1.0, 4001), pi / 4

@@ -47,6 +47,7 @@ def quiet() -> FastestMove:
     return fastest(DEGREE_15, stroke="100 mm", limits=limits, follower=SPREAD)
 
 
+@pytest.mark.long
 def test_the_follower_vibrates_no_more(quiet: FastestMove) -> None:
     """At both ends of the spread and between; at its worst as much as is allowed."""
     found = [
@@ -84,6 +85,7 @@ def test_law_and_proof_are_one_file(quiet: FastestMove) -> None:
             FastestMove.from_dict(data | {"proofs": proofs})
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize(("shaper", "periods"), [("ZV", 0.5), ("ZVD", 1.0)])
 def test_it_is_faster_than_a_shaped_law_that_leaves_as_much(shaper: Literal["ZV", "ZVD"], periods: float) -> None:
     """Seven segments, shaped for 16.7 Hz; 5 % off its frequency they leave what is then allowed here."""
@@ -134,6 +136,7 @@ def least_share(duration: float, terms: int, hertz: tuple[float, ...], most: flo
     return float(program.fun)
 
 
+@pytest.mark.long
 def test_no_time_is_skipped_where_longer_ones_are_impossible_again() -> None:
     """36 vibrations in a move: times that are possible are short intervals, of which linear programs show the same."""
     limits = LIMITS | {"residual acceleration": "0.08 m/s^2"}

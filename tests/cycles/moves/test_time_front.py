@@ -73,6 +73,7 @@ def least_peak(duration: float, nu: int) -> float:
     return float(best.fun) * 0.1 / duration**nu
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize(("name", "nu"), [("acceleration", 2), ("jerk", 3), ("velocity", 1)])
 def test_points_are_those_of_a_linear_program(name: str, nu: int, move: FastestMove) -> None:
     found = time_front(move, name, longest="0.3 s", points=2)
@@ -82,6 +83,7 @@ def test_points_are_those_of_a_linear_program(name: str, nu: int, move: FastestM
         assert least * (1.0 - 1e-9) <= point.value <= least * (1.0 + 1e-4)
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize("name", ["torque", "rms torque"])
 def test_a_limit_at_a_value_of_the_front_has_its_time_as_the_least(name: str, turn: FastestMove) -> None:
     """Both ways round: what is least in a time, and the least time with that as the limit."""
@@ -111,6 +113,7 @@ def test_the_torque_of_slower_laws_is_bounded_too(turn: FastestMove) -> None:
         assert between.value >= point.lower_bound * (1.0 - 1e-9)
 
 
+@pytest.mark.long
 def test_the_vibration_left_is_known_at_points_alone(move: FastestMove) -> None:
     elastic = {"frequency": ("15.9 Hz", "17.5 Hz"), "damping": 0.02}
     left = time_front(move, "residual acceleration", points=3, longest="0.3 s", follower=elastic)

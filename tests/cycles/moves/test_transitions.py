@@ -42,6 +42,7 @@ def side_of(cycle: Cycle, degrees: float, nu: int, side: float) -> float:
     return float(cycle.at_angle(degrees + side * 1e-9, nu))
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize(("at", "rest", "order"), [(40.0, "50 mm", 4), (300.0, "-5 mm", 3), (120.0, "0 mm", 4)])
 @pytest.mark.parametrize("kind", ["run-in", "run-out"])
 def test_a_cam_in_a_given_angle_goes_from_rest_to_the_motion_of_the_cycle(

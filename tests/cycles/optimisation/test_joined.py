@@ -48,7 +48,7 @@ def test_no_law_on_a_fine_grid_has_a_smaller_peak_acceleration() -> None:
     assert 0.999 * optimum.fun < cycle.objective < 1.03 * optimum.fun
 
 
-@pytest.mark.sample(2)
+@pytest.mark.sample(4)
 @pytest.mark.parametrize("minimise", ["acceleration", "jerk", "rms jerk"])
 def test_what_repeats_ends_as_it_begins(minimise: str) -> None:
     cycle = Cycle(WAYS, period="1 s", minimise=minimise)

@@ -35,6 +35,7 @@ def test_a_force_that_every_law_takes_at_a_joint_is_told_when_the_cycle_is_made(
         make()
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize(
     ("limits", "least"),
     [({"force": "10 N"}, "the force 30.3942 N"), ({"velocity": "370 mm/s"}, "the velocity 378.216"),

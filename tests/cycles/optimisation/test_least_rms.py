@@ -51,6 +51,7 @@ def between_rests(segments: list[Any], time: float, nu: int) -> Cycle:
     return Cycle([Dwell("1 s"), *segments, *back], period=f"{time + 4:.17g} s", minimise=NAMES[nu], order=nu)
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize("seed", range(18))
 def test_the_least_rms_of_random_points_is_the_spline_through_them(seed: int) -> None:
     random = np.random.default_rng(seed)

@@ -21,6 +21,7 @@ RATED = Motor("3e-4 kg m^2", rated_torque="1.5 N m", peak_torque="2.7 N m", grea
 CURVED = Motor("3e-4 kg m^2", rated_torque="1.5 N m", curve=FALLING)
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize(
     ("motor", "efficiency"),
     [

@@ -214,6 +214,7 @@ def test_what_comes_back_is_measured_by_how_far_it_gets() -> None:
         assert Cycle([Move("0 mm", "0.1 s"), Dwell()], period="0.4 s").status
 
 
+@pytest.mark.long
 def test_a_velocity_must_be_above_the_mean() -> None:
     with pytest.raises(InfeasibleProblem, match="350 mm/s on average, but its velocity is to be at most 350 mm/s"):
         assert quick("350 mm/s").status

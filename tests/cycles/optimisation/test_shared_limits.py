@@ -105,6 +105,7 @@ def test_limits_of_the_power_are_kept_with_friction() -> None:
     assert kept.lower_bound == pytest.approx(cycle().objective, rel=1e-7)
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize("drive", [MOTOR, INERTIA | {"stiffness": "0.3 N m/rad"}], ids=["friction", "spring"])
 def test_the_bound_of_the_power_by_energy_is_below_what_any_law_takes(drive: dict[str, Any]) -> None:
     def moves(law: str) -> list[Any]:

@@ -130,6 +130,7 @@ def test_files_that_call_the_prime_circle_base_circle_are_read_where_both_are_on
     assert told_of(tmp_path, sought)["best"] == told_of(tmp_path, BASE)["best"]
 
 
+@pytest.mark.long
 def test_the_best_offset_bears_a_process_a_flywheel_and_a_spring(tmp_path: Path) -> None:
     page, told, written = done(tmp_path, OFFSET)
     moves = [Rise("35 mm", "120 deg", law="3-4-5"), Dwell("90 deg"), Return(duration="100 deg", law="3-4-5"), Dwell()]

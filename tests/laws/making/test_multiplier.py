@@ -63,6 +63,7 @@ def stroke(law: MotionLaw, y: Any) -> float:  # noqa: ANN401
     return total
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize("law", LAWS.values(), ids=LAWS.keys())
 @pytest.mark.parametrize(("y", "values"), MULTIPLIERS.values(), ids=MULTIPLIERS.keys())
 def test_acceleration_is_the_product_and_the_stroke_stays(law: MotionLaw, y: Any, values: Any) -> None:  # noqa: ANN401
@@ -164,6 +165,7 @@ def test_high_degrees_stay_exact() -> None:
     assert product.a([0.5, 1.0]) == pytest.approx([0.5, 1.0], abs=1e-14)
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize(
     ("law", "constants"),
     [

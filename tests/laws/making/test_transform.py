@@ -41,7 +41,7 @@ def inside(law: MotionLaw) -> Array:
     return K[~near]
 
 
-@pytest.mark.sample(4)
+@pytest.mark.sample(12)
 @every_law
 @pytest.mark.parametrize("b0", [-0.5, 0.0, 0.25, 1.0, 1.5])
 def test_an_end_velocity_is_the_formula(law: MotionLaw, b0: float) -> None:

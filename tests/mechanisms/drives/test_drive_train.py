@@ -65,6 +65,7 @@ def by_hand(k: float, ratio: float, stroke: float) -> tuple[float, float]:
     return torque * side, torque * ratio * v
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize("stroke", [2.5, -2.5])
 def test_sheet_and_formulas_of_a_press(stroke: float) -> None:
     drive = Drive(PRESS, MOTOR, ratio=5.0, efficiency=(0.9, 0.8), regeneration=0.6)

@@ -91,6 +91,7 @@ def test_gear_ratios_are_an_array() -> None:
         )
 
 
+@pytest.mark.long
 def test_lengths_of_a_crank_and_ratios_are_a_study(tmp_path: Path) -> None:
     def moved(crank: str) -> Any:  # noqa: ANN401
         press = slider_crank(crank, "0.4 m", bodies={"crank": "0.02 kg m^2", "slider": "5 kg"})

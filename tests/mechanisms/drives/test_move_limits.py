@@ -25,6 +25,7 @@ DRIVING, BRAKING = (3e-4 + 0.8 / 400 * share for share in (1 / 0.85, 0.85))
 ACCELERATION = 20 * (pi / 4) / 0.25**2
 
 
+@pytest.mark.long
 def test_a_table_has_closed_forms_in_si_units() -> None:
     limit = DRIVE.limit("peak torque", *TABLE)
     assert limit.value == pytest.approx(2.0 * (DRIVING + BRAKING) * ACCELERATION, rel=3e-6)
@@ -67,6 +68,7 @@ def test_no_sheet_of_a_standard_law_is_below_the_limit(mechanism: Mechanism, min
         assert 0.15 * known < limit.value < known
 
 
+@pytest.mark.long
 def test_copper_heat_is_minimised_with_the_energy() -> None:
     energy, torque = (DRIVE.limit(kind, *TABLE).value for kind in ("energy", "rms torque"))
     values = [DRIVE.limit("energy", *TABLE, heat=heat).value for heat in (0.5, 5e6)]

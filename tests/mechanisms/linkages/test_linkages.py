@@ -110,6 +110,7 @@ def test_torque_of_a_four_bar_by_newton_and_euler(branch: str, x: float) -> None
     assert mechanism.torque(x, velocity, acceleration) == pytest.approx(expected, rel=1e-12)
 
 
+@pytest.mark.sample(4)
 @pytest.mark.parametrize(
     ("mechanism", "start", "stroke"),
     [
@@ -230,6 +231,7 @@ def test_four_bars_that_turn_far() -> None:
         four_bar(*lengths, bodies=bodies, loads=Loads("2*s"))
 
 
+@pytest.mark.long
 def test_the_law_of_a_linkage_with_long_formulas_is_stored() -> None:
     moved = linkage().dimensionless("200 deg", "-150 deg", "0.3 s")
     assert len(moved.torque) > 10_000

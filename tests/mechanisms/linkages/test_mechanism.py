@@ -116,6 +116,7 @@ def test_derivatives_are_those_of_taylor_arithmetic(name: str) -> None:
             assert values(x, nu) == pytest.approx(exact, rel=1e-11, abs=1e-11 * np.abs(exact).max() + 1e-300)
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize("share", [0.6, -0.6])
 def test_dimensionless_torque_is_the_torque(mechanism: Mechanism, share: float) -> None:
     low, high = mechanism.over

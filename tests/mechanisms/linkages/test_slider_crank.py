@@ -21,6 +21,7 @@ def test_rms_torque_of_the_quintic(crank_inertia: float, expected: float) -> Non
     assert rms(stroke.torque).value(smoothstep(3)) * stroke.unit == pytest.approx(expected, abs=6e-7)
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize(
     ("degree", "symmetric", "expected"),
     [(5, False, 4.032923), (9, False, 3.989601), (13, False, 3.960253), (9, True, 4.126803)],
@@ -35,6 +36,7 @@ def test_least_peak_torque(moved: DimensionlessMechanism) -> None:
     assert synthesize(problem).objective * moved.unit == pytest.approx(5.1057, abs=1e-4)
 
 
+@pytest.mark.long
 def test_least_energy_without_regeneration(moved: DimensionlessMechanism) -> None:
     energy = integral(f"max(({moved.torque})*b, 0)")
     assert energy.value(smoothstep(3)) * moved.unit == pytest.approx(4.416, abs=5e-4)

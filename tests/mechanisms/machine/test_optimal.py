@@ -132,6 +132,7 @@ def test_optima_are_proven_kept_and_right(seed: int) -> None:
     assert judged.value(residual) <= allowed * (1.0 + 1e-8)
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize("seed", [0, 3])
 def test_optima_are_never_beaten_by_a_linear_program_on_a_grid(seed: int) -> None:
     machine = chain(seed, masses=1 + seed % 3)
@@ -175,6 +176,7 @@ def test_a_stored_solution_needs_no_machine_beside_it() -> None:
     assert Certificate.from_dict(stored["certificate"]).bound == pytest.approx(solution.lower_bound, rel=1e-12)
 
 
+@pytest.mark.long
 def test_errors_call_a_machine_by_few_words_and_can_be_run_again() -> None:
     machine = chain(2, masses=1)
     residual, peak = machine.residual(1, "last acceleration", spread=0.1), machine.peak()
@@ -230,6 +232,7 @@ def one_sided(seed: int) -> tuple[Functional, Problem]:
     return peak, Problem(order=3, basis=Chebyshev(7 + seed % 2), minimise=peak, symmetric=False)
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize("seed", sampled(range(12), each=4))
 def test_peaks_of_one_side_are_proven(seed: int) -> None:
     peak, problem = one_sided(seed)

@@ -36,7 +36,7 @@ def misses(seed: int) -> float:
     return float(np.abs(values - wanted).max() / max(1.0, np.abs(wanted).max()))
 
 
-@pytest.mark.sample(5)
+@pytest.mark.sample(3)
 @pytest.mark.parametrize("seed", range(2 * len(KINDS)))
 def test_random_machines_against_an_integrator(seed: int) -> None:
     assert misses(seed) < 1e-9
@@ -81,7 +81,7 @@ def test_random_machines_against_python_control(seed: int) -> None:
     assert np.abs(values - wanted).max() < 1e-9 * max(1.0, np.abs(wanted).max())
 
 
-@pytest.mark.sample(2)
+@pytest.mark.sample(6)
 @pytest.mark.parametrize("law", LAWS)
 @pytest.mark.parametrize(("nu", "damping"), [(3.0, 0.0), (20.0, 0.05), (20.0, 1.0), (15.0, 3.0), (500.0, 0.01)])
 def test_a_follower_is_a_machine(law: str, nu: float, damping: float) -> None:
@@ -103,6 +103,7 @@ def test_a_stiff_vibration_that_dies_away_is_followed_while_it_lives(law: str) -
     assert machine(k) == pytest.approx(Follower(nu, damping).response(LAWS[law]).a(k), abs=4e-15)
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize("seed", sampled(range(60), each=6))
 def test_a_follower_is_a_machine_to_rounding(seed: int) -> None:
     # both ways are kept: docs/architecture.md says why

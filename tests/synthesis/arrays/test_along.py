@@ -64,6 +64,7 @@ def check(laws: SolutionArray, places: np.ndarray[Any, Any]) -> None:
         assert abs(one.gap) <= 1e-10
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize(("degree", "changes"), [(5, 2), (9, 3), (19, 8)])
 def test_structures_follow_each_other_without_a_gap(degree: int, changes: int) -> None:
     segments = walked(path_of(degree))
@@ -121,6 +122,7 @@ def test_where_an_event_is_follows_from_what_is_broken_beyond_it() -> None:
     assert _event([(1.2, 0.2), (1.5, 0.5), (2.0, 0.3)]) == pytest.approx(1.0)
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize("degree", [5, 9, pytest.param(19, marks=pytest.mark.long)])
 def test_laws_where_the_structure_changes_and_beside_it_are_those_solved_alone(degree: int) -> None:
     edges = [segment.end for segment in walked(path_of(degree))[:-1]]
@@ -175,7 +177,7 @@ KINDS: dict[str, dict[str, Any]] = {
 }
 
 
-@pytest.mark.sample(6)
+@pytest.mark.sample(18)
 @pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.filterwarnings("ignore::optlaws.NotNormalised")
 def test_any_number_of_a_problem_may_vary(kind: str) -> None:
@@ -196,6 +198,7 @@ def test_laws_depend_neither_on_their_order_nor_on_their_company() -> None:
     np.testing.assert_allclose(half.objective, whole.objective[::2], rtol=1e-12)
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize("degree", [5, 19])
 def test_no_law_breaks_a_row_anywhere(degree: int) -> None:
     path = path_of(degree)
@@ -209,6 +212,7 @@ def test_no_law_breaks_a_row_anywhere(degree: int) -> None:
             assert residual.max() <= 1e-10
 
 
+@pytest.mark.long
 def test_beyond_the_first_problem_without_a_law_none_has_one() -> None:
     B = np.linspace(1.05, 1.6, 300)
     laws = synthesize_array(ProblemArray(B=B, order=3, basis=Chebyshev(5)))

@@ -62,7 +62,7 @@ KINDS: dict[str, dict[str, Any]] = {
 }
 
 
-@pytest.mark.sample(3)
+@pytest.mark.sample(6)
 @pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.filterwarnings("ignore::optlaws.NotNormalised")
 def test_laws_of_least_power_are_those_solved_alone(kind: str) -> None:
@@ -100,6 +100,7 @@ def path_of(degree: int) -> Path:
     return path
 
 
+@pytest.mark.long
 def test_laws_of_least_power_where_their_structure_changes() -> None:
     path = path_of(9)
     segments = ParametricContinuation(path, 0.0, 1.0).whole(np.array([0.5]))
@@ -151,6 +152,7 @@ def test_a_law_that_is_no_minimum_is_seen() -> None:
         assert locally_optimal(segment.structure, turned).tolist() == [vertex] * len(states)
 
 
+@pytest.mark.long
 def test_without_laws_and_with_tight_bounds_each_is_solved_alone() -> None:
     laws = synthesize_array(ProblemArray(B=np.linspace(1.05, 1.8, 60), order=4, basis=Chebyshev(3), minimise="D"))
     assert set(laws.status.tolist()) == {"infeasible", "local"}

@@ -184,7 +184,7 @@ def test_tables_have_a_row_and_datasets_a_place_for_each_problem() -> None:
     assert dataset.sizes["contact"] == laws.contacts["k"].shape[-1]
 
 
-@pytest.mark.sample(2)
+@pytest.mark.sample(6)
 @pytest.mark.parametrize(
     "problems",
     [

@@ -26,6 +26,7 @@ def places(low: float, high: float) -> dict[str, Array]:
     return {"a": a, "b": numbers.normal(size=40), "c": 3.0 * numbers.normal(size=40), "k": numbers.uniform(size=40)}
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize("name", TORQUES)
 @pytest.mark.parametrize("wrapped", ["{}", "({})^2", "({})*b + sin(a)*b"])
 def test_tables_say_what_formulas_say(name: str, wrapped: str) -> None:

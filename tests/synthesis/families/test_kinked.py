@@ -15,6 +15,7 @@ def family_of(text: str, *, symmetric: bool) -> KinkedIntegralFamily:
     return family
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize("symmetric", [True, False])
 @pytest.mark.parametrize("text", KINDS)
 def test_derivatives_are_differences(text: str, symmetric: bool) -> None:  # noqa: FBT001 - a parameter

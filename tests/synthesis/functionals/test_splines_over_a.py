@@ -45,6 +45,7 @@ def _above(law: MotionLaw, place: float, k: Array) -> Array:
     return np.asarray(law(k, 0) - place)
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize(
     ("kind", "count", "degree"),
     [

@@ -148,6 +148,7 @@ def test_the_gain_of_ends_that_move() -> None:
     assert 1.0 - further.duration / found.duration == pytest.approx(found.gains(more)[name], rel=1e-3)
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize("unit", [1e-12, 1e9])
 def test_units_change_nothing(unit: float) -> None:
     """Metres and seconds in other units, one at a time."""
@@ -192,6 +193,7 @@ def compare_with_ruckig(count: int, seed: int, *, moving: bool) -> None:
             assert time_of_any_law(move.stroke, move.limits, 3) == pytest.approx(duration, rel=1e-9)
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize("moving", [False, True])
 def test_pieces_are_as_fast_as_ruckig(*, moving: bool) -> None:
     compare_with_ruckig(6, 4, moving=moving)
@@ -326,6 +328,7 @@ def test_a_deceleration_alone_is_a_limit_of_the_end() -> None:
     assert backward.duration == pytest.approx(forward.duration, rel=1e-9)
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize("seed", range(4))
 @pytest.mark.parametrize("limits", [{"acceleration": 9.0, "deceleration": 7.0}, {"velocity": 2.5}, {"jerk": 90.0}])
 def test_what_a_law_keeps_in_a_time_it_keeps_in_every_box_of_that_time(limits: dict[str, float], seed: int) -> None:

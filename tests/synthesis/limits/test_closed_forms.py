@@ -60,7 +60,7 @@ CASES = [
 ]
 
 
-@pytest.mark.sample(3)
+@pytest.mark.sample(9)
 @pytest.mark.parametrize(("B", "monotone", "order"), CASES)
 def test_piecewise_constant_accelerations_approach_the_limit_from_above(
     B: float,

@@ -32,6 +32,7 @@ def of_unit_mass() -> list[tuple[dict[str, object], float]]:
     return [*cases, ({"minimise": "energy", "C": 5.0}, B**2 / 2.0)]
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize(("options", "known"), of_unit_mass(), ids=lambda value: str(value)[:60])
 def test_an_inertia_without_a_load_has_closed_forms(options: dict[str, object], known: float) -> None:
     limit = drive_limit(FREE, **options)  # type: ignore[arg-type]
@@ -76,6 +77,7 @@ def test_numbers_of_other_constructions() -> None:
     assert drive_limit("c + 3*a", "rms torque", B=2.2).value == pytest.approx(2.84121, abs=6e-6)
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize(
     "options",
     [
@@ -160,6 +162,7 @@ def test_no_standard_law_beats_the_limit(bulge: float, load: float, friction: fl
         assert limit.value <= own * (1.0 + 1e-6) + 1e-9
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize("minimise", ["peak torque", "rms torque", "energy"])
 @pytest.mark.parametrize("unit", [1e-12, 1e-5, 1e9])
 def test_limits_have_the_unit_of_the_torque(unit: float, minimise: str) -> None:
@@ -174,6 +177,7 @@ def test_a_load_by_a_table_is_cut_at_its_places() -> None:
     assert limit.gap < 1e-6
 
 
+@pytest.mark.sample(4)
 @pytest.mark.parametrize("key", ["value", "weight", "unit", "potential", "edges", "s", "b", "attained", "plane"])
 def test_what_a_certificate_does_not_prove_is_refused(key: str) -> None:
     limit = drive_limit(LOADED, "rms torque", B=2.2)

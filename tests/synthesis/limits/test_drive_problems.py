@@ -92,6 +92,7 @@ LOADED = drive_torque(inertia="1 + 0.6*a^2", load="3*a")
 WITHIN: dict[str, Any] = {"B": (0, 2.2), "C": (0, 9)}
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize(
     ("formula", "options"),
     [

@@ -39,6 +39,7 @@ def of_two_inertias(driving: float, braking: float) -> dict[str, float]:
     return {"peak torque": 2.0 * (driving + braking), "rms torque": sqrt(mean / 3.0) / (way / 2.0)}
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize(
     ("minimise", "unit"), [("peak torque", 1.0), ("rms torque", 1.0), ("rms torque", 1e-9), ("peak torque", 1e9)]
 )
@@ -90,6 +91,7 @@ def least_time_by_passes(P: float, motor: float, wave: float, shares: tuple[floa
     return float(quad(pace, 0.0, 1.0, limit=200, epsabs=1e-8)[0])
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize("wave", [0.5, 0.9])
 def test_least_times_are_those_of_passes_though_the_bound_is_not_convex(wave: float) -> None:
     load = f"(1 + {wave}*cos(2*pi*a))*c - {wave}*pi*sin(2*pi*a)*b^2"
@@ -124,6 +126,7 @@ def test_no_standard_law_beats_the_limit(motor: float, wave: float, lift: float,
         assert 0.0 < limit.value <= own * (1.0 + 1e-6) + 1e-9
 
 
+@pytest.mark.long
 def test_a_table_that_turns_has_the_limit_of_its_drive() -> None:
     """0.8 kg m² by 45 deg in 0.25 s, ratio 20: the two inertias that the motor feels."""
     drive = Drive(Mechanism("0.8 kg m^2"), Motor("3e-4 kg m^2"), ratio=20, efficiency=0.85)
@@ -142,6 +145,7 @@ def test_a_table_that_turns_has_the_limit_of_its_drive() -> None:
     assert beside.value == pytest.approx(drive_limit(moved.torque, "energy", C=9.0, recovered=0.5).value, rel=3e-6)
 
 
+@pytest.mark.long
 def test_problems_of_the_greater_of_two_torques_have_limits() -> None:
     load = "c + 3*a"
     torque = behind("0.2*c", load, 1.25, 0.8)

@@ -51,6 +51,7 @@ def test_a_limit_law_has_the_limit_for_its_constant(constant: str, order: int, B
     check_motion(law, B, monotone=monotone, rest=order > 1)
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize("monotone", [False, True])
 @examples(80)
 @given(B=st.floats(1.05, 6.0), share=st.one_of(st.just(1.0), st.floats(1.0, 1.5), st.floats(1.0, 100.0)))

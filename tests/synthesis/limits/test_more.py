@@ -37,14 +37,14 @@ JERKS = [
 ]
 
 
-@pytest.mark.sample(3)
+@pytest.mark.sample(9)
 @pytest.mark.parametrize(("B", "monotone", "order"), JERKS)
 def test_steps_of_jerk_approach_the_limit_of_j(B: float, order: int, *, monotone: bool) -> None:
     found = [least_by_steps("J", B, cells, monotone=monotone, order=order) for cells in (40, 120, 240)]
     check_from_above(jerk_limit(B, monotone=monotone, order=order), found, 0.02)
 
 
-@pytest.mark.sample(4)
+@pytest.mark.sample(8)
 @pytest.mark.parametrize(
     ("B", "monotone"), [(1.3, False), (1.7, True), (2.0, False), (2.05, False), (2.6, False), (2.6, True), (4.0, False)]
 )
@@ -96,6 +96,7 @@ def test_piecewise_linear_velocities_approach_the_limit_of_d(B: float, *, monoto
     assert excess[2] <= 0.25 * least
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize(
     ("B", "order", "monotone"),
     sampled(

@@ -56,6 +56,7 @@ def test_a_part_of_little_torque_costs_what_the_passes_say() -> None:
     assert known * (1.0 - 2e-6) <= limit.value <= known * (1.0 + 1e-9)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("kind", ["rms torque", pytest.param("peak torque", marks=pytest.mark.long)])
 def test_a_bound_over_a_part_is_between_none_and_one_everywhere(kind: str) -> None:
     objective = {"squared": LOADED} if kind == "rms torque" else {"peak": LOADED}

@@ -79,7 +79,7 @@ EXACT = {
 }
 
 
-@pytest.mark.sample(2)
+@pytest.mark.sample(4)
 @pytest.mark.parametrize("monotone", [False, True])
 @pytest.mark.parametrize(("constant", "order"), EXACT, ids=str)
 def test_limits_are_just_below_the_exact_values(constant: str, order: int, *, monotone: bool) -> None:
@@ -90,6 +90,7 @@ def test_limits_are_just_below_the_exact_values(constant: str, order: int, *, mo
         assert stated >= exact * (1 - mpmath.mpf(10) ** -13)
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize("share", [1.0, 1.0001, 1.3, 12.0, 1e6])
 def test_limits_at_a_given_jerk_are_just_below_the_exact_values(share: float) -> None:
     for B in VELOCITIES:

@@ -38,6 +38,7 @@ def falls(excess: np.ndarray) -> bool:
     return bool(np.all(excess > 0.0) and np.all(np.diff(excess) < 0.0))
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("order", "B"), sampled([(2, 1.3), (3, 1.4), (4, 1.53), (4, 1.641), (2, 1.641)]))
 def test_below_2_the_excess_falls_with_the_square_of_the_degree(order: int, B: float) -> None:
     excess = excesses(order, B)
@@ -45,6 +46,7 @@ def test_below_2_the_excess_falls_with_the_square_of_the_degree(order: int, B: f
     assert -2.25 <= exponent(order, excess) <= -1.85
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize(
     ("order", "B", "monotone"),
     sampled(
@@ -66,6 +68,7 @@ def test_from_2_on_the_excess_falls_with_the_degree(order: int, B: float, monoto
     assert -1.13 <= exponent(order, excess) <= -0.92
 
 
+@pytest.mark.long
 @pytest.mark.sample(3)
 @pytest.mark.parametrize("B", [1.3, 1.859, 2.7])
 def test_with_free_end_velocities_the_excess_falls_with_the_degree(B: float) -> None:

@@ -23,6 +23,7 @@ from tests.synthesis.judge import judge
 pytestmark = pytest.mark.filterwarnings("ignore::optlaws.errors.NotNormalised")
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize("B", [1.05, 1.2, 1.5, 2.0, 2.5])
 @pytest.mark.parametrize("symmetric", [True, False], ids=["symmetric", "unsymmetric"])
 def test_with_free_end_velocities_the_least_jerk_is_that_of_a_parabola(B: float, symmetric: bool) -> None:  # noqa: FBT001
@@ -34,6 +35,7 @@ def test_with_free_end_velocities_the_least_jerk_is_that_of_a_parabola(B: float,
     assert solution.certificate.bound == pytest.approx(24 * (B - 1), rel=1e-11)
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize(("start", "end"), [(0.5, -0.25), (0.228, -0.358), (0.0, 0.0), (-0.3, 0.7)])
 @pytest.mark.parametrize("degree", [7, 14])
 def test_between_given_velocities_the_least_jerk_is_constant(start: float, end: float, degree: int) -> None:
@@ -44,6 +46,7 @@ def test_between_given_velocities_the_least_jerk_is_constant(start: float, end: 
     assert solution.objective == pytest.approx(12 * (1 - (start + end) / 2), rel=1e-11)
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize("degree", [9, 15, 41])
 @pytest.mark.parametrize("B", [None, 1.5, at_most(1.8)], ids=repr)
 def test_a_degree_however_high_leaves_the_proof_sharp(degree: int, B: object) -> None:

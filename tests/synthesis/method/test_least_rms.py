@@ -50,7 +50,7 @@ def test_what_is_minimised_is_proven_at_its_lower_bound(problem: Problem, least:
     judge(solution)
 
 
-@pytest.mark.sample(2)
+@pytest.mark.sample(4)
 @pytest.mark.parametrize(
     ("problem", "name"),
     [

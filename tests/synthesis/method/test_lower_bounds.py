@@ -43,7 +43,7 @@ def test_the_least_c_of_at_least_6_is_6(order: int, B: Any) -> None:  # noqa: AN
     assert float(value) == pytest.approx(6.0, rel=1e-9)
 
 
-@pytest.mark.sample(2)
+@pytest.mark.sample(4)
 @pytest.mark.parametrize(
     ("given", "name"),
     [
@@ -64,6 +64,7 @@ def test_a_constant_minimised_alone_meets_its_lower_bound(given: dict[str, Any],
     assert Judged(solution.law).constant(name) == pytest.approx(asked.low, rel=1e-8)
 
 
+@pytest.mark.long
 def test_two_peaks_are_held_up_together() -> None:
     problem = Problem(B=1.7, order=4, minimise="rms_c", C=at_least(6.5), J=at_least(120.0))
     solution = synthesize(problem)
@@ -75,7 +76,7 @@ def test_two_peaks_are_held_up_together() -> None:
         assert solution.objective >= synthesize(single).objective * (1 - 1e-9)
 
 
-@pytest.mark.sample(3)
+@pytest.mark.sample(6)
 @pytest.mark.parametrize("minimise", ["C", "rms_c", "J"])
 @pytest.mark.parametrize("value", [5.0, 7.0])
 def test_a_power_given_exactly_is_reached_by_unsymmetric_laws(minimise: str, value: float) -> None:
@@ -85,7 +86,7 @@ def test_a_power_given_exactly_is_reached_by_unsymmetric_laws(minimise: str, val
     assert Judged(solution.law).constant("D") == pytest.approx(value, rel=1e-8)
 
 
-@pytest.mark.sample(2)
+@pytest.mark.sample(4)
 @pytest.mark.parametrize("basis", [Bernstein(9), Pieces(8, 6, 4)], ids=repr)
 @pytest.mark.parametrize("name", ["C", "J"])
 def test_in_other_bases_too(basis: Any, name: str) -> None:  # noqa: ANN401
@@ -102,12 +103,13 @@ def test_a_lower_bound_costs_the_more_the_higher_it_is() -> None:
     assert worths == sorted(worths)
 
 
+@pytest.mark.long
 def test_what_no_law_can_have_at_once_is_said() -> None:
     with pytest.raises(SolverFailure, match="C at least 20"):
         synthesize(Problem(B=1.7, order=4, basis=Chebyshev(5), minimise="rms_c", C=at_least(20.0), J=at_most(100.0)))
 
 
-@pytest.mark.sample(4)
+@pytest.mark.sample(8)
 @pytest.mark.parametrize("B", [1.3, 1.9, 2.5])
 @pytest.mark.parametrize("minimise", ["D", "C", "rms_c"])
 def test_a_power_below_its_limit_is_refused_with_the_limit(B: float, minimise: str) -> None:

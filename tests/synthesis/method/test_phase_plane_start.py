@@ -46,6 +46,7 @@ def forward(problem: Problem) -> Problem:
     return replace(problem, monotone=True, symmetric=problem.symmetric is True and "Powers" in repr(problem.basis))
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize("name", PROBLEMS)
 def test_no_other_start_leads_to_a_better_law(name: str) -> None:
     problem = forward(PROBLEMS[name])
@@ -59,6 +60,7 @@ def test_no_other_start_leads_to_a_better_law(name: str) -> None:
     assert synthesize(problem).objective == pytest.approx(best.objective, rel=1e-12)
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize("unit", ["1e-12", "1e9"])
 def test_units_of_the_torque_change_nothing(unit: str) -> None:
     """The least energy and its limit, in units of the torque."""
@@ -123,6 +125,7 @@ def test_an_inertia_below_nothing_is_no_drive(monotone: bool) -> None:  # noqa: 
     assert solution.objective > 0.0
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("lines", "ramps"),
     [

@@ -52,6 +52,7 @@ def solved_with(guess: object, problem: Problem) -> Solution:
         return synthesize(problem)
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize("problem", USUAL, ids=repr)
 def test_the_last_digit_is_that_of_the_general_way(problem: Problem) -> None:
     quick, general, misled = synthesize(problem), solved_with(none, problem), solved_with(wrong, problem)
@@ -63,6 +64,7 @@ def test_the_last_digit_is_that_of_the_general_way(problem: Problem) -> None:
         assert quick.certificate == other.certificate
 
 
+@pytest.mark.sample(4)
 @pytest.mark.parametrize("minimise", ["C", "J", "D"])
 @pytest.mark.parametrize("monotone", [False, True])
 def test_the_file_holds_what_is_computed(minimise: str, monotone: bool) -> None:  # noqa: FBT001

@@ -39,7 +39,7 @@ def assert_settling(ratios: list[float]) -> None:
         assert abs(after / before - 1.0) < 20.0 / B
 
 
-@pytest.mark.sample(2)
+@pytest.mark.sample(4)
 @pytest.mark.parametrize("place", range(len(asked(1e4))))
 def test_great_velocities_are_proven_to_nine_digits(place: int) -> None:
     ratios = []
@@ -70,6 +70,7 @@ def test_the_power_of_great_laws_is_bounded() -> None:
     )
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize(
     "problem",
     [

@@ -9,6 +9,7 @@ from tests.sampling import sampled
 UNSYMMETRIC = [Chebyshev(5), Pieces(8, 5, 3), BSplines(4, 4, 3)]
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize("basis", UNSYMMETRIC, ids=lambda basis: basis.name)
 @pytest.mark.parametrize(("bounded", "minimise"), sampled([("rms_c", "C"), ("rms_c", "rms_j"), ("rms_j", "C")]))
 @pytest.mark.parametrize("room", [0.0, 1e-12])
@@ -25,6 +26,7 @@ def test_a_bound_at_the_least_value_is_kept(basis: Basis, bounded: str, minimise
     assert solution.objective == pytest.approx(evaluate(there, least.law).objective, rel=30.0 * (room + 1e-13) ** 0.5)
 
 
+@pytest.mark.long
 def test_a_peak_at_its_least_value_beside_another() -> None:
     basis = Chebyshev(5)
     least = synthesize(Problem(order=3, B=1.8, basis=basis, minimise="C"))

@@ -43,6 +43,7 @@ def problem(**given: Any) -> Problem:
     return Problem(**{"order": 4, "basis": Chebyshev(9), **given})
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize("given", BOUNDED, ids=str)
 def test_bounds_hold_and_the_optimum_is_proven(given: dict[str, Any]) -> None:
     one = problem(**given)
@@ -115,6 +116,7 @@ def test_constants_of_ones_own_are_bounded_too() -> None:
     assert "{own_snap: at_most(2000)}" in repr(own.problem)
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize("ratio", [0.5, 1.5, 2.0, 3.0])
 def test_a_given_ratio_of_decelerations_is_met_by_the_best_law(ratio: float) -> None:
     asked = Problem(order=3, symmetric=False, minimise=f"max(C_plus, C_minus/{ratio})")

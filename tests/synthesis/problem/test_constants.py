@@ -80,6 +80,7 @@ CURVED: list[dict[str, Any]] = [
 ]
 
 
+@pytest.mark.sample(4)
 @pytest.mark.parametrize("given", sampled(LINEAR, 4), ids=shape)
 def test_highs_finds_the_same_least_peak_among_all_laws_of_eq_8(given: dict[str, Any]) -> None:
     asked = problem(**given)
@@ -89,7 +90,7 @@ def test_highs_finds_the_same_least_peak_among_all_laws_of_eq_8(given: dict[str,
     assert solution.objective == pytest.approx(least(asked), rel=5e-9)
 
 
-@pytest.mark.sample(5)
+@pytest.mark.sample(15)
 @pytest.mark.parametrize("given", CURVED, ids=shape)
 def test_clarabel_finds_the_same_optimum_with_an_rms(given: dict[str, Any]) -> None:
     asked = problem(**given)
@@ -99,7 +100,7 @@ def test_clarabel_finds_the_same_optimum_with_an_rms(given: dict[str, Any]) -> N
     assert solution.objective == pytest.approx(least(asked), rel=3e-8)
 
 
-@pytest.mark.sample(2)
+@pytest.mark.sample(4)
 @pytest.mark.parametrize("symmetric", [True, False], ids=["symmetric", "unsymmetric"])
 @pytest.mark.parametrize(("name", "nu"), [("rms_c", 2), ("rms_j", 3)])
 @pytest.mark.parametrize("order", [2, 3, 4, 5])
@@ -139,7 +140,7 @@ def test_the_least_rms_of_all_is_the_parabola_of_velocity() -> None:
 EVEN = ["C", "J", "snap", "rms_c", "rms_j", "C/8 + J/64", "max(C/4, J/32)"]
 
 
-@pytest.mark.sample(2)
+@pytest.mark.sample(4)
 @pytest.mark.parametrize("minimise", EVEN)
 @pytest.mark.parametrize("B", [None, 1.641, 2.3], ids=str)
 def test_unsymmetric_laws_are_no_better(minimise: str, B: float | None) -> None:
@@ -148,7 +149,7 @@ def test_unsymmetric_laws_are_no_better(minimise: str, B: float | None) -> None:
     judge(other)
 
 
-@pytest.mark.sample(3)
+@pytest.mark.sample(6)
 @pytest.mark.parametrize("symmetric", [True, False], ids=["symmetric", "unsymmetric"])
 @pytest.mark.parametrize("minimise", [*EVEN, "D"])
 def test_an_even_degree_adds_nothing_to_symmetric_laws_and_is_no_worse(minimise: str, symmetric: bool) -> None:  # noqa: FBT001
@@ -181,6 +182,7 @@ def least_power(B: float, *, monotone: bool = False) -> Solution:
 every_velocity = pytest.mark.parametrize("B", VELOCITIES)
 
 
+@pytest.mark.sample(4)
 @pytest.mark.parametrize(("B", "monotone"), sampled(product(VELOCITIES, [False, True]), 5))
 def test_slsqp_never_finds_less_power(B: float, monotone: bool) -> None:  # noqa: FBT001
     solution = least_power(B, monotone=monotone)
@@ -220,7 +222,7 @@ def test_most_starts_agree() -> None:
     assert sum(value <= 1e-6 for value in spread) >= len(VELOCITIES) // 2
 
 
-@pytest.mark.sample(3)
+@pytest.mark.sample(6)
 @pytest.mark.parametrize("B", [1.2, 1.3, 1.4, 1.5, 1.75, 2.1, 2.6])
 def test_no_law_that_does_not_turn_back_has_less_power_than_an_energy_allows(B: float) -> None:
     bound = least_power_of_energies(B)

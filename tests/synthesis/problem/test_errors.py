@@ -326,6 +326,7 @@ def test_a_law_without_a_meeting_bound_is_not_called_optimal(monkeypatch: pytest
     assert "bound does not meet it" in solution.status.advice
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize(
     "one",
     [problem(B=1.7003), problem(B=1.53, basis=Powers(1)), problem(B=2.9, order=2, basis=Powers(3), monotone=True)],

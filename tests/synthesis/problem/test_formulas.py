@@ -39,6 +39,7 @@ def test_one_line_says_what_thirty_lines_said() -> None:
     assert synthesize(replace(PROBLEM, minimise='rms("c + 3*b")')).objective == pytest.approx(5.123671906731, rel=1e-11)
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize(
     ("text", "same"), [("peak(c)", "C"), ("rms(c)", "rms_c"), ("peak(j)", "J"), ("peak(c, side=low)", "C_minus")]
 )
@@ -64,6 +65,7 @@ CONVEX = (
 )
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize("text", sampled(CONVEX))
 def test_convex_ones_are_proven_and_verified(text: str) -> None:
     bounded = Problem(B=1.7, C=at_most(9.0), order=4, symmetric=False, basis=BSplines(4, 5, 4), minimise=text)
@@ -109,7 +111,7 @@ def gridded(text: str, degree: int, count: int) -> float:
     return best
 
 
-@pytest.mark.sample(2)
+@pytest.mark.sample(3)
 @pytest.mark.parametrize(
     "text", ["peak(c + 0.2*b)", "peak(c^2 + 9*b^2)", "peak(b*c)", "peak((1 + a^2)*c + a*b^2)", "peak(c + 3*a*b)"]
 )
@@ -122,6 +124,7 @@ def test_another_solver_on_a_grid_finds_nothing_better(text: str) -> None:
     assert (solution.status.value == "optimal") == named(text).convex
 
 
+@pytest.mark.long
 def test_extremes_are_sought_where_a_formula_counts_and_has_values() -> None:
     problem = replace(PROBLEM, minimise=peak("c/b", start=0.1, stop=0.9))
     solution = synthesize(problem)
@@ -147,7 +150,7 @@ def test_products_are_bounded_where_derivatives_are() -> None:
     assert synthesize(replace(problem, minimise="D")).objective == pytest.approx(solution.objective, rel=1e-9)
 
 
-@pytest.mark.sample(2)
+@pytest.mark.sample(6)
 @pytest.mark.parametrize(
     ("window", "minimise"),
     [
@@ -218,6 +221,7 @@ def test_an_error_shows_the_place_in_the_text(text: str, message: str, place: in
     assert str(caught.value).splitlines()[-1] == " " * (2 + place) + "^"
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize(
     ("text", "status"),
     [

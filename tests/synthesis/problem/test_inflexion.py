@@ -39,7 +39,7 @@ def problem(**given: Any) -> Problem:
     return Problem(**{"basis": Chebyshev(11), "symmetric": False, "inflexion": 0.4, **order, **given})
 
 
-@pytest.mark.sample(3)
+@pytest.mark.sample(9)
 @pytest.mark.parametrize("given", CASES, ids=str)
 def test_the_peak_velocity_stands_at_the_inflexion(given: dict[str, Any]) -> None:
     asked = problem(**given)
@@ -68,7 +68,7 @@ def _mirrored(given: dict[str, Any]) -> dict[str, Any]:
     return {}
 
 
-@pytest.mark.sample(2)
+@pytest.mark.sample(6)
 @pytest.mark.parametrize("k", [0.25, 0.4, 0.5, 0.7])
 @pytest.mark.parametrize("B", [1.6, 2.1])
 def test_highs_agrees(B: float, k: float) -> None:

@@ -39,7 +39,7 @@ ENDS = [
 ]
 
 
-@pytest.mark.sample(4)
+@pytest.mark.sample(12)
 @pytest.mark.parametrize("minimise", ["C", "rms_c", "J", "max(C_plus, C_minus/2)"])
 @pytest.mark.parametrize("ends", ENDS, ids=str)
 def test_b_is_greatest_at_the_inflexion_whatever_its_sign(ends: Any, minimise: str) -> None:  # noqa: ANN401
@@ -106,7 +106,7 @@ KINDS: list[dict[str, Any]] = [
 ]
 
 
-@pytest.mark.sample(2)
+@pytest.mark.sample(6)
 @pytest.mark.parametrize("kind", KINDS, ids=str)
 def test_a_bound_of_b_that_does_not_bind_changes_nothing(kind: dict[str, Any]) -> None:
     free = synthesize(Problem(**kind))
@@ -117,7 +117,7 @@ def test_a_bound_of_b_that_does_not_bind_changes_nothing(kind: dict[str, Any]) -
         assert bounded.status == free.status
 
 
-@pytest.mark.sample(2)
+@pytest.mark.sample(4)
 @pytest.mark.parametrize("kind", KINDS[1:], ids=str)
 def test_a_bound_of_b_that_binds_is_kept_by_its_whole_velocity(kind: dict[str, Any]) -> None:
     free = synthesize(Problem(**kind))
@@ -145,7 +145,7 @@ def test_the_mean_of_an_unsymmetric_law_and_its_mirror_image_is_a_symmetric_one_
 RANGES = [None, at_most(1.7), at_least(1.75), between(1.3, 1.8), 1.65]
 
 
-@pytest.mark.sample(4)
+@pytest.mark.sample(12)
 @pytest.mark.parametrize("B", RANGES, ids=repr)
 @pytest.mark.parametrize("given", [{}, {"monotone": True}, {"symmetric": False}], ids=str)
 def test_no_law_that_keeps_the_conditions_is_better_than_what_is_proven(B: Any, given: dict[str, Any]) -> None:  # noqa: ANN401
@@ -170,6 +170,7 @@ def _mean(laws: list[Any], weights: Any) -> PolynomialLaw:  # noqa: ANN401
     return PolynomialLaw(series)
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize("low", [1.9, 2.2, 4.0])
 def test_a_lower_bound_of_b_says_nothing_of_the_place(low: float) -> None:
     problem = Problem(order=2, minimise="J", B=at_least(low), symmetric=False)
@@ -187,7 +188,7 @@ def test_a_lower_bound_of_b_says_nothing_of_the_place(low: float) -> None:
     assert verify(solution.to_dict()).proven
 
 
-@pytest.mark.sample(2)
+@pytest.mark.sample(4)
 @pytest.mark.parametrize("minimise", ["C", "J", "rms_c", "D"])
 def test_a_lower_bound_of_b_is_met_no_worse_than_in_the_middle(minimise: str) -> None:
     for symmetric in (True, False):

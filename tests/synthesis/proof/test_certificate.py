@@ -131,7 +131,7 @@ def test_with_its_mirror_image_the_sum_speaks_of_unsymmetric_laws_too(problem: P
     assert certificate.bound == pytest.approx(float(bound.constant), rel=1e-9)
 
 
-@pytest.mark.sample(2)
+@pytest.mark.sample(6)
 @pytest.mark.parametrize("problem", INFEASIBLE, ids=shape)
 def test_a_proof_of_infeasibility_is_a_contradiction_in_eq_8(problem: Problem) -> None:
     proof = proof_of(problem)
@@ -323,6 +323,7 @@ def test_a_proof_of_infeasibility_says_nothing_of_a_feasible_problem(problem: Pr
     assert not replace(proof_of(problem), problem=feasible).proves_infeasible
 
 
+@pytest.mark.sample(4)
 @pytest.mark.parametrize("problem", [p for p in PROBLEMS if isinstance(p.B, float)], ids=shape)
 @pytest.mark.parametrize("B", sampled([1.5, 1.2, 1.8, 2.4, 2.1, 2.8]))
 def test_with_another_b_it_speaks_of_another_problem_truly(problem: Problem, B: float) -> None:

@@ -74,7 +74,7 @@ CONTRADICTIONS = [
 ]
 
 
-@pytest.mark.sample(3)
+@pytest.mark.sample(9)
 @pytest.mark.parametrize(("problem", "named"), CONTRADICTIONS, ids=range(len(CONTRADICTIONS)))
 def test_contradictory_conditions_are_named_and_proven(problem: Problem, named: list[str]) -> None:
     with pytest.raises(InfeasibleProblem) as caught:
@@ -153,6 +153,7 @@ def test_rows_contradict_each_other_only_by_what_their_multipliers_show() -> Non
     assert farkas_margin(rows[:0], np.empty(0), np.empty(0), 0) == 0.0
 
 
+@pytest.mark.long
 def test_nothing_is_printed_by_the_solver_whatever_comes_of_it() -> None:
     code = """
 from optlaws import *
@@ -179,6 +180,7 @@ assert outcome.optimum is None and outcome.iterations == 0, outcome
     assert (ended.returncode, ended.stdout, ended.stderr) == (0, "", "")
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize("minimise", ["C_plus", "C_minus", "0.001*C_plus + 0.0005*C_plus"])
 def test_an_objective_without_a_least_value_is_said_to_have_none(minimise: str) -> None:
     problem = Problem(order=1, basis=Powers(6), minimise=minimise, symmetric=False)

@@ -44,6 +44,7 @@ def certificate(fast: Solution) -> Certificate:
     return fast.peak_certificate
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize(
     "problem",
     sampled(
@@ -220,6 +221,7 @@ def test_verify_says_that_it_does_not_check_places_exactly_yet(fast: Solution) -
     assert verify(synthesize(FAST).to_dict()).proven
 
 
+@pytest.mark.long
 def test_one_of_two_peaks_may_prove_alone() -> None:
     problem = Problem(B=1.7, order=4, minimise="rms_c", C=at_least(6.5), J=at_least(120.0))
     solution = synthesize(problem, bound="tight")

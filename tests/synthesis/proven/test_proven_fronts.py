@@ -44,6 +44,7 @@ CASES: dict[str, tuple[Problem, Any, tuple[float, float], float]] = {
 }
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize("case", sampled(CASES))
 def test_between_the_laws_too_the_gap_is_as_stated(case: str) -> None:
     problem, over, between, gap = CASES[case]

@@ -35,6 +35,7 @@ def test_powers_and_chebyshev_give_the_same_law(B: float, order: int, degree: in
     assert one.z_powers == pytest.approx(other.z_powers, rel=1e-9)
 
 
+@pytest.mark.sample(2)
 @every_shape
 @pytest.mark.parametrize("kind", [Powers, Chebyshev])
 def test_z_reproduces_the_law_through_eq_8(B: float, order: int, degree: int, kind: type[PolynomialBasis]) -> None:
@@ -100,7 +101,7 @@ def test_a_new_basis_is_one_class() -> None:
 # --- starts ---
 
 
-@pytest.mark.sample(2)
+@pytest.mark.sample(4)
 @pytest.mark.parametrize(
     ("order", "degree", "monotone"), [(4, 3, False), (4, 9, False), (2, 15, False), (3, 9, True), (4, 19, False)]
 )

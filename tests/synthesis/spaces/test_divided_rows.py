@@ -27,7 +27,7 @@ def test_the_chord_of_unsymmetric_laws_is_what_it_says(order: int, degree: int) 
     assert family.value(x, np.zeros(1))[0] == pytest.approx(law.j(0.5) / 8, rel=1e-9)
 
 
-@pytest.mark.sample(2)
+@pytest.mark.sample(4)
 @pytest.mark.parametrize("order", [2, 3, 4])
 @pytest.mark.parametrize("symmetric", [True, False], ids=["symmetric", "unsymmetric"])
 def test_the_forward_rows_of_pieces_are_what_they_say(order: int, symmetric: bool) -> None:  # noqa: FBT001
@@ -45,7 +45,7 @@ def test_the_forward_rows_of_pieces_are_what_they_say(order: int, symmetric: boo
     assert isinstance(space, PieceSpace)
 
 
-@pytest.mark.sample(2)
+@pytest.mark.sample(4)
 @pytest.mark.parametrize("minimise", ["C", "J"])
 @pytest.mark.parametrize("B", [2.1548, 2.6])
 def test_pieces_that_never_move_back_agree_with_highs(minimise: str, B: float) -> None:
@@ -102,6 +102,7 @@ def test_the_proof_of_a_one_sided_peak_holds_in_exact_arithmetic() -> None:
         assert float(proof.value) == pytest.approx(solution.objective, rel=1e-10)
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize("breaks", [(0.0, 0.3, 0.55, 1.0), (0.0, 0.3, 0.5, 1.0)], ids=["within a piece", "at a break"])
 @pytest.mark.parametrize("continuity", [1, 2])
 def test_a_peak_within_a_piece_or_at_a_break_is_where_highs_has_it(breaks: tuple[float, ...], continuity: int) -> None:

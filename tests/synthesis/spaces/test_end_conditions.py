@@ -39,7 +39,7 @@ def problem(ends: BoundaryConditions, **given: Any) -> Problem:
     return Problem(**chosen)
 
 
-@pytest.mark.sample(5)
+@pytest.mark.sample(10)
 @every_end
 @pytest.mark.parametrize("minimise", ["C", "J", "rms_c", "rms_j", "C_plus + C_minus", "max(C/4, J/32)"])
 def test_the_optimum_is_that_of_highs_or_clarabel(ends: BoundaryConditions, minimise: str) -> None:
@@ -54,7 +54,7 @@ def test_the_optimum_is_that_of_highs_or_clarabel(ends: BoundaryConditions, mini
     assert solution.objective == pytest.approx(least(asked), rel=3e-8, abs=1e-9)
 
 
-@pytest.mark.sample(5)
+@pytest.mark.sample(15)
 @every_end
 @pytest.mark.parametrize(
     "given",

@@ -72,6 +72,7 @@ def test_end_velocities_are_kept() -> None:
     assert end == pytest.approx((1, 0.5, 0), abs=1e-9)
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize("B", [1.4, 1.7, 2.0])
 def test_piecewise_linear_accelerations_agree_with_a_linear_program(B: float) -> None:
     count = 20
@@ -115,6 +116,7 @@ def test_piecewise_linear_accelerations_agree_with_a_linear_program(B: float) ->
     assert objective >= least * (1 - 1e-9)
 
 
+@pytest.mark.long
 def test_power_comes_near_its_limit() -> None:
     basis = Pieces(20, degree=5, continuity=3)
     solution = synthesize(Problem(order=3, minimise="D", B=1.6, basis=basis, monotone=True))
@@ -165,6 +167,7 @@ def test_many_pieces_are_proven(B: float, count: int) -> None:
     assert fine.lower_bound < coarse.objective
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize(("order", "minimise"), sampled(product([2, 6], ["J", "snap", "max(C/4, J/32)"]), 4))
 def test_sixty_pieces_are_proven_for_every_linear_objective(order: int, minimise: str) -> None:
     solution = synthesize(Problem(B=1.8, order=order, minimise=minimise, basis=Pieces(60, 7, 5)))

@@ -117,7 +117,7 @@ PROBLEMS = [
 ]
 
 
-@pytest.mark.sample(3)
+@pytest.mark.sample(6)
 @pytest.mark.parametrize("problem", PROBLEMS, ids=range(len(PROBLEMS)))
 def test_laws_are_proven_and_their_z_makes_them(problem: Problem) -> None:
     solution = synthesize(problem)
@@ -143,6 +143,7 @@ def test_laws_are_proven_and_their_z_makes_them(problem: Problem) -> None:
     assert proof.bound == solution.certificate.bound
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize("peak", [0.5, 0.4])
 @pytest.mark.parametrize("B", [1.6, 2.2])
 def test_highs_finds_the_same_least_acceleration(B: float, peak: float) -> None:
@@ -254,6 +255,7 @@ def test_a_basis_of_ones_own_is_one_class() -> None:
         del Basis.kinds["hinges"]
 
 
+@pytest.mark.sample(4)
 @pytest.mark.parametrize("symmetric", [True, False])
 @pytest.mark.parametrize("order", [1, 4, 5, 6])
 def test_a_law_of_great_coordinates_ends_where_its_accelerations_lead(order: int, *, symmetric: bool) -> None:

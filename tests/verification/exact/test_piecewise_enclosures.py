@@ -117,7 +117,7 @@ def stretches(law: PiecewiseLaw) -> list[tuple[Segment, mpf]]:
     ]
 
 
-@pytest.mark.sample(2)
+@pytest.mark.sample(6)
 @pytest.mark.parametrize("law", [CYCLOID, MIXED, CONSTANT_POWER, *OPTIMAL], ids=["cycloid", "mixed", "power", "B", "Z"])
 def test_they_hold_what_mpmath_finds_and_hardly_more(law: PiecewiseLaw) -> None:
     enclosed_values = enclosures(law)

@@ -69,6 +69,7 @@ def least_on_grid(grid: Grid, sizes: Sizes) -> float:
     return float(np.asarray(answer.fun))
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize("seed", _SEEDS)
 def test_sums_of_sizes_are_proven_and_what_a_grid_says(seed: int) -> None:
     numbers = np.random.default_rng(seed)
@@ -79,6 +80,7 @@ def test_sums_of_sizes_are_proven_and_what_a_grid_says(seed: int) -> None:
     assert solution.objective == pytest.approx(least_on_grid(polynomials(order, degree, _POINTS), sizes), rel=2e-3)
 
 
+@pytest.mark.sample(4)
 @pytest.mark.parametrize("formula", ["abs(j)", "(1 + k)*abs(c)", "abs(c - 2*b)", "abs(j + 3*c) + max(c, -2*c)"])
 @pytest.mark.parametrize("options", [{"B": 1.8, "order": 4}, {"order": 3, "basis": Chebyshev(15), "symmetric": False}])
 def test_integrals_of_sizes_are_proven(formula: str, options: dict[str, object]) -> None:
@@ -119,6 +121,7 @@ def test_a_slider_crank_needs_no_more_energy_than_its_speed_asks_for() -> None:
     assert solution.law.peak(2).value <= 12.0 * (1.0 + 1e-9)
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize("seed", _SEEDS)
 def test_no_descent_of_scipy_finds_a_law_of_less_heat(seed: int) -> None:
     numbers = np.random.default_rng(seed)
@@ -141,6 +144,7 @@ def test_no_descent_of_scipy_finds_a_law_of_less_heat(seed: int) -> None:
     assert ours <= float(np.sqrt(least)) * (1.0 + 2e-3)
 
 
+@pytest.mark.sample(4)
 @pytest.mark.parametrize(
     "constant",
     [

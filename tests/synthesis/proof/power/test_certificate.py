@@ -45,7 +45,7 @@ def certificate(solution: Solution) -> Certificate:
     return power_certificate
 
 
-@pytest.mark.sample(2)
+@pytest.mark.sample(4)
 @pytest.mark.parametrize("degree", [3, 9])
 @pytest.mark.parametrize("B", [1.53, 2.297])
 def test_least_power_is_proven_optimal(B: float, degree: int) -> None:
@@ -58,7 +58,7 @@ def test_least_power_is_proven_optimal(B: float, degree: int) -> None:
     assert tight.lower_bound <= tight.objective
 
 
-@pytest.mark.sample(3)
+@pytest.mark.sample(6)
 @pytest.mark.parametrize(
     "problem",
     [
@@ -85,6 +85,7 @@ def test_a_degree_of_many_coordinates_still_gets_a_narrow_bound() -> None:
     assert solution.gap < 0.011 < synthesize(solution.problem).gap
 
 
+@pytest.mark.long
 def test_a_proof_holds_in_rational_arithmetic_from_its_json_alone(first: Solution) -> None:
     for solution in (first, synthesize(MIXED, bound="tight")):
         data = json.loads(json.dumps(solution.to_dict()))["power_certificate"]
@@ -242,6 +243,7 @@ def test_brackets_are_those_of_constant_power() -> None:
     assert high == pytest.approx(np.sqrt([1, 2, 3]))
 
 
+@pytest.mark.long
 def test_the_bound_of_fewer_conditions_is_no_higher() -> None:
     chain = [
         synthesize(replace(MIXED, B=B, minimise="D", basis=Chebyshev(3)), bound="tight").lower_bound
@@ -251,6 +253,7 @@ def test_the_bound_of_fewer_conditions_is_no_higher() -> None:
     assert all(map(isfinite, chain))
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize("minimise", ["C", "J"])
 def test_a_power_below_the_least_is_refused_with_proof(minimise: str, first: Solution) -> None:
     least = first.objective

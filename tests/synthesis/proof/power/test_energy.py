@@ -63,12 +63,14 @@ def _wide(block: Any, n: int, size: int) -> Any:  # noqa: ANN401 - a sparse arra
     return bmat([[parts[:, :n], csr_array((CELLS, size - n - 1)), parts[:, n:]]])
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize("B", [1.2, 1.4, 1.5, None])
 def test_the_least_power_of_energies_is_the_limit(B: float | None) -> None:
     found = least_by_energy(B)
     assert limit("D", B) * (1 - 1e-7) <= found <= limit("D", B) * 1.003
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("B", sampled([1.4, None]))
 def test_polynomials_of_any_degree_cost_more_power_than_energies(B: float | None) -> None:
     least = limit("D", B)

@@ -27,6 +27,7 @@ PROBLEMS = [
 ]
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize("problem", sampled(PROBLEMS, 5), ids=repr)
 def test_a_tight_bound_meets_the_objective_and_is_proven_exactly(problem: Problem) -> None:
     solution = synthesize(problem, bound="tight")
@@ -45,7 +46,7 @@ def test_power_as_a_formula_has_the_optimum_of_power() -> None:
     assert formula.lower_bound == pytest.approx(power.lower_bound, rel=1e-8)
 
 
-@pytest.mark.sample(4)
+@pytest.mark.sample(8)
 @pytest.mark.parametrize("problem", PROBLEMS, ids=repr)
 def test_no_law_in_a_box_is_below_a_plane(problem: Problem) -> None:
     assert applies(problem)
@@ -77,6 +78,7 @@ def test_no_law_in_a_box_is_below_a_plane(problem: Problem) -> None:
     assert compared > 100
 
 
+@pytest.mark.long
 def test_no_claim_above_the_optimum_is_ever_proven() -> None:
     problem = replace(PROBLEMS[1], basis=Chebyshev(3))
     solution = synthesize(problem)

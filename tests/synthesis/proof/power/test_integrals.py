@@ -23,6 +23,7 @@ PROBLEMS = [
 ]
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize("problem", sampled(PROBLEMS, each=3), ids=repr)
 def test_a_tight_bound_meets_the_objective(problem: Problem) -> None:
     solution = synthesize(problem, bound="tight")

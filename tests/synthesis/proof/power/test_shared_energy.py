@@ -110,6 +110,7 @@ def proven(minimise: str) -> Solution:
     return synthesize(replace(PROBLEM, minimise=minimise), bound="tight")
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize("minimise", [*OBJECTIVES[:3], pytest.param(OBJECTIVES[3], marks=pytest.mark.long)])
 def test_the_best_law_is_proven(minimise: str) -> None:
     solution = proven(minimise)
@@ -125,6 +126,7 @@ def test_the_best_law_is_proven(minimise: str) -> None:
         assert sum(weight * NAMES[name].value(law) for name, weight in weights.items()) >= proof.bound
 
 
+@pytest.mark.long
 def test_a_bound_of_c_and_of_the_loader_are_part_of_the_proof() -> None:
     capped = synthesize(replace(PROBLEM, C=at_most(5.4)), bound="tight")
     assert capped.status.value == "optimal"
@@ -152,6 +154,7 @@ def test_exact_verification_says_that_it_knows_no_loaders() -> None:
         verify(proof.to_dict())
 
 
+@pytest.mark.long
 def test_a_law_of_higher_degree_beats_a_bound_of_a_lower_one() -> None:
     """The proof speaks of its own degree: a bound is no limit."""
     lower, higher = (

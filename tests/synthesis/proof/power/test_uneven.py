@@ -30,7 +30,7 @@ def least_power(B: float, k: float) -> float:
     return high
 
 
-@pytest.mark.sample(2)
+@pytest.mark.sample(6)
 @pytest.mark.parametrize("k", [0.2, 0.4, 0.55])
 @pytest.mark.parametrize("B", [1.2, 1.5, 1.8, 2.5])
 def test_the_limit_is_what_energies_allow(B: float, k: float) -> None:
