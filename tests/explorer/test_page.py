@@ -273,7 +273,7 @@ def test_a_cam_turns_and_is_refused_where_there_is_none(page: Page, served: Serv
     lowest = float(page.locator(".roller").get_attribute("cy") or "nan")
     page.get_by_label("Angle of the cam, degrees").fill("165")
     assert float(page.locator(".roller").get_attribute("cy") or "nan") == pytest.approx(lowest + 35.0, abs=1e-3)
-    page.get_by_role("button", name="Play").click()
+    page.get_by_role("button", name="Run").click()
     page.wait_for_timeout(150)
     page.get_by_role("button", name="Pause").click()
     assert float(page.get_by_label("Angle of the cam, degrees").input_value()) > 165

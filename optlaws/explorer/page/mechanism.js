@@ -5,6 +5,7 @@ import { label } from "./axes.js";
 import { path, sized, svg } from "./svg.js";
 
 const ROOM = 1.12;
+const LETTER = 6.4; // pixels of a letter
 const CIRCLES = { "prime circle": -50, "base circle": -130 }; // where each is named, degrees
 const LONGEST = 0.4; // of the cam's size, the arrow of the greatest force
 const LINE = 14;
@@ -70,15 +71,18 @@ export class Mechanism {
     if (!this.measured) return [];
     const { dimensions } = this.#shown;
     const [x, y] = this.#place([0, 0]);
+    const [width] = this.#size();
     const circles = dimensions.filter(({ name }) => name in CIRCLES).flatMap(({ name, value, text }) => {
       const way = (CIRCLES[name] * Math.PI) / 180;
       const at = this.#place([value * Math.cos(way), value * Math.sin(way)]);
       const end = at[0] > x ? "start" : "end";
+      const said = `${name} R ${text}`;
+      const room = LETTER * said.length; // its text stays in the picture
       const far = [at[0] + (end === "start" ? 22 : -22), at[1] + 26];
       return [
         svg("circle", { class: "dimension", cx: x, cy: y, r: Math.hypot(at[0] - x, at[1] - y) }),
         svg("path", { class: "dimension leader", d: path([[x, y], at, far]) }),
-        svg("text", { x: far[0] + (end === "start" ? 4 : -4), y: far[1] + 4, "text-anchor": end, text: `${name} R ${text}` }),
+        svg("text", { x: end === "start" ? Math.min(far[0] + 4, width - room) : Math.max(far[0] - 4, room), y: far[1] + 4, "text-anchor": end, text: said }),
       ];
     });
     const others = dimensions.filter(({ name }) => !(name in CIRCLES)).map(({ name, text }, i) => svg("text", { x: 4, y: 14 + LINE * i, text: `${name} ${text}` }));

@@ -19,7 +19,11 @@ export class Run {
     this.#play = html("button", { type: "button", text: "Run", onclick: () => (this.#frame === null ? this.#start() : this.#stop()) });
     root.classList.add("run");
     root.replaceChildren(this.#play, this.#dial);
-    cursor.watch((at) => at !== null && (this.#dial.value = at));
+    cursor.watch((at) => {
+      if (at === null) return;
+      this.#dial.value = at;
+      this.#dial.setAttribute("aria-valuetext", `${Math.round(at)} degrees`);
+    });
   }
 
   #start() {

@@ -74,8 +74,9 @@ def answer(request: AdviceRequest) -> dict[str, Any]:
     except OptlawsError as error:
         return {"refused": refusal(error)}
     chosen = advice.recommendation
+    unchanged = chosen.usual is chosen.law
     return {
-        **_side_by_side(cycle, candidates, [chosen.usual, chosen.law], advice.front),
+        **_side_by_side(cycle, candidates, [None if unchanged else chosen.usual, chosen.law], advice.front),
         "sentences": list(chosen.sentences),
         "rule": chosen.rule,
         "chosen": chosen.law.name,

@@ -6,6 +6,7 @@ import { Latest } from "../latest.js";
 import { Mechanism } from "../mechanism.js";
 import { Panels } from "../panels.js";
 import { Programme } from "../programme.js";
+import { Run } from "../run.js";
 import { html } from "../svg.js";
 import { showTrust, unanswered } from "../trust.js";
 
@@ -21,7 +22,6 @@ const WORDS = {
   "undercut": "the profile crosses itself or has a cusp: no such cam can be cut",
   "cutter": "the radius of the tool; its path is the dashed line",
 };
-const SPEED = 60; // degrees a second
 const LOADS = {
   slide: { mass: "none, or 2 kg", stiffness: "none, or 2 N/mm", preload: "none, or 60 N", gravity: "none, or 20 N" },
   arm: { inertia: "none, or 0.02 kg m^2", stiffness: "none, or 20 N m/rad", preload: "none, or 3 N m" },
@@ -47,9 +47,6 @@ export class View {
   #answer = null;
   #kind = "";
   #shows = [];
-  #playing = null;
-  #dial;
-  #play;
   #read = html("p", { class: "facts", id: "cam-reading", role: "status" });
 
   constructor(_root, study, { followers }) {
@@ -160,42 +157,18 @@ export class View {
   }
 
   #turning() {
-    this.#dial = html("input", { type: "range", min: 0, max: 360, step: 1, value: 0, "aria-label": "Angle of the cam, degrees" });
-    this.#dial.addEventListener("input", () => this.#motion.cursor.place(Number(this.#dial.value)));
-    this.#play = html("button", { type: "button", text: "Play", onclick: () => (this.#playing === null ? this.#start() : this.#stop()) });
     const measure = html("input", { type: "checkbox", checked: true });
     measure.addEventListener("change", () => this.#mechanism.measure(measure.checked));
-    element("cam-turning").replaceChildren(this.#play, this.#dial, html("label", { class: "switch" }, measure, "dimensions"));
+    new Run(element("cam-turning"), "the cam", this.#motion.cursor);
+    element("cam-turning").append(html("label", { class: "switch" }, measure, "dimensions"));
     element("cam-turning").after(this.#read, explained(WORDS));
   }
 
-  /** The cam, its dial and what is read of it are where the cursor of the curves is. */
+  /** The cam, and what is read of it, are where the cursor of the curves is. */
   #turn(at) {
     if (at === null) return;
     this.#mechanism.turn(at);
-    this.#dial.value = at;
-    this.#dial.setAttribute("aria-valuetext", `${Math.round(at)} degrees`);
     this.#read.textContent = [`at ${Math.round(at)} deg`, ...this.#motion.readings].join(" · ");
-  }
-
-  #start() {
-    this.#play.textContent = "Pause";
-    let last = performance.now();
-    let angle = Number(this.#dial.value);
-    const step = (now) => {
-      angle = (angle + (SPEED * (now - last)) / 1000) % 360;
-      last = now;
-      this.#motion.cursor.place(Math.round(angle) % 360);
-      this.#playing = document.getElementById("cam-view").hidden ? this.#stop() : requestAnimationFrame(step);
-    };
-    this.#playing = requestAnimationFrame(step);
-  }
-
-  #stop() {
-    cancelAnimationFrame(this.#playing);
-    this.#play.textContent = "Play";
-    this.#playing = null;
-    return null;
   }
 }
 
