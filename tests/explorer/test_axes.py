@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import tomllib
+from copy import deepcopy
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -84,6 +85,13 @@ def test_moves_are_put_together_as_the_library_does(served: Server) -> None:
     quick = robot() | {"overlap": {"goal": "period"}}
     period = served.ask("axes-together", {"study": quick})["study"]["period"]
     assert float(period.split()[0]) == pytest.approx(axes_of(quick).fastest().objective, rel=1e-9)
+    free = deepcopy(quick)
+    for segment in (segment for axis in free["axis"] for segment in axis["segment"]):
+        segment.pop("law", None)
+    bent = axes_of(served.ask("axes-together?patience=60", {"study": free})["study"])
+    assert bent.broken == ()
+    # laws that bend for the interlocks keep the limits of their axes
+    assert max(cycle.peak(2) for cycle in bent.values()) == pytest.approx(20.0, rel=1e-6)
     assert "say what" in served.ask("axes-together", {"study": robot()})["refused"]["reason"]
 
 

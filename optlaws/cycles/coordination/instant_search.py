@@ -369,8 +369,10 @@ def _shortest(first: _BoxSearch, slowest: int) -> BestBent | None:
             finest = _met(replace(search, best=_polished(search, search.best)), _FINEST)
             best = finest if finest.best is not None and finest.best.share <= 1.0 else search
             assert best.best is not None  # noqa: S101 - of laws that are known
-            axes = {name: axis.slower(1.0 + OVERLAP_GAP) for name, axis in best.best.axes.items()}
-            return BestBent(axes, best.period * (1.0 + OVERLAP_GAP), min(bound, best.period), nodes)
+            # where no shorter laws were met within the limits, those that are known are played slower until they are
+            slower = (1.0 + OVERLAP_GAP) * max(1.0, best.best.share) ** (1.0 / slowest)
+            axes = {name: axis.slower(slower) for name, axis in best.best.axes.items()}
+            return BestBent(axes, best.period * slower, min(bound, best.period), nodes)
         else:
             search = replace(first, period=2.0 * search.period, tried=[])
     return None

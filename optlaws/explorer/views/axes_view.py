@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import tomllib
 from collections.abc import Iterator, Sequence
 from functools import lru_cache
 from pathlib import Path
@@ -327,17 +326,19 @@ def _together(study: dict[str, Any]) -> dict[str, Any]:
         is_optimal(segment) for cycle in axes.values() for segment in cycle.segments if not isinstance(segment, Dwell)
     ]
     if any(free):
-        facts.append("laws that bend are no part of a study: `optlaws cycle` with this problem file keeps them")
-    return {"facts": facts, "study": None if any(free) else _timed(study, overlap.axes)}
+        facts.append("the laws of its moves stand in the study as they are")
+    return {"facts": facts, "study": _timed(study, overlap.axes)}
 
 
 def _timed(study: dict[str, Any], axes: Axes) -> dict[str, Any]:
     """The study with the durations that its axes have now, in the unit of its clock."""
     clock = "period" if "period" in study else "speed"
     turn = f"{axes.duration:.{_FIGURES}g} s" if clock == "period" else f"{60.0 / axes.duration:.{_FIGURES}g} rpm"
-    timed = {axis["name"]: axis["segment"] for axis in tomllib.loads(axes.to_toml())["axis"]}
+    timed = {name: cycle.to_dict()["segments"] for name, cycle in axes.items()}
     for segments in timed.values():
         for segment in segments:
+            if isinstance(segment.get("law"), dict):
+                segment["law"] = json.dumps(segment["law"])
             seconds = float(segment["duration"].split()[0])
             size, unit = (1.0, "s") if clock == "period" else (_TURN / axes.duration, "deg")
             segment["duration"] = f"{size * seconds:.{_FIGURES}g} {unit}"
