@@ -330,6 +330,7 @@ kind = "dwell"
 """
 
 
+@pytest.mark.long
 def test_pages_and_tables_say_what_the_motor_needs(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """A rotary table of known sizing: 3.686 N m, 1.490 N m RMS, 1056 rpm, 229 W; a motor of 3 N m is too weak."""
     file = tmp_path / "table.toml"

@@ -93,6 +93,7 @@ def test_watched_processes_give_the_rows_of_a_serial_run(small: Study, tmp_path:
     assert rows(run_study(SMALL, tmp_path, workers=2)) == rows(small)
 
 
+@pytest.mark.long
 def test_any_executor_gives_the_rows_of_a_serial_run(small: Study, tmp_path: Path) -> None:
     with ProcessPoolExecutor(1, mp_context=get_context("spawn")) as pool:
         assert rows(run_study(SMALL, tmp_path, executor=pool)) == rows(small)

@@ -97,6 +97,7 @@ def test_other_cycles_are_as_fast_as_a_bisection_finds(given: Cycle, ends: tuple
     assert fastest.status == "optimal"
 
 
+@pytest.mark.long
 def test_joined_motions_with_limits_of_their_own_are_proven() -> None:
     fastest = JOINED.fastest()
     assert fastest.status == "optimal"

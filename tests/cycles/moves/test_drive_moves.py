@@ -175,6 +175,7 @@ def test_it_runs_along_the_motors_curve_and_no_faster(curved: tuple[Drive, Faste
     assert not feasible(drive, 0.999 * move.duration, terms)
 
 
+@pytest.mark.long
 def test_a_curve_and_a_gear_are_in_the_file(curved: tuple[Drive, FastestMove]) -> None:
     _, move = curved
     assert FastestMove.from_json(move.to_json()) == move

@@ -58,6 +58,7 @@ def test_the_follower_vibrates_no_more(quiet: FastestMove) -> None:
     assert "residual acceleration" in quiet.binding
 
 
+@pytest.mark.long
 def test_boxes_of_times_prove_that_none_is_faster(quiet: FastestMove) -> None:
     without = fastest(DEGREE_15, stroke="100 mm", limits=LIMITS)
     assert quiet.status is Status.OPTIMAL

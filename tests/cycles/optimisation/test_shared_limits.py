@@ -51,6 +51,7 @@ def test_equal_moves_share_the_limit_equally(minimise: str, constant: str, nu: i
     assert shared.effort.rms_force == pytest.approx(most, rel=1e-9)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("minimise", sampled(["torque", "velocity", "acceleration", "rms jerk"], each=4))
 def test_unequal_moves_are_proven_together(minimise: str) -> None:
     free = cycle(minimise=minimise)

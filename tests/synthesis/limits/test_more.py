@@ -96,6 +96,7 @@ def test_piecewise_linear_velocities_approach_the_limit_of_d(B: float, *, monoto
     assert excess[2] <= 0.25 * least
 
 
+@pytest.mark.long
 @pytest.mark.sample(3)
 @pytest.mark.parametrize(
     ("B", "order", "monotone"),

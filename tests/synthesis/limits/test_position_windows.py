@@ -73,6 +73,7 @@ def test_a_bound_over_a_part_is_between_none_and_one_everywhere(kind: str) -> No
     assert 0.999 * known < limit_of_plane(everywhere, kind).value < 1.0001 * known  # type: ignore[arg-type]
 
 
+@pytest.mark.long
 def test_parts_of_the_way_of_a_mechanism_are_positions_of_its_input() -> None:
     table = Mechanism("0.8 kg m^2")
     slow = {"velocity": [("20 deg", "30 deg", "2 rad/s")], "acceleration": "150 rad/s^2"}

@@ -167,6 +167,7 @@ def test_many_pieces_are_proven(B: float, count: int) -> None:
     assert fine.lower_bound < coarse.objective
 
 
+@pytest.mark.long
 @pytest.mark.sample(2)
 @pytest.mark.parametrize(("order", "minimise"), sampled(product([2, 6], ["J", "snap", "max(C/4, J/32)"]), 4))
 def test_sixty_pieces_are_proven_for_every_linear_objective(order: int, minimise: str) -> None:
