@@ -61,6 +61,8 @@ function rootOf(name) {
 }
 
 async function begin() {
+  const { view } = read(location.hash);
+  if (Object.hasOwn(VIEWS, view)) VIEWS[view].load().catch(() => {}); // on its way while the start is
   const [start] = await Promise.all([fetch("api/start").then((response) => response.json()), translate()]);
   const { state, examples, formats, names } = start;
   document.body.append(html("datalist", { id: "names" }, ...names.map((name) => html("option", { value: name }))));
