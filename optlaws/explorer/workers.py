@@ -21,7 +21,7 @@ from optlaws.explorer.answering import FAULT, OK, answer_from, message
 
 #: seconds after which a question is a long one; seconds of the processor that it has, and that it can be given
 SLICE, USUAL, MOST = 0.5, 4.0, 300.0
-_WAITED = 5.0  # a busy machine may take so many times as long
+_WAITED = 4.0  # a busy machine may take so many times as long in all
 _LONG = max(1, min(3, (os.cpu_count() or 2) - 1))
 _IDLE = 2
 _METHODS = multiprocessing.get_all_start_methods()
@@ -122,7 +122,7 @@ class Workers:
                     return _ENDED
                 if not worker.alive:
                     worker, reply = await self._begun(name, body, patience)
-                await self._wait(worker, reply, _WAITED * patience, end=True)
+                await self._wait(worker, reply, _WAITED * patience - SLICE, end=True)
         if worker.alive and reply.done() and len(self._idle) < _IDLE:
             self._idle.append(worker)
         else:

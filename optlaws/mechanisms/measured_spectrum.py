@@ -109,7 +109,7 @@ def _in_motion(duration: Quantity | None) -> float:
 
 
 def parts_of(spectrum: Spectrum) -> tuple[WeightPart, ...]:
-    """The intervals of a weight in which it is not 0 all over.
+    """The intervals in which a weight is not identically 0.
 
     >>> len(parts_of(((1.0, 0.0), (2.0, 0.0), (3.0, 1.0))))
     1

@@ -171,7 +171,7 @@ def greatest_difference(first: Function, second: Function, places: Array) -> tup
 
 
 def _differences(first: Function, second: Function, low: Array, high: Array) -> tuple[Array, float]:
-    """The difference at the nodes of parts, a row each, and the size of the second."""
+    """The differences at the nodes, a row for each part, and the magnitude of the second function."""
     x = low[:, None] + (high - low)[:, None] * (nodes(_NODES) + 1.0) / 2.0
     theirs = np.asarray(second(x.ravel()), dtype=np.float64).reshape(x.shape)
     if not np.isfinite(theirs).all():

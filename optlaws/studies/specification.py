@@ -154,7 +154,7 @@ def constant_of(name: str) -> str | None:
 
 
 def filled(text: str, values: Mapping[str, Any]) -> str:
-    """Text with its places filled.
+    """A text with values in place of the names in braces.
 
     Examples
     --------

@@ -74,7 +74,7 @@ class LawSearch:
         return self.model.problem
 
     def answer(self) -> Solution | None:
-        """The best law that the starts lead to, with its proof; None where they lead to none."""
+        """The best law from all starts, with its proof; None if no start gives a law."""
         self._try_starts()
         if not self.candidates:
             return None
@@ -225,7 +225,7 @@ class LawSearch:
         return min((law for law in laws if law is not None), key=lambda law: law.objective, default=None)
 
     def certified(self, bounding: ActiveSet, best: Candidate, *, raised: bool) -> Solution:
-        """The best law with its proof by an optimum without lower bounds of constants, which bounds the objective."""
+        """The best law with its proof: an optimum without lower bounds of constants bounds the objective."""
         problem, limit = self.problem, known_limit(self.problem)
         proof = certify(self.model, bounding, best.objective, limit)
         drive = None if problem.convex else _limit_beside(problem)
@@ -353,7 +353,7 @@ class _Laws:
 
 
 def _agree(first: Candidate | None, last: Candidate | None) -> bool:
-    """Whether two starts led to laws that are as good."""
+    """Whether two starts gave laws with the same objective."""
     if first is None or last is None:
         return False
     return abs(first.objective - last.objective) <= AGREEMENT * abs(first.objective)

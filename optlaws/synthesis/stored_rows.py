@@ -112,7 +112,7 @@ def plain_state(z_series: Sequence[float], state: ActiveSet) -> Plain:
 
 
 def read_row(data: object) -> Plain:
-    """The attributes of a solution that its `to_dict` wrote, with all checked that is taken from it.
+    """The attributes of a stored solution; every value that is read is checked.
 
     Raises
     ------

@@ -53,7 +53,7 @@ def _proofs(least: LeastTime) -> Iterator[Claim]:
 
 
 def _limit(least: LeastTime, data: Mapping[str, Any]) -> Iterator[Claim]:
-    """The closed form of all laws, computed again in doubles: a file that states another is not read."""
+    """The closed form for all laws, recomputed in doubles; a file with another value is refused."""
     if least.limit is not None:
         detail = f"{number(data, 'limit')!r} stated, {least.limit!r} by the segments"
         yield Claim("the limit of all laws", proven=False, detail=detail, checked=False)

@@ -128,7 +128,7 @@ def _first_scale(row: SpanLimit) -> float:
 
 
 def _least_share(base: Problem, rows: Sequence[SpanLimit], scale: float, start: Solution | None) -> Solution:
-    """The law whose greatest share of a limit is least."""
+    """The law that minimises its greatest use of a limit."""
     terms = [weight * constant for constant, weight in (row.term(scale) for row in rows)]
     problem = replace(base, minimise=terms[0] if len(terms) == 1 else maximum(*terms))
     with meant():

@@ -242,7 +242,7 @@ class ParametricContinuation:
         return bad if abs(bad - good) <= near else good + way * near
 
     def _met(self, segment: StructureSegment, t: float) -> bool:
-        """Whether a law of the segment is found at a t to which it has come near; it is then known."""
+        """Whether a law of the segment exists at a nearby t; it is then stored."""
         rows, sound, _ = self._solved(segment.structure, np.array([t]), segment.guessed(np.array([t])))
         if sound[0]:
             segment.joined(np.array([t]), rows)

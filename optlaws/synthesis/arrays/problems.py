@@ -200,7 +200,7 @@ class ProblemArray:
 
     @kept_property
     def one_objective(self) -> bool:
-        """Whether the same is minimised in all of them."""
+        """Whether all problems have the same objective."""
         if self._given is None:
             return "minimise" not in self.varied
         return len({repr(problem.objective) for problem in self._given if isinstance(problem, Problem)}) <= 1

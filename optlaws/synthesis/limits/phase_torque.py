@@ -178,7 +178,7 @@ class GearTorque:
 
     @classmethod
     def of(cls, formula: Formula) -> GearTorque | None:
-        """The torque that a formula of a, b and c is, a sum with one greater of two torques; None where it is none."""
+        """The torque of a formula that is a sum with one maximum of two torques; None for other formulas."""
         share, rest = _share(formula)
         if share != 1.0:
             torque = cls.of(rest)

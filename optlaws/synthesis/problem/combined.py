@@ -76,7 +76,7 @@ class CombinedPower(Combined, PowerConstant):
     """Peak of the product of a combination of b, c, ... and its derivative: not convex in the law."""
 
     def families(self, space: LawSpace, slack: Array, bound: float) -> tuple[ConstraintFamily, ...]:
-        """The product's family; one for each half where symmetric laws have a combination that is not."""
+        """The product's family; one for each half if laws are symmetric and the combination is not."""
         self.check(space)
         sides = [(self.name, self.weights)]
         if space.symmetric and facing(self.weights) != self.weights:

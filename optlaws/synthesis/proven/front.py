@@ -231,7 +231,7 @@ class ProvenFront(JsonText):
 
     @property
     def over(self) -> tuple[str, str]:
-        """The number that runs, and the objective."""
+        """The names of the swept number and of the objective."""
         return self.number.name, repr(self.problem.objective)
 
     @property
