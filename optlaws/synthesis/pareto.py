@@ -295,8 +295,8 @@ def _column(solutions: Sequence[Solution], name: str) -> Array:
 # how far above its least value a constant is held while the next one is minimised: as near as the solver can go
 _ABOVE = (1e-5, 1e-7, 1e-9)
 _BENT = 2.0
-#: from this number on, points of convex problems are added in groups, in gaps a quarter as important as the first
-_MANY, _SHARE, _EVEN = 100, 0.25, 4
+#: from this number on, points of convex problems are added in groups, in gaps half as important as the first
+_MANY, _SHARE, _EVEN = 16, 0.5, 4
 #: where laws are worse than others, so many times as many are looked for at most
 _AGAIN = 2
 
@@ -430,7 +430,7 @@ class _Curve:
         """Add points to all gaps at least a quarter as important as the first; their laws are computed together."""
         (low, _), (high, _) = self.points
         # the middles of the first stretches, and of their halves, and so on
-        begun = 2 ** int(log2(count / _EVEN))
+        begun = 2 ** round(log2(count / _EVEN))
         values = [low * (high / low) ** (i / begun) for i in range(1, begun)]
         line = SolvedLine(self.problem, self.over[0], self._problem, low, high)
         while values:

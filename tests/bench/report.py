@@ -5,6 +5,7 @@ import sys
 import tempfile
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from importlib.metadata import version
 from pathlib import Path
 from statistics import median
@@ -16,7 +17,8 @@ from rich.console import Console
 from rich.table import Table
 
 import optlaws
-from optlaws import Chebyshev, Problem, Solution, sweep, synthesize
+from optlaws import Chebyshev, Problem, Solution, pareto_front, sweep, synthesize
+from optlaws.typing import Bound
 from tests.bench.plain import Answer, Claim, Rows, highs, opti, power_by_opti, power_by_slsqp
 from tests.documents import ROOT
 
@@ -171,7 +173,7 @@ def power_tables() -> list[Table]:
     own = seconds(lambda: synthesize(problem), 15)
     tight = synthesize(problem, bound="tight")
     proven = seconds(lambda: synthesize(problem, bound="tight"), 5)
-    ways = (("Opti, IPOPT", power_by_opti, 1 / 3), ("SLSQP", power_by_slsqp, 1 / 3))
+    ways = (("Opti, IPOPT", power_by_opti, 1 / 3), ("SLSQP", power_by_slsqp, 0.4))
     times = Table("solver", "ms a law", "ms, rows given", "optlaws / it", "... rows given", "aim")
     times.title = (
         f"least D: l = 4, degree 9, b <= B = 1.641; optlaws {1e3 * own:.2f} ms, {len(solution.starts)} starts; "
@@ -193,6 +195,30 @@ def power_tables() -> list[Table]:
         off = f"{answer.claimed / solution.objective - 1.0:+.1e}"
         worth.add_row(name, f"{answer.claimed:.9f}", off, *worth_of(answer.claimed, answer.power, answer.velocity / B))
     return [times, worth]
+
+
+def fronts_table() -> Table:
+    """Fronts, beside as many laws one after the other by a plain way with its rows given."""
+    table = Table("front", "points", "ms", "plain way", "ms", "ratio", "aim, ms", title="fronts of order 4, degree 9")
+    chain = Problem(order=4, basis=Chebyshev(9))
+    rows, quick, tight = (
+        Rows(chain.at_velocity(1.6)),
+        ("C over B", "linprog", highs),
+        ("D over B, proven", "SLSQP", power_by_slsqp),
+    )
+    for (name, plain, solve), count, aim in ((quick, 50, 50.0), (quick, 1000, 250.0), (tight, 50, 5000.0)):
+        bound: Bound = "tight" if solve is power_by_slsqp else "quick"
+        over = ("B", name[0])
+        front = pareto_front(chain, over=over, points=count, bound=bound)
+        assert len(front) == count
+        assert all(solution.gap < 1e-8 for solution in front)
+        own = 1e3 * seconds(partial(pareto_front, chain, over=over, points=count, bound=bound), 3)
+        velocities = front.values[:, 0].tolist()
+        other = 1e3 * seconds(partial(list, map(partial(solve, rows), velocities)), 1)
+        table.add_row(
+            name, str(count), f"{own:.0f}{missed(own, aim)}", plain, f"{other:.0f}", f"{own / other:.2f}", f"{aim:.0f}"
+        )
+    return table
 
 
 def worth_of(claimed: float, power: float, velocity: float) -> tuple[str, str]:
@@ -264,7 +290,7 @@ def main() -> None:
         f"NumPy {np.__version__}, Python {sys.version.split()[0]}, one BLAS thread, medians"
     )
     rows = [measured(degree) for degree in DEGREES]
-    for table in (times_table(rows), ratios_table(rows), accuracy_table(rows), *power_tables()):
+    for table in (times_table(rows), ratios_table(rows), accuracy_table(rows), *power_tables(), fronts_table()):
         console.print(table)
     job, imported = table_job(), import_time()
     console.print(f"the whole table, cold: {job:.2f} s (aim: less than 3 s){missed(job, 3.0)}")

@@ -32,7 +32,7 @@ _AT_HAND = 2**21
 #: so many laws are quicker from stored structures than by a walk, of which some may be left to be solved one by one
 _WITH_STORED, _LEFT = 200, 4
 #: fewer laws than these are worth no walk
-_WALKED = 48
+WALKED = 48
 _STORED_NODES = 4
 _STARTS = np.array([0.5, 0.25, 0.75, 0.0, 1.0])
 
@@ -48,7 +48,7 @@ def laws_along(path: Path, t: Array) -> SolvedBatch:
     """
     if len(t) <= _WITH_STORED:
         laws = _laws_of_stored_structures(path, t)
-        if laws is not None and (len(t) < _WALKED or np.count_nonzero(~laws.solved) <= _LEFT):
+        if laws is not None and (len(t) < WALKED or np.count_nonzero(~laws.solved) <= _LEFT):
             return laws
     return laws_on(path, segments_of(path, float(t[0]), float(t[-1])), t)
 
