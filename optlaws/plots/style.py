@@ -115,9 +115,10 @@ def save_picture(drawing: Figure, place: Path) -> list[Path]:
     Fonts and renderers differ between machines, so that the svg, whose places can be compared, speaks for its twin.
     """
     vector, raster = (place.with_name(f"{place.name}.{kind}") for kind in ("svg", "png"))
-    content = rendered(drawing, "svg")
-    if not (writing.is_current(vector, content) and writing.is_own(raster)):
-        writing.write(raster, rendered(drawing, "png"))
+    with plot_style(), _laid_out(drawing):
+        content = rendered(drawing, "svg")
+        if not (writing.is_current(vector, content) and writing.is_own(raster)):
+            writing.write(raster, rendered(drawing, "png"))
     writing.write(vector, content)
     return [vector, raster]
 
@@ -134,3 +135,23 @@ def rendered(drawing: Figure, kind: str) -> bytes:
     with plot_style():
         drawing.savefig(stream, format=kind, metadata=metadata)
     return stream.getvalue()
+
+
+@contextmanager
+def _laid_out(drawing: Figure) -> Iterator[None]:
+    """The figure with everything in its place: matplotlib else lays it out, and draws it into nothing, for each file."""
+    from matplotlib.backends.backend_svg import FigureCanvasSVG
+
+    engine, canvas, dpi = drawing.get_layout_engine(), drawing.canvas, drawing.dpi
+    if engine is None:
+        yield
+        return
+    FigureCanvasSVG(drawing)  # type: ignore[no-untyped-call] # texts are as long as they are in an svg
+    engine.execute(drawing)
+    drawing.set_dpi(dpi)
+    drawing.set_canvas(canvas)
+    drawing.set_layout_engine("none")
+    try:
+        yield
+    finally:
+        drawing.set_layout_engine(engine)
