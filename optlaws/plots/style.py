@@ -42,6 +42,8 @@ STYLE: Any = {  # matplotlib's type lists every key there is
     "legend.frameon": False,
     "legend.fontsize": 9.0,
     "figure.dpi": 100.0,
+    "figure.autolayout": False,
+    "figure.constrained_layout.use": False,
     "savefig.dpi": 160.0,
     "svg.hashsalt": "optlaws",
     "svg.fonttype": "path",
@@ -150,7 +152,7 @@ def _laid_out(drawing: Figure) -> Iterator[None]:
     engine.execute(drawing)
     drawing.set_dpi(dpi)
     drawing.set_canvas(canvas)
-    drawing.set_layout_engine("none")
+    drawing.set_layout_engine(None)
     try:
         yield
     finally:
