@@ -14,7 +14,7 @@ from optlaws.cams.curves.arcs_and_chords import Arcs, arcs
 from optlaws.cams.curves.cam_files import polar
 from optlaws.cams.curves.file_options import Cutting
 from optlaws.cams.curves.outline import Outline
-from optlaws.cams.curves.plane_curve import CurveAlongNormals, CurveByJets, PiecewiseCurve
+from optlaws.cams.curves.plane_curve import CurveAlongNormals, CurveAtEachPlace, CurveByJets, PiecewiseCurve
 from optlaws.cams.curves.spline import spline
 from optlaws.cams.disc import DiscCam
 from optlaws.cams.followers.contact import FollowerContact, shifted
@@ -83,22 +83,22 @@ class ArcChain(CurveByJets):
 class WavyCurve(CurveAlongNormals):
     """A curve with a waviness along its normals: periods per turn, amplitude in m, phase in rad.
 
-    Shifts may be those of each place at which several such curves are looked at together.
+    Periods and shifts may be those of each place at which several such curves are looked at together.
     """
 
     amplitude: float
-    waves: int
+    waves: int | NDArray[np.int_]
     shift: float | Array
 
     @property
     def breaks(self) -> tuple[float, ...]:
         """Breaks of the curve, and every half wave, so that each part is simple."""
-        waves = np.linspace(*self.base.interval, 2 * self.waves + 1)
+        waves = np.linspace(*self.base.interval, 2 * int(self.waves) + 1)
         return tuple(np.unique(np.concatenate([self.base.breaks, waves])).tolist())
 
     def jets(self, angle: Array | Interval, order: int, *, before: bool = False) -> Pair:
         (x, y), (along_x, along_y) = self._frame(angle, order, before=before)
-        _, wave = (variable(angle, order) * float(self.waves) + self.shift).waves()
+        _, wave = (variable(angle, order) * np.asarray(self.waves, dtype=np.float64) + self.shift).waves()
         return x + along_x * wave * self.amplitude, y + along_y * wave * self.amplitude
 
     def _frame(self, angle: Array | Interval, order: int, *, before: bool) -> tuple[Pair, Pair]:
@@ -244,8 +244,13 @@ def run_against(cam: DiscCam, curve: Outline, outside: float = 0.0, *, jumps: bo
     With `jumps` those of the acceleration make the jerk infinite; without, it is the greatest between them.
     """
     following = _following(cam, curve, outside)
-    _check_hollows(following)
-    return _runs(cam, [following], lambda _: following, jumps=jumps)[0]
+    return _reached(_runs(cam, [following], lambda _: following, jumps=jumps)[0])
+
+
+def _reached(peaks: AsMade | None) -> AsMade:
+    if peaks is None:
+        raise UnreachedProfileError(_UNREACHED)
+    return peaks
 
 
 def _following(cam: DiscCam, curve: Outline, outside: float = 0.0) -> Following:
@@ -258,45 +263,54 @@ def _following(cam: DiscCam, curve: Outline, outside: float = 0.0) -> Following:
 
 def _runs(
     cam: DiscCam, followings: Sequence[Following], at: Callable[[NDArray[np.intp]], Following], *, jumps: bool
-) -> list[AsMade]:
-    """The follower's motions on similar curves; `at` gives the motion of each place by the index of its curve."""
+) -> list[AsMade | None]:
+    """The follower's motions on similar curves; `at` gives the motion of each place by the index of its curve.
+
+    None for a curve that the follower does not reach all of. A step of the search takes as long for a thousand places
+    as for one: all curves share it.
+    """
     edges = [np.array(following.curve.breaks) for following in followings]
 
     def off(places: Interval, order: int, which: NDArray[np.intp]) -> Jet:
         angle, displacement = at(which).derivative(places, 0, order)
         return displacement - cam.displacement.along(angle)
 
-    def peaks(nu: int) -> list[float]:
-        return _bounds(
-            lambda places, order, which: at(which).derivative(places, nu, order)[1], edges, MANUFACTURED_PEAKS
+    def peaks(nu: int) -> FunctionOfEach:
+        return lambda places, order, which: at(which).derivative(places, nu, order)[1]
+
+    def greatest(function: FunctionOfEach, share: float, among: Sequence[int]) -> dict[int, float]:
+        some = np.array(among, dtype=np.intp)
+        bounds = _bounds(
+            lambda places, order, which: function(places, order, some[which]), [edges[i] for i in among], share
         )
+        return {i: bound for i, bound in zip(among, bounds, strict=True) if bound < inf}
 
-    deviations, accelerations = _bounds(off, edges, DEVIATIONS), peaks(2)
-    jumping = [_jump(*each) for each in zip(followings, edges, accelerations, strict=True)]
-    jerks = [inf] * len(edges) if jumps and any(jumping) else peaks(3)
-    means = [_meant(cam, nu) for nu in (2, 3)]
-    return [
-        AsMade(deviation, acceleration, jerk, jump, acceleration / means[0], jerk / means[1])
-        for deviation, acceleration, jerk, jump in zip(deviations, accelerations, jerks, jumping, strict=True)
-    ]
+    known = [i for i, following in enumerate(followings) if _is_reached(following)]
+    deviations = greatest(off, DEVIATIONS, known)
+    accelerations = greatest(peaks(2), MANUFACTURED_PEAKS, list(deviations))
+    jumping = {i: _jump(followings[i], edges[i], size) for i, size in accelerations.items()}
+    smooth = [i for i in jumping if not (jumps and jumping[i])]
+    jerks = {i: inf for i in jumping if i not in smooth} | greatest(peaks(3), MANUFACTURED_PEAKS, smooth)
+    means = [_meant(cam, nu) for nu in (2, 3)] if jerks else []
+    cases: list[AsMade | None] = [None] * len(edges)
+    for i, jerk in jerks.items():
+        ratios = accelerations[i] / means[0], jerk / means[1]
+        cases[i] = AsMade(deviations[i], accelerations[i], jerk, jumping[i], *ratios)
+    return cases
 
 
-def _check_hollows(following: Following) -> None:
-    """Refuse a curve along which the follower would turn back, as a roller does in hollows narrower than itself."""
+def _is_reached(following: Following) -> bool:
+    """Whether the follower does not turn back along its curve, as a roller does in hollows narrower than itself."""
     edges = np.array(following.curve.breaks)
     places = edges[:-1, None] + np.multiply.outer(np.diff(edges), np.linspace(0.1, 0.9, 5))
     rates = np.asarray(following.jets(places, 1)[0].terms[1])
-    if rates.min() * rates.max() <= 0.0:
-        raise UnreachedProfileError(_UNREACHED)
+    return bool(rates.min() * rates.max() > 0.0)
 
 
 def _bounds(functions: FunctionOfEach, edges: Sequence[Array], share: float) -> list[float]:
-    """A proven upper bound of the magnitude of each function."""
-    parts = max(1, _CELLS // len(edges[0]))
-    bounds = [each.bound for each in extremes_of_each(functions, edges, share=share, parts=parts, magnitude=True)]
-    if inf in bounds:
-        raise UnreachedProfileError(_UNREACHED)
-    return bounds
+    """A proven upper bound of the magnitude of each function; inf where there is none."""
+    parts = [max(1, _CELLS // len(each)) for each in edges]
+    return [each.bound for each in extremes_of_each(functions, edges, share=share, parts=parts, magnitude=True)]
 
 
 def _jump(following: Following, edges: Array, size: float) -> float:
@@ -354,15 +368,32 @@ def as_made(
     >>> [round(as_made(cam, points=361, decimals=decimals).acceleration_ratio, 3) for decimals in (3, 4)]
     [1.188, 1.026]
     """
-    if curve not in CURVES:
-        raise InputError(unknown_key(curve, CURVES, "curve"))
     if form not in _CURVES_OF:
         raise InputError(
             f"{unknown_key(form, _CURVES_OF, 'format')}; polygons have corners, where the follower's velocity jumps"
         )
-    outline = cam.profile if curve == "profile" else cam.pitch_curve
-    outside = 0.0 if curve == "profile" else cam.contact.roller
+    outline, outside = _cut(cam, curve)
     return run_against(cam, _CURVES_OF[form](outline, Cutting(tolerance, decimals, points, degree)), outside)
+
+
+def tables_as_made(cam: DiscCam, curve: str, tables: Sequence[Cutting]) -> list[AsMade | None]:
+    """What `as_made` finds of tables of points, by their points and decimals; None of those that it refuses to run."""
+    outline, outside = _cut(cam, curve)
+    curves = tuple(_points(outline, table) for table in tables)
+    followings = [_following(cam, each, outside) for each in curves]
+    outward = np.array([following.outward for following in followings])
+
+    def at(which: NDArray[np.intp]) -> Following:
+        return replace(followings[0], curve=CurveAtEachPlace(curves, which), outward=outward[which])
+
+    return _runs(cam, followings, at, jumps=True)
+
+
+def _cut(cam: DiscCam, curve: str) -> tuple[Outline, float]:
+    """The curve of the cam that its files describe, and how far it is outside of the profile, m."""
+    if curve not in CURVES:
+        raise InputError(unknown_key(curve, CURVES, "curve"))
+    return (cam.profile, 0.0) if curve == "profile" else (cam.pitch_curve, cam.contact.roller)
 
 
 def with_profile_error(cam: DiscCam, error: Quantity, waves: Any) -> AsMade:  # noqa: ANN401 - a quantity and a number
@@ -395,26 +426,42 @@ def with_profile_error(cam: DiscCam, error: Quantity, waves: Any) -> AsMade:  # 
     >>> round(with_profile_error(cam, "0.01 mm", waves=3).acceleration_ratio, 3)
     1.002
     """
-    amplitude, count = positive_quantity(error, "length", "error"), whole(waves, "waves", least=1, most=_MOST_WAVES)
-    curves = [WavyCurve(cam.profile, amplitude, count, shift) for shift in _SHIFTS]
+    return _reached(profile_errors(cam, error, [waves])[0])
+
+
+def profile_errors(cam: DiscCam, error: Quantity, waves: Sequence[Any]) -> list[AsMade | None]:
+    """What `with_profile_error` finds of so many waves each; None where the follower does not reach all of the cam."""
+    amplitude = positive_quantity(error, "length", "error")
+    counts = [whole(count, "waves", least=1, most=_MOST_WAVES) for count in waves]
+    curves = [WavyCurve(cam.profile, amplitude, count, shift) for count in counts for shift in _SHIFTS]
     followings = [_following(cam, curve) for curve in curves]
-    for following in followings:
-        _check_hollows(following)
-    shifts, outward = np.array(_SHIFTS), np.array([following.outward for following in followings])
+    numbers, shifts, outward = (
+        np.array([getattr(each, name) for each in some])
+        for some, name in ((curves, "waves"), (curves, "shift"), (followings, "outward"))
+    )
 
     def at(which: NDArray[np.intp]) -> Following:
-        return replace(followings[0], curve=replace(curves[0], shift=shifts[which]), outward=outward[which])
+        curve = replace(curves[0], waves=numbers[which], shift=shifts[which])
+        return replace(followings[0], curve=curve, outward=outward[which])
 
-    cases = _runs(cam, followings, at, jumps=False)
-    return AsMade(*(max(getattr(case, name) for case in cases) for name in AsMade.__dataclass_fields__))
+    cases, each = _runs(cam, followings, at, jumps=False), len(_SHIFTS)
+    return [_greatest(cases[i : i + each]) for i in range(0, len(cases), each)]
 
 
-def _points(outline: Outline, options: Cutting) -> Outline:
-    return spline_through(_rounded(outline(np.linspace(0.0, tau, options.points)), options, closed=True))
+def _greatest(cases: Sequence[AsMade | None]) -> AsMade | None:
+    """The greatest peaks of several cases; None where one of them has none."""
+    known = [case for case in cases if case is not None]
+    if len(known) < len(cases):
+        return None
+    return AsMade(*(max(getattr(case, name) for case in known) for name in AsMade.__dataclass_fields__))
+
+
+def _points(outline: Outline, options: Cutting) -> PiecewiseCurve:
+    return spline_through(_rounded(outline(np.linspace(0.0, tau, options.points)), options.decimals))
 
 
 def _radii(outline: Outline, options: Cutting) -> Outline:
-    return PolarSpline(_rounded(polar(outline, options.points), options, closed=True))
+    return PolarSpline(_rounded(polar(outline, options.points), options.decimals))
 
 
 def _splined(outline: Outline, options: Cutting) -> Outline:
@@ -426,11 +473,11 @@ def _chain(outline: Outline, options: Cutting) -> Outline:
     return ArcChain(Arcs(cases.points, cases.bulges, cases.deviation))
 
 
-def _rounded(values: Array, options: Cutting, *, closed: bool) -> Array:
-    rounded = 1e-3 * np.round(1e3 * values, options.decimals)
-    if closed:
-        rounded[-1] = rounded[0]
-    return rounded
+def _rounded(values: Array, decimals: int) -> Array:
+    """Points or radii of a turn with so many decimals of a millimetre; the last is the first again."""
+    rounded = 1e-3 * np.round(1e3 * values, decimals)
+    rounded[-1] = rounded[0]
+    return np.asarray(rounded)
 
 
 _CURVES_OF: dict[str, Callable[[Outline, Cutting], Outline]] = {

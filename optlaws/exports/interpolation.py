@@ -42,11 +42,11 @@ def spline_powers(x: Array, y: Array, ends: Ends = "clamped", slopes: tuple[floa
         free = ends == "natural"
         first, last = (3.0 * chords[0], 3.0 * chords[-1]) if free else slopes
         rows = _continuous(steps[:-1], steps[1:], chords[:-1], chords[1:])
-        own, beside = (2.0, 1.0) if free else (1.0, 0.0)
+        centre, beside = (2.0, 1.0) if free else (1.0, 0.0)
         below, diagonal, above, right = (
             np.concatenate([[at_start], inside, [at_end]])
             for at_start, inside, at_end in zip(
-                (0.0, own, beside, first), rows, (beside, own, 0.0, last), strict=True
+                (0.0, centre, beside, first), rows, (beside, centre, 0.0, last), strict=True
             )
         )
         at_points = _tridiagonal(below, diagonal, above, right)
@@ -87,8 +87,8 @@ def _tridiagonal(below: Array, diagonal: Array, above: Array, right: Array) -> A
     Plain numbers, for scipy takes longer to import than a thousand such systems to solve.
     """
     beside, known = [0.0], [0.0]
-    for low, own, up, side in zip(*(part.tolist() for part in (below, diagonal, above, right)), strict=True):
-        pivot = own - low * beside[-1]
+    for low, centre, up, side in zip(*(part.tolist() for part in (below, diagonal, above, right)), strict=True):
+        pivot = centre - low * beside[-1]
         known.append((side - low * known[-1]) / pivot)
         beside.append(up / pivot)
     solution = [known.pop()]

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import partial
 from math import degrees
 from pathlib import Path
 from typing import Any, Self
@@ -12,11 +11,12 @@ from typing import Any, Self
 import msgspec
 import numpy as np
 
-from optlaws.cams.as_manufactured import AsMade, UnreachedProfileError, as_made, with_profile_error
+from optlaws.cams.as_manufactured import AsMade, profile_errors, tables_as_made
 from optlaws.cams.best_laws import BestCam, BestPrimeCircle, best_cam, best_prime_circle
 from optlaws.cams.best_offset import BestOffset, best_offset
 from optlaws.cams.conjugate import conjugate_cam
 from optlaws.cams.curves.extremes import EnclosedExtreme
+from optlaws.cams.curves.file_options import Cutting
 from optlaws.cams.disc import DiscCam
 from optlaws.cams.followers.follower import read_follower, stated_prime_radius
 from optlaws.cams.followers.translating_roller import TranslatingRoller
@@ -224,18 +224,16 @@ class Findings:
         options, cam = self.spec.as_made, self.cam
         if options is None:
             return {}
-        peaks_by_name: dict[str, AsMade | None] = {}
-        for points in options.points:
-            for decimals in options.decimals:
-                table: dict[str, Any] = {"curve": options.curve, "points": points, "decimals": decimals}
-                name = f"{points} points of the {options.curve}, {decimals} decimals of a mm"
-                peaks_by_name[name] = _tried(partial(as_made, cam, "csv", **table))
-        error = options.error or ""
-        for waves in options.waves if error else ():
-            peaks_by_name[f"error of {error}, {waves} waves a turn"] = _tried(
-                partial(with_profile_error, cam, error, waves)
-            )
-        return peaks_by_name
+        tables = [
+            Cutting(points=points, decimals=decimals) for points in options.points for decimals in options.decimals
+        ]
+        names = [f"{each.points} points of the {options.curve}, {each.decimals} decimals of a mm" for each in tables]
+        peaks = tables_as_made(cam, options.curve, tables) if tables else []
+        error, waves = options.error, options.waves if options.error else ()
+        if error and waves:
+            names += [f"error of {error}, {count} waves a turn" for count in waves]
+            peaks += profile_errors(cam, error, waves)
+        return dict(zip(names, peaks, strict=True))
 
     def to_data(self) -> dict[str, Any]:
         """Sizes, forces, the spring and peaks as manufactured as data for programs, in SI units."""
@@ -254,13 +252,6 @@ class Findings:
         if self.as_made:
             data["as_made"] = {name: None if peaks is None else peaks.to_dict() for name, peaks in self.as_made.items()}
         return data
-
-
-def _tried(run: Callable[[], AsMade]) -> AsMade | None:
-    try:
-        return run()
-    except UnreachedProfileError:
-        return None
 
 
 def extreme_rows(cam: DiscCam, limits: Limits) -> list[list[tables.Cell]]:

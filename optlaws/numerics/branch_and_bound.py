@@ -131,12 +131,12 @@ def extremes_of_each(
     edges: Sequence[Any],
     *,
     share: float = 1e-9,
-    parts: int = 1,
+    parts: Sequence[int] | None = None,
     magnitude: bool = False,
 ) -> list[Extremes]:
     """The extremes of several functions that are alike, each by its own cells, which are looked at in one go.
 
-    What `extremes` finds of each function alone, to the last digit; `edges` are those of each.
+    What `extremes` finds of each function alone, to the last digit; `edges` and `parts` are those of each.
 
     Examples
     --------
@@ -146,22 +146,24 @@ def extremes_of_each(
     >>> [round(each.most_at, 6) for each in extremes_of_each(waves, [[0.0, 2.0], [0.0, 2.0]])]
     [1.570796, 0.785398]
     """
-    options = _Options(share, parts, magnitude=magnitude)
-    searches = [_enclosing(np.asarray(each, dtype=np.float64), options) for each in edges]
+    searches = [
+        _enclosing(np.asarray(each, dtype=np.float64), _Options(share, count, magnitude=magnitude))
+        for each, count in zip(edges, parts or [1] * len(edges), strict=True)
+    ]
     requests = {i: next(search) for i, search in enumerate(searches)}
     results: dict[int, Extremes] = {}
     while requests:
-        order = next(iter(requests.values()))[1]
-        together = {i: places for i, (places, its_order) in requests.items() if its_order == order}
-        counts = [len(places.middle) for places in together.values()]
-        places = Interval(*(np.concatenate(ends) for ends in zip(*map(_ends, together.values()), strict=True)))
-        terms = function(places, order, np.repeat(list(together), counts)).terms
+        counts = [len(places.middle) for places, _ in requests.values()]
+        places = Interval(
+            *(np.concatenate(ends) for ends in zip(*(_ends(at) for at, _ in requests.values()), strict=True))
+        )
+        terms = function(places, max(order for _, order in requests.values()), np.repeat(list(requests), counts)).terms
         known = [_as_interval(term, sum(counts)) for term in terms]
         stop = 0
-        for i, count in zip(together, counts, strict=True):
+        for (i, (_, order)), count in zip(list(requests.items()), counts, strict=True):
             start, stop = stop, stop + count
             try:
-                requests[i] = searches[i].send(Jet(tuple(term[start:stop] for term in known)))
+                requests[i] = searches[i].send(Jet(tuple(term[start:stop] for term in known[: order + 1])))
             except StopIteration as done:
                 del requests[i]
                 results[i] = done.value

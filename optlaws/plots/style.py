@@ -141,14 +141,14 @@ def rendered(drawing: Figure, kind: str) -> bytes:
 
 @contextmanager
 def _laid_out(drawing: Figure) -> Iterator[None]:
-    """The figure with everything in its place: matplotlib else lays it out, and draws it into nothing, for each file."""
+    """The figure with everything in its place: matplotlib else lays it out, and draws it to nothing, for each file."""
     from matplotlib.backends.backend_svg import FigureCanvasSVG
 
     engine, canvas, dpi = drawing.get_layout_engine(), drawing.canvas, drawing.dpi
     if engine is None:
         yield
         return
-    FigureCanvasSVG(drawing)  # type: ignore[no-untyped-call] # texts are as long as they are in an svg
+    FigureCanvasSVG(drawing)  # texts are as long as they are in an svg
     engine.execute(drawing)
     drawing.set_dpi(dpi)
     drawing.set_canvas(canvas)
