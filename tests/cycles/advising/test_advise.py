@@ -341,7 +341,7 @@ def test_an_advice_leaves_as_plain_data_a_table_and_a_picture(rise: Advice) -> N
 
 def test_a_cycle_takes_other_solutions_of_its_motions_and_no_other_number_of_them() -> None:
     cycle = press()
-    with pytest.raises(InputError, match="2 motions"):
+    with pytest.raises(InputError, match="2 optimised motions"):
         cycle.with_solutions(cycle.solutions[:1])
     same = cycle.with_solutions(cycle.solutions)
     assert (same.objective, same.lower_bound, same.status) == (cycle.objective, cycle.lower_bound, cycle.status)

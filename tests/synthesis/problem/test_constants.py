@@ -209,17 +209,28 @@ def test_the_least_power_is_below_that_of_other_laws_and_above_the_limit(B: floa
     assert solution.limit <= solution.lower_bound <= solution.objective
 
 
-@every_velocity
+@cache
+def from_starts(B: float) -> Solution:
+    """Least power of a degree for which no structure is stored."""
+    return synthesize(problem(B=B, minimise="D", basis=Chebyshev(23)))
+
+
+@pytest.mark.parametrize("B", VELOCITIES[::4])
 def test_every_start_leads_to_the_same_power_or_the_solution_says_so(B: float) -> None:
-    solution = least_power(B)
+    solution = from_starts(B)
     assert len(solution.starts) >= 2
     assert solution.starts[0] == solution.objective
     assert list(solution.starts) == sorted(solution.starts)
 
 
 def test_most_starts_agree() -> None:
-    spread = [least_power(B).starts[-1] / least_power(B).starts[0] - 1.0 for B in VELOCITIES]
-    assert sum(value <= 1e-6 for value in spread) >= len(VELOCITIES) // 2
+    spread = [from_starts(B).starts[-1] / from_starts(B).starts[0] - 1.0 for B in VELOCITIES[::4]]
+    assert sum(value <= 1e-6 for value in spread) >= len(spread) // 2
+
+
+def test_a_stored_structure_is_a_start_of_its_own() -> None:
+    solution = least_power(VELOCITIES[0])
+    assert solution.starts == (solution.objective,)
 
 
 @pytest.mark.sample(6)
