@@ -231,3 +231,9 @@ def test_another_motor_of_the_same_torque_has_the_same_laws() -> None:
         Cycle(moves, **EACH, drive=TABLE).with_motor(other)
     with pytest.raises(InputError, match="keep the limits of the motor"):
         Cycle(INDEXED, **EACH, drive=cycle.drive, limits={"motor": True}).with_motor(other)
+
+
+def test_limits_that_are_no_table_are_refused() -> None:
+    nothing: Any = None
+    with pytest.raises(InputError, match="limits"):
+        Cycle(INDEXED, period="0.6 s", advance="45 deg", limits=nothing)

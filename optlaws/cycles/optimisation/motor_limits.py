@@ -19,6 +19,7 @@ from optlaws.errors import InputError
 from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.mechanisms.drives.motor import Motor
 from optlaws.motion.piece import factor
+from optlaws.motion.quantities import table
 from optlaws.synthesis.functionals.makers import peak
 from optlaws.synthesis.problem.constants import Functional
 from optlaws.tolerances import AGREEMENT
@@ -47,7 +48,7 @@ def motor_limits(
     InputError
         If there is no motor, or its curve of torque over speed is not concave.
     """
-    if MOTOR not in entries or entries[MOTOR] is False:
+    if MOTOR not in table(entries, "limits", "{'velocity': '2 m/s'}") or entries[MOTOR] is False:
         return MotorLimits()
     if entries[MOTOR] is not True:
         raise InputError(f"limits, motor must be True or False, got {shortened(entries[MOTOR])}")

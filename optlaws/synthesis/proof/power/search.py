@@ -22,7 +22,7 @@ from optlaws.tolerances import GIVEN_VARIABLE, NARROW_RANGE, TINY
 Explore = Callable[[Array], bool]
 
 #: how far below the best objective a claim is, and how many linear programs its proof may take
-_CLAIMS = ((2e-9, 1000), (1e-4, 300), (1e-2, 200), (1e-1, 100))
+_CLAIMS = ((2e-9, 4000), (8e-9, 2000), (1e-7, 1000), (1e-4, 300), (1e-2, 200), (1e-1, 100))
 #: up to so many coordinates; beyond, the programs grow and their number shrinks
 _COORDINATES = 11
 _CANDIDATES = 60
