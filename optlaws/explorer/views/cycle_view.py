@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from dataclasses import fields
 from functools import lru_cache
 from math import inf
 from pathlib import Path
@@ -24,7 +25,7 @@ from optlaws.files.problem_file import convert
 from optlaws.jobs.cycle_entries import AxisEntries, CycleProblemFile, cycle_of
 from optlaws.laws.catalogue import reading
 from optlaws.mechanisms.drives.drive_train import Drive
-from optlaws.mechanisms.drives.motor import CURVES, Motor
+from optlaws.mechanisms.drives.motor import OF_TORQUE, Motor
 from optlaws.motion.quantities import QUANTITIES, either
 from optlaws.numbers import bounded
 from optlaws.plots.cycle import UNITS, samples
@@ -34,7 +35,7 @@ _EACH = 100
 _TURN = 360.0
 _WHERE = Path("the cycle")
 #: entries of a motor that change no torque
-LIMITING = {"rated_torque", "peak_torque", "greatest_speed", *CURVES}
+LIMITING = {entry.name for entry in fields(Motor)} - {*OF_TORQUE, "name"}
 #: limits of a cycle's drive, and what its effort calls that
 _OF_DRIVE = {
     "force": "peak_force",
