@@ -56,8 +56,8 @@ class Endpoints:
             return Endpoints(np.asarray(function(self.low)), np.asarray(function(self.high)))
 
 
-def between(value: float) -> Endpoints:
-    """The interval that holds a single number."""
+def between(value: Array | float) -> Endpoints:
+    """The intervals that hold a single number each."""
     return Endpoints(np.array(value), np.array(value))
 
 
@@ -116,15 +116,17 @@ def _power(base: Endpoints, exponent: Endpoints, known: float | None) -> Endpoin
 def _table(table: Table, at: Endpoints) -> Endpoints:
     """The bounds of a table: the bounds of each piece over the part of the argument's range in it."""
     places, rows = np.array(table.places), pieces(table)
+    # the first and the last piece go on beyond the table
+    starts, stops = np.array([-np.inf, *places[1:-1]]), np.array([*places[1:-1], np.inf])
+    first, last = np.searchsorted(stops[:-1], at.low), np.searchsorted(starts[1:], at.high, side="right")
     lows, highs = np.full(np.shape(at.low), np.inf), np.full(np.shape(at.low), -np.inf)
-    for i, row in enumerate(rows):
-        # the first and the last piece go on beyond the table
-        start, stop = (-np.inf if i == 0 else places[i]), (np.inf if i == len(rows) - 1 else places[i + 1])
-        met = (at.low <= stop) & (at.high >= start)
-        s = Endpoints(np.maximum(at.low, start), np.minimum(at.high, stop)) + between(-places[i])
-        total = reduce(lambda sum_, value: between(value) + sum_ * s, row[::-1].tolist(), between(0.0))
-        lows = np.where(met, np.minimum(lows, total.low), lows)
-        highs = np.where(met, np.maximum(highs, total.high), highs)
+    # narrow ranges lie in few pieces: the next one of each, until all are through
+    for further in range(int(np.max(last - first, initial=-1)) + 1):
+        met = first + further <= last
+        i = (first + further)[met]
+        s = Endpoints(np.maximum(at.low[met], starts[i]), np.minimum(at.high[met], stops[i])) + between(-places[i])
+        total = reduce(lambda sum_, column: between(column) + sum_ * s, rows[i].T[::-1], between(0.0))
+        lows[met], highs[met] = np.minimum(lows[met], total.low), np.maximum(highs[met], total.high)
     return Endpoints(lows, highs)
 
 

@@ -139,6 +139,11 @@ def test_tables_and_splines_are_those_of_numpy_and_scipy() -> None:
             value = float(evaluate(one, {"k": x}, NUMPY))
             assert abs(float(evaluate(one, {"k": arb(x)}, BALLS).mid()) - value) < 1e-13
             assert float(evaluate(one, {"k": x}, casadi_arithmetic())) == pytest.approx(value, abs=1e-13)
+    # boxes of a point, in a piece, over several, and beyond the table on one side
+    low, high = np.array([0.2, 0.3, 0.1, 0.6, -np.inf]), np.array([0.2, 0.4, 0.9, 1.5, 0.1])
+    around = enclosed(line, {"k": Endpoints(low, high)})
+    assert around.low == pytest.approx([-2.0, -2.0 + 0.25 / 0.35, -2.0, 2.0 - 0.5 / 0.3, -0.5], abs=1e-12)
+    assert around.high == pytest.approx([-2.0, -2.0 + 0.5 / 0.35, 3.0, 3.0, np.inf], abs=1e-12)
 
 
 def test_affine_quadratic_and_polynomial_parts_make_up_the_formula() -> None:
