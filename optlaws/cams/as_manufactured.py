@@ -38,7 +38,7 @@ class PolarSpline(CurveByJets):
 
     @kept_property
     def _radius(self) -> PiecewiseCurve:
-        return periodic(np.linspace(0.0, tau, len(self.radii)), self.radii[:, None])
+        return PiecewiseCurve.closed(np.linspace(0.0, tau, len(self.radii)), self.radii[:, None])
 
     @property
     def breaks(self) -> tuple[float, ...]:
@@ -122,15 +122,7 @@ def spline_through(points: Array) -> PiecewiseCurve:
     Its curvature is continuous everywhere; the last point is the first again.
     """
     lengths = np.linalg.norm(np.diff(points, axis=0), axis=1)
-    return periodic(np.append(0.0, np.cumsum(lengths)), points)
-
-
-def periodic(places: Array, values: Array) -> PiecewiseCurve:
-    """The closed cubic spline through rows of values."""
-    from scipy.interpolate import make_interp_spline
-
-    spline = make_interp_spline(places, values, k=3, bc_type="periodic")
-    return PiecewiseCurve.of_spline(spline.t, spline.c, 3)
+    return PiecewiseCurve.closed(np.append(0.0, np.cumsum(lengths)), points)
 
 
 _SAMPLES = 721

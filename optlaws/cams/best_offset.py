@@ -21,7 +21,7 @@ from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.numbers import Array, Quantity
 from optlaws.numerics.interval import Interval, between, exact
-from optlaws.numerics.roots import holds_throughout
+from optlaws.numerics.roots import bracketed_root, holds_throughout
 from optlaws.tolerances import OFFSET_SETTLED, ROUNDOFF, SIZE_BRACKET
 
 _FIRST, _STEPS = 361, 30
@@ -134,11 +134,10 @@ def best_offset(
 
 def _balanced(offsets: _Offsets, s: Array, slope: Array) -> float:
     """The offset with which tangents at some places are as great to both sides."""
-    from scipy.optimize import brentq
 
     def leaning(offset: float) -> float:
         tangents = offsets.tangents(offset, s, slope)
         return float(tangents.max() + tangents.min())
 
     most = offsets.radius * (1.0 - SIZE_BRACKET)
-    return float(brentq(leaning, -most, most, xtol=1e-16 * offsets.radius, rtol=1e-15))
+    return bracketed_root(leaning, -most, most)

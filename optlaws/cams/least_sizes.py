@@ -23,7 +23,7 @@ from optlaws.errors import InfeasibleProblem, InputError
 from optlaws.motion.quantities import quantity
 from optlaws.numbers import Quantity
 from optlaws.numerics.interval import Interval, exact
-from optlaws.numerics.roots import bisect, holds_throughout
+from optlaws.numerics.roots import bisect, bracketed_root, holds_throughout
 from optlaws.numerics.taylor import Jet
 from optlaws.tolerances import ROUNDOFF, SIZE_BRACKET, SIZE_MARGIN, SIZE_NUDGE, SMALLEST_BASE
 
@@ -264,8 +264,6 @@ class _Sizes:
 
     def least_meeting(self, witness: Witness, radius: float) -> float:
         """The least radius, from a given one on, for which a limit holds at a witness's angle."""
-        from scipy.optimize import brentq
-
         jet = self._jet(witness)
 
         def excess(size: float) -> float:
@@ -278,7 +276,7 @@ class _Sizes:
             if not self._fits(float(size)):
                 break
             if excess(float(size)) <= 0.0:
-                return float(brentq(excess, last, float(size), xtol=1e-16, rtol=1e-14))
+                return bracketed_root(excess, last, float(size))
             last = float(size)
         raise InfeasibleProblem(
             f"no prime circle keeps {_in_words(self.limits)}: at {degrees(witness.angle):.6g} deg of the cam the "

@@ -217,6 +217,17 @@ def bracketed_roots(
     return np.where(np.abs(fa) <= np.abs(fb), a, b)
 
 
+def bracketed_root(function: Callable[[float], float], low: float, high: float) -> float:
+    """The root between two places where a function has different signs, as `bracketed_roots` finds many.
+
+    >>> bracketed_root(lambda x: x * x - 2.0, 1.0, 2.0)
+    1.41421356...
+    """
+    ends = np.array([low]), np.array([high])
+    values = np.array([function(low)]), np.array([function(high)])
+    return float(bracketed_roots(lambda x: np.array([function(float(x[0]))]), ends, values)[0])
+
+
 def _changes(function: Callable[[Array], Array], places: Array) -> list[float]:
     """Inner places at which a function changes its sign by more than rounding."""
     values = function((places[1:] + places[:-1]) / 2.0)
@@ -228,7 +239,7 @@ def _changes(function: Callable[[Array], Array], places: Array) -> list[float]:
 def bisect(holds: Callable[[float], bool], inside: float, outside: float, halvings: int = 200) -> tuple[float, float]:
     """Neighbours after a number of halvings: a condition holds at the first and fails at the second.
 
-    For conditions; where a function's sign changes and scipy is at hand, `scipy.optimize.brentq` needs fewer steps.
+    For conditions; where a function's sign changes, `bracketed_root` needs fewer steps.
 
     >>> last, first = bisect(lambda x: x * x <= 2.0, 0.0, 2.0)
     >>> last * last <= 2.0 < first * first, first - last < 1e-15

@@ -45,16 +45,31 @@ class PiecewiseCurve(CurveByJets):
 
     @classmethod
     def of_spline(cls, knots: Array, controls: Array, degree: int) -> Self:
-        """The pieces of a B-spline, control points of shape (count, coordinates)."""
-        from scipy.interpolate import BSpline
-
+        """The pieces of a B-spline, control points of shape (count, coordinates), by de Boor's algorithm."""
         places = np.unique(knots[degree : len(knots) - degree])
+        spans = np.searchsorted(knots, places[:-1], side="right") - 1
         t = chebyshev.nodes(degree + 1)
-        values = BSpline(knots, controls, degree)(
-            0.5 * (places[1:] + places[:-1]) + np.multiply.outer(t, 0.5 * np.diff(places))
-        )
-        powers = np.einsum("kt,tnd->knd", np.linalg.inv(np.vander(t, increasing=True)), values)
+        at = 0.5 * (places[1:] + places[:-1]) + np.multiply.outer(t, 0.5 * np.diff(places))
+        values = [
+            np.broadcast_to(controls[spans - degree + k], (*at.shape, controls.shape[1])) for k in range(degree + 1)
+        ]
+        for r in range(1, degree + 1):
+            for k in range(degree, r - 1, -1):
+                low, high = knots[spans - degree + k], knots[spans + k + 1 - r]
+                share = ((at - low) / (high - low))[..., None]
+                values[k] = (1.0 - share) * values[k - 1] + share * values[k]
+        powers = np.einsum("kt,tnd->knd", np.linalg.inv(np.vander(t, increasing=True)), values[degree])
         return cls(places, powers, CONTROL_POINT_BLUR * float(np.abs(controls).max()))
+
+    @classmethod
+    def closed(cls, places: Array, values: Array) -> Self:
+        """The closed cubic spline through rows of values, the last of which is the first again."""
+        width, rises = np.diff(places)[:, None], np.diff(values, axis=0)
+        slopes = closed_slopes(places, values)
+        half, before, after = 0.5 * width, slopes[:-1], slopes[1:]
+        bend, twist = 0.25 * half * (after - before), 0.25 * half * (after + before)
+        powers = np.array([0.5 * (values[:-1] + values[1:]) - bend, 0.75 * rises - twist, bend, twist - 0.25 * rises])
+        return cls(places, powers, CONTROL_POINT_BLUR * float(np.abs(values).max()))
 
     @property
     def breaks(self) -> tuple[float, ...]:
@@ -69,6 +84,40 @@ class PiecewiseCurve(CurveByJets):
         """Between which knots places lie, counted from 0."""
         middle = places.middle if isinstance(places, Interval) else np.asarray(places)
         return np.clip(np.searchsorted(self.knots, middle, side="right") - 1, 0, len(self.knots) - 2)
+
+
+def closed_slopes(places: Array, values: Array) -> Array:
+    """The slopes at its places of the closed cubic spline through rows of values, by Gauss's elimination.
+
+    Each slope has an equation with its neighbours', around the turn; the last unknown is set apart.
+
+    >>> closed_slopes(np.arange(5.0), np.array([[0.0], [1.0], [0.0], [-1.0], [0.0]])).ravel().round(12) + 0.0
+    array([ 1.5,  0. , -1.5,  0. ,  1.5])
+    """
+    widths = np.diff(places)
+    rates, before = np.diff(values, axis=0) / widths[:, None], np.roll(widths, 1)
+    right = 3.0 * (widths[:, None] * np.roll(rates, 1, axis=0) + before[:, None] * rates)
+    lower, pivots, upper = widths.tolist(), (2.0 * (before + widths)).tolist(), before.tolist()
+    last = len(widths) - 1
+    apart = [0.0] * last
+    apart[0] += lower[0]
+    apart[-1] += upper[last - 1]
+    # of numbers one by one, which no library of arrays does faster
+    rows = [*(column[:last] for column in right.T.tolist()), apart]
+    for i in range(1, last):
+        share = lower[i] / pivots[i - 1]
+        pivots[i] -= share * upper[i - 1]
+        for row in rows:
+            row[i] -= share * row[i - 1]
+    for row in rows:
+        row[-1] /= pivots[last - 1]
+        for i in range(last - 2, -1, -1):
+            row[i] = (row[i] - upper[i] * row[i + 1]) / pivots[i]
+    solved, along = np.array(rows[:-1]).T, np.array(apart)[:, None]
+    whole = pivots[last] - upper[last] * along[0] - lower[last] * along[-1]
+    at_last = (right[last] - upper[last] * solved[0] - lower[last] * solved[-1]) / whole
+    slopes = np.vstack([solved - along * at_last, at_last])
+    return np.vstack([slopes, slopes[:1]])
 
 
 @dataclass(frozen=True, eq=False)

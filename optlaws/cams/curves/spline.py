@@ -8,7 +8,7 @@ from math import inf, sqrt, tau
 import numpy as np
 
 from optlaws.cams.curves.outline import MOST_PARTS, Outline, greatest_deviation, stretches
-from optlaws.cams.curves.plane_curve import CurveByJets, PiecewiseCurve
+from optlaws.cams.curves.plane_curve import CurveByJets, PiecewiseCurve, closed_slopes
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.numbers import Array
@@ -100,21 +100,27 @@ def through(outline: Outline, angles: Array, degree: int, tolerance: float = inf
 
 def _clamped(outline: Outline, angles: Array, degree: int) -> tuple[Array, Array]:
     """Knots and control points through places, with derivatives given at both ends."""
-    from scipy.interpolate import make_interp_spline
-
     points = outline(angles)
     if degree == 3:
         points[-1] = points[0]
-        # given its direction at the seam, a clamped spline is the closed one, whose curvature does not jump there
-        seam = make_interp_spline(angles, points, k=3, bc_type="periodic")(angles[:1], 1)[0]
-        ends = ([(1, seam)], [(1, seam)])
-    else:
-        ends = (
-            _derivatives(outline, angles[0]),
-            _derivatives(outline, angles[-1] - BEFORE_BREAK * (angles[-1] - angles[-2])),
-        )
+        return _closed(angles, points)
+    from scipy.interpolate import make_interp_spline
+
+    ends = (
+        _derivatives(outline, angles[0]),
+        _derivatives(outline, angles[-1] - BEFORE_BREAK * (angles[-1] - angles[-2])),
+    )
     spline = make_interp_spline(angles, points, k=degree, bc_type=ends)  # type: ignore[arg-type] # stubs know no pairs
     return np.asarray(spline.t), np.asarray(spline.c)
+
+
+def _closed(angles: Array, points: Array) -> tuple[Array, Array]:
+    """Knots and control points of the closed cubic spline: its polar forms of three knots in a row."""
+    slopes, widths = closed_slopes(angles, points), np.diff(angles)[:, None]
+    bends = (6.0 * np.diff(points, axis=0) / widths - 4.0 * slopes[:-1] - 2.0 * slopes[1:]) / widths
+    before, after = np.pad(-widths, ((1, 0), (0, 0))), np.pad(widths, ((0, 1), (0, 0)))
+    inner = points + slopes * (before + after) / 3.0 + np.vstack([bends, bends[:1]]) * before * after / 6.0
+    return np.pad(angles, 3, mode="edge"), np.vstack([points[:1], inner, points[-1:]])
 
 
 def _derivatives(outline: Outline, angle: float) -> list[tuple[int, Array]]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from math import degrees
 from typing import Any, Literal, NoReturn
@@ -29,7 +29,9 @@ from optlaws.tolerances import (
     LIFTED,
     PROGRAM_ROUNDING,
     PROGRAM_SLACK,
+    ROUNDOFF,
     SPRING_EXTREMES,
+    SPRING_LIFT,
     SPRING_SETTLED,
 )
 
@@ -280,40 +282,77 @@ def _extremes(task: _SpringTask, spring: tuple[float, float, float]) -> tuple[Ex
 
 
 def _program(task: _SpringTask, angles: Array, given: _KnownSpring) -> tuple[float, float, float]:
-    """The best preload and stiffness for some angles, and the greatest force there: a linear program."""
-    from scipy.optimize import linprog
+    """The best preload and stiffness for some angles, and the least greatest force there.
 
+    The preload that a stiffness needs, and with it the greatest force, are the greatest of linear functions of the
+    stiffness: what is least lies where two of them meet.
+    """
     y, lever = task.displacement(angles), np.asarray(task.lever(angles, 0).terms[0])
     low, high = (np.asarray(task.without_spring(angles, side).terms[0]) for side in (1.0, -1.0))
-    unit = float(np.abs([low, high]).max() + abs(task.least)) or 1.0
-    scale, arm = float(np.abs(y).max()), float(lever.max())
-    units = np.array([unit, unit / scale, unit / arm])
-    ones, y, lever = np.ones_like(y), y / scale, lever / arm
-    rows = np.concatenate([np.stack([-ones, -y, 0.0 * ones], axis=1), np.stack([ones, y, -lever], axis=1)])
-    sides = np.concatenate([low - task.least, -high]) / unit
-    known = (given.preload, given.stiffness)
-    bounds = [(0.0, None) if value is None else (value / by,) * 2 for value, by in zip(known, units, strict=False)]
+    needed = task.least - low
+    unit, scale = float(np.abs([low, high]).max() + abs(task.least)) or 1.0, float(np.abs(y).max())
 
-    def least(weights: Array, most: float | None) -> Any:  # noqa: ANN401 - scipy's
-        return linprog(
-            weights,
-            A_ub=rows,
-            b_ub=sides,
-            bounds=[*bounds, (None, most)],
-            method="highs",
-            options={"primal_feasibility_tolerance": PROGRAM_ROUNDING, "dual_feasibility_tolerance": PROGRAM_ROUNDING},
-        )
+    def preload_of(stiffness: float) -> tuple[float, float]:
+        values = needed - stiffness * y
+        worst = int(np.argmax(values))
+        return (float(values[worst]), -float(y[worst])) if values[worst] > 0.0 else (0.0, 0.0)
 
-    optimum = least(np.eye(3)[_SOLE.index(given.objective) if given.objective in _SOLE else 2], None)
-    if optimum.status != 0 or optimum.x is None:
-        _refuse(task, angles, given)
-    if given.objective not in _SOLE:
+    def greatest_of(stiffness: float) -> tuple[float, float]:
+        preload, slope = preload_of(stiffness)
+        values = (high + preload + stiffness * y) / lever
+        worst = int(np.argmax(values))
+        return float(values[worst]), float((slope + y[worst]) / lever[worst])
+
+    def mean_of(stiffness: float) -> tuple[float, float]:
+        (preload, slope), sums = preload_of(stiffness), task.sums
+        return sums[0] * preload + sums[1] * stiffness, sums[0] * slope + sums[1]
+
+    if given.stiffness is not None:
+        preload, stiffness = preload_of(given.stiffness)[0], given.stiffness
+    elif given.preload is not None:
+        preload, missing, lifted = given.preload, needed - given.preload, y > SPRING_LIFT * scale
+        if np.any(missing[~lifted] > PROGRAM_ROUNDING * unit):
+            _refuse(task, angles, given)
+        stiffness = max(0.0, float((missing[lifted] / y[lifted]).max(initial=0.0)))
+    else:
+        best = _lowest(greatest_of, unit / scale)
+        least = greatest_of(best)[0]
         # of all that are as good the one of the least mean force
-        mean = np.array([*task.sums, 0.0]) * units
-        gentlest = least(mean / np.abs(mean).max(), float(optimum.x[2]))
-        optimum = gentlest if gentlest.status == 0 and gentlest.x is not None else optimum
-    preload, stiffness, greatest = (float(number) for number in optimum.x * units)
-    return max(0.0, preload), max(0.0, stiffness), greatest
+        stiffness = _nearest(greatest_of, least + SPRING_EXTREMES * abs(least), _lowest(mean_of, unit / scale), best)
+        return preload_of(stiffness)[0], stiffness, least
+    return preload, stiffness, float(((high + preload + stiffness * y) / lever).max())
+
+
+def _lowest(convex: Callable[[float], tuple[float, float]], size: float) -> float:
+    """Where the greatest of linear functions is least, from 0 on, by its values and slopes: where two of them meet."""
+    low, high = 0.0, size
+    while convex(high)[1] < 0.0:
+        low, high = high, 2.0 * high
+    (first, falling), (last, rising) = convex(low), convex(high)
+    while falling < 0.0 < rising:
+        at = (first - last + rising * high - falling * low) / (rising - falling)
+        if not low < at < high:
+            return min(max(at, low), high)
+        value, slope = convex(at)
+        if value <= first + falling * (at - low) + 16.0 * ROUNDOFF * max(abs(first), abs(last)):
+            return at
+        if slope < 0.0:
+            low, first, falling = at, value, slope
+        else:
+            high, last, rising = at, value, slope
+    return low if falling >= 0.0 else high
+
+
+def _nearest(convex: Callable[[float], tuple[float, float]], most: float, sought: float, known: float) -> float:
+    """The place nearest to a sought one where the greatest of linear functions is no more than it may be."""
+    for _ in range(_STEPS):
+        value, slope = convex(sought)
+        if value <= most:
+            return sought
+        if slope * (sought - known) <= 0.0:
+            break
+        sought -= (value - most) / slope
+    return known
 
 
 def _refuse(task: _SpringTask, angles: Array, given: _KnownSpring) -> NoReturn:
