@@ -24,7 +24,7 @@ def test_smooth_runs_are_heard_as_they_are() -> None:
     made = export_motion(one_shot(), "codesys-xyva", task="10 us")
     assert made.task is not None
     assert made.task.acceleration == pytest.approx(made.report.run.peak(2), rel=1e-3)
-    assert "acceleration heard every 0.01 ms, mm/s²" in str(made)
+    assert "acceleration by positions every 0.01 ms, mm/s²" in str(made)
     assert made.results()["task"] == {"seconds": made.task.seconds, "acceleration": made.task.acceleration}
 
 
