@@ -138,7 +138,8 @@ class Export:
             rows.append(("roundings may add", 2, self.report.bound, None, None))
         if self.task is not None:
             sampled = self.task.acceleration, law.peak(2)
-            rows.append((f"acceleration by positions every {1e3 * self.task.seconds:g} ms", 2, *sampled, _ratio(*sampled)))
+            name = f"acceleration by positions every {1e3 * self.task.seconds:g} ms"
+            rows.append((name, 2, *sampled, _ratio(*sampled)))
         return [
             (f"{name}, {units[nu]}", _finite(of_run), _finite(of_law), _finite(ratio))
             for name, nu, of_run, of_law, ratio in rows
