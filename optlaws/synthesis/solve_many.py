@@ -87,8 +87,12 @@ def _along(problems: ProblemArray, line: ProblemLine, bound: Bound) -> SolvedBat
     if bound == TIGHT:
         return SolvedBatch.none(len(line.t), 0, 0, 0)
     laws = laws_along(line.path, line.t)
-    sought = on_global_branch(laws, line.places, lambda place: LawSearch(model_of(problems.problem(place))).least())
-    laws = laws.only(sought)
+    known = dict(zip(line.places.tolist(), laws.objective.tolist(), strict=True))
+
+    def sought(place: int) -> float | None:
+        return LawSearch(model_of(problems.problem(place))).least(known[place])
+
+    laws = laws.only(on_global_branch(laws, line.places, sought))
     limits = [known_limit(problems.problem(place)) for place in line.places.tolist()]
     return with_quick_bounds(line.path, line.t, laws, np.array([-inf if limit is None else limit for limit in limits]))
 
