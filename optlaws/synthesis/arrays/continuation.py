@@ -115,6 +115,12 @@ class StructureSegment:
         self.t, self.rows = every, np.concatenate([self.rows, rows])[unique]
 
 
+def segment_at(path: Path, t: float, near: ActiveSet | None) -> StructureSegment | None:
+    """The structure at one t, as a segment of one law; None where none is proven optimal."""
+    optimum = solve(path.program(t), near).optimum
+    return None if optimum is None else ParametricContinuation(path, t, t).begun(t, optimum)
+
+
 @dataclass(eq=False)
 class ParametricContinuation:
     """A path of solutions along a parameter, as the segments that are known so far."""
@@ -133,8 +139,7 @@ class ParametricContinuation:
     def whole(self, starts: Array) -> list[StructureSegment]:
         """All segments from one end to the other, by ascending t, as far as they are known."""
         for t in starts.tolist():
-            optimum = solve(self.path.program(t)).optimum
-            first = None if optimum is None else self._begun(t, optimum)
+            first = segment_at(self.path, t, None)
             if first is not None:
                 self._onward(first, self.greatest)
                 self._onward(first, self.least)
@@ -142,7 +147,7 @@ class ParametricContinuation:
         self.segments.sort(key=lambda segment: segment.begin)
         return self.segments
 
-    def _begun(self, t: float, optimum: ActiveSet) -> StructureSegment | None:
+    def begun(self, t: float, optimum: ActiveSet) -> StructureSegment | None:
         """A segment that begins with one law; None where that is not proven optimal."""
         merged = optimum.merged(_SAME)
         for candidate in (optimum,) if merged is optimum else (optimum, merged):
@@ -186,11 +191,10 @@ class ParametricContinuation:
             if (goal - t) * way < 0.0:
                 return None
             optimum = polished(self.path.program(t), near, None)
-            begun = None if optimum is None else self._begun(t, optimum)
+            begun = None if optimum is None else self.begun(t, optimum)
             if begun is not None and (begun.structure.signature != segment.structure.signature or share == _BEYOND[-1]):
                 return begun
-        optimum = solve(self.path.program(t), near).optimum
-        return None if optimum is None else self._begun(t, optimum)
+        return segment_at(self.path, t, near)
 
     @staticmethod
     def _active_set(segment: StructureSegment, t: float) -> ActiveSet:

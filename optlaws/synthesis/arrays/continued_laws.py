@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from optlaws.numbers import Array
 from optlaws.synthesis.arrays.certification import Certification, certification_of
-from optlaws.synthesis.arrays.continuation import ParametricContinuation, StructureSegment
+from optlaws.synthesis.arrays.continuation import ParametricContinuation, StructureSegment, segment_at
 from optlaws.synthesis.arrays.dual_bounds import lower_bounds
 from optlaws.synthesis.arrays.newton_steps import States, Structure, clipped, converged, packed, step
 from optlaws.synthesis.arrays.programs import Numbers, Path, SolvedBatch
@@ -34,6 +34,8 @@ _WITH_STORED, _LEFT = 200, 4
 #: fewer laws than these are worth no walk
 WALKED = 48
 _STORED_NODES = 4
+#: contacts beyond the number of variables that a law may have
+_SPARE = 4
 _STARTS = np.array([0.5, 0.25, 0.75, 0.0, 1.0])
 
 
@@ -50,6 +52,8 @@ def laws_along(path: Path, t: Array) -> SolvedBatch:
         laws = _laws_of_stored_structures(path, t)
         if laws is not None and (len(t) < WALKED or np.count_nonzero(~laws.solved) <= _LEFT):
             return laws
+    if len(t) < WALKED:
+        return _laws_of_neighbours(path, t)
     return laws_on(path, segments_of(path, float(t[0]), float(t[-1])), t)
 
 
@@ -85,6 +89,37 @@ def _laws_of_stored_structures(path: Path, t: Array) -> SolvedBatch | None:
     return laws
 
 
+def _laws_of_neighbours(path: Path, t: Array) -> SolvedBatch:
+    """The optima at ascending t, each structure tried at all that are left, and the next one found beside them.
+
+    Of few laws this is quicker than a walk, which finds where structures change.
+    """
+    program = path.model.program
+    laws = SolvedBatch.none(len(t), program.size, program.size + _SPARE, len(program.right))
+    untried = np.ones(len(t), dtype=np.bool_)
+    while (place := _next_place(laws.solved, untried)) is not None:
+        untried[place] = False
+        known = np.flatnonzero(laws.solved)
+        near = laws.active_set(int(known[np.argmin(np.abs(known - place))])) if len(known) else None
+        segment = segment_at(path, float(t[place]), near)
+        if segment is not None and segment.structure.count <= laws.u.shape[1]:
+            left = np.flatnonzero(~laws.solved)
+            _enter(laws, path, segment.structure, left, (t[left], segment.interpolated(t[left])))
+    return _in_own_bounds(laws, path, t)
+
+
+def _next_place(solved: NDArray[np.bool_], untried: NDArray[np.bool_]) -> int | None:
+    """An unsolved place beside a solved one, or of some where nothing is solved; None where none is left."""
+    open_ = ~solved & untried
+    if not solved.any():
+        starts = np.round(_STARTS * (len(solved) - 1)).astype(np.intp)
+        return next((place for place in starts.tolist() if open_[place]), None)
+    beside = np.zeros(len(solved), dtype=np.bool_)
+    beside[1:] |= solved[:-1]
+    beside[:-1] |= solved[1:]
+    return next(iter(np.flatnonzero(open_ & beside).tolist()), None)
+
+
 def segments_of(path: Path, least: float, greatest: float) -> list[StructureSegment]:
     """The structures between two t, by ascending t, as far as they were found."""
     return ParametricContinuation(path, least, greatest).whole(least + _STARTS * (greatest - least))
@@ -105,9 +140,13 @@ def laws_on(path: Path, segments: list[StructureSegment], t: Array) -> SolvedBat
         places = np.flatnonzero((t >= segment.begin - beside) & (t <= segment.end + beside) & ~laws.solved)
         if len(places):
             _enter(laws, path, segment.structure, places, (t[places], segment.interpolated(t[places])))
+    return _in_own_bounds(laws, path, t)
+
+
+def _in_own_bounds(laws: SolvedBatch, path: Path, t: Array) -> SolvedBatch:
+    """The same laws with the multipliers of their own programs, in which bounds are units."""
     bounds = path.numbers(t).bounds
     for i in path.measured:
-        # in the law's own program the bound is the unit
         laws.multiplier[:] = np.where(laws.family == i, laws.multiplier * bounds[:, i, None], laws.multiplier)
     return laws
 

@@ -117,8 +117,8 @@ def test_laws_of_least_power_where_their_structure_changes() -> None:
 
 def test_where_another_branch_is_better_laws_are_sought_alone(monkeypatch: pytest.MonkeyPatch) -> None:
     class Rival(LawSearch):
-        def least(self) -> float | None:
-            own = super().least()
+        def least(self, known: float) -> float | None:
+            own = super().least(known)
             return own if own is None or ENDS[0] != self.problem.B else 0.99 * own
 
     monkeypatch.setattr(solve_many, "LawSearch", Rival)
