@@ -145,7 +145,7 @@ class Solution(LawExport, JsonText):
         --------
         >>> import optlaws
         >>> optlaws.synthesize(optlaws.Problem(order=3, minimise="rms(c + 4*a)")).notes
-        ('laws need not be symmetric: rms(c + 4*a) says another thing of a law than of its mirror image',)
+        ('laws need not be symmetric: rms(c + 4*a) differs between a law and its mirror image',)
         """
         problem = self.problem
         local = self.status is Status.LOCAL and not problem.monotone
@@ -153,8 +153,8 @@ class Solution(LawExport, JsonText):
         if problem.symmetric or problem.boundary is not None or not problem.uneven:
             return notes
         names = problem.titled(" and ".join(map(repr, problem.uneven)))
-        says = "says" if len(problem.uneven) == 1 else "say"
-        return (*notes, f"laws need not be symmetric: {names} {says} another thing of a law than of its mirror image")
+        verb = "differs" if len(problem.uneven) == 1 else "differ"
+        return (*notes, f"laws need not be symmetric: {names} {verb} between a law and its mirror image")
 
     def summary(self) -> Summary:
         """Rows with the status, the proven bounds and the constants of the law.

@@ -53,7 +53,7 @@ def _read(function: Callable[..., Any], names: list[str]) -> str:
         if kind == "OUTPUT":
             return str(work[taken[0]])
         if kind is None:
-            raise InputError("the function uses what is neither smooth nor known: formulas have no such operation")
+            raise InputError("the function uses an operation that formulas do not have")
         if kind == "INPUT":
             formula: Formula = Name(names[taken[0]])
         elif kind == "CONST":

@@ -314,11 +314,12 @@ def refusal(constant: OfFormula) -> str | None:
     bad = [sign for sign in signs if split(constant.motion, sign, constant.name) is None]
     if not bad or not isinstance(constant, FormulaPeak | FormulaValue):
         return None
-    hint = '; side="high" may be' if len(signs) == 2 and len(bad) == 1 else ""
+    side = "high" if bad == [-1.0] else "low"
+    hint = f'; side="{side}" is possible' if len(signs) == 2 and len(bad) == 1 else ""
     formula = constant.motion.formula
     if any(isinstance(part, Table) and not part.smooth for part in formula.walk()):
         hint += "; the lines of a table have corners: a spline has none, of loads by interpolation='spline'"
-    return f"{cut(str(formula), _SHOWN)} has kinks, but not those of a maximum: it is neither smooth nor known{hint}"
+    return f"{cut(str(formula), _SHOWN)} has kinks that are not those of a maximum of smooth formulas{hint}"
 
 
 def boxes_of(problem: ProblemView) -> dict[str, tuple[float, float]]:
