@@ -151,6 +151,20 @@ class PolynomialLaw(MotionLaw, kind="polynomial"):
                 self._cache[nu] = chebyshev.integral(self._series(nu + 1), self.b0 if nu else self.a0)
         return self._cache[nu]
 
+    @kept_property
+    def _tables(self) -> dict[int, Array]:
+        return {}
+
+    def _all_series(self, count: int) -> Array:
+        """The series of derivatives of the orders below a count, a column each, zeros behind the shorter ones."""
+        if count not in self._tables:
+            columns = [self._series(nu) for nu in range(count)]
+            table = np.zeros((max(map(len, columns)), count))
+            for nu, column in enumerate(columns):
+                table[: len(column), nu] = column
+            self._tables[count] = table
+        return self._tables[count]
+
     def _derivative(self, k: Array, nu: int) -> Array:
         return chebyshev.value(self._series(nu), 2.0 * k - 1.0)
 

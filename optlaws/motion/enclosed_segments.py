@@ -17,15 +17,15 @@ from optlaws.laws.segments.fractional import FractionalSegment
 from optlaws.laws.segments.segment import Segment, Waves
 from optlaws.numbers import Array
 from optlaws.numerics import chebyshev, real_powers
-from optlaws.numerics.interval import Interval, between, exact
+from optlaws.numerics.interval import Interval, between, exact, stacked
 from optlaws.numerics.taylor import Jet
 from optlaws.tolerances import ROUNDOFF
 
 _MORE = 4  # derivatives that Taylor's formula takes beyond those that are asked
 
 
-def enclosed_derivatives(segment: Segment, length: float, middle: Array, half: Array, order: int) -> list[Interval]:
-    """The derivatives of a segment's displacement by k, from order 0 to one given, anywhere in cells.
+def enclosed_derivatives(segment: Segment, length: float, middle: Array, half: Array, order: int) -> Interval:
+    """The derivatives of a segment's displacement by k, from order 0 to one given, anywhere in cells: a row each.
 
     Cells are given by their middles and half lengths, as shares of the segment; 0 long for single places.
 
@@ -37,7 +37,7 @@ def enclosed_derivatives(segment: Segment, length: float, middle: Array, half: A
     if isinstance(segment, PowerSegment) and segment.b0 != segment.b1:
         segment = segment.fractional(length)
     if isinstance(segment, FractionalSegment):
-        return _of_powers(segment, length, middle, half, order)
+        return stacked(_of_powers(segment, length, middle, half, order))
     known = segment if segment.waves(length) is not None else _interpolated(segment, length)
     return _by_taylor(known, length, middle, half, order)
 
@@ -53,14 +53,14 @@ def enclosed_power(segment: Segment, length: float, middle: Array, half: Array, 
         segment = segment.fractional(length)
     if not isinstance(segment, FractionalSegment):
         values = enclosed_derivatives(segment, length, middle, half, order + 2)
-        terms = [value / factorial(nu) for nu, value in enumerate(values[1:])]
-        velocity = Jet(tuple(terms))
+        velocity = Jet([values[nu + 1] / factorial(nu) for nu in range(order + 2)])
         return velocity * velocity.slope()
-    powers, rate, values = segment.power_powers(length), (segment.last - segment.first) / length, []
+    powers, rate = segment.power_powers(length), (segment.last - segment.first) / length
+    sums: list[Interval] = []
     for _ in range(order + 1):
-        values.append(_power_sum(powers, *_inside(segment, middle, half)))
+        sums.append(_power_sum(powers, *_inside(segment, middle, half)))
         powers = {exponent: rate * factor for exponent, factor in real_powers.derivative(powers).items()}
-    return Jet(tuple(value / factorial(nu) for nu, value in enumerate(values)))
+    return Jet(tuple(value / factorial(nu) for nu, value in enumerate(sums)))
 
 
 @lru_cache(maxsize=256)
@@ -68,20 +68,23 @@ def _interpolated(segment: Segment, length: float) -> Segment:
     return segment.interpolated(length)
 
 
-def _by_taylor(segment: Segment, length: float, middle: Array, half: Array, order: int) -> list[Interval]:
+def _by_taylor(segment: Segment, length: float, middle: Array, half: Array, order: int) -> Interval:
     last = order + _MORE
     sizes, share = _sizes(segment, length, last)
-    with np.errstate(over="ignore"):
-        values = [np.asarray(segment.derivative(middle, length, nu)) for nu in range(last)]
-    errors = [share * size for size in sizes]
-    steps = half * length * (1.0 + 4.0 * ROUNDOFF)
-    enclosures = []
-    for nu in range(order + 1):
-        radius = sizes[last] * steps ** (last - nu) / factorial(last - nu)
-        for i in range(last - nu - 1, 0, -1):
-            radius = radius + (np.abs(values[nu + i]) + errors[nu + i]) * steps**i / factorial(i)
-        enclosures.append(Interval(values[nu], (radius + errors[nu]) * (1.0 + 64.0 * ROUNDOFF)))
-    return enclosures
+    with np.errstate(over="ignore", invalid="ignore"):
+        values = segment.derivatives(middle, length, last)
+        steps, known = half * length * (1.0 + 4.0 * ROUNDOFF), np.empty((last + 1, *middle.shape))
+        errors = share * np.array(sizes).reshape(-1, *(1,) * middle.ndim)
+        np.add(np.abs(values), errors[:-1], out=known[:-1])
+        known[last] = sizes[last]
+        powers = np.empty((last, *middle.shape))
+        powers[0] = steps
+        for i in range(1, last):
+            np.multiply(powers[i - 1], steps / (i + 1), out=powers[i, ...])
+        radius = np.empty((order + 1, *middle.shape))
+        for nu in range(order + 1):
+            np.add.reduce(known[nu + 1 :] * powers[: last - nu], out=radius[nu, ...])
+    return Interval(values[: order + 1], (radius + errors[: order + 1]) * (1.0 + 64.0 * ROUNDOFF))
 
 
 @lru_cache(maxsize=512)

@@ -64,12 +64,14 @@ class EnclosedStretch:
             still = exact(np.zeros(place.middle.shape))
             return Jet((still + self.offset, *(still,) * nu))
         values = enclosed_derivatives(self.segment, self.length, *self._cells(place), nu)
-        factors = [self.stroke / self.duration**i / factorial(i) for i in range(nu + 1)]
-        terms = [
-            value * Interval(np.array(by), np.array(abs(by) * (i + 3) * ROUNDOFF))
-            for i, (value, by) in enumerate(zip(values, factors, strict=True))
-        ]
-        return Jet((terms[0] + self.offset, *terms[1:]))
+        factors, blur = self._factors(nu)
+        shape = (nu + 1, *(1,) * place.middle.ndim)
+        return Jet.of_rows(values * Interval(factors.reshape(shape), blur.reshape(shape))) + self.offset
+
+    def _factors(self, nu: int) -> tuple[Array, Array]:
+        """What derivatives by k are multiplied with for Taylor terms by the master, and its rounding."""
+        by = [self.stroke / self.duration**i / factorial(i) for i in range(nu + 1)]
+        return np.array(by), np.array([abs(each) * (i + 3) * ROUNDOFF for i, each in enumerate(by)])
 
     def power(self, place: Interval, nu: int) -> Jet:
         """The velocity times the acceleration, by the master, in intervals of places: finite where d of the law is."""
@@ -131,12 +133,13 @@ def jet_of_parts(
     >>> [float(term[0]) for term in jet_of_parts(parts, lambda part, at: part.jet(at, 1), np.array([1.0])).terms]
     [0.5, 0.75]
     """
-    middle = at.middle if isinstance(at, Interval) else at
+    middle = at.middle if isinstance(at, Interval) else np.asarray(at)
     which = np.searchsorted([stretch.start for stretch in stretches[1:]], middle, side="left" if before else "right")
-    pieces = [(which == i, jet(stretches[i], at[which == i]).terms) for i in np.unique(which)]
-    return Jet(
-        tuple(_joined(middle.shape, [(here, terms[i]) for here, terms in pieces]) for i in range(len(pieces[0][1])))
-    )
+    present = np.unique(which)
+    if len(present) == 1:
+        return jet(stretches[present[0]], at)
+    pieces = [(which == i, jet(stretches[i], at[which == i])) for i in present]
+    return joined(middle.shape, pieces)
 
 
 def _segments(law: MotionLaw) -> Sequence[Segment]:
@@ -148,15 +151,24 @@ def _segments(law: MotionLaw) -> Sequence[Segment]:
     return [_interpolated(law, start, stop) for start, stop in pairwise(law.breaks)]
 
 
-def _joined(shape: tuple[int, ...], pieces: Sequence[tuple[Any, Any]]) -> Any:  # noqa: ANN401 - an array or intervals
-    """Values that are known place by place."""
-    if isinstance(pieces[0][1], Interval):
-        parts = ([(here, getattr(enclosure, name)) for here, enclosure in pieces] for name in ("middle", "radius"))
-        return Interval(*(_joined(shape, part) for part in parts))
-    values = np.empty(shape)
-    for here, part in pieces:
-        values[here] = part
-    return values
+def joined(shape: tuple[int, ...], pieces: Sequence[tuple[Any, Jet]]) -> Jet:
+    """The jet at places of which each piece has some.
+
+    >>> here = np.array([True, False])
+    >>> joined((2,), [(here, Jet([np.array([1.0])])), (~here, Jet([np.array([2.0])]))]).terms[0]
+    array([1., 2.])
+    """
+    blocks = [(here, jet.block) for here, jet in pieces]
+    count = len(pieces[0][1].terms) if blocks[0][1] is None else len(blocks[0][1].middle)
+    whole = Interval(np.empty((count, *shape)), np.empty((count, *shape)))
+    for here, block in blocks:
+        if block is not None:
+            whole.middle[:, here], whole.radius[:, here] = block.middle, block.radius
+    if blocks[0][1] is not None:
+        return Jet.of_rows(whole)
+    for here, jet in pieces:
+        whole.middle[:, here] = jet.terms
+    return Jet(tuple(whole.middle))
 
 
 def _interpolated(law: MotionLaw, start: float, stop: float) -> Segment:

@@ -108,7 +108,8 @@ def extremes(
     enough
         A magnitude: where the function reaches more, bounds need not come near.
     magnitude
-        Whether only the greatest magnitude is sought: the other extreme then is bounded by no more than that.
+        Whether only the greatest magnitude is sought: the other extreme then is bounded by no more than that, and
+        the places are any where values come within rounding of it.
 
     Raises
     ------
@@ -212,7 +213,7 @@ def _enclosing(edges: Array, options: _Options) -> _Asking[Extremes]:
     if len(low):
         cells = yield from search.look(low, high)
         search.take(cells, np.ones(len(low), dtype=bool))
-    return (yield from search.result(polished=options.enough == np.inf and not options.magnitude))
+    return (yield from search.result(polished=options.enough == np.inf, places=not options.magnitude))
 
 
 @dataclass(frozen=True)
@@ -270,7 +271,7 @@ class _Search:
         top, bottom = np.fmin.reduce([value.high[count:], *tops]), np.fmax.reduce([value.low[count:], *bottoms])
         # where the slope has one sign, what is greatest is at an end, and there the next cell has it as well
         rises, falls = slopes[0] > 0.0, slopes[1] < 0.0
-        starts, ends = np.isin(low, self.edges), np.isin(high, self.edges)
+        starts, ends = self._on_edges(low), self._on_edges(high)
         top = np.where((rises & ~ends) | (falls & ~starts), -np.inf, np.where(np.isnan(top), np.inf, top))
         bottom = np.where((rises & ~starts) | (falls & ~ends), np.inf, np.where(np.isnan(bottom), -np.inf, bottom))
         rounding = np.where(np.isfinite(at.radius), _BLUR * at.radius, 0.0)
@@ -285,6 +286,10 @@ class _Search:
             rounding,
             _stationary(slope, swing, 4.0 * (SMALLEST_CELL * half + ROUNDOFF * np.abs(middle))),
         )
+
+    def _on_edges(self, places: Array) -> NDArray[np.bool_]:
+        """Which of some places between the first edge and the last are edges."""
+        return np.asarray(self.edges[np.searchsorted(self.edges, places)] == places)
 
     def _reached(self, places: Array, values: Interval) -> None:
         low, high = values.low[np.isfinite(values.low)], values.high[np.isfinite(values.high)]
@@ -307,21 +312,21 @@ class _Search:
         narrowed = ~sloped & (last - first < _NARROWED * width)
         plain = ~sloped & ~narrowed
         ends = sloped | narrowed
-        starts, stops = ends & np.isin(low, self.edges), ends & np.isin(high, self.edges)
+        starts, stops = ends & self._on_edges(low), ends & self._on_edges(high)
         lows = [first[narrowed], low[plain], middle[plain], low[starts], high[stops] - CELL_END * width[stops]]
         highs = [last[narrowed], middle[plain], high[plain], low[starts] + CELL_END * width[starts], high[stops]]
         some, others = np.concatenate(lows), np.concatenate(highs)
         real = others > some
         return some[real], others[real]
 
-    def result(self, *, polished: bool) -> _Asking[Extremes]:
-        """The extremes and their bounds when the search ends."""
+    def result(self, *, polished: bool, places: bool) -> _Asking[Extremes]:
+        """The extremes and their bounds when the search ends; the first places of them and nearer ones, if sought."""
         if not np.isfinite([self.least, self.most]).all():
             raise SolverFailure(
                 "a function has no finite value where it is looked at: nothing is known of its extremes"
             )
-        known = yield from self._lowest(TIE)
-        least, most = (yield from self._first_of_equals(known)) if polished else known
+        known = yield from self._lowest(TIE, edges=places)
+        least, most = (yield from self._first_of_equals(known)) if polished and places else known
         return Extremes(*least, min(self.bottom, least[0]), -most[0], most[1], max(self.top, -most[0]))
 
     def _first_of_equals(self, known: tuple[Valued, Valued]) -> _Asking[tuple[Valued, Valued]]:
@@ -335,10 +340,12 @@ class _Search:
         least, most = (first if first[0] <= best[0] + allowed else best for first, best in pairs)
         return least, most
 
-    def _lowest(self, tie: float) -> _Asking[tuple[Valued, Valued]]:
+    def _lowest(self, tie: float, *, edges: bool = True) -> _Asking[tuple[Valued, Valued]]:
         """The first of the least values, and of the greatest with the opposite sign, and where they are."""
         whole, tie = float(self.edges[-1] - self.edges[0]), tie * max(abs(self.least), abs(self.most))
         lowest = _first(self.lows, self.least + tie, whole), _first(self.highs, -self.most + tie, whole)
+        if not edges:
+            return lowest
         least = yield from self._on_edge(lowest[0], 1.0)
         return least, (yield from self._on_edge(lowest[1], -1.0))
 

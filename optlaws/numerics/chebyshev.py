@@ -130,6 +130,21 @@ def value(series: Array, x: Place) -> Place:
     return float(series[0]) + x * last - before
 
 
+def values(series: Array, x: Array) -> Array:
+    """Values of several series, a column each, at x, |x| <= 1, by Clenshaw's recurrence; a row for each.
+
+    >>> values(np.array([[1.0, 0.0], [2.0, 1.0]]), np.array([0.5, 1.0])).tolist()
+    [[2.0, 3.0], [0.5, 1.0]]
+    """
+    columns, twice = series.reshape(*series.shape, *(1,) * x.ndim), x + x
+    last: Array = np.zeros((series.shape[1], *x.shape))
+    before = last
+    for coefficients in columns[:0:-1]:
+        last, before = coefficients + twice * last - before, last
+    result: Array = columns[0] + x * last - before
+    return result
+
+
 def basis_values(x: Array, count: int) -> Array:
     """T_0, ..., T_(count-1) at x, shape (len(x), count); quick, and good to about count ulp.
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -155,25 +156,76 @@ def dot(first: Sequence[Any], second: Sequence[Any]) -> Any:  # noqa: ANN401 - n
         return total
     with np.errstate(invalid="ignore"):  # 0 times infinity: no bound
         if len(pairs) * pairs[0][0].middle.size > _MANY:
-            middle, radius = _sum_of_products(pairs)
-        else:
-            m, n = np.array([left.middle for left, _ in pairs]), np.array([right.middle for _, right in pairs])
-            p, q = np.array([left.radius for left, _ in pairs]), np.array([right.radius for _, right in pairs])
-            products = m * n
-            radii = _radius_of_product(Interval(m, p), Interval(n, q))
-            radii += (len(pairs) + 1) * ROUNDOFF * np.abs(products)
-            middle, radius = products.sum(axis=0), radii.sum(axis=0)
-    return Interval(middle, radius * (1.0 + 32.0 * ROUNDOFF) + TINY)
+            return _one_by_one(pairs)
+        return dot_of_rows(stacked([left for left, _ in pairs]), stacked([right for _, right in pairs]))
 
 
-def _sum_of_products(pairs: Sequence[tuple[Interval, Interval]]) -> tuple[Array, Array]:
-    """The sums of the middles and of the radii of products, each added in its turn."""
+def stacked(rows: Sequence[Interval]) -> Interval:
+    """Intervals of one shape as one, a row each.
+
+    >>> stacked([exact(np.array([1.0])), exact(np.array([2.0]))]).middle.tolist()
+    [[1.0], [2.0]]
+    """
+    return Interval(np.array([row.middle for row in rows]), np.array([row.radius for row in rows]))
+
+
+def dot_of_rows(first: Interval, second: Interval) -> Interval:
+    """The sum over the rows of products of two intervals of one shape; 0 times infinity is not a number.
+
+    >>> dot_of_rows(exact(np.array([[1.0], [2.0]])), exact(np.array([[3.0], [4.0]]))).middle
+    array([11.])
+    """
+    if first.middle.size > _MANY:
+        return _one_by_one([(first[i], second[i]) for i in range(len(first.middle))])
+    products, radii = first.middle * second.middle, _radius_of_product(first, second)
+    radii += (len(products) + 1) * ROUNDOFF * np.abs(products)
+    return _summed(products.sum(axis=0), radii.sum(axis=0))
+
+
+def convolved(first: Interval, second: Interval) -> Interval:
+    """The rows of the product of two power series in the rows, as many as each has; 0 times infinity is not a number.
+
+    >>> series = exact(np.array([[1.0], [1.0], [0.0]]))
+    >>> convolved(series, series).middle.ravel().tolist()
+    [1.0, 2.0, 1.0]
+    """
+    if first.middle.size > _MANY:
+        return stacked([dot_of_rows(first[: i + 1], second[i::-1]) for i in range(len(first.middle))])
+    left, right, starts, counts = _places_of_products(len(first.middle))
+    first, second = first[left], second[right]
+    products, radii = first.middle * second.middle, _radius_of_product(first, second)
+    sizes = np.abs(products)
+    sizes *= counts.reshape(-1, *(1,) * (products.ndim - 1))
+    radii += sizes
+    middle, radius = np.empty((len(starts), *products.shape[1:])), np.empty((len(starts), *products.shape[1:]))
+    for i, start in enumerate(starts):
+        np.add.reduce(products[start : start + i + 1], out=middle[i, ...])
+        np.add.reduce(radii[start : start + i + 1], out=radius[i, ...])
+    return _summed(middle, radius)
+
+
+@lru_cache(maxsize=64)
+def _places_of_products(count: int) -> tuple[Any, Any, list[int], Array]:
+    """Which rows products of two series take, by the rows of the result, where these start, and their rounding."""
+    rows = np.repeat(np.arange(count), np.arange(1, count + 1))
+    left = np.concatenate([np.arange(i + 1) for i in range(count)])
+    return left, rows - left, [i * (i + 1) // 2 for i in range(count)], np.asarray((rows + 2.0) * ROUNDOFF)
+
+
+def _summed(middle: Array, radius: Array) -> Interval:
+    radius = radius * (1.0 + 32.0 * ROUNDOFF)
+    radius += TINY
+    return Interval(middle, radius)
+
+
+def _one_by_one(pairs: Sequence[tuple[Interval, Interval]]) -> Interval:
+    """The sum of products, each added in its turn."""
     (middle, radius), *others = ((left.middle * right.middle, _radius_of_product(left, right)) for left, right in pairs)
     radius += (len(pairs) + 1) * ROUNDOFF * np.abs(middle)
     for product, off in others:
         middle += product
         radius += off + (len(pairs) + 1) * ROUNDOFF * np.abs(product)
-    return middle, radius
+    return _summed(middle, radius)
 
 
 def _radius_of_product(left: Interval, right: Interval) -> Any:  # noqa: ANN401 - an array, or a number

@@ -25,6 +25,7 @@ from optlaws.numerics.taylor import Jet, variable
 from optlaws.suggest import unknown_key
 from optlaws.tolerances import (
     BEFORE_BREAK,
+    EQUAL_SPRINGS,
     FORCE_EXTREMES,
     LIFTED,
     PROGRAM_ROUNDING,
@@ -318,7 +319,7 @@ def _program(task: _SpringTask, angles: Array, given: _KnownSpring) -> tuple[flo
         best = _lowest(greatest_of, unit / scale)
         least = greatest_of(best)[0]
         # of all that are as good the one of the least mean force
-        stiffness = _nearest(greatest_of, least + SPRING_EXTREMES * abs(least), _lowest(mean_of, unit / scale), best)
+        stiffness = _nearest(greatest_of, least + EQUAL_SPRINGS * abs(least), _lowest(mean_of, unit / scale), best)
         return preload_of(stiffness)[0], stiffness, least
     return preload, stiffness, float(((high + preload + stiffness * y) / lever).max())
 
@@ -344,15 +345,21 @@ def _lowest(convex: Callable[[float], tuple[float, float]], size: float) -> floa
 
 
 def _nearest(convex: Callable[[float], tuple[float, float]], most: float, sought: float, known: float) -> float:
-    """The place nearest to a sought one where the greatest of linear functions is no more than it may be."""
-    for _ in range(_STEPS):
-        value, slope = convex(sought)
-        if value <= most:
-            return sought
-        if slope * (sought - known) <= 0.0:
-            break
+    """The place nearest to a sought one where two linear functions meet and the greatest of all may be no more."""
+    value, slope = convex(sought)
+    if value <= most:
+        return sought
+    while value > most and slope * (sought - known) > 0.0:
         sought -= (value - most) / slope
-    return known
+        value, slope = convex(sought)
+    end = known
+    for _ in range(_STEPS):
+        level, other = convex(end)
+        above = level - value - slope * (end - sought)
+        if above <= 16.0 * ROUNDOFF * abs(level) or slope == other:
+            break
+        end += above / (slope - other)
+    return end
 
 
 def _refuse(task: _SpringTask, angles: Array, given: _KnownSpring) -> NoReturn:

@@ -69,6 +69,10 @@ class Segment(JsonText, ABC):
     def derivative(self, u: Array, length: float, nu: int) -> Array:
         """Derivative of order nu of a at u, shape of u; for nu = 0 the displacement since the segment's start."""
 
+    def derivatives(self, u: Array, length: float, count: int) -> Array:
+        """The derivatives of the orders below a count at u, a row each."""
+        return np.array([self.derivative(u, length, nu) for nu in range(count)])
+
     @abstractmethod
     def candidates(self, length: float, nu: int) -> Array:
         """Every u inside the segment where the derivative of order nu may be extreme."""
@@ -209,6 +213,11 @@ class PolynomialSegment(Segment, kind="polynomial"):
 
     def derivative(self, u: Array, length: float, nu: int) -> Array:
         return np.asarray(length ** (2.0 - nu) * self._law(length)(u, nu), dtype=np.float64)
+
+    def derivatives(self, u: Array, length: float, count: int) -> Array:
+        series = self._law(length)._all_series(count)  # noqa: SLF001
+        scales = length ** (2.0 - np.arange(count))
+        return scales.reshape(-1, *(1,) * u.ndim) * chebyshev.values(series, 2.0 * u - 1.0)
 
     def candidates(self, length: float, nu: int) -> Array:
         return self._law(length)._candidates(nu)  # noqa: SLF001
