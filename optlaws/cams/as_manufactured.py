@@ -368,7 +368,7 @@ def as_made(
     return run_against(cam, _CURVES_OF[form](outline, Cutting(tolerance, decimals, points, degree)), outside)
 
 
-def tables_as_made(cam: DiscCam, curve: str, tables: Sequence[Cutting]) -> list[AsMade | None]:
+def manufactured_tables(cam: DiscCam, curve: str, tables: Sequence[Cutting]) -> list[AsMade | None]:
     """What `as_made` finds of tables of points, by their points and decimals; None of those that it refuses to run."""
     outline, outside = _cut(cam, curve)
     curves = tuple(_points(outline, table) for table in tables)

@@ -326,7 +326,7 @@ def _problem(problem: Problem, windows: Sequence[Window], objectives: Sequence[F
 
 
 def _are_met(cam: DiscCam, limits: dict[str, float]) -> bool:
-    """Whether limits are proven to be kept."""
+    """Whether the limits are proven to be satisfied."""
     extremes = cam.extremes
     return (PRESSURE not in limits or tan(extremes.greatest_pressure_angle.high) <= limits[PRESSURE]) and (
         CURVATURE not in limits or extremes.least_convex_radius.low >= limits[CURVATURE]

@@ -1,7 +1,7 @@
 """The least prime circle that keeps limits of a cam, and the greatest roller for one: each with proof that no other is.
 
 Which prime circles break a limit is shown from below: at the angle of the cam where a limit is broken worst, the prime
-circle grows until it is kept there, and this again until it is kept all around. These angles then are witnesses: over
+circle grows until it holds there, and this again until it holds all around. These angles then are witnesses: over
 every range of smaller prime circles one of them is proven to break its limit, with the range itself as an enclosure.
 """
 

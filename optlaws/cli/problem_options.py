@@ -1,4 +1,4 @@
-"""Options of commands that ask for a problem, derived from the table of a problem's entries."""
+"""Options of commands that read a problem, derived from the table of a problem's entries."""
 
 from __future__ import annotations
 
@@ -114,7 +114,7 @@ def asks_for_a_problem(
     Parameters
     ----------
     given
-        By entry: the value of its option unless given; `...` asks for one.
+        By entry: the value of its option unless given; `...` requires it.
     refused
         By entry: why the command does not take it.
     """
@@ -149,7 +149,7 @@ def _default(entry: Entry, option: Option, given: Mapping[str, Any], refused: Ma
 
 
 def _entries(typed: Mapping[str, Any], refused: Mapping[str, str]) -> dict[str, Any]:
-    """The entries that the values of options ask for."""
+    """The entries that the values of options stand for."""
     entries: dict[str, Any] = {}
     for entry in ENTRIES.values():
         options = options_of(entry)

@@ -112,9 +112,9 @@ class Cycle(CycleInterchange):
     ------
     InputError
         If durations do not sum, positions do not close or velocities do not meet; the error states the remedy, as it
-        does where a method is given what is no time, speed or angle, or is asked for a load or drive that is not there.
+        does where a method is given what is no time, speed or angle, or needs a load or drive that the cycle has not.
     InfeasibleProblem
-        If a joint takes more force than a limit allows; limits that no law keeps are told when laws are looked for.
+        If a joint takes more force than a limit allows; limits that no law satisfies are reported by the search.
 
     Examples
     --------

@@ -42,7 +42,7 @@ class Comparison(JsonText):
     unit
         That of the stroke, "m" or "rad".
     frequency, damping
-        Of the follower whose residual acceleration is told, in units of a''; the frequency may be an interval, or None.
+        Of the follower whose residual acceleration is listed, in units of a''; the frequency may be a range, or None.
 
     Examples
     --------
@@ -157,7 +157,7 @@ def compare_laws(
         v = B h/T, a = C h/T², j = J h/T³.
     frequency, damping
         Frequency nu of an elastic follower (radians of its free vibration in the motion), or an interval (low, high),
-        and its damping ratio: the greatest residual acceleration is told too.
+        and its damping ratio: the greatest residual acceleration is listed too.
 
     Raises
     ------

@@ -61,7 +61,7 @@ class LimitTaken(NamedTuple):
 
     @property
     def is_kept(self) -> bool:
-        """Whether the limit is kept, up to rounding."""
+        """Whether the limit is satisfied, up to rounding."""
         return self.share <= 1.0 + AGREEMENT
 
 

@@ -1,7 +1,7 @@
 """Processes that answer the page's questions: a question that is dropped or takes too long ends with its process.
 
-A question begins at once in a process kept for new ones, the newest question first. Where it takes longer than a slice
-of time it goes on among the long ones: however many heavy questions wait, a light one is answered soon.
+A question begins at once in a process for new ones, the newest question first. Where it takes longer than a slice of
+time it goes on among the long ones: however many heavy questions wait, a light one is answered soon.
 """
 
 from __future__ import annotations

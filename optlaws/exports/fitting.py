@@ -86,7 +86,7 @@ def fitted(
     Where laws are polynomials of at most the degree they are taken as they are. Elsewhere polynomials of the greatest
     odd degree have the law's derivatives at both ends, and one more is laid where the acceleration is furthest from the
     law's, until its peak is within a thousandth of the motion's and it is nowhere off by more than a share `near` of
-    that, or until there are as many as `count` asks for; the target takes at most `most`. Through a whole law they may
+    that, or until there are as many as `count`; the target takes at most `most`. Through a whole law they may
     be `laid` in another way.
 
     >>> from optlaws.motion.motion import motion_of_law
@@ -157,7 +157,7 @@ def _requested(most: int, count: int | None) -> str:
 def _divide(
     open_parts: list[_FittedSection], left: int, count: int | None, split: Callable[[_FittedSection], None]
 ) -> None:
-    """Add polynomials where the deviation is greatest, until the number is reached or the tolerance is kept."""
+    """Add polynomials where the deviation is greatest, until the number is reached or the tolerance is satisfied."""
     heapify(open_parts)
     while open_parts and left and (count is not None or open_parts[0].rank < -1.0):
         worst = heappop(open_parts)

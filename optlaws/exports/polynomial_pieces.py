@@ -130,7 +130,7 @@ _LEAST = 16.0  # terms that sum up to so many strokes are no cause to halve piec
 def pieces_of_motion(motion: Motion, tolerance: float = PIECES_OF_MOTION) -> PiecewiseMotion:
     """The polynomials of a motion between breaks, in units of its master and slave.
 
-    Where laws are not made of polynomials, the position is within `tolerance`, a share of the stroke, over the whole
+    Where laws do not consist of polynomials, the position is within `tolerance`, a share of the stroke, over the whole
     interval. Polynomials whose powers lose more digits than that are halved, which changes no value.
     """
     share = positive(tolerance, "tolerance")

@@ -34,7 +34,7 @@ class Characteristics:
     start, end
         Position, velocity, acceleration and jerk at both ends, inside the motion.
     least, greatest
-        Of each of the four, with the master's position; no impulses: `jumps` tells where there are any.
+        Of each of the four, with the master's position; no impulses: `jumps` has them.
     mean_absolute_velocity, effective_acceleration
         Mean magnitude of the velocity; root mean square of the acceleration.
     jumps, jumps_at_ends

@@ -54,7 +54,7 @@ class PointTable:
 def places(motion: Motion, count: int, *, straight: bool = False) -> Array:
     """A given number of points with equal steps between the breaks of a motion, which are points themselves.
 
-    With `straight` dwells and uniform motions need no point inside, as where the controller is told V and A.
+    With `straight` dwells and uniform motions need no point inside, as where the file has V and A.
     """
     breaks = np.array(motion.breaks)
     shares = _shares(np.diff(breaks), count - 1, _needs(motion) if straight else np.ones(len(breaks) - 1))

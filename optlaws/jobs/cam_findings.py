@@ -11,7 +11,7 @@ from typing import Any, Self
 import msgspec
 import numpy as np
 
-from optlaws.cams.as_manufactured import AsMade, profile_errors, tables_as_made
+from optlaws.cams.as_manufactured import AsMade, manufactured_tables, profile_errors
 from optlaws.cams.best_laws import BestCam, BestPrimeCircle, best_cam, best_prime_circle
 from optlaws.cams.best_offset import BestOffset, best_offset
 from optlaws.cams.conjugate import conjugate_cam
@@ -57,7 +57,7 @@ class Findings:
 
     @classmethod
     def read(cls, data: Mapping[str, Any], file: Path) -> Self:
-        """Results that the entries of a file ask for, checked; an error names the file."""
+        """Results that the entries of a file require, checked; an error names the file."""
         spec = convert(data, CamProblemFile, file)
         findings = cls(spec)
         with located(str(file)):
@@ -228,7 +228,7 @@ class Findings:
             Cutting(points=points, decimals=decimals) for points in options.points for decimals in options.decimals
         ]
         names = [f"{each.points} points of the {options.curve}, {each.decimals} decimals of a mm" for each in tables]
-        peaks = tables_as_made(cam, options.curve, tables) if tables else []
+        peaks = manufactured_tables(cam, options.curve, tables) if tables else []
         error, waves = options.error, options.waves if options.error else ()
         if error and waves:
             names += [f"error of {error}, {count} waves a turn" for count in waves]

@@ -149,7 +149,7 @@ def least_dwell(mechanism: DwellMechanism, most_torque: float, *, half_turn: boo
     most_torque
         Limit of b.
     half_turn
-        Whether rise and dwell make half a turn, so that the rise shrinks as the dwell grows; else the rise is kept.
+        Whether rise and dwell make half a turn, so that the rise shrinks as the dwell grows; else the rise stays.
 
     Raises
     ------

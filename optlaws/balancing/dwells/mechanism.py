@@ -38,7 +38,7 @@ ANGLES = ("dwell", "rise", "return_angle", "lower_dwell", "clutch_angle", "stand
 RATIOS = ("radius_ratio", "inertia_ratio", "reverse_share")
 #: what stands for a quantity that is not given
 INSTEAD = {"law_1": "law", "law_2": "law", "return_law": "law", "return_angle": "rise", "lower_dwell": "dwell"}
-FOUND = ("speed", "phi1", "phi2", "S_sp", "S1", "S2", "a", "b")
+COMPUTED = ("speed", "phi1", "phi2", "S_sp", "S1", "S2", "a", "b")
 
 
 _UNLESS_GIVEN: Any = None  # in no mechanism that was made: there INSTEAD stands for it
@@ -179,7 +179,7 @@ class DwellMechanism(JsonText):
         return {
             "type": self.kind,
             **{name: law.to_dict() for name, law in laws.items() if name == "law" or law != self.law},
-            **{name: getattr(self, name) for name in ANGLES + RATIOS + FOUND},
+            **{name: getattr(self, name) for name in ANGLES + RATIOS + COMPUTED},
             "sections": [
                 {"name": section.name, "angle": section.angle, "travel": section.travel} for section in self.sections
             ],

@@ -55,7 +55,7 @@ def rocker_law(lever: TorsionLever) -> PolynomialLaw:
 class LeverCam:
     """A torsion lever in a machine: bars designed for the cam's speed, and the torque at the cam's shaft.
 
-    At the speed for which the bars are made they swing the link by themselves, and the cam only keeps the time. At
+    At the speed for which the bars are designed they swing the link by themselves, and the cam only keeps the time. At
     another the difference of the inertia is left: (w²/w0² - 1) I chi'', and without bars all of it.
 
     Parameters
@@ -67,7 +67,7 @@ class LeverCam:
     stroke
         Angle of the cam in which the link swings from one extreme to the other, such as "120 deg".
     speed
-        Of the cam, for which the bars are made, such as "150 rpm".
+        Of the cam, for which the bars are designed, such as "150 rpm".
 
     Raises
     ------

@@ -87,7 +87,7 @@ class LoaderStretch:
     def _deficit(self) -> VelocityDeficit | None:
         if not self.top:
             return None
-        return velocity_deficit(self._one, self.B, self.length, f"{self.origin:.6g}")
+        return velocity_deficit(self._executive_at, self.B, self.length, f"{self.origin:.6g}")
 
     @kept_property
     def _root_reach(self) -> float:
@@ -105,7 +105,7 @@ class LoaderStretch:
     def _far_integral(self) -> panels.Integral:
         return panels.integral(lambda t: self.value(t, 0), self._panels)
 
-    def _one(self, t: float, nu: int) -> float:
+    def _executive_at(self, t: float, nu: int) -> float:
         return float(self._executive(np.array([t]), nu)[0])
 
     def _executive(self, t: Array, nu: int) -> Array:

@@ -27,7 +27,7 @@ class Outline(Protocol):
 
     Called with angles in radians, shape (...), and the order of the derivative, it gives metres (per radian to that
     order), shape (..., 2). Between `breaks`, angles that increase from 0 to 2 pi, it is smooth. In intervals of angles
-    `jets` encloses it: what is said of deviations rests on that.
+    `jets` encloses it: statements on deviations rest on that.
     """
 
     @property

@@ -207,8 +207,8 @@ class FollowerContact(ABC):
     ) -> list[LinearLimit]:
         """Limits of a cam, as `read_cam_limits` gives them, as linear limits of a law over an angle of the cam in rad.
 
-        Those that are not convex have lines on the side where they are kept (`below`) or broken, which touch them where
-        the piece's law is; without such lines they are left out.
+        Those that are not convex have lines on the side where they hold (`below`) or do not, which touch them where the
+        piece's law is; without such lines they are left out.
         """
         pressure, radius = limits.get(PRESSURE), limits.get(CURVATURE)
         lines = [] if pressure is None else self.pressure_limits(piece, pressure, angle, below=below)

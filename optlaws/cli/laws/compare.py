@@ -36,7 +36,7 @@ def compare(
         Duration of the motion with its unit, such as 0.1s.
     frequency
         Frequency nu of an elastic follower, radians of its free vibration in the motion, or twice for an interval: the
-        greatest residual acceleration is told.
+        greatest residual acceleration is listed.
     damping
         Damping ratio of the follower.
     plot

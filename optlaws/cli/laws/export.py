@@ -73,7 +73,7 @@ class FormatOptions:
     decimal
         The decimal sign of tables as text: "." or ",".
     interpolation
-        How the controller is told to interpolate, where it can be told.
+        The interpolation of the controller, where the format can state it.
     task
         Time of the drive's task, such as "1 ms": the report gives what the drive reads in each.
     name

@@ -33,9 +33,9 @@ class LeverOptions:
     swing
         Swing of the driven link from extreme to extreme, degrees.
     beta
-        Length of the driven link in units of the rocker; sought where --target asks.
+        Length of the driven link in units of the rocker; computed where --target needs it.
     lam
-        Length of the coupler in units of the rocker; sought where --target asks.
+        Length of the coupler in units of the rocker; computed where --target needs it.
     rho
         Part of the first bar's pre-twist that is left at its extreme.
     nu

@@ -34,7 +34,7 @@ class SingleMoveOptions:
     duration
         Such as 0.1s.
     mass
-        What the move accelerates, such as 2kg, or "0.05 kg m^2" of an angle: forces, power and energy are told.
+        What the move accelerates, such as 2kg, or "0.05 kg m^2" of an angle: forces, power and energy are listed.
     """
 
     stroke: str | None = None
@@ -59,7 +59,7 @@ class AdviceOptions:
     damping
         Its damping ratio.
     laws
-        A law of the catalogue to compare, in place of the five usual ones; may be repeated. Others are held against
+        A law of the catalogue to compare, in place of the five usual ones; may be repeated. Others are compared with
         the first.
     degree
         Of the optimal laws' Z; that of the file unless given, of a single move 21.

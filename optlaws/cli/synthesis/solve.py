@@ -32,7 +32,7 @@ def solve(
     bound
         Where D is in the problem: tight searches all laws, for a bound that usually meets the objective.
     move
-        What --fastest asks for.
+        The values of --fastest.
     plot
         Draw the law with its bounds, or the fastest move with its limits, into this file, PNG or SVG.
     as_json

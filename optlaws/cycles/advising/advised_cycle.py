@@ -57,7 +57,7 @@ class AdvisedCycle:
     minimise
         The measure that is to be least: that of the cycle, or the residual acceleration of its follower.
     follower
-        Whose residual acceleration is told, or None; the limit of it is not the one that it has itself.
+        The follower whose residual acceleration is listed, or None; its limit is `most`.
     most
         The limit of the residual acceleration in SI units, infinite where it has none.
     """

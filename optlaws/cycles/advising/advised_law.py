@@ -102,7 +102,7 @@ class AdvisedLaw:
 
     @property
     def keeps_limits(self) -> bool:
-        """Whether every limit is kept, up to rounding."""
+        """Whether every limit is satisfied, up to rounding."""
         return all(taken.is_kept for taken in self.limits)
 
     @property

@@ -71,10 +71,10 @@ def advise(
         What the motion leaves vibrating: `{"frequency": ("27 Hz", "33 Hz"), "damping": 0.05}`, its natural frequency or
         the least and the greatest, and its damping ratio. Of a problem the frequency is nu, radians in the motion.
     drive
-        As of a `Cycle`: a mass, a `Mechanism` or a `Drive`, whose torque, power and energy are told too.
+        As of a `Cycle`: a mass, a `Mechanism` or a `Drive`, whose torque, power and energy are listed too.
     laws
-        Names of the catalogue, members such as "III(7.2)", or files; the first is the usual one, which others are held
-        against, unless the motion has a law already.
+        Names of the catalogue, members such as "III(7.2)", or files; the first is the usual one. Others are compared
+        with it, unless the motion has a law already.
     degree
         Of the optimal laws' Z; that of the cycle or problem unless given, of a single move 21.
     points

@@ -31,7 +31,7 @@ class Candidates:
     errors
         Why there is no law of a name.
     usual
-        The standard law that others are held against; None where none fits.
+        The standard law that others are compared with; None where none fits.
     guarding
         Whether nothing is to grow beyond the usual law: not where that breaks limits, and others would take more.
     proven

@@ -22,7 +22,7 @@ class Recommendation:
     law
         The law.
     usual
-        The standard law that it is held against, which may break a limit where all do; None where none fits.
+        The standard law that it is compared with, which may exceed a limit if all do; None where none fits.
     rule
         By which it is chosen.
     gain

@@ -24,7 +24,7 @@ from optlaws.synthesis.problem.constants import Functional
 
 
 class SpanLimit(Protocol):
-    """A limit of a span as a share of its allowed value; the limit is kept where the share is at most 1."""
+    """A limit of a span as a share of its allowed value; the limit is satisfied where the share is at most 1."""
 
     @property
     def key(self) -> LimitKey:

@@ -148,7 +148,7 @@ class TableBound:
         return np.interp(x, self.places, self.values)
 
     def jet(self, x: Jet) -> Jet:
-        """The bound where x is a jet of intervals: a sum of ramps, each of which knows its kinks."""
+        """The bound where x is a jet of intervals: a sum of ramps, each with its kinks."""
         total = x * 0.0 + self.values[0]
         for (low, high), (start, stop) in zip(pairwise(self.places), pairwise(self.values), strict=True):
             slope = (stop - start) / (high - low)

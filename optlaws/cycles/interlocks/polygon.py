@@ -76,7 +76,7 @@ class SimplePolygon:
     def outside(self) -> Depth:
         """A function of a point: above 0 outside, 0 on the edge, below 0 within; no more than the distance if convex.
 
-        A simple polygon is made of the half planes of its sides, each once: those on its hull meet, in a pocket they
+        A simple polygon consists of the half planes of its sides, each once: those on its hull meet, in a pocket they
         are joined, in a pocket of that they meet again (Dobkin, Guibas, Hershberger and Snoeyink 1988).
         """
         first = self.corners.index(min(self.corners))

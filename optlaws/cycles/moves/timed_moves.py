@@ -73,7 +73,7 @@ def fastest(
     Raises
     ------
     InputError
-        If a quantity is wrong, or the limits are kept in any time.
+        If a quantity is wrong, or every time satisfies the limits.
     InfeasibleProblem
         If no law keeps the problem's windows, however long it takes.
     SolverFailure

@@ -49,7 +49,7 @@ class Decoded:
     places, heights
         Points; the texts of these where pieces are none.
     pieces
-        What runs between; empty where that is not said.
+        The kind of motion between; empty where the file does not state it.
     """
 
     layout: str

@@ -32,7 +32,7 @@ class OldTable:
     stretches
         Its parts in order.
     room
-        How far a law may be from the points: what was given, else the last digit or what the noise asks for.
+        How far a law may be from the points: what was given, else the last digit or what the noise requires.
     scatter
         The standard deviation of the noise that the points show; 0 where none is seen.
     seam
@@ -273,10 +273,10 @@ def read_cycle_table(
     file
         Points in columns, as `read_law` takes them, with derivatives in further ones, or what a controller has: every
         format that optlaws writes, Structured Text with the structures of CODESYS, TwinCAT, Siemens, ABB, B&R or
-        Rockwell, XML of PLCopen, a project of Logix Designer (.L5X), a trajectory of ROS. What it holds tells the
+        Rockwell, XML of PLCopen, a project of Logix Designer (.L5X), a trajectory of ROS. Its content decides the
         layout, not its name.
     tolerance
-        How far laws may be off the points, in units of the table; the last digit, or what the noise asks for, unless
+        How far laws may be off the points, in units of the table; the last digit, or what the noise requires, unless
         given.
     columns
         Which hold the master and the position, by headings or numbers from 1; behind these the derivatives of the

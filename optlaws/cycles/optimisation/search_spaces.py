@@ -147,7 +147,7 @@ def search_space(problem: Problem, span: LawSpan, order: int, fastest: float = i
     """The laws, in words, among which the solution of a span's problem is the best; `fastest` is its greatest velocity.
 
     No motion has a greatest velocity below its greatest mean. A polynomial of degree 2 nu - 1 between two joints has
-    the least root mean square of the derivative of order nu, if its ends ask for no more than nu conditions each.
+    the least root mean square of the derivative of order nu, if its ends have no more than nu conditions each.
     """
     nu, basis = minimised_rms(problem), problem.basis
     if problem.minimise == "B" and fastest <= least_velocity(span) * (1.0 + AGREEMENT):
@@ -177,7 +177,7 @@ def splines_of_least_rms(span: LawSpan, order: int, nu: int) -> Pieces | None:
     """The splines that hold the motion of least root mean square of the derivative of order nu, of all motions.
 
     They are of degree 2 nu - 1 with breaks at the joints alone, and as smooth as can be but where more than the
-    position is known. None where such a motion would break what the order asks of its ends: then none is the best.
+    position is known. None where such a motion would violate the end conditions of the order: then none is the best.
 
     >>> from optlaws import Cycle, Dwell, Free
     >>> motions = [Dwell("0.1 s"), Free("30 mm", "0.2 s"), Free("-30 mm")]

@@ -3,7 +3,7 @@
 What a cycle takes in all is the sum of what its motions take. Energy is the integral of the power that is above 0, less
 the share of the braking power that is fed back; heat is what the winding of a motor and its brake resistor burn.
 Without losses in the gear and without viscous friction motoring and braking energy differ by what is known of the ends:
-the work against the load and the gain of kinetic energy. Then the heat is made of the motoring energy, which is convex
+the work against the load and the gain of kinetic energy. Then the heat consists of the motoring energy, which is convex
 in the phase plane.
 """
 

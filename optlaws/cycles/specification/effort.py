@@ -33,7 +33,7 @@ class Effort(PlainNumbers):
         Its root mean square over the cycle.
     peak_power
         The greatest magnitude of the power; divided by the master's angular velocity it is the greatest torque that
-        the motion asks of the master's shaft.
+        the motion requires of the master's shaft.
     mean_power
         What friction takes.
     motoring_power, braking_power

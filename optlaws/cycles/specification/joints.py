@@ -93,7 +93,7 @@ class Layout:
 def layout(programme: Programme, durations: Sequence[float], *, whole: bool = False, absolute: bool = False) -> Layout:
     """The known laws, and the spans with optimised laws.
 
-    Where nothing is known at the start of the cycle, or `whole` asks for it, its motions are one law that repeats; of
+    Where nothing is known at the start of the cycle, or `whole` is true, its motions are one law that repeats; of
     positions if it is to be `absolute`.
     """
     starts = tuple(accumulate(durations, initial=0.0))

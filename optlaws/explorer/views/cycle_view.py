@@ -234,7 +234,7 @@ def trust(shown: Cycle) -> dict[str, Any] | None:
 
 
 def broken_limits(shown: Cycle) -> dict[str, str]:
-    """A verdict on the limits that the given laws exceed; nothing where all limits are kept."""
+    """A verdict on the limits that the given laws exceed; nothing where all limits are satisfied."""
     broken = [
         f"{peak.name} ({QUANTITIES[nu]})"
         for peak, limits in zip(shown.peaks, limits_of(shown), strict=True)

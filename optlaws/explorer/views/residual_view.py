@@ -29,7 +29,7 @@ Pair = tuple[float, float]
 class ResidualRequest(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     """Laws, and the follower that they drive: the highest displayed frequency, the selected one, the damping.
 
-    A band is of frequencies nu over which the greatest residual is told, a spectrum pairs of nu and an amplitude.
+    A band is of frequencies nu over which the greatest residual is computed, a spectrum pairs of nu and an amplitude.
     """
 
     laws: Annotated[list[LawRequest], msgspec.Meta(min_length=1, max_length=MOST_LAWS)]

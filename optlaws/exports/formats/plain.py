@@ -231,7 +231,7 @@ def _whole(table: PointTable, x_step: float, y_step: float) -> list[tuple[int, i
 
 
 def _unit_size(unit: str, target_unit: str, side: str) -> float:
-    """The number of wanted units in a given unit."""
+    """The number of units of the file in a given unit."""
     dimension = "angle" if target_unit == "deg" else "length"
     try:
         return quantity(f"1 {unit}", dimension, side) / quantity(f"1 {target_unit}", dimension, side)

@@ -70,7 +70,7 @@ def function_block(
     """The source of a function block that evaluates a motion by Horner's scheme.
 
     Its output is position, velocity, acceleration and jerk at the input x; outside the motion x is brought to the
-    nearer end, and `inside` says so. The piece is kept from call to call, so that a master that moves on costs one
+    nearer end, and `inside` says so. The piece is stored from call to call, so that a master that moves on costs one
     comparison. Nothing but arithmetic, arrays and loops is used, which every target of the standard has.
 
     Parameters

@@ -37,7 +37,7 @@ class FrontTable:
     breaks
         Of the pieces, shape (pieces + 1,), in k.
     odd
-        Whether the laws are of one piece and antisymmetric about its middle: only odd coefficients are kept then, and
+        Whether the laws are of one piece and antisymmetric about its middle: only odd coefficients are stored then, and
         the constant is 1/2.
     gap
         What is proven of C: no law of the problem with at most this B has one that is less by more than this share.
@@ -46,7 +46,7 @@ class FrontTable:
     errors
         By how much a, b, c, d of a weighted mean may be missed in double precision, dimensionless.
     slack
-        By which share times are lengthened, so that limits are kept whatever is rounded.
+        By which share times are lengthened, so that limits are satisfied in spite of rounding.
     """
 
     velocities: tuple[float, ...]

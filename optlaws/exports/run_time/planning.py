@@ -20,12 +20,12 @@ class MoveStatus(IntEnum):
     Attributes
     ----------
     PROVEN
-        The limits are kept, and no law of the front's problem within them takes less time, or less acceleration in this
+        The limits hold, and no law of the front's problem within them takes less time, or less acceleration in this
         time, by more than the gap.
     AT_END
-        The limits are kept by the law at an end of the front; one beyond may be better.
+        The limits hold for the law at an end of the front; a law beyond may be better.
     JERK
-        The limits are kept; the jerk decides the time, which is least among the laws of the table.
+        The limits hold; the jerk decides the time, which is least among the laws of the table.
     TOO_SHORT
         No law of the front moves so far in this time within the velocity: there is no motion.
     REFUSED

@@ -85,7 +85,7 @@ def segment_times(stroke: float, velocity: float, acceleration: float, jerk: flo
     is cruised. Where the stroke is less than the limit of the velocity takes, w is the root of a quadratic or a cubic.
     The times are sums and roots of positive terms, but for differences of times no longer than the move. A time that is
     off by the share e of the duration T moves the position by at most w T e, and w T is at most twice the stroke; each
-    value is made of fewer than 128 rounded operations, so that 2^-45, 256 unit roundoffs, bounds what is rounded.
+    value consists of fewer than 128 rounded operations, so that 2^-45, 256 unit roundoffs, bounds what is rounded.
 
     Raises
     ------
