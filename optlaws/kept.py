@@ -13,7 +13,7 @@ _T = TypeVar("_T")
 class kept_property(cached_property[_T]):  # noqa: N801 - as the one of functools
     """A `functools.cached_property` without a lock, as in Python 3.12, for Python 3.11 too.
 
-    There one lock is held for all objects of a class while the value of one is computed: two threads whose properties
+    There one lock serves all objects of a class while the value of one is computed: two threads whose properties
     need each other's wait for ever, and so does the child of a fork by another thread. Without it a value may be
     computed twice, which does no harm: it is the same.
 

@@ -30,7 +30,7 @@ class PrintedNumber:
     exact, on_grid
         The number recomputed; the greatest value on the grid that the paper took, if it took one.
     verdict, reason
-        What is to be said of it, and why.
+        What is printed about it, and why.
     """
 
     row: str

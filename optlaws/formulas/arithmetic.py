@@ -44,7 +44,7 @@ class Arithmetic:
     power
         Of a base and an exponent.
     table
-        Of a table and the number at which it is asked; None where there are none.
+        Of a table and the number at which it is evaluated; None where there are none.
     """
 
     number: Callable[[float], Any]

@@ -1,6 +1,6 @@
 """Convexity of a formula in some of its names, by the rules of disciplined convex programming, with the reason.
 
-A part's curvature follows from what it is made of: sums of convex parts are convex, a convex function that rises takes
+A part's curvature follows from its own parts: sums of convex parts are convex, a convex function that rises takes
 convex parts, one that falls takes concave ones (Grant, Boyd, Ye 2006). Beyond that, quadratic forms are looked at as a
 whole.
 """

@@ -154,7 +154,7 @@ def look_up(
 ) -> AtlasPoint:
     """The point with the nearest B or, where B is free, the best point; of equals, the one of least objective.
 
-    Laws that were made for another objective count too: with a limit, `most` by constant, they may be the better ones.
+    Laws of another objective count too: with a limit, `most` by constant, they may be better.
     """
     limits = dict(most or {})
     for name in limits:

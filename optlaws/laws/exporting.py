@@ -24,7 +24,7 @@ class AxesExportOptions(TypedDict, total=False):
     digits, decimal
         Digits behind the decimal sign, and the sign, "." or ",", of tables as text.
     interpolation
-        How the controller is told to interpolate, where it can be told.
+        The interpolation of the controller, where the format can state it.
     task
         Time of the drive's task, such as "1 ms": the report then says what it samples once in each.
     """

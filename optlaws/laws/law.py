@@ -134,7 +134,7 @@ class MotionLaw(Curve, LawExport, StoredLaw):
     ) -> Any:  # noqa: ANN401 - made two layers above
         """Times and polynomial coefficients in machine units, as a `PiecewiseMotion`: `breaks`, `coefficients`.
 
-        Exact, each coefficient rounded once, where the law is made of polynomials; else within `tolerance`, a share of
+        Exact, each coefficient rounded once, where the law consists of polynomials; else within `tolerance`, a share of
         the stroke, over the whole interval. `stroke`, `duration`, `master` and `start` are those of `export`.
 
         Raises

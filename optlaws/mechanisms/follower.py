@@ -258,7 +258,7 @@ def off_design(
     reference
         Law meant for the mass, whose C the dynamic factor refers to.
     design
-        The follower for which the cam was made.
+        The follower for which the cam was designed.
     deviations
         Changes of the frequency in percent, above -100.
     change

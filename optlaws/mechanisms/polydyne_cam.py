@@ -76,7 +76,7 @@ def mass_law(cam: MotionLaw, frequency: float, damping: float = 0.0) -> Polynomi
     """The polynomial by which the mass moves under a polynomial cam if it starts on it without vibration (1.25).
 
     It is the particular solution Pk; the mass, at rest at first, follows it where Pk and its velocity start from
-    zero. Of a cam that `polydyne` made from a polynomial it is that polynomial. With small nu the coefficients of any
+    zero. Of a cam of `polydyne` from a polynomial it is that polynomial. With small nu the coefficients of any
     other cam's Pk are huge; `Follower.response` gives its motion without this detour.
 
     Parameters

@@ -134,9 +134,9 @@ class Residual(Functional):
     damping
         Ratio zeta.
     design
-        Frequency for which the cam is made if the law is the mass's; None if the law is the cam's own.
+        Frequency for which the cam is designed if the law is the mass's; None if the law is the cam's own.
     design_damping
-        The ratio for which it is made.
+        The ratio for which it is designed.
     spectrum
         Pairs of a frequency and a weight, linear between them; None where all frequencies weigh 1.
     """
@@ -262,9 +262,9 @@ def residual_vibration(
     damping
         Ratio zeta of the follower, below 1.
     design
-        If given, the law is the mass's and the cam is made from it for this frequency; otherwise it is the cam's own.
+        If given, the law is the mass's and the cam follows from it at this frequency; otherwise it is the cam's own.
     design_damping
-        The ratio for which that cam is made; `damping` unless given.
+        The ratio for which that cam is designed; `damping` unless given.
     spectrum
         Pairs of a frequency nu and an amplitude, linear between them, by which the residual at each frequency is
         multiplied: of `read_spectrum`, arrays, text "{18: 0.5, 20: 1, 22: 0.5}", or a file as `read_spectrum` takes it.
@@ -309,7 +309,7 @@ def residual_vibration(
     if design is None and design_damping is not None:
         raise InputError("design_damping belongs to a design frequency: give design too")
     design_frequency = None if design is None else positive(design, "design")
-    made_ratio = ratio if design_damping is None else not_negative(design_damping, "design_damping")
+    design_ratio = ratio if design_damping is None else not_negative(design_damping, "design_damping")
     parts = [f"frequency={low!r}" if low == high else f"frequency=({low!r}, {high!r})"]
     if weights is not None:
         weights = spectrum_of(weights, (low, high))
@@ -317,7 +317,7 @@ def residual_vibration(
         parts = [f"spectrum='{{{pairs}}}'"] if low < high else [*parts, f"spectrum='{{{pairs}}}'"]
     parts += [f"damping={ratio!r}"] if ratio else []
     parts += [f"design={design_frequency!r}"] if design_frequency else []
-    parts += [f"design_damping={made_ratio!r}"] if design_frequency and made_ratio != ratio else []
+    parts += [f"design_damping={design_ratio!r}"] if design_frequency and design_ratio != ratio else []
     name = f"residual({', '.join(parts)})"
     return Residual(
         name,
@@ -327,7 +327,7 @@ def residual_vibration(
         high=high,
         damping=ratio,
         design=design_frequency,
-        design_damping=made_ratio if design_frequency else 0.0,
+        design_damping=design_ratio if design_frequency else 0.0,
         spectrum=weights,
     )
 

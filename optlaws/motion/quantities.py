@@ -189,7 +189,7 @@ def either(value: Any, dimensions: tuple[str, ...], name: str) -> tuple[str, flo
 
 
 def si_number(value: Any, dimensions: tuple[str, ...], name: str) -> Any:  # noqa: ANN401 - what is none is checked later
-    """A quantity with one of several dimensions as a float in SI units; bare numbers are kept unchanged.
+    """A quantity with one of several dimensions as a float in SI units; bare numbers are not changed.
 
     Raises
     ------

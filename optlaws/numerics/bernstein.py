@@ -50,7 +50,7 @@ def top(control: Array) -> GreatestValue:
     """The greatest value of polynomials on [0, 1], given by Bernstein coefficients, a row each.
 
     What can still be higher than the highest value met is cut in eight, to rounding; of places as high as one another
-    the first is told.
+    the first is returned.
 
     >>> top(from_powers(np.array([[0.0, 1.0, -1.0]])))
     GreatestValue(value=0.25, above=0.25, row=0, u=0.5)
@@ -134,7 +134,7 @@ def greatest_difference(first: Function, second: Function, places: Array) -> tup
     """An estimate of the greatest |first - second| and of where it is, between places among which both are smooth.
 
     Parts between the places are halved until a series of ten terms resolves the difference to rounding, or to 1e-10 of
-    its greatest value; of the series the extremes are taken. It is an estimate: functions are asked at the nodes of
+    its greatest value; of the series the extremes are taken. It is an estimate: functions are evaluated at the nodes of
     parts alone, and a bump between these, narrower than any part, is not seen.
 
     Parameters

@@ -32,7 +32,7 @@ class Peak(JsonText):
     k: float
 
     def to_dict(self) -> dict[str, float | None]:
-        """Value and place as plain data; a value without bound is None, for JSON knows no infinite number.
+        """Value and place as plain data; a value without bound is None, because JSON has no infinite number.
 
         Examples
         --------

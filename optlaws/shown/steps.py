@@ -17,12 +17,12 @@ if TYPE_CHECKING:
 #: seconds; what ends before them needs no bar
 PATIENCE = 2.0
 
-_said_otherwise = False
+_hidden = False
 
 
 def watched() -> bool:
     """Whether someone sees a bar: stderr is a terminal, or this is a notebook that can show one."""
-    if _said_otherwise or current_thread() is not main_thread():
+    if _hidden or current_thread() is not main_thread():
         return False
     notebook = "ipykernel" in sys.modules and find_spec("ipywidgets") is not None
     return notebook or (sys.stderr is not None and sys.stderr.isatty())
@@ -31,12 +31,12 @@ def watched() -> bool:
 @contextmanager
 def without_bars() -> Iterator[None]:
     """Hide progress bars for the time of a `with` block, as another display reports the progress."""
-    global _said_otherwise  # noqa: PLW0603 - of the one terminal that a process has
-    before, _said_otherwise = _said_otherwise, True
+    global _hidden  # noqa: PLW0603 - of the one terminal that a process has
+    before, _hidden = _hidden, True
     try:
         yield
     finally:
-        _said_otherwise = before
+        _hidden = before
 
 
 class Steps:

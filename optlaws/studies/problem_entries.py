@@ -1,4 +1,4 @@
-"""Problems as problem files ask for them: entries of a table, some replaced by others."""
+"""Problems as problem files describe them: entries of a table, some replaced by others."""
 
 from __future__ import annotations
 

@@ -39,7 +39,7 @@ class StudyPoint(msgspec.Struct, kw_only=True, omit_defaults=True, dict=True):
     inputs
         What varies, at this point.
     problem
-        The whole problem; InputError where the point asks for none.
+        The whole problem; InputError where the point describes none.
     status
         How far the law can be trusted or, where there is none, why; `error` has the details.
     objective, lower_bound, gap, limit

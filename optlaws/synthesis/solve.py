@@ -47,8 +47,8 @@ def synthesize(problem: Problem, *, start: Solution | None = None, bound: Bound 
     Raises
     ------
     InfeasibleProblem
-        If no law of the problem exists; `proof` is a certificate of that, unless the message names the limit that is
-        above what is asked.
+        If no law of the problem exists; `proof` is a certificate of that, unless the message names the limit that
+        exceeds the given bound.
     SolverFailure
         If no law could be found although none was shown not to exist.
 

@@ -309,7 +309,7 @@ def synthesize_many(
     """Solve many problems, those that differ in numbers together, and give their solutions in order.
 
     Each is what `synthesize` gives for its problem, whatever the others are and however many. Problems are taken some
-    thousand at a time and no more are kept, so that a million stream through; where each depends on the solution
+    thousand at a time and no more are in memory, so that a million stream through; where each depends on the solution
     before it, use `sweep`. For arrays instead of solutions see `synthesize_array`.
 
     Parameters

@@ -1,7 +1,7 @@
 """Stored solutions and errors, each as a row of plain data that is read back and checked.
 
 Nothing that is read is taken on trust: laws are those of their coordinates, numbers are those of their laws, bounds are
-what the proofs beside them prove, and a problem is said to have no law where its proof shows that of this problem.
+what the proofs beside them prove, and a problem has no law only where its proof shows that of this problem.
 """
 
 from __future__ import annotations

@@ -112,7 +112,7 @@ def enclosures(law: MotionLaw) -> dict[str, tuple[float, float]]:
     Raises
     ------
     InputError
-        If the law is not made of polynomials, sines and constant power, or python-flint is missing.
+        If the law does not consist of polynomials, sines and constant power, or python-flint is missing.
 
     Examples
     --------

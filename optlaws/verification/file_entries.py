@@ -1,7 +1,7 @@
 """Content of a file by place: solutions, certificates and laws, and the statements of objects around them.
 
 Every key of a file is known: it belongs to an entry, to a row of a table or a front around entries, or it names
-entries. Anything else that is said is refused, because nothing would prove it.
+entries. Any other entry is refused, because nothing would prove it.
 """
 
 from __future__ import annotations

@@ -145,8 +145,8 @@ def mechanism_of(entries: Any) -> Mechanism:  # noqa: ANN401 - it is checked her
         for name, read in _READERS.items():
             if name in given:
                 given[name] = read(given[name])
-        made_of = MAKERS[kind](**given)
-        return made_of.with_friction(**friction) if friction else made_of
+        mechanism = MAKERS[kind](**given)
+        return mechanism.with_friction(**friction) if friction else mechanism
 
 
 def _check_names(given: Mapping[str, Any], kind: str) -> None:

@@ -140,7 +140,7 @@ def law_of_points(
         How far the law may be off a point, in the unit of the displacements; 0 for a law through them.
     columns
         Which hold the time or angle and the displacement, by their headings or by numbers from 1; where a table has
-        just two, or is of optlaws, it need not be said.
+        just two, or is of optlaws, it need not be given.
     content
         The text of the file where it has been read.
 
@@ -314,7 +314,7 @@ def read_law(
         "old.csv(tolerance=0.02; columns=1,3)".
     tolerance
         Of a table: how far the law may be off its points, in the unit of its displacements, 0 for a law through them;
-        the last digit, or what its noise asks for, unless given.
+        the last digit, or what its noise requires, unless given.
     columns
         Of a table of more than two: those of the time or angle and of the displacement, by headings or numbers from 1.
 

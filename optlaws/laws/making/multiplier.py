@@ -37,7 +37,7 @@ def multiplied_law(law: MotionLaw, y: Multiplier) -> MotionLaw:
     law
         A law whose c is odd about k = 1/2, or at least one for which c y changes the velocity by nothing in all.
     y
-        Ascending powers of k, for which a polynomial law gets exact powers and polynomial pieces stay polynomials; or
+        Ascending powers of k, for which a polynomial law has exact powers and polynomial pieces stay polynomials; or
         a smooth function of one k in [0, 1], which is interpolated to machine accuracy.
 
     Returns
@@ -84,7 +84,7 @@ def multiplier_for(
     law
         As for `multiplied_law`.
     B, C, D, J
-        Peaks of the law that is wanted.
+        Required peaks of the law.
     c0
         Its acceleration at the start.
 

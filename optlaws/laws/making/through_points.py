@@ -232,7 +232,7 @@ def law_through(k: Many, a: Many, tolerance: Any = None, *, rest: bool = True) -
         Displacements there, in any unit; the first becomes 0, the last 1.
     tolerance
         How far the law may be off a point, in the unit of `a`; 0 for a law through the points. Unless given it is what
-        the noise of the points, rounding included, asks for: 0 where there is none to see. The noise is estimated by
+        the noise of the points, rounding included, requires: 0 where there is none to see. The noise is estimated by
         the higher differences of 31 points or more, and fewer are taken as exact.
     rest
         Whether velocity and acceleration are 0 at both ends; else they are what the points make of them.

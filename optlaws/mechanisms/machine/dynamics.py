@@ -174,7 +174,7 @@ class Dynamics:
         return [0.0, *(reach for reach in reaches if reach < 1.0 / count), *((i + 1) / count for i in range(count))]
 
     def _growing_edges(self, reaches: list[float], length: float, radians: float) -> list[float]:
-        """Shares of a stretch between panels as short as the vibrations ask that are alive at each of its reaches."""
+        """Shares of a stretch between panels as short as the vibrations require that are not yet damped out there."""
         edges = [0.0]
         for low, high in pairwise([0.0, *reaches, 1.0]):
             count = max(1, ceil(self._alive(low * length) * (high - low) * length / radians))

@@ -163,12 +163,12 @@ def row_checks_of(model: Model) -> RowChecks:
         (type(family), id(family.series), family.domain, family.signs) if isinstance(family, LinearFamily) else family
         for family in families
     )
-    if key not in _KEPT:
-        if len(_KEPT) >= _MOST:
-            _KEPT.clear()
-        _KEPT[key] = RowChecks(families)
-    return _KEPT[key]
+    if key not in _CHECKS:
+        if len(_CHECKS) >= _MOST:
+            _CHECKS.clear()
+        _CHECKS[key] = RowChecks(families)
+    return _CHECKS[key]
 
 
-_KEPT: dict[tuple[object, ...], RowChecks] = {}
+_CHECKS: dict[tuple[object, ...], RowChecks] = {}
 _MOST = 64

@@ -1,7 +1,7 @@
 """The structures of a path, one after the other: where each holds, and states from which every law of it is near.
 
 A structure is walked along from a law that has it, as far as laws of it are proven optimal; there a single event
-changes it, and the law just beyond tells the next one.
+changes it, and the law just beyond shows the next one.
 """
 
 from __future__ import annotations
@@ -110,7 +110,7 @@ class StructureSegment:
         return self.states(np.einsum("tn,tnk->tk", weights, self.rows[chosen]))
 
     def joined(self, t: Array, rows: Array) -> None:
-        """A continuation that knows more states."""
+        """A continuation with further states."""
         every, unique = np.unique(np.concatenate([self.t, t]), return_index=True)
         self.t, self.rows = every, np.concatenate([self.rows, rows])[unique]
 

@@ -1,7 +1,7 @@
 """Laws of least power along a path: local optima, as for single problems, with the quick bound of each.
 
 That a law is the best nearby, its state shows; that no other branch of laws is better, laws that are sought from all
-starts do, here and there on the path. Between two that are as good as those of the path, the path's are kept.
+starts do, here and there on the path. Between two that are as good as those of the path, the path's remain.
 """
 
 from __future__ import annotations

@@ -46,8 +46,8 @@ class ProblemArray:
     Arrays are those of numpy, lists, ranges, and whatever numpy makes arrays of, such as a Series of pandas. They are
     broadcast against each other as numpy does, and each place of their common shape is one problem. What is no array
     is the same for all of them: a pair (low, high) is a tuple, for a list of two numbers is an array; a list of
-    windows alone is a value. Values other than numbers come in arrays made by `map_arrays`. The array is immutable;
-    nothing is checked before a problem is asked for, so that a wrong number spoils its own place alone.
+    windows alone is a value. Values other than numbers come in arrays of `map_arrays`. The array is immutable;
+    nothing is checked before a problem is read, so that a wrong number spoils its own place alone.
 
     Parameters
     ----------

@@ -364,7 +364,7 @@ class IntegralFamily(WholeLawFamily, FormulaFamily):
     def touched(self, total: Array) -> tuple[Array, Array]:
         """The tangent at a sum over the nodes, and its slope in the sum; f is nowhere below the tangent.
 
-        Near 0, where the slope of a root is kept finite, the rest of the tangent is one of slope 0.
+        Near 0, where the slope of a root is finite only by that, the rest of the tangent has slope 0.
         """
         share = self.outer(total)[1]
         return (2.0 * share * np.maximum(total, 0.0) if self.root else total), share

@@ -148,7 +148,7 @@ def rule_length(space: LawSpace, motion: MotionFormula) -> int:
 def rule_edges(space: LawSpace, motion: MotionFormula) -> list[float]:
     """Edges in k of the quadrature rule: between them the formula is smooth for every law.
 
-    Where it is no polynomial they are as near as the space's own law asks for, and nearer, for others are less smooth.
+    Where it is no polynomial they are as near as the space's own law requires, and nearer, for others are less smooth.
     """
     edges = _known_edges(space, motion)
     if motion.degree(dict.fromkeys(ORDERS, 1)) is not None:

@@ -182,7 +182,7 @@ def drive_torque(*, inertia: str = "1", friction: str = "0", load: str = "0") ->
     Parameters
     ----------
     inertia
-        Moment of inertia over the displacement a, in units in which the rest is said too: "1", "1 + 0.3*a^2",
+        Moment of inertia over the displacement a, in the units of the other arguments: "1", "1 + 0.3*a^2",
         "spline(a, 0:1, 0.3:1.1, 0.7:1.4, 1:1.3)".
     friction
         Viscous friction, of a and k.

@@ -26,7 +26,7 @@ def law_in_time(move: TimedMove, duration: float, warm: ActiveSet | None, shorte
     InfeasibleProblem
         If no law keeps the problem's own windows and bounds.
     InputError
-        If the limits are kept in any time.
+        If every time satisfies the limits.
     SolverFailure
         If no law is found.
     """

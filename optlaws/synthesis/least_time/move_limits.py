@@ -240,7 +240,7 @@ class TimedMove:
     def limits_over(self, shortest: float, longest: float) -> tuple[TimedLimit, ...]:
         """Limits of every law from rest to rest that keeps the move's limits in some time of an interval.
 
-        Limits that are kept in a time are kept in every longer one, but for that of the vibration that is left.
+        Limits that hold in a time hold in every longer one, except that of the residual vibration.
         """
         if self.residual is None:
             return self.limits_in(longest)

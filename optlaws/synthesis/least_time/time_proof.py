@@ -39,7 +39,7 @@ class TimeProof(JsonText):
     Attributes
     ----------
     shortest, longest
-        The ends of the interval, s; the shortest is 0 where limits that are kept stay so in every longer time.
+        The ends of the interval, s; the shortest is 0 where limits that hold in a time hold in every longer one.
     certificate
         That no law keeps the limits in the longest time. The same multipliers prove it of all others. Where a
         vibration that is left is limited: that no law keeps what every law keeps that keeps the limits in some time

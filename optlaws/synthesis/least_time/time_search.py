@@ -37,7 +37,7 @@ def least_time(move: TimedMove, near: LeastTime | None = None) -> LeastTime:
     InfeasibleProblem
         If no law keeps the problem's own windows and bounds, however long it takes.
     InputError
-        If the limits are kept in any time.
+        If every time satisfies the limits.
     SolverFailure
         If the steps do not settle.
     """

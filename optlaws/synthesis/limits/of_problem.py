@@ -94,7 +94,7 @@ def _of_constant(problem: Problem, constant: str) -> Fraction | None:
 def _uneven(problem: Problem, constant: str) -> Fraction | None:
     """The limit for laws with the peak velocity anywhere: the least at any B, and what B and the place add to C, D.
 
-    The middle is the place that asks least of them.
+    The middle is the place that requires least of them.
     """
     if problem.order == 1:
         return None

@@ -2,7 +2,7 @@
 
 The position is a = sin²(pi s/2), so that velocities, which begin and end with the root of a, are smooth in s. The
 equation of motion w' = 2 c is tested with functions J phi(s)/sin(pi s), phi piecewise polynomials; its multipliers are
-the potential q(a) = J(a) pi(s)/sin(pi s), J the inertia of the plane's reference, of which every bound is made.
+the potential q(a) = J(a) pi(s)/sin(pi s), J the inertia of the plane's reference, from which every bound follows.
 
 Behind a gear with losses |torque| <= s is that neither branch is above s, and that one of both is not below -s: the one
 in which the last motion was. So a motion that is found keeps the bounds, but need not be the best.

@@ -12,7 +12,7 @@ from optlaws.tolerances import DEPENDENT_ROWS, EMPTY_ROW, EQUATION_OFF, NO_MULTI
 def contradiction(rows: Array, right: Array) -> Array | None:
     """Multipliers y with y . rows = 0 and y . right < 0, the greatest of size 1; None where the equations agree.
 
-    As few equations as may be have a multiplier: one that asks something of nothing, two of one value, else those
+    As few equations as may be have a multiplier: an equation of no variable, two for one value, else those
     that the least squares of the residuals weigh.
 
     Parameters
@@ -68,7 +68,7 @@ def independent(rows: Array) -> NDArray[np.bool_]:
 
 
 def _of_one_value(rows: Array, right: Array) -> Array | None:
-    """Two equations that ask different things of the same sum."""
+    """Two equations with different values of the same sum."""
     for i in range(len(rows)):
         for j in range(i):
             for sign in (1.0, -1.0):

@@ -1,7 +1,7 @@
 """The solution of a program: in units, without redundant equations, by several strategies in order.
 
 A neighbour's optimum or a guess leads to the exact contacts by Newton's method; else IPOPT on few points does, and what
-is linear or conic may need vertices. All are rounds of answers, and what an answer breaks is held in the next round.
+is linear or conic may need vertices. All are rounds of answers, and what one violates is imposed in the next round.
 """
 
 from __future__ import annotations
@@ -66,7 +66,7 @@ def solve(
 ) -> Outcome:
     """Solve a semi-infinite program; a neighbour's optimum as `warm` is tried before IPOPT, which begins at `start`.
 
-    `holds` may tell from x alone, and more quickly than the families do, whether every constraint holds. With no
+    `holds` may decide from x alone, and more quickly than the families do, whether every constraint holds. With no
     `rounds` of interior points quadratic programs lead on from a start, which they do not leave for a worse law.
     """
     units = units_of(program)

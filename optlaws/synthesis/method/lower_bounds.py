@@ -1,11 +1,11 @@
 """Lower bounds of peaks, which hold at a single place: the search for the best place.
 
-The optimum without the lower bound is continued: one extremum of the constant is held as an equation, first at the
-value that it has and then, step by step, at the bound. Where no extremum leads there, the peak is asked at one place
+The optimum without the lower bound is continued: one extremum of the constant is imposed as an equation, first at the
+value that it has and then, step by step, at the bound. Where no extremum leads there, the peak is required at one place
 after the other, which is a program like any other, and then let go to where it is best. Each way leads to a candidate.
 
 Where the constant is itself what is minimised, every law that has it is an optimum, and no contact shows the way: there
-some law between one with a constant too small and one with it too great has it as asked.
+some law between one with a constant too small and one with it too great has it as required.
 """
 
 from __future__ import annotations
@@ -52,7 +52,7 @@ def active_lower_bounds(model: Model, optimum: ActiveSet) -> list[ActiveSet]:
     Raises
     ------
     InputError
-        If a constant with a lower bound is made of several families of rows.
+        If a constant with a lower bound consists of several families of rows.
     """
     problem = model.problem
     short = shortfalls(problem, model.law(optimum.x))
@@ -112,7 +112,7 @@ def active_lower_bounds_at(
 
 
 def _raised(model: Model, plain: ActiveSet, constant: Functional, low: float) -> list[tuple[Model, ActiveSet]]:
-    """Optima in which the constant is `low` at one place, with the programs that ask it there."""
+    """Optima in which the constant is `low` at one place, with the programs that require it there."""
     family, low = family_of(model, constant, low)
     raised = replace(family, as_equation=True)
     extrema, signs, height = family.extremes(plain.x)

@@ -29,7 +29,7 @@ _ROUNDS = 4
 def along_directions(
     program: Program, family: NormFamily, plain: ActiveSet, low: float
 ) -> list[tuple[Program, ActiveSet]]:
-    """Optima with the norm at `low` or above along a direction, the best first, with the programs that ask it there.
+    """Optima with the norm at `low` or above along a direction, the best first, with the programs that impose it there.
 
     Parameters
     ----------

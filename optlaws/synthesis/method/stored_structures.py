@@ -41,7 +41,7 @@ class StoredStructure:
     Attributes
     ----------
     begin, end
-        The least and the greatest B; both 0 where none is asked.
+        The least and the greatest B; both 0 where none is required.
     family, sign, free
         The contacts' rows: the place of the family in the program, the sign, and whether a contact may move.
     places

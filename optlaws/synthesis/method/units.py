@@ -64,9 +64,9 @@ class ProgramUnits:
 
 
 def units_of(program: Program) -> ProgramUnits | None:
-    """The units that a program's numbers ask for; None where they are near 1.
+    """The units that suit a program's numbers; None where they are near 1.
 
-    Its equations and the constants that it bounds from below tell how great its laws are.
+    Its equations and the constants that it bounds from below show how great its laws are.
     """
     limits = [-family.bound for family in program.families if family.domain[0] == family.domain[1]]
     size = max([float(np.abs(program.right).max(initial=0.0)), *limits])

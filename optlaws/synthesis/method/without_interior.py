@@ -2,7 +2,7 @@
 
 There the little by which a solver breaks a bound grows to its square root in the objective, and the law looks better
 than any law is. With the bounds loosened there is room; on the way from the optimum then to the law with most room
-there is one that keeps every bound as it was asked, and hardly worse.
+there is one that satisfies every given bound, and is hardly worse.
 """
 
 from __future__ import annotations

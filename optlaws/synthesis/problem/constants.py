@@ -92,8 +92,8 @@ class Functional(Term, ABC):
     def curbs(self) -> tuple[tuple[int, float], ...]:
         """Pairs of an order and a factor: the mean of |a^(order)| is at most factor times the constant, in every law.
 
-        For a power it is the constant's root. A certificate needs such a bound of the law's size; those of the
-        constants that optlaws names itself it knows.
+        For a power it is the constant's root. A certificate needs such a bound of the law's size;
+        constants of optlaws itself have theirs.
         """
         return ()
 
@@ -318,7 +318,7 @@ MAKERS: Registry[Callable[..., Functional]] = Registry("constant")
 
 
 _SPREAD = 8.0
-_KEPT = 1024
+_MOST_WARNINGS = 1024
 _warned: set[tuple[str, int]] = set()
 _silent: ContextVar[bool] = ContextVar("mixtures are meant", default=False)
 
@@ -353,7 +353,7 @@ def warn_of_mixture(objective: Expression, order: int) -> None:
     shares = {leaf: weight * leaf.least(order) for weight, leaf in leaves(objective) if isinstance(leaf, Functional)}
     known = [share for share in shares.values() if not isnan(share)]
     if len(known) > 1 and max(known) > _SPREAD * min(known):
-        if len(_warned) >= _KEPT:
+        if len(_warned) >= _MOST_WARNINGS:
             _warned.clear()
         _warned.add((text, order))
         parts = ", ".join(f"{leaf!r} {share:.3g}" for leaf, share in shares.items() if not isnan(share))

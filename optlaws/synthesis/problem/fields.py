@@ -228,7 +228,7 @@ CONSTANTS = tuple(entry.name for entry in ENTRIES.values() if entry.kind is Kind
 
 
 def from_entries(data: Mapping[str, Any]) -> dict[str, Any]:
-    """The fields that entries ask for.
+    """The fields that entries describe.
 
     >>> from_entries({"order": 4, "degree": 5})
     {'order': 4, 'basis': Chebyshev(degree=5)}
@@ -248,7 +248,7 @@ def from_entries(data: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def to_entries(problem: object) -> dict[str, Any]:
-    """The entries of a problem, plain and JSON-able: those that every problem has, then those that ask something."""
+    """The entries of a problem, plain and JSON-able: those that every problem has, then those that are no default."""
     entries: dict[str, Any] = {}
     for field in _WRITTEN:
         entries.update(field.plain(getattr(problem, field.name)))

@@ -146,9 +146,9 @@ class _Reader(Scanner):
         self.take()
         if token.text in self.names and not (token.text in self.makers and self.token.text == "("):
             return self.names[token.text].expression()
-        return self._made(token).expression()
+        return self._maker(token).expression()
 
-    def _made(self, token: Token) -> Term:
+    def _maker(self, token: Token) -> Term:
         formulas = token.text in OF_FORMULAS
         if self.token.text != "(":
             example = "(c + 0.2*b)" if formulas else "(frequency=20)"

@@ -218,7 +218,7 @@ class Problem(JsonText):
         if not isinstance(self.B, float) or self.inflexion is not None or type(self) is not Problem:
             return replace(self, B=B)
         problem: Problem = object.__new__(Problem)
-        unchanged = {name: value for name, value in self.__dict__.items() if name in _KEPT_ALONG_B}
+        unchanged = {name: value for name, value in self.__dict__.items() if name in _UNCHANGED_ALONG_B}
         velocity = _check_velocity(B)
         problem.__dict__.update(unchanged, B=velocity, _ranges={**self._ranges, "B": as_range(velocity, "B")})
         return problem
@@ -305,7 +305,7 @@ class Problem(JsonText):
 _ALWAYS = ("B", "order", "basis", "minimise")
 _check_velocity = next(field.check for field in FIELDS if field.name == "B")
 #: what a number for B has no part in
-_KEPT_ALONG_B = {entry.name for entry in fields(Problem)} | {"objective", "convex", "constants", "bounded"}
+_UNCHANGED_ALONG_B = {entry.name for entry in fields(Problem)} | {"objective", "convex", "constants", "bounded"}
 
 
 def _fixed_above_mean(limits: Range | None) -> bool:

@@ -146,7 +146,7 @@ class Window(JsonText):
         return Window(self.quantity, low, high, 1.0 - self.stop, 1.0 - self.start)
 
     def first_half(self) -> tuple[Window, ...]:
-        """The windows on k <= 1/2 that ask the same of a symmetric law."""
+        """The windows on k <= 1/2 that require the same of a symmetric law."""
         if self.stop <= 0.5:
             return (self,)
         if self.start >= 0.5:

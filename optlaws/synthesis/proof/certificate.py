@@ -243,7 +243,7 @@ class Certificate(JsonText):
 def excess(certificate: Certificate) -> float:
     """Least value over all laws of the problem of the objective plus the leaf's residuals; a lower bound.
 
-    Negative multipliers count as zero, and so do contacts that the problem does not ask for. Multipliers so large that
+    Negative multipliers count as zero, and so do contacts that the problem does not have. Multipliers so large that
     their sum is beyond double precision prove nothing: the bound is then minus infinity.
     """
     with np.errstate(over="ignore", invalid="ignore"):

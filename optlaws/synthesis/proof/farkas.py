@@ -3,7 +3,7 @@
 Multipliers from a solver leave a rest of the sum that depends on the law, and where nothing bounds the law that rest
 cannot be charged. Where the rows determine every variable a little of their multipliers takes it up, to the last bit
 and whatever the rows' own rounding; all that is needed is that no multiplier becomes negative. Where they do not, what
-is left is charged for laws as great as floating-point numbers can tell from greater ones.
+is left is charged for laws as great as floating-point numbers can distinguish.
 """
 
 from __future__ import annotations

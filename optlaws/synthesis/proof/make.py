@@ -2,7 +2,7 @@
 
 At a law in which a formula with kinks vanishes along a stretch, or nearly does, the slope of its integral jumps: one
 tangent leaves a slope that rounding, or a kink, hides. Tangents on all sides of the law, weighted by a linear program,
-have the slope that the optimum asks for, exactly.
+have the slope that the optimum requires, exactly.
 """
 
 from __future__ import annotations
@@ -54,7 +54,7 @@ _SETTLINGS = 3
 def certify(model: Model, optimum: ActiveSet, objective: float, limit: float | None) -> Certificate:
     """The certificate of an optimum; of the relaxed program, solved here, where the problem is not convex.
 
-    The tangent begins at the root that the best law itself needs and is moved to where the relaxed optimum asks for
+    The tangent begins at the root that the best law itself needs and is moved to where the relaxed optimum requires
     it, as long as that may pay: not below the limit.
     """
     problem = model.problem
@@ -106,7 +106,7 @@ def _of_convex(model: Model, optimum: ActiveSet, objective: float) -> Certificat
     if proof.bound == -np.inf:
         proof = max((proof, *_leaving(model, optimum)), key=lambda known: known.bound)
     several = _Tangents(model, optimum).certificate(objective) if _needs_tangents(model) else None
-    several = None if several is None else _held(model, several)
+    several = None if several is None else _with_falling_peaks(model, several)
     return several if several is not None and several.bound > proof.bound else proof
 
 
@@ -145,7 +145,7 @@ def _shifted(model: Model, optimum: ActiveSet, proof: Certificate) -> Certificat
         for contact, grown, part in zip(contacts, share.tolist(), parts, strict=True)
     ]
     stated = program.stated_multipliers(equations + pull / length).tolist()
-    return _held(model, proof.with_leaf(contacts=moved, equations=stated))
+    return _with_falling_peaks(model, proof.with_leaf(contacts=moved, equations=stated))
 
 
 def _shifts(model: Model, optimum: ActiveSet, contact: Contact) -> Array:
@@ -245,8 +245,8 @@ def certificate(model: Model, optimum: ActiveSet, program: str, tangent: float =
             place = float(min(max(k, 0.0), 1.0))
             contacts.append(Contact(family.name, float(optimum.s[j]), place, multiplier, direction))
     equations = model.program.stated_multipliers(optimum.equality_multipliers).tolist()
-    proof = _held(model, Certificate.of_leaf(model.problem, contacts, equations, program, tangent))
-    return _held(model, _balanced(model, proof))
+    proof = _with_falling_peaks(model, Certificate.of_leaf(model.problem, contacts, equations, program, tangent))
+    return _with_falling_peaks(model, _balanced(model, proof))
 
 
 def _direction(family: NormFamily, x: Array) -> tuple[float, ...]:
@@ -257,7 +257,7 @@ def _direction(family: NormFamily, x: Array) -> tuple[float, ...]:
     return tuple((image / length if known else np.zeros_like(image)).tolist())
 
 
-def _held(model: Model, proof: Certificate) -> Certificate:
+def _with_falling_peaks(model: Model, proof: Certificate) -> Certificate:
     """The certificate with multipliers that hold what may fall for ever: a peak of one side, which rounding lets go.
 
     Beside such a peak other constants may be as great as they like, and are not pulled by more than they cost.

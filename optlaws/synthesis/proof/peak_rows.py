@@ -1,9 +1,9 @@
 """The rows of a problem under a claim, and their consequences for a derivative at a place and around it.
 
-Where a peak is held up its place is not known, and the problem is not convex. But for each place k the greatest value
-that laws below the claim can have there is a convex problem, and contacts bound it. At a peak inside the interval the
+The place of a peak with a lower bound is not known, and the problem is not convex. But for each place k the greatest
+value of laws below the claim is a convex problem, and contacts bound it. At a peak inside the interval the
 slope is 0, so the value beside it is less by the curvature at most, which the claim bounds too: places around k can
-have no peak if the bound at k and that remainder do not reach what is asked.
+have no peak if the bound at k and that remainder do not reach its lower bound.
 """
 
 from __future__ import annotations

@@ -54,7 +54,7 @@ def proven_front(
 ) -> ProvenFront:
     """A front that gives a law, its objective and a proven lower bound at every value of a number, not at points.
 
-    Certified laws are put between others until the gap is at most as asked everywhere, which is proven by convexity:
+    Certified laws are put between others until the gap is at most `gap` everywhere, which is proven by convexity:
     the weighted mean of two laws keeps every constraint of the problems between, and a certificate bounds the
     objective of all of them. Halving the gap takes 1.4 times as many laws.
 

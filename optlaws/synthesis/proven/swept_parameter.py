@@ -182,7 +182,7 @@ def lower_line(
     number, ends
         The number, and between which values.
     claim
-        The greatest objective that is asked about; what the line itself comes to unless that is less.
+        The greatest objective of interest; the value of the line itself unless that is less.
     """
     model, lines = weighted_rows(certificate)
     there = [weighted_rows(replace(certificate, problem=number.at(end))) for end in ends]

@@ -115,7 +115,7 @@ class BoundaryConditions:
     def a1(self) -> Polynomial:
         """Ascending powers of the a1(k) of eq. 8, exact.
 
-        It is the Taylor polynomial at k = 1, of degree l - 1, of (wanted end - a0(k)) / k^l.
+        It is the Taylor polynomial at k = 1, of degree l - 1, of (prescribed end - a0(k)) / k^l.
         """
         order = self.order
         end = [value / factorial(i) for i, value in enumerate(fractions(self.end, "end"))]

@@ -23,7 +23,7 @@ from optlaws.synthesis.spaces.space import Equation
 class PeriodicPieces(Pieces):
     """A free law over a whole cycle that repeats: velocity, acceleration and so on end as they begin.
 
-    Laws in it have one condition at each end, order 1: the displacements a(0) and a(1). Nothing is asked to rest.
+    Laws in it have one condition at each end, order 1: the displacements a(0) and a(1). Rest is not required.
 
     Parameters
     ----------

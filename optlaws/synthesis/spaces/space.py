@@ -22,7 +22,7 @@ from optlaws.synthesis.families.family import (
 from optlaws.synthesis.families.names import RowName
 from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
 
-_KEPT = 32
+_CACHED = 32
 
 
 @dataclass(frozen=True, eq=False)
@@ -82,7 +82,7 @@ class LawSpace(ABC):
         known = self._cache.get(key)
         if known is None:
             known = make()
-            if len(self._cache) >= _KEPT:
+            if len(self._cache) >= _CACHED:
                 # a copy of the keys, for another thread may be changing them
                 self._cache.pop(next(iter(self._cache.copy())), None)
             self._cache[key] = known

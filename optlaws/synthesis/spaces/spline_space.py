@@ -25,7 +25,7 @@ from optlaws.synthesis.spaces.end_conditions import BoundaryConditions, law_from
 from optlaws.synthesis.spaces.piecewise_families import PieceFamily, PieceSeries
 from optlaws.synthesis.spaces.piecewise_space import PiecewiseSpace
 from optlaws.synthesis.spaces.splines import PiecewiseBasis
-from optlaws.tolerances import EVEN_PART, VELOCITY_KEPT
+from optlaws.tolerances import EVEN_PART, VELOCITY_CHANGE
 
 
 class SplineSpace(PiecewiseSpace):
@@ -135,7 +135,7 @@ def _continue(c: Array, lengths: Array, velocities: Array, flat: int) -> None:
     orders = np.arange(0, c.shape[1], 2)
     shares = 1.0 / (1.0 - orders.astype(np.float64) ** 2)
     missed = np.diff(velocities) / lengths - c[:, ::2] @ shares
-    rounding = VELOCITY_KEPT * (np.abs(c).sum(axis=1) + np.abs(velocities[1:]) / lengths)
+    rounding = VELOCITY_CHANGE * (np.abs(c).sum(axis=1) + np.abs(velocities[1:]) / lengths)
     # (1 - x²)^n = 2^-n (1 - T2)^n
     hill = chebyshev.chebpow([0.5, 0.0, -0.5], min(flat, (c.shape[1] - 1) // 2), maxpower=c.shape[1])
     hill /= hill[::2] @ shares[: len(hill[::2])]

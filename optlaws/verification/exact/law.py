@@ -40,7 +40,7 @@ OfMachine = ResidualConstant | ModeConstant | KnownOutput
 Known = PeakConstant | PowerConstant | RootMeanSquare | CombinedPeak | OfMachine | OfFormula
 
 _OF_CAMS = tuple(f"{name}_cam(" for name in ("B", "C", "C_plus", "C_minus", "D", "J"))
-_TOLD = (*_OF_CAMS, "residual(", "mode_residual(", "output_peak(", "output_rms(")
+_BY_NAME = (*_OF_CAMS, "residual(", "mode_residual(", "output_peak(", "output_rms(")
 
 
 def known(term: Term) -> Known:
@@ -61,7 +61,11 @@ def known(term: Term) -> Known:
         return term
     if type(term) is PowerConstant and tuple(term.weights) == (Fraction(1),):
         return term
-    if isinstance(term, CombinedPeak | CombinedPower | OfMachine) and repr(term).startswith(_TOLD) and is_named(term):
+    if (
+        isinstance(term, CombinedPeak | CombinedPower | OfMachine)
+        and repr(term).startswith(_BY_NAME)
+        and is_named(term)
+    ):
         return term
     if type(term) in _OF_FORMULAS and isinstance(term, OfFormula) and is_named(term):
         return term
@@ -75,7 +79,7 @@ def known(term: Term) -> Known:
 class ExactLaw:
     """The very function that a law's floats describe, piece by piece.
 
-    Where a derivative jumps by more than rounding, as `PiecewiseLaw.jumps` tells, those above it are infinite.
+    Where a derivative jumps by more than rounding, by `PiecewiseLaw.jumps`, those above it are infinite.
     """
 
     def __init__(self, law: MotionLaw) -> None:

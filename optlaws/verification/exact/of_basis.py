@@ -91,14 +91,14 @@ def _(basis: Pieces, problem: Problem) -> ExactSpace:
 def _(basis: PeriodicPieces, problem: Problem) -> ExactSpace:
     start, end = (Fraction(part[0]) for part in (problem.conditions.start, problem.conditions.end))
     breaks = [Fraction(k) for k in basis.breaks]
-    free = _kept_by(basis, _splines(breaks, basis.degree, basis.continuity, lowest=1))
+    free = _periodic(basis, _splines(breaks, basis.degree, basis.continuity, lowest=1))
     equations = [Condition(0, Fraction(1), end), Condition(1, Fraction(1), Fraction(0), less=Fraction(0))]
     base = fmpq_poly([rational(start)])
     functions = [[*part, base] for part in free]
     return ExactSpace(problem, breaks, functions, continuity=basis.continuity, conditions=equations)
 
 
-def _kept_by(basis: PeriodicPieces, functions: list[Functions]) -> list[Functions]:
+def _periodic(basis: PeriodicPieces, functions: list[Functions]) -> list[Functions]:
     """The combinations of functions whose acceleration is periodic, and 0 on straight pieces."""
     bent = [[4 * function.derivative().derivative() for function in part] for part in functions]
     rows = [[function[i] for function in bent[piece]] for piece in basis.straight for i in range(basis.degree - 1)]

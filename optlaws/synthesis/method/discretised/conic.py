@@ -106,7 +106,7 @@ def optimum_on_points(program: Program, points: list[Points], near: Array | None
     program
         A program that is `conic`.
     points
-        Where its families are held.
+        Where its families are imposed.
     near
         Variables near the optimum, of which then the difference is sought, magnified.
     """

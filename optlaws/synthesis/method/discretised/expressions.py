@@ -1,6 +1,6 @@
 """Rows that are not affine in the law as CasADi expressions, whose numbers are parameters: a table of their kinds.
 
-A solver is built once per shape of its rows, and asked with the numbers of any program of these shapes.
+A solver is built once per shape of its rows, and called with the numbers of any program of these shapes.
 """
 
 from __future__ import annotations

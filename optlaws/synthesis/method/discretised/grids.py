@@ -19,7 +19,7 @@ def first_points(program: Program) -> list[Points]:
 
 
 def _points(family: ConstraintFamily, size: int, even_share: float) -> Points:
-    """Points of a family, few enough for IPOPT to be quick; the rarer sign of a magnitude gets half as many."""
+    """Points of a family, few enough for IPOPT to be quick; the rarer sign of a magnitude has half as many."""
     low, high = family.domain
     if low == high:
         return Points(np.repeat([low], len(family.signs)), np.array(family.signs))

@@ -80,7 +80,7 @@ class Answer:
 def solve_on_points(program: Program, points: list[Points], start: Array | None, *, fine: bool = False) -> Answer:
     """Solve the program with its families enforced at the points only.
 
-    `fine` asks for smaller tolerances, by which contacts of little weight are told from points that are merely near.
+    `fine` sets smaller tolerances, which separate contacts of little weight from points that are merely near.
 
     Linear rows are scaled to unit length before IPOPT sees them; multipliers returned belong to the rows unscaled.
     """

@@ -20,7 +20,7 @@ from optlaws.numbers import Array
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.family import LinearFamily, Points, Program
 from optlaws.synthesis.method.discretised.ipopt import Answer
-from optlaws.tolerances import FLAT_GAP, SIZE_RANK, VERTEX_BALANCED, VERTEX_HELD
+from optlaws.tolerances import FLAT_GAP, SIZE_RANK, VERTEX_BALANCED, VERTEX_FEASIBILITY
 
 #: a row binds if its multiplier exceeds its distance times this, in units in which it has length 1; the more rows hold
 #: together, the better they say where x is: as few as their own number, hardly independent, miss by 1e-10 in between
@@ -40,7 +40,7 @@ def sharpened(program: Program, points: list[Points], answer: Answer) -> ActiveS
     program
         A program whose families are all linear.
     points, answer
-        Where its families were held, and IPOPT's answer to that.
+        Where its families were imposed, and IPOPT's solution of that.
     """
     table = LinearTable(program, points)
     weights = np.concatenate(answer.multipliers[:-1]) * table.length
@@ -113,7 +113,7 @@ class LinearTable:
         for _ in range(2):
             x = x + np.linalg.lstsq(matrix, right - matrix @ x, rcond=SIZE_RANK)[0]
         left = np.abs(matrix @ x - right).max(initial=0.0)
-        return x if left <= VERTEX_HELD * max(1.0, float(np.abs(x).max())) else None
+        return x if left <= VERTEX_FEASIBILITY * max(1.0, float(np.abs(x).max())) else None
 
     def balanced(self, binding: NDArray[np.bool_], weights: Array, equations: Array) -> tuple[Array, Array] | None:
         """Multipliers near the given ones that balance the objective exactly; None if any would be negative.
@@ -157,7 +157,7 @@ def vertex_on_points(program: Program, points: list[Points], near: Array | None 
     program
         A program whose families are all linear.
     points
-        Where they are held.
+        Where they are imposed.
     near
         Variables near the vertex, of which then the difference is sought, magnified: what the solver tolerates in a
         row becomes so much smaller.

@@ -66,7 +66,7 @@ def stepwise_on_points(
     Parameters
     ----------
     program, points
-        What is solved, and where its families are held.
+        What is solved, and where its families are imposed.
     start
         Variables near which it begins; the equations need not hold.
     settled

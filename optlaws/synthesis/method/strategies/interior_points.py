@@ -63,7 +63,7 @@ class ByInteriorPoints(Strategy[list[Points], ActiveSet]):
         The least answer that breaks no constraint anywhere, with its multipliers on the points: what is left where no
         round shows an exact active set.
     tried
-        All answers, with their multipliers on the points: the law of one may keep what is asked although its variables
+        All answers, with their multipliers on the points: the law of one may satisfy all rows although its variables
         do not, where these are the objective's, or the solver's last word is that it failed.
     """
 

@@ -107,7 +107,7 @@ class ByVertices(Strategy[list[Points], ActiveSet]):
         return optimum_near(self.program, self.holds, points, vertex)
 
     def _ended(self, *, known: bool) -> bool:
-        """Whether the vertex is the optimum: it exceeds nothing, or it gets no better; `known` are all its extrema."""
+        """Whether the vertex is the optimum: it exceeds nothing, or no step pays; `known` are all its extrema."""
         last = known and (self.near is not None or self.program.curved or self.central)
         return self.excess <= EXCESS or last or self.least <= self.excess <= _SLACK * EXCESS
 

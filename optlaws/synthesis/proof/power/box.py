@@ -187,7 +187,7 @@ class BoxRows(ABC):
         return self.mapped(self.rows(nu, k))
 
     def of_contacts(self, contacts: Sequence[Contact], box: Box) -> Array:
-        """The rows of contacts, each at most 0 with its constant: zeros where the problem does not ask for it."""
+        """The rows of contacts, each at most 0 with its constant: zeros where the problem does not have it."""
         stacked = np.zeros((len(contacts), self.size + 1))
         for name in self.names:
             mine = [i for i, contact in enumerate(contacts) if contact.constraint == name]
@@ -244,7 +244,7 @@ class BoxRows(ABC):
     def moved(self, box: Box, node: Leaf) -> list[Box]:
         """The box after a sum of rows has moved its side; None if it is empty.
 
-        Rows that the problem does not ask for, and negative multipliers of rows, count as zero.
+        Rows that the problem does not have, and negative multipliers of rows, count as zero.
         """
         value = self.least_sum(box, node)
         if not isinstance(node, Tightening):

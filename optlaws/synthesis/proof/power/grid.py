@@ -90,7 +90,7 @@ class Grid:
         new = self.rows.places(k)
         self.places = new if self.places is None else self.places.joined(new)
 
-    def _held(self, box: Box) -> Array:
+    def _constraint_rows(self, box: Box) -> Array:
         """All rows of a box except the objective's: linear rows, curved rows at places, rows of integrals."""
         parts = [self.fixed]
         if self.places is not None:
@@ -117,7 +117,7 @@ class Grid:
     def scaled(self, box: Box) -> Linear:
         """The rows that may cut something off the box."""
         rows = self.rows
-        every = np.vstack([self._held(box), rows.objective()])
+        every = np.vstack([self._constraint_rows(box), rows.objective()])
         centre, half = (box.low + box.high) / 2.0, (box.high - box.low) / 2.0
         matrix, right = every[:, :-1] * half, -every[:, -1] - every[:, :-1] @ centre
         length = np.abs(matrix).sum(axis=1)
