@@ -49,7 +49,7 @@ def finish(_app: Sphinx, doctree: nodes.document) -> None:
     """Show what `prepare` has replaced, and names as they are imported."""
     for node in list(doctree.findall(nodes.Text)):
         if any(mark in node for mark in _SHOWN):
-            node.parent.replace(node, nodes.Text(re.sub("|".join(_SHOWN), lambda found: _SHOWN[found[0]], node)))
+            node.parent.replace(node, nodes.Text(re.sub("|".join(_SHOWN), lambda match: _SHOWN[match[0]], node)))
     for signature in doctree.findall(addnodes.desc_signature):
         module, name = signature.get("module"), signature.get("fullname", "")
         if module is not None and name and "." not in name:
@@ -98,12 +98,12 @@ _IN_MODULE = re.compile(r"(?P<name>\w+)(?P<call>\(\))? \((?P<what>class )?in (?:
 
 def _in_index(text: str) -> str:
     """An entry of the index with the module from which its name is imported, or with none."""
-    found = _IN_MODULE.fullmatch(text)
-    if found is None:
+    match = _IN_MODULE.fullmatch(text)
+    if match is None:
         return text
-    module = _shown_module(found["module"], found["name"]).rstrip(".")
-    what = ("class in " if found["what"] else "in ") + module if module else "class"
-    return f"{found['name']}{found['call'] or ''} ({what})"
+    module = _shown_module(match["module"], match["name"]).rstrip(".")
+    what = ("class in " if match["what"] else "in ") + module if module else "class"
+    return f"{match['name']}{match['call'] or ''} ({what})"
 
 
 #: names of a module within so many are public: optlaws.results, optlaws.errors

@@ -54,13 +54,13 @@ def parts(latex: str) -> list[str]:
     >>> parts(r"b = a', \qquad c = \frac{b' \qquad}{1}")
     ["b = a',", "c = \\frac{b' \\qquad}{1}"]
     """
-    found, start = [], 0
+    pieces, start = [], 0
     for place in _BREAK.finditer(latex):
         before = latex[start : place.start()]
         if len(_OPENS.findall(before)) == len(_CLOSES.findall(before)):
-            found.append(before.strip())
+            pieces.append(before.strip())
             start = place.end()
-    return [part for part in (*found, latex[start:].strip()) if part]
+    return [part for part in (*pieces, latex[start:].strip()) if part]
 
 
 def visit_math(translator: HTML5Translator, node: nodes.math) -> None:
@@ -77,8 +77,8 @@ def split_tag(latex: str) -> tuple[str, str]:
     >>> split_tag(r"b = a' \tag{8}")
     ("b = a' ", '8')
     """
-    found = TAG.search(latex)
-    return TAG.sub("", latex), found[1] if found else ""
+    match = TAG.search(latex)
+    return TAG.sub("", latex), match[1] if match else ""
 
 
 def visit_math_block(translator: HTML5Translator, node: nodes.math_block) -> None:

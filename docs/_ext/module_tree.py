@@ -26,8 +26,8 @@ def lines(folder: Path, depth: int = 0) -> Iterator[str]:
         yield from lines(package, depth + 1)
 
 
-def _line(depth: int, name: str, said: str) -> str:
-    return f"{_INDENT * depth + name:<{_COLUMN}}{said}"
+def _line(depth: int, name: str, sentence: str) -> str:
+    return f"{_INDENT * depth + name:<{_COLUMN}}{sentence}"
 
 
 def tree() -> str:

@@ -21,13 +21,13 @@ def resolve(
     objects = env.domains.python_domain.objects
     *package, name = target.split(".")
     while package:
-        found = objects.get(".".join([*package, name]))
-        if found is not None:
+        documented = objects.get(".".join([*package, name]))
+        if documented is not None:
             source: str = node.get("refdoc", env.docname)
-            return make_refnode(app.builder, source, found.docname, found.node_id, content)
+            return make_refnode(app.builder, source, documented.docname, documented.node_id, content)
         package.pop()
     # a name that a package above re-exports from the room of another subject
-    same = [found for path, found in objects.items() if path.rpartition(".")[2] == name and path.startswith("optlaws.")]
+    same = [entry for path, entry in objects.items() if path.rpartition(".")[2] == name and path.startswith("optlaws.")]
     if len(same) == 1:
         source = node.get("refdoc", env.docname)
         return make_refnode(app.builder, source, same[0].docname, same[0].node_id, content)

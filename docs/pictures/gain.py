@@ -22,22 +22,22 @@ def compared() -> Comparison:
 
 def draw(folder: Path) -> list[Path]:
     """Write gain.svg and gain.png into a folder."""
-    found = compared()
+    comparison = compared()
     with plot_style():
         figure = empty_figure(9.2, 5.6)
         axes = figure.subplots(2, 2, sharex=True)
-        artists: list[Any] = found.plot(list(axes.flat))
+        artists: list[Any] = comparison.plot(list(axes.flat))
         for axis, (_, label, peak) in zip(axes.flat, PANELS, strict=True):
             axis.set_ylabel(f"{label} (dimensionless)")
             if peak is not None:
-                values = [getattr(law.constants, peak).value for law in found.laws.values()]
+                values = [getattr(law.constants, peak).value for law in comparison.laws.values()]
                 same = max(values) - min(values) < 1e-6 * max(values)
                 shown = values[:1] if same else values
                 axis.set_title(f"{peak} = {', '.join(f'{value:.4g}' for value in shown)}{' for all' if same else ''}")
         for axis in axes[1]:
             axis.set_xlabel("k (dimensionless time)")
         lines = [artist for artist in artists if artist in axes[0, 0].lines and len(artist.get_xdata()) > 1]
-        figure.legend(lines, list(found.laws), loc="outside lower center", ncols=3)
+        figure.legend(lines, list(comparison.laws), loc="outside lower center", ncols=3)
         return save_picture(figure, folder / "gain")
 
 
