@@ -20,7 +20,7 @@ from optlaws.numbers import Array
 from optlaws.shown.summary import Row, Summary
 from optlaws.synthesis.arrays.problems import ProblemArray
 from optlaws.synthesis.arrays.programs import NO_CONTACT, SolvedBatch
-from optlaws.synthesis.families.peaks import constant_of_series
+from optlaws.synthesis.families.peaks import by_pieces, constant_of_series
 from optlaws.synthesis.limits.of_problem import known_limit
 from optlaws.synthesis.problem.fields import CONSTANTS
 from optlaws.synthesis.problem.plain_entries import plain_entries
@@ -94,8 +94,12 @@ class SolvedPart:
         if not isinstance(space, PolynomialSpace):
             return np.array([constant_of(space.law(coordinate), name) for coordinate in self.coordinates])
         laws = [space.series(nu) for nu in (1, 2, 3)]
-        b, c, j = (self.coordinates @ series[:, :-1].T + series[:, -1] for series in laws)
-        return constant_of_series(name, b, c, j)
+
+        def of(coordinates: Array) -> Array:
+            b, c, j = (coordinates @ series[:, :-1].T + series[:, -1] for series in laws)
+            return constant_of_series(name, b, c, j)
+
+        return by_pieces(of, self.coordinates)
 
     @property
     def contacts(self) -> dict[str, NDArray[Any]]:

@@ -16,7 +16,7 @@ from optlaws.numbers import Array
 from optlaws.synthesis.arrays.continued_laws import laws_along
 from optlaws.synthesis.arrays.newton_steps import with_one
 from optlaws.synthesis.arrays.programs import Path, SolvedBatch, between
-from optlaws.synthesis.families.peaks import power_peaks
+from optlaws.synthesis.families.peaks import by_pieces, power_peaks
 from optlaws.synthesis.problem.constants import D
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import relaxed
@@ -109,19 +109,19 @@ def _powers(path: Path, laws: SolvedBatch) -> Array:
     space = path.model.space
     if not isinstance(space, PolynomialSpace):
         raise TypeError(f"laws of {type(space).__name__} are not solved in arrays")
-    point = with_one(laws.x[:, : space.terms])
-    b, c = (point @ space.series(nu).T for nu in (1, 2))
+    series = [space.series(nu).T for nu in (1, 2)]
     powers = np.full(len(laws.x), np.nan)
-    powers[laws.solved] = power_peaks(b[laws.solved], c[laws.solved])
+    powers[laws.solved] = by_pieces(
+        lambda x: power_peaks(*(with_one(x) @ columns for columns in series)), laws.x[laws.solved, : space.terms]
+    )
     return powers
 
 
 def _needed_roots(path: Path, laws: SolvedBatch) -> Array:
     """The least r with |b| <= r sqrt(2k) and r sqrt(2(1-k)) everywhere, nearly, of each law."""
     k = np.arange(1, _PLACES) / _PLACES
-    columns = path.model.space.columns(1, 1.0 - 2.0 * k)
-    speeds = np.abs(with_one(laws.x[:, : path.model.space.terms]) @ columns.T)
-    return np.asarray((speeds / np.sqrt(2.0 * np.minimum(k, 1.0 - k))).max(axis=1))
+    columns = (path.model.space.columns(1, 1.0 - 2.0 * k) / np.sqrt(2.0 * np.minimum(k, 1.0 - k))[:, None]).T
+    return by_pieces(lambda x: np.abs(with_one(x) @ columns).max(axis=1), laws.x[:, : path.model.space.terms])
 
 
 def _least_roots(path: Path, t: Array) -> Array:

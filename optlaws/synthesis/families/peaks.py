@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from functools import lru_cache
 
 import numpy as np
@@ -30,13 +30,22 @@ def peaks(series: Array) -> Array:
     >>> peaks(np.array([[0.0, 0.0, 1.0], [0.5, 1.0, 0.0]])).tolist()
     [1.0, 1.5]
     """
-    parts = [series[i : i + _CHUNK] for i in range(0, len(series), _CHUNK)]
-    return np.concatenate([_peaks(part) for part in parts]) if parts else np.empty(0)
+    return by_pieces(_peaks, series)
 
 
 def power_peaks(velocity: Array, acceleration: Array) -> Array:
     """Greatest magnitude of the product of two series, for each of many laws."""
-    return peaks(products(velocity, acceleration))
+    return by_pieces(lambda b, c: _peaks(products(b, c)), velocity, acceleration)
+
+
+def by_pieces(values: Callable[..., Array], *rows: Array) -> Array:
+    """A value of each row of arrays, computed for some rows at a time: a million laws then need the memory of those.
+
+    >>> by_pieces(lambda rows: rows.sum(axis=1), np.ones((3, 2))).tolist()
+    [2.0, 2.0, 2.0]
+    """
+    begins = range(0, len(rows[0]), _CHUNK)
+    return np.concatenate([np.empty(0), *(values(*(array[i : i + _CHUNK] for array in rows)) for i in begins)])
 
 
 def of_polynomials(laws: Sequence[PolynomialLaw], name: str) -> Array:
