@@ -47,7 +47,6 @@ SHORTEST_STRETCH = 1e-12  # a shorter dwell or stretch is none: its ends would b
 RADIUS_ROUNDING = 1e-12  # m: by so much arcs of a circle are off by themselves
 ANGLE_LIMIT = 1e-9  # rad: an angle so far beyond its limit is still within
 PROGRAM_ROUNDING = 1e-10  # of the forces: by so much the best spring for some angles may miss what these need
-EQUAL_SPRINGS = 1e-11  # of a greatest force: springs that differ by no more in it are as good as one another
 SPRING_SETTLED = 1e-9  # of a greatest force: that of the best spring for some angles is met everywhere to so much
 SPRING_LIFT = 1e-9  # of the stroke: below so much no stiffness adds a force
 PROGRAM_SLACK = 1e-7  # of the forces: to so much a spring keeps to what is needed everywhere

@@ -25,7 +25,6 @@ from optlaws.numerics.taylor import Jet, variable
 from optlaws.suggest import unknown_key
 from optlaws.tolerances import (
     BEFORE_BREAK,
-    EQUAL_SPRINGS,
     FORCE_EXTREMES,
     LIFTED,
     PROGRAM_ROUNDING,
@@ -302,7 +301,8 @@ def _program(task: _SpringTask, angles: Array, given: _KnownSpring) -> tuple[flo
         preload, slope = preload_of(stiffness)
         values = (high + preload + stiffness * y) / lever
         worst = int(np.argmax(values))
-        return float(values[worst]), float((slope + y[worst]) / lever[worst])
+        rise = slope + float(y[worst])
+        return float(values[worst]), rise / float(lever[worst]) if abs(rise) > SPRING_LIFT * scale else 0.0
 
     def mean_of(stiffness: float) -> tuple[float, float]:
         (preload, slope), sums = preload_of(stiffness), task.sums
@@ -319,7 +319,7 @@ def _program(task: _SpringTask, angles: Array, given: _KnownSpring) -> tuple[flo
         best = _lowest(greatest_of, unit / scale)
         least = greatest_of(best)[0]
         # of all that are as good the one of the least mean force
-        stiffness = _nearest(greatest_of, least + EQUAL_SPRINGS * abs(least), _lowest(mean_of, unit / scale), best)
+        stiffness = _nearest(greatest_of, _lowest(mean_of, unit / scale), best)
         return preload_of(stiffness)[0], stiffness, least
     return preload, stiffness, float(((high + preload + stiffness * y) / lever).max())
 
@@ -344,22 +344,20 @@ def _lowest(convex: Callable[[float], tuple[float, float]], size: float) -> floa
     return low if falling >= 0.0 else high
 
 
-def _nearest(convex: Callable[[float], tuple[float, float]], most: float, sought: float, known: float) -> float:
-    """The place nearest to a sought one where two linear functions meet and the greatest of all may be no more."""
-    value, slope = convex(sought)
-    if value <= most:
-        return sought
-    while value > most and slope * (sought - known) > 0.0:
-        sought -= (value - most) / slope
-        value, slope = convex(sought)
-    end = known
+def _nearest(convex: Callable[[float], tuple[float, float]], sought: float, known: float) -> float:
+    """The place nearest to a sought one where the greatest of linear functions is as flat as where it is least."""
+    (value, slope), level = convex(sought), convex(known)[0]
     for _ in range(_STEPS):
-        level, other = convex(end)
-        above = level - value - slope * (end - sought)
-        if above <= 16.0 * ROUNDOFF * abs(level) or slope == other:
+        if slope * (sought - known) <= 0.0:
             break
-        end += above / (slope - other)
-    return end
+        at = sought - (value - level) / slope
+        if (at - known) * (sought - known) <= 0.0:
+            return known
+        there, next_slope = convex(at)
+        if next_slope == 0.0:
+            return sought + (there - value) / slope
+        sought, value, slope = at, there, next_slope
+    return sought
 
 
 def _refuse(task: _SpringTask, angles: Array, given: _KnownSpring) -> NoReturn:
