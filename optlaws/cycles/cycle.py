@@ -230,6 +230,8 @@ class Cycle(CycleInterchange):
 
         Laws that are not in it may be below: of a higher degree, of a lower order, of more pieces.
         """
+        if not self._layout.spans:
+            return bound_of(self._layout, (), self._cycle_objective, self.duration)
         return self._best.bound
 
     @property

@@ -94,6 +94,8 @@ class SmoothParts:
         values = np.asarray(function(places))
         best = int(np.argmax(values))
         greatest = Greatest(float(values[best]), float(places[best]))
+        if values[best] == np.min(values):  # a constant, as in a rest
+            return greatest
         inner = np.searchsorted(edges, places[np.argsort(values)[-_POLISHED:]], side="right") - 1
         best_parts = np.unique(np.clip(inner, 0, len(lengths) - 1))
         polished = _polished(function, edges[best_parts], edges[best_parts + 1])
@@ -136,6 +138,8 @@ def _crossings(function: RealFunction, places: Array) -> Array:
     low, high, rising = low[changed], high[changed], last[changed] > 0.0
     for _ in range(_HALVES if len(low) else 0):
         middle = 0.5 * (low + high)
+        if not ((low < middle) & (middle < high)).any():
+            break
         beyond = (np.asarray(function(middle)) > 0.0) == rising
         low, high = np.where(beyond, low, middle), np.where(beyond, middle, high)
     return 0.5 * (low + high)

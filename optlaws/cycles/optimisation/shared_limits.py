@@ -56,8 +56,10 @@ class Best:
 
 
 def best_of(layout: Layout, objective: CycleObjective, axis: str, period: float) -> Best:
-    """The best laws of all spans."""
-    if not objective.shares or not layout.spans:
+    """The best laws of all spans; of none, without a bound of what is given."""
+    if not layout.spans:
+        return Best((), (), None)
+    if not objective.shares:
         laws = tuple(_solved(span, objective, axis) for span in layout.spans)
         bound = bound_of(layout, laws, objective, period)
         return Best(*ties_broken(layout, objective, axis, laws, period), bound)

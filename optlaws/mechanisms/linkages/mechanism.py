@@ -12,11 +12,12 @@ import numpy as np
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.files.reading import JsonText, entries_of
-from optlaws.formulas.arithmetic import NUMPY, evaluate
+from optlaws.formulas.arithmetic import NUMPY, Together, evaluate
 from optlaws.formulas.reading import read
 from optlaws.formulas.slopes import added
 from optlaws.formulas.slopes import derivative as slope
 from optlaws.formulas.tree import Formula, Name, Table
+from optlaws.kept import kept_property
 from optlaws.mechanisms.linkages.dimensionless import DimensionlessMechanism, InputFriction, dimensionless
 from optlaws.mechanisms.linkages.entries import formula_of
 from optlaws.motion.quantities import either, in_small_units, si_number
@@ -197,6 +198,11 @@ class Mechanism(JsonText):
     def _shown(self, x: float) -> str:
         return in_small_units(float(x), self.axis)
 
+    @kept_property
+    def _of_torque(self) -> Together:
+        """The inertia, its derivative and the load, which have much in common."""
+        return Together((self.inertia_formula, _derived(self.inertia_formula, 1), self.load_formula))
+
     def _values(self, formula: Formula, x: Any) -> Array:  # noqa: ANN401 - a number or an array
         return np.broadcast_to(np.asarray(evaluate(formula, {"x": x}, NUMPY), dtype=np.float64), np.shape(x))
 
@@ -267,9 +273,9 @@ class Mechanism(JsonText):
         x = self.position(position)
         v = real_times(si_number(velocity, (known["velocity"],), "velocity"))
         w = real_times(si_number(acceleration, (known["acceleration"],), "acceleration"))
-        inertial = self._values(self.inertia_formula, x) * w
-        turning = self._values(_derived(self.inertia_formula, 1), x) * v * v / 2.0
-        values = inertial + turning + self.viscous * v + self.coulomb * np.sign(v) + self._values(self.load_formula, x)
+        inertia, slope_of_inertia, load = self._of_torque.values({"x": x}, NUMPY)
+        inertial, turning = inertia * w, slope_of_inertia * v * v / 2.0
+        values = np.asarray(inertial + turning + self.viscous * v + self.coulomb * np.sign(v) + load)
         return values if np.ndim(values) else float(values)
 
     def dimensionless(
