@@ -7,6 +7,7 @@ from typing import Any
 
 import pytest
 
+from optlaws import smoothstep
 from tests.explorer.talk import OPTIMAL, Server
 from tests.internals.explorer import (
     QUESTIONS,
@@ -24,6 +25,7 @@ CAM = {"study": cam_view.example()}
 OLD = {"study": old_cam_view.example()}
 AXES = {"study": axes_view.example()}
 MACHINE = {"study": machine_view.example() | {"axis": machine_view.example()["axis"][1:]}}
+BEFORE = {"study": machine_view.example(), "laws": [[smoothstep(3).to_dict()], []]}
 LAWS = [
     OPTIMAL,
     {"name": "modified sine"},
@@ -47,7 +49,7 @@ SEEDS: dict[str, list[Any]] = {
     "cam-sizes": [CAM],
     "fastest": [{"study": fastest_view.example(), "time": 0.36}],
     "fastest-front": [{"study": fastest_view.example()}],
-    "machine": [MACHINE],
+    "machine": [MACHINE, BEFORE],
     "machine-limits": [MACHINE],
     "machine-ratios": [MACHINE | {"low": 5.0, "high": 20.0}],
     "cycle": [CYCLE],

@@ -17,7 +17,7 @@ from tests.internals.explorer import FileRequest, LawRequest, cycle_view, downlo
 from tests.internals.jobs import read_of_cycle_entries
 
 if TYPE_CHECKING:
-    from playwright.sync_api import Page
+    from playwright.sync_api import Page, Request
 
 PROBLEMS = Path(__file__).parents[2] / "problems"
 
@@ -121,6 +121,70 @@ def test_laws_stay_while_a_limit_of_the_motor_is_dragged() -> None:
     asked["axis"][1]["drive"]["motor"]["rated_torque"] = "1.1 s"
     with pytest.raises(InputError, match="drive: motor: rated_torque"):
         cycle_view.cycle(cycle_view.CycleRequest(study=asked, axis=1))
+
+
+def test_a_law_of_the_previous_value_is_evaluated_and_never_passed_off_as_optimal(served: Server) -> None:
+    asked = study("cycle_geared_table")
+    optima = served.ask("machine", {"study": asked, "axis": 1})["optima"]
+    assert [len(laws) for laws in optima] == [0, 1]
+    for axis in asked["axis"]:
+        axis["drive"]["ratio"] = 24
+    now = served.ask("machine", {"study": asked, "axis": 1, "laws": optima})
+    cycle = known("cycle_geared_table")["least RMS torque"]
+    assert isinstance(cycle.drive, Drive)
+    law = cycle.solutions[0].law
+    sheet = cycle.drive.with_ratio(24).sheet(law, "0 deg", "45 deg", "0.25 s", period="0.6 s")
+    texts = {row["name"]: row["texts"][1] for row in now["rows"]}
+    assert (texts["RMS torque"], texts["peak torque"]) == tuple(
+        law_view.digits(value, 6) for value in (sheet.rms_torque, sheet.peak_torque)
+    )
+    assert (now["trust"]["word"], now["optima"]) == ("law of the previous value", None)
+    assert not {"proof"} & now["trust"].keys()
+    beside = served.ask("machine", {"study": asked, "axis": 0, "laws": optima})["trust"]
+    assert beside["word"] == "given"
+    assert beside["facts"] == ["least RMS torque: law of the previous value, the optimum follows"]
+    best = served.ask("machine", {"study": asked, "axis": 1})
+    (least,) = (row["values"] for row in best["rows"] if row["name"] == "RMS torque")
+    assert least[1] < sheet.rms_torque
+    wrong: list[list[list[Any]]] = [[], [[], [{}]], [[], [*optima[1], *optima[1]]]]
+    for laws in wrong:
+        assert "refused" in served.ask("machine", {"study": asked, "axis": 1, "laws": laws})
+
+
+def test_while_the_gear_is_dragged_the_page_shows_the_law_before_and_then_the_optimum(
+    page: Page, served: Server
+) -> None:
+    asked = study("cycle_geared_table")
+    go(page, served.link(view="machine", machine=asked, axis=1))
+    assert "local" in page.locator("#machine-trust .word").inner_text()
+    ratio = page.locator("#machine-form input[type=range]").first
+    sent: list[Request] = []
+
+    def sends(request: Request) -> None:
+        sent.append(request)
+
+    page.on("request", sends)
+    page.locator("#machine-trust").evaluate("""(words) => {
+      window.seen = [];
+      const watched = { subtree: true, childList: true, characterData: true };
+      new MutationObserver(() => window.seen.push(words.textContent)).observe(words, watched);
+    }""")
+    for _ in range(8):
+        ratio.press("ArrowRight")
+    settle(page)
+    seen = page.evaluate("() => window.seen")
+    assert any("law of the previous value The optimum follows." in text for text in seen)
+    assert "local" in page.locator("#machine-trust .word").inner_text()
+    value = float(page.get_by_label("Ratio of the gear", exact=True).locator("visible=true").first.input_value())
+    for one in asked["axis"]:
+        one["drive"]["ratio"] = value
+    best = served.ask("machine", {"study": asked, "axis": 1})
+    shown = page.locator("#machine-table tr", has_text="RMS torque, N m").locator("td").nth(1).inner_text()
+    assert [shown] == [row["texts"][1] for row in best["rows"] if row["name"] == "RMS torque"]
+    # each step is answered by the law before; the optimum is looked for where the drag rests
+    bodies = [each.post_data or "" for each in sent if each.url.endswith("api/machine")]
+    assert '"laws":' in bodies[0]
+    assert '"laws":' not in bodies[-1]
 
 
 def test_files_of_a_machine_are_its_study_and_python_that_makes_it(tmp_path: Path) -> None:

@@ -21,13 +21,15 @@ function changed() {
   document.body.dataset.work = busy ? "busy" : "settled";
   // a transition with a delay would make layers for each answer, also for those that come before it
   if (busy) dimming ??= setTimeout(() => document.body.classList.add("late"), DIM);
-  else {
-    clearTimeout(dimming);
-    dimming = null;
-    document.body.classList.remove("late");
-  }
+  else undimmed();
   const those = (name) => questions.filter((one) => one[name]);
   observer({ lost: those("lost").length > 0, slow: those("slow"), late: those("late") });
+}
+
+function undimmed() {
+  clearTimeout(dimming);
+  dimming = null;
+  document.body.classList.remove("late");
 }
 
 /** What is no question, such as a module on its way, is work too. */
@@ -118,6 +120,8 @@ export class Latest {
         const answer = await ask(this.#path, question, patience, this.#flight.signal);
         this.#state({ lost: false, slow: false });
         this.#answered(answer, question);
+        // answers that keep up with a drag are as good as of now
+        undimmed();
       } catch (error) {
         if (error instanceof Lost) await this.#again(question, patience);
         else this.#fail(error, question);

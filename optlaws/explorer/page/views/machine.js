@@ -44,13 +44,19 @@ export class View {
   #input;
   #chooses;
   #machines;
+  #earlier;
   #limits;
   #ratios;
   #answer = null;
   #least = [];
   #over = null;
   #asked = null;
+  #due = false;
   #span = null;
+  #optimum = null; // the last answer with optimal laws, and the question that it answers
+  #orders = new WeakMap(); // of questions: the one asked later, or for the optimum, is shown over another
+  #order = 0;
+  #shown = 0;
   #still = () => {};
   #at;
 
@@ -66,7 +72,8 @@ export class View {
     this.#curves = new Panels(made.curves, { strip: new Strip({ chosen: () => {} }) });
     this.#chooses = tabs(made.pictures, PICTURES, (key) => study.change("machine picture", (state) => (state.machinePicture = key)));
     this.#playing();
-    this.#machines = new Latest("api/machine", (answer, question) => this.#answered(answer, question), (error) => this.#answered(unanswered(error), null));
+    this.#machines = new Latest("api/machine", (answer, question) => this.#solved(answer, question), (error, question) => this.#answered(unanswered(error), question));
+    this.#earlier = new Latest("api/machine", (answer, question) => this.#evaluated(answer, question), () => this.#solve());
     this.#limits = new Latest("api/machine-limits", (answer, question) => this.#isOfNow(question) && this.#bounded(answer), () => this.#bounded({ moves: [] }));
     this.#ratios = new Latest("api/machine-ratios", (answer, question) => told(question) === told(this.#asked) && this.#swept(answer), (error) => this.#swept({ ratios: [], words: error.message }));
   }
@@ -90,9 +97,44 @@ export class View {
     this.#chooses(picture);
     this.#at.chart.hidden = picture === "input";
     this.#at.input.hidden = picture !== "input";
-    this.#machines.ask({ study: state.machine, axis: state.axis });
     if (picture === "ratio") this.#sweep(state);
+    this.#order += 1;
+    const laws = this.#lawsBefore(state);
+    if (laws) this.#ask(this.#earlier, { study: state.machine, axis: state.axis, laws }, 2 * this.#order);
+    else this.#solve();
     this.#draw();
+  }
+
+  #ask(latest, question, order) {
+    this.#orders.set(question, order);
+    latest.ask(question);
+  }
+
+  /** Ask for the optimal laws of what is set now, and for what takes as long. */
+  #solve() {
+    const { machine, axis } = this.#state;
+    this.#ask(this.#machines, { study: machine, axis }, 2 * this.#order + 1);
+    if (this.#due) this.#ratios.ask(this.#asked);
+    this.#due = false;
+  }
+
+  /** The optimal laws of the values before, if the machine alone has changed since, so that others are to be found. */
+  #lawsBefore(state) {
+    if (!this.#optimum) return null;
+    const { answer: { limiting, optima }, question } = this.#optimum;
+    const now = { study: state.machine, axis: state.axis };
+    return told(likeness(now)) === told(likeness(question)) && told(driving(now, limiting)) !== told(driving(question, limiting)) ? optima : null;
+  }
+
+  #solved(answer, question) {
+    if (!answer.refused) this.#optimum = answer.optima ? { answer, question } : null;
+    this.#answered(answer, question);
+  }
+
+  /** What the laws before do in the machine as it is now; their optimum is looked for as soon as nothing newer is asked. */
+  #evaluated(answer, question) {
+    if (!answer.refused) this.#answered(answer, question);
+    if (!this.#earlier.behind && this.#isOfNow(question)) this.#solve();
   }
 
   #picture({ machinePicture }) {
@@ -104,10 +146,13 @@ export class View {
   }
 
   #answered(answer, question) {
+    const order = this.#orders.get(question);
+    if (order < this.#shown) return;
+    this.#shown = order;
     this.#answer = answer;
     this.#least = [];
     // while a drag goes on the newest answer alone is looked at closer
-    if (question && !answer.refused && !this.#machines.behind) this.#limits.ask(question);
+    if (!question.laws && !answer.refused && !this.#machines.behind) this.#limits.ask(question);
     showTrust(this.#at.trust, answer, [], () => {});
     if (!answer.refused) this.#linkage.show(answer.drawing);
     else this.#linkage.show(null);
@@ -237,7 +282,7 @@ export class View {
     return found;
   }
 
-  /** What is asked of the ratios around the present one; a drag within them asks nothing new. */
+  /** What is to be asked of the ratios around the present one; a drag within them asks nothing new. */
   #sweep(state) {
     const axis = state.machine.axis[state.axis] ?? state.machine.axis[0];
     const ratio = Number(axis.drive?.ratio ?? 1);
@@ -249,7 +294,7 @@ export class View {
     if (told(question) === told(this.#asked)) return;
     this.#asked = question;
     this.#over = null;
-    this.#ratios.ask(question);
+    this.#due = true;
   }
 
   #swept(answer) {
@@ -345,6 +390,22 @@ export class View {
     const play = html("button", { type: "button", text: "Play", onclick: () => (playing === null ? start() : stop()) });
     this.#at.turning.replaceChildren(play, dial, reading);
   }
+}
+
+/** What laws are found for, without the numbers of the machine and of its motion. */
+function likeness({ study, axis }) {
+  const laws = beside(study, axis).map(({ name, minimise, order, degree, load, limits, segment, mechanism, drive }) => [
+    name, minimise, order, degree, load, limits, segment.map(({ kind, law }) => [kind, law]), mechanism?.kind, Boolean(drive?.motor),
+  ]);
+  return [laws, axis];
+}
+
+/** The numbers of the machine and of its motion, without those of the motor that change no optimum. */
+function driving({ study, axis }, limiting) {
+  const { speed, period } = study;
+  const axes = structuredClone(beside(study, axis));
+  for (const { drive } of axes) for (const name of limiting) delete drive?.motor?.[name];
+  return [speed, period, axes];
 }
 
 function layout(root) {

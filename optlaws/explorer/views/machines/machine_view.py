@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
+from functools import lru_cache
 from math import isfinite, pi
-from typing import Annotated, Any
+from typing import Annotated, Any, cast
 
 import msgspec
 import numpy as np
 
-from optlaws import Cycle, Drive, Mechanism, Motor, Status
+from optlaws import Cycle, Drive, Mechanism, MotionLaw, Motor, Move, Status
 from optlaws.cycles.specification.process import is_process
+from optlaws.cycles.specification.programme import is_optimal
 from optlaws.cycles.summary import drive_rows, force_name, force_unit
 from optlaws.errors import InputError, OptlawsError
 from optlaws.explorer.views import cycle_view
@@ -19,7 +22,7 @@ from optlaws.explorer.views.law_view import digits, drawn, refusal
 from optlaws.explorer.views.machines.linkage_picture import over_input, picture
 from optlaws.explorer.views.picture_points import refined
 from optlaws.explorer.views.requests import MOST_LAWS, Question
-from optlaws.jobs.cycle_entries import AxisEntries, CycleProblemFile
+from optlaws.jobs.cycle_entries import AxisEntries, CycleProblemFile, cycle_of
 from optlaws.numbers import Array, bounded
 from optlaws.plots.cycle import UNITS, samples, samples_of_drive
 from optlaws.shown.summary import Row
@@ -35,6 +38,17 @@ _FAR = 1.6
 Ratio = Annotated[float, msgspec.Meta(gt=0.0, le=1e6)]
 
 
+class DrivenRequest(CycleRequest, kw_only=True, forbid_unknown_fields=True):
+    """A machine, and for each of its laws those of optimised moves that are evaluated, without any optimisation."""
+
+    laws: (
+        Annotated[
+            list[Annotated[list[dict[str, Any]], msgspec.Meta(max_length=100)]], msgspec.Meta(max_length=MOST_LAWS)
+        ]
+        | None
+    ) = None
+
+
 class RatiosRequest(CycleRequest, kw_only=True, forbid_unknown_fields=True):
     """A machine, and the ratios of its gear between which torque is drawn."""
 
@@ -42,18 +56,60 @@ class RatiosRequest(CycleRequest, kw_only=True, forbid_unknown_fields=True):
     high: Ratio
 
 
-def answer(request: CycleRequest) -> dict[str, Any]:
+def answer(request: DrivenRequest) -> dict[str, Any]:
     """The machine with the laws of its file, or the reason why there is none."""
     try:
         spec, axis = _read(request)
-        laws = [_law(spec, other) for other in _beside(spec, axis)]
-        shown = laws[_place(spec, axis)]
-        known = {"laws": [_described(law) for law in laws], "active": _place(spec, axis)}
+        beside, given = _beside(spec, axis), request.laws
+        if given is not None and len(given) != len(beside):
+            raise InputError(f"laws: {len(beside)} axes have this machine, and laws of {len(given)} are given")
+        laws = [_law(spec, other, given[i] if given else []) for i, other in enumerate(beside)]
+        place = _place(spec, axis)
+        shown, before = laws[place], [bool(moves) for moves in given or [[]] * len(laws)]
+        known = {
+            "laws": [_described(law) for law in laws],
+            "active": place,
+            "limiting": [] if axis.limits.get("motor") else sorted(cycle_view.LIMITING),
+            "optima": None if given else _optima(beside, laws),
+        }
         if isinstance(shown, OptlawsError):
             return known | {"refused": refusal(shown)}
-        return known | _view(shown, axis, [law for law in laws if isinstance(law, Cycle)], laws)
+        names = [other.name for other, earlier in zip(beside, before, strict=True) if earlier and other is not axis]
+        view = _view(shown, axis, [law for law in laws if isinstance(law, Cycle)], laws)
+        return known | view | {"trust": _trust(shown, names, earlier=before[place])}
     except OptlawsError as error:
         return {"refused": refusal(error)}
+
+
+def _optima(beside: Sequence[AxisEntries], laws: Sequence[Cycle | OptlawsError]) -> list[list[dict[str, Any]]] | None:
+    """The laws of optimised moves, with which another machine can be evaluated; None where it cannot."""
+    optima = []
+    for axis, law in zip(beside, laws, strict=True):
+        if isinstance(law, OptlawsError) or axis.load is not None or len(_moves_of(law)) != len(law.solutions):
+            return None
+        optima.append([solution.law.to_dict() for solution in law.solutions])
+    return optima if any(optima) else None
+
+
+def _moves_of(law: Cycle) -> list[int]:
+    """The places of the moves whose law is optimised, if each has a law of its own."""
+    return [i for i, segment in enumerate(law.segments) if isinstance(segment, Move) and is_optimal(segment)]
+
+
+def _trust(shown: Cycle, others: Sequence[str], *, earlier: bool) -> dict[str, Any] | None:
+    """How far the law can be trusted; an earlier law is neither optimal nor proven, as those of `others`."""
+    trust = cycle_view.trust(shown)
+    if earlier:
+        broken = [] if trust is None else [trust["advice"]]
+        trust = _plainly("law of the previous value", "The optimum follows.", broken)
+    if others:
+        trust = trust or _plainly("given", "A law as it stands: nothing was optimised.", [])
+        trust["facts"] += [f"{name}: law of the previous value, the optimum follows" for name in others]
+    return trust
+
+
+def _plainly(word: str, advice: str, facts: list[str]) -> dict[str, Any]:
+    return {"status": "given", "word": word, "advice": advice, "gap": "", "facts": facts}
 
 
 def _read(request: CycleRequest) -> tuple[CycleProblemFile, AxisEntries]:
@@ -74,18 +130,34 @@ def _place(spec: CycleProblemFile, axis: AxisEntries) -> int:
     return next(i for i, other in enumerate(_beside(spec, axis)) if other is axis)
 
 
-def _law(spec: CycleProblemFile, axis: AxisEntries) -> Cycle | OptlawsError:
+def _law(spec: CycleProblemFile, axis: AxisEntries, given: Sequence[dict[str, Any]] = ()) -> Cycle | OptlawsError:
+    """The cycle of an axis, by optimal laws or by those that are given for its optimised moves."""
     cycle_view.check_axis(axis)
     try:
-        cycle = cycle_view.stored(spec, axis)
+        cycle = _evaluated(spec, axis, given) if given else cycle_view.stored(spec, axis)
         _ = cycle.effort  # what cannot be driven is told here
     except OptlawsError as error:
         return error
     return cycle
 
 
+def _evaluated(spec: CycleProblemFile, axis: AxisEntries, given: Sequence[dict[str, Any]]) -> Cycle:
+    cycle = cycle_of(axis, spec.speed, spec.period)
+    segments, moves = list(cycle.segments), _moves_of(cycle)
+    if len(given) != len(moves):
+        raise InputError(f"laws: {axis.name} has {len(moves)} optimised moves, and {len(given)} laws are given")
+    for i, law in zip(moves, given, strict=True):
+        segments[i] = replace(cast("Move", segments[i]), law=_stored(msgspec.json.encode(law)))
+    return replace(cycle, segments=segments)
+
+
+@lru_cache(maxsize=64)
+def _stored(law: bytes) -> MotionLaw:
+    return MotionLaw.from_dict(msgspec.json.decode(law))
+
+
 def _described(law: Cycle | OptlawsError) -> dict[str, Any]:
-    return {"refused": refusal(law)} if isinstance(law, OptlawsError) else {"trust": cycle_view.trust(law)}
+    return {"refused": refusal(law)} if isinstance(law, OptlawsError) else {}
 
 
 def _view(
@@ -108,7 +180,6 @@ def _view(
         "over_input": over_input(shown, mechanism),
         "over_speed": _over_speed(shown, list(zip(colours, cycles, strict=True))),
         "rows": _rows(laws),
-        "trust": cycle_view.trust(shown),
     }
 
 
@@ -420,7 +491,7 @@ def example() -> dict[str, Any]:
 
 
 QUESTIONS: dict[str, Question] = {
-    "machine": (CycleRequest, answer),
+    "machine": (DrivenRequest, answer),
     "machine-limits": (CycleRequest, limits),
     "machine-ratios": (RatiosRequest, ratios),
 }
