@@ -209,7 +209,7 @@ def _show(lever: optlaws.TorsionLever, machine: dict[str, float]) -> None:
         ("xi = c2/c1", f"{lever.xi:.8g}"),
     ]
     for name, twist, left in zip(("1", "2"), lever.twists, lever.twists_left, strict=True):
-        ends = f"{degrees(twist):.6g} deg at rest, {degrees(left):.4g} deg at least"
+        ends = f"{degrees(twist):.6g} deg at equilibrium, {degrees(left):.4g} deg at least"
         facts.append((f"twist of bar {name}", ends if left > 0.0 else f"{ends}: slack"))
     for name, value in machine.items():
         unit = "s" if name == "period_seconds" else "N m/rad"
