@@ -18,7 +18,7 @@ from optlaws.synthesis.arrays.certification import Certification, certification_
 from optlaws.synthesis.arrays.continuation import ParametricContinuation, StructureSegment, segment_at
 from optlaws.synthesis.arrays.dual_bounds import lower_bounds
 from optlaws.synthesis.arrays.newton_steps import States, Structure, clipped, converged, packed, step
-from optlaws.synthesis.arrays.programs import Numbers, Path, SolvedBatch
+from optlaws.synthesis.arrays.programs import NO_CONTACT, Numbers, Path, SolvedBatch
 from optlaws.synthesis.method.stored_structures import guess_of, is_usual, key_of, stored_structures
 from optlaws.tolerances import AGREEMENT, BEYOND_SEGMENT, CERTIFIED_GAP, INTERPOLATION_TAIL, ROUGH_STEP
 
@@ -55,6 +55,23 @@ def laws_along(path: Path, t: Array) -> SolvedBatch:
     if len(t) < WALKED:
         return _laws_of_neighbours(path, t)
     return laws_on(path, segments_of(path, float(t[0]), float(t[-1])), t)
+
+
+def with_stored_structures(path: Path, t: Array, laws: SolvedBatch) -> NDArray[np.bool_]:
+    """A mask of laws with the contacts that are stored for them, from which no search led to a better law."""
+    first, last = path.problems
+    alike = np.zeros(len(t), dtype=np.bool_)
+    if first.shape != last.shape or not is_usual(path.model):
+        return alike
+    velocities = first.B + t * (last.B - first.B)  # type: ignore[operator]  # of usual problems they are numbers
+    for stored in stored_structures(key_of(path.model) or ""):
+        rows = np.flatnonzero((velocities >= stored.begin) & (velocities <= stored.end) & laws.solved)
+        count = stored.count
+        alone = (laws.family[rows, count:] == NO_CONTACT).all(axis=1)
+        pairs = ((laws.family, stored.family), (laws.sign, stored.sign), (laws.free, stored.free))
+        equal = [(values[rows, :count] == own).all(axis=1) for values, own in pairs if values.shape[1] >= count]
+        alike[rows] |= alone & np.logical_and.reduce(equal) if len(equal) == len(pairs) else False
+    return alike
 
 
 def _laws_of_stored_structures(path: Path, t: Array) -> SolvedBatch | None:

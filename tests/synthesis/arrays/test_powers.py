@@ -122,7 +122,7 @@ def test_where_another_branch_is_better_laws_are_sought_alone(monkeypatch: pytes
             return own if own is None or ENDS[0] != self.problem.B else 0.99 * own
 
     monkeypatch.setattr(solve_many, "LawSearch", Rival)
-    laws = synthesize_array(ProblemArray(B=np.linspace(*ENDS, 24), order=3, basis=Chebyshev(3), minimise="D"))
+    laws = synthesize_array(ProblemArray(B=np.linspace(*ENDS, 24), order=7, basis=Chebyshev(7), minimise="D"))
     assert sorted(laws.others) == list(range(6))
     assert (laws.status == "local").all()
 
