@@ -21,6 +21,7 @@ extensions = [
     "sphinx.ext.autodoc",
     "sphinx.ext.napoleon",
     "sphinx_gallery.gen_gallery",
+    "stacked_tables",
 ]
 exclude_patterns = ["_build", "examples", "gallery/*.ipynb", "gallery/*.py", "sg_execution_times.rst"]
 
@@ -52,7 +53,8 @@ toc_object_entries_show_parents = "hide"
 autodoc_typehints = "signature"
 autodoc_type_aliases = {"Array": "Array"}
 python_use_unqualified_type_names = True
-add_module_names = False  # docs/_ext/docstrings.py puts before a name where it is imported from
+add_module_names = False  # docs/_ext/docstrings.py says where a name is imported from
+python_maximum_signature_line_length = 100
 napoleon_google_docstring = False
 napoleon_use_rtype = False
 # a property may be listed among the attributes as well: that is no second object

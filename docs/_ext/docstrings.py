@@ -36,8 +36,10 @@ def prepare_signature(
     """Write a signature so that it can be read as Python; what cannot be is at least without the modules of types."""
     if signature is None:
         return None, returned
-    # what a factory makes, a member of an enumeration, and a parameter of types are no expressions
+    # what a factory makes, a member of an enumeration, an object, and a parameter of types are no expressions
     written = re.sub(r"<\w+\.\w+: ('\w*')>", r"\1", signature.replace("<factory>", "...").replace(".~", "."))
+    written = re.sub(r"<[\w.]+ object(?: at \w+)?>", "...", written)
+    written = re.sub(r"(?:\w+\.)*Annotated\[((?:~?\w+\.)*\w+), [^\]]*\]", r"\1", written)
     try:
         ast.parse(f"def function{written.replace('~', '')}: ...")
     except SyntaxError:
@@ -53,11 +55,20 @@ def finish(_app: Sphinx, doctree: nodes.document) -> None:
     for signature in doctree.findall(addnodes.desc_signature):
         module, name = signature.get("module"), signature.get("fullname", "")
         if module is not None and name and "." not in name:
-            (place,) = [signature.index(child) for child in signature.children if isinstance(child, addnodes.desc_name)]
-            signature.insert(place, addnodes.desc_addname("", _shown_module(module, name)))
+            _show_module(signature, _shown_module(module, name))
     for kind in doctree.findall(addnodes.literal_emphasis):
         for node in list(kind.findall(nodes.Text)):
             node.parent.replace(node, nodes.Text(_MODULE.sub("", node)))
+
+
+def _show_module(signature: addnodes.desc_signature, module: str) -> None:
+    """Name the module of a name: before it, or, as it may be long, on the line below unless it is optlaws itself."""
+    if module == "optlaws.":
+        (place,) = [signature.index(child) for child in signature.children if isinstance(child, addnodes.desc_name)]
+        signature.insert(place, addnodes.desc_addname("", module))
+    elif module and isinstance(signature.parent, addnodes.desc):
+        line = nodes.paragraph("", "", nodes.Text("from "), nodes.literal("", module.rstrip(".")))
+        next(signature.parent.findall(addnodes.desc_content)).insert(0, line)
 
 
 #: the modules of types, where a description names one in full
