@@ -60,15 +60,18 @@ class MoveGain(NamedTuple):
         return new / old - 1.0 if isfinite(old) else float("nan")
 
 
-def better(part: Stretch, room: float, order: int, degree: int) -> Stretch:
-    """A move with the law of least acceleration within a tolerance of the old law; the old law if none exists."""
+def better(part: Stretch, room: float, order: int, degree: int, start: Solution | None = None) -> Stretch:
+    """A move with the law of least acceleration within a tolerance of the old law; the old law if none exists.
+
+    The optimum is the same from whatever start, and soon found from that of nearly the same tolerance.
+    """
     if part.law is None:
         return part
     old, share = law_of_move(part), room / abs(part.stroke)
     if share < least_distance(old, order, degree):
         return part
     for places in _PLACES:
-        solution = _nearby(old, share, places, order, degree)
+        start = solution = _nearby(old, share, places, (order, degree), start)
         if solution is None or solution.law.constants.C.value >= old.constants.C.value:
             return part
         # between its places the spline is not the old law
@@ -92,17 +95,19 @@ def least_distance(old: MotionLaw, order: int, degree: int) -> float:
     return float(np.sqrt(np.mean(left**2)))
 
 
-def _nearby(old: MotionLaw, share: float, places: int, order: int, degree: int) -> Solution | None:
+def _nearby(
+    old: MotionLaw, share: float, places: int, space: tuple[int, int], start: Solution | None
+) -> Solution | None:
     k = np.linspace(0.0, 1.0, places)
     points = ", ".join(f"{place:.9g}:{height:.9g}" for place, height in zip(k, old(k), strict=True))
     near = Window(f"a - spline(k, {points})", low=-share, high=share)
     jerk = MODERNISED_JERK * old.constants.J.value
     problem = Problem(
-        order=order, basis=Chebyshev(degree), symmetric=False, windows=(near,),
+        order=space[0], basis=Chebyshev(space[1]), symmetric=False, windows=(near,),
         J=at_most(jerk) if np.isfinite(jerk) else None,
     )  # fmt: skip
     try:
-        return synthesize(problem)
+        return synthesize(problem, start=start)
     except (InfeasibleProblem, SolverFailure):
         return None
 

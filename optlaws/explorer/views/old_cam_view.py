@@ -213,6 +213,9 @@ def move(request: MoveRequest) -> dict[str, Any]:
         return {"refused": refusal(error, "no better law")}
 
 
+_LAST: dict[bytes, Solution] = {}
+
+
 @lru_cache(maxsize=128)
 def _better(study: bytes, number: int) -> dict[str, Any]:
     entries = msgspec.json.decode(study, type=OldCamEntries)
@@ -220,7 +223,13 @@ def _better(study: bytes, number: int) -> dict[str, Any]:
     if number >= len(old.moves):
         raise InputError(f"the table has {len(old.moves)} moves, and no move {number}")
     part = old.moves[number]
-    new = better(part, _within(old, entries), _ORDER, _DEGREE)
+    # while a tolerance is dragged each problem is next to the last one of the move
+    key = msgspec.json.encode((msgspec.structs.replace(entries, within=None, speed=None), number))
+    new = better(part, _within(old, entries), _ORDER, _DEGREE, _LAST.pop(key, None))
+    if new.solution is not None:
+        _LAST[key] = new.solution
+    while len(_LAST) > _MOST_MOVES:
+        del _LAST[next(iter(_LAST))]
     if new.law is part.law:
         return {"law": None, "curves": [], "cells": ["keeps its law: none of degree 15 so near has less acceleration"]}
     result = gain(new, part)
