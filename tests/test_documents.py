@@ -94,6 +94,14 @@ def test_the_contents_list_every_how_to_once_and_the_first_page_every_extra() ->
     assert [name for name in extras if f"`{name}`" not in first] == []
 
 
+def test_every_picture_of_a_script_is_stored_and_shown() -> None:
+    pages = "".join(page.read_text("utf-8") for page in PAGES)
+    drawn = {script.stem for script in (ROOT / "docs" / "pictures").glob("*.py") if script.stem != "__init__"}
+    shown = set(re.findall(r"pictures/(\w+)\.svg", pages))
+    assert drawn == shown
+    assert all((ROOT / "docs" / "pictures" / f"{name}.svg").is_file() for name in drawn)
+
+
 def test_the_first_page_is_included_from_mark_to_mark() -> None:
     page, included = (ROOT / "README.md").read_text("utf-8"), (ROOT / "docs" / "index.md").read_text("utf-8")
     marks = re.findall(r"^:(?:start-after|end-before): (.*)$", included, re.MULTILINE)
