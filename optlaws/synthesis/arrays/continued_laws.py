@@ -48,12 +48,11 @@ def laws_along(path: Path, t: Array) -> SolvedBatch:
     >>> laws_along(path, np.array([0.0, 0.2])).objective.round(6).tolist()
     [5.262224, 5.173677]
     """
-    if len(t) <= _WITH_STORED:
-        laws = _laws_of_stored_structures(path, t)
-        if laws is not None and (len(t) < WALKED or np.count_nonzero(~laws.solved) <= _LEFT):
-            return laws
-    if len(t) < WALKED:
-        return _laws_of_neighbours(path, t)
+    laws = _laws_of_stored_structures(path, t) if len(t) <= _WITH_STORED else None
+    if laws is not None and np.count_nonzero(~laws.solved) <= _LEFT:
+        return laws
+    if laws is not None or len(t) < WALKED:
+        return _laws_of_neighbours(path, t, laws)
     return laws_on(path, segments_of(path, float(t[0]), float(t[-1])), t)
 
 
@@ -69,7 +68,7 @@ def with_stored_structures(path: Path, t: Array, laws: SolvedBatch) -> NDArray[n
         count = stored.count
         alone = (laws.family[rows, count:] == NO_CONTACT).all(axis=1)
         pairs = ((laws.family, stored.family), (laws.sign, stored.sign), (laws.free, stored.free))
-        equal = [(values[rows, :count] == own).all(axis=1) for values, own in pairs if values.shape[1] >= count]
+        equal = [(values[rows, :count] == entry).all(axis=1) for values, entry in pairs if values.shape[1] >= count]
         alike[rows] |= alone & np.logical_and.reduce(equal) if len(equal) == len(pairs) else False
     return alike
 
@@ -106,18 +105,19 @@ def _laws_of_stored_structures(path: Path, t: Array) -> SolvedBatch | None:
     return laws
 
 
-def _laws_of_neighbours(path: Path, t: Array) -> SolvedBatch:
+def _laws_of_neighbours(path: Path, t: Array, known: SolvedBatch | None = None) -> SolvedBatch:
     """The optima at ascending t, each structure tried at all that are left, and the next one found beside them.
 
-    Of few laws this is quicker than a walk, which finds where structures change.
+    Of few laws this is quicker than a walk, which finds where structures change. Some may be known.
     """
     program = path.model.program
-    laws = SolvedBatch.none(len(t), program.size, program.size + _SPARE, len(program.right))
+    most = program.size + _SPARE
+    laws = SolvedBatch.none(len(t), program.size, most, len(program.right)) if known is None else known.wider(most)
     untried = np.ones(len(t), dtype=np.bool_)
     while (place := _next_place(laws.solved, untried)) is not None:
         untried[place] = False
-        known = np.flatnonzero(laws.solved)
-        near = laws.active_set(int(known[np.argmin(np.abs(known - place))])) if len(known) else None
+        solved = np.flatnonzero(laws.solved)
+        near = laws.active_set(int(solved[np.argmin(np.abs(solved - place))])) if len(solved) else None
         segment = segment_at(path, float(t[place]), near)
         if segment is not None and segment.structure.count <= laws.u.shape[1]:
             left = np.flatnonzero(~laws.solved)
