@@ -6,16 +6,13 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
 from math import sqrt
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optlaws.cycles.fastest_cycle import FastestCycle, fastest_cycle
 from optlaws.cycles.interchange import CycleInterchange
 from optlaws.cycles.jerk_comparison import jerk_limit, usual_jerk
 from optlaws.cycles.kinematics import SegmentPeaks, TimedCycle
-from optlaws.cycles.moves.transition_cam import TransitionCam, TransitionKind
-from optlaws.cycles.moves.transitions import transition_cam
 from optlaws.cycles.optimisation.bounds import bound_of, is_exact
 from optlaws.cycles.optimisation.drive_formulas import known_drive
 from optlaws.cycles.optimisation.durations import durations
@@ -37,7 +34,6 @@ from optlaws.cycles.optimisation.objectives import (
 from optlaws.cycles.optimisation.search_spaces import remark_on_degrees, search_space
 from optlaws.cycles.optimisation.shared_limits import Best, best_of
 from optlaws.cycles.optimisation.sums import total
-from optlaws.cycles.specification.cycle_sheet import CycleSheet, cycle_sheet
 from optlaws.cycles.specification.drive import CycleDrive, read_drive
 from optlaws.cycles.specification.effort import Effort, PieceEffort, SegmentEffort, effort
 from optlaws.cycles.specification.joints import LawSpan, Layout, layout
@@ -59,6 +55,12 @@ from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.solution import Solution
 from optlaws.synthesis.status import Status
 from optlaws.tolerances import CYCLE_OPTIMALITY
+
+if TYPE_CHECKING:
+    from optlaws.cycles.fastest_cycle import FastestCycle
+    from optlaws.cycles.moves.transition_cam import TransitionCam, TransitionKind
+    from optlaws.cycles.specification.cycle_sheet import CycleSheet
+
 
 _STRICTER = (
     "the gear loses power and a load acts: where the motor brakes, its torque is counted as that of power that flows "
@@ -363,6 +365,8 @@ class Cycle(CycleInterchange):
         InputError
             If the drive is no `Drive` with a motor.
         """
+        from optlaws.cycles.specification.cycle_sheet import cycle_sheet
+
         if not isinstance(self._drive, PositionDrive):
             raise InputError("the cycle has no motor: give one, as drive=Drive(mechanism, Motor(...), ratio=20)")
         return cycle_sheet(self._drive, self._along, self.effort, self.duration)
@@ -513,6 +517,8 @@ class Cycle(CycleInterchange):
         >>> slide.fastest()
         FastestCycle(186.397 rpm, period=0.321894 s, status='optimal', binding=('segment 1 (Rise): acceleration 20 ...
         """
+        from optlaws.cycles.fastest_cycle import fastest_cycle
+
         return fastest_cycle(self, self._cycle_objective)
 
     def run_in(
@@ -569,6 +575,8 @@ class Cycle(CycleInterchange):
         return self._transition("run-out", at=at, rest=rest, over=over, order=order)
 
     def _transition(self, kind: TransitionKind, **given: Any) -> TransitionCam:
+        from optlaws.cycles.moves.transitions import transition_cam
+
         return transition_cam(kind, self.programme, self.pieces, self._cycle_objective, **given)
 
     def per_angle(self, degrees: Any, nu: int = 0) -> Any:  # noqa: ANN401 - as for times

@@ -23,7 +23,6 @@ from optlaws.cams.sizing.springs import CONTACT, GREATEST
 from optlaws.cams.summary import named_forces
 from optlaws.cycles.summary import objective_unit
 from optlaws.files import tables, writing
-from optlaws.jobs import barrel_cam
 from optlaws.jobs.cam_entries import CamProblemFile, FileEntries
 from optlaws.jobs.cam_findings import EXTREMES, FORCE, STIFFNESS, Findings, Limits, enclosure, extreme_rows, plain
 from optlaws.plots.cam import animated, cam_figure, forces_figure, pair_figure
@@ -42,6 +41,8 @@ _RETURN = "return-"
 def run(results: Results) -> None:
     """Put the cam's page, data, table, pictures and files into results."""
     if "barrel" in results.entries:
+        from optlaws.jobs import barrel_cam
+
         barrel_cam.run(results)
         return
     findings = Findings.read(results.entries, results.file)
@@ -73,6 +74,8 @@ def _cut(cam: DiscCam, entry: FileEntries, about: str, file: Path) -> Path:
 def answer(data: Mapping[str, Any], file: Path) -> dict[str, Any]:
     """The data of the cam for programs, in metres and radians: enclosures as pairs, with the angle of the cam."""
     if "barrel" in data:
+        from optlaws.jobs import barrel_cam
+
         return barrel_cam.answer(data, file)
     return _to_data(Findings.read(data, file))
 

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import msgspec
 
 from optlaws.cycles.cycle import Cycle
 from optlaws.cycles.interchange import CLOCK, ENTRIES
-from optlaws.cycles.machine_axes import Axes, Overlap
 from optlaws.errors import InputError, located
 from optlaws.files.problem_file import Text, convert
 from optlaws.jobs.axes.axis_transitions import TransitionEntries
@@ -20,6 +19,9 @@ from optlaws.jobs.axes.interlock_entries import InterlockEntries, OverlapEntries
 from optlaws.jobs.axes.segment_entries import SegmentEntries, given, segment_of
 from optlaws.jobs.job import JobFile
 from optlaws.suggest import unknown_key
+
+if TYPE_CHECKING:
+    from optlaws.cycles.machine_axes import Axes, Overlap
 
 
 class ElasticFollowerEntries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
@@ -116,6 +118,8 @@ def read_given(data: Mapping[str, Any], file: Path) -> tuple[CycleProblemFile, A
     InputError
         If an entry is unknown or wrong; the error names the file, the axis and the segment, or the interlock.
     """
+    from optlaws.cycles.machine_axes import Axes
+
     spec = convert(data, CycleProblemFile, file)
     cycles: dict[str, Cycle] = {}
     for axis in spec.axis:

@@ -126,7 +126,7 @@ class Jet:
         pair = _alike(self, other)
         inverse = 1.0 / other.terms[0]
         if pair is not None:
-            rows = Rows(pair[0])
+            rows = TermRows(pair[0])
             for i in range(len(rows)):
                 above = pair[0][i]
                 rows[i] = (above - dot_of_rows(pair[1][1 : i + 1], rows.back(i)) if i else above) * inverse
@@ -159,7 +159,7 @@ class Jet:
         terms = [np.sqrt(self.terms[0])]
         inverse = 0.5 / terms[0] if self.order else None
         if block is not None and inverse is not None:
-            rows = Rows(block)
+            rows = TermRows(block)
             rows[0] = terms[0]
             for i in range(1, len(rows)):
                 rest = block[i] - dot_of_rows(rows.block[1:i], rows.back(i)[:-1]) if i > 1 else block[1]
@@ -176,7 +176,7 @@ class Jet:
         block = self.block
         sines, cosines = [np.sin(self.terms[0])], [np.cos(self.terms[0])]
         if block is not None and self.order:
-            sine_rows, cosine_rows, steps = Rows(block), Rows(block), self.slope().block
+            sine_rows, cosine_rows, steps = TermRows(block), TermRows(block), self.slope().block
             assert steps is not None  # noqa: S101 - the slope of rows has rows
             sine_rows[0], cosine_rows[0] = sines[0], cosines[0]
             for i in range(1, len(sine_rows)):
@@ -236,10 +236,10 @@ class Jet:
         return Jet((first, *(rate / (i + 1) for i, rate in enumerate(rates))))
 
 
-class Rows:
+class TermRows:
     """Rows of an interval that are filled one after the other, as many and of the shape as another one has.
 
-    >>> rows = Rows(exact(np.zeros((2, 1))))
+    >>> rows = TermRows(exact(np.zeros((2, 1))))
     >>> rows[0], rows[1] = exact(np.array([1.0])), exact(np.array([2.0]))
     >>> rows.back(2).middle.ravel().tolist()
     [2.0, 1.0]

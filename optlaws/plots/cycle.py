@@ -12,7 +12,6 @@ from optlaws.errors import InputError
 from optlaws.motion.piece import Piece
 from optlaws.motion.quantities import QUANTITIES, TURN
 from optlaws.numbers import Array, derivative
-from optlaws.plots.law import four
 from optlaws.plots.style import BLUES, GREEN, GREY, WARM, new_figure, plot_style, titled
 from optlaws.tolerances import INSIDE_PIECE
 
@@ -62,6 +61,8 @@ def draw_cycle(cycle: Cycle, axes: Any = None, **style: Any) -> list[Artist]:  #
             axes = _panels(cycle)
     several = list(np.ravel(np.asarray(axes, dtype=object)))
     with_drive = several[4:] if len(several) == 6 and cycle.drive is not None else []
+    from optlaws.plots.law import four
+
     panels = four(several[:4] if with_drive else several)
     artists: list[Artist] = []
     for nu, panel in enumerate(panels):

@@ -4,19 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 import msgspec
 import numpy as np
 
-from optlaws.cycles.cycle import Cycle
-from optlaws.cycles.moves.transition_cam import TransitionCam, TransitionKind
 from optlaws.errors import InfeasibleProblem, InputError
 from optlaws.files.tables import Cell, to_csv
 from optlaws.motion.quantities import QUANTITIES
-from optlaws.plots.cycle import UNITS
-from optlaws.plots.moves import transition_figure
 from optlaws.results import Page, Results
+
+if TYPE_CHECKING:
+    from optlaws.cycles.cycle import Cycle
+    from optlaws.cycles.moves.transition_cam import TransitionCam, TransitionKind
 
 TRANSITIONS = "transitions.json"
 _HEADINGS = ("what", "value", "unit", "at, s", "note")
@@ -48,7 +48,7 @@ class AxisTransition(NamedTuple):
 
 
 #: run-ins and run-outs by the names of their files: the axis, the kind and the entries
-Named = dict[str, tuple[str, TransitionKind, TransitionEntries]]
+Named: TypeAlias = "dict[str, tuple[str, TransitionKind, TransitionEntries]]"
 
 
 def transition_names(
@@ -91,11 +91,14 @@ def add_transitions(result: Page, title: str, transitions: Sequence[AxisTransiti
 
 def write_transitions(results: Results, title: str, transitions: Sequence[AxisTransition], rows: int) -> None:
     """Put the tables, the pictures and the proofs of run-ins and run-outs into results."""
+    if not transitions:
+        return
+    from optlaws.plots.moves import transition_figure
+
     for name, _, cycle, cam in transitions:
         results.text(f"{name}.csv", _table(cam, rows, results.about))
         results.picture(name, transition_figure(cam, cycle, f"{title}: {cam.kind}"))
-    if transitions:
-        results.data(TRANSITIONS, {transition.name: transition.cam.claims() for transition in transitions})
+    results.data(TRANSITIONS, {transition.name: transition.cam.claims() for transition in transitions})
 
 
 def transition_facts(transitions: Sequence[AxisTransition]) -> dict[str, Any]:
@@ -119,6 +122,8 @@ def _facts(cam: TransitionCam) -> dict[str, Any]:
 
 def _table(cam: TransitionCam, rows: int, about: str) -> str:
     """Angle, time, position, velocity, acceleration and jerk at equal steps over the cam, as CSV."""
+    from optlaws.plots.cycle import UNITS
+
     units = UNITS[cam.axis]
     times = np.linspace(0.0, cam.duration, rows)
     columns = [np.linspace(*cam.master, rows), times]

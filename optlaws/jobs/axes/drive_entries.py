@@ -10,7 +10,6 @@ import msgspec
 
 from optlaws.errors import InputError, located
 from optlaws.files.problem_file import Text, convert
-from optlaws.jobs.axes.mechanism_entries import mechanism_of
 from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.mechanisms.drives.motor import Motor, read_motors
 from optlaws.mechanisms.linkages.mechanism import Mechanism
@@ -61,6 +60,8 @@ def drive_of(
                 "{ kind = 'table', inertia = '0.8 kg m^2' }"
             )
         return drive
+    from optlaws.jobs.axes.mechanism_entries import mechanism_of
+
     driven = mechanism_of(mechanism)
     if drive is None:
         return driven
