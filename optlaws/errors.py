@@ -112,7 +112,7 @@ class InfeasibleProblem(OptlawsError):  # noqa: N818
 
 
 class SolverFailure(OptlawsError, RuntimeError):  # noqa: N818
-    """The solver found no answer that passes its checks, although the problem may have a solution.
+    """The solver has no answer that passes its checks, although the problem may have a solution.
 
     Parameters
     ----------

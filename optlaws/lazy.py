@@ -25,7 +25,7 @@ def imported(module: str) -> ModuleType:
     """A module of optlaws, imported at the first use, in whichever thread.
 
     Modules of optlaws import each other in no circle, and none from its package while that imports it, so that threads
-    may import several at once. numpy is not so, and comes first and whole. The lock is held for it alone: held for
+    may import several at once. numpy is not so, and comes first and whole. The lock is for it alone: for
     modules of optlaws, it would wait for one that waits for the lock.
 
     Examples

@@ -53,7 +53,7 @@ class Balancing:
     cycle
         The executive cycle, with its drive: mass or inertia, and what else it moves, which no loader balances.
     share
-        The loader's mass over the one that balances the inertia in full.
+        The loader's mass over the mass that balances the inertia in full.
 
     Raises
     ------

@@ -206,7 +206,7 @@ class AsMade(PlainNumbers):
     Attributes
     ----------
     deviation
-        Greatest difference of its displacement from the one that was meant, m or rad.
+        Greatest difference of its displacement from the intended displacement, m or rad.
     acceleration, jerk
         Greatest second and third derivative of the displacement by the cam's angle, m or rad; at w rad/s they are
         multiplied by w² and w³.

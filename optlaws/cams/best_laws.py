@@ -2,7 +2,7 @@
 
 Under a slide with a roller a limit of the pressure angle, |s' - e| <= tan(alpha) (height + s), is linear in the law,
 and so is rho = r0 + s + s'' under a flat face: such laws are proven optimal as all others are. For an arm with a roller
-the limit is s' <= G(s) with a sine G: laws below lines under it are found, laws below lines over it give the bound.
+the limit is s' <= G(s) with a sine G: laws below lines under it are solutions, laws below lines over it give the bound.
 The radius of curvature under rollers is a formula of the law that is not convex; planes below it give the bound.
 """
 
@@ -57,7 +57,7 @@ class BestCam:
     Attributes
     ----------
     cam
-        With the laws found.
+        With its laws.
     objective
         The value of the cycle's objective over the whole cycle; SI units.
     lower_bound
@@ -82,7 +82,7 @@ class BestPrimeCircle:
     Attributes
     ----------
     least
-        The least prime circle of the laws found, proven for them.
+        The least prime circle of these laws, proven for them.
     lower_bound
         What no laws of this order and degree in the same times can beat, m.
     solutions
@@ -106,7 +106,7 @@ def best_cam(
     """The optimal laws of a cycle under limits of its cam, at a given prime circle.
 
     Displacements stay between those of the cycle's joints. The curvature under a roller is no convex limit of the law:
-    where the best laws without it break it, laws that keep it are found, and the bound, which holds for all laws, is a
+    where the best laws without it break it, laws within it are computed, and the bound, which holds for all laws, is a
     little below them; the status then is "local".
 
     Parameters
@@ -125,7 +125,7 @@ def best_cam(
     InfeasibleProblem
         If no law keeps them; with proof, where they are linear in the law.
     SolverFailure
-        If no law was found that keeps a limit which is not convex, though none was shown not to exist.
+        If the search yields no law within a limit that is not convex, though none was shown not to exist.
 
     Examples
     --------

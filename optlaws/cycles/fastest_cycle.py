@@ -33,7 +33,7 @@ class LeastDuration:
     name
         The segment, or the segments that are one law.
     least, duration
-        The least time and the one that it has, in seconds.
+        The least time and its time in the cycle, in seconds.
     limits
         The limits that the fastest law takes to the full, each with its value.
     binding

@@ -41,7 +41,7 @@ _SHOWN = 6  # segments in a line
 
 
 class CycleInterchange(JsonText):
-    """The forms in which a cycle leaves, apart from how its laws are found: data, files, tables, motions, pictures."""
+    """The forms in which a cycle leaves, apart from the search of its laws: data, files, tables, motions, pictures."""
 
     _json_name = "a stored cycle"
 

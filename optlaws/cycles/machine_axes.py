@@ -433,7 +433,7 @@ class Axes(JsonText, Mapping[str, Cycle]):
 
 @dataclass(frozen=True, eq=False)
 class Overlap:
-    """Axes whose moves overlap as well as was found, with the bound that no others pass.
+    """Axes with the best overlap of the search, and the bound that no other overlap passes.
 
     Attributes
     ----------

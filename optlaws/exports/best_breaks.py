@@ -25,7 +25,7 @@ _GRADINGS = (1.0, 0.7)
 
 @dataclass(frozen=True)
 class Tried:
-    """A number of pieces: C of the run over C of the law with even breaks, and with the best that were found."""
+    """A number of pieces: C of the run over C of the law with even breaks, and with the best breaks of the search."""
 
     count: int
     even: float
@@ -34,7 +34,7 @@ class Tried:
 
 @dataclass(frozen=True)
 class BestBreaks:
-    """The fewest Hermite polynomials that were found to run a law with its own peak of the acceleration.
+    """The fewest Hermite polynomials of the search that run a law with its own peak of the acceleration.
 
     Parameters
     ----------
@@ -65,7 +65,7 @@ def best_breaks(law: MotionLaw, degree: int = 7, most: int = MOST) -> BestBreaks
     """The fewest pieces of degree 3, 5, 7 or 9 with the law's derivatives at their breaks that run with its C.
 
     C of the run is to be within 0.1 % of the law's, and the displacement within 0.1 % of it. Breaks are looked for by
-    Nelder and Mead from even and from graded ones: what comes out is what was found, no proof that fewer will not do.
+    Nelder and Mead from even and from graded breaks: the result is no proof that fewer will not do.
 
     Parameters
     ----------

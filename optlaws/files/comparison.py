@@ -26,7 +26,7 @@ def say_the_same(first: bytes, second: bytes, kind: str, digits: int | None = No
     """Whether two contents of a file differ in rounding alone; the kind is the ending of the file's name.
 
     In JSON numbers must be equal in eight digits, or as many as mean something, within a list in those of its greatest,
-    and peaks may be found elsewhere by 1e-6; a proof is the same if it proves the same, whatever the multipliers behind
+    and places of peaks may differ by 1e-6; a proof is the same if it proves the same, whatever the multipliers behind
     it. In tables the last of six or more digits may differ by one, in pictures places by 0.05. Others must be equal.
 
     Examples

@@ -39,7 +39,7 @@ _IN_PNG = re.compile(rb"(?<=tEXtSoftware\0)" + _SEALED)
 def write(file: Path, content: str | bytes, *, digits: int | None = None, exact: bool = False) -> Path:
     """Replace a file in a single step, unless its contents agree already.
 
-    A file that is there and was not made by optlaws, or was changed since, is kept as `name.orig`; one that says the
+    A file that is there and was not written by optlaws, or was changed since, is kept as `name.orig`; one that says the
     same but for rounding (see `comparison`; `digits` is how many mean something) is left as it is, unless every digit
     counts (`exact`), as in files that a machine follows. A new file has the rights that the umask leaves, a replaced
     one those it had.
@@ -61,7 +61,7 @@ def write(file: Path, content: str | bytes, *, digits: int | None = None, exact:
 def write_any(file: Path, content: str) -> Path:
     """Replace a file at once by a text that may have no mark, as formats of controllers have no place for one.
 
-    A file that says something else is kept as `name.orig`, unless its seal tells that optlaws made all of it.
+    A file with other contents is kept as `name.orig`, unless its seal shows that optlaws wrote all of it.
     """
     if MARK in content:
         return write(file, content, exact=True)

@@ -188,7 +188,7 @@ def best_law(
     """The best law for the exact request, of any degree in the atlas; the arguments are as for `look_up`.
 
     A point of the atlas says nothing of the best degree under a limit: its law keeps to it by chance. So every degree
-    is asked, but where the greatest, among whose laws are those of all others, has answered for them with proof.
+    is solved, except where a proven law of the greatest, which includes the laws of all others, decides.
     """
     degrees = sorted({point.degree for point in read(file) if point.order == order}, reverse=True)
     solutions: list[Solution] = []

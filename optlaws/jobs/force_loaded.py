@@ -53,7 +53,7 @@ class Case(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     move: StrokeEntries | None = None
 
     def machine(self, folder: Path) -> CaseTorque:
-        """The torque that drives it; catalogues of motors are found from a folder."""
+        """The torque that drives it; paths of catalogues of motors are relative to a folder."""
         formulas = (self.inertia, self.friction, self.load)
         if self.mechanism is None and self.drive is None and self.move is None:
             inertia, friction, load = (

@@ -158,7 +158,7 @@ class MassChain:
         return value
 
     def _stops(self, i: int, slope: Slope, negligible: float) -> Array:
-        """Points of a stretch where a slope is zero, each found by a Chebyshev series there."""
+        """Points of a stretch where a slope is zero, each from a Chebyshev series there."""
         panels, series = self._resolved(lambda s: slope(i, s, 0), self.stretches[i].length, negligible)
         return panels.roots_of(series, lambda s: slope(i, s, 0), lambda s: slope(i, s, 1))
 

@@ -101,7 +101,7 @@ class Response(MassMotion):
         Parameters
         ----------
         reference
-            The law whose C counts: the one meant for the mass; the cam's own unless given.
+            The law whose C counts: that of the mass; the cam's own unless given.
         dwell
             Look at the dwell as well as at the rise.
 

@@ -1,4 +1,4 @@
-"""How an optimal law is found: problems, their solution by CasADi and IPOPT, lower bounds and limits."""
+"""The synthesis of optimal laws: problems, their solution by CasADi and IPOPT, lower bounds and limits."""
 
 from optlaws.lazy import face
 

@@ -79,7 +79,7 @@ class Front(JsonText):
 
     @property
     def failed(self) -> tuple[float, ...]:
-        """Values of the first constant at which no law was found, ascending."""
+        """Values of the first constant at which the search failed, ascending."""
         return tuple(sorted(self.errors))
 
     @kept_property
@@ -324,7 +324,7 @@ def pareto_front(
         Two or three constants, by their names or themselves: B, C, D, J, or any that can be minimised and bounded,
         such as "peak(c + 0.2*b)", "residual(frequency=20)" or `machine.peak("torque")`.
     points
-        How many laws; fewer where nothing is exchanged, laws are not found, or with three constants.
+        How many laws; fewer where nothing is exchanged, a search fails, or with three constants.
     between
         Least and greatest value of the first constant; where it pays unless given. Beyond the value that the law of
         least last constant has, both constants get worse, so no points lie there.
@@ -336,7 +336,7 @@ def pareto_front(
     InputError
         If the constants are unknown, repeated or already given by the problem, or nothing is left between the values.
     InfeasibleProblem, SolverFailure
-        If no law of an end of the front exists or is found. Why there is none between is in `errors` of the front.
+        If an end of the front has no law, or a search fails. Why there is none between is in `errors` of the front.
 
     Examples
     --------
@@ -552,7 +552,7 @@ def _with(problem: Problem, name: str, limits: float | Range) -> Problem:
 
 
 def least_value(problem: Problem, name: str) -> float:
-    """The least value of a constant, of B where it is given as a number; SolverFailure where none is found."""
+    """The least value of a constant, of B where it is given as a number; SolverFailure where the search fails."""
     if name != "B":
         return synthesize(replace(problem, minimise=name)).objective
     extreme = extreme_velocity(problem, greatest=False)

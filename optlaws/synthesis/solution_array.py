@@ -249,7 +249,7 @@ class SolutionArray(JsonText):
         Raises
         ------
         InfeasibleProblem, SolverFailure, InputError
-            If the problem at that place has no law, none was found, or it is no problem.
+            If the problem at that place has no law, its search failed, or it is no problem.
         IndexError
             If there is no such place.
         """

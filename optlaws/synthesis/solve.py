@@ -50,7 +50,7 @@ def synthesize(problem: Problem, *, start: Solution | None = None, bound: Bound 
         If no law of the problem exists; `proof` is a certificate of that, unless the message names the limit that
         exceeds the given bound.
     SolverFailure
-        If no law could be found although none was shown not to exist.
+        If the search failed and did not prove that no law exists.
 
     Examples
     --------

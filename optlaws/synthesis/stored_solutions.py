@@ -58,7 +58,7 @@ class StatedOptima(msgspec.Struct, forbid_unknown_fields=True):
 
 
 class StatedPart(msgspec.Struct, forbid_unknown_fields=True):
-    """Laws that were found together: their places, a problem of their kind, and their optima as arrays."""
+    """Laws that were solved together: their places, a problem of their kind, and their optima as arrays."""
 
     places: list[int]
     problem: Plain
@@ -79,7 +79,7 @@ class StatedSolutions(msgspec.Struct, forbid_unknown_fields=True):
 
 @dataclass(frozen=True, eq=False)
 class StoredSolutions:
-    """Stored solutions: the problems, optima found together by place and program, and those found singly.
+    """Stored solutions: the problems, optima solved together by place and program, and those solved singly.
 
     `statuses` has the status that each row states.
     """

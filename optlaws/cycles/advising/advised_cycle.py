@@ -135,7 +135,7 @@ class AdvisedCycle:
         Raises
         ------
         InfeasibleProblem, SolverFailure
-            If no law keeps all of that, or none is found.
+            If no law satisfies all of that, or the search fails.
         """
         of_cycle = self.cycle.minimise if minimise == RESIDUAL else minimise
         limits = dict(self.cycle.limits)
@@ -155,7 +155,7 @@ class AdvisedCycle:
         Raises
         ------
         InfeasibleProblem, SolverFailure
-            If none is found.
+            If the search fails.
         """
         assert isinstance(best.motion, Cycle)  # noqa: S101 - as it is one of these
         if self.follower is None and LIMITS.get(self.minimise, 0) > 0:

@@ -92,7 +92,7 @@ def advise(
     InfeasibleProblem
         If no law keeps the limits.
     SolverFailure
-        If none is found.
+        If the search fails.
 
     Examples
     --------

@@ -113,7 +113,7 @@ class AdvisedProblem:
         Raises
         ------
         InfeasibleProblem, SolverFailure
-            If no law keeps all of that, or none is found.
+            If no law satisfies all of that, or the search fails.
         """
         problem = self.problem
         for other, value in most.items():
@@ -131,7 +131,7 @@ class AdvisedProblem:
         InputError
             If what is least there is a sum of constants.
         InfeasibleProblem, SolverFailure
-            If none is found.
+            If the search fails.
         """
         return self._solved(name, minimise, least_near(best.solutions[0], self._constants[minimise], share))
 

@@ -27,7 +27,7 @@ class Candidates:
     motion
         Whose laws they are.
     laws
-        By their names, in the order in which they were found.
+        By their names, in the order in which they were computed.
     errors
         Why there is no law of a name.
     usual
@@ -87,7 +87,7 @@ class Candidates:
         Raises
         ------
         InfeasibleProblem, SolverFailure
-            If no law keeps every limit, or none is found.
+            If no law satisfies every limit, or the search fails.
         """
         minimise, second, motion = self.minimise, self.second, self.motion
         name = f"least {minimise}"

@@ -43,7 +43,7 @@ _SAME = BENT_GAP
 
 @dataclass(frozen=True)
 class BestBent:
-    """Motions of the axes found, their period, the bound of the objective, and the number of boxes examined."""
+    """The best motions of the axes, their period, the bound of the objective, and the number of boxes examined."""
 
     axes: Mapping[str, BentAxis]
     period: float
@@ -347,7 +347,7 @@ def best_bent(
 
 
 def _shortest(first: _BoxSearch, slowest: int) -> BestBent | None:
-    """Laws of the least period, and a bound of it; None where none were found in any.
+    """Laws of the least period, and a bound of it; None where the search has none.
 
     Of the instants that are known the period is shortened until the limits are met. Then all laws in a period that is
     shorter by the gap are looked for: none keep the limits, or a law played slower by a factor, which has less of every

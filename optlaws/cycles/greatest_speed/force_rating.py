@@ -38,7 +38,7 @@ PlacedLaw = tuple[Piece, Solution | None]
 class ForceRating:
     """Motions that turn with the master and share a limit of the root mean square of their force.
 
-    `placed` are they at a period, `fastest` the laws that keep all other limits where none of least force is found.
+    `placed` are they at a period, `fastest` the laws that keep all other limits where no least force is known.
     """
 
     objective: CycleObjective

@@ -69,7 +69,7 @@ def time_front(
     InputError
         If the name is unknown, what it needs is missing, or the longest time is not above the least.
     SolverFailure
-        If no law is found in a time; the error names it.
+        If the search fails in a time; the error names it.
 
     Examples
     --------

@@ -39,7 +39,7 @@ def drive_of(
     drive
         The table of a drive: constants, or beside a mechanism its motor and gear.
     folder
-        From which the catalogue of motors is found.
+        To which the path of the catalogue of motors is relative.
 
     Raises
     ------

@@ -77,7 +77,7 @@ def multiplier_for(
 ) -> tuple[float, ...]:
     """The multiplier y of (1.6) with m coefficients that gives a law m - 1 prescribed constants, and its own stroke.
 
-    y is a sum of m even powers of 2k - 1, and is found by a search; `multiplied_law(law, y)` is the law that has them.
+    y is a sum of m even powers of 2k - 1, and comes from a search; `multiplied_law(law, y)` is the law that has them.
 
     Parameters
     ----------
@@ -95,7 +95,7 @@ def multiplier_for(
     Raises
     ------
     InputError
-        If no constant is given or one is no number, if no y with so many coefficients has been found that gives them,
+        If no constant is given or one is no number, if the search has no y with so many coefficients for them,
         or if the y that does is negative somewhere.
 
     Examples

@@ -42,8 +42,8 @@ class Segment(JsonText, ABC):
     """A stretch of a motion law in u = (k - start) / length, u in [0, 1]; frozen, with a name and plain contents.
 
     A kind is a frozen dataclass of numbers and tuples of numbers, declared with its name, for example
-    ``class SplineSegment(Segment, kind="spline")``. Where it lies is known to the law alone, so every method is
-    told the length; derivatives are with respect to k. A kind supplies the abstract methods; storage follows, and by a
+    ``class SplineSegment(Segment, kind="spline")``. Where it lies is known to the law alone, so every method
+    takes the length; derivatives are with respect to k. A kind supplies the abstract methods; storage follows, and by a
     polynomial interpolant all that is computed from segments, unless it has a closed form of its own for that. An
     acceleration that is not smooth has no such interpolant: InputError.
 

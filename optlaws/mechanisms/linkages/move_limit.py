@@ -62,12 +62,12 @@ class MoveLimit(JsonText):
 
     @property
     def attained(self) -> float:
-        """The value of the motion that was found, which is not proven."""
+        """The value of the best motion of the search, which is not proven."""
         return self.drive_limit.attained * self.unit
 
     @property
     def gap(self) -> float:
-        """The relative difference between the motion that was found and the bound."""
+        """The relative difference between the best motion of the search and the bound."""
         return self.drive_limit.gap
 
     def __str__(self) -> str:

@@ -2,7 +2,7 @@
 
 A is balanced and turned into triangular form (Schur), so that defective, undamped and overdamped machines are all the
 same: one scalar equation after another, the last one first. Each is an integral equation for the coefficients of its
-Chebyshev series, three of them to a row. Panels are short only so that a series is, and roots of it are found quickly.
+Chebyshev series, three of them to a row. Panels are short only so that a series is, and its roots are computed quickly.
 """
 
 from __future__ import annotations

@@ -182,7 +182,7 @@ class ParametricContinuation:
             self.segments.append(segment)
 
     def _after(self, segment: StructureSegment, beyond: float, goal: float) -> StructureSegment | None:
-        """The segment on the other side of an event; None where no law is found there."""
+        """The segment on the other side of an event; None where the search there fails."""
         way = np.sign(goal - beyond) or 1.0
         edge = segment.end if way > 0.0 else segment.begin
         near = self._active_set(segment, edge)

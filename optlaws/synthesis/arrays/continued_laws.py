@@ -106,7 +106,7 @@ def _laws_of_stored_structures(path: Path, t: Array) -> SolvedBatch | None:
 
 
 def _laws_of_neighbours(path: Path, t: Array, known: SolvedBatch | None = None) -> SolvedBatch:
-    """The optima at ascending t, each structure tried at all that are left, and the next one found beside them.
+    """The optima at ascending t, each structure tried at all that are left, and the next computed beside them.
 
     Of few laws this is quicker than a walk, which finds where structures change. Some may be known.
     """
@@ -138,7 +138,7 @@ def _next_place(solved: NDArray[np.bool_], untried: NDArray[np.bool_]) -> int | 
 
 
 def segments_of(path: Path, least: float, greatest: float) -> list[StructureSegment]:
-    """The structures between two t, by ascending t, as far as they were found."""
+    """The structures between two t, by ascending t, as far as they are known."""
     return ParametricContinuation(path, least, greatest).whole(least + _STARTS * (greatest - least))
 
 

@@ -46,11 +46,11 @@ def least_power(problem: Problem) -> bool:
 def on_global_branch(
     laws: SolvedBatch, places: NDArray[np.intp], sought: Callable[[int], float | None]
 ) -> NDArray[np.bool_]:
-    """A mask of laws of a path between two laws for which a search from all starts found no other.
+    """A mask of laws of a path between two laws for which a search from all starts ends with no other.
 
     Parameters
     ----------
-    found, places
+    laws, places
         The laws by ascending t, and what `sought` calls them.
     sought
         The objective that a search for one law from all starts ends with; None where it ends with no law.
@@ -80,7 +80,7 @@ def with_quick_bounds(path: Path, t: Array, laws: SolvedBatch, limits: Array) ->
 
     Parameters
     ----------
-    path, t, found
+    path, t, laws
         The laws and where they are on their path.
     limits
         What no law of each problem is below; minus infinity where nothing is known.

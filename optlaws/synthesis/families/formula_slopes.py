@@ -1,7 +1,7 @@
 """Formulas with their slopes and second derivatives as arrays; long factors of the position are read from tables.
 
-The inertia of a linkage is a formula of some hundred steps, its second derivative one of a thousand, and a search asks
-for them at some hundred positions at every step. Their values are known from polynomials on cells of the position.
+The inertia of a linkage is a formula of some hundred steps, its second derivative one of a thousand, and a search needs
+them at some hundred positions at every step. Their values are known from polynomials on cells of the position.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """A priori bounds of laws in which a formula is small, and lower bounds of formulas in all laws.
 
 Enough values of a formula that is affine in the law determine the law. A convex formula is nowhere below its tangents,
-one that is made of straight ones nowhere below a mean of these whose shares change from cell to cell. Added up with
+one that consists of affine parts nowhere below a mean of these whose shares change from cell to cell. Added up with
 weights, or integrated, they leave one coordinate of the law alone: it is at most so much times the integral, and more.
 """
 

@@ -28,7 +28,7 @@ def law_in_time(move: TimedMove, duration: float, warm: ActiveSet | None, shorte
     InputError
         If every time satisfies the limits.
     SolverFailure
-        If no law is found.
+        If the search fails.
     """
     problem = move.shares(duration, shortest=shortest)
     search = LawSearch(model_of(problem), warm=warm)

@@ -79,7 +79,7 @@ class LeastTime(JsonText):
 
     @property
     def status(self) -> Status:
-        """Whether the least time is proven, or the least that was found: where a torque is not convex in the law."""
+        """Whether the least time is proven, or the least of the search: where a torque is not convex in the law."""
         return Status.OPTIMAL if self.gap <= 2.0 * LEAST_TIME_GAP else Status.LOCAL
 
     @kept_property

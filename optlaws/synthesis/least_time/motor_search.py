@@ -78,8 +78,8 @@ def least_time_of_motor(move: TimedMove, near: LeastTime | None = None) -> Least
 def least_time_of_follower(move: TimedMove, without: LeastTime) -> LeastTime:
     """The least time within a limit of the vibration that is left, from the least time without that limit.
 
-    Laws of a longer time may leave more again. A law is found upward; boxes of the times before it are then proven to
-    be too short, and a law that they come upon is a faster one.
+    Laws of a longer time may leave more again. The search goes up to a law; boxes of the times before are then proven
+    to be too short, and a law that they come upon is a faster one.
     """
     trials = _Trials(move)
     low = high = log(without.duration)

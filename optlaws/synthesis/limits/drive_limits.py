@@ -49,7 +49,7 @@ class DriveLimit(JsonText):
     value
         The proven lower bound, dimensionless, rounded down.
     attained
-        What the motion of the phase plane takes that was found; the infimum is between both. Not proven.
+        The value of the best motion in the phase plane; the infimum is between both. Not proven.
     plane
         The torques and the bounds, divided by `unit`.
     unit
@@ -58,7 +58,7 @@ class DriveLimit(JsonText):
         The certificate: the multiplier of the time and the potential of the equation of motion, by the Bernstein
         coefficients of its pieces.
     s, b
-        Places of the motion that was found, where a = sin²(pi s/2), and its velocities there.
+        Places of the best motion, where a = sin²(pi s/2), and its velocities there.
 
     Examples
     --------
@@ -82,7 +82,7 @@ class DriveLimit(JsonText):
 
     @property
     def gap(self) -> float:
-        """The relative difference between the motion that was found and the limit."""
+        """The relative difference between the best motion and the limit."""
         return (self.attained - self.value) / self.value if self.value > 0.0 else inf
 
     @kept_property
@@ -95,7 +95,7 @@ class DriveLimit(JsonText):
         return plane_of(problem) == (self.plane, self.minimise, self.unit)
 
     def velocity(self, a: Any) -> Array:  # noqa: ANN401 - numbers of any shape
-        """The velocity of the motion found at positions, dimensionless.
+        """The velocity of the best motion at positions, dimensionless.
 
         Examples
         --------
@@ -111,7 +111,7 @@ class DriveLimit(JsonText):
         return np.asarray(shape(s) * np.sin(np.pi * s))
 
     def motion(self) -> tuple[Array, Array, Array]:
-        """Times k from 0 to 1 of the motion that was found, with its positions and velocities there.
+        """Times k from 0 to 1 of the best motion, with its positions and velocities there.
 
         Examples
         --------

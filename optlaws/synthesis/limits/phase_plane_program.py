@@ -5,7 +5,7 @@ equation of motion w' = 2 c is tested with functions J phi(s)/sin(pi s), phi pie
 the potential q(a) = J(a) pi(s)/sin(pi s), J the inertia of the plane's reference, from which every bound follows.
 
 Behind a gear with losses |torque| <= s is that neither branch is above s, and that one of both is not below -s: the one
-in which the last motion was. So a motion that is found keeps the bounds, but need not be the best.
+in which the last motion was. So the resulting motion satisfies the bounds, but need not be the best.
 """
 
 from __future__ import annotations

@@ -118,7 +118,7 @@ def proven_ends(problem: Problem, first: MotionLaw, last: MotionLaw, gap: float)
 
 
 def _least(problem: Problem, name: str) -> float:
-    """A proven bound of a constant from below; 0 where none was found."""
+    """A proven bound of a constant from below; 0 where the search has none."""
     try:
         return synthesize(replace(problem, minimise=name)).lower_bound
     except OptlawsError:

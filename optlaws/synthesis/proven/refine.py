@@ -83,7 +83,7 @@ def proven_front(
     InfeasibleProblem
         If there is no law at an end; the message names the least or greatest value that has one.
     SolverFailure
-        If a certified law was not found, or its own gap exceeds `gap`.
+        If the search of a certified law fails, or its own gap exceeds `gap`.
 
     Examples
     --------

@@ -99,7 +99,7 @@ def _turned(s: Array) -> Array:
 
 
 def optimum_on_points(program: Program, points: list[Points], near: Array | None = None) -> Answer | None:
-    """The optimum of the program with its families enforced at the points only; None if it is not found.
+    """The optimum of the program with its families enforced at the points only; None if the solver fails.
 
     Parameters
     ----------

@@ -150,7 +150,7 @@ class LinearTable:
 
 
 def vertex_on_points(program: Program, points: list[Points], near: Array | None = None) -> Answer | None:
-    """An optimal vertex of the program with its families enforced at the points only; None if it is not found.
+    """An optimal vertex of the program with its families enforced at the points only; None if the solver fails.
 
     Parameters
     ----------
