@@ -175,6 +175,8 @@ class MotionLaw(Curve, LawExport, StoredLaw):
     def _jumps(self, nu: int) -> Jumps:
         inner = self.breaks[1:-1]
         left, right = self._before_breaks(nu), self._derivative(np.array(inner), nu)
+        if np.array_equal(left, right):
+            return ()
         rounding = JUMP * self._size(nu)
         jumps = tuple(
             (k, after - before)

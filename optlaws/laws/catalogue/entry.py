@@ -218,8 +218,8 @@ def continuity_with_rest(law: MotionLaw) -> int:
     inside = law.continuity
     start, end = law.boundary_values(HIGHEST + 1)
     for nu in range(1, inside + 1):
-        size = float(np.abs(law(np.linspace(0.0, 1.0, 65), nu)).max())
-        if max(abs(start[nu]), abs(end[nu])) > JUMP * size:
+        height = max(abs(start[nu]), abs(end[nu]))
+        if height and height > JUMP * float(np.abs(law(np.linspace(0.0, 1.0, 65), nu)).max()):
             return nu - 1
     return inside
 

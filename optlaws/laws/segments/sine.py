@@ -5,7 +5,7 @@ from __future__ import annotations
 import cmath
 from abc import abstractmethod
 from dataclasses import dataclass, replace
-from math import cos, remainder, tau
+from math import acos, asin, ceil, copysign, cos, hypot, pi, remainder, sqrt, tau
 
 import numpy as np
 from numpy.polynomial.polynomial import polyval
@@ -15,7 +15,7 @@ from optlaws.kept import kept_property
 from optlaws.laws.segments.segment import Segment, Wave, Waves
 from optlaws.numbers import Array
 from optlaws.numerics.panels import of_waves
-from optlaws.tolerances import SLOWEST_FREQUENCY
+from optlaws.tolerances import SLOWEST_FREQUENCY, TOUCHING
 
 
 class SwingingSegment(Segment):
@@ -79,7 +79,7 @@ class SineSegment(SwingingSegment, kind="sine"):
 
     def derivative(self, u: Array, length: float, nu: int) -> Array:
         s, w = u * length, self.frequency
-        steady = polyval(s, self._steady[min(nu, len(self._steady) - 1)])
+        steady = polyval(s, self._steady[min(nu, len(self._steady) - 1)]) if self.powers else 0.0
         if nu >= 2:
             # a shift of the phase by quarter turns is a change of function: no rounding of multiples of pi
             turned = (np.sin, np.cos, lambda x: -np.sin(x), lambda x: -np.cos(x))[(nu - 2) % 4]
@@ -91,6 +91,34 @@ class SineSegment(SwingingSegment, kind="sine"):
             swing = s * cos(self.phase) - 2.0 / w * np.cos(half + self.phase) * np.sin(half)
         start = self.b0 if nu else self.b0 * s
         return np.asarray(start + steady + self.amplitude / w * swing, dtype=np.float64)
+
+    def candidates(self, length: float, nu: int) -> Array:
+        if nu == 0 or self.amplitude == 0.0 or len(self.powers) > nu:
+            return super().candidates(length, nu)
+        # c and its derivatives are a sine and a constant
+        level = -self._steady[nu + 1][0] if self.powers and nu + 1 < len(self._steady) else 0.0
+        sine = level / (self.amplitude * self.frequency ** (nu - 1))
+        if abs(sine) > 1.0 + TOUCHING:
+            return np.empty(0)
+        angle = asin(max(-1.0, min(1.0, sine)))
+        return self._places(length, 0.5 * pi * (1 - nu) + angle, 0.5 * pi * (3 - nu) - angle)
+
+    def power_candidates(self, length: float) -> Array:
+        if self.powers or self.amplitude == 0.0:
+            return super().power_candidates(length)
+        # b = A / w (r - x), c² = A² (1 - x²) and j = A w x with x = cos(w s + phi): c² + b j = 0 is a quadratic in x
+        r = self.b0 * self.frequency / self.amplitude + cos(self.phase)
+        far = 0.25 * (r + copysign(hypot(r, sqrt(8.0)), r))
+        angles = [acos(x) for x in (far, -0.5 / far) if abs(x) <= 1.0]
+        return self._places(length, *angles, *(-angle for angle in angles))
+
+    def _places(self, length: float, *phases: float) -> Array:
+        """Every u inside the segment at which w s + phi is one of the phases, but for whole turns."""
+        radians = self.frequency * length
+        first = np.array([(phase - self.phase) % tau for phase in phases])
+        u = (first[:, None] + tau * np.arange(ceil(radians / tau) + 1)).ravel() / radians
+        inside: Array = u[u < 1.0]
+        return inside
 
     def scaled(self, length: float, scale: float, drift: float = 0.0) -> Segment:  # noqa: ARG002
         powers = tuple(scale * power for power in self.powers)

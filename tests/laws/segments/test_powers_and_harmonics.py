@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from optlaws import InputError, MotionLaw, PiecewiseLaw
-from tests.internals.laws import FractionalSegment, HarmonicSegment, Segment
+from tests.internals.laws import FractionalSegment, HarmonicSegment, Segment, SineSegment
 from tests.internals.numerics import real_powers
 
 mpf = mpmath.mpf
@@ -80,6 +80,24 @@ def test_peaks_are_no_less_than_samples(
         assert law.peak(nu).value >= sampled * (1 - 1e-13)
     assert law.power_peak().value >= np.abs(law.d(k)).max() * (1 - 1e-13)
     assert MotionLaw.from_json(law.to_json()) == law
+
+
+@given(
+    amplitude=st.floats(0.5, 8.0) | st.floats(-8.0, -0.5),
+    frequency=st.floats(0.5, 60.0),
+    phase=st.floats(-20.0, 20.0) | st.just(0.5 * np.pi),
+    b0=st.floats(-2.0, 2.0),
+)
+def test_a_sine_has_the_extremes_that_are_searched_of_a_sum_of_one(
+    amplitude: float, frequency: float, phase: float, b0: float
+) -> None:
+    closed = PiecewiseLaw([0.0, 1.0], [SineSegment(amplitude, frequency, phase, b0)])
+    searched = PiecewiseLaw([0.0, 1.0], [HarmonicSegment((amplitude,), (frequency,), (phase,), b0)])
+    for nu in range(1, 5):
+        for one, other in zip(closed.extrema(nu), searched.extrema(nu), strict=True):
+            assert one.value == pytest.approx(other.value, rel=1e-13, abs=1e-13 * searched.peak(nu).value)
+    power = searched.power_peak().value
+    assert closed.power_peak().value == pytest.approx(power, rel=1e-12)
 
 
 @given(st.lists(st.floats(0.01, 0.99), min_size=1, max_size=4, unique=True), st.floats(0.2, 3.0))
