@@ -182,7 +182,7 @@ def test_the_corner_of_a_forbidden_region_is_moved(page: Page, served: Server) -
     corner.focus()
     page.keyboard.press("Shift+ArrowUp")
     settle(page)
-    assert page.get_by_label("interlock 0 corners").input_value().split("; ")[2] == "280 mm, 31 mm"
+    assert page.get_by_label("interlock 1 corners").input_value().split("; ")[2] == "280 mm, 31 mm"
     changed = robot()
     changed["interlocks"] = [BOX | {"corners": [*BOX["corners"][:2], ["280 mm", "31 mm"], BOX["corners"][3]]}]
     (told,) = served.ask("axes-clearances", {"study": changed})["rows"]
@@ -199,7 +199,7 @@ def test_axes_are_added_renamed_and_removed_with_what_names_them(page: Page, ser
     page.keyboard.press("Tab")
     settle(page)
     assert "interlocks clear" in page.locator("#axes-trust").inner_text()
-    assert page.get_by_label("interlock 1 of").input_value() == "turret"
+    assert page.get_by_label("interlock 2 of").input_value() == "turret"
     page.get_by_role("button", name="+ axis").click()
     settle(page)
     assert page.get_by_label("Axes with their peaks").locator("tbody th").all_inner_texts() == [

@@ -304,7 +304,8 @@ def test_a_question_that_takes_long_can_be_stopped_and_undone(page: Page, served
     go(page, served.link(laws=[at_velocity(1.7)], picture="residual"))
     page.get_by_label("Objective as a formula").fill("peak(cos(7*c)*sin(3*b))")
     page.get_by_label("Objective as a formula").press("Enter")
-    page.get_by_role("button", name="Stop").click(timeout=15_000)
+    page.locator("#notice", has_text="optimal laws and their bounds · 1 s").wait_for(timeout=15_000)
+    page.get_by_role("button", name="Stop").click()
     settle(page)
     assert "no answer" in page.locator("#trust").inner_text()
     assert page.locator("#curves .line").count() == 0

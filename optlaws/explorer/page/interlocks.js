@@ -103,8 +103,8 @@ export class Interlocks {
   /** Pairs of positions in a line of text, or a formula where that may be. */
   #pairs(i, name, placeholder, formula = false) {
     const pairs = (text) => text.split(";").map((pair) => pair.split(",").map((part) => part.trim())).filter((pair) => pair.some(Boolean));
-    const field = html("textarea", { rows: 2, placeholder, spellcheck: "false", maxlength: 2000, "aria-label": `interlock ${i} ${name}` });
-    field.addEventListener("change", () => this.#change(`interlock ${i} ${name}`, (all) => {
+    const field = html("textarea", { rows: 2, placeholder, spellcheck: "false", maxlength: 2000, "aria-label": `interlock ${i + 1} ${name}` });
+    field.addEventListener("change", () => this.#change(`interlock ${i + 1} ${name}`, (all) => {
       const text = plain(field.value.trim());
       all[i][name] = formula && !text.includes(";") ? text : pairs(text);
       if (Array.isArray(all[i][name])) delete all[i].units;
@@ -118,8 +118,8 @@ export class Interlocks {
   }
 
   #text(i, name, placeholder, get, put, title = name) {
-    const field = html("input", { type: "text", placeholder, spellcheck: "false", maxlength: 100, "aria-label": `interlock ${i} ${name}` });
-    field.addEventListener("input", () => this.#change(`interlock ${i} ${name}`, (all) => put(all[i], plain(field.value.trim()))));
+    const field = html("input", { type: "text", placeholder, spellcheck: "false", maxlength: 100, "aria-label": `interlock ${i + 1} ${name}` });
+    field.addEventListener("input", () => this.#change(`interlock ${i + 1} ${name}`, (all) => put(all[i], plain(field.value.trim()))));
     field.addEventListener("change", () => this.#study.rest());
     this.#shows.push((all) => {
       const value = String((all[i] && get(all[i])) ?? "");
@@ -129,8 +129,8 @@ export class Interlocks {
   }
 
   #select(i, name, title, options, get, put, named = false) {
-    const field = html("select", { "aria-label": `interlock ${i} ${name}` }, ...Object.entries(options).map(([value, text]) => html("option", { value, text, translate: named ? "no" : null })));
-    field.addEventListener("change", () => this.#change(`interlock ${i} ${name}`, (all) => put(all[i], field.value)));
+    const field = html("select", { "aria-label": `interlock ${i + 1} ${name}` }, ...Object.entries(options).map(([value, text]) => html("option", { value, text, translate: named ? "no" : null })));
+    field.addEventListener("change", () => this.#change(`interlock ${i + 1} ${name}`, (all) => put(all[i], field.value)));
     this.#shows.push((all) => all[i] && (field.value = get(all[i])));
     return html("div", { class: "entry" }, html("span", { class: "field-name", text: title }), field);
   }

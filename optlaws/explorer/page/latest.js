@@ -70,12 +70,17 @@ export class Latest {
   #late = null;
   lost = false;
   slow = false;
+  since = 0; // when the question in flight was asked
 
   constructor(path, answered, failed) {
     this.#path = path;
     this.#answered = answered;
     this.#failed = failed;
     all.add(this);
+  }
+
+  get path() {
+    return this.#path;
   }
 
   /** Whether an answer under way is older than the last question. */
@@ -114,6 +119,7 @@ export class Latest {
       const { question, patience } = this.#waiting;
       this.#waiting = null;
       this.#flight = new AbortController();
+      this.since = performance.now();
       changed();
       const timer = setTimeout(() => this.#state({ slow: true }), SLOW);
       try {

@@ -24,13 +24,38 @@ function notice(text, ...buttons) {
 
 const LATER = 2000; // ms after the start: what checks proofs is there when the server is away
 
+/** What takes long, by the path of its question. */
+const LONG = {
+  "api/laws": "optimal laws and their bounds",
+  "api/front": "the front",
+  "api/cycle": "optimal laws and their bounds",
+  "api/machine": "optimal laws and their bounds",
+  "api/machine-limits": "what no law can beat in each move",
+  "api/machine-ratios": "optimal laws at other ratios",
+  "api/fastest": "the least time and its bound",
+  "api/fastest-front": "laws of longer times",
+  "api/old-move": "a better law near the old one",
+};
+
 let working = false;
+let ticking = null;
+
+/** What is computed for long, and for how many seconds. */
+function computing(slow) {
+  const names = [...new Set(slow.map(({ path }) => LONG[path]).filter(Boolean))];
+  const seconds = html("span", { "aria-hidden": "true" });
+  const tick = () => (seconds.textContent = `${Math.round((performance.now() - Math.min(...slow.map(({ since }) => since))) / 1000)} s`);
+  tick();
+  ticking = setInterval(tick, 1000);
+  return [" ", ...names.flatMap((name) => [html("span", { text: name }), " · "]), seconds];
+}
 
 /** What the server is at, where the reader should know: it is away, it computes for long, it had too little time. */
 function work({ lost, slow, late }) {
   const button = (text, act) => html("button", { type: "button", text, onclick: act });
+  clearInterval(ticking);
   if (lost) notice("The server does not answer. This page keeps the study, and goes on as soon as `optlaws explore` runs again.");
-  else if (slow.length) notice("Computing …", button("Stop", () => slow.forEach((one) => one.stop())));
+  else if (slow.length) notice("Computing …", ...computing(slow), button("Stop", () => slow.forEach((one) => one.stop())));
   else if (late.length) notice("This is not computed within 4 s.", button("Go on for 2 minutes", () => late.forEach((one) => one.goOn())));
   else if (working) notice("");
   working = lost || slow.length > 0 || late.length > 0;
