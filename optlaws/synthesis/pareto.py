@@ -22,6 +22,7 @@ from optlaws.numbers import MOST_VALUES, Array, finite, listed, real, whole
 from optlaws.shown.steps import Steps
 from optlaws.synthesis.families.peaks import of_polynomials
 from optlaws.synthesis.method.exchange import solve
+from optlaws.synthesis.method.stored_structures import stored_guess
 from optlaws.synthesis.problem.constants import Functional
 from optlaws.synthesis.problem.fields import CONSTANTS
 from optlaws.synthesis.problem.named_constants import apart, is_named, named, title_of
@@ -30,7 +31,7 @@ from optlaws.synthesis.problem.ranges import Range
 from optlaws.synthesis.program.writer import extreme_velocity
 from optlaws.synthesis.proof.data import as_json, problem_of, stated
 from optlaws.synthesis.solution import Solution
-from optlaws.synthesis.solve import TIGHT, Bound, check_bound, synthesize
+from optlaws.synthesis.solve import TIGHT, Bound, check_bound, continued, synthesize
 from optlaws.synthesis.solve_many import SolvedLine
 from optlaws.synthesis.status import Status
 from optlaws.tolerances import AGREEMENT, NEARLY_NOTHING, NO_EXCHANGE
@@ -297,6 +298,8 @@ _ABOVE = (1e-5, 1e-7, 1e-9)
 _BENT = 2.0
 #: from this number on, points of convex problems are added in groups, in gaps half as important as the first
 _MANY, _SHARE, _EVEN = 16, 0.5, 4
+#: so few first points are guessed, more are computed
+_GUESSED = 32
 #: where laws are worse than others, so many times as many are looked for at most
 _AGAIN = 2
 
@@ -402,7 +405,8 @@ class _Curve:
 
     def _halve(self) -> bool:
         """Add a point to the most important gap; False without such a gap."""
-        widths = [0.0 if self.points[i][0] in self._dead else width for i, width in enumerate(self._widths())]
+        widths = _widths(_pairs(self.points))
+        widths[[value in self._dead for value, _ in self.points[:-1]]] = 0.0
         i = int(np.argmax(widths))
         if widths[i] < AGREEMENT:
             return False
@@ -427,29 +431,38 @@ class _Curve:
         return np.array([known[value] for value, _ in self.points])
 
     def _grow_together(self, count: int) -> None:
-        """Add points to all gaps at least a quarter as important as the first; their laws are computed together."""
+        """Add points to all gaps at least half as important as the first; their laws are computed together."""
         (low, _), (high, _) = self.points
         # the middles of the first stretches, and of their halves, and so on
         begun = 2 ** round(log2(count / _EVEN))
         values = [low * (high / low) ** (i / begun) for i in range(1, begun)]
         line = SolvedLine(self.problem, self.over[0], self._problem, low, high)
+        known: dict[float, Solution] = {}
+        guessed = line.guessed(np.array(values)) if len(values) < _GUESSED else None
+        points = _pairs(self.points)
+        ahead = [] if guessed is None else _ahead([*points, *zip(values, guessed.tolist(), strict=True)], count)
         while values:
-            results = line.at(np.array(values))
-            proven = np.flatnonzero(results.status == Status.OPTIMAL)
-            there = [values[i] for i in proven.tolist()]
-            solutions = map(results.result, proven.tolist())
-            points = [(value, law) for value, law in zip(there, solutions, strict=True) if isinstance(law, Solution)]
-            if set(self.over) <= set(IN_ARRAYS):
-                columns = [getattr(results, name)[proven].tolist() for name in self.over]
-                self._values |= zip(there, zip(*columns, strict=True), strict=True)
-            self.points = sorted([*self.points, *points], key=lambda point: point[0])
-            if len(points) < len(values):
+            new = {*values, *ahead} - known.keys()
+            known |= self._computed(line, np.array(sorted(new))) if new else {}
+            there = [(value, known[value]) for value in values if value in known]
+            self.points = sorted([*self.points, *there], key=lambda point: point[0])
+            if len(there) < len(values):
                 # the others are looked at one by one
                 return
-            widths = np.array(self._widths())
-            wanting = np.flatnonzero(widths >= max(_SHARE * widths.max(), AGREEMENT))
-            places = wanting[np.argsort(-widths[wanting])][: count - len(self.points)]
-            values = [sqrt(self.points[i][0] * self.points[i + 1][0]) for i in sorted(places.tolist())]
+            points = _pairs(self.points)
+            values = _wanting(points, count)
+            ahead = [] if known.keys() >= set(values) else _ahead(points, count)
+
+    def _computed(self, line: SolvedLine, values: Array) -> dict[float, Solution]:
+        """Proven solutions at values of the first constant, whose constants are remembered."""
+        results = line.at(values)
+        proven = np.flatnonzero(results.status == Status.OPTIMAL)
+        there = values[proven].tolist()
+        if set(self.over) <= set(IN_ARRAYS):
+            columns = [getattr(results, name)[proven].tolist() for name in self.over]
+            self._values |= zip(there, zip(*columns, strict=True), strict=True)
+        laws = zip(there, map(results.result, proven.tolist()), strict=True)
+        return {value: law for value, law in laws if isinstance(law, Solution)}
 
     def _problem(self, value: float) -> Problem:
         return _at_most(self.problem, self.over[0], value)
@@ -469,7 +482,8 @@ class _Curve:
             return value, solution
         for above in _ABOVE[1:]:
             # so near to its least value the constant leaves the solver no room: the contacts are continued instead
-            nearer = self._tried(self._problem(least * (1.0 + above)), solution)
+            problem = self._problem(least * (1.0 + above))
+            nearer = continued(problem, solution) if problem.convex else self._tried(problem, solution)
             if not isinstance(nearer, Solution) or nearer.status is Status.INACCURATE:
                 break
             value, solution = least * (1.0 + above), nearer
@@ -484,19 +498,6 @@ class _Curve:
             if value == high:
                 raise
             return pays, best
-
-    def _widths(self) -> list[float]:
-        """The importance of each gap: its length in normalised logarithms, more where the front bends."""
-        logs = np.log([[value, solution.objective] for value, solution in self.points])
-        span = np.abs(logs[-1] - logs[0])
-        if span[0] < NO_EXCHANGE:
-            return [0.0] * (len(self.points) - 1)
-        steps = np.diff(logs, axis=0) / np.where(span > 0.0, span, 1.0)
-        lengths = np.hypot(*steps.T)
-        turns = np.abs(np.diff(np.arctan2(steps[:, 1], steps[:, 0])))
-        ends = np.pad(turns, 1, mode="edge") if len(turns) else np.zeros(2)
-        widths: list[float] = (lengths * (1.0 + _BENT * (ends[:-1] + ends[1:]))).tolist()
-        return widths
 
     def _solved(self, value: float, left: Solution, right: Solution) -> Solution | OptlawsError:
         problem = self._problem(value)
@@ -521,6 +522,51 @@ class _Curve:
         except (InfeasibleProblem, SolverFailure) as error:
             # its frames would keep what was tried
             return error.with_traceback(None)
+
+
+def _pairs(points: Sequence[tuple[float, Solution]]) -> list[tuple[float, float]]:
+    """The values of both constants of points, as far as they are prescribed and minimised."""
+    return [(value, solution.objective) for value, solution in points]
+
+
+def _wanting(points: Sequence[tuple[float, float]], count: int) -> list[float]:
+    """The middles of the most important gaps between points, as many as are left of a number of points."""
+    widths = _widths(points)
+    wanting = np.flatnonzero(widths >= max(_SHARE * widths.max(), AGREEMENT))
+    places = wanting[np.argsort(-widths[wanting])][: count - len(points)]
+    return [sqrt(points[i][0] * points[i + 1][0]) for i in sorted(places.tolist())]
+
+
+def _ahead(points: Sequence[tuple[float, float]], count: int) -> list[float]:
+    """Where a front that has these points will probably have the others, by cubic interpolation between them."""
+    points = sorted(points)
+    low, high = points[0][0], points[-1][0]
+    given, objectives = np.array(points).T
+    # near its least value the objective falls like a square root
+    shares = np.sqrt((given - low) / (high - low))
+    slopes = np.gradient(objectives, shares, edge_order=2)
+    while values := _wanting(points, count):
+        at = np.sqrt((np.array(values) - low) / (high - low))
+        i = np.searchsorted(shares, at) - 1
+        width = shares[i + 1] - shares[i]
+        u = (at - shares[i]) / width
+        first, last = (1.0 + 2.0 * u) * (1.0 - u) ** 2, u * u * (3.0 - 2.0 * u)
+        bent = width * u * (1.0 - u) * ((1.0 - u) * slopes[i] - u * slopes[i + 1])
+        between = first * objectives[i] + last * objectives[i + 1] + bent
+        points = sorted([*points, *zip(values, between.tolist(), strict=True)])
+    return [value for value, _ in points[1:-1]]
+
+
+def _widths(points: Sequence[tuple[float, float]]) -> Array:
+    """The importance of each gap: its length in normalised logarithms, more where the front bends."""
+    logs = np.log(points)
+    span = np.abs(logs[-1] - logs[0])
+    if span[0] < NO_EXCHANGE:
+        return np.zeros(len(points) - 1)
+    steps = np.diff(logs, axis=0) / np.where(span > 0.0, span, 1.0)
+    turns = np.abs(np.diff(np.arctan2(steps[:, 1], steps[:, 0])))
+    ends = np.pad(turns, 1, mode="edge") if len(turns) else np.zeros(2)
+    return np.asarray(np.hypot(*steps.T) * (1.0 + _BENT * (ends[:-1] + ends[1:])))
 
 
 def _surface(
@@ -556,7 +602,7 @@ def least_value(problem: Problem, name: str) -> float:
     if name != "B":
         return synthesize(replace(problem, minimise=name)).objective
     extreme = extreme_velocity(problem, greatest=False)
-    optimum = solve(extreme.program).optimum
+    optimum = solve(extreme.program, stored_guess(extreme)).optimum
     if optimum is None:
         raise SolverFailure("the least B of these conditions was not found: give between", problem=problem)
     return float(optimum.x[extreme.places["B"]])

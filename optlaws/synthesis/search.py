@@ -116,7 +116,7 @@ class LawSearch:
         if first is not None and self._near_limit(first):
             return
         guess = stored_guess(self.model) if stored else None
-        last = self._try(guess or self.warm, None)
+        last = self._try(self.warm or guess, None)
         if self.problem.convex or self.warm is not None or _agree(first, last):
             return
         if guess is not None and last is not None and self.outcomes[-1].continued:
@@ -300,6 +300,15 @@ def _from_vertices(search: LawSearch) -> Solution | None:
     """The best law of a linear program by its vertices, where interior points led to no law."""
     optimum = vertex_optimum(search.model.program) if search.outcomes[0].tried or search.outcomes[0].optimum else None
     return None if optimum is None else LawSearch(search.model, warm=optimum, began=search.began).answer()
+
+
+def continued_by_contacts(search: LawSearch) -> Solution | None:
+    """The best law by a neighbour's contacts alone; None where they lead to none, or lower bounds ask for more."""
+    outcome, best = attempt(search.model, search.warm, None, near=True)
+    if outcome.optimum is None or best is None or shortfalls(search.problem, best.law):
+        return None
+    search.outcomes.append(outcome)
+    return search.certified(outcome.optimum, best, raised=False)
 
 
 def from_symmetric(search: LawSearch) -> Solution | None:

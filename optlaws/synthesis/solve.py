@@ -13,7 +13,7 @@ from optlaws.synthesis.problem.constants import warn_of_mixture
 from optlaws.synthesis.problem.fields import differ_in_numbers
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import Model, model_of
-from optlaws.synthesis.search import LawSearch, best_available
+from optlaws.synthesis.search import LawSearch, best_available, continued_by_contacts
 from optlaws.synthesis.solution import Solution
 from optlaws.synthesis.spaces.of_basis import space_of
 
@@ -67,6 +67,13 @@ def synthesize(problem: Problem, *, start: Solution | None = None, bound: Bound 
         return solution
     error = search.error()
     raise error if isinstance(error, InfeasibleProblem) else _no_power_so_small(problem) or error
+
+
+def continued(problem: Problem, start: Solution) -> Solution | None:
+    """The solution of a convex problem by the contacts of a neighbour's alone; None where they do not lead to it."""
+    model = model_of(problem)
+    warm = _warm(model, start)
+    return None if warm is None else continued_by_contacts(LawSearch(model, warm=warm))
 
 
 def _warm(model: Model, start: Solution | None) -> ActiveSet | None:

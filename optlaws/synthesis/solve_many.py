@@ -22,13 +22,17 @@ from optlaws.numbers import Array, whole
 from optlaws.shown.steps import Steps
 from optlaws.suggest import unknown_key
 from optlaws.synthesis.arrays.continuation import StructureSegment
-from optlaws.synthesis.arrays.continued_laws import WALKED, laws_along, laws_on, segments_of, with_stored_structures
+from optlaws.synthesis.arrays.continued_laws import (
+    guessed_objectives,
+    laws_along,
+    segments_of,
+    with_stored_structures,
+)
 from optlaws.synthesis.arrays.lines import ProblemLine, along_velocities, form_of, least_count, lines_of
 from optlaws.synthesis.arrays.powers import least_power, on_global_branch, with_quick_bounds
 from optlaws.synthesis.arrays.problems import ProblemArray
 from optlaws.synthesis.arrays.programs import Path, SolvedBatch, between
 from optlaws.synthesis.limits.of_problem import known_limit
-from optlaws.synthesis.method.stored_structures import is_usual
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import model_of
 from optlaws.synthesis.proof.no_law import proof_of_no_law
@@ -214,12 +218,20 @@ class SolvedLine:
         t = (values - self.low) / (self.high - self.low)
         order = np.argsort(t, kind="stable")
         order = order[(t[order] >= 0.0) & (t[order] <= 1.0)]
-        # of a few usual laws structures are stored, which are quicker than a walk from end to end
-        few = len(order) < WALKED and is_usual(self._path.model)
-        laws = laws_along(self._path, t[order]) if few else laws_on(self._path, self._segments, t[order])
+        laws = laws_along(self._path, t[order], lambda: self._segments)
         rows = np.flatnonzero(laws.solved)
         parts = [SolvedPart(order[rows], self._path.model, laws.taken(rows).frozen())] if len(rows) else []
         return completed(problems, parts, {}, began)
+
+    def guessed(self, values: Array) -> Array | None:
+        """About what the objectives at ascending values are, of which nothing is proven; None where nothing is known.
+
+        >>> problem = Problem(order=4)
+        >>> SolvedLine(problem, "B", problem.at_velocity, 1.6, 1.8).guessed(np.array([1.62, 1.7])).round(4).tolist()
+        [5.1737, 4.8198]
+        """
+        t = (values - self.low) / (self.high - self.low)
+        return None if self._path is None else guessed_objectives(self._path, t)
 
     @kept_property
     def _path(self) -> Path | None:

@@ -17,7 +17,7 @@ from optlaws.synthesis.method.exchange import solve
 from optlaws.synthesis.method.stored_structures import STORED, StoredStructure, guess_of, key_of, written
 from optlaws.synthesis.method.strategies.contacts import polished
 from optlaws.synthesis.problem.problem import Problem
-from optlaws.synthesis.program.writer import Model, model_of
+from optlaws.synthesis.program.writer import Model, extreme_velocity, model_of
 from optlaws.synthesis.search import LawSearch
 from optlaws.synthesis.spaces.bases import Chebyshev
 from optlaws.tolerances import AGREEMENT, SHORT_STRETCH
@@ -40,9 +40,10 @@ def structures_along_velocity(problem: Problem) -> list[StoredStructure]:
     >>> [len(structure.sign) for structure in structures_along_velocity(Problem(order=4, basis=Chebyshev(3)))]
     [2, 2, 1, 2, 1]
     """
-    path = between(problem.at_velocity(_LEAST), problem.at_velocity(_GREATEST))
+    ends = (_LEAST, _GREATEST)
+    path = between(problem.at_velocity(ends[0]), problem.at_velocity(ends[1]))
     segments = [] if path is None else segments_of(path, 0.0, 1.0)
-    structures = [_stored(segment) for segment in segments if segment.end - segment.begin > SHORT_STRETCH]
+    structures = [_stored(segment, ends) for segment in segments if segment.end - segment.begin > SHORT_STRETCH]
     return structures if problem.convex else [known for known in structures if _none_better(problem, known)]
 
 
@@ -60,15 +61,17 @@ def _none_better(problem: Problem, structure: StoredStructure) -> bool:
     return True
 
 
-def _stored(segment: StructureSegment) -> StoredStructure:
-    structure, reach = segment.structure, _GREATEST - _LEAST
+def _stored(segment: StructureSegment, velocities: tuple[float, float]) -> StoredStructure:
+    structure, reach = segment.structure, velocities[1] - velocities[0]
     middle, half = (segment.begin + segment.end) / 2.0, (segment.end - segment.begin) / 2.0
     # of an affine structure the places stay
     count = 1 if structure.affine else _TERMS
     states = segment.interpolated(middle + half * nodes(count))
-    ends = (_LEAST + reach * segment.begin, _LEAST + reach * segment.end)
+    begin, end = (velocities[0] + reach * t for t in (segment.begin, segment.end))
     variables = from_values(_variables(structure.model, states.x))
-    return StoredStructure(*ends, structure.family, structure.sign, structure.free, from_values(states.u), variables)
+    return StoredStructure(
+        begin, end, structure.family, structure.sign, structure.free, from_values(states.u), variables
+    )
 
 
 def _variables(model: Model, x: Array) -> Array:
@@ -76,15 +79,14 @@ def _variables(model: Model, x: Array) -> Array:
     return x if model.program.curved else np.empty((len(x), 0))
 
 
-def structure_without_velocity(problem: Problem) -> list[StoredStructure]:
-    """The structure of a problem's best law without a prescribed B; None where it is unclear or flat.
+def structure_of_program(model: Model) -> list[StoredStructure]:
+    """The structure of the optimum of a single program, which differs from others in no B; none if unclear or flat.
 
     Examples
     --------
-    >>> [len(structure.sign) for structure in structure_without_velocity(Problem(order=4, basis=Chebyshev(3)))]
+    >>> [len(known.sign) for known in structure_of_program(model_of(Problem(order=4, basis=Chebyshev(3))))]
     [2]
     """
-    model = model_of(problem)
     optimum = solve(model.program).optimum
     if optimum is None:
         return []
@@ -94,7 +96,7 @@ def structure_without_velocity(problem: Problem) -> list[StoredStructure]:
         return []
     parts = (structure.family, structure.sign, structure.free, optimum.u[order][None])
     stored = StoredStructure(0.0, 0.0, *parts, _variables(model, optimum.x[None]))
-    return [stored] if problem.convex or _none_better(problem, stored) else []
+    return [stored] if not model.program.curved or _none_better(model.problem, stored) else []
 
 
 def usual_structures() -> dict[str, list[StoredStructure]]:
@@ -105,11 +107,10 @@ def usual_structures() -> dict[str, list[StoredStructure]]:
             for degree in degrees:
                 for monotone in (False, True):
                     problem = Problem(order=order, basis=Chebyshev(degree), minimise=minimise, monotone=monotone)
-                    for known, member in (
-                        (structures_along_velocity(problem), problem.at_velocity(2.0)),
-                        (structure_without_velocity(problem), problem),
-                    ):
-                        key = key_of(model_of(member))
+                    whole, least = model_of(problem), extreme_velocity(problem, greatest=False)
+                    along = (model_of(problem.at_velocity(2.0)), structures_along_velocity(problem))
+                    for model, known in (along, *((single, structure_of_program(single)) for single in (whole, least))):
+                        key = key_of(model)
                         if key is not None and known:
                             structures[key] = known
     return structures

@@ -14,12 +14,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.numbers import Array
+from optlaws.numerics.chebyshev import nodes as chebyshev_nodes
 from optlaws.synthesis.arrays.certification import Certification, certification_of
 from optlaws.synthesis.arrays.continuation import ParametricContinuation, StructureSegment, segment_at
 from optlaws.synthesis.arrays.dual_bounds import lower_bounds
 from optlaws.synthesis.arrays.newton_steps import States, Structure, clipped, converged, packed, step
 from optlaws.synthesis.arrays.programs import NO_CONTACT, Numbers, Path, SolvedBatch
-from optlaws.synthesis.method.stored_structures import guess_of, is_usual, key_of, stored_structures
+from optlaws.synthesis.method.stored_structures import (
+    StoredStructure,
+    guess_of,
+    is_usual,
+    key_of,
+    stored_structures,
+)
 from optlaws.tolerances import AGREEMENT, BEYOND_SEGMENT, CERTIFIED_GAP, INTERPOLATION_TAIL, ROUGH_STEP
 
 _NODES = 16
@@ -29,8 +36,8 @@ _FEW = 20
 #: laws at a time, and bytes of their matrices
 _CHUNKS = (128, 1024)
 _AT_HAND = 2**21
-#: so many laws are quicker from stored structures than by a walk, of which some may be left to be solved one by one
-_WITH_STORED, _LEFT = 200, 4
+#: so many laws are quicker from stored structures than by a walk
+_WITH_STORED = 4096
 #: fewer laws than these are worth no walk
 WALKED = 48
 _STORED_NODES = 4
@@ -39,8 +46,8 @@ _SPARE = 4
 _STARTS = np.array([0.5, 0.25, 0.75, 0.0, 1.0])
 
 
-def laws_along(path: Path, t: Array) -> SolvedBatch:
-    """The optima at ascending t, as far as the continuation proves them.
+def laws_along(path: Path, t: Array, segments: Callable[[], list[StructureSegment]] | None = None) -> SolvedBatch:
+    """The optima at ascending t, as far as the continuation proves them; on given segments where it is walked.
 
     >>> from optlaws.synthesis.arrays.programs import between
     >>> from optlaws import Problem
@@ -48,22 +55,23 @@ def laws_along(path: Path, t: Array) -> SolvedBatch:
     >>> laws_along(path, np.array([0.0, 0.2])).objective.round(6).tolist()
     [5.262224, 5.173677]
     """
-    laws = _laws_of_stored_structures(path, t) if len(t) <= _WITH_STORED else None
-    if laws is not None and np.count_nonzero(~laws.solved) <= _LEFT:
+    stored = _stored_along(path, t) if len(t) <= _WITH_STORED else None
+    laws = None if stored is None else _laws_of_stored_structures(path, t, stored)
+    if laws is not None and laws.solved.all():
         return laws
-    if laws is not None or len(t) < WALKED:
+    if laws is not None or (len(t) < WALKED and segments is None):
         return _laws_of_neighbours(path, t, laws)
-    return laws_on(path, segments_of(path, float(t[0]), float(t[-1])), t)
+    return laws_on(path, segments_of(path, float(t[0]), float(t[-1])) if segments is None else segments(), t)
 
 
 def with_stored_structures(path: Path, t: Array, laws: SolvedBatch) -> NDArray[np.bool_]:
     """A mask of laws with the contacts that are stored for them, from which no search led to a better law."""
-    first, last = path.problems
     alike = np.zeros(len(t), dtype=np.bool_)
-    if first.shape != last.shape or not is_usual(path.model):
+    known = _stored_along(path, t)
+    if known is None:
         return alike
-    velocities = first.B + t * (last.B - first.B)  # type: ignore[operator]  # of usual problems they are numbers
-    for stored in stored_structures(key_of(path.model) or ""):
+    velocities = known.begin + t * (known.end - known.begin)
+    for stored in known.structures:
         rows = np.flatnonzero((velocities >= stored.begin) & (velocities <= stored.end) & laws.solved)
         count = stored.count
         alone = (laws.family[rows, count:] == NO_CONTACT).all(axis=1)
@@ -73,35 +81,61 @@ def with_stored_structures(path: Path, t: Array, laws: SolvedBatch) -> NDArray[n
     return alike
 
 
-def _laws_of_stored_structures(path: Path, t: Array) -> SolvedBatch | None:
-    """The optima at ascending t, as far as structures that are stored lead to them; None where none are stored.
+def guessed_objectives(path: Path, t: Array) -> Array | None:
+    """Approximate objectives of the optima at some t, by structures that are stored; None where none are."""
+    known = _stored_along(path, t)
+    if known is None:
+        return None
+    guesses = [known.guess(i, t[j : j + 1])[1].x[0] for j, i in enumerate(known.nearest.tolist())]
+    return np.asarray(path.model.unit * (np.array(guesses) * path.numbers(t).cost).sum(axis=1))
 
-    They are those of problems that differ in B.
-    """
-    program, (first, last) = path.model.program, path.problems
+
+@dataclass(frozen=True, eq=False)
+class _StoredAlong:
+    """The structures that are stored for problems of a path, which differ in B, and the nearest one at each t."""
+
+    path: Path
+    begin: float  #: the B at t = 0
+    end: float  #: the B at t = 1
+    structures: tuple[StoredStructure, ...]
+    nearest: NDArray[np.intp]
+
+    def guess(self, i: int, t: Array) -> tuple[Structure, States]:
+        """One of the structures, and states of it at ascending t."""
+        path, stored = self.path, self.structures[i]
+        nodes = t if len(t) <= _STORED_NODES else (t[0] + t[-1] + (t[-1] - t[0]) * chebyshev_nodes(_STORED_NODES)) / 2.0
+        structure = Structure(path.model, stored.family, stored.sign, stored.free)
+        velocities = self.begin + nodes * (self.end - self.begin)
+        known = zip(nodes.tolist(), velocities.tolist(), strict=True)
+        rows = [packed(guess_of(path.program(at), stored, B)) for at, B in known]
+        guess = States.unpacked(_barycentric(nodes, t) @ np.array(rows), structure)
+        still = rows[0][path.model.program.size :][: stored.count]
+        return structure, replace(guess, u=np.where(stored.free, guess.u, still))
+
+
+def _stored_along(path: Path, t: Array) -> _StoredAlong | None:
+    """The structures that are stored for problems of a path; None where none are."""
+    first, last = path.problems
     if not isinstance(first.B, float) or not isinstance(last.B, float):
         return None
     if first.shape != last.shape or not is_usual(path.model):
         return None
     structures = stored_structures(key_of(path.model) or "")
+    away = np.array([stored.away(first.B + t * (last.B - first.B)) for stored in structures])
+    return _StoredAlong(path, first.B, last.B, structures, np.argmin(away, axis=0))
+
+
+def _laws_of_stored_structures(path: Path, t: Array, known: _StoredAlong) -> SolvedBatch:
+    """The optima at ascending t, as far as structures that are stored lead to them."""
+    program, structures = path.model.program, known.structures
     laws = SolvedBatch.none(len(t), program.size, max(stored.count for stored in structures), len(program.right))
-    begin, reach = first.B, last.B - first.B
-    away = np.array([[stored.away(begin + at * reach) for stored in structures] for at in t.tolist()])
-    nearest = np.argmin(away, axis=1)
     for beside in (0, -1, 1):
         left = ~laws.solved
-        for i in np.unique(nearest[left] + beside).tolist():
-            if not 0 <= i < len(structures):
-                continue
-            places, stored = np.flatnonzero(left & (nearest + beside == i)), structures[i]
-            nodes = t[places]
-            if len(places) > _STORED_NODES:
-                nodes = np.linspace(nodes[0], nodes[-1], _STORED_NODES)
-            structure = Structure(path.model, stored.family, stored.sign, stored.free)
-            rows = [packed(guess_of(path.program(at), stored, begin + at * reach)) for at in nodes.tolist()]
-            guess = States.unpacked(_barycentric(nodes, t[places]) @ np.array(rows), structure)
-            still = replace(guess, u=np.where(stored.free, guess.u, rows[0][program.size :][: stored.count]))
-            _enter(laws, path, structure, places, (t[places], still))
+        for i in np.unique(known.nearest[left] + beside).tolist():
+            if 0 <= i < len(structures):
+                places = np.flatnonzero(left & (known.nearest + beside == i))
+                structure, guess = known.guess(i, t[places])
+                _enter(laws, path, structure, places, (t[places], guess))
     return laws
 
 

@@ -73,9 +73,9 @@ class StoredStructure:
         )
         return np.clip(places, -1.0, 1.0), variables
 
-    def away(self, B: float) -> float:
-        """The distance of B from the structure's range of B."""
-        return max(self.begin - B, B - self.end, 0.0)
+    def away(self, B: Array) -> Array:
+        """The distances of some B from the structure's range of B."""
+        return np.maximum(np.maximum(self.begin - B, B - self.end), 0.0)
 
     def packed(self) -> list[int]:
         """The structure as whole numbers of 16 bits."""
@@ -131,9 +131,10 @@ def stored_guess(model: Model) -> ActiveSet | None:
     if not isinstance(model.problem.B, float):
         return guess_of(model.program, structures[0], 0.0)
     B = model.problem.B
-    structure = min(structures, key=lambda structure: structure.away(B))
-    if min(abs(B - structure.begin), abs(B - structure.end)) * _OF_VELOCITY < _BESIDE_CHANGE:
+    changes = np.array([end for known in structures for end in (known.begin, known.end)][1:-1])
+    if (np.abs(B - changes) * _OF_VELOCITY < _BESIDE_CHANGE).any():
         return None
+    structure = min(structures, key=lambda structure: float(structure.away(np.array(B))))
     return guess_of(model.program, structure, B)
 
 

@@ -16,7 +16,7 @@ from tests.internals.synthesis import (
     model_of,
     stored_guess,
     stored_structures,
-    structure_without_velocity,
+    structure_of_program,
     structures_along_velocity,
 )
 
@@ -71,7 +71,7 @@ def test_the_file_holds_what_is_computed(minimise: str, monotone: bool) -> None:
     problem = Problem(order=4, basis=Chebyshev(3), minimise=minimise, monotone=monotone)
     for computed, one in (
         (structures_along_velocity(problem), problem.at_velocity(2.0)),
-        (structure_without_velocity(problem), problem),
+        (structure_of_program(model_of(problem)), problem),
     ):
         key = key_of(model_of(one))
         assert key is not None
@@ -84,7 +84,7 @@ def test_the_file_holds_what_is_computed(minimise: str, monotone: bool) -> None:
 
 def test_a_flat_optimum_is_not_stored() -> None:
     problem = Problem(order=2, minimise="J")
-    assert structure_without_velocity(problem) == []
+    assert structure_of_program(model_of(problem)) == []
     assert stored_guess(model_of(problem)) is None
 
 
