@@ -37,7 +37,7 @@ def joined_basis(span: LawSpan, order: int, degree: int, minimised: int) -> Piec
     >>> len(solution.problem.basis.breaks), solution.problem.basis.degree
     (49, 3)
     """
-    curved = sum(is_optimal(stretch.given) for stretch in span.stretches) + len(span.via)
+    curved = sum(len(points) - 1 for stretch, points in _points(span) if is_optimal(stretch.given))
     most = max(1, min(2 * (degree + order), _MOST // curved))
     each = most if minimised not in _FEW else max(1, min(most, _FEW[minimised] * (degree + order) // 12))
     fastest = least_velocity(span)

@@ -23,7 +23,7 @@ from optlaws.numbers import bounded
 from optlaws.synthesis.problem.constants import present_name
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import Model, least_violation, model_of, relaxed
-from optlaws.synthesis.proof.duality import Line, lines_of, row_of, sum_of_rows
+from optlaws.synthesis.proof.duality import Line, by_bends, lines_of, row_of, sum_of_rows
 from optlaws.synthesis.proof.farkas import farkas_margin
 from optlaws.synthesis.proof.nodes import Contact, Leaf, Node
 from optlaws.tolerances import NEIGHBOUR_DISTANCE, NEIGHBOUR_SHARE
@@ -257,7 +257,7 @@ def excess(certificate: Certificate) -> float:
 def weighted_rows(certificate: Certificate) -> tuple[Model, list[Line]]:
     """The program of a certificate of one leaf, and its rows as `lines_of` gives them."""
     model = _model(certificate)
-    return model, lines_of(model.program, certificate.leaf)
+    return model, by_bends(model, lines_of(model.program, certificate.leaf))
 
 
 def _model(certificate: Certificate) -> Model:

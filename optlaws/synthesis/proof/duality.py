@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 from math import fsum, inf
 
 import numpy as np
@@ -27,6 +28,8 @@ Line = tuple[float, Array, float]
 
 _FACING = {"C_plus": "C_minus", "C_minus": "C_plus"}
 _SPLIT = 2.0**27 + 1.0
+#: from so many positions on that a law passes, they are summed up as bends
+_MANY_POSITIONS = 8
 _WIDER = 1.001  # than what rounding in sums of reaches could hide
 
 
@@ -35,6 +38,44 @@ def lines_of(program: Program, leaf: Leaf) -> list[Line]:
     lines = [(max(contact.multiplier, 0.0), *row_of(program, contact)) for contact in leaf.contacts]
     weights = program.multipliers_of_equations(leaf.equations).tolist()
     return [*lines, *zip(weights, program.equalities, program.right.tolist(), strict=False)]
+
+
+def by_bends(model: Model, lines: list[Line]) -> list[Line]:
+    """The lines with equations of many positions as equations of bends between them: exactly the same sum.
+
+    Rows of positions reach back to the start, and their great multipliers cancel; what rounding hides in each does not.
+    Bends are local. With the multipliers y of positions at k, that of the first is the sum of y k / k_1, and that of
+    the bend at k_(j-1) the sum of y_i (k_i - k_(j-1)) over all i from j on.
+
+    Parameters
+    ----------
+    model
+        The program of the lines.
+    lines
+        As of `lines_of`, the program's equations last.
+    """
+    first = len(lines) - len(model.positions)
+    known = sorted((*position, i) for i, position in enumerate(model.positions, first) if position is not None)
+    places = tuple(k for k, _, _ in known)
+    regular = len(set(places)) == len(places) >= _MANY_POSITIONS and first >= 0 and places[0] > 0.0
+    rows = model.space.bends(places) if regular else None
+    if rows is None:
+        return lines
+    ends = [Fraction(0), *map(Fraction, places)]
+    ways = [Fraction(model.space.boundary.start[0]), *(Fraction(value) for _, value, _ in known)]
+    slopes = [(ways[i + 1] - ways[i]) / (ends[i + 1] - ends[i]) for i in range(len(known))]
+    wide = model.space.widened(rows, model.program.size)
+    turned, weight, moment = list(lines), Fraction(0), Fraction(0)
+    for j in range(len(known) - 1, 0, -1):
+        place = known[j][2]
+        multiplier = Fraction(float(lines[place][0]))
+        weight, moment = weight + multiplier, moment + multiplier * ends[j + 1]
+        right = float(slopes[j] - slopes[j - 1]) - float(wide[j - 1, -1])
+        turned[place] = (float(moment - ends[j] * weight), wide[j - 1, :-1], right)
+    place = known[0][2]
+    whole = moment + Fraction(float(lines[place][0])) * ends[1]
+    turned[place] = (float(whole / ends[1]), *lines[place][1:])
+    return turned
 
 
 def row_of(program: Program, contact: Contact) -> tuple[Array, float]:
