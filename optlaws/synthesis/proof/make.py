@@ -99,7 +99,8 @@ def _of_convex(model: Model, optimum: ActiveSet, objective: float) -> Certificat
     proof = certificate(model, optimum, OBJECTIVE)
     if objective - proof.bound <= PROOF_ENOUGH * max(abs(objective), PROOF_ENOUGH):
         return proof
-    if any(isinstance(family, FormulaFamily | NormFamily | ConeFamily) for family in model.program.families):
+    bent = any(isinstance(family, FormulaFamily | NormFamily | ConeFamily) for family in model.program.families)
+    if bent or objective - proof.bound > OPTIMALITY_GAP * abs(objective):
         proof = _settled(model, optimum, proof)
     # constants that are nowhere below 0 bound their sum without a contact
     proof = max(proof, Certificate.of_leaf(model.problem), key=lambda known: known.bound)
@@ -126,8 +127,7 @@ def _shifted(model: Model, optimum: ActiveSet, proof: Certificate) -> Certificat
     equations = program.multipliers_of_equations(proof.equations)
     rows = [row_of(program, contact)[0] for contact in contacts]
     pulls = [max(contact.multiplier, 0.0) * row[None] for contact, row in zip(contacts, rows, strict=True)]
-    slope = program.objective + np.vstack([*pulls, np.zeros((1, program.size))]).sum(axis=0)
-    slope += program.equalities.T @ equations
+    slope = summed(model, weighted_rows(proof)[1]).slope
     shifts = [_shifts(model, optimum, contact) for contact in contacts]
     changes = [contact.multiplier * shift for contact, shift in zip(contacts, shifts, strict=True)]
     length = np.maximum(np.linalg.norm(program.equalities, axis=1), EMPTY_ROW)

@@ -100,7 +100,9 @@ class ByVertices(Strategy[list[Points], ActiveSet]):
         return vertex
 
     def _shown(self, points: list[Points], vertex: Answer) -> ActiveSet | None:
-        """The optimum by its contacts, where a vertex near it shows them."""
+        """The optimum by its contacts, where a vertex near it shows them; of many variables the vertex itself."""
+        if self.excess <= EXCESS and self.program.size > _SMALL:
+            return of_vertex(points, vertex)
         if self.excess > self.promising:
             return None
         self.promising = self.excess / _CLOSER if self.program.size <= _SMALL else 0.0

@@ -1,0 +1,82 @@
+"""The ends of what the page on growth promises: the greatest degrees, pieces and segments have laws and proofs."""
+
+from fractions import Fraction
+
+import numpy as np
+import pytest
+
+from optlaws import Chebyshev, Cycle, Pieces, Problem, Solution, synthesize
+from optlaws.synthesis.proof.certificate import weighted_rows
+from optlaws.synthesis.proof.duality import lines_of
+from tests.bench.growth import free_motions, moves
+
+GAP = 1e-8
+
+
+def is_proven(solution: Solution) -> bool:
+    """Whether the status is optimal and the gap is what that means."""
+    return solution.status.value == "optimal" and solution.gap <= GAP
+
+
+def test_a_hundred_free_motions_are_proven() -> None:
+    (solution,) = free_motions(100, minimise="rms jerk").solutions
+    assert is_proven(solution)
+
+
+def test_positions_are_summed_up_as_bends_to_the_same_bound() -> None:
+    (solution,) = free_motions(12, minimise="rms jerk").solutions
+    model, turned = weighted_rows(solution.certificate)
+    plain = lines_of(model.program, solution.certificate.leaf)
+    assert [weight for weight, _, _ in turned] != [weight for weight, _, _ in plain]
+    x = np.cos(np.arange(model.program.size) ** 2)
+
+    def summed(lines: list[tuple[float, np.ndarray, float]]) -> float:
+        exact = [Fraction(float(w)) * (sum(map(Fraction, (row * x).tolist())) - Fraction(r)) for w, row, r in lines]
+        return float(sum(exact))
+
+    sizes = sum(abs(weight) * float(np.abs(row * x).sum()) for weight, row, _ in plain)
+    assert abs(summed(plain) - summed(turned)) < 1e-14 * sizes
+    # rows of bends are short: few of the law's coordinates matter to each
+    assert max(np.count_nonzero(row) for _, row, _ in turned[-8:]) < model.space.terms / 2
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("order", [3, 4])
+def test_degree_200(order: int) -> None:
+    solution = synthesize(Problem(B=1.641, order=order, basis=Chebyshev(200), monotone=True))
+    assert is_proven(solution)
+    k = np.linspace(0.0, 1.0, 100_001)
+    for nu, peak in enumerate((solution.law.constants.B, solution.law.constants.C), 1):
+        seen = float(np.abs(solution.law(k, nu)).max())
+        assert seen <= peak.value * (1.0 + 1e-12)
+        assert seen == pytest.approx(peak.value, rel=1e-6)
+    assert solution.law.constants.C.value == solution.objective
+    assert float(solution.law(k, 1).min()) >= -1e-12
+    assert [float(solution.law(end, nu)) for end in (0.0, 1.0) for nu in range(order)] == pytest.approx(
+        [0.0] * order + [1.0] + [0.0] * (order - 1), abs=1e-7
+    )
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("minimise", ["C", "J", "rms_c"])
+def test_200_pieces(minimise: str) -> None:
+    assert is_proven(synthesize(Problem(order=3, B=1.8, basis=Pieces(200), minimise=minimise)))
+
+
+@pytest.mark.long
+@pytest.mark.parametrize(
+    "whole",
+    [
+        moves(200, limits={"velocity": "1.6 m/s"}),
+        free_motions(200),
+        free_motions(200, minimise="rms acceleration"),
+        free_motions(200, minimise="rms jerk"),
+        free_motions(200, limits={"velocity": "2 m/s"}),
+    ],
+    ids=["moves", "acceleration", "rms acceleration", "rms jerk", "velocity limit"],
+)
+def test_200_segments(whole: Cycle) -> None:
+    assert all(map(is_proven, whole.solutions))
+    assert whole.status.value == "optimal"
+    joints = np.array([joint["velocity"] for joint in whole.joints])
+    assert np.abs(joints).max() < 1e-9
