@@ -4,15 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Any, Literal, TypeAlias, Unpack
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias, Unpack
 
-from optlaws.cycles.coordination.instant_search import best_bent
-from optlaws.cycles.coordination.timeline import bends_at
 from optlaws.cycles.cycle import Cycle
 from optlaws.cycles.interchange import problem_file
 from optlaws.cycles.interlocks.interlock import Interlock, LeastClearance
 from optlaws.cycles.interlocks.interlock_kinds import checked
-from optlaws.cycles.interlocks.overlapping import BestInstants, best_instants
 from optlaws.cycles.specification.programme import is_optimal, period_of
 from optlaws.cycles.specification.segments import CycleSegment, Dwell
 from optlaws.echo import shortened
@@ -26,6 +23,9 @@ from optlaws.numbers import Quantity
 from optlaws.suggest import keywords_of, unknown_key
 from optlaws.synthesis.status import Status
 from optlaws.tolerances import CLOSURE, CYCLE_OPTIMALITY
+
+if TYPE_CHECKING:
+    from optlaws.cycles.interlocks.overlapping import BestInstants
 
 #: what pictures of axes show
 AxesPicture: TypeAlias = Literal["motion", "timing", "plane", "clearance"]
@@ -204,6 +204,9 @@ class Axes(JsonText, Mapping[str, Cycle]):
         return self._overlap("acceleration", of or tuple(self))
 
     def _overlap(self, goal: str, longer: Sequence[str]) -> Overlap:
+        from optlaws.cycles.coordination.timeline import bends_at
+        from optlaws.cycles.interlocks.overlapping import best_instants
+
         if all(bends_at(self[name]) for name in longer):
             return self._bent(goal, longer)
         instants = best_instants(self, self.rules, goal, longer)
@@ -216,6 +219,9 @@ class Axes(JsonText, Mapping[str, Cycle]):
         return Axes(cycles, interlocks=self.rules)
 
     def _bent(self, goal: str, longer: Sequence[str]) -> Overlap:
+        from optlaws.cycles.coordination.instant_search import best_bent
+        from optlaws.cycles.interlocks.overlapping import best_instants
+
         try:
             start = self._at_instants(best_instants(self, self.rules, goal, longer))
         except InfeasibleProblem:

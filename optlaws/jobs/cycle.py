@@ -6,20 +6,16 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 import msgspec
 import numpy as np
 
 from optlaws.cycles.cycle import Cycle
-from optlaws.cycles.fastest_cycle import FastestCycle
 from optlaws.cycles.limit_rows import limit_rows
-from optlaws.cycles.machine_axes import Axes, Overlap
-from optlaws.cycles.moves.transition_cam import TransitionCam, TransitionKind
 from optlaws.cycles.specification.process import is_process
 from optlaws.cycles.summary import drive_rows, force_name, force_unit, jerk_rows, joint_rows, proof_rows
 from optlaws.errors import InputError, located
-from optlaws.exports.export import Export, export_cycle
 from optlaws.exports.format import FORMATS, format_of
 from optlaws.exports.text import variable_names
 from optlaws.files import tables, writing
@@ -59,8 +55,13 @@ from optlaws.tolerances import CYCLE_ROUNDING
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
+    from optlaws.cycles.fastest_cycle import FastestCycle
+    from optlaws.cycles.machine_axes import Axes, Overlap
+    from optlaws.cycles.moves.transition_cam import TransitionCam, TransitionKind
+    from optlaws.exports.export import Export
+
 #: the exports of each axis by the names of their files
-Exports = dict[str, dict[str, Export]]
+Exports: TypeAlias = "dict[str, dict[str, Export]]"
 
 #: what the picture of all axes is called
 TOGETHER = "axes"
@@ -120,6 +121,8 @@ def _transition_names(spec: CycleProblemFile) -> Named:
 
 
 def _export(cycle: Cycle | TransitionCam, entry: ExportEntries, variable: str) -> Export:
+    from optlaws.exports.export import export_cycle
+
     given = msgspec.structs.asdict(entry)
     given["name"] = variable if entry.name is None else entry.name
     placement = {"master": given.pop("master"), "unit": given.pop("unit")}

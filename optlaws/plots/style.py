@@ -24,6 +24,8 @@ GREEN = "#1b7f5c"
 GREY = "#595959"
 VIOLET = "#7b3294"
 BROWN = "#a6761d"
+#: what the command alone imports
+_COMMAND = "optlaws.cli.app"
 #: colours of curves that have no order of their own, apart for those too who see no red and green
 DISTINCT = (BLUES[3], WARM, GREEN, VIOLET, BROWN, GREY)
 
@@ -61,9 +63,28 @@ def plot_style() -> Iterator[None]:
         yield
 
 
+def _no_list(artist: Any) -> str:  # noqa: ARG001, ANN401 - as matplotlib's
+    return ""
+
+
+@contextmanager
+def _without_lists() -> Iterator[None]:
+    """Import matplotlib without lists of properties in docstrings, a fifth of its time, where none can be read."""
+    import matplotlib.artist as artists
+
+    lists = artists.kwdoc
+    try:
+        if _COMMAND in sys.modules:
+            artists.kwdoc = _no_list
+        yield
+    finally:
+        artists.kwdoc = lists
+
+
 def empty_figure(width: float = 7.2, height: float = 4.6) -> Figure:
     """An empty figure without a window; sizes in inches."""
-    from matplotlib.figure import Figure
+    with _without_lists():
+        from matplotlib.figure import Figure
 
     return Figure(figsize=(width, height), layout="constrained")
 

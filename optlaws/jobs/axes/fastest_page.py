@@ -5,14 +5,16 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from optlaws.cycles.cycle import Cycle
-from optlaws.cycles.fastest_cycle import FastestCycle
-from optlaws.cycles.machine_axes import Axes
 from optlaws.errors import located
 from optlaws.files.tables import Cell
 from optlaws.results import Page
+
+if TYPE_CHECKING:
+    from optlaws.cycles.fastest_cycle import FastestCycle
+    from optlaws.cycles.machine_axes import Axes
 
 FASTEST_HEADINGS = ("what", "value", "unit", "note")
 
@@ -30,6 +32,8 @@ def at_greatest_speed(axes: Axes, fastest: Mapping[str, FastestCycle]) -> Axes:
     """All axes at the greatest speed that every axis allows; unchanged where no speed is sought."""
     if not fastest:
         return axes
+    from optlaws.cycles.machine_axes import Axes
+
     period = max(axis.period for axis in fastest.values())
     cycles = {
         name: fastest[name].cycle

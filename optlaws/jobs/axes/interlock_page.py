@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from optlaws.cycles.interlocks.interlock import SMALL_UNITS, LeastClearance
-from optlaws.cycles.machine_axes import Axes, Overlap
 from optlaws.files.tables import Cell
 from optlaws.results import Page
+
+if TYPE_CHECKING:
+    from optlaws.cycles.machine_axes import Axes, Overlap
 
 #: the pictures of interlocked axes
 TIMING, CLEARANCES, GIVEN = "timing", "clearances", "timing_given"
