@@ -129,7 +129,7 @@ class BreakSearch:
 
     def ratio(self, breaks: Array) -> float:
         """C of the run over C of the law."""
-        return self.run(breaks).peak(2).value / self.peak
+        return self.run(breaks).size(2) / self.peak
 
     def _best(self, count: int) -> tuple[float, float, Array]:
         even = self._placed(np.ones(count))

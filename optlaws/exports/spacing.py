@@ -32,14 +32,14 @@ class PointTable:
     """Points as the target stores them, and the polynomials that the controller lays between them.
 
     `x` of the master has the shape (n,), `values` (y, V, A, ... of the slave) (m, n), ascending `powers` a row for each
-    polynomial; `resolution` is the step of positions, `bound` what roundings may add to the peak of the acceleration.
+    polynomial; `resolution` is the step of positions, `rounding_bound` computes what they may add to C.
     """
 
     x: Array
     values: Array
     powers: Array
     resolution: float
-    bound: float
+    rounding_bound: Callable[[], float] = float
 
     @kept_property
     def run(self) -> PiecewiseMotion:
@@ -48,7 +48,7 @@ class PointTable:
 
     def written(self, text: str, model: str, notes: tuple[str, ...] = ()) -> Written:
         """The file of the table, with the executed motion."""
-        return Written(text, self.run, model, len(self.x), "points", self.resolution, self.bound, notes)
+        return Written(text, self.run, model, len(self.x), "points", self.resolution, self.rounding_bound(), notes)
 
 
 def places(motion: Motion, count: int, *, straight: bool = False) -> Array:

@@ -170,6 +170,17 @@ class PiecewiseMotion:
         low, high = self.extremes(nu)
         return max(Extreme(0.0 - low.value, low.x), high, key=lambda extreme: (extreme.value, -extreme.x))
 
+    def size(self, nu: int) -> float:
+        """The greatest magnitude of the derivative of order nu, without its place.
+
+        Examples
+        --------
+        >>> PiecewiseMotion([0, 1], [[0, 1, -1]]).size(1)
+        1.0
+        """
+        control = self._control(derivative(nu))
+        return bernstein.top(np.concatenate([control, -control])).value
+
     def rms(self, nu: int) -> float:
         """Root mean square of the derivative of order nu, impulses left out.
 
@@ -306,10 +317,13 @@ class PiecewiseMotion:
         ]
         return np.stack(columns, axis=1)
 
-    def _top(self, nu: int, sign: float) -> Extreme:
+    def _control(self, nu: int) -> Array:
+        """Bernstein coefficients of the derivative of order nu, a row for each piece."""
         table = self.powers(nu)
-        scaled = table * self.lengths[:, None] ** np.arange(table.shape[1])
-        highest = bernstein.top(sign * bernstein.from_powers(scaled))
+        return bernstein.from_powers(table * self.lengths[:, None] ** np.arange(table.shape[1]))
+
+    def _top(self, nu: int, sign: float) -> Extreme:
+        highest = bernstein.top(sign * self._control(nu))
         low, length = self.breaks[highest.row], float(self.lengths[highest.row])
         if highest.u in {0.0, 1.0}:
             return Extreme(highest.value, self.breaks[highest.row + int(highest.u)])

@@ -223,7 +223,7 @@ def _integers(motion: Motion, count: int, x_step: float, y_step: float, *, even:
     if (np.diff(x) <= 0.0).any():
         raise InputError(f"{count} points of the master are closer than the target's step {x_step:g}: take fewer")
     y = np.rint(np.asarray(motion(exact)) / y_step) * y_step
-    return PointTable(x, y[None], linear_powers(x, y), y_step, 0.0)
+    return PointTable(x, y[None], linear_powers(x, y), y_step)
 
 
 def _whole(table: PointTable, x_step: float, y_step: float) -> list[tuple[int, int]]:

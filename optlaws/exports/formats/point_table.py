@@ -80,7 +80,9 @@ def spline_table(motion: Motion, points: Points, number_format: NumberFormat, *,
     if ends == "periodic":
         y[-1] = y[0]
     powers = spline_powers(x, y, ends, (float(slopes[0]), float(slopes[1])))
-    return PointTable(x, y[None], powers, number_format.resolution(motion), rounding_bound(motion, x, y, slopes))
+    return PointTable(
+        x, y[None], powers, number_format.resolution(motion), partial(rounding_bound, motion, x, y, slopes)
+    )
 
 
 def end_slopes(motion: Motion, number_format: NumberFormat) -> Array:
@@ -93,13 +95,13 @@ def end_slopes(motion: Motion, number_format: NumberFormat) -> Array:
 def linear_table(motion: Motion, points: Points, number_format: NumberFormat) -> PointTable:
     """Positions between which the controller goes straight."""
     x, y = positions(motion, points, number_format, lines=True)
-    return PointTable(x, y[None], linear_powers(x, y), number_format.resolution(motion), 0.0)
+    return PointTable(x, y[None], linear_powers(x, y), number_format.resolution(motion))
 
 
 def akima_table(motion: Motion, points: Points, number_format: NumberFormat) -> PointTable:
     """Positions through which the controller lays Akima's cubics."""
     x, y = positions(motion, points, number_format)
-    return PointTable(x, y[None], akima_powers(x, y), number_format.resolution(motion), 0.0)
+    return PointTable(x, y[None], akima_powers(x, y), number_format.resolution(motion))
 
 
 def hermite_table(
@@ -118,7 +120,7 @@ def hermite_table(
     x = number_format.numbers(exact)
     derivatives = number_format.numbers(values[1:]) if with_derivatives else values[1:]
     stored_values = np.vstack([number_format.positions(values[0], motion)[None], derivatives])
-    return PointTable(x, stored_values, hermite_powers(x, stored_values), number_format.resolution(motion), 0.0)
+    return PointTable(x, stored_values, hermite_powers(x, stored_values), number_format.resolution(motion))
 
 
 def table_by_interpolation(

@@ -73,7 +73,7 @@ def _at(motion: Motion, places: Array, orders: int) -> PointTable:
     near = breaks[np.abs(places[:, None] - breaks).argmin(axis=1)]
     at = np.where(np.abs(near - places) * _NANO <= 1.0, near, np.clip(places, motion.start, motion.stop))
     values = np.array([motion(at, nu) for nu in range(orders)])
-    return PointTable(places, values, hermite_powers(places, values), 0.0, 0.0)
+    return PointTable(places, values, hermite_powers(places, values), 0.0)
 
 
 def _in_si(motion: Motion) -> Motion:
