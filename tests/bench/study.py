@@ -1,10 +1,12 @@
 """What a study costs: laws a second by one process and by two, where the time goes, and memory.
 
 Run it with `python -m tests.bench.study`; `make bench` ends with it. `python -m tests.bench.study 100000` takes so many
-points for the memory, and `python -m tests.bench.study million` measures a study of a million laws alone.
+points for the memory, and `python -m tests.bench.study million` measures a study of a million laws alone; `process` and
+`array` measure the memory of a process after many mixed problems, and of an array of a million laws.
 """
 
 import os
+import subprocess
 import sys
 import tempfile
 from collections.abc import Callable, Mapping
@@ -17,10 +19,21 @@ from typing import Any
 from unittest.mock import patch
 
 import msgspec
+import numpy as np
 from rich.console import Console
 from rich.table import Table
 
-from optlaws import run_study
+from optlaws import (
+    Chebyshev,
+    OptlawsError,
+    Problem,
+    ProblemArray,
+    Window,
+    at_most,
+    run_study,
+    synthesize,
+    synthesize_array,
+)
 from tests.internals.studies import StudyPoints, Task, blocks, read_study, task
 
 RATE, EFFICIENCY = 300.0, 0.9
@@ -28,6 +41,9 @@ RATE, EFFICIENCY = 300.0, 0.9
 MILLION = 120.0
 POINTS = 3200
 REPEATS = 3
+#: megabytes of a process after many mixed problems, of an array of a million laws; and when the first are read
+PROCESS, ARRAY = 150.0, 1024.0
+READINGS = (0, 100, 500, 1_000, 2_000)
 
 
 def asked(points: int, degree: int) -> dict[str, Any]:
@@ -134,6 +150,47 @@ def million() -> None:
         print(study.counts)
 
 
+def mixed(random: np.random.Generator) -> Problem:
+    """A problem as users may have them in turn: some have no law."""
+    entries: tuple[dict[str, Any], ...] = (
+        {},
+        {"B": at_most(2.0)},
+        {"B": round(random.uniform(1.0, 1.2), 3)},
+        {"symmetric": True},
+        {"windows": (Window("b", 0.5, 3.0, 0.4, 0.6),)},
+        {"bounds": {"rms_c": at_most(round(random.uniform(3.5, 8.0), 2))}},
+    )
+    shared = {
+        "B": round(random.uniform(1.3, 2.6), 3),
+        "order": int(random.integers(2, 7)),
+        "basis": Chebyshev(int(random.choice((3, 5, 7, 9, 12, 15, 19)))),
+        "minimise": str(random.choice(("C", "D", "J", "rms_c", "C + 0.1*J"))),
+    }
+    return Problem(**{**shared, **entries[random.integers(len(entries))]})
+
+
+def process() -> None:
+    """Memory of a process from its imports to its last mixed problem."""
+    random, failed = np.random.default_rng(20010), 0
+    for number in range(READINGS[-1] + 1):
+        if number in READINGS:
+            print(f"{number:5} mixed problems, {failed} without a law: {memory():.0f} MB")
+        try:
+            synthesize(mixed(random))
+        except OptlawsError:
+            failed += 1
+    print(f"aim: {PROCESS:g} MB")
+
+
+def array() -> None:
+    """The most memory of an array of a million laws, their constants, bounds and statuses."""
+    laws = synthesize_array(ProblemArray(B=np.linspace(1.42, 2.6, 1_000_000), order=4, basis=Chebyshev(9)))
+    assert all(np.isfinite(getattr(laws, name)).all() for name in ("C", "D", "J", "rms_c", "gap"))
+    assert (laws.status == "optimal").all()
+    most = getrusage(RUSAGE_SELF).ru_maxrss / 1024
+    print(f"an array of {laws.size:,} laws: {most:.0f} MB at most; aim: {ARRAY:g} MB")
+
+
 def main(points: int = POINTS) -> None:
     """Measure and print."""
     console = Console(width=120)
@@ -157,10 +214,14 @@ def main(points: int = POINTS) -> None:
     seen = watched(points, 3, 2).megabytes
     early, late = max(seen[: len(seen) // 5]), max(seen[-len(seen) // 5 :])
     console.print(f"memory over {points} points: {early:.0f} MB in the first fifth, {late:.0f} MB in the last")
+    for part in ("process", "array"):
+        # what this process has imported and solved is none of theirs
+        subprocess.run([sys.executable, "-m", "tests.bench.study", part], check=True)
 
 
 if __name__ == "__main__":
-    if sys.argv[1:] == ["million"]:
-        million()
+    alone = {"million": million, "process": process, "array": array}
+    if sys.argv[1:2] and sys.argv[1] in alone:
+        alone[sys.argv[1]]()
     else:
         main(*map(int, sys.argv[1:2]))
