@@ -84,12 +84,12 @@ def failure(command: Command, *, alone: bool = True) -> str | None:
         return f"$ {command.line}\nis neither run nor known to need no running; known are {known}"
     if SHELL_SYNTAX.intersection(words):
         return f"$ {command.line}\nneeds a shell; console blocks are run without one"
-    shown, wanted = "\n".join(command.output).strip("\n"), 0
+    shown, expected = "\n".join(command.output).strip("\n"), 0
     if stated := re.search(r"(?:\A|\n)\[(\d+)\]\Z", shown):
-        shown, wanted = shown[: stated.start()], int(stated[1])
+        shown, expected = shown[: stated.start()], int(stated[1])
     status, printed = _in_a_process(words) if alone or words[0] != "optlaws" else _in_this_process(words)
-    if status != wanted:
-        return f"$ {command.line}\nended with exit status {status}, not {wanted}:\n{printed}"
+    if status != expected:
+        return f"$ {command.line}\nended with exit status {status}, not {expected}:\n{printed}"
     if shown and not OutputChecker().check_output(shown + "\n", printed.strip("\n") + "\n", FLAGS):
         return f"$ {command.line}\nshould print\n{shown}\nbut prints\n{printed}"
     return None

@@ -18,9 +18,9 @@ def test_there_are_twenty_and_more() -> None:
 def test_an_example_has_a_title_a_sentence_and_few_lines(example: Path) -> None:
     text = example.read_text("utf-8")
     tree = ast.parse(text)
-    title, underline, _, *said = (ast.get_docstring(tree) or "").splitlines()
+    title, underline, _, *body = (ast.get_docstring(tree) or "").splitlines()
     assert underline == "=" * len(title)
-    assert said[0].endswith(".")
+    assert body[0].endswith(".")
     code = text.split('"""')[2]
     assert len([line for line in code.splitlines() if line.strip()]) <= 18
     assert {

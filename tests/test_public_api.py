@@ -107,9 +107,9 @@ def test_a_misspelt_keyword_is_refused() -> None:
         for name, function in (CALLABLES | METHODS).items()
         if not (inspect.isclass(function) and inspect.isabstract(function)) and not styled(function)
     }
-    said = {name: refusal(function) for name, function in asked.items()}
+    reasons = {name: refusal(function) for name, function in asked.items()}
     refused = re.compile("unexpected keyword|takes no (keyword )?arguments|no arguments")
-    assert {name: text for name, text in said.items() if not refused.search(text)} == {}
+    assert {name: text for name, text in reasons.items() if not refused.search(text)} == {}
 
 
 @pytest.mark.parametrize("value", [optlaws.smoothstep(3), optlaws.synthesize(optlaws.Problem(B=1.7, order=3))])

@@ -29,9 +29,9 @@ def stay(cases: list[Case]) -> list[Case]:
     return [case for case in cases if not case.left]
 
 
-def alone(each: int, values: list[Any], **said: Any) -> list[Any]:
+def alone(each: int, values: list[Any], **arguments: Any) -> list[Any]:
     """What stays of the values of one parameter."""
-    mark = pytest.mark.sample(each, **said).mark
+    mark = pytest.mark.sample(each, **arguments).mark
     return [one.callspec.params["a"] for one in stay([Case(mark, {"a": i}, {"a": v}) for i, v in enumerate(values)])]
 
 

@@ -105,14 +105,14 @@ def test_a_flat_face_is_run_as_well() -> None:
 
 
 def test_what_cannot_be_run_says_why(cam: DiscCam) -> None:
-    for said, match in (
+    for arguments, match in (
         ({"form": "csv poler"}, "did you mean 'csv polar'"),
         ({"form": "g-code"}, "have corners"),
         ({"curve": "pitsch"}, "did you mean 'pitch'"),
         ({"decimals": -1}, "decimals must be"),
     ):
         with pytest.raises(InputError, match=match):
-            as_made(cam, **said)
+            as_made(cam, **arguments)
     with pytest.raises(InputError, match="narrower than the roller"):
         with_profile_error(cam, "0.1 mm", waves=100)
     with pytest.raises(InputError, match="error must be above 0"):

@@ -113,9 +113,9 @@ def test_curvature_under_a_roller_is_held_against_the_laws() -> None:
     sharp = Cycle([Rise("30 mm", "70 deg"), Return("30 mm", "70 deg"), Dwell()], period="1 s")
     with pytest.raises(
         SolverFailure, match=r"its limit is not convex in the law: make the prime circle larger"
-    ) as said:
+    ) as caught:
         best_cam(sharp, "25 mm", TranslatingRoller("8 mm"), radius_of_curvature="20 mm")
-    assert "(at rest the profile has 17 mm, whatever the law)" in str(said.value)
+    assert "(at rest the profile has 17 mm, whatever the law)" in str(caught.value)
     kept = best_cam(PRESS, "60 mm", TranslatingRoller("8 mm"), radius_of_curvature="8 mm")
     assert kept.objective == pytest.approx(PRESS.objective, rel=1e-9)
 
@@ -146,11 +146,11 @@ def test_curvature_under_a_roller_is_imposed_and_bounded(monkeypatch: pytest.Mon
         monkeypatch.setattr(curved_limits, "_PARTS", 8)
     cycle, base, follower, limits = BENT[case]
     best = best_cam(cycle, base, follower, **limits)  # type: ignore[arg-type]
-    wanted = 1e-3 * float(limits["radius_of_curvature"].split()[0])
-    assert best.cam.extremes.least_convex_radius.low == pytest.approx(wanted, rel=1e-7)
+    expected = 1e-3 * float(limits["radius_of_curvature"].split()[0])
+    assert best.cam.extremes.least_convex_radius.low == pytest.approx(expected, rel=1e-7)
     if "pressure_angle" in limits:
         assert np.degrees(best.cam.extremes.greatest_pressure_angle.high) <= 27.0 + 1e-6
-    assert DiscCam(cycle, base, follower).extremes.least_convex_radius.high < 0.999 * wanted
+    assert DiscCam(cycle, base, follower).extremes.least_convex_radius.high < 0.999 * expected
     assert cycle.objective * 1.0001 < best.lower_bound <= best.objective < 1.02 * best.lower_bound
     assert best.status is Status.LOCAL
 

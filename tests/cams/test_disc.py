@@ -124,7 +124,7 @@ def test_profile_and_cutter_path_are_parallel_curves() -> None:
 
 
 @pytest.mark.parametrize(
-    ("follower", "stroke", "radius", "told"),
+    ("follower", "stroke", "radius", "message"),
     [
         (TranslatingRoller("12 mm", offset="90 mm"), "30 mm", "80 mm", "offset 90 mm is beyond the prime circle"),
         (TranslatingRoller("90 mm"), "30 mm", "80 mm", "make the roller smaller or the prime circle larger"),
@@ -138,8 +138,8 @@ def test_profile_and_cutter_path_are_parallel_curves() -> None:
         (TranslatingFlat(), "20 mm", 80, "without a unit"),
     ],
 )
-def test_what_cannot_be_built_is_refused(follower: CamFollower, stroke: str, radius: object, told: str) -> None:
-    with pytest.raises(InputError, match=told):
+def test_what_cannot_be_built_is_refused(follower: CamFollower, stroke: str, radius: object, message: str) -> None:
+    with pytest.raises(InputError, match=message):
         DiscCam(cycle_of(stroke), radius, follower)  # type: ignore[arg-type]
 
 

@@ -28,10 +28,10 @@ SLIDES = {"mass": "2 kg", "stiffness": "3 N/mm", "preload": "120 N", "gravity": 
 TABLES = {"inertia": "0.02 kg m^2", "stiffness": "30 N m/rad", "preload": "9 N m"}
 
 
-def forces(kind: str, turning: str = "counterclockwise", **said: Any) -> CamForces:
+def forces(kind: str, turning: str = "counterclockwise", **arguments: Any) -> CamForces:
     cam = cam_of(kind, turning)
     drive = SLIDES if cam.displacement.axis == "length" else TABLES
-    asked: dict[str, Any] = {"speed": "240 rpm", "drive": drive, **said}
+    asked: dict[str, Any] = {"speed": "240 rpm", "drive": drive, **arguments}
     return CamForces(cam, **asked)
 
 
@@ -160,7 +160,7 @@ def test_wrong_entries_name_themselves_and_the_remedy() -> None:
     partial = DiscCam(
         CamMotion.of_law("cycloidal", "40 mm", "120 deg"), prime_radius="80 mm", follower=TranslatingRoller("12 mm")
     )
-    for said, match in (
+    for arguments, match in (
         ({"speed": "0 rpm"}, "speed must be above 0"),
         ({"speed": "3 mm"}, "speed must be an angular velocity"),
         ({"drive": {"inertia": "2 kg m^2"}}, "drive: unknown key 'inertia'"),
@@ -172,7 +172,7 @@ def test_wrong_entries_name_themselves_and_the_remedy() -> None:
         ({"width": "1 mm", "materials": "steel"}, "materials must be two"),
     ):
         with pytest.raises(InputError, match=match):
-            forces("translating roller", **said)
+            forces("translating roller", **arguments)
     with pytest.raises(InputError, match="give one, such as speed"):
         CamForces(partial, drive=SLIDES)
     with pytest.raises(InputError, match="give a drive, such as"):

@@ -12,11 +12,11 @@ SPEEDS = ("60 rpm", "300 rpm")
 
 
 @pytest.mark.sample(2)
-@pytest.mark.parametrize("said", [{}, {"preload": "40 N"}, {"stiffness": "1 N/mm"}, {"force": "15 N"}])
-def test_the_least_spring_keeps_the_follower_on_and_no_lesser_does(said: dict[str, Any]) -> None:
+@pytest.mark.parametrize("arguments", [{}, {"preload": "40 N"}, {"stiffness": "1 N/mm"}, {"force": "15 N"}])
+def test_the_least_spring_keeps_the_follower_on_and_no_lesser_does(arguments: dict[str, Any]) -> None:
     cam = cam_of("translating roller")
-    spring = least_spring(cam, drive=MASS, speeds=SPEEDS, **said)
-    asked = 15.0 if "force" in said else 0.0
+    spring = least_spring(cam, drive=MASS, speeds=SPEEDS, **arguments)
+    asked = 15.0 if "force" in arguments else 0.0
     assert spring.margin == pytest.approx(asked, abs=1e-6)
     assert spring.lower_bound <= spring.value * (1 + 1e-12)
     assert spring.value == pytest.approx(spring.lower_bound, rel=1e-6)
@@ -57,14 +57,14 @@ def test_a_damper_is_worst_at_a_speed_between() -> None:
 
 def test_wrong_springs_say_why() -> None:
     cam = cam_of("translating roller")
-    for said, match in (
+    for arguments, match in (
         ({"speeds": "300 rpm"}, "speeds must be two"),
         ({"speeds": ("300 rpm", "60 rpm")}, "speeds must rise"),
         ({"drive": MASS | {"stiffness": "1 N/mm"}}, "to fix it give stiffness"),
         ({"preload": "-1 N"}, "preload must be at least 0"),
         ({"force": "1 N m"}, "force must be a force"),
     ):
-        asked: dict[str, Any] = {"drive": MASS, "speeds": SPEEDS, **said}
+        asked: dict[str, Any] = {"drive": MASS, "speeds": SPEEDS, **arguments}
         with pytest.raises(InputError, match=match):
             least_spring(cam, **asked)
     with pytest.raises(InfeasibleProblem, match="are missing; give so much more preload"):

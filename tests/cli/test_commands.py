@@ -354,8 +354,8 @@ def test_as_a_command_it_ends_with_3_and_no_traceback() -> None:
 
 
 def test_version_and_help(capsys: Capture) -> None:
-    wanted = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]["version"]
-    assert called(capsys, "--version") == (0, f"{wanted}\n", "")
+    expected = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]["version"]
+    assert called(capsys, "--version") == (0, f"{expected}\n", "")
     code, out, _ = called(capsys, "--help")
     assert code == 0
     assert all(name in out for name in ("run", "solve", "constants"))

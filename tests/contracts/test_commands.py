@@ -47,8 +47,8 @@ FILES = {"--output": "answer.json", "--csv": "front.csv", "--plot": "picture.svg
 WRONG = [
     (command, option, NUMBERS[kind])
     for command, options in COMMANDS.items()
-    for option, said in options.items()
-    if (kind := said.partition(" = ")[0].removesuffix(" | None")) in NUMBERS
+    for option, summary in options.items()
+    if (kind := summary.partition(" = ")[0].removesuffix(" | None")) in NUMBERS
 ]
 WRITTEN = [(command, option) for command, options in COMMANDS.items() for option in FILES if option in options]
 
@@ -144,10 +144,10 @@ def test_a_file_that_cannot_be_written_is_refused(command: str, option: str, cap
 def test_the_list_of_commands_says_what_each_does(command: str, capsys: Capture) -> None:
     does = inspect.getdoc(app.app[command].default_command)
     assert does is not None
-    said = does.partition("\n\nParameters")[0]
+    summary = does.partition("\n\nParameters")[0]
     for arguments in (["--help"], [command, "--help"]):
         assert exit_code(arguments) == 0
-        assert said.partition(".")[0][:40] in " ".join(capsys.readouterr().out.replace("│", "").split())
+        assert summary.partition(".")[0][:40] in " ".join(capsys.readouterr().out.replace("│", "").split())
 
 
 def test_help_imports_nothing_heavy() -> None:

@@ -216,8 +216,8 @@ def test_derivatives_by_the_variables_are_those_of_differences(family: Constrain
         around = [family.jet(x + h * direction, u, signs) for h in STEPS]
         value = slope([one.value for one in around])
         assert jet.gradient[:, i] == pytest.approx(value, rel=1e-7, abs=1e-8 * (1.0 + np.abs(value).max()))
-        wanted = WEIGHTS @ slope([one.gradient for one in around])
-        assert curved[i] == pytest.approx(wanted, rel=1e-7, abs=1e-8 * (1.0 + np.abs(wanted).max()))
+        expected = WEIGHTS @ slope([one.gradient for one in around])
+        assert curved[i] == pytest.approx(expected, rel=1e-7, abs=1e-8 * (1.0 + np.abs(expected).max()))
 
 
 @pytest.mark.sample(2)
@@ -296,7 +296,7 @@ def test_values_are_those_of_the_law() -> None:
         x = point(EXAMPLES[f"B of {where}"])[: laws.terms]
         law, u = laws.law(x), np.linspace(-0.99, 0.99, 25)
         k, nothing = (1.0 - u) / 2.0, np.zeros(laws.terms)
-        wanted = {
+        expected = {
             laws.derivative(2, "C", nothing): law.c(k),
             laws.combination(1, (1.0, 0.1), "cam", nothing): law.b(k) + 0.1 * law.c(k),
             laws.power("D", nothing): law.d(k),
@@ -304,5 +304,5 @@ def test_values_are_those_of_the_law() -> None:
             laws.from_rest("b / sqrt(2 - 2k)", nothing, backward=True): law.b(1 - k) / np.sqrt(2 * k),
             laws.norm(2, "rms_c", nothing): np.full(25, law.rms(2)),
         }
-        for family, values in wanted.items():
+        for family, values in expected.items():
             assert family.value(x, u) == pytest.approx(values, rel=1e-9, abs=1e-9)

@@ -52,8 +52,8 @@ def test_every_job_has_an_example() -> None:
 def test_a_job_is_imported_when_it_runs() -> None:
     seen = "[name for name in sys.modules if name.startswith(('optlaws.jobs.', 'matplotlib', 'numpy'))]"
     program = f"import sys; from optlaws.jobs import job; print('atlas' in job.JOBS, len(job.JOBS), {seen})"
-    said = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True).stdout
-    assert said == f"True {len(EXAMPLES)} ['optlaws.jobs.job']\n"
+    message = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True).stdout
+    assert message == f"True {len(EXAMPLES)} ['optlaws.jobs.job']\n"
 
 
 @pytest.mark.sample(6)
@@ -102,27 +102,27 @@ def test_what_another_machine_rounds_otherwise_changes_no_file(
 
 
 @pytest.mark.sample(3)
-@pytest.mark.parametrize(("name", "old", "new", "said"), WRONG)
-def test_errors_name_the_file_and_the_entry(tmp_path: Path, name: str, old: str, new: str, said: str) -> None:
-    with pytest.raises(InputError, match=rf"(?s)small\.toml.*{said}"):
+@pytest.mark.parametrize(("name", "old", "new", "message"), WRONG)
+def test_errors_name_the_file_and_the_entry(tmp_path: Path, name: str, old: str, new: str, message: str) -> None:
+    with pytest.raises(InputError, match=rf"(?s)small\.toml.*{message}"):
         done(tmp_path, name, replaced(old, new))
     assert not (tmp_path / "out").exists()
 
 
-@pytest.mark.parametrize(("name", "old", "new", "said"), WRONG_BESIDE)
-def test_errors_of_data_name_the_place(tmp_path: Path, name: str, old: str, new: str, said: str) -> None:
-    with pytest.raises(InputError, match=rf"(?s)small\.toml.*{said}"):
+@pytest.mark.parametrize(("name", "old", "new", "message"), WRONG_BESIDE)
+def test_errors_of_data_name_the_place(tmp_path: Path, name: str, old: str, new: str, message: str) -> None:
+    with pytest.raises(InputError, match=rf"(?s)small\.toml.*{message}"):
         done(tmp_path, name, beside=replaced(old, new))
     assert not (tmp_path / "out").exists()
 
 
 @pytest.mark.parametrize("name", EXAMPLES)
 def test_every_entry_is_known_needed_and_of_its_type(tmp_path: Path, name: str) -> None:
-    for change, said in (
+    for change, message in (
         (lambda text: "titel = 1\n" + text, "titel.*did you mean 'title'"),
         (lambda text: re.sub("title = ", "titl = ", text, count=1), "titl.*did you mean 'title'"),
         (lambda text: re.sub("title = .*", "title = 5", text, count=1), "title"),
     ):
-        with pytest.raises(InputError, match=rf"(?s)small\.toml.*{said}"):
+        with pytest.raises(InputError, match=rf"(?s)small\.toml.*{message}"):
             done(tmp_path, name, change)
         assert not (tmp_path / "out").exists()

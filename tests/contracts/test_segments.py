@@ -105,8 +105,8 @@ def test_derivatives_are_the_limits_of_differences(segment: Segment, length: flo
         difference = (moved[0] - 8 * moved[1] + 8 * moved[2] - moved[3]) / (12 * h * length)
         above = np.abs([segment.derivative(INNER + i * h, length, nu + 4) for i in (-2, 0, 2)]).max(axis=0)
         rounding = 1e-13 * np.abs(moved).max() / (h * length)
-        wanted = segment.derivative(INNER, length, nu)
-        assert (np.abs(difference - wanted) <= 0.1 * (h * length) ** 4 * above + rounding).all()
+        expected = segment.derivative(INNER, length, nu)
+        assert (np.abs(difference - expected) <= 0.1 * (h * length) ** 4 * above + rounding).all()
 
 
 @each
@@ -121,8 +121,8 @@ def test_displacement_is_counted_from_the_start(segment: Segment, length: float)
 @each_smooth
 def test_squares_are_integrated_exactly(segment: Segment, length: float) -> None:
     for nu in (1, 2, 3, 4):
-        wanted = squared(segment, length, nu)
-        assert segment.square(length, nu) == pytest.approx(wanted, rel=1e-10, abs=1e-20)
+        expected = squared(segment, length, nu)
+        assert segment.square(length, nu) == pytest.approx(expected, rel=1e-10, abs=1e-20)
 
 
 @pytest.mark.parametrize(("segment", "length"), ROUGH.values(), ids=ROUGH.keys())
@@ -132,8 +132,8 @@ def test_squares_are_infinite_only_where_a_derivative_is(segment: Segment, lengt
         square = segment.square(length, nu)
         assert np.isfinite(square) or not finite
         if np.isfinite(square) and finite:
-            wanted = squared(segment, length, nu)
-            assert square == pytest.approx(wanted, rel=1e-6)
+            expected = squared(segment, length, nu)
+            assert square == pytest.approx(expected, rel=1e-6)
 
 
 @each
@@ -168,9 +168,9 @@ def test_scaled_is_what_it_says(segment: Segment, length: float, scale: float, d
     made = segment.scaled(length, scale, drift)
     for nu in range(4):
         more = (drift * U * length, drift * np.ones_like(U))[nu] if nu < 2 else 0.0 * U
-        wanted = scale * segment.derivative(U, length, nu) + more
+        expected = scale * segment.derivative(U, length, nu) + more
         room = (1e-13, 1e-13, 1e-12, 1e-9)[nu] * size(segment, length, nu)
-        assert made.derivative(U, length, nu) == pytest.approx(wanted, abs=room, rel=1e-9)
+        assert made.derivative(U, length, nu) == pytest.approx(expected, abs=room, rel=1e-9)
 
 
 @each_smooth
@@ -179,17 +179,17 @@ def test_backwards_is_what_it_says_and_its_own_inverse(segment: Segment, length:
     again = made.backwards(length)
     for nu in (1, 2, 3):
         room = (0.0, 1e-12, 1e-11, 1e-8)[nu] * size(segment, length, nu)
-        wanted = segment.derivative(U, length, nu)
-        assert (-1) ** (nu - 1) * made.derivative(1.0 - U, length, nu) == pytest.approx(wanted, abs=room)
-        assert again.derivative(U, length, nu) == pytest.approx(wanted, abs=room)
+        expected = segment.derivative(U, length, nu)
+        assert (-1) ** (nu - 1) * made.derivative(1.0 - U, length, nu) == pytest.approx(expected, abs=room)
+        assert again.derivative(U, length, nu) == pytest.approx(expected, abs=room)
 
 
 @each_smooth
 def test_times_multiplies_the_acceleration(segment: Segment, length: float) -> None:
     y = np.array([1.5, -0.5, 0.25])
     made = segment.times(length, y)
-    wanted = segment.derivative(U, length, 2) * np.polynomial.chebyshev.chebval(2.0 * U - 1.0, y)
-    assert made.derivative(U, length, 2) == pytest.approx(wanted, abs=1e-11 * size(segment, length, 2))
+    expected = segment.derivative(U, length, 2) * np.polynomial.chebyshev.chebval(2.0 * U - 1.0, y)
+    assert made.derivative(U, length, 2) == pytest.approx(expected, abs=1e-11 * size(segment, length, 2))
     if not isinstance(made, FractionalSegment):  # powers of v are integrated from v = 0
         assert made.velocity(length) == pytest.approx(segment.velocity(length), abs=1e-13)
 
@@ -208,15 +208,15 @@ def test_plus_derivatives_adds_them(segment: Segment, length: float) -> None:
 
 @each_smooth
 def test_an_interpolant_and_waves_are_the_segment(segment: Segment, length: float) -> None:
-    wanted = segment.derivative(U, length, 2)
+    expected = segment.derivative(U, length, 2)
     polynomial = segment.interpolated(length)
     assert isinstance(polynomial, PolynomialSegment)
-    assert polynomial.derivative(U, length, 2) == pytest.approx(wanted, abs=1e-12 * size(segment, length, 2))
+    assert polynomial.derivative(U, length, 2) == pytest.approx(expected, abs=1e-12 * size(segment, length, 2))
     waves = segment.waves(length)
     if waves is not None:
         c = np.polynomial.chebyshev.chebval(2.0 * U - 1.0, waves.acceleration)
         c = c + sum(sine.amplitude * np.sin(sine.frequency * U * length + sine.phase) for sine in waves.sines)
-        assert c == pytest.approx(wanted, abs=1e-13 * size(segment, length, 2))
+        assert c == pytest.approx(expected, abs=1e-13 * size(segment, length, 2))
         assert waves.b0 == pytest.approx(segment.velocity(length), abs=1e-14)
 
 
@@ -339,8 +339,8 @@ def test_a_new_kind_goes_through_a_cam(exponential: Any) -> None:  # noqa: ANN40
         return segment.plus_derivatives(length, 0.01, 0.0025).derivative(u, length, 2)
 
     segment, u = exponential(2.0, 0.5), np.linspace(0.0, 1.0, 21)
-    wanted = (1 + 0.01 * 2.0 + 0.0025 * 4.0) * segment.derivative(u, 0.5, 2)
-    assert smooth(segment, u, 0.5) == pytest.approx(wanted, rel=1e-13)
+    expected = (1 + 0.01 * 2.0 + 0.0025 * 4.0) * segment.derivative(u, 0.5, 2)
+    assert smooth(segment, u, 0.5) == pytest.approx(expected, rel=1e-13)
 
 
 def test_a_polynomial_by_another_name_is_driven_like_one() -> None:

@@ -100,8 +100,8 @@ def test_the_command_says_the_same(capsys: pytest.CaptureFixture[str], tmp_path:
         "32",
     ]
     assert exit_code([*arguments, "--json"]) == 0
-    said = json.loads(capsys.readouterr().out)
-    assert said == compare_laws("MODSINE", "III(7.2)", stroke="35 mm", duration="0.1 s", frequency=(12, 32)).to_dict()
+    output = json.loads(capsys.readouterr().out)
+    assert output == compare_laws("MODSINE", "III(7.2)", stroke="35 mm", duration="0.1 s", frequency=(12, 32)).to_dict()
     assert exit_code([*arguments, "--plot", str(tmp_path / "a.svg"), "--csv", str(tmp_path / "a.csv")]) == 0
     assert (tmp_path / "a.svg").is_file()
     assert (tmp_path / "a.csv").read_text("utf-8").count("\n") == 4

@@ -40,7 +40,7 @@ def test_a_rotary_stroke_is_in_radians() -> None:
 
 
 @pytest.mark.parametrize(
-    ("changed", "said"),
+    ("changed", "message"),
     [
         ({"natural_frequency": "16.7"}, "without a unit"),
         ({"natural_frequency": "0 Hz"}, "frequency must be above 0"),
@@ -52,8 +52,8 @@ def test_a_rotary_stroke_is_in_radians() -> None:
         ({"speed": "3 Hz"}, "is a frequency"),
     ],
 )
-def test_what_is_wrong_is_said(changed: dict[str, str | None], said: str) -> None:
-    with pytest.raises(InputError, match=said):
+def test_what_is_wrong_is_said(changed: dict[str, str | None], message: str) -> None:
+    with pytest.raises(InputError, match=message):
         machine_follower(**{**MACHINE, **changed})  # type: ignore[arg-type] # what is wrong
 
 

@@ -36,7 +36,7 @@ LEVEL = [Rise("35 mm", "180 deg"), Return("30 mm", "180 deg")]
 
 
 @pytest.mark.parametrize(
-    ("segments", "others", "said"),
+    ("segments", "others", "message"),
     [
         ([], {}, "a cycle is a list of segments"),
         ([Dwell()], {"speed": None}, 'either a speed such as "200 rpm" or a period'),
@@ -90,8 +90,8 @@ LEVEL = [Rise("35 mm", "180 deg"), Return("30 mm", "180 deg")]
         ([Dwell("9 deg"), Free("1 mm", via=[("359 deg", "3 mm")])], {"advance": "1 mm"}, "must be within the segment"),
     ],
 )
-def test_errors_say_what_is_wrong_and_the_remedy(segments: list[Any], others: dict[str, Any], said: str) -> None:
-    with pytest.raises(InputError, match=said):
+def test_errors_say_what_is_wrong_and_the_remedy(segments: list[Any], others: dict[str, Any], message: str) -> None:
+    with pytest.raises(InputError, match=message):
         cycle(*segments, **others)
 
 
@@ -167,10 +167,10 @@ def test_a_mass_law_that_is_too_rough_is_named() -> None:
 
 def test_the_command_tells_a_program_what_the_cycle_is(capsys: pytest.CaptureFixture[str]) -> None:
     assert exit_code(["cycle", str(ROOT / "problems" / "cycle_press.toml"), "--json"]) == 0
-    told = json.loads(capsys.readouterr().out)["slide"]
-    assert told["status"] == "optimal"
-    assert told["lower_bound"] == pytest.approx(told["objective"], rel=1e-9)
-    assert told["segments"][0]["velocity"] <= 0.616 * (1 + 1e-9)
+    output = json.loads(capsys.readouterr().out)["slide"]
+    assert output["status"] == "optimal"
+    assert output["lower_bound"] == pytest.approx(output["objective"], rel=1e-9)
+    assert output["segments"][0]["velocity"] <= 0.616 * (1 + 1e-9)
 
 
 def test_a_file_of_another_job_is_refused(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:

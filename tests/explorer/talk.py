@@ -41,12 +41,12 @@ class Server:
     def ask(self, name: str, question: object, code: int = 200) -> Any:  # noqa: ANN401 - JSON
         """The answer to a question of the page."""
         body = question if isinstance(question, bytes) else json.dumps(question).encode()
-        response, said = self.send("POST", f"/api/{name}", body, Content_Type="application/json")
-        assert response.status == code, said
-        return json.loads(said)
+        response, answer = self.send("POST", f"/api/{name}", body, Content_Type="application/json")
+        assert response.status == code, answer
+        return json.loads(answer)
 
     def get_start(self) -> Any:  # noqa: ANN401 - JSON
         """What the page shows first."""
-        response, said = self.send("GET", "/api/start")
+        response, answer = self.send("GET", "/api/start")
         assert response.status == 200
-        return json.loads(said)["state"]
+        return json.loads(answer)["state"]

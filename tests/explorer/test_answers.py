@@ -91,9 +91,9 @@ def test_a_front_of_powers_says_how_far_its_laws_are_from_proven(monkeypatch: py
     found = front_view.front(Problem(order=4, minimise="D"), "C", "D")
     assert not found["proven"]
     assert len(found["line"]) == 5
-    told = re.fullmatch(r"least D for each bound of C: .* no law is below them by more than (\d+) %", found["words"])
-    assert told is not None
-    assert 5 < int(told[1]) < 60
+    results = re.fullmatch(r"least D for each bound of C: .* no law is below them by more than (\d+) %", found["words"])
+    assert results is not None
+    assert 5 < int(results[1]) < 60
     assert front_view.front(Problem(order=4), "B", "C")["proven"]
 
 
@@ -256,8 +256,8 @@ def test_a_problem_file_is_the_same_problem(entries: dict[str, Any], tmp_path: P
 
 def test_a_law_that_is_dragged_is_the_one_that_is_solved_alone() -> None:
     """Convex problems start from the last one, whatever that was: their optimum does not depend on it."""
-    wanted = [Problem(order=4, B=1.61 + 0.01 * i) for i in range(4)]
-    asked = [wanted[0], Problem(order=3, B=1.7, minimise="J"), *wanted[1:], replace(wanted[1], minimise="D")]
+    expected = [Problem(order=4, B=1.61 + 0.01 * i) for i in range(4)]
+    asked = [expected[0], Problem(order=3, B=1.7, minimise="J"), *expected[1:], replace(expected[1], minimise="D")]
     solved.cache_clear()
     for problem in asked:
         found, alone = solved(problem), synthesize(problem)
@@ -320,16 +320,16 @@ def test_a_cam_is_drawn_where_its_follower_touches_it(file: str) -> None:
 
 def test_the_loads_of_a_cam_are_those_of_the_library() -> None:
     study = start(str(ROOT / "problems" / "cam_press.toml"))["cam"]
-    told = cam_view.loads(CamRequest(study=study))
+    results = cam_view.loads(CamRequest(study=study))
     cam = cam_view.findings_of(CamRequest(study=study)).cam
     forces = CamForces(cam, width="20 mm", friction=study["forces"]["friction"])
-    contact, torque, pressure = told["panels"]
-    assert [one["name"] for one in told["panels"]] == ["contact force", "torque at the shaft", "Hertz's pressure"]
+    contact, torque, pressure = results["panels"]
+    assert [one["name"] for one in results["panels"]] == ["contact force", "torque at the shaft", "Hertz's pressure"]
     assert contact["peaks"][1]["value"] == forces.contact.most
     assert torque["values"][55] == pytest.approx(forces.shaft_torque(np.radians(55.0)), abs=1e-6)
     assert max(pressure["values"]) <= 1e-6 * forces.pressure.high
-    assert f"root mean square {forces.rms_torque[1]:.6g} N m" in told["facts"][1]
-    assert "least spring without lift-off" in told["facts"][3]
+    assert f"root mean square {forces.rms_torque[1]:.6g} N m" in results["facts"][1]
+    assert "least spring without lift-off" in results["facts"][3]
     light = study | {"motion": study["motion"] | {"drive": {"mass": "20 kg"}}}
     assert "the follower lifts off at" in cam_view.loads(CamRequest(study=light))["facts"][0]
     jammed = light | {"forces": {"friction": {"contact": 0, "guide": 0.9, "overhang": "90 mm", "length": "20 mm"}}}
@@ -345,8 +345,8 @@ def test_a_cam_beyond_its_limits_is_not_called_free_of_undercut() -> None:
 
 def test_a_cam_that_is_undercut_says_so_and_one_that_is_none_why() -> None:
     study = cam_view.example()
-    (told,) = cam_view.sizes(CamRequest(study=study))["facts"]
-    least = float(told.split(": ")[1].split()[0])
+    (results,) = cam_view.sizes(CamRequest(study=study))["facts"]
+    least = float(results.split(": ")[1].split()[0])
     for radius, beyond in ((least, False), (least * 0.999, True)):
         view = cam_view.answer(CamRequest(study=study | {"prime_radius": f"{radius + 1e-5} mm"}))
         assert view["panels"][1]["beyond"] == beyond
@@ -466,7 +466,7 @@ def test_how_far_a_law_is_above_the_limit_is_told() -> None:
     view = law_view.answer(LawsRequest(laws=[law(OPTIMAL)]))["laws"][0]
     solution = synthesize(Problem(order=4, B=1.7))
     assert solution.limit is not None
-    told = view["trust"]["facts"][-1]
-    assert float(told.split(" % above")[0].rpartition(" ")[2]) == pytest.approx(
+    results = view["trust"]["facts"][-1]
+    assert float(results.split(" % above")[0].rpartition(" ")[2]) == pytest.approx(
         100.0 * (solution.objective / solution.limit - 1.0), abs=0.05
     )

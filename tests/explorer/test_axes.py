@@ -69,8 +69,12 @@ def test_what_is_drawn_and_proven_of_axes_is_the_library_s(served: Server, study
         rooms = 1e3 * rule.room(axes, np.array(panel["at"]) * axes.duration / 360.0)
         assert panel["values"] == pytest.approx(rooms, abs=2e-3)
     proven = served.ask("axes-clearances", {"study": study})
-    for told, least in zip(proven["rows"], axes.clearances, strict=True):
-        assert (told["status"], told["value"], told["at"]) == (least.status, 1e3 * least.clearance, least.angle)
+    for results, least in zip(proven["rows"], axes.clearances, strict=True):
+        assert (results["status"], results["value"], results["at"]) == (
+            least.status,
+            1e3 * least.clearance,
+            least.angle,
+        )
     assert proven["trust"]["word"].startswith("interlocks clear" if not axes.broken else "interlock broken")
 
 
@@ -185,8 +189,8 @@ def test_the_corner_of_a_forbidden_region_is_moved(page: Page, served: Server) -
     assert page.get_by_label("interlock 1 corners").input_value().split("; ")[2] == "280 mm, 31 mm"
     changed = robot()
     changed["interlocks"] = [BOX | {"corners": [*BOX["corners"][:2], ["280 mm", "31 mm"], BOX["corners"][3]]}]
-    (told,) = served.ask("axes-clearances", {"study": changed})["rows"]
-    assert told["cells"][0] in page.locator("#axes-table").inner_text()
+    (results,) = served.ask("axes-clearances", {"study": changed})["rows"]
+    assert results["cells"][0] in page.locator("#axes-table").inner_text()
 
 
 def test_axes_are_added_renamed_and_removed_with_what_names_them(page: Page, served: Server) -> None:

@@ -114,8 +114,8 @@ def answers(served: Server, count: int, seed: int) -> list[tuple[int, str, bytes
     for _ in range(count):
         name = random.choice(names)
         body = mutated(random.choice(SEEDS[name]), random)
-        response, said = served.send("POST", f"/api/{name}?patience=1", body, Content_Type="application/json")
-        assert isinstance(json.loads(said), dict)
+        response, answer = served.send("POST", f"/api/{name}?patience=1", body, Content_Type="application/json")
+        assert isinstance(json.loads(answer), dict)
         answered.append((response.status, name, body))
     return answered
 

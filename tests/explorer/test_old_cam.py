@@ -84,8 +84,8 @@ def test_better_laws_are_the_library_s_and_so_are_their_files(served: Server, tu
         assert {**shown["law"], "seconds": 0.0} == {**stored, "seconds": 0.0}
     old = {"study": study, "laws": [shown["law"] for shown in moves]}
     cycle = better.cycle(speed="200 rpm")
-    told = served.ask("export", {"format": "csv", "view": "old", "laws": LAWS, "old": old, "points": 91})
-    assert told["text"] == cycle.export("csv", points=91).text
+    results = served.ask("export", {"format": "csv", "view": "old", "laws": LAWS, "old": old, "points": 91})
+    assert results["text"] == cycle.export("csv", points=91).text
     kept = served.ask("save", {"kind": "law", "view": "old", "laws": LAWS, "old": old})
     assert Cycle.from_json(kept["text"]).peak(2) == cycle.peak(2)
     assert "have no name" in served.ask("save", {"kind": "problem", "view": "old", "laws": LAWS, "old": old})["error"]

@@ -27,9 +27,9 @@ VALUES = st.recursive(PLAIN, lambda inner: st.lists(inner, max_size=3) | st.dict
     "host", ["evil.example", "evil.example:{port}", "127.0.0.1", "localhost:1", "127.0.0.1.nip.io:{port}"]
 )
 def test_another_host_is_refused(served: Server, host: str) -> None:
-    response, said = served.send("GET", "/", Host=host.format(port=served.port))
+    response, answer = served.send("GET", "/", Host=host.format(port=served.port))
     assert response.status == 403
-    assert b"only" in said
+    assert b"only" in answer
 
 
 def test_the_pages_of_others_are_refused(served: Server) -> None:
@@ -53,8 +53,8 @@ def test_every_answer_forbids_what_the_page_does_not_need(served: Server) -> Non
 
 def test_the_page_is_whole_and_names_nothing_beyond_it(served: Server) -> None:
     for name, content in page().items():
-        response, said = served.send("GET", f"/{name}" if name != "index.html" else "/")
-        assert (response.status, said) == (200, content)
+        response, answer = served.send("GET", f"/{name}" if name != "index.html" else "/")
+        assert (response.status, answer) == (200, content)
         text = content.decode()
         assert set(re.findall(r"https?://[\w.]+", text)) <= {"http://www.w3.org"}  # the name of SVG, asked of nobody
         for line in text.splitlines():
@@ -82,9 +82,9 @@ def test_a_long_question_is_refused(served: Server) -> None:
 @given(name=st.sampled_from(sorted(QUESTIONS)), question=VALUES | st.binary(max_size=12))
 def test_any_question_has_an_answer(served: Server, name: str, question: object) -> None:
     body = question if isinstance(question, bytes) else json.dumps(question).encode()
-    response, said = served.send("POST", f"/api/{name}", body, Content_Type="application/json")
+    response, answer = served.send("POST", f"/api/{name}", body, Content_Type="application/json")
     assert response.status in ANSWERS
-    assert isinstance(json.loads(said), dict)
+    assert isinstance(json.loads(answer), dict)
 
 
 @examples(60)
@@ -138,7 +138,7 @@ def test_the_first_page_is_small_where_it_is_packed(served: Server) -> None:
     assert {"panels.js", "state.js"} < first < set(page())
     packed = 0
     for path in ("api/start", *(name.replace("index.html", "") for name in first)):
-        response, said = served.send("GET", f"/{path}", Accept_Encoding="gzip")
-        packed += len(said)
-        assert response.headers["Content-Encoding"] == "gzip" or len(said) < 500
+        response, answer = served.send("GET", f"/{path}", Accept_Encoding="gzip")
+        packed += len(answer)
+        assert response.headers["Content-Encoding"] == "gzip" or len(answer) < 500
     assert packed < 100_000

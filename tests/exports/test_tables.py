@@ -248,7 +248,7 @@ def test_a_motion_that_does_not_fit_is_refused() -> None:
 
 
 def test_the_report_says_it_all() -> None:
-    said = str(optimal().export("rockwell-cam", points=20, counts=65536, **SAID))
+    message = str(optimal().export("rockwell-cam", points=20, counts=65536, **SAID))
     for word in (
         "20 points",
         "clamped",
@@ -257,7 +257,7 @@ def test_the_report_says_it_all() -> None:
         "from and to rest",
         "roundings may add",
     ):
-        assert word in said
+        assert word in message
     over_angle = str(smoothstep(3).export("csv", stroke="1 mm", master="90 deg", points=19))
     assert "peak of jerk, mm/deg³" in over_angle
 

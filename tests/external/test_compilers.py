@@ -123,11 +123,11 @@ def test_matiec_compiles_a_front_to_what_is_planned_in_python(name: str, tmp_pat
                 columns[key].append(float(value))
             expected.append([float(values[key]) for key in ("status", "moveTime", *OUTPUTS)])
     seen = matiec.outputs(tmp_path, export.text, f"FB_{name}", columns, ["status", "moveTime", *OUTPUTS])
-    wanted = np.array(expected)
-    assert seen[:, 0].tolist() == wanted[:, 0].tolist()
-    assert seen[:, 1] == pytest.approx(wanted[:, 1], rel=1e-13)
-    sizes = np.abs(wanted[:, 2:]).reshape(len(moves), -1, 4).max(axis=1).repeat(1 + len(SHARES), axis=0)
-    assert (np.abs(seen[:, 2:] - wanted[:, 2:]) <= 1e-10 * sizes).all()
+    expected_motion = np.array(expected)
+    assert seen[:, 0].tolist() == expected_motion[:, 0].tolist()
+    assert seen[:, 1] == pytest.approx(expected_motion[:, 1], rel=1e-13)
+    sizes = np.abs(expected_motion[:, 2:]).reshape(len(moves), -1, 4).max(axis=1).repeat(1 + len(SHARES), axis=0)
+    assert (np.abs(seen[:, 2:] - expected_motion[:, 2:]) <= 1e-10 * sizes).all()
 
 
 @needs_matiec

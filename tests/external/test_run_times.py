@@ -77,9 +77,9 @@ def test_plcopen_reads_and_runs_its_tables_as_the_report_says(
 ) -> None:
     pyplcopen = pytest.importorskip("pyplcopen", reason="pyplcopen has no wheel for this Python")
     motion = MOTIONS[name]()
-    said: dict[str, Any] = {"interpolation": interpolation, "points": points}
-    said |= SAID if isinstance(motion, MotionLaw) else {}
-    made = cast("Export", motion.export("plcopen", **said))
+    arguments: dict[str, Any] = {"interpolation": interpolation, "points": points}
+    arguments |= SAID if isinstance(motion, MotionLaw) else {}
+    made = cast("Export", motion.export("plcopen", **arguments))
     table = np.array(pyplcopen.load_cam_table_csv(str(made.write(tmp_path / "cam.csv"))))
     assert len(table) == points
     x, y = table.T

@@ -75,9 +75,9 @@ def test_printing_and_reading_random_formulas_changes_nothing() -> None:
 def test_an_error_points_at_the_character(written: str, message: str, place: int) -> None:
     with pytest.raises(InputError) as caught:
         read(written, "abcjk")
-    said = str(caught.value)
-    assert message in said
-    *_, pointer = said.splitlines()
+    complaint = str(caught.value)
+    assert message in complaint
+    *_, pointer = complaint.splitlines()
     assert pointer == " " * (2 + place) + "^"
 
 

@@ -41,8 +41,8 @@ def test_every_arithmetic_agrees_with_python(batch: int) -> None:
 
     for seed in range(40 * batch, 40 * batch + 40):
         written, formula, values = drawn(seed)
-        wanted = float(by_python(written, values))
-        close = pytest.approx(wanted, rel=1e-11, abs=1e-12)
+        expected = float(by_python(written, values))
+        close = pytest.approx(expected, rel=1e-11, abs=1e-12)
         assert float(evaluate(formula, values, NUMPY)) == close, written
         assert float(evaluate(formula, {n: mpmath.mpf(v) for n, v in values.items()}, MPMATH)) == close
         assert float(casadi.DM(evaluate(formula, values, casadi_arithmetic()))) == close
@@ -50,7 +50,7 @@ def test_every_arithmetic_agrees_with_python(batch: int) -> None:
         assert float(value.mid()) == close
         boxes = {n: Endpoints(np.array(v - 1e-3), np.array(v + 1e-3)) for n, v in values.items()}
         around = enclosed(formula, boxes)
-        assert around.low <= wanted <= around.high
+        assert around.low <= expected <= around.high
 
 
 @pytest.mark.parametrize("written", ["k + 1e17 - 1e17", "k*1e-9*1e9", "sin(3e5*k)", "cos(1e12*k)", "k*3/3 - k/7*7"])
@@ -74,8 +74,8 @@ def test_slopes_are_those_of_differences() -> None:
                 continue
             h = 1e-6
             ends = [float(evaluate(formula, {**values, name: values[name] + s * h}, NUMPY)) for s in (1, -1)]
-            wanted = (ends[0] - ends[1]) / (2 * h)
-            assert float(evaluate(slope, values, NUMPY)) == pytest.approx(wanted, rel=1e-5, abs=1e-6)
+            expected = (ends[0] - ends[1]) / (2 * h)
+            assert float(evaluate(slope, values, NUMPY)) == pytest.approx(expected, rel=1e-5, abs=1e-6)
             checked += 1
     assert checked > 150
 
@@ -129,11 +129,11 @@ def test_tables_and_splines_are_those_of_numpy_and_scipy() -> None:
     k = np.linspace(0.0, 1.0, 301)
     line, spline = (read(f"{kind}(k, {pairs})") for kind in ("table", "spline"))
     assert evaluate(line, {"k": k}, NUMPY) == pytest.approx(np.interp(k, places, heights), abs=1e-14)
-    wanted = CubicSpline(places, heights)
-    assert evaluate(spline, {"k": k}, NUMPY) == pytest.approx(wanted(k), abs=1e-12)
+    expected = CubicSpline(places, heights)
+    assert evaluate(spline, {"k": k}, NUMPY) == pytest.approx(expected(k), abs=1e-12)
     for order in (1, 2):
         spline = derivative(spline, "k")
-        assert evaluate(spline, {"k": k}, NUMPY) == pytest.approx(wanted(k, order), abs=1e-10)
+        assert evaluate(spline, {"k": k}, NUMPY) == pytest.approx(expected(k, order), abs=1e-10)
     for x in np.linspace(0.01, 0.99, 30):
         for one in (line, read(f"spline(k, {pairs})")):
             value = float(evaluate(one, {"k": x}, NUMPY))
@@ -151,18 +151,18 @@ def test_affine_quadratic_and_polynomial_parts_make_up_the_formula() -> None:
     found = {"affine": 0, "quadratic": 0, "degree": 0}
     for seed in range(400):
         _, formula, values = drawn(seed, 3)
-        wanted = float(evaluate(formula, values, NUMPY))
+        expected = float(evaluate(formula, values, NUMPY))
         straight, square = affine(formula, NAMES), quadratic(formula, NAMES)
         if straight is not None:
             terms = [float(evaluate(one, values, NUMPY)) * values[name] for name, one in straight.factors]
-            assert sum(terms) + float(evaluate(straight.rest, values, NUMPY)) == pytest.approx(wanted, abs=1e-9)
+            assert sum(terms) + float(evaluate(straight.rest, values, NUMPY)) == pytest.approx(expected, abs=1e-9)
             assert not straight.rest.names() & set(NAMES)
             found["affine"] += 1
         if square is not None:
             total = 0.0
             for names, one in square.items():
                 total += float(evaluate(one, values, NUMPY)) * math.prod(values[name] for name in names)
-            assert total == pytest.approx(wanted, abs=1e-9)
+            assert total == pytest.approx(expected, abs=1e-9)
             found["quadratic"] += 1
         known = degree(formula, {name: numbers.randint(0, 2) for name in NAMES} | {"k": 1})
         if known is not None:

@@ -115,10 +115,10 @@ def test_the_best_degree_is_sought_among_all() -> None:
 
 
 def test_where_no_degree_has_a_law_the_proof_is_of_the_greatest() -> None:
-    with pytest.raises(InfeasibleProblem) as told:
+    with pytest.raises(InfeasibleProblem) as results:
         best_law(ATLAS, minimise="C", order=4, B=2.2, most={"D": 4.0})
-    assert isinstance(told.value.problem, Problem)
-    assert told.value.problem.basis == Chebyshev(15)
+    assert isinstance(results.value.problem, Problem)
+    assert results.value.problem.basis == Chebyshev(15)
 
 
 @pytest.mark.parametrize(
@@ -132,9 +132,9 @@ def test_where_no_degree_has_a_law_the_proof_is_of_the_greatest() -> None:
     ],
 )
 def test_what_the_atlas_has_not_is_said(asked: dict[str, object], message: str) -> None:
-    wanted: dict[str, object] = {"minimise": "C", "order": 4, **asked}
+    expected: dict[str, object] = {"minimise": "C", "order": 4, **asked}
     with pytest.raises(InputError, match=message):
-        look_up(ATLAS, **wanted)  # type: ignore[arg-type] # the wrong ones are the point
+        look_up(ATLAS, **expected)  # type: ignore[arg-type] # the wrong ones are the point
 
 
 def test_the_command_solves_what_was_asked(capsys: pytest.CaptureFixture[str]) -> None:
@@ -167,9 +167,9 @@ def test_the_command_study_says_what_it_did(tmp_path: Path, capsys: pytest.Captu
     file, out = tmp_path / "small.toml", str(tmp_path / "study")
     file.write_text("[problem]\norder = 4\n[vary]\nB = [1.5, 1.2]\ndegree = [3]\n")
     assert exit_code(["study", str(file), "--out", out, "--workers", "1", "--json"]) == 0
-    told = capsys.readouterr()
-    assert json.loads(told.out)["counts"] == {"optimal": 1, "infeasible": 1}
-    assert "2 of 2" in told.err
+    results = capsys.readouterr()
+    assert json.loads(results.out)["counts"] == {"optimal": 1, "infeasible": 1}
+    assert "2 of 2" in results.err
     assert exit_code(["study", "--status", out]) == 0
     assert "2 of 2 points, finished" in capsys.readouterr().out
     for wrong, text in (

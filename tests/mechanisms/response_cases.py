@@ -91,16 +91,16 @@ def integrated(case: Case, k: Sequence[float]) -> Array:
     stops = sorted({*getattr(case.law, "breaks", (0.0, 1.0)), max(1.0, k[-1])})
     state, found = np.array(case.initial), []
     for low, high in itertools.pairwise(stops):
-        wanted = [one for one in k if low < one <= high]
+        expected = [one for one in k if low < one <= high]
 
         def slope(t: float, y: Array, low: float = low, high: float = high) -> list[float]:
             inside = 1.0 if low >= 1.0 else min(max(t, low), np.nextafter(high, low))
             return [y[1], square * (case.displacement(inside) - y[0]) - 2 * n * y[1]]
 
-        times = np.unique([*wanted, high])
+        times = np.unique([*expected, high])
         done = solve_ivp(slope, (low, high), state, method="DOP853", rtol=1e-12, atol=1e-13, t_eval=times)
         state = done.y[:, -1]
-        found += [done.y[:, i] for i in np.flatnonzero(np.isin(times, wanted))]
+        found += [done.y[:, i] for i in np.flatnonzero(np.isin(times, expected))]
     return np.array(found)
 
 

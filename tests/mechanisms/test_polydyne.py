@@ -91,8 +91,8 @@ def test_an_integrator_agrees() -> None:
     cam = polydyne(law, 15.0, 0.1)
     k = [0.2, 0.5, 0.8, 1.0, 1.2]
     case = Case(cam, lambda t: float(cam.a(t)), 15.0, 0.1, (0.0, 0.0))
-    wanted = [*law.a(k[:4]).tolist(), 1.0]
-    assert integrated(case, k)[:, 0] == pytest.approx(wanted, abs=1e-10)
+    expected = [*law.a(k[:4]).tolist(), 1.0]
+    assert integrated(case, k)[:, 0] == pytest.approx(expected, abs=1e-10)
 
 
 def test_a_sine_with_powers_keeps_its_form() -> None:
@@ -102,16 +102,16 @@ def test_a_sine_with_powers_keeps_its_form() -> None:
     assert isinstance(made, SineSegment)
     u = np.linspace(0.0, 1.0, 7)
     for order in (1, 2, 3):
-        wanted = sum(f * segment.derivative(u, 0.8, order + i) for i, f in enumerate((1.0, once, twice)))
-        assert made.derivative(u, 0.8, order) == pytest.approx(wanted, abs=1e-12)
+        expected = sum(f * segment.derivative(u, 0.8, order + i) for i, f in enumerate((1.0, once, twice)))
+        assert made.derivative(u, 0.8, order) == pytest.approx(expected, abs=1e-12)
 
 
 def test_a_kind_of_segment_that_is_unknown_becomes_a_polynomial() -> None:
     segment = PowerSegment(1.0, 1.5)
     made = segment.plus_derivatives(0.5, 0.3, 0.07)
     u = np.linspace(0.0, 1.0, 7)
-    wanted = sum(f * segment.derivative(u, 0.5, 2 + i) for i, f in enumerate((1.0, 0.3, 0.07)))
-    assert made.derivative(u, 0.5, 2) == pytest.approx(wanted, abs=1e-11)
+    expected = sum(f * segment.derivative(u, 0.5, 2 + i) for i, f in enumerate((1.0, 0.3, 0.07)))
+    assert made.derivative(u, 0.5, 2) == pytest.approx(expected, abs=1e-11)
 
 
 @examples(40)
@@ -121,8 +121,8 @@ def test_back_and_forth(family: str, part: float, nu: float, damping: float) -> 
     law = savin(family, low + part * (high - low))
     back = mass_law(polydyne(law, nu, damping), nu, damping)
     size = float(np.abs(law.to_powers()).max()) * max(1.0, 20.0 / nu) ** 9
-    wanted = [*law.to_powers(), *[0.0] * 12][:12]
-    assert [*back.to_powers(), *[0.0] * 12][:12] == pytest.approx(wanted, abs=1e-12 * size)
+    expected = [*law.to_powers(), *[0.0] * 12][:12]
+    assert [*back.to_powers(), *[0.0] * 12][:12] == pytest.approx(expected, abs=1e-12 * size)
 
 
 def test_the_mass_of_any_polynomial_cam_swings_about_its_mass_law() -> None:

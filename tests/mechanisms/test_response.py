@@ -19,9 +19,9 @@ def misses(case: Case) -> tuple[float, float]:
     """Greatest differences of displacement and velocity from DOP853, relative to their size, rise and dwell."""
     k = np.linspace(0.0, 1.3, 27)[1:]
     follower = Follower(case.nu, case.damping).response(case.law, initial=case.initial)
-    wanted = integrated(case, k.tolist())
-    a, b = (np.abs(follower(k, order) - wanted[:, order]).max() for order in (0, 1))
-    size = max(1.0, float(np.abs(wanted[:, 0]).max()))
+    expected = integrated(case, k.tolist())
+    a, b = (np.abs(follower(k, order) - expected[:, order]).max() for order in (0, 1))
+    size = max(1.0, float(np.abs(expected[:, 0]).max()))
     return a / size, b / (size * case.nu)
 
 
@@ -44,11 +44,11 @@ def test_two_hundred_random_laws_against_an_integrator(seed: int) -> None:
 def test_every_order_to_a_dozen_digits(law: PolynomialLaw, nu: float, damping: float) -> None:
     follower = Follower(nu, damping).response(law)
     for k in (0.013, 0.37, 1.0):
-        wanted = exact(law, nu, damping, k)
+        expected = exact(law, nu, damping, k)
         for order in range(4):
             size = law.constants.C.value * max(nu, 8.0) ** (order - 2)
-            rounding = 1e-15 * max(1.0, abs(wanted[order]))
-            assert follower(k, order) == pytest.approx(wanted[order], abs=2e-13 * size + rounding), (k, order)
+            rounding = 1e-15 * max(1.0, abs(expected[order]))
+            assert follower(k, order) == pytest.approx(expected[order], abs=2e-13 * size + rounding), (k, order)
 
 
 @pytest.mark.parametrize("nu", [3.0, 30.0, 300.0, 2 * np.pi, 2 * np.pi * (1 + 1e-9), 6 * np.pi])

@@ -112,15 +112,15 @@ def test_a_polydyne_cam_divides_the_residual(family: str, alpha: float, design: 
 def test_peaks_are_those_of_single_responses(seed: int, damping: float, nus: list[float]) -> None:
     law = random_case(seed).law
     peak_acceleration = response_spectrum(law, nus, damping).peak_acceleration
-    wanted = [Follower(nu, damping).response(law).peak(2).value for nu in nus]
-    assert peak_acceleration == pytest.approx(wanted, rel=3e-5)
+    expected = [Follower(nu, damping).response(law).peak(2).value for nu in nus]
+    assert peak_acceleration == pytest.approx(expected, rel=3e-5)
 
 
 @pytest.mark.parametrize("law", [savin("III", 7.2), catalogue["modified sine"].law, random_law(2, 30, 0.9)])
 def test_peaks_of_smooth_laws(law: PolynomialLaw) -> None:
     peak_acceleration = response_spectrum(law, NUS, 0.02).peak_acceleration
-    wanted = [Follower(nu, 0.02).response(law).peak(2).value for nu in NUS]
-    assert peak_acceleration == pytest.approx(wanted, rel=2e-6)
+    expected = [Follower(nu, 0.02).response(law).peak(2).value for nu in NUS]
+    assert peak_acceleration == pytest.approx(expected, rel=2e-6)
 
 
 def test_constant_power_has_a_spectrum() -> None:

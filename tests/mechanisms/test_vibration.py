@@ -26,10 +26,10 @@ def exact(nu: float, damping: float, h0: float, v0: float, s: float) -> tuple[fl
 def test_motion_is_the_matrix_exponential(nu: float, damping: float, h0: float, speed: float, s: float) -> None:
     one, v0 = Oscillator(nu, damping), speed * nu
     found = [float(one.motion(h0, v0, np.array([s]), order)[0]) for order in (0, 1)]
-    wanted = exact(nu, damping, h0, v0, s)
+    expected = exact(nu, damping, h0, v0, s)
     size = abs(h0) + abs(speed)
-    assert found[0] == pytest.approx(wanted[0], abs=1e-13 * size)
-    assert found[1] == pytest.approx(wanted[1], abs=1e-13 * size * nu)
+    assert found[0] == pytest.approx(expected[0], abs=1e-13 * size)
+    assert found[1] == pytest.approx(expected[1], abs=1e-13 * size * nu)
 
 
 @given(st.floats(0.5, 30.0), DAMPINGS, st.floats(-1.0, 1.0), st.floats(-1.0, 1.0), st.integers(0, 3))

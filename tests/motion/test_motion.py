@@ -71,7 +71,7 @@ def test_breaks_are_those_of_joints_and_laws() -> None:
 
 
 @pytest.mark.parametrize(
-    ("said", "words"),
+    ("arguments", "words"),
     [
         ({}, ["stroke", "35 mm"]),
         ({"stroke": 35.0, "duration": "0.1 s"}, ["stroke", "without a unit"]),
@@ -83,9 +83,9 @@ def test_breaks_are_those_of_joints_and_laws() -> None:
         ({"stroke": "35 mm", "duration": "1 s", "start": "3 deg"}, ["start", "length"]),
     ],
 )
-def test_what_is_missing_or_wrong_is_named(said: dict[str, object], words: list[str]) -> None:
+def test_what_is_missing_or_wrong_is_named(arguments: dict[str, object], words: list[str]) -> None:
     with pytest.raises(InputError) as caught:
-        motion_of_law(smoothstep(3), **said)  # type: ignore[arg-type]
+        motion_of_law(smoothstep(3), **arguments)  # type: ignore[arg-type]
     assert all(word in str(caught.value) for word in words)
 
 

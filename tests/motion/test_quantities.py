@@ -83,7 +83,7 @@ def test_every_example_of_an_error_is_of_its_dimension() -> None:
 
 
 @pytest.mark.parametrize(
-    ("given", "said"),
+    ("given", "message"),
     [
         ("35 mm", "speed must be an angular velocity such as '200 rpm', but '35 mm' is a length"),
         ("3 Hz", "speed must be an angular velocity such as '200 rpm', but '3 Hz' is a frequency"),
@@ -100,8 +100,8 @@ def test_every_example_of_an_error_is_of_its_dimension() -> None:
         ("1 " + "rpm*" * 50 + "rpm", "speed must be"),
     ],
 )
-def test_what_is_wrong_is_said(given: object, said: str) -> None:
-    with pytest.raises(InputError, match=said):
+def test_what_is_wrong_is_said(given: object, message: str) -> None:
+    with pytest.raises(InputError, match=message):
         quantity(given, "angular velocity", "speed")
 
 
@@ -121,8 +121,11 @@ def test_quantities_of_pint_are_taken_as_their_texts() -> None:
         (0.4 * units.N * units.m, "torque", 0.4),
     ):
         assert quantity(given, dimension, "it") == pytest.approx(expected, rel=1e-12)
-    for wrong, told in ((35 * units.mm / units.s, "'35.0 mm/s' is a velocity"), (3 * units.K, "'3.0 K' is not known")):
-        with pytest.raises(InputError, match=told):
+    for wrong, complaint in (
+        (35 * units.mm / units.s, "'35.0 mm/s' is a velocity"),
+        (3 * units.K, "'3.0 K' is not known"),
+    ):
+        with pytest.raises(InputError, match=complaint):
             quantity(wrong, "length", "it")
     asked = [("35 mm", "0.1 s"), (35 * units.mm, 0.1 * units.s)]
     texts, foreign = (

@@ -133,7 +133,7 @@ def test_a_verdict_is_found_whatever_is_declared(changed: dict[str, object], ver
 
 
 @pytest.mark.parametrize(
-    ("changed", "said"),
+    ("changed", "message"),
     [
         ({"compute": "optimal.smoth_constant"}, "did you mean 'optimal.smooth_constant'"),
         ({"compute": "nobody.constant"}, "unknown computation"),
@@ -144,13 +144,13 @@ def test_a_verdict_is_found_whatever_is_declared(changed: dict[str, object], ver
         ({"printed": "five"}, "'five' is not a number"),
     ],
 )
-def test_what_cannot_be_computed_is_refused(changed: dict[str, object], said: str) -> None:
-    with pytest.raises(InputError, match=said):
+def test_what_cannot_be_computed_is_refused(changed: dict[str, object], message: str) -> None:
+    with pytest.raises(InputError, match=message):
         judge(msgspec.structs.replace(NUMBER, **changed), "optimal", PROBLEMS)
 
 
 @pytest.mark.parametrize(
-    ("lines", "said"),
+    ("lines", "message"),
     [
         ('verdict = "misprint"', "needs the entry means"),
         ('verdict = "to p percent"', "needs the entry within"),
@@ -160,11 +160,11 @@ def test_what_cannot_be_computed_is_refused(changed: dict[str, object], said: st
         ('verdict = "reproduced to its digits"\nprintd = "2"', "did you mean 'printed'"),
     ],
 )
-def test_an_item_that_lacks_what_its_verdict_needs_is_refused(lines: str, said: str, tmp_path: Path) -> None:
+def test_an_item_that_lacks_what_its_verdict_needs_is_refused(lines: str, message: str, tmp_path: Path) -> None:
     file = tmp_path / "paper.toml"
     item = 'id = "one"\nkind = "number"\nprinted = "1"\ncompute = "optimal.range"'
     file.write_text(f'title = "T"\nsource = "S"\n[[item]]\n{item}\n{lines}\n', "utf-8")
-    with pytest.raises(InputError, match=said):
+    with pytest.raises(InputError, match=message):
         items.read(file)
 
 
@@ -194,7 +194,7 @@ verdict = "agrees"
 
 
 @pytest.mark.parametrize(
-    ("old", "new", "said"),
+    ("old", "new", "message"),
     [
         ("5.774", "5.775", "verdicts do not hold.*C of S3: declared reproduced to its digits, found to p percent"),
         ("6*k", "7*k", "Z of S3: declared agrees, found contradicted"),
@@ -203,11 +203,11 @@ verdict = "agrees"
         ("title", "titel", "did you mean 'title'"),
     ],
 )
-def test_what_is_wrong_in_a_paper_s_file_is_named(tmp_path: Path, old: str, new: str, said: str) -> None:
+def test_what_is_wrong_in_a_paper_s_file_is_named(tmp_path: Path, old: str, new: str, message: str) -> None:
     assert old in PAPER
     (tmp_path / "ledger.toml").write_text(LEDGER_FILE, "utf-8")
     (tmp_path / "paper.toml").write_text(PAPER.replace(old, new, 1), "utf-8")
-    with pytest.raises(InputError, match=f"(?s){said}"):
+    with pytest.raises(InputError, match=f"(?s){message}"):
         run(Results(tmp_path / "ledger.toml"))
 
 
@@ -227,7 +227,7 @@ def test_a_figure_is_drawn_where_results_do_not_lie_beside_the_problems(tmp_path
 
 def test_a_ledger_needs_papers(tmp_path: Path) -> None:
     file = tmp_path / "ledger.toml"
-    for changed, said in (('paper = ["paper.toml"]', "did you mean 'papers'"), ("papers = []", "papers")):
+    for changed, message in (('paper = ["paper.toml"]', "did you mean 'papers'"), ("papers = []", "papers")):
         file.write_text(f'title = "None"\n{changed}\n', "utf-8")
-        with pytest.raises(InputError, match=said):
+        with pytest.raises(InputError, match=message):
             entries(file)

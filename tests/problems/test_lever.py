@@ -12,9 +12,9 @@ RESULTS = ROOT / "results"
 
 def test_results_hold_all_printed_tables() -> None:
     found = {(r["coefficient"], float(r["beta"]), r["lambda"]): r for r in table(RESULTS / "lever_tables/verdicts.csv")}
-    wanted = rows("lever_tables")
-    assert len(found) == len(wanted) == 140
-    for row in wanted:
+    expected = rows("lever_tables")
+    assert len(found) == len(expected) == 140
+    for row in expected:
         line = found[row["coef"], float(row["beta"]), row["lambda"]]
         assert float(line["exact"]) == pytest.approx(float(row["computed"]), abs=5.1e-7)
         assert float(line["printed"]) == float(row["printed(OCR)"])
@@ -24,9 +24,9 @@ def test_results_hold_all_printed_tables() -> None:
 
 def test_results_hold_the_parametric_study() -> None:
     found = {(float(r["beta"]), float(r["swing, deg"])): r for r in table(RESULTS / "lever_parametric/parametric.csv")}
-    wanted = rows("lever_parametric")
-    assert len(found) == len(wanted)
-    for row in wanted:
+    expected = rows("lever_parametric")
+    assert len(found) == len(expected)
+    for row in expected:
         line = found[float(row["beta"]), float(row["swing_deg"])]
         assert int(line["levers"]) == int(row["n_cases"])
         for name, of in (("B1", "B1"), ("B3", "B3"), ("C1", "C1"), ("|C3|", "C3abs"), ("T/T0", "T/T0")):

@@ -31,8 +31,8 @@ def test_curves_of_the_nomogram_are_named() -> None:
 
 
 def test_limits_are_named_by_their_curves() -> None:
-    said = {f"limit of each constant alone, {curve}" for curve in ("B = 1.641", "B free")}
-    assert said <= set(texts("fronts/d-over-c"))
+    labels = {f"limit of each constant alone, {curve}" for curve in ("B = 1.641", "B free")}
+    assert labels <= set(texts("fronts/d-over-c"))
 
 
 @pytest.mark.parametrize("picture", ["optimal_polydyne/figure", "atlas/least-c", "atlas/least-d"])
@@ -48,8 +48,8 @@ def test_sections_of_a_dwell_have_a_colour_each_and_cams_a_scale() -> None:
 
 
 def test_axes_of_savins_families_are_dimensionless() -> None:
-    said = texts("savin_families/figure")
-    assert sum("dimensionless" in text for text in said) == 6
+    labels = texts("savin_families/figure")
+    assert sum("dimensionless" in text for text in labels) == 6
 
 
 def test_colours_differ() -> None:

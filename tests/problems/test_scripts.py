@@ -109,7 +109,7 @@ def test_a_script_is_run_by_its_name_or_by_its_own_file(
 
 
 @pytest.mark.parametrize(
-    ("name", "content", "said"),
+    ("name", "content", "message"),
     [
         ("mine.py", "raise SystemExit(7)\n", "optlaws runs no code but its own.*python mine.py"),
         ("mine.toml", 'job = "script"\ntitle = "Mine"\n', "by name: `optlaws run optimal_table`"),
@@ -118,12 +118,12 @@ def test_a_script_is_run_by_its_name_or_by_its_own_file(
     ],
 )
 def test_a_file_of_a_user_s_is_never_code(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str, content: str, said: str
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str, content: str, message: str
 ) -> None:
     monkeypatch.chdir(tmp_path)
     Path(name).write_text(content, "utf-8")
     Path("mine.py").write_text("raise SystemExit(7)\n", "utf-8")
-    with pytest.raises(InputError, match=said):
+    with pytest.raises(InputError, match=message):
         job.run(Path(name), tmp_path / "out")
     assert not (tmp_path / "out").exists()
 
@@ -159,11 +159,11 @@ def test_entries_are_known_needed_and_of_their_type(tmp_path: Path) -> None:
         laws: list[str]
 
     file = tmp_path / "peaks.toml"
-    for content, said in (
+    for content, message in (
         ('title = "Peaks"\nlaws = []\nlows = 3\n', "unknown key 'lows'; did you mean 'laws'"),
         ('title = "Peaks"\n', "laws"),
         ("title = 5\nlaws = []\n", "title"),
     ):
         file.write_text(content, "utf-8")
-        with pytest.raises(InputError, match=rf"(?s)peaks\.toml.*{said}"):
+        with pytest.raises(InputError, match=rf"(?s)peaks\.toml.*{message}"):
             Results(file).read(Peaks)

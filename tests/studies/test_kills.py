@@ -144,8 +144,8 @@ def disturbed(folder: Path, seed: int, victims: Sequence[str], text: str = FILE)
             assert gone(solvers)
             run = Run(file, out)
         yield victim
-    status, said = run.finish()
-    assert status == 0, said
+    status, message = run.finish()
+    assert status == 0, message
 
 
 def test_killed_within_an_array_it_ends_as_if_nothing_had_been(tmp_path: Path) -> None:

@@ -137,11 +137,11 @@ class Program:
 
     def velocity(self) -> None:
         problem, b = self.problem, self.laws.derivative(1)
-        wanted, place = as_range(problem.B), problem.inflexion
+        expected, place = as_range(problem.B), problem.inflexion
         if peak_in_the_middle(problem):
             place = 0.5
-        if wanted is not None and isfinite(wanted.high) and not (place is not None and wanted.fixed):
-            self.families.append(Rows(self.laws, b, (1.0, -1.0), None, wanted.high))
+        if expected is not None and isfinite(expected.high) and not (place is not None and expected.fixed):
+            self.families.append(Rows(self.laws, b, (1.0, -1.0), None, expected.high))
         if problem.monotone:
             one = b if problem.boundary is not None else self.laws.ratio(problem.order)
             self.families.append(Rows(self.laws, one, (-1.0,), None, 0.0))
@@ -155,10 +155,10 @@ class Program:
         self.equations.append((self.widened(height) - top, -height[-1]))
         self.families.append(Rows(self.laws, b, (1.0,), self.places["peak velocity"], 0.0))
         self.near(place)
-        if wanted is not None:
-            self.fixed.append((-top, -wanted.low))
-            if isfinite(wanted.high):
-                self.fixed.append((top, wanted.high))
+        if expected is not None:
+            self.fixed.append((-top, -expected.low))
+            if isfinite(expected.high):
+                self.fixed.append((top, expected.high))
 
     def near(self, place: float) -> None:
         """Rows b(k) <= b(place) on points that crowd about the place, and j <= 0 at it."""
@@ -260,10 +260,10 @@ def _solved(program: Program) -> Array | None:
     if (right[~kept] < -1e-7).any():
         return None
     equations = np.array([a for a, _ in program.equations]).reshape(-1, program.size)
-    wanted = np.array([h for _, h in program.equations])
+    expected = np.array([h for _, h in program.equations])
     blocks: list[Array] = [equations, rows[kept] / length[kept, None]]
-    sides: list[Array] = [wanted, right[kept] / length[kept]]
-    cones: list[Any] = [clarabel.ZeroConeT(len(wanted)), clarabel.NonnegativeConeT(int(kept.sum()))]
+    sides: list[Array] = [expected, right[kept] / length[kept]]
+    cones: list[Any] = [clarabel.ZeroConeT(len(expected)), clarabel.NonnegativeConeT(int(kept.sum()))]
     for matrix, place, bound in [
         *program.means,
         *(cone for residual in program.residuals for cone in residual.cones()),

@@ -200,10 +200,10 @@ def _right_side(found: Sum, certificate: Certificate, contact: Contact, m: Fract
     if name.endswith((" at most", " at least")):
         constant, _, way = name.partition(" at ")
         sign = 1 if way == "most" else -1
-        wanted = problem.range(constant)
-        assert wanted is not None
+        expected = problem.range(constant)
+        assert expected is not None
         found.slack(constant, sign * m)
-        found.constant -= sign * m * Fraction(wanted.high if sign > 0 else wanted.low)
+        found.constant -= sign * m * Fraction(expected.high if sign > 0 else expected.low)
     elif name.startswith("part "):
         index, _, text = name.removeprefix("part ").partition(" of ")
         (term,) = (t for t in _maxima(problem) if repr(t) == text)
@@ -217,9 +217,9 @@ def _right_side(found: Sum, certificate: Certificate, contact: Contact, m: Fract
         if "D" in leaves:
             found.slack("D", -m)
         else:
-            wanted = problem.range("D")
-            assert wanted is not None
-            found.constant -= m * Fraction(wanted.high)
+            expected = problem.range("D")
+            assert expected is not None
+            found.constant -= m * Fraction(expected.high)
     elif name.startswith("b / sqrt"):
         found.slack("root of D", -m)
     elif name in {"chord", "ratio", "forward"}:
@@ -229,31 +229,31 @@ def _right_side(found: Sum, certificate: Certificate, contact: Contact, m: Fract
     elif name in leaves:
         found.slack(name, -m)
     else:
-        wanted = problem.range(name)
-        assert wanted is not None
-        assert wanted.high < inf
-        found.constant -= m * Fraction(wanted.high)
+        expected = problem.range(name)
+        assert expected is not None
+        assert expected.high < inf
+        found.constant -= m * Fraction(expected.high)
 
 
 def _equations(found: Sum, certificate: Certificate) -> tuple[Fraction, Fraction]:
     """Count in the equations; returns the weights of b(1/2) and c(1/2)."""
     problem = certificate.problem
-    wanted = problem.range("B")
+    expected = problem.range("B")
     weights = [Fraction(w) for w in certificate.equations]
-    if wanted is None:
+    if expected is None:
         assert not weights
         return Fraction(0), Fraction(0)
     if problem.symmetric:
         (middle,) = weights
-        if wanted.fixed:
-            found.constant -= middle * Fraction(wanted.high)
+        if expected.fixed:
+            found.constant -= middle * Fraction(expected.high)
         else:
             found.slack("B", -middle)
         return middle, Fraction(0)
-    if wanted.fixed:
+    if expected.fixed:
         fixed = weights.pop(0)
         found.slack("B", fixed)
-        found.constant -= fixed * Fraction(wanted.high)
+        found.constant -= fixed * Fraction(expected.high)
     middle, bend = weights or (Fraction(0), Fraction(0))
     found.slack("B", -middle)
     return middle, bend

@@ -78,17 +78,17 @@ def extremes(series: Chebyshev) -> tuple[float, float]:
 def check_solution(solution: Solution, *, of_array: bool = False) -> None:
     """Everything a solution claims, judged from the stored law alone."""
     problem, law = solution.problem, solution.law
-    wanted = velocity_of(problem)
+    expected = velocity_of(problem)
     stored = law.to_dict()
     c = acceleration_of(law)
     b = c.integ(lbnd=0.0) + stored["b0"]
     a = b.integ(lbnd=0.0) + stored["a0"]
 
     lowest, highest = extremes(b)
-    assert highest <= wanted * (1 + 1e-10)
+    assert highest <= expected * (1 + 1e-10)
     if problem.monotone:
-        assert lowest >= -1e-10 * wanted
-    assert abs(b(0.5) - wanted) <= 1e-12 * wanted
+        assert lowest >= -1e-10 * expected
+    assert abs(b(0.5) - expected) <= 1e-12 * expected
     assert abs(a(0.0)) <= 1e-12
     assert abs(a(1.0) - 1.0) <= 1e-12
     if problem.symmetric:
@@ -165,7 +165,7 @@ def least_acceleration(problem: Problem, rounds: int = 60) -> float | None:
     middle = np.array([0.5])
     slope0, slope = law_space.columns(law_space.acceleration, middle)
     equations = np.vstack([np.append(law_space.middle[1:] @ law_space.mixture, 0.0), np.append(slope[0], 0.0)])
-    wanted = np.array([velocity_of(problem) - law_space.middle[0], -slope0[0]])
+    expected = np.array([velocity_of(problem) - law_space.middle[0], -slope0[0]])
     for _ in range(rounds):
         rows, right = [], []
         c0, c = law_space.columns(law_space.acceleration, points["c"])
@@ -179,7 +179,7 @@ def least_acceleration(problem: Problem, rounds: int = 60) -> float | None:
             r0, r = law_space.columns(law_space.ratio, points["ratio"])
             rows.append(np.column_stack([-r, np.zeros(len(r))]))
             right.append(r0)
-        found = _highs(np.vstack(rows), np.concatenate(right), equations, wanted)
+        found = _highs(np.vstack(rows), np.concatenate(right), equations, expected)
         if found is None:
             return None
         x, C = found[:-1], float(found[-1])
@@ -208,7 +208,7 @@ def _peaks(series: Chebyshev, C: float, *, two_sided: bool) -> tuple[Array, Arra
     return k, np.abs(values) - C if two_sided else -values
 
 
-def _highs(rows: Array, right: Array, equations: Array, wanted: Array) -> Array | None:
+def _highs(rows: Array, right: Array, equations: Array, expected: Array) -> Array | None:
     length = np.maximum(np.linalg.norm(rows, axis=1), 1e-300)
     objective = np.zeros(rows.shape[1])
     objective[-1] = 1.0
@@ -222,7 +222,7 @@ def _highs(rows: Array, right: Array, equations: Array, wanted: Array) -> Array 
             A_ub=rows / length[:, None],
             b_ub=right / length,
             A_eq=equations,
-            b_eq=wanted,
+            b_eq=expected,
             bounds=bounds,
             method=method,
             options={"primal_feasibility_tolerance": tolerance, "dual_feasibility_tolerance": tolerance},

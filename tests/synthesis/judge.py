@@ -313,9 +313,9 @@ def as_range(value: float | Range | None) -> Range | None:
 
 def peak_in_the_middle(problem: Problem) -> bool:
     """Whether what is asked of B places the peak velocity: a number does, and every rise has a B above 1."""
-    wanted = as_range(problem.B)
+    expected = as_range(problem.B)
     plain = problem.inflexion is None and problem.boundary is None
-    return plain and wanted is not None and wanted.low == wanted.high and wanted.low > 1.0
+    return plain and expected is not None and expected.low == expected.high and expected.low > 1.0
 
 
 def velocity_broken(problem: Problem, one: Judged, allowed: float) -> list[str]:
@@ -324,7 +324,7 @@ def velocity_broken(problem: Problem, one: Judged, allowed: float) -> list[str]:
     A number places the peak at k = 1/2 between rests, an inflexion wherever it says. An upper end holds for |b|
     everywhere, a lower one for the greatest |b|, and they place nothing.
     """
-    wanted = as_range(problem.B)
+    expected = as_range(problem.B)
     b, c = one.derivatives[1:3]
     lowest, highest = b.extremes()
     place = problem.inflexion
@@ -337,12 +337,12 @@ def velocity_broken(problem: Problem, one: Judged, allowed: float) -> list[str]:
         bend = abs(float(c(place)))
         found += [f"c({place:g}) = {bend:.1e}"] * (bend > 1e-9 * max(1.0, *map(abs, c.extremes())))
         found += [f"b <= b({place:g}) by {highest - value:.1e}"] * (highest > value + allowed * size)
-        peak = peak if wanted is not None and not wanted.fixed and wanted.high < inf else value
-    if wanted is None:
+        peak = peak if expected is not None and not expected.fixed and expected.high < inf else value
+    if expected is None:
         return found
-    found += [f"B = {peak!r} over {wanted!r}"] * (peak > wanted.high * (1.0 + allowed))
+    found += [f"B = {peak!r} over {expected!r}"] * (peak > expected.high * (1.0 + allowed))
     least = peak if place is None else float(b(place))
-    return found + [f"B = {least!r} under {wanted!r}"] * (least < wanted.low * (1.0 - allowed))
+    return found + [f"B = {least!r} under {expected!r}"] * (least < expected.low * (1.0 - allowed))
 
 
 def rest_broken(order: int, one: Judged) -> list[str]:
@@ -401,8 +401,8 @@ def judge(solution: Solution) -> None:
 def lower_bounded(problem: Problem) -> bool:
     """Whether a peak has a lower bound, which is not convex."""
     ranges: list[Range | None] = [asked for _, asked in problem.bounded]
-    wanted = as_range(problem.B)
-    if wanted is not None and problem.inflexion is None and not peak_in_the_middle(problem):
+    expected = as_range(problem.B)
+    if expected is not None and problem.inflexion is None and not peak_in_the_middle(problem):
         # a rise is faster than 1 somewhere anyhow
-        ranges += [wanted] if problem.boundary is not None or wanted.low > 1.0 else []
+        ranges += [expected] if problem.boundary is not None or expected.low > 1.0 else []
     return any(one is not None and one.low > 0.0 for one in ranges)

@@ -175,11 +175,11 @@ def _pieces(problem: Problem, basis: Pieces) -> Laws:
                 row[size * (count - 1 - i) + n] += (-1.0) ** n
                 rows.append(row)
                 right.append(float(n == 0))
-    table, wanted = np.array(rows), np.array(right)
+    table, expected = np.array(rows), np.array(right)
     length = np.linalg.norm(table, axis=1)
-    table, wanted = table / length[:, None], wanted / length
-    start = np.linalg.lstsq(table, wanted, rcond=1e-12)[0]
-    if np.abs(table @ start - wanted).max() > 1e-9:
+    table, expected = table / length[:, None], expected / length
+    start = np.linalg.lstsq(table, expected, rcond=1e-12)[0]
+    if np.abs(table @ start - expected).max() > 1e-9:
         raise Undecided("the ends do not fit the pieces")
     mixed = np.column_stack([null_space(table, rcond=1e-11), start])
     return Laws(basis.breaks, [mixed[size * i : size * (i + 1)] for i in range(count)])

@@ -156,10 +156,10 @@ class _Program:
         for name in self.places:
             if name in PEAKS:
                 self.hold(one.derivative(PEAKS[name]), SIGNS.get(name, (1.0, -1.0)), name)
-        wanted = as_range(problem.B)
-        if wanted is not None:
-            placed = problem.inflexion == 0.5 or (wanted.fixed and wanted.low > 1.0)
-            self.velocity(wanted, in_the_middle=problem.boundary is None and placed)
+        expected = as_range(problem.B)
+        if expected is not None:
+            placed = problem.inflexion == 0.5 or (expected.fixed and expected.low > 1.0)
+            self.velocity(expected, in_the_middle=problem.boundary is None and placed)
         if problem.monotone:
             self.hold(one.ratio() if problem.boundary is None else one.derivative(1), (-1.0,))
         for name in ("C", "J"):
@@ -188,7 +188,7 @@ class _Program:
                     self.fixed.append((self.sum(part.terms) - self.unit(repr(term)), 0.0))
                     self.epigraphs(part.terms)
 
-    def velocity(self, wanted: Range, *, in_the_middle: bool) -> None:
+    def velocity(self, expected: Range, *, in_the_middle: bool) -> None:
         if in_the_middle:
             bend, middle = self.laws.row(2, 0.5), self.laws.row(1, 0.5)
             variables = np.zeros(len(self.places))
@@ -196,12 +196,12 @@ class _Program:
                 self.equations.append((np.append(bend[:-1], variables), -bend[-1]))
             self.hold(self.laws.chord(), (-1.0,))
             self.equations.append((np.append(middle[:-1], variables) - self.unit("B"), -middle[-1]))
-        if wanted.fixed:
-            self.equations.append((self.unit("B"), wanted.high))
+        if expected.fixed:
+            self.equations.append((self.unit("B"), expected.high))
             return
-        self.fixed.append((-self.unit("B"), -wanted.low))
-        if isfinite(wanted.high):
-            self.fixed.append((self.unit("B"), wanted.high))
+        self.fixed.append((-self.unit("B"), -expected.low))
+        if isfinite(expected.high):
+            self.fixed.append((self.unit("B"), expected.high))
 
 
 def _names(terms: Terms) -> Iterator[str]:
@@ -245,7 +245,7 @@ def _equations(program: _Program) -> tuple[Array, Array]:
 
 
 def _highs(program: _Program, rows: Array, right: Array) -> Array | None:
-    equations, wanted = _equations(program)
+    equations, expected = _equations(program)
     ways: tuple[tuple[Literal["highs", "highs-ipm"], float], ...]
     ways = (("highs", 1e-10), ("highs", 1e-9), ("highs-ipm", 1e-9), ("highs", 1e-8))
     said = ""
@@ -256,7 +256,7 @@ def _highs(program: _Program, rows: Array, right: Array) -> Array | None:
             A_ub=rows,
             b_ub=right,
             A_eq=equations if len(equations) else None,
-            b_eq=wanted if len(equations) else None,
+            b_eq=expected if len(equations) else None,
             bounds=(None, None),
             method=method,
             options={"primal_feasibility_tolerance": tolerance, "dual_feasibility_tolerance": tolerance},
@@ -271,9 +271,9 @@ def _highs(program: _Program, rows: Array, right: Array) -> Array | None:
 
 
 def _clarabel(program: _Program, rows: Array, right: Array) -> Array | None:
-    equations, wanted = _equations(program)
-    blocks, sides = [equations, rows], [wanted, right]
-    cones: list[Any] = [clarabel.ZeroConeT(len(wanted)), clarabel.NonnegativeConeT(len(right))]
+    equations, expected = _equations(program)
+    blocks, sides = [equations, rows], [expected, right]
+    cones: list[Any] = [clarabel.ZeroConeT(len(expected)), clarabel.NonnegativeConeT(len(right))]
     for matrix, place in program.norms:
         # a cone is one whatever its unit; rows of lengths about 1, as the others have, are solved further
         unit = float(np.linalg.norm(matrix[:, :-1], axis=1).max())

@@ -19,30 +19,30 @@ def convex_problems(seed: int, count: int) -> list[Problem]:
     return [problem for problem in problems if problem.convex and not lower_bounded(problem)]
 
 
-def agree(problem: Problem, solution: Solution, wanted: float) -> bool:
+def agree(problem: Problem, solution: Solution, expected: float) -> bool:
     """Whether a solution is the optimum that was found again, and its bound below that."""
     unit = problem.objective.scale
-    allowed = 5e-6 * abs(wanted) + 1e-8 * unit
+    allowed = 5e-6 * abs(expected) + 1e-8 * unit
     # what is 0 at best Clarabel finds to 1e-7 from above
-    reached = wanted - allowed - 1e-7 * unit <= solution.objective <= wanted + allowed
-    return reached and solution.lower_bound <= wanted + allowed
+    reached = expected - allowed - 1e-7 * unit <= solution.objective <= expected + allowed
+    return reached and solution.lower_bound <= expected + allowed
 
 
 def verdict(problem: Problem) -> str:
     try:
-        wanted = least(problem)
+        expected = least(problem)
     except Undecided:
         return "undecided"
     try:
         solution = synthesize(problem)
     except InfeasibleProblem:
-        assert wanted is None, problem
+        assert expected is None, problem
         return "infeasible"
-    if wanted is None:
+    if expected is None:
         # Clarabel calls problems with rows of very different sizes infeasible; a law that keeps all of them refutes it
         assert broken(problem, solution.law) == [], problem
         return "undecided"
-    if agree(problem, solution, wanted):
+    if agree(problem, solution, expected):
         return "same"
     try:
         # where hardly any law is left, what the reference lets its laws exceed moves its optimum
@@ -50,7 +50,7 @@ def verdict(problem: Problem) -> str:
     except Undecided:
         # a law that keeps all constraints and is better refutes it too
         assert broken(problem, solution.law) == [], problem
-        assert solution.lower_bound <= solution.objective < wanted, problem
+        assert solution.lower_bound <= solution.objective < expected, problem
         return "better"
     assert finer is not None, problem
     assert agree(problem, solution, finer), problem

@@ -87,16 +87,16 @@ CONVEX = [one for one in PROBLEMS if one.convex and not lower_bounded(one) and i
 
 def agrees(problem: Problem) -> bool:
     try:
-        wanted = least(problem)
+        expected = least(problem)
     except Undecided:
         return False
     try:
         solution = synthesize(problem)
     except InfeasibleProblem:
-        assert wanted is None, problem
+        assert expected is None, problem
         return True
-    assert wanted is not None, problem
-    assert solution.objective == pytest.approx(wanted, rel=1e-7), problem
+    assert expected is not None, problem
+    assert solution.objective == pytest.approx(expected, rel=1e-7), problem
     return True
 
 
@@ -133,11 +133,11 @@ def test_no_random_problem_takes_long() -> None:
 def test_unsymmetric_laws_with_a_flat_top_are_solved(B: float, order: int, degree: int, minimise: str) -> None:
     # b stays at B about the middle: undivided, b <= B is ill posed there
     problem = Problem(B=B, order=order, basis=Chebyshev(degree), minimise=minimise)
-    wanted = synthesize(problem)
+    expected = synthesize(problem)
     solution = synthesize(replace(problem, symmetric=False))
     judge(solution)
     assert solution.status.value == "optimal"
-    assert solution.objective == pytest.approx(wanted.objective, rel=1e-10)
+    assert solution.objective == pytest.approx(expected.objective, rel=1e-10)
 
 
 @pytest.mark.sample(2)

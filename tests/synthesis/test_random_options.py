@@ -46,14 +46,14 @@ def functionals(expression: Expression) -> Iterator[Functional]:
 
 
 def manner(asked: float | Range | None) -> str | None:
-    wanted = as_range(asked)
-    if wanted is None:
+    expected = as_range(asked)
+    if expected is None:
         return None
-    if wanted.fixed:
+    if expected.fixed:
         return "number"
-    if wanted.high == inf:
+    if expected.high == inf:
         return "at_least"
-    return "at_most" if wanted.low == 0.0 else "between"
+    return "at_most" if expected.low == 0.0 else "between"
 
 
 def test_every_entry_of_a_problem_is_drawn(problems: list[Problem]) -> None:

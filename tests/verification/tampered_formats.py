@@ -140,14 +140,14 @@ class Format:
 
 def outcome(form: Format, data: Data) -> tuple[str, list[str]]:
     """Whether a changed file is refused or harmless, and what is wrong of it."""
-    said, wrong = "refused", []
+    verdict, wrong = "refused", []
     if form.read is not None:
         try:
             read = form.read(data)
         except OptlawsError:
             pass
         else:
-            said, wrong = "harmless", form.wrong(data, read)
+            verdict, wrong = "harmless", form.wrong(data, read)
     if form.verified:
         try:
             verifications = verify_all(data)
@@ -155,8 +155,8 @@ def outcome(form: Format, data: Data) -> tuple[str, list[str]]:
             pass
         else:
             if all(one.proven for one in verifications.values()):
-                said, wrong = "harmless", [*wrong, *form.wrong_proven(data, verifications)]
-    return said, wrong
+                verdict, wrong = "harmless", [*wrong, *form.wrong_proven(data, verifications)]
+    return verdict, wrong
 
 
 def plain(data: object) -> Data:
@@ -177,27 +177,27 @@ def close(first: object, second: object) -> bool:
 def solution(problem: Problem, bound: Bound = "quick") -> Format:
     data = plain(synthesize(problem, bound=bound).to_dict())
     (true,) = verify_all(data).values()
-    return Format(data, wrong_proven=lambda told, _: overstated(told, true))
+    return Format(data, wrong_proven=lambda stored, _: overstated(stored, true))
 
 
 def array(problems: ProblemArray, places_of: Sequence[int], bound: Bound = "quick") -> Format:
     true = synthesize_array(problems, bound=bound)[np.array(places_of)]
     data = plain(true.to_dict())
 
-    def wrong(_: Data, told: SolutionArray) -> list[str]:
+    def wrong(_: Data, stored: SolutionArray) -> list[str]:
         differing = [
             name
             for name in ("shape", "status", "objective", "B", "C", "J", "z_series", "limit")
-            if not close(getattr(told, name), getattr(true, name))
+            if not close(getattr(stored, name), getattr(true, name))
         ]
-        higher = told.lower_bound > true.lower_bound * (1.0 + CLOSE)
-        asked = [i for i in range(true.size) if _problem(told, i) != _problem(true, i)]
-        off = [i for i in range(true.size) if not _is_proven(told, i)]
+        higher = stored.lower_bound > true.lower_bound * (1.0 + CLOSE)
+        asked = [i for i in range(true.size) if _problem(stored, i) != _problem(true, i)]
+        off = [i for i in range(true.size) if not _is_proven(stored, i)]
         return [*differing, *(["lower_bound"] if higher.any() else []), *map(str, asked), *map(str, off)]
 
-    def wrong_proven(told: Data, _: dict[str, Verification]) -> list[str]:
+    def wrong_proven(stored: Data, _: dict[str, Verification]) -> list[str]:
         found = []
-        for i, row in enumerate(told["solutions"]):
+        for i, row in enumerate(stored["solutions"]):
             genuine = data["solutions"][i] if i < len(data["solutions"]) else {}
             if row.get("status") == "infeasible" != genuine.get("status"):
                 found.append(f"solutions[{i}] is said to be infeasible")
@@ -245,14 +245,14 @@ def certificate(data: object, read: Callable[[Data], Any], best: float, *, verif
     """A lower bound that stands alone; `best` is the least objective of its problem."""
     form, most = plain(data), best * (1.0 + CLOSE)
 
-    def wrong(told: Data, proof: Any) -> list[str]:  # noqa: ANN401
-        above = same_problem(told["problem"], form["problem"]) and proof.bound > most
+    def wrong(stored: Data, proof: Any) -> list[str]:  # noqa: ANN401
+        above = same_problem(stored["problem"], form["problem"]) and proof.bound > most
         return [f"bound {proof.bound!r} above {best!r}"] if above else []
 
-    def wrong_proven(told: Data, verifications: dict[str, Verification]) -> list[str]:
+    def wrong_proven(stored: Data, verifications: dict[str, Verification]) -> list[str]:
         (one,) = verifications.values()
-        same = same_problem(told["problem"], form["problem"])
-        stated = told.get("bound") or -math.inf
+        same = same_problem(stored["problem"], form["problem"])
+        stated = stored.get("bound") or -math.inf
         above = same and max(stated, -math.inf if one.bound is None else one.bound) > most
         return [f"bound {stated!r}, {one.bound!r} above {best!r}"] if above else []
 
@@ -266,18 +266,18 @@ def no_law(problem: Problem) -> Format:
     except InfeasibleProblem as error:
         proof: Any = error.proof
 
-    def has_law(told: Data) -> list[str]:
+    def has_law(stored: Data) -> list[str]:
         try:
-            synthesize(Problem.from_dict(told["problem"]))
+            synthesize(Problem.from_dict(stored["problem"]))
         except OptlawsError:
             return []
         return ["a law exists"]
 
-    def wrong(told: Data, proof: Certificate) -> list[str]:
-        return has_law(told) if proof.proves_infeasible else []
+    def wrong(stored: Data, proof: Certificate) -> list[str]:
+        return has_law(stored) if proof.proves_infeasible else []
 
-    def wrong_proven(told: Data, verifications: dict[str, Verification]) -> list[str]:
-        return has_law(told) if any(one.infeasible for one in verifications.values()) else []
+    def wrong_proven(stored: Data, verifications: dict[str, Verification]) -> list[str]:
+        return has_law(stored) if any(one.infeasible for one in verifications.values()) else []
 
     return Format(plain(proof.to_dict()), Certificate.from_dict, wrong, wrong_proven=wrong_proven)
 
@@ -287,11 +287,11 @@ def front() -> Format:
         pareto_front(Problem(order=2, basis=Chebyshev(3)), over=("B", "C"), points=2, between=(1.5, 1.6)).to_dict()
     )
 
-    def wrong_proven(told: Data, _: dict[str, Verification]) -> list[str]:
-        rows = zip(told["points"], data["points"], strict=True)
+    def wrong_proven(stored: Data, _: dict[str, Verification]) -> list[str]:
+        rows = zip(stored["points"], data["points"], strict=True)
         found = [line for row, genuine in rows for line in overstated_row(row, genuine)]
-        names = [] if told["over"] == data["over"] or not told["points"] else ["over"]
-        return [*found, *names, *([] if close(told["values"], data["values"]) else ["values"])]
+        names = [] if stored["over"] == data["over"] or not stored["points"] else ["over"]
+        return [*found, *names, *([] if close(stored["values"], data["values"]) else ["values"])]
 
     return Format(data, wrong_proven=wrong_proven)
 
@@ -300,9 +300,9 @@ def along() -> Format:
     true = proven_front(Problem(order=2, basis=Chebyshev(3)), "B", between=(1.5, 1.6), gap=1e-2)
     data = plain(true.to_dict())
 
-    def wrong(told: Data, read: ProvenFront) -> list[str]:
+    def wrong(stored: Data, read: ProvenFront) -> list[str]:
         if (
-            not same_problem(told["problem"], data["problem"])
+            not same_problem(stored["problem"], data["problem"])
             or read.between[0] < 1.5 - 0.1
             or read.between[1] > 1.6 + 0.1
         ):
@@ -310,9 +310,9 @@ def along() -> Format:
         values = [value for value in np.linspace(*true.between, 5) if read.between[0] <= value <= read.between[1]]
         return [f"at {v}" for v in values if read.lower(v) > true.upper(v) * (1.0 + CLOSE) or not read.gap >= 0.0]
 
-    def wrong_proven(told: Data, verifications: dict[str, Verification]) -> list[str]:
+    def wrong_proven(stored: Data, verifications: dict[str, Verification]) -> list[str]:
         (one,) = verifications.values()
-        return [] if one.gap is not None and told["gap"] >= one.gap - CLOSE else [f"gap {told['gap']!r}"]
+        return [] if one.gap is not None and stored["gap"] >= one.gap - CLOSE else [f"gap {stored['gap']!r}"]
 
     return Format(data, ProvenFront.from_dict, wrong, wrong_proven=wrong_proven)
 
@@ -320,9 +320,9 @@ def along() -> Format:
 def law_with_constants(law: MotionLaw) -> Format:
     data = plain({"law": law.to_dict(), "constants": law.constants.to_dict()})
 
-    def wrong_proven(told: Data, verifications: dict[str, Verification]) -> list[str]:
+    def wrong_proven(stored: Data, verifications: dict[str, Verification]) -> list[str]:
         (one,) = verifications.values()
-        return wrong_constants(told, one)
+        return wrong_constants(stored, one)
 
     return Format(data, wrong_proven=wrong_proven)
 
@@ -336,10 +336,10 @@ def rows_of_a_table() -> Format:
     ]
     data = plain({"rows": rows})
 
-    def wrong_proven(told: Data, _: dict[str, Verification]) -> list[str]:
+    def wrong_proven(stored: Data, _: dict[str, Verification]) -> list[str]:
         found = []
         # an empty row claims nothing
-        for row in filter(None, told["rows"] if isinstance(told.get("rows"), list) else []):
+        for row in filter(None, stored["rows"] if isinstance(stored.get("rows"), list) else []):
             asked = row.get("asked") or none["problem"]
             if row.get("status") == "infeasible" and not same_problem(asked, none["problem"]):
                 found.append("another problem is said to have no law")
@@ -353,8 +353,8 @@ def rows_of_a_table() -> Format:
 def law(value: MotionLaw) -> Format:
     """A law says no more than what it is: any other is read as what it is, its constants finite or infinite."""
 
-    def use(told: Data) -> MotionLaw:
-        read = MotionLaw.from_dict(told)
+    def use(stored: Data) -> MotionLaw:
+        read = MotionLaw.from_dict(stored)
         assert MotionLaw.from_json(read.to_json()) == read
         return read
 
@@ -379,14 +379,14 @@ def study() -> Format:
         kept = {file.name: file.read_bytes() for file in File(out).iterdir()}
     data: Data = json.loads(kept["study.json"])
 
-    def read(told: Data) -> Any:  # noqa: ANN401
+    def read(stored: Data) -> Any:  # noqa: ANN401
         with TemporaryDirectory() as place:
             for name, content in kept.items():
                 (File(place) / name).write_bytes(content)
-            (File(place) / "study.json").write_text(json.dumps(told, indent=1) + "\n", "utf-8")
+            (File(place) / "study.json").write_text(json.dumps(stored, indent=1) + "\n", "utf-8")
             return [(point.inputs, point.problem) for point in open_study(place)]
 
-    return Format(data, read, lambda told, _: [] if told == data else ["a changed study is read"], verified=False)
+    return Format(data, read, lambda stored, _: [] if stored == data else ["a changed study is read"], verified=False)
 
 
 def _moved(cycle: Cycle) -> float:
@@ -453,13 +453,14 @@ def formats() -> dict[str, Callable[[], Format]]:
         "polynomial law": lambda: law(smoothstep(3)),
         "piecewise law": lambda: law(catalogue["modified trapezoid"].law),
         "problem": lambda: given(
-            Problem(B=1.7, order=3, J=80.0, basis=Chebyshev(5)).to_dict(), lambda told: repr(Problem.from_dict(told))
+            Problem(B=1.7, order=3, J=80.0, basis=Chebyshev(5)).to_dict(),
+            lambda stored: repr(Problem.from_dict(stored)),
         ),
-        "cycle": lambda: given(cycle.to_dict(), lambda told: _moved(Cycle.from_dict(told))),
-        "cycle with a free motion": lambda: given(free.to_dict(), lambda told: _moved(Cycle.from_dict(told))),
-        "axes": lambda: given(axes.to_dict(), lambda told: [_moved(one) for one in Axes.from_dict(told).values()]),
+        "cycle": lambda: given(cycle.to_dict(), lambda stored: _moved(Cycle.from_dict(stored))),
+        "cycle with a free motion": lambda: given(free.to_dict(), lambda stored: _moved(Cycle.from_dict(stored))),
+        "axes": lambda: given(axes.to_dict(), lambda stored: [_moved(one) for one in Axes.from_dict(stored).values()]),
         "machine": lambda: given(
-            machine.to_dict(), lambda told: Machine.from_dict(told).response(smoothstep(3)).peak("x")
+            machine.to_dict(), lambda stored: Machine.from_dict(stored).response(smoothstep(3)).peak("x")
         ),
         "study": study,
     }
@@ -480,8 +481,8 @@ def main(each: int, names: Sequence[str]) -> None:
         every = [(path, value) for path in known for value in changes(value_at(form.data, path))]
         for path, value in every[::each]:
             counts["changes"] += 1
-            said, found = outcome(form, tampered(form.data, path, value))
-            counts["wrong" if found else said] += 1
+            verdict, found = outcome(form, tampered(form.data, path, value))
+            counts["wrong" if found else verdict] += 1
             wrong += [(path, value, found)] if found else []
         total += counts
         shown = (f"{counts[key]:>6} {key}" for key in ("values", "changes", "refused", "harmless", "wrong"))

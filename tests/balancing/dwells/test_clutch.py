@@ -74,10 +74,10 @@ def test_the_changes_that_make_a_clutch_exact_do_so(kind: DwellType) -> None:
 
 def test_the_peak_velocity_that_makes_a_clutch_exact() -> None:
     instance = example("III")
-    wanted = Clutch(instance).teeth(1, 50)
-    assert wanted.B2 is not None
+    expected = Clutch(instance).teeth(1, 50)
+    assert expected.B2 is not None
     slack = instance.swing * instance.speed * instance.phi2 / tau
-    assert slack * (1.0 - 1.0 / wanted.B2) == pytest.approx(1 / 50, rel=1e-12)
+    assert slack * (1.0 - 1.0 / expected.B2) == pytest.approx(1 / 50, rel=1e-12)
     assert Clutch(instance).teeth(1, 3).B2 is None
     assert Clutch(example("II")).teeth(1, 11).B2 is None
 

@@ -19,8 +19,8 @@ DATA: dict[str, Any] = {
 }
 
 
-def machine(kind: DwellType, **said: Any) -> DwellMachine:
-    return dwell_machine(kind, **DATA | {"speed": "100 rpm", "clutch_time": "20 ms"} | said)
+def machine(kind: DwellType, **arguments: Any) -> DwellMachine:
+    return dwell_machine(kind, **DATA | {"speed": "100 rpm", "clutch_time": "20 ms"} | arguments)
 
 
 def test_the_clutch_s_time_is_an_angle_that_grows_with_the_speed() -> None:

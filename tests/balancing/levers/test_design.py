@@ -50,7 +50,7 @@ def test_a_value_at_the_very_limit_is_reached() -> None:
 
 @pytest.mark.sample(3)
 @pytest.mark.parametrize(
-    ("wanted", "lengths", "said"),
+    ("expected", "lengths", "message"),
     [
         ({"B1/B3": 1.2}, {"lam": 1.0}, r"B1/B3 = 1\.2 is out of reach: for beta from 0\.25 to 1, .* to 1 \(at 1\)"),
         ({"T": 9.0}, {"beta": 0.75}, r"T = 9 is out of reach: for lam from 0\.5 to 10"),
@@ -67,6 +67,6 @@ def test_a_value_at_the_very_limit_is_reached() -> None:
         ({"T": 6.1}, {"lam": 1.0, "beta": (2.0, 2.5)}, "passes a dead point"),
     ],
 )
-def test_what_is_out_of_reach_is_said(wanted: dict[str, float], lengths: dict[str, float], said: str) -> None:
-    with pytest.raises(InputError, match=said):
-        find_torsion_levers(wanted, **lengths, **GIVEN)
+def test_what_is_out_of_reach_is_said(expected: dict[str, float], lengths: dict[str, float], message: str) -> None:
+    with pytest.raises(InputError, match=message):
+        find_torsion_levers(expected, **lengths, **GIVEN)

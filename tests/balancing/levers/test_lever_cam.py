@@ -42,12 +42,12 @@ def test_the_cam_of_the_rocker_is_cut_from_its_cycle() -> None:
 
 
 def test_wrong_entries_say_why() -> None:
-    for said, match in (
+    for arguments, match in (
         ({"inertia": "0 kg m^2"}, "inertia must be above 0"),
         ({"stroke": "200 deg"}, "stroke must be above 0 and at most 180 deg"),
         ({"speed": "0 rpm"}, "speed must be above 0"),
     ):
         with pytest.raises(InputError, match=match):
-            LeverCam(LEVER, **{"inertia": "0.05 kg m^2", "stroke": "120 deg", "speed": "150 rpm", **said})
+            LeverCam(LEVER, **{"inertia": "0.05 kg m^2", "stroke": "120 deg", "speed": "150 rpm", **arguments})
     with pytest.raises(InputError, match="speed_ratio"):
         LeverCam(LEVER, "0.05 kg m^2", "120 deg", "150 rpm").torque(0.0)

@@ -12,7 +12,7 @@ GIVEN = {"beta": 0.75, "lam": 1.0, "rho": 0.15, "nu": 0.15, "swing": deg(60)}
 
 
 @pytest.mark.parametrize(
-    ("changed", "said"),
+    ("changed", "message"),
     [
         ({"beta": 0.0}, "beta must be above 0, got 0.0"),
         ({"lam": -1}, "lam must be above 0"),
@@ -28,8 +28,8 @@ GIVEN = {"beta": 0.75, "lam": 1.0, "rho": 0.15, "nu": 0.15, "swing": deg(60)}
         ({"beta": 3.0, "lam": 1.0, "swing": deg(130)}, r"eq\. \(13\) has no root chi01"),
     ],
 )
-def test_what_is_refused(changed: dict[str, float], said: str) -> None:
-    with pytest.raises(InputError, match=said):
+def test_what_is_refused(changed: dict[str, float], message: str) -> None:
+    with pytest.raises(InputError, match=message):
         TorsionLever(**{**GIVEN, **changed})
 
 
@@ -64,8 +64,8 @@ def test_transmission_angles_are_those_on_the_way(beta: float, lam: float) -> No
     low, high = -radians(20), radians(20)
     way = linkage.at(np.linspace(low, high, 20001))
     transmission = linkage.transmission(low, high)
-    wanted = [(angles.min(), angles.max()) for angles in (way.at_rocker, way.at_link)]
-    assert np.array(transmission) == pytest.approx(np.array(wanted), abs=1e-7)
+    expected = [(angles.min(), angles.max()) for angles in (way.at_rocker, way.at_link)]
+    assert np.array(transmission) == pytest.approx(np.array(expected), abs=1e-7)
 
 
 def test_ratio_and_slope_are_derivatives() -> None:

@@ -30,10 +30,10 @@ def test_coefficients_are_the_closed_forms(row: Row) -> None:
 
 @pytest.mark.parametrize("number", ["example1", "example2", "example3", "example4"])
 def test_worked_examples(number: str) -> None:
-    wanted = {row["quantity"]: row[number] for row in EXAMPLES}
-    one = lever(wanted, "lam", least_transmission=deg(28))  # the exact motion of example 2 has 28.7 degrees
+    expected = {row["quantity"]: row[number] for row in EXAMPLES}
+    one = lever(expected, "lam", least_transmission=deg(28))  # the exact motion of example 2 has 28.7 degrees
     linkage, cut = one.linkage, truncated(one)
-    assert wanted["within_limits"] == "True"
+    assert expected["within_limits"] == "True"
     found = {
         "alpha": linkage.alpha,
         "psi0_deg": degrees(linkage.psi0),
@@ -53,10 +53,10 @@ def test_worked_examples(number: str) -> None:
     for name in ("chi01", "chi02", "zeta", "B1", "B3", "C1", "C3"):
         for suffix, motion in (("", one.asymptotic), ("_ode", one.exact), ("_eq6", cut)):
             found[name + suffix] = getattr(motion, name)
-    tested = {name: value for name, value in found.items() if name in wanted}
-    assert len(tested) == len(wanted) - 6  # the five inputs and within_limits
+    tested = {name: value for name, value in found.items() if name in expected}
+    assert len(tested) == len(expected) - 6  # the five inputs and within_limits
     for name, value in tested.items():
-        assert value == pytest.approx(float(wanted[name]), rel=1e-6), name
+        assert value == pytest.approx(float(expected[name]), rel=1e-6), name
 
 
 def agrees(row: Row) -> None:

@@ -325,8 +325,8 @@ def test_rows_know_the_loader(shares: list[float]) -> None:
     x = mixed(shares)
     law = MODEL.space.law(x)
     one, k = inertial_loader(law), 0.5 * (1.0 - np.linspace(0.05, 1.0, 20))
-    wanted = {B_loader: np.full(20, one.B), C_loader: -one.law.c(k), D_loader: -one.law.d(k)}
-    for constant, values in wanted.items():
+    expected = {B_loader: np.full(20, one.B), C_loader: -one.law.c(k), D_loader: -one.law.d(k)}
+    for constant, values in expected.items():
         (family,) = constant.families(MODEL.space, np.zeros(len(x)), 0.0)
         assert isinstance(family, EnergyFamily)
         assert np.abs(family.value(x, family.u(k)) - values).max() < 1e-8 * np.abs(values).max()
@@ -334,7 +334,7 @@ def test_rows_know_the_loader(shares: list[float]) -> None:
 
 
 @pytest.mark.parametrize(
-    ("given", "said"),
+    ("given", "message"),
     [
         ({"B": 1.0}, "B must be above 1"),
         ({"B": float("nan")}, "B must be"),
@@ -349,8 +349,8 @@ def test_rows_know_the_loader(shares: list[float]) -> None:
         ({"most_C": -1.0}, "most_C must be above 0"),
     ],
 )
-def test_what_is_refused(given: dict[str, Any], said: str) -> None:
-    with pytest.raises(InputError, match=said):
+def test_what_is_refused(given: dict[str, Any], message: str) -> None:
+    with pytest.raises(InputError, match=message):
         balanced_law(**{"B": 1.8, "order": 3} | given)
 
 
@@ -360,7 +360,7 @@ def test_no_law_has_so_small_an_acceleration() -> None:
 
 
 @pytest.mark.parametrize(
-    ("given", "said"),
+    ("given", "message"),
     [
         ({"B": None}, "give B as a number above 1, or inflexion=0.5"),
         ({"symmetric": False}, "leave symmetric=True"),
@@ -368,6 +368,6 @@ def test_no_law_has_so_small_an_acceleration() -> None:
         ({"order": 1}, "needs symmetric laws from rest to rest, order at least 2"),
     ],
 )
-def test_the_general_engine_says_what_has_a_loader(given: dict[str, Any], said: str) -> None:
-    with pytest.raises(InputError, match=said):
+def test_the_general_engine_says_what_has_a_loader(given: dict[str, Any], message: str) -> None:
+    with pytest.raises(InputError, match=message):
         synthesize(replace(Problem(B=1.8, order=3, minimise="C_loader"), **given))

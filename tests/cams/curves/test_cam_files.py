@@ -18,8 +18,8 @@ def test_each_curve_of_a_cam_is_exported(tmp_path: Path) -> None:
         ({"curve": "pitch"}, cam.pitch_curve),
         ({"cutter_radius": "8 mm"}, cam.cutter_path("8 mm")),
     ]
-    for said, curve in curves:
-        rows = readers.table(cam.export(tmp_path / "cam.csv", points=91, decimals=7, **said))
+    for arguments, curve in curves:
+        rows = readers.table(cam.export(tmp_path / "cam.csv", points=91, decimals=7, **arguments))
         assert rows[:, 1:] == pytest.approx(1e3 * curve(angles), abs=1e-7)
     spline = readers.dxf_spline(cam.export(tmp_path / "cam.dxf"))
     assert spline(angles) == pytest.approx(1e3 * cam.profile(angles), abs=1.1e-3)
@@ -33,9 +33,9 @@ def test_what_cannot_be_exported_says_why(tmp_path: Path) -> None:
         ({"curve": "pitch", "cutter_radius": "8 mm"}, "go together"),
         ({"cutter_radius": "0 mm"}, "cutter_radius must be above 0"),
     ]
-    for said, match in wrong:
+    for arguments, match in wrong:
         with pytest.raises(InputError, match=match):
-            cam.export(tmp_path / "cam.dxf", **said)
+            cam.export(tmp_path / "cam.dxf", **arguments)
     motion = CamMotion.of_law("cycloidal", "40 mm", "120 deg")
     with pytest.raises(InputError, match="whole turn"):
         DiscCam(motion, "80 mm", TranslatingRoller("12 mm")).export(tmp_path / "cam.dxf")

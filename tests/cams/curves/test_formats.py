@@ -105,7 +105,7 @@ def test_files_are_the_same_whenever_they_are_written_and_replaced_whole(tmp_pat
 
 
 def test_wrong_entries_name_themselves(tmp_path: Path) -> None:
-    for said, match in (
+    for arguments, match in (
         ({"tolerance": "1 s"}, "tolerance must be a length"),
         ({"tolerance": "0 mm"}, "tolerance must be above 0"),
         ({"tolerence": "1 um"}, "did you mean 'tolerance'"),
@@ -114,7 +114,7 @@ def test_wrong_entries_name_themselves(tmp_path: Path) -> None:
         ({"as_": "dxf splines"}, "did you mean 'dxf spline'"),
     ):
         with pytest.raises(InputError, match=match):
-            write_outline(ELLIPSE, tmp_path / "profile.dxf", **said)
+            write_outline(ELLIPSE, tmp_path / "profile.dxf", **arguments)
     with pytest.raises(InputError, match="names no format"):
         write_outline(ELLIPSE, tmp_path / "profile.iges")
     with pytest.raises(InputError, match="turns back as seen from the centre"):

@@ -39,9 +39,9 @@ def test_a_file_is_written_and_never_lost(tmp_path: Path, capsys: Capture) -> No
 
 def test_an_axis_of_a_problem_file(capsys: Capture) -> None:
     assert exit_code(["export", TABLE, "--to", "csv", "--axis", "table", "--points", "30", "--json"]) == 0
-    told = json.loads(capsys.readouterr().out)
-    assert (told["points"], told["IsPeriodic"], told["units"]["slave"]) == (30, True, "deg")
-    assert told["text"].count("\n") == 32
+    output = json.loads(capsys.readouterr().out)
+    assert (output["points"], output["IsPeriodic"], output["units"]["slave"]) == (30, True, "deg")
+    assert output["text"].count("\n") == 32
 
 
 def test_the_formats_are_listed(capsys: Capture) -> None:

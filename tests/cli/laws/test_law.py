@@ -146,9 +146,9 @@ def test_a_measured_table_is_told_to_be_noisy_unless_its_tolerance_is_given(
         answer = capsys.readouterr()
         assert answer.err.startswith("optlaws: the points scatter by 0.0")
         assert json.loads(answer.out)["constants"]["C"]["value"] == pytest.approx(5.7735, rel=0.1)
-    told = [["--columns", "1,2", "--tolerance", "0.1"], ["--columns", "1,2", "--tolerance", "0"]]
+    choices = [["--columns", "1,2", "--tolerance", "0.1"], ["--columns", "1,2", "--tolerance", "0"]]
     peaks = []
-    for options in told:
+    for options in choices:
         assert exit_code(["law", str(file), *options, "--json"]) == 0
         answer = capsys.readouterr()
         assert answer.err == ""

@@ -45,7 +45,7 @@ def test_wanted_constants(capsys: Capture, tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("arguments", "said"),
+    ("arguments", "message"),
     [
         (["lever", "--swing", "60"], "give --beta and --lam, or with --target"),
         ([*EXAMPLE, "--inertia", "1"], "--inertia goes with --stiffness or --period"),
@@ -58,10 +58,10 @@ def test_wanted_constants(capsys: Capture, tmp_path: Path) -> None:
         ),
     ],
 )
-def test_errors_are_one_clear_text(capsys: Capture, arguments: list[str], said: str) -> None:
+def test_errors_are_one_clear_text(capsys: Capture, arguments: list[str], message: str) -> None:
     assert app.exit_code(arguments) == 2
     out, err = capsys.readouterr()
     assert out == ""
     assert err.startswith("optlaws: ")
-    assert said in err
+    assert message in err
     assert "Traceback" not in err

@@ -130,12 +130,12 @@ def test_a_turn_has_room_for_its_angles(
     asked = DWELL.replace("--dwell 90 --rise 90", f"--dwell {dwell} --rise {rise}").split()
     asked += [] if lower is None else ["--lower-dwell", lower]
     assert exit_code(["dwell", "K", *asked]) == (0 if fits else BAD_INPUT)
-    told = " ".join(capsys.readouterr().err.split())
-    assert ("more than one turn" in told) is not fits
+    message = " ".join(capsys.readouterr().err.split())
+    assert ("more than one turn" in message) is not fits
     if not fits:
         total = 2 * float(rise) + float(dwell) + float(lower or dwell)
-        assert f"{total:.6g} degrees" in told
-        assert ("as long as the upper one" in told) is (lower is None)
+        assert f"{total:.6g} degrees" in message
+        assert ("as long as the upper one" in message) is (lower is None)
 
 
 def test_dwell_says_why_a_type_cannot_be_built(capsys: pytest.CaptureFixture[str]) -> None:

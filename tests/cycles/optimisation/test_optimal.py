@@ -85,8 +85,8 @@ def test_free_durations_are_powers_of_the_strokes(minimise: str, power: float, l
     segments = [moves[0], Dwell("90 deg"), moves[1], Dwell("20 deg"), moves[2]]
     cycle = Cycle(segments, speed="200 rpm", minimise=minimise)
     shares = np.array([35.0, 10.0, 45.0]) ** power
-    wanted = 0.3 * (250 / 360) * shares / shares.sum()
-    assert [cycle.durations[i] for i in (0, 2, 4)] == pytest.approx(wanted.tolist(), rel=1e-6)
+    expected = 0.3 * (250 / 360) * shares / shares.sum()
+    assert [cycle.durations[i] for i in (0, 2, 4)] == pytest.approx(expected.tolist(), rel=1e-6)
     assert sum(cycle.durations) == pytest.approx(0.3, rel=1e-14)
     assert cycle.status == "optimal"
     assert cycle.lower_bound == pytest.approx(cycle.objective, rel=1e-8)

@@ -150,9 +150,9 @@ def test_what_is_too_little_is_told_with_what_it_takes() -> None:
         assert least is not None
         with pytest.raises(InfeasibleProblem, match=f"the rms {kind} over the cycle is to be at most") as error:
             assert cycle(moves, drive=drive, limits={f"rms {kind}": f"{0.9 * least!r} {unit}"}).status
-        told = re.search(r"at most ([\d.e-]+), but no law takes less than ([\d.e-]+)", str(error.value))
-        assert told is not None
-        assert [float(text) for text in told.groups()] == pytest.approx([0.9 * least, least], rel=1e-7)
+        message = re.search(r"at most ([\d.e-]+), but no law takes less than ([\d.e-]+)", str(error.value))
+        assert message is not None
+        assert [float(text) for text in message.groups()] == pytest.approx([0.9 * least, least], rel=1e-7)
     given = [Rise("90 deg", "0.2 s", law="cycloidal"), Dwell("0.3 s"), Return(duration="0.3 s"), Dwell()]
     with pytest.raises(InfeasibleProblem, match=r"what is given takes \d"):
         assert cycle(given, drive=INERTIA, limits={"rms torque": "0.5 N m"}).status

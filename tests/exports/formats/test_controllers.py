@@ -159,8 +159,8 @@ def test_function_blocks_and_headers_run_what_their_report_says(tmp_path: Path) 
     (tmp_path / "main.c").write_text(main, "utf-8")
     flags = ["-std=c99", "-Wall", "-Wextra", "-Werror", "-pedantic"]
     subprocess.run([compiler, *flags, "main.c", "-o", "main"], cwd=tmp_path, check=True)
-    said = subprocess.run([str(tmp_path / "main")], capture_output=True, text=True, check=True).stdout
-    assert float(said) == pytest.approx(17.5, abs=1e-13)
+    output = subprocess.run([str(tmp_path / "main")], capture_output=True, text=True, check=True).stdout
+    assert float(output) == pytest.approx(17.5, abs=1e-13)
 
 
 def test_ends_are_those_of_the_motion_and_joints_close() -> None:

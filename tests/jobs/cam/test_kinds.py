@@ -79,8 +79,8 @@ def done(folder: Path, text: str) -> tuple[str, dict[str, Any], set[str]]:
     file = folder / "small.toml"
     file.write_text(text, "utf-8")
     written = job.run(file, folder / "out")
-    told = json.loads((folder / "out" / "cam.json").read_text("utf-8"))
-    return (folder / "out" / "cam.md").read_text("utf-8"), told, {one.name for one in written}
+    reply = json.loads((folder / "out" / "cam.json").read_text("utf-8"))
+    return (folder / "out" / "cam.md").read_text("utf-8"), reply, {one.name for one in written}
 
 
 def told_of(folder: Path, text: str) -> dict[str, Any]:
@@ -93,31 +93,31 @@ def told_of(folder: Path, text: str) -> dict[str, Any]:
 def test_best_laws_are_those_of_the_library_and_bear_forces(tmp_path: Path) -> None:
     drive = 'drive = { mass = "2 kg", preload = "100 N" }\n'
     text = LAWS.replace("degree = 5\n", "degree = 5\n" + drive) + '[forces]\nwidth = "20 mm"\n'
-    told = told_of(tmp_path, text)
+    reply = told_of(tmp_path, text)
     best = best_cam(cycle(), "50 mm", TranslatingRoller("12 mm"), pressure_angle="25 deg")
-    assert told["best"]["objective"] == pytest.approx(best.objective, rel=1e-9)
-    assert told["best"]["status"] == best.status.value == "optimal"
-    assert told["greatest_pressure_angle"]["high"] == pytest.approx(np.radians(25.0), rel=1e-7)
-    assert told["greatest_pressure_angle"]["angle"] is None
-    assert told["forces"]["speed"] == pytest.approx(2.0 * np.pi * 200 / 60)
+    assert reply["best"]["objective"] == pytest.approx(best.objective, rel=1e-9)
+    assert reply["best"]["status"] == best.status.value == "optimal"
+    assert reply["greatest_pressure_angle"]["high"] == pytest.approx(np.radians(25.0), rel=1e-7)
+    assert reply["greatest_pressure_angle"]["angle"] is None
+    assert reply["forces"]["speed"] == pytest.approx(2.0 * np.pi * 200 / 60)
 
 
 def test_the_least_prime_circle_is_that_of_the_library(tmp_path: Path) -> None:
-    page, told, _ = done(tmp_path, BASE)
+    page, reply, _ = done(tmp_path, BASE)
     assert "of the laws of least acceleration" in page
     best = best_prime_circle(cycle(), TranslatingFlat(), radius_of_curvature="3 mm")
-    assert told["best"]["objective"] == pytest.approx(best.least.radius, rel=1e-9)
-    assert told["best"]["lower_bound"] == pytest.approx(best.lower_bound, rel=1e-9)
-    assert told["best"]["status"] == "optimal"
+    assert reply["best"]["objective"] == pytest.approx(best.least.radius, rel=1e-9)
+    assert reply["best"]["lower_bound"] == pytest.approx(best.lower_bound, rel=1e-9)
+    assert reply["best"]["status"] == "optimal"
 
 
 def test_without_a_prime_circle_the_least_that_keeps_the_limits_is_taken(tmp_path: Path) -> None:
-    told = told_of(tmp_path, HEAD + 'pressure_angle = "25 deg"\nradius_of_curvature = "5 mm"\n' + ROLLER + MOTION)
+    reply = told_of(tmp_path, HEAD + 'pressure_angle = "25 deg"\nradius_of_curvature = "5 mm"\n' + ROLLER + MOTION)
     follower = TranslatingRoller("12 mm")
     least = least_prime_circle(cycle(), follower, pressure_angle="25 deg", radius_of_curvature="5 mm")
-    assert told["least_prime_circle"]["radius"] == pytest.approx(least.radius, rel=1e-9)
-    assert told["greatest_pressure_angle"]["high"] == pytest.approx(np.radians(25.0), rel=1e-7)
-    assert told["undercut"]["status"] == "free"
+    assert reply["least_prime_circle"]["radius"] == pytest.approx(least.radius, rel=1e-9)
+    assert reply["greatest_pressure_angle"]["high"] == pytest.approx(np.radians(25.0), rel=1e-7)
+    assert reply["undercut"]["status"] == "free"
 
 
 def test_files_that_call_the_prime_circle_base_circle_are_read_where_both_are_one(tmp_path: Path) -> None:
@@ -132,21 +132,21 @@ def test_files_that_call_the_prime_circle_base_circle_are_read_where_both_are_on
 
 @pytest.mark.long
 def test_the_best_offset_bears_a_process_a_flywheel_and_a_spring(tmp_path: Path) -> None:
-    page, told, written = done(tmp_path, OFFSET)
+    page, reply, written = done(tmp_path, OFFSET)
     moves = [Rise("35 mm", "120 deg", law="3-4-5"), Dwell("90 deg"), Return(duration="100 deg", law="3-4-5"), Dwell()]
     cycle = Cycle(moves, speed="200 rpm", drive={"mass": "2 kg", "preload": "100 N"})
     best = best_offset(cycle, "60 mm", TranslatingRoller("12 mm"))
     process = reading.toml(tmp_path / "small.toml")["process"]
     forces = CamForces(best.cam, process=process)
     energy = energy_fluctuation(forces)
-    assert told["best_offset"]["offset"] == pytest.approx(best.offset, rel=1e-9)
-    assert told["best_offset"]["proven"] is True
-    assert told["forces"] == forces.results()
-    assert told["energy"] == {**energy.to_dict(), "flywheel": energy.flywheel(0.04)}
+    assert reply["best_offset"]["offset"] == pytest.approx(best.offset, rel=1e-9)
+    assert reply["best_offset"]["proven"] is True
+    assert reply["forces"] == forces.results()
+    assert reply["energy"] == {**energy.to_dict(), "flywheel": energy.flywheel(0.04)}
     spring = least_spring(
         best.cam, drive={"mass": "2 kg"}, speeds=("0 rpm", "220 rpm"), process=process, greatest="contact"
     )
-    assert told["spring"] == json.loads(spring.to_json())
+    assert reply["spring"] == json.loads(spring.to_json())
     for text in ("best offset", "mean power", "flywheel for an irregularity of 0.04", "greatest contact force, any"):
         assert text in page
     assert "forces.svg" in written
@@ -154,30 +154,30 @@ def test_the_best_offset_bears_a_process_a_flywheel_and_a_spring(tmp_path: Path)
 
 def test_a_pair_has_its_second_cam_in_table_picture_and_files(tmp_path: Path) -> None:
     asked = '[[file]]\nname = "cam.nc"\ntolerance = "0.1 mm"\ndecimals = 2\n'
-    page, told, written = done(tmp_path, PAIR.replace("[pair]", asked + "[pair]"))
+    page, reply, written = done(tmp_path, PAIR.replace("[pair]", asked + "[pair]"))
     first = DiscCam(cycle(), "60 mm", TranslatingRoller("12 mm"))
     second = conjugate_cam(first, distance="190 mm")
     table = np.genfromtxt(tmp_path / "out" / "cam.csv", delimiter=",", skip_header=2)
     assert np.allclose(table[:, 6:8], 1e3 * second.pitch_curve(np.radians(table[:, 0])), atol=1e-5)
-    assert told["return_cam"]["undercut"]["status"] == second.extremes.undercut.status
+    assert reply["return_cam"]["undercut"]["status"] == second.extremes.undercut.status
     assert {"pair.svg", "cam.nc", "return-cam.nc"} <= written
     assert "[return-cam.nc]" in page
 
 
 def test_a_barrel_has_its_flanks_tabled(tmp_path: Path) -> None:
-    _, told, written = done(tmp_path, 'cutter_radius = "5 mm"\n' + BARREL)
+    _, reply, written = done(tmp_path, 'cutter_radius = "5 mm"\n' + BARREL)
     cam = BarrelCam(cycle(), "60 mm", "12 mm", "8 mm")
     table = np.genfromtxt(tmp_path / "out" / "cam.csv", delimiter=",", skip_header=2)
     angles = np.radians(table[:, 0])
     assert np.allclose(table[:, 4:7], 1e3 * cam.flank("upper")(angles), atol=1e-5)
     assert np.allclose(table[:, 16:19], 1e3 * cam.cutter_path("5 mm")(angles), atol=1e-5)
-    assert told["undercut"] == {"status": cam.undercut}
-    assert told["largest_pressure_angle"]["high"] == pytest.approx(cam.pressure_angles[1].high, rel=1e-9)
+    assert reply["undercut"] == {"status": cam.undercut}
+    assert reply["largest_pressure_angle"]["high"] == pytest.approx(cam.pressure_angles[1].high, rel=1e-9)
     assert written == {"cam.md", "cam.csv", "cam.json", "cam.svg"}
 
 
 @pytest.mark.parametrize(
-    ("text", "old", "new", "said"),
+    ("text", "old", "new", "message"),
     [
         (LAWS, 'pressure_angle = "25 deg"\n', "", "pressure_angle"),
         (LAWS, 'prime_radius = "50 mm"\n', "", "prime_radius is missing.*best = 'prime circle'"),
@@ -199,11 +199,11 @@ def test_a_barrel_has_its_flanks_tabled(tmp_path: Path) -> None:
         (BARREL, "[barrel]", ROLLER + "[barrel]", "follower"),
     ],
 )
-def test_what_is_wrong_names_file_and_entry(tmp_path: Path, text: str, old: str, new: str, said: str) -> None:
+def test_what_is_wrong_names_file_and_entry(tmp_path: Path, text: str, old: str, new: str, message: str) -> None:
     assert old in text
     file = tmp_path / "small.toml"
     file.write_text(text.replace(old, new, 1), "utf-8")
-    with pytest.raises(InputError, match=rf"(?s)small\.toml.*{said}"):
+    with pytest.raises(InputError, match=rf"(?s)small\.toml.*{message}"):
         job.run(file, tmp_path / "out")
     assert not (tmp_path / "out").exists()
 
@@ -215,12 +215,12 @@ def test_a_second_follower_may_be_another(tmp_path: Path) -> None:
         .replace('radius = "12 mm"', 'radius = "12 mm"\narm = "110 mm"\npivot_distance = "140 mm"')
     )
     other = 'kind = "oscillating roller", radius = "9 mm", arm = "90 mm", pivot_distance = "140 mm"'
-    told = told_of(tmp_path, text.replace('distance = "190 mm"', f'angle = "85 deg"\nfollower = {{ {other} }}'))
+    reply = told_of(tmp_path, text.replace('distance = "190 mm"', f'angle = "85 deg"\nfollower = {{ {other} }}'))
     swing = [Rise("25 deg", "120 deg"), Dwell("90 deg"), Return(duration="100 deg"), Dwell()]
     first = DiscCam(Cycle(swing, speed="200 rpm", degree=5), "60 mm", OscillatingRoller("12 mm", "110 mm", "140 mm"))
     second = conjugate_cam(first, OscillatingRoller("9 mm", "90 mm", "140 mm"), angle="85 deg")
     least = second.extremes.least_convex_radius.low
-    assert told["return_cam"]["bulging_radius"]["low"] == pytest.approx(least, rel=1e-9)
+    assert reply["return_cam"]["bulging_radius"]["low"] == pytest.approx(least, rel=1e-9)
 
 
 def test_a_cam_that_is_undercut_says_so_where_forces_are_asked_for(tmp_path: Path) -> None:

@@ -28,8 +28,8 @@ def test_nothing_is_left_of_the_vibration_and_the_law_is_a_sum(
     duration = 1.0 - half * (len(shares) - 1)
     k = np.linspace(0.0, 1.0, 501)
     parts = [LAWS[law].a(np.clip((k - i * half) / duration, 0.0, 1.0)) for i in range(len(shares))]
-    wanted = np.array(shares / shares.sum()) @ np.array(parts)
-    assert shaped.a(k) == pytest.approx(wanted, abs=1e-12)
+    expected = np.array(shares / shares.sum()) @ np.array(parts)
+    assert shaped.a(k) == pytest.approx(expected, abs=1e-12)
 
 
 def test_three_repetitions_forgive_more_than_two() -> None:

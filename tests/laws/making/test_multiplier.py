@@ -196,7 +196,7 @@ def test_two_coefficients_and_one_condition_are_savins_family() -> None:
 
 
 @pytest.mark.parametrize(
-    ("constants", "said"),
+    ("constants", "complaint"),
     [
         ({"B": 1.9, "C": 5.6}, "no y of 3 even powers was found that gives B = 1.9, C = 5.6; the nearest gives"),
         ({"B": 2.5}, "nowhere negative, but is"),
@@ -205,6 +205,6 @@ def test_two_coefficients_and_one_condition_are_savins_family() -> None:
         ({}, "one or more of B, C, D, J, c0, such as B=1.9"),
     ],
 )
-def test_what_no_multiplier_gives_is_told(constants: dict[str, Any], said: str) -> None:
-    with pytest.raises(InputError, match=said):
+def test_what_no_multiplier_gives_is_told(constants: dict[str, Any], complaint: str) -> None:
+    with pytest.raises(InputError, match=complaint):
         multiplier_for(smoothstep(4), **constants)

@@ -86,8 +86,8 @@ def test_what_makes_no_law_is_refused() -> None:
         ((many, many), "at most 1000 points: give a tolerance"),
         ((k, [*a[:-1], np.nan]), "a.8. must be a finite real number, got nan"),
     ]
-    for given_points, told in cases:
-        with pytest.raises(InputError, match=told):
+    for given_points, printed in cases:
+        with pytest.raises(InputError, match=printed):
             law_through(*given_points)
 
 
@@ -129,17 +129,17 @@ def test_the_law_of_a_noisy_table_is_that_without_its_noise(
 ) -> None:
     law, size, k = catalogue[name].law, 10.0**share, np.linspace(0.0, 1.0, points)
     table = stroke * (law(k) + np.random.default_rng(seed).normal(0.0, size, points))
-    with warnings.catch_warnings(record=True) as said:
+    with warnings.catch_warnings(record=True) as raised:
         warnings.simplefilter("always", NoisyTable)
         found = law_through(k, table)
     assert found.constants.C.value == pytest.approx(law.constants.C.value, rel=KNOWN[name])
-    if said:
-        text = str(said[0].message)
+    if raised:
+        text = str(raised[0].message)
         assert float(text.split()[4]) == pytest.approx(abs(stroke) * size, rel=0.6), text
     else:
         # what is not said changes little: the law goes through the points
         assert np.abs((table[-1] - table[0]) * found(k) - (table - table[0])).max() <= 1e-6 * abs(stroke)
-    assert said or 6.0 * size * points**2 <= 20.0
+    assert raised or 6.0 * size * points**2 <= 20.0
 
 
 @given(name=st.sampled_from(EXACT), points=st.integers(6, 400), decimals=st.integers(2, 17))
@@ -205,8 +205,11 @@ def test_of_more_columns_two_are_chosen(tmp_path: Path) -> None:
         assert read_law(file, columns=columns) == expected
     for brackets in ("columns=1,3", "columns=angle,outer; tolerance=0.0001"):
         assert read_law(f"{file}({brackets})") == expected
-    for wrong, told in {(1, 4): "no column 4: columns are numbers from 1 to 3", (1, 2, 3): "columns are two"}.items():
-        with pytest.raises(InputError, match=told):
+    for wrong, printed in {
+        (1, 4): "no column 4: columns are numbers from 1 to 3",
+        (1, 2, 3): "columns are two",
+    }.items():
+        with pytest.raises(InputError, match=printed):
             read_law(file, columns=wrong)
     for text in ("columns=1", "limit=3", "tolerance=x", "columns=1,3; tolerance=-1"):
         with pytest.raises(InputError, match=r"columns are two|written as in|tolerance must be"):
@@ -238,7 +241,7 @@ def test_tables_that_optlaws_writes_are_read_back(tmp_path: Path) -> None:
 
 def test_files_that_hold_no_law_say_why(tmp_path: Path) -> None:
     rise = "".join(f"{x},{x / 10:.3f}\n" for x in range(8))
-    for text, told in {
+    for text, printed in {
         "": "holds no points",
         "angle,lift\n": "holds no points",
         "0,0\n1,2\nx,3\n": "line 3: a point is two numbers, got 'x, 3'; mend the line, or put # before it",
@@ -252,7 +255,7 @@ def test_files_that_hold_no_law_say_why(tmp_path: Path) -> None:
     }.items():
         file = tmp_path / "bad.csv"
         file.write_text(text)
-        with pytest.raises(InputError, match=told) as caught:
+        with pytest.raises(InputError, match=printed) as caught:
             read_law(str(file))
         assert "bad.csv" in str(caught.value)
     with pytest.raises(InputError, match="cannot read"):

@@ -184,15 +184,15 @@ def test_errors_call_a_machine_by_few_words_and_can_be_run_again() -> None:
     problem = Problem(order=3, basis=Chebyshev(5), minimise=mixed, C=at_most(20.0), bounds=bounds, symmetric=False)
     with pytest.raises(InfeasibleProblem) as raised:
         synthesize(problem)
-    said, *others = str(raised.value).split("\n")
-    assert "residual of mode 1 in 'last acceleration' of a machine of 2 states, within 10 % <= 1e-07" in said
+    shown, *others = str(raised.value).split("\n")
+    assert "residual of mode 1 in 'last acceleration' of a machine of 2 states, within 10 % <= 1e-07" in shown
     (code,) = (line for line in others if line.startswith("problem: "))
     texts = [line.removeprefix("where ") for line in others if line.startswith("where ")]
     known = dict[str, object](vars(optlaws))
     exec("\n".join(texts), known)  # noqa: S102 - what the error says can be run again
     assert eval(code.removeprefix("problem: "), known) == problem  # noqa: S307
     # each text stands once, and nowhere else
-    assert (str(raised.value).count('"A":'), len(texts), said.count('"A":'), code.count('"A":')) == (2, 2, 0, 0)
+    assert (str(raised.value).count('"A":'), len(texts), shown.count('"A":'), code.count('"A":')) == (2, 2, 0, 0)
     solution = synthesize(replace(problem, bounds={}))
     assert '"A":' not in repr(solution) + solution._repr_html_() + problem._repr_html_()
 
@@ -278,9 +278,9 @@ def test_fronts_call_constants_of_machines_by_their_titles() -> None:
     machine = chain(2, masses=1)
     residual = machine.residual(1, "last acceleration", spread=0.1)
     front = pareto_front(Problem(order=3, basis=Chebyshev(7), symmetric=False), over=(residual, "C"), points=3)
-    said = [repr(front), *front.headings, front.plot()[0].axes.get_xlabel()]
-    assert residual.title in said
-    assert not any('"A"' in text for text in said)
+    shown = [repr(front), *front.headings, front.plot()[0].axes.get_xlabel()]
+    assert residual.title in shown
+    assert not any('"A"' in text for text in shown)
     assert len(front.headings) == len(front.rows[0])
 
 

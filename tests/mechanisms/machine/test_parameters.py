@@ -13,10 +13,10 @@ def follower(nu: float) -> Machine:
 
 def test_a_followers_spectrum_is_its_own() -> None:
     nu, law = np.linspace(5.0, 40.0, 8), savin("III", 7.2)
-    found, wanted = machine_spectrum(follower, nu, law), response_spectrum(law, nu, 0.05)
+    found, expected = machine_spectrum(follower, nu, law), response_spectrum(law, nu, 0.05)
     assert found.frequencies[:, 0] == pytest.approx(nu, rel=1e-12)
-    assert found.residuals[:, 0] == pytest.approx(wanted.residual_acceleration, rel=1e-9)
-    assert found.peaks["acceleration"] == pytest.approx(wanted.peak_acceleration, rel=1e-5)
+    assert found.residuals[:, 0] == pytest.approx(expected.residual_acceleration, rel=1e-9)
+    assert found.peaks["acceleration"] == pytest.approx(expected.peak_acceleration, rel=1e-5)
 
 
 def test_machines_with_fewer_modes_have_no_number_there() -> None:

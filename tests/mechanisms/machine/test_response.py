@@ -32,8 +32,8 @@ def misses(seed: int) -> float:
     case = random_case(seed)
     response = case.machine.response(case.law, dwell=0.4)
     values = np.array([response[name](K) for name in case.machine.outputs])
-    wanted = integrated(case, K)
-    return float(np.abs(values - wanted).max() / max(1.0, np.abs(wanted).max()))
+    expected = integrated(case, K)
+    return float(np.abs(values - expected).max() / max(1.0, np.abs(expected).max()))
 
 
 @pytest.mark.sample(3)
@@ -75,10 +75,10 @@ def test_random_machines_against_python_control(seed: int) -> None:
     jump = load[:, case.machine.inputs.index("c")] * start[1] if "c" in case.machine.inputs else np.zeros(size)
     free = control.ss(whole, np.zeros((len(whole), 1)), outputs, np.zeros((len(outputs), 1)))
     times = np.linspace(0.0, 1.0, 21)
-    wanted = control.initial_response(free, times, np.concatenate([jump, start])).outputs.reshape(len(outputs), -1)
+    expected = control.initial_response(free, times, np.concatenate([jump, start])).outputs.reshape(len(outputs), -1)
     response = made.response(case.law)
     values = np.array([response[name](times) for name in made.outputs])
-    assert np.abs(values - wanted).max() < 1e-9 * max(1.0, np.abs(wanted).max())
+    assert np.abs(values - expected).max() < 1e-9 * max(1.0, np.abs(expected).max())
 
 
 @pytest.mark.sample(6)
@@ -208,8 +208,8 @@ def test_a_measured_frequency_is_a_mass_on_a_spring() -> None:
     assert [mode.frequency, mode.damping] == pytest.approx([0.4 * omega, ratio])
     measured, k = arm.response(law, dwell=0.5), np.linspace(0.0, 1.5, 31)
     for name in ("position", "velocity", "acceleration"):
-        wanted = mass[f"{name} tip"](k)
-        assert measured[name](k) == pytest.approx(wanted, abs=1e-11 * np.abs(wanted).max())
+        expected = mass[f"{name} tip"](k)
+        assert measured[name](k) == pytest.approx(expected, abs=1e-11 * np.abs(expected).max())
     assert measured["deflection"](k) == pytest.approx(-mass["deflection drive-tip"](k), abs=1e-13)
 
 
@@ -219,10 +219,10 @@ def test_modes_add_up_and_their_shares_are_what_of_the_drive_they_have() -> None
     both = Machine.from_modes(modes, duration=0.2).response(law)
     alone = [Machine.from_modes([(f, z)], duration=0.2).response(law)["deflection"] for f, z, _ in modes]
     k = np.linspace(0.0, 1.0, 21)
-    wanted = sum(share * one(k) for one, (*_, share) in zip(alone, modes, strict=True))
-    assert both["deflection"](k) == pytest.approx(wanted, abs=1e-14)
+    expected = sum(share * one(k) for one, (*_, share) in zip(alone, modes, strict=True))
+    assert both["deflection"](k) == pytest.approx(expected, abs=1e-14)
     assert both["deflection 2"](k) == pytest.approx(0.25 * alone[1](k), abs=1e-14)
-    assert both["position"](k) == pytest.approx(law(k) + wanted, abs=1e-13)
+    assert both["position"](k) == pytest.approx(law(k) + expected, abs=1e-13)
 
 
 def test_responses_become_tables_and_pictures() -> None:

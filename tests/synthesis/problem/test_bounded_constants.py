@@ -68,10 +68,10 @@ def test_highs_agrees_on_one_sided_bounds(low: float, degree: int) -> None:
         Problem(order=3, basis=Chebyshev(degree), symmetric=False, minimise="C_plus", bounds={"C_minus": at_most(low)})
     )
     motion = polynomials(3, degree)
-    wanted = motion.least([(motion.rows(2), None), (-motion.rows(2), low)])
-    assert wanted is not None
-    assert solution.objective == pytest.approx(wanted, rel=2e-5)
-    assert solution.objective >= wanted * (1 - 1e-9)
+    expected = motion.least([(motion.rows(2), None), (-motion.rows(2), low)])
+    assert expected is not None
+    assert solution.objective == pytest.approx(expected, rel=2e-5)
+    assert solution.objective >= expected * (1 - 1e-9)
 
 
 @pytest.mark.parametrize("high", [900.0, 2000.0])
@@ -79,10 +79,10 @@ def test_highs_agrees_on_a_bounded_snap(high: float) -> None:
     solution = synthesize(problem(order=3, minimise="C", bounds={snap: at_most(high)}))
     motion = polynomials(3, 9)
     c, fourth = motion.rows(2), motion.rows(4)
-    wanted = motion.least([(c, None), (-c, None), (fourth, high), (-fourth, high)])
-    assert wanted is not None
-    assert solution.objective == pytest.approx(wanted, rel=2e-5)
-    assert solution.objective >= wanted * (1 - 1e-9)
+    expected = motion.least([(c, None), (-c, None), (fourth, high), (-fourth, high)])
+    assert expected is not None
+    assert solution.objective == pytest.approx(expected, rel=2e-5)
+    assert solution.objective >= expected * (1 - 1e-9)
 
 
 def test_a_law_that_cannot_be_is_refused_with_proof() -> None:
@@ -125,8 +125,8 @@ def test_a_given_ratio_of_decelerations_is_met_by_the_best_law(ratio: float) -> 
     assert C_minus.value(solution.law) / C_plus.value(solution.law) == pytest.approx(ratio, rel=1e-9)
     # the same law bounds one side by the other
     motion = polynomials(3, 9)
-    wanted = motion.least([(motion.rows(2), None), (-motion.rows(2), ratio * solution.objective)])
-    assert wanted == pytest.approx(solution.objective, rel=2e-5)
+    expected = motion.least([(motion.rows(2), None), (-motion.rows(2), ratio * solution.objective)])
+    assert expected == pytest.approx(solution.objective, rel=2e-5)
     below = motion.least([(motion.rows(2), None), (-motion.rows(2), ratio * solution.objective * (1 - 1e-3))])
     assert below is not None
     assert below > solution.objective

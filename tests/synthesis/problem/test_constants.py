@@ -113,16 +113,16 @@ def test_where_nothing_else_binds_the_least_rms_solves_a_linear_system(
     symmetric: bool,  # noqa: FBT001
 ) -> None:
     asked = problem(B=B, order=order, minimise=name, symmetric=symmetric)
-    wanted, velocity = rms_by_a_linear_system(asked, nu)
+    expected, velocity = rms_by_a_linear_system(asked, nu)
     if B is not None:
         off = (velocity(0.5) - velocity(DENSE)) / np.maximum((1 - 2 * DENSE) ** 2, 1e-9)
         if off.min() < 1e-6:
-            assert synthesize(asked).objective >= wanted * (1 - 1e-12)
+            assert synthesize(asked).objective >= expected * (1 - 1e-12)
             return  # b <= B binds: Clarabel answers for it
     solution = synthesize(asked)
     judge(solution)
     assert solution.status.value == "optimal"
-    assert solution.objective == pytest.approx(wanted, rel=1e-11)
+    assert solution.objective == pytest.approx(expected, rel=1e-11)
     # away from the ends nothing but rounding differs
     assert np.abs(solution.law.b(DENSE) - velocity(DENSE)).max() < 1e-7
 

@@ -157,9 +157,9 @@ def test_order_and_brackets_of_a_sum_do_not_matter_to_its_weights() -> None:
 def test_an_error_shows_the_text_and_points_at_the_character(text: str, message: str, place: int) -> None:
     with pytest.raises(InputError) as caught:
         Problem(B=1.6, order=3, minimise=text)
-    said = str(caught.value)
-    assert message in said
-    assert said.endswith(f"\n  {text}\n  {' ' * place}^")
+    complaint = str(caught.value)
+    assert message in complaint
+    assert complaint.endswith(f"\n  {text}\n  {' ' * place}^")
 
 
 @pytest.mark.parametrize(

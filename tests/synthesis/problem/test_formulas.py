@@ -298,14 +298,14 @@ def test_a_function_that_writes_no_formula_is_refused(function: Any, message: st
 
 
 def test_formulas_without_a_value_where_every_law_comes_by_are_refused() -> None:
-    for text, told in {
+    for text, complaint in {
         "peak(c/(b - 1))": "c/(b - 1) has no finite value where b = 1, which every law passes",
         "rms(1/(c - 0.3))": "1/(c - 0.3) has no finite value where c = 0.2998, which every law passes",
         "peak(sqrt(c))": "sqrt(c) has no finite value where c = -1, which every law passes",
         "peak(tan(2*b))": "tan(2*b) has no finite value where b = 0.7852, which every law passes",
         "peak(1/b)": "1/b has no finite value at k = 0, where b = 0 in every law",
     }.items():
-        with pytest.raises(InputError, match=re.escape(told)):
+        with pytest.raises(InputError, match=re.escape(complaint)):
             synthesize(replace(PROBLEM, minimise=text))
 
 

@@ -74,11 +74,11 @@ def _mirrored(given: dict[str, Any]) -> dict[str, Any]:
 def test_highs_agrees(B: float, k: float) -> None:
     motion = polynomials(3, 9)
     c, b = motion.rows(2), motion.rows(1)
-    wanted = motion.least([(c, None), (-c, None), (b, B), (-b, B)], [(motion.row(1, k), B), (motion.row(2, k), 0.0)])
+    expected = motion.least([(c, None), (-c, None), (b, B), (-b, B)], [(motion.row(1, k), B), (motion.row(2, k), 0.0)])
     solution = synthesize(problem(B=B, basis=Chebyshev(9), inflexion=k))
-    assert wanted is not None
-    assert solution.objective == pytest.approx(wanted, rel=1e-4)
-    assert solution.objective >= wanted * (1 - 1e-6)
+    assert expected is not None
+    assert solution.objective == pytest.approx(expected, rel=1e-4)
+    assert solution.objective >= expected * (1 - 1e-6)
 
 
 def test_in_the_middle_it_is_the_law_without_it() -> None:

@@ -154,11 +154,11 @@ def test_no_law_that_keeps_the_conditions_is_better_than_what_is_proven(B: Any, 
     # optima of other objectives keep the conditions, and so do their means, for these are convex
     others = [synthesize(replace(problem, minimise=one)).law for one in ("J", "rms_c", "rms_j", "C + 2*B")]
     generator = np.random.default_rng(7)
-    wanted = problem.range("B")
+    expected = problem.range("B")
     for weights in generator.dirichlet(np.full(len(others) + 1, 0.4), 20):
         law = _mean([best.law, *others], weights)
         speed = np.abs(law.b(K)).max()
-        assert wanted is None or wanted.low * (1.0 - 1e-6) <= speed <= wanted.high * (1.0 + 1e-9)
+        assert expected is None or expected.low * (1.0 - 1e-6) <= speed <= expected.high * (1.0 + 1e-9)
         assert law.peak(2).value >= best.lower_bound
 
 

@@ -121,9 +121,9 @@ def test_highs_agrees_on_forbidden_zones(high: float) -> None:
     c = motion.rows(2)
     zone = np.vstack([motion.rows(0, 0.0, 0.4), motion.row(0, 0.4)])
     other = -np.vstack([motion.rows(0, 0.6, 1.0), motion.row(0, 0.6)])
-    wanted = motion.least([(c, None), (-c, None), (zone, high), (other, -0.75)])
-    assert wanted is not None
-    assert wanted * (1 - 1e-9) <= solution.objective <= wanted * (1 + 2e-5)
+    expected = motion.least([(c, None), (-c, None), (zone, high), (other, -0.75)])
+    assert expected is not None
+    assert expected * (1 - 1e-9) <= solution.objective <= expected * (1 + 2e-5)
 
 
 def test_jerk_at_the_ends_is_limited_at_both_ends_of_a_symmetric_law() -> None:

@@ -186,8 +186,8 @@ def test_it_is_recomputed_from_json_by_numpy_alone() -> None:
         json.dumps(certificate.to_dict(), allow_nan=False) + "\n" for certificate in [*certificates, *proofs]
     )
     done = subprocess.run([sys.executable, "-c", READER], input=text, capture_output=True, text=True, check=True)
-    wanted = [f"{float(certificate.bound)!r} False" for certificate in certificates] + ["-inf True"] * len(proofs)
-    assert done.stdout.splitlines() == wanted
+    expected = [f"{float(certificate.bound)!r} False" for certificate in certificates] + ["-inf True"] * len(proofs)
+    assert done.stdout.splitlines() == expected
     assert done.stderr == ""
 
 

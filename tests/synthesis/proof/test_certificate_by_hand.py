@@ -140,7 +140,7 @@ def test_an_rms_in_a_direction() -> None:
 
 
 @pytest.mark.parametrize(
-    ("minimise", "claim", "wanted"),
+    ("minimise", "claim", "expected"),
     [
         ("C", 6.0, {"C": 6.0}),
         ("2*C", 6.0, {"C": 3.0}),
@@ -150,13 +150,13 @@ def test_an_rms_in_a_direction() -> None:
         ("2*C + 0.5*max(0.25*J, 5*C)", 6.0, {"C": 2.4, "J": 48.0, "max(0.25*J, 5.0*C)": 12.0}),
     ],
 )
-def test_each_term_is_at_most_the_claim_by_its_weight(minimise: str, claim: float, wanted: dict[str, float]) -> None:
+def test_each_term_is_at_most_the_claim_by_its_weight(minimise: str, claim: float, expected: dict[str, float]) -> None:
     found: dict[str, float] = {}
-    spread(expression(minimise), claim, found, dict.fromkeys(wanted, 0.0))
-    assert found == pytest.approx(wanted, rel=1e-15)
-    tight = dict.fromkeys(wanted, 0.5)
-    spread(expression(minimise), claim, tight, dict.fromkeys(wanted, 0.0))
-    assert tight == dict.fromkeys(wanted, 0.5)
+    spread(expression(minimise), claim, found, dict.fromkeys(expected, 0.0))
+    assert found == pytest.approx(expected, rel=1e-15)
+    tight = dict.fromkeys(expected, 0.5)
+    spread(expression(minimise), claim, tight, dict.fromkeys(expected, 0.0))
+    assert tight == dict.fromkeys(expected, 0.5)
 
 
 def test_what_other_terms_are_at_least_is_taken_off() -> None:
@@ -169,7 +169,7 @@ ENDS = BoundaryConditions((0, 0.5), (1, -1.0))
 
 
 @pytest.mark.parametrize(
-    ("problem", "claim", "wanted"),
+    ("problem", "claim", "expected"),
     [
         (small(), 5.0, {"C": 5.0}),
         (small(), -5.0, {"C": 0.0}),
@@ -192,11 +192,11 @@ ENDS = BoundaryConditions((0, 0.5), (1, -1.0))
     ids=repr,
 )
 def test_the_greatest_constants_of_laws_that_contradict_a_claim(
-    problem: Problem, claim: float, wanted: dict[str, float]
+    problem: Problem, claim: float, expected: dict[str, float]
 ) -> None:
     certificate = Certificate.of_leaf(problem, (), ())
     greatest = greatest_values(_model(certificate), max(claim, 0.0))
-    assert {name: size for name, size in greatest.items() if size < inf} == pytest.approx(wanted, rel=1e-15)
+    assert {name: size for name, size in greatest.items() if size < inf} == pytest.approx(expected, rel=1e-15)
 
 
 def test_the_greatest_constants_of_other_programs() -> None:
@@ -207,7 +207,7 @@ def test_the_greatest_constants_of_other_programs() -> None:
 
 
 @pytest.mark.parametrize(
-    ("problem", "greatest", "wanted"),
+    ("problem", "greatest", "expected"),
     [
         (small(), {"C": 5.0}, {2: 5.0}),
         (small(), {"C": 5.0, "rms_c": 4.0, "J": 50.0, "snap": 60.0}, {2: 4.0, 3: 50.0, 4: 60.0}),
@@ -221,9 +221,9 @@ def test_the_greatest_constants_of_other_programs() -> None:
     ],
     ids=repr,
 )
-def test_the_mean_size_of_derivatives(problem: Problem, greatest: dict[str, float], wanted: dict[int, float]) -> None:
+def test_the_mean_size_of_derivatives(problem: Problem, greatest: dict[str, float], expected: dict[int, float]) -> None:
     certificate = Certificate.of_leaf(problem, (), ())
-    assert dict(means(certificate.problem, _model(certificate).space, greatest)) == pytest.approx(wanted, rel=1e-12)
+    assert dict(means(certificate.problem, _model(certificate).space, greatest)) == pytest.approx(expected, rel=1e-12)
 
 
 def test_a_power_bounds_the_mean_velocity_only_from_rest() -> None:

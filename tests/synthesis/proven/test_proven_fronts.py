@@ -131,9 +131,9 @@ def test_what_is_not_convex_or_no_range_is_said(problem: Any, options: dict[str,
 
 
 def test_an_end_without_a_law_is_named_with_the_least_value() -> None:
-    with pytest.raises(InfeasibleProblem, match=r"no law has B = 1\.05, .* is 1\.12969059") as told:
+    with pytest.raises(InfeasibleProblem, match=r"no law has B = 1\.05, .* is 1\.12969059") as caught:
         proven_front(REST, between=(1.05, 1.7), gap=1e-3)
-    assert told.value.proof is not None
+    assert caught.value.proof is not None
     with pytest.raises(InfeasibleProblem, match=r"least rms_c of these problems is 3\.6259"):
         proven_front(REST, ("rms_c", "J"), between=(3.0, 3.8), gap=1e-3)
 

@@ -44,11 +44,11 @@ def test_z_reproduces_the_law_through_eq_8(B: float, order: int, degree: int, ki
     assert len(z_of(solution)) == basis.size
     law = law_from_z(BoundaryConditions.rest(order), z_of(solution), basis)
     for nu in range(4):
-        wanted = solution.law(K, nu)
-        allowed = 1e-9 * float(np.abs(wanted).max())
+        expected = solution.law(K, nu)
+        allowed = 1e-9 * float(np.abs(expected).max())
         if isinstance(basis, Powers) and degree > 11:
             allowed = rounding(order, z_of(solution), nu)
-        assert law(K, nu) == pytest.approx(wanted, abs=allowed)
+        assert law(K, nu) == pytest.approx(expected, abs=allowed)
 
 
 def rounding(order: int, z: Sequence[float], nu: int) -> float:

@@ -41,8 +41,8 @@ def test_the_law_is_eq_8_to_the_last_digit(boundary: BoundaryConditions, z: list
     exact = [Fraction(value) for value in z]
     for k in (Fraction(0), Fraction(1, 7), Fraction(1, 2), Fraction(8, 9), Fraction(1)):
         parts = [sum((v * k**n for n, v in enumerate(p)), Fraction(0)) for p in (a0, a1, exact)]
-        wanted = parts[0] + k**order * (parts[1] + (k - 1) ** order * parts[2])
-        assert law.a(float(k)) == pytest.approx(float(wanted), abs=1e-12 * max(1.0, law.peak(2).value))
+        expected = parts[0] + k**order * (parts[1] + (k - 1) ** order * parts[2])
+        assert law.a(float(k)) == pytest.approx(float(expected), abs=1e-12 * max(1.0, law.peak(2).value))
 
 
 @given(boundary=conditions())

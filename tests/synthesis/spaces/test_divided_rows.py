@@ -20,9 +20,9 @@ def test_the_chord_of_unsymmetric_laws_is_what_it_says(order: int, degree: int) 
     x -= bend[:-1] * (bend @ np.append(x, 1.0)) / (bend[:-1] @ bend[:-1])
     law = space.law(x)
     k = np.array([0.0, 0.1, 0.3, 0.45, 0.6, 0.9, 1.0])
-    wanted = -(law.b(0.5) - law.b(k)) / (1 - 2 * k) ** 2
+    expected = -(law.b(0.5) - law.b(k)) / (1 - 2 * k) ** 2
     family = space.below(np.zeros(space.terms))
-    assert family.value(x, 1 - 2 * k) == pytest.approx(wanted, rel=1e-9, abs=1e-9)
+    assert family.value(x, 1 - 2 * k) == pytest.approx(expected, rel=1e-9, abs=1e-9)
     # at the middle b'' / 8 is left
     assert family.value(x, np.zeros(1))[0] == pytest.approx(law.j(0.5) / 8, rel=1e-9)
 

@@ -78,9 +78,9 @@ def test_bounded_constants_between_other_ends(ends: BoundaryConditions, given: d
 @every_end
 @pytest.mark.parametrize(("name", "nu"), [("rms_c", 2), ("rms_j", 3)])
 def test_the_least_rms_between_other_ends_solves_a_linear_system(ends: BoundaryConditions, name: str, nu: int) -> None:
-    wanted, _ = rms_by_a_linear_system(problem(ends, minimise=name), nu)
+    expected, _ = rms_by_a_linear_system(problem(ends, minimise=name), nu)
     solution = synthesize(problem(ends, minimise=name))
-    assert solution.objective == pytest.approx(wanted, rel=1e-9, abs=1e-9)
+    assert solution.objective == pytest.approx(expected, rel=1e-9, abs=1e-9)
 
 
 def test_between_given_velocities_the_least_rms_is_a_cubic() -> None:

@@ -151,12 +151,12 @@ def test_a_problem_with_pieces_survives_dicts() -> None:
 
 def test_pieces_of_order_1_are_free_to_start_moving() -> None:
     # Z of degree 9 makes a law of degree 11, which is one piece of that degree
-    wanted = Problem(B=1.75, order=1, basis=Chebyshev(9), symmetric=False)
-    polynomial = synthesize(wanted)
-    whole = synthesize(replace(wanted, basis=Pieces(1, 11, 10)))
+    expected = Problem(B=1.75, order=1, basis=Chebyshev(9), symmetric=False)
+    polynomial = synthesize(expected)
+    whole = synthesize(replace(expected, basis=Pieces(1, 11, 10)))
     assert whole.status is Status.OPTIMAL
     assert whole.objective == pytest.approx(polynomial.objective, rel=1e-8)
-    assert synthesize(replace(wanted, basis=Pieces(8, 5, 3))).objective < polynomial.objective
+    assert synthesize(replace(expected, basis=Pieces(8, 5, 3))).objective < polynomial.objective
 
 
 @pytest.mark.parametrize(("B", "count"), sampled([(1.859, 28), (1.859, 32), (1.859, 64), (2.1, 28), (2.1, 30)], 5))

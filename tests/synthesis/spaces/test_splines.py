@@ -47,11 +47,11 @@ bases = st.builds(
 @given(bases, st.integers(0, 1000))
 def test_z_is_the_spline_of_scipy(basis: BSplines, seed: int) -> None:
     z = np.random.default_rng(seed).normal(size=basis.size)
-    wanted = BSpline(basis.knots, z, basis.degree)
+    expected = BSpline(basis.knots, z, basis.degree)
     for (low, high), powers in zip(pairwise(basis.breaks), basis.pieces(z.tolist()), strict=True):
         s = np.linspace(0.05, 0.95, 7)
         assert np.polyval(np.array(powers, dtype=float)[::-1], s) == pytest.approx(
-            wanted(low + (high - low) * s), abs=1e-11
+            expected(low + (high - low) * s), abs=1e-11
         )
     assert basis.coefficients(basis.series(z.tolist())) == pytest.approx(z, abs=1e-11)
 
@@ -150,12 +150,12 @@ def test_highs_finds_the_same_least_acceleration(B: float, peak: float) -> None:
     basis = splines(3, tuple(i / 6 for i in range(7)), 3, 2)
     c, b = basis.rows(2), basis.rows(1)
     at_peak = [(basis.row(1, peak), B), (basis.row(2, peak), 0.0)]
-    wanted = basis.least([(c, None), (-c, None), (b, B), (-b, B)], at_peak)
+    expected = basis.least([(c, None), (-c, None), (b, B), (-b, B)], at_peak)
     problem = Problem(B=B, order=3, basis=BSplines(6, 3), symmetric=False, inflexion=None if peak == 0.5 else peak)
     solution = synthesize(problem)
-    assert wanted is not None
-    assert solution.objective == pytest.approx(wanted, rel=1e-4)
-    assert solution.objective >= wanted * (1 - 1e-7)
+    assert expected is not None
+    assert solution.objective == pytest.approx(expected, rel=1e-4)
+    assert solution.objective >= expected * (1 - 1e-7)
 
 
 def test_peaks_are_seen_from_both_sides_of_a_break() -> None:
@@ -163,9 +163,9 @@ def test_peaks_are_seen_from_both_sides_of_a_break() -> None:
     solution = synthesize(Problem(order=3, minimise="J", basis=BSplines(8, 3)))
     assert solution.status == "optimal"
     basis = splines(3, tuple(i / 8 for i in range(9)), 3, 2)
-    wanted = basis.least([(basis.rows(3), None), (-basis.rows(3), None)])
-    assert wanted is not None
-    assert wanted <= solution.objective <= wanted * (1 + 1e-6)
+    expected = basis.least([(basis.rows(3), None), (-basis.rows(3), None)])
+    assert expected is not None
+    assert expected <= solution.objective <= expected * (1 + 1e-6)
     assert len(solution.law.jumps(3)) > 0
     rough = synthesize(Problem(B=1.7, order=2, basis=BSplines(8, 3, 1)))
     law = rough.law

@@ -112,7 +112,7 @@ def above(value: float) -> float:
 
 
 @pytest.mark.parametrize(
-    ("minimise", "least", "wanted"),
+    ("minimise", "least", "expected"),
     [
         ("C", {}, {"C": 6.0}),
         ("2*C", {}, {"C": 3.0}),
@@ -123,18 +123,18 @@ def above(value: float) -> float:
     ],
 )
 def test_each_term_is_at_most_the_claim_by_its_weight(
-    minimise: str, least: dict[str, Any], wanted: dict[str, float]
+    minimise: str, least: dict[str, Any], expected: dict[str, float]
 ) -> None:
     found: dict[str, float] = {}
     exact = {name: value if isinstance(value, Fraction) else Fraction(value) for name, value in least.items()}
     _spread(expression(minimise), Fraction(6), exact, found)
-    assert set(found) == set(wanted)
-    for name, value in wanted.items():
+    assert set(found) == set(expected)
+    for name, value in expected.items():
         assert value <= found[name] <= above(value)
-    tight = dict.fromkeys(wanted, 0.5)
+    tight = dict.fromkeys(expected, 0.5)
     if not least:
         _spread(expression(minimise), Fraction(6), {}, tight)
-        assert tight == dict.fromkeys(wanted, 0.5)
+        assert tight == dict.fromkeys(expected, 0.5)
 
 
 def test_a_term_beside_one_that_may_be_anything_is_unknown() -> None:
@@ -144,7 +144,7 @@ def test_a_term_beside_one_that_may_be_anything_is_unknown() -> None:
 
 
 @pytest.mark.parametrize(
-    ("problem", "wanted"),
+    ("problem", "expected"),
     [
         (small(), {"C": 5.0}),
         (small(J=at_most(50.0), B=at_most(1.8)), {"C": 5.0, "J": 50.0, "B": 1.8}),
@@ -159,12 +159,12 @@ def test_a_term_beside_one_that_may_be_anything_is_unknown() -> None:
     ],
     ids=repr,
 )
-def test_the_greatest_constants_of_laws_that_contradict_a_claim(problem: Problem, wanted: dict[str, float]) -> None:
-    certificate = Certificate.of_leaf(problem, (), (), RELAXED if "D" in wanted else "objective")
+def test_the_greatest_constants_of_laws_that_contradict_a_claim(problem: Problem, expected: dict[str, float]) -> None:
+    certificate = Certificate.of_leaf(problem, (), (), RELAXED if "D" in expected else "objective")
     greatest = greatest_values(certificate, ExactRows(certificate), 5.0)
     finite = {name: value for name, value in greatest.items() if value < inf}
-    assert finite == pytest.approx(wanted, rel=1e-14)
-    assert all(value >= wanted[name] for name, value in finite.items())
+    assert finite == pytest.approx(expected, rel=1e-14)
+    assert all(value >= expected[name] for name, value in finite.items())
 
 
 def test_a_contradiction_has_no_claim() -> None:
@@ -173,7 +173,7 @@ def test_a_contradiction_has_no_claim() -> None:
 
 
 @pytest.mark.parametrize(
-    ("problem", "greatest", "wanted"),
+    ("problem", "greatest", "expected"),
     [
         (small(), {"C": 5.0}, {2: 5.0}),
         (small(), {"C": 5.0, "rms_c": 4.0, "J": 50.0, "snap": 60.0}, {2: 4.0, 3: 50.0, 4: 60.0}),
@@ -192,11 +192,11 @@ def test_a_contradiction_has_no_claim() -> None:
     ],
     ids=repr,
 )
-def test_the_mean_size_of_derivatives(problem: Problem, greatest: dict[str, float], wanted: dict[int, float]) -> None:
+def test_the_mean_size_of_derivatives(problem: Problem, greatest: dict[str, float], expected: dict[int, float]) -> None:
     # the root of D is a variable of relaxed programs alone
     program = "relaxed" if "root of D" in greatest else "objective"
     mean_values = means(problem, ExactRows(Certificate.of_leaf(problem, (), (), program, 1.0)), greatest)
-    assert {nu: float(one) for nu, one in mean_values.items()} == pytest.approx(wanted, rel=1e-14)
+    assert {nu: float(one) for nu, one in mean_values.items()} == pytest.approx(expected, rel=1e-14)
 
 
 def test_peaks_of_one_sign_may_be_negative_where_the_velocity_changes() -> None:

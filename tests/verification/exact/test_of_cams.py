@@ -44,9 +44,9 @@ def greatest(order: int, sign: int) -> mpmath.mpf:
 )
 def test_peaks_of_cams_are_those_by_hand(name: str, order: int, signs: tuple[int, ...]) -> None:
     with mpmath.workdps(40):
-        wanted = max(greatest(order, sign) for sign in signs)
+        expected = max(greatest(order, sign) for sign in signs)
         low, high = enclosed(ExactLaw(smoothstep(4)).term(cam_constant(name, frequency=NU, damping=DAMPING)))
-        assert low <= wanted <= high
+        assert low <= expected <= high
         assert high - low < 1e-14 * high
 
 

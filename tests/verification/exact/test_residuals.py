@@ -68,8 +68,8 @@ def test_the_greatest_over_an_interval_is_that_by_hand() -> None:
     with mpmath.workdps(30):
         nu = mpmath.findroot(lambda nu: mpmath.diff(lambda x: amplitude(x, 0.0) ** 2, nu), 24)
         low, high = enclosed(ExactLaw(smoothstep(4)).term(residual_vibration(frequency=(22.0, 26.0))))
-        wanted = max(amplitude(place, 0.0) for place in (22.0, 26.0, nu))
-        assert low <= wanted <= high
+        expected = max(amplitude(place, 0.0) for place in (22.0, 26.0, nu))
+        assert low <= expected <= high
         assert high - low < 1e-11 * high
 
 

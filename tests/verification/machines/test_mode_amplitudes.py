@@ -44,11 +44,11 @@ def test_an_amplitude_is_that_of_eigenvectors(mode: int, output: str) -> None:
     root = mpmath.mpc(CHAIN.modes[mode - 1].root)
     with mpmath.workdps(40):
         own = min(mpmath.eig(mpmath.matrix(CHAIN.A))[0], key=lambda one: abs(one - root))
-        wanted = amplitude(CHAIN, output, own, own)
+        expected = amplitude(CHAIN, output, own, own)
         found = ExactLaw(smoothstep(ORDER)).term(CHAIN.residual(mode, output))
-        off = wanted * mpmath.mpf("1e-30")
-        assert lower(found) <= Fraction(str(wanted + off))
-        assert upper(found) >= Fraction(str(wanted - off))
+        off = expected * mpmath.mpf("1e-30")
+        assert lower(found) <= Fraction(str(expected + off))
+        assert upper(found) >= Fraction(str(expected - off))
         assert float(found.rad()) < 1e-30
 
 

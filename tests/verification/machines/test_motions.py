@@ -76,10 +76,10 @@ def test_a_response_is_that_of_the_matrix_exponential(kind: str) -> None:
     machine, k = MACHINES[kind], Fraction(5, 16)
     with mpmath.workdps(50), ctx.workprec(400):
         _, start, row = chain(machine)
-        wanted = (row * exponential(kind, k) * start)[0]
+        expected = (row * exponential(kind, k) * start)[0]
         rise = of_pieces(ExactLaw(smoothstep(ORDER)).polynomials)
         (found,) = response(Transfer(machine, "output 1"), rise).row(k)
-        assert abs(lower(found) - fraction(wanted)) < Fraction(1, 10**36)
+        assert abs(lower(found) - fraction(expected)) < Fraction(1, 10**36)
         assert float(found.rad()) < 1e-60
 
 
