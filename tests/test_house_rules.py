@@ -122,7 +122,10 @@ def test_tolerances_stand_in_one_module(room: str, parts: Parts) -> None:
 
 def test_every_tolerance_has_a_reason_and_a_use() -> None:
     source = MODULE.read_text("utf-8")
-    names = tolerances(ast.parse(source))
+    tree = ast.parse(source)
+    names = [name for name, _ in assigned(tree)]
+    assert len(names) == len(set(names)), "a second tolerance of the same name takes the first one's place"
+    names = tolerances(tree)
     lines = {name: line for line in source.splitlines() for name in names if line.startswith(f"{name} = ")}
     assert [name for name in names if "  # " not in lines[name]] == []
     others = "".join(path.read_text("utf-8") for path in Path(ROOT / "optlaws").rglob("*.py") if path != MODULE)

@@ -288,6 +288,10 @@ def _of_any_way(search: LawSearch) -> Solution | None:
         return min(known, key=lambda answer: abs(answer.gap), default=None)
     if problem.convex and _beyond_proof(solution):
         return solved_without_interior(search) or solution
+    if problem.convex and not problem.mirrored and solution.status is Status.INACCURATE:
+        # contacts that depend on each other have multipliers that prove nothing; those of a vertex do
+        vertex = _from_vertices(search)
+        return solution if vertex is None else min(solution, vertex, key=lambda answer: abs(answer.gap))
     if problem.mirrored and solution.status is Status.INACCURATE:
         unfolded = from_symmetric(search)
         # a law that breaks a bound by the little that is allowed may seem nearer its bound

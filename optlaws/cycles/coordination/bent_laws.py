@@ -19,7 +19,7 @@ from optlaws.laws import MotionLaw
 from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import PolynomialSegment
 from optlaws.numbers import Array
-from optlaws.tolerances import BENT_MARGIN, SAME_NODE, SAME_TIME, STANDSTILL
+from optlaws.tolerances import BENT_MARGIN, SAME_NODE, SAME_TIME, SHARE_AT_REST
 
 #: places and values of a row over the unknowns, and a constant
 Linear = tuple[list[int], list[float], float]
@@ -202,7 +202,7 @@ def _axis(stand: Stand, cubics: _Cubics, knots: Array, solved: Array, period: fl
     line = stand.chain.timeline
     accelerations = solved[cubics.at(2, 0) : cubics.at(2, cubics.count)].copy()
     rests = [stand.rest(j) for j in range(len(knots))]
-    slack = STANDSTILL * float(np.abs(accelerations).max())
+    slack = SHARE_AT_REST * float(np.abs(accelerations).max())
     laws, ends = dict[int, MotionLaw](), [0.0]
     for i, (move, (start, stop)) in enumerate(zip(line.moves, line.ways(), strict=True)):
         first = max(j for j, rest in enumerate(rests) if rest == i)

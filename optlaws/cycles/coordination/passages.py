@@ -12,7 +12,7 @@ from optlaws.cycles.interlocks.clearance import Clearance, TableBound, bound_of
 from optlaws.cycles.interlocks.forbidden_region import Forbidden, polygon_of
 from optlaws.cycles.interlocks.interlock import Interlock
 from optlaws.errors import InputError
-from optlaws.tolerances import INSIDE_POLYGON_PART, PASS_WIDTH, STANDSTILL
+from optlaws.tolerances import INSIDE_POLYGON_PART, PASS_WIDTH, SHARE_AT_REST
 
 #: a straight part of a bound: from where to where, and its values there
 Straight = tuple[float, float, float, float]
@@ -195,7 +195,7 @@ def _known_chain(line: Timeline, marks: Sequence[Sequence[float]]) -> Chain:
         peaks = cycle.peaks[move.segment]
         begin, end = peaks.start, peaks.start + peaks.duration
         least, most = (side[0] for side in next(p for p in cycle.pieces if p.start == begin).extremes(1, begin, end))
-        if min(least * (stop - start), most * (stop - start)) < -STANDSTILL * max(-least, most):
+        if min(least * (stop - start), most * (stop - start)) < -SHARE_AT_REST * max(-least, most):
             raise InputError(f"axis {line.name}: {move.name} turns back on its way: give it a law that does not")
         nodes.append(Node(None, (begin, 0.0), start, i))
         for place in sorted(marks[i], reverse=stop < start):

@@ -199,6 +199,15 @@ def test_pieces_are_as_fast_as_ruckig(*, moving: bool) -> None:
     compare_with_ruckig(6, 4, moving=moving)
 
 
+def test_a_time_far_too_short_is_proven_too_short() -> None:
+    """In the first time that is tried as many limits meet as leave the multipliers of their points undetermined."""
+    limits = MoveLimits(1.3013104182822175, 1.6301702831466822, 1.3625680854273423, 4.063621510732492)
+    move = TimedMove(Problem(order=3), 1.010080648433649, limits, -0.6257313678518021, -0.4773690201320877)
+    duration, breaks = fastest_motion(move)
+    space = Problem(order=3, basis=Pieces(breaks, **CUBIC), symmetric=False)
+    assert least_time(replace(move, problem=space)).duration == pytest.approx(duration, rel=1e-8)
+
+
 def compare_moving_ends_with_ruckig(count: int, seed: int) -> None:
     """From rest to a velocity and an acceleration; ruckig refuses those that the limits cannot bring about."""
     numbers = np.random.default_rng(seed)

@@ -51,6 +51,14 @@ def test_a_limit_law_has_the_limit_for_its_constant(constant: str, order: int, B
     check_motion(law, B, monotone=monotone, rest=order > 1)
 
 
+@pytest.mark.parametrize("ulps", [1, 2, 5, 40, 1000, 10**6])
+def test_a_law_of_constant_power_loses_no_stretch_in_rounding(ulps: int) -> None:
+    B = 1.5 + ulps * np.spacing(1.5)
+    law = limit_law("D", B)
+    assert own(law, "D") == pytest.approx(limit("D", B), rel=1e-12)
+    check_motion(law, B, monotone=False)
+
+
 @pytest.mark.sample(2)
 @pytest.mark.parametrize("monotone", [False, True])
 @examples(80)
