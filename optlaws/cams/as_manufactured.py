@@ -23,7 +23,7 @@ from optlaws.kept import kept_property
 from optlaws.laws.storage import PlainNumbers
 from optlaws.motion.quantities import positive_quantity, quantity
 from optlaws.numbers import Array, Quantity, whole
-from optlaws.numerics.branch_and_bound import FunctionOfEach, extremes_of_each
+from optlaws.numerics.branch_and_bound import extremes_of_each
 from optlaws.numerics.interval import Interval
 from optlaws.numerics.taylor import Jet, Pair, turned, variable
 from optlaws.suggest import unknown_key
@@ -263,54 +263,121 @@ def _runs(
     """
     edges = [np.array(following.curve.breaks) for following in followings]
 
-    def off(places: Interval, order: int, which: NDArray[np.intp]) -> Jet:
-        angle, displacement = at(which).derivative(places, 0, order)
-        return displacement - cam.displacement.along(angle)
-
-    def peaks(nu: int) -> FunctionOfEach:
-        return lambda places, order, which: at(which).derivative(places, nu, order)[1]
-
-    def greatest(function: FunctionOfEach, share: float, among: Sequence[int]) -> dict[int, float]:
-        some = np.array(among, dtype=np.intp)
-        bounds = _bounds(
-            lambda places, order, which: function(places, order, some[which]), [edges[i] for i in among], share
+    def greatest(pairs: Sequence[tuple[int, int]]) -> dict[tuple[int, int], float]:
+        orders, curves = np.array(pairs, dtype=np.intp).reshape(-1, 2).T
+        terms = _MotionTerms(cam, at)
+        known_extremes = extremes_of_each(
+            lambda places, order, which: terms.of_each(places, order, orders[which], curves[which]),
+            [edges[i] for i in curves],
+            share=[MANUFACTURED_PEAKS if nu else DEVIATIONS for nu in orders],
+            parts=[max(1, _CELLS // len(edges[i])) for i in curves],
+            magnitude=True,
         )
-        return {i: bound for i, bound in zip(among, bounds, strict=True) if bound < inf}
+        return {pair: each.bound for pair, each in zip(pairs, known_extremes, strict=True)}
 
-    known = [i for i, following in enumerate(followings) if _is_reached(following)]
-    deviations = greatest(off, DEVIATIONS, known)
-    accelerations = greatest(peaks(2), MANUFACTURED_PEAKS, list(deviations))
-    jumping = {i: _jump(followings[i], edges[i], size) for i, size in accelerations.items()}
-    smooth = [i for i in jumping if not (jumps and jumping[i])]
-    jerks = {i: inf for i in jumping if i not in smooth} | greatest(peaks(3), MANUFACTURED_PEAKS, smooth)
+    known = [i for i, reached in enumerate(_reached_each(edges, at)) if reached]
+    beside = dict(zip(known, _jumps(known, edges, at), strict=True))
+    smooth = [i for i in known if not jumps or beside[i][0] <= MANUFACTURED_JUMP * beside[i][1]]
+    bounds = greatest([(0, i) for i in known] + [(2, i) for i in known] + [(3, i) for i in smooth])
+    known = [i for i in known if max(bounds[0, i], bounds[2, i]) < inf]
+    jumping = {i: jump if jump > MANUFACTURED_JUMP * bounds[2, i] else 0.0 for i in known for jump in beside[i][:1]}
+    endless = [i for i in known if jumps and jumping[i]]
+    bounds |= greatest([(3, i) for i in known if (3, i) not in bounds and i not in endless])
+    jerks = {i: inf if i in endless else bounds[3, i] for i in known if i in endless or bounds[3, i] < inf}
     means = [_meant(cam, nu) for nu in (2, 3)] if jerks else []
     cases: list[AsMade | None] = [None] * len(edges)
     for i, jerk in jerks.items():
-        ratios = accelerations[i] / means[0], jerk / means[1]
-        cases[i] = AsMade(deviations[i], accelerations[i], jerk, jumping[i], *ratios)
+        ratios = bounds[2, i] / means[0], jerk / means[1]
+        cases[i] = AsMade(bounds[0, i], bounds[2, i], jerk, jumping[i], *ratios)
     return cases
 
 
-def _is_reached(following: Following) -> bool:
-    """Whether the follower does not turn back along its curve, as a roller does in hollows narrower than itself."""
-    edges = np.array(following.curve.breaks)
-    places = edges[:-1, None] + np.multiply.outer(np.diff(edges), np.linspace(0.1, 0.9, 5))
-    rates = np.asarray(following.jets(places, 1)[0].terms[1])
-    return bool(rates.min() * rates.max() > 0.0)
+@dataclass(frozen=True)
+class _MotionTerms:
+    """Deviations and derivatives of motions on similar curves at places that searches for their extremes look at."""
+
+    cam: DiscCam
+    at: Callable[[NDArray[np.intp]], Following]
+
+    def of_each(self, places: Interval, order: int, orders: NDArray[np.intp], curves: NDArray[np.intp]) -> Jet:
+        """The deviation where the order of a derivative is 0, else that derivative; places come by these orders."""
+        off, second, third = (np.flatnonzero(orders == nu) for nu in (0, 2, 3))
+        alike = [_same(places, curves, second, other) for other in (third, off)]
+        parts = [] if alike[1] or not len(off) else [self._off(*self._motion(places, order, curves, off), order)]
+        looked = second if alike[0] else np.concatenate([second, third])
+        if len(looked):
+            angle, displacement = self._motion(places, order + 3 if len(third) else order + 2, curves, looked)
+            if alike[1]:
+                parts.append(self._off(angle.cut(order), displacement.cut(order), order))
+            derivative, pace = displacement, angle.slope()
+            for nu in (1, 2):
+                derivative = derivative.slope() / pace
+                if nu == 2 and len(second):
+                    parts.append(_some(derivative.cut(order), slice(len(second))))
+            if len(third):
+                rest = slice(0 if alike[0] else len(second), None)
+                parts.append(_some(derivative, rest).slope() / _some(pace, rest))
+        return _one_after_another(parts)
+
+    def _motion(
+        self, places: Interval, order: int, curves: NDArray[np.intp], here: NDArray[np.intp]
+    ) -> tuple[Jet, Jet]:
+        return self.at(curves[here]).jets(places[here], order)
+
+    def _off(self, angle: Jet, displacement: Jet, order: int) -> Jet:
+        return (displacement - self.cam.displacement.along(angle)).cut(order)
 
 
-def _bounds(functions: FunctionOfEach, edges: Sequence[Array], share: float) -> list[float]:
-    """A proven upper bound of the magnitude of each function; inf where there is none."""
-    parts = [max(1, _CELLS // len(each)) for each in edges]
-    return [each.bound for each in extremes_of_each(functions, edges, share=share, parts=parts, magnitude=True)]
+def _same(places: Interval, curves: NDArray[np.intp], some: NDArray[np.intp], others: NDArray[np.intp]) -> bool:
+    """Whether some of the places are the others too, as when a search begins."""
+    values = places.middle, places.radius, curves
+    return len(some) > 0 and all(np.array_equal(each[some], each[others]) for each in values)
 
 
-def _jump(following: Following, edges: Array, size: float) -> float:
-    """The greatest jump of the second derivative where parts meet."""
-    beside = 1e-9 * np.diff(edges)
-    before, after = (following.at(places, 2)[1] for places in (edges[1:] - beside, edges[:-1] + beside))
-    jump = float(np.abs(np.roll(after, -1) - before).max())
-    return jump if jump > MANUFACTURED_JUMP * size else 0.0
+def _some(jet: Jet, places: Any) -> Jet:  # noqa: ANN401 - numpy's
+    return Jet([term[places] for term in jet.terms])
+
+
+def _one_after_another(jets: Sequence[Jet]) -> Jet:
+    """A jet at the places of all jets."""
+    columns = zip(*(jet.terms for jet in jets), strict=True)
+    return Jet(
+        [
+            Interval(*(np.concatenate([getattr(term, name) for term in column]) for name in ("middle", "radius")))
+            for column in columns
+        ]
+    )
+
+
+def _reached_each(edges: Sequence[Array], at: Callable[[NDArray[np.intp]], Following]) -> list[bool]:
+    """Whether the follower does not turn back along each curve, as a roller does in hollows narrower than itself."""
+    shares = np.linspace(0.1, 0.9, 5)
+    places = [(each[:-1, None] + np.multiply.outer(np.diff(each), shares)).ravel() for each in edges]
+    rates = np.asarray(at(_curves(range(len(edges)), places)).jets(np.concatenate(places), 1)[0].terms[1])
+    ends = np.cumsum([len(each) for each in places])[:-1]
+    return [bool(each.min() * each.max() > 0.0) for each in np.split(rates, ends)]
+
+
+def _jumps(
+    known: Sequence[int], edges: Sequence[Array], at: Callable[[NDArray[np.intp]], Following]
+) -> list[tuple[float, float]]:
+    """Of known curves the greatest jump of the second derivative where parts meet, and its greatest magnitude there."""
+    if not known:
+        return []
+    steps = [1e-9 * np.diff(edges[i]) for i in known]
+    places = [[edges[i][1:] - step for i, step in zip(known, steps, strict=True)]]
+    places += [[edges[i][:-1] + step for i, step in zip(known, steps, strict=True)]]
+    following, ends = at(_curves(known, steps)), np.cumsum([len(step) for step in steps])[:-1]
+    sides = [np.split(following.at(np.concatenate(side), 2)[1], ends) for side in places]
+    return [
+        (float(np.abs(np.roll(after, -1) - before).max()), float(np.abs([before, after]).max()))
+        for before, after in zip(*sides, strict=True)
+    ]
+
+
+def _curves(which: Sequence[int], places: Sequence[Array]) -> NDArray[np.intp]:
+    """The curve of each place, one after the other."""
+    return np.repeat(np.array(which, dtype=np.intp), [len(each) for each in places])
 
 
 def _meant(cam: DiscCam, nu: int) -> float:

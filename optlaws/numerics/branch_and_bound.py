@@ -131,13 +131,14 @@ def extremes_of_each(
     function: FunctionOfEach,
     edges: Sequence[Any],
     *,
-    share: float = 1e-9,
+    share: float | Sequence[float] = 1e-9,
     parts: Sequence[int] | None = None,
     magnitude: bool = False,
 ) -> list[Extremes]:
     """The extremes of several functions that are alike, each by its own cells, which are looked at in one go.
 
-    What `extremes` finds of each function alone, to the last digit; `edges` and `parts` are those of each.
+    What `extremes` finds of each function alone, to the last digit; `edges`, `parts` and `share`, where it is none of
+    all, are those of each.
 
     Examples
     --------
@@ -147,9 +148,10 @@ def extremes_of_each(
     >>> [round(each.most_at, 6) for each in extremes_of_each(waves, [[0.0, 2.0], [0.0, 2.0]])]
     [1.570796, 0.785398]
     """
+    shares = [share] * len(edges) if isinstance(share, int | float) else share
     searches = [
-        _enclosing(np.asarray(each, dtype=np.float64), _Options(share, count, magnitude=magnitude))
-        for each, count in zip(edges, parts or [1] * len(edges), strict=True)
+        _enclosing(np.asarray(each, dtype=np.float64), _Options(near, count, magnitude=magnitude))
+        for each, count, near in zip(edges, parts or [1] * len(edges), shares, strict=True)
     ]
     requests = {i: next(search) for i, search in enumerate(searches)}
     results: dict[int, Extremes] = {}
