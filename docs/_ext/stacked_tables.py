@@ -4,7 +4,7 @@ from docutils import nodes
 from sphinx.application import Sphinx
 
 #: columns from which on a table is wider than a phone
-_MANY = 5
+_MANY = 4
 
 
 def label_cells(_app: Sphinx, doctree: nodes.document) -> None:
