@@ -53,10 +53,11 @@ def _none_better(problem: Problem, structure: StoredStructure) -> bool:
         B = structure.begin + share * (structure.end - structure.begin)
         model = model_of(problem.at_velocity(B) if B else problem)
         optimum = polished(model.program, guess_of(model.program, structure, B), None)
-        least = LawSearch(model).least()
-        if optimum is None or least is None:
+        if optimum is None:
             return False
-        if model.unit * model.program.objective_at(optimum.x) > least * (1.0 + AGREEMENT):
+        objective = model.unit * model.program.objective_at(optimum.x)
+        least = LawSearch(model).least(objective)
+        if least is None or objective > least * (1.0 + AGREEMENT):
             return False
     return True
 

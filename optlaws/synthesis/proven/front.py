@@ -25,6 +25,7 @@ from optlaws.synthesis.proof.data import StatedContact, brief_sum_of, contacts_o
 from optlaws.synthesis.proof.nodes import Contact
 from optlaws.synthesis.proven.swept_parameter import AT_MOST, SweptParameter, gap_bounds, lower_line
 from optlaws.synthesis.status import measure
+from optlaws.tolerances import OPERATIONS_ROUNDING
 
 T = TypeVar("T")
 
@@ -258,8 +259,10 @@ class ProvenFront(JsonText):
 
     @kept_property
     def gaps(self) -> Array:
-        """Between each two certified laws the greatest gap of any value, relative as of a `Solution`."""
-        return gap_bounds(np.array(self.values), self.sides, self.problem.objective.scale, concave=self.number.concave)
+        """The greatest gap of any value between each two laws with its rounding, relative as of a `Solution`."""
+        scale = self.problem.objective.scale
+        bounds = gap_bounds(np.array(self.values), self.sides, scale, concave=self.number.concave)
+        return bounds + OPERATIONS_ROUNDING
 
     @property
     def gap(self) -> float:
