@@ -11,7 +11,7 @@ import pytest
 from optlaws import Advice, Cycle, advise
 from tests.explorer.talk import OPTIMAL, Server
 from tests.explorer.test_page import go, settle
-from tests.internals.explorer import example, law_view, start
+from tests.internals.explorer import example, law_view, machine_view, start
 from tests.internals.jobs import read_of_cycle_entries
 
 if TYPE_CHECKING:
@@ -137,3 +137,11 @@ def test_standard_laws_are_there_before_those_that_are_searched_for(page: Page, 
     names = page.locator("#advice-table .row-name").all_inner_texts()
     assert names[: len(quick["rows"])] == [row["name"] for row in quick["rows"]]
     assert page.get_by_label("steps of the advice").get_attribute("max") == "3"
+
+
+def test_the_laws_of_a_driven_machine_fit_beside_their_picture(page: Page, served: Server) -> None:
+    go(page, served.link(view="machine", machine=machine_view.example(), axis=1))
+    page.get_by_role("tab", name="Advice").click()
+    page.locator("#advice-table [data-ends=proof]").first.wait_for()
+    width, room = page.locator("#advice-table").evaluate("(one) => [one.scrollWidth, one.clientWidth]")
+    assert width <= room

@@ -90,7 +90,7 @@ def test_numbers_have_the_decimal_sign_of_the_language_in_and_out(spoken: Page, 
     assert constants() == [text.replace(".", ",") for text in told(served, law)]
     spoken.locator("#views [data-key=cycle]").click()
     settle(spoken)
-    spoken.locator("#programme .entry", has_text="Geschwindigkeit").locator("input").fill("700,5 mm/s")
+    spoken.locator("#programme .entry", has_text="Geschwin\u00addig\u00adkeit").locator("input").fill("700,5 mm/s")
     settle(spoken)
     assert "bewiesen optimal" in spoken.locator("#cycle-trust").inner_text()
     assert violations(spoken) == []

@@ -22,6 +22,7 @@ const LINE = 0.07; // of its height
 const WIDE = 10; // values further apart are drawn by their logarithms
 const PATIENCE = 120; // s that the laws have where the reader came here; an address that is opened has less
 const POINTS = 6; // of the front
+const MOST_BESIDE = 6;
 const STEPS = ["standard laws", "optimal laws", "the front"];
 
 const told = (value) => JSON.stringify(value);
@@ -198,14 +199,17 @@ export class View {
 
   #table({ headings, rows, chosen }) {
     const columns = headings.map((name) => measured(name));
+    // beside so many quantities what a law keeps and proves stands under its name, or the table would be too wide
+    const beneath = rows[0].cells.length > MOST_BESIDE;
+    if (beneath) columns.splice(rows[0].cells.length);
     const head = html("tr", {}, html("th", { scope: "col", text: "law" }), ...columns.map(({ title: text }) => html("th", { scope: "col", class: "number", text })));
     const lines = rows.map((row) => {
       const take = row.take ? html("button", { type: "button", class: "link", "data-key": `take ${row.name}`, "aria-label": `Take ${row.name}`, text: "take", onclick: () => this.#take(row) }) : "";
       const ends = [["limits", row.limits, row.limits && row.limits !== "kept" ? "number over" : "number"], ["proof", row.proof, "number"]];
       return html("tr", { class: row.name === chosen ? "active" : "", "aria-current": row.name === chosen ? "true" : null },
-        html("th", { scope: "row" }, html("span", { class: "row-name", text: row.name }), take), ...row.cells.map((text, i) => html("td", { class: "number", text: columns[i].shown(text) })), ...ends.map(([key, text, name]) => html("td", { "data-column": key, class: name, text })));
+        html("th", { scope: "row" }, html("span", { class: "row-name", text: row.name }), take, ...(beneath ? ends.filter(([, text]) => text).map(([key, text, name]) => html("span", { "data-ends": key, class: name.includes("over") ? "over" : "quiet", text })) : [])), ...row.cells.map((text, i) => html("td", { class: "number", text: columns[i].shown(text) })), ...(beneath ? [] : ends).map(([key, text, name]) => html("td", { "data-column": key, class: name, text })));
     });
-    return html("table", { "aria-label": "Laws with what they take" }, html("thead", {}, head), html("tbody", {}, ...lines));
+    return html("table", { class: beneath ? "dense" : null, "aria-label": "Laws with what they take" }, html("thead", {}, head), html("tbody", {}, ...lines));
   }
 
   /** Give the motion a law, and show it there. */
