@@ -8,6 +8,7 @@ from math import degrees
 from typing import Any, Literal, NoReturn
 
 import numpy as np
+from numpy.typing import NDArray
 
 from optlaws.cams.curves.process_by_angle import read_process_by_angle
 from optlaws.cams.disc import DiscCam
@@ -18,9 +19,9 @@ from optlaws.kept import kept_property
 from optlaws.laws.storage import PlainNumbers
 from optlaws.motion.quantities import quantity
 from optlaws.numbers import Array, Quantity
-from optlaws.numerics.branch_and_bound import Extremes, Function, extremes
+from optlaws.numerics.branch_and_bound import Extremes, Function, extremes_of_each
 from optlaws.numerics.integral import integral
-from optlaws.numerics.interval import Interval
+from optlaws.numerics.interval import Interval, chosen
 from optlaws.numerics.taylor import Jet, variable
 from optlaws.suggest import unknown_key
 from optlaws.tolerances import (
@@ -186,7 +187,7 @@ class _SpringTask:
         inner = min(max(-0.5 * linear / square, self.slow), self.fast) if square > 0.0 else self.slow
         return min((self.slow, self.fast, inner), key=lambda rate: square * rate**2 + linear * rate)
 
-    def without_spring(self, angle: Array | Interval, side: float, order: int = 0) -> Jet:
+    def without_spring(self, angle: Array | Interval, side: float | Array, order: int = 0) -> Jet:
         """The least (side 1) or greatest (-1) force on the follower at any speed, without the spring's force."""
         square, linear = (part * side for part in self._moved(angle, order))
         forces = [square * rate**2 + linear * rate for rate in (self.slow, self.fast)]
@@ -268,16 +269,16 @@ def _exchange(task: _SpringTask, given: _KnownSpring) -> Spring:
 def _extremes(task: _SpringTask, spring: tuple[float, float, float]) -> tuple[Extremes, Extremes]:
     """The least and the greatest force on the follower at any speed, each enclosed over the turn."""
 
-    def along(side: float) -> Function:
-        def force(angle: Interval, order: int) -> Jet:
-            spring_force = task.forces.cam.displacement.jet(angle, order) * spring[1] + spring[0]
-            along_way = task.without_spring(angle, side, order) + spring_force
-            return along_way / task.lever(angle, order) if task.contact and side < 0.0 else along_way
+    def forces(angle: Interval, order: int, which: NDArray[np.intp]) -> Jet:
+        spring_force = task.forces.cam.displacement.jet(angle, order) * spring[1] + spring[0]
+        along_way = task.without_spring(angle, np.where(which == 0, 1.0, -1.0), order) + spring_force
+        if not task.contact:
+            return along_way
+        pressed = (along_way / task.lever(angle, order)).terms
+        return Jet([chosen(which == 0, *pair) for pair in zip(along_way.terms, pressed, strict=True)])
 
-        return force
-
-    edges = task.forces.edges
-    least, greatest = (extremes(along(side), edges, share=SPRING_EXTREMES, parts=_PARTS) for side in (1.0, -1.0))
+    edges = [task.forces.edges] * 2
+    least, greatest = extremes_of_each(forces, edges, share=SPRING_EXTREMES, parts=[_PARTS] * 2)
     return least, greatest
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Mapping, Sequence
 from importlib import import_module
 from pathlib import Path
@@ -111,16 +112,23 @@ def do_job(job: str, file: Path, out: Path | None, plot: Path | None, *, as_json
             writing.write(plot, _main_picture(job, entries, written, plot.suffix))
         return
     with busy(f"{file}"), TemporaryDirectory() as results:
-        data = import_module(f"optlaws.jobs.{job}").answer(entries, source)
         if plot is not None:
-            writing.write(plot, _main_picture(job, entries, run(source, Path(results)), plot.suffix))
+            written = run(source, Path(results))
+            writing.write(plot, _main_picture(job, entries, written, plot.suffix))
+        if plot is not None and job == "cam":  # whose data are those of its results
+            data = json.loads(Path(results, "cam.json").read_text("utf-8"))
+            del data["about"]
+        else:
+            data = import_module(f"optlaws.jobs.{job}").answer(entries, source)
     print_json(data)
 
 
 def _main_picture(job: str, entries: Mapping[str, Any], written: Sequence[Path], suffix: str) -> bytes:
     """The most informative picture among the results of a job: the cam, the single axis, or all axes."""
-    from optlaws.jobs.cycle import TOGETHER, plain_name
+    name = job
+    if job == "cycle":
+        from optlaws.jobs.cycle import TOGETHER, plain_name
 
-    names = [job] if job != "cycle" else [plain_name(axis["name"]) for axis in entries["axis"]]
-    name = names[0] if len(names) == 1 else TOGETHER
+        names = [plain_name(axis["name"]) for axis in entries["axis"]]
+        name = names[0] if len(names) == 1 else TOGETHER
     return next(path for path in written if path.name == f"{name}{suffix}").read_bytes()
