@@ -272,12 +272,14 @@ class _Sizes:
         last = radius
         if excess(radius) <= 0.0:
             return radius
-        for size in radius + self._scale * np.geomspace(SMALLEST_BASE, _LARGEST, _LOOKS):
-            if not self._fits(float(size)):
+        for size in (radius + self._scale * np.geomspace(SMALLEST_BASE, _LARGEST, _LOOKS)).tolist():
+            try:
+                meets = excess(size) <= 0.0
+            except InputError:  # no such mechanism
                 break
-            if excess(float(size)) <= 0.0:
-                return bracketed_root(excess, last, float(size))
-            last = float(size)
+            if meets:
+                return bracketed_root(excess, last, size)
+            last = size
         raise InfeasibleProblem(
             f"no prime circle keeps {_in_words(self.limits)}: at {degrees(witness.angle):.6g} deg of the cam the "
             f"{witness.limit} breaks it with every one up to {shown(last)}: give wider limits, or spread the motion"

@@ -260,8 +260,14 @@ class _Search:
         bend, swing = _bends([term[:count] for term in terms[2:-1]] + [terms[-1][count:]], half)
         with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
             turn = middle - 0.5 * slope.middle / terms[2].middle[:count]
-        for place in (middle, np.where((low < turn) & (turn < high), turn, middle), low, high):
-            self._reached(place, at if place is middle else _moved(at, slope, bend, middle, place))
+        inside = np.array([np.where((low < turn) & (turn < high), turn, middle), low, high])
+        moved = _moved(at, slope, bend, middle, inside)
+        self._reached(
+            np.concatenate([middle, inside.ravel()]),
+            Interval(
+                *(np.concatenate([ends[0], ends[1].ravel()]) for ends in zip(_ends(at), _ends(moved), strict=True))
+            ),
+        )
         with np.errstate(invalid="ignore", over="ignore"):
             turn = 2.0 * half * np.maximum(np.abs(swing.low), np.abs(swing.high))
             turn = turn + ROUNDOFF * (8.0 * turn + 4.0 * np.abs(slope.middle))
@@ -294,10 +300,11 @@ class _Search:
         return np.asarray(self.edges[np.searchsorted(self.edges, places)] == places)
 
     def _reached(self, places: Array, values: Interval) -> None:
-        low, high = values.low[np.isfinite(values.low)], values.high[np.isfinite(values.high)]
-        size = max(np.abs(low).max(initial=0.0), np.abs(high).max(initial=0.0), _finite(self.least), _finite(self.most))
-        self.least, self.lows = _with_ties(self.least, self.lows, values.high, places, NEAR_TIE * size)
-        negative, self.highs = _with_ties(-self.most, self.highs, -values.low, places, NEAR_TIE * size)
+        low, high = values.low, values.high
+        sizes = (np.abs(end[np.isfinite(end)]).max(initial=0.0) for end in (low, high))
+        size = max(*sizes, _finite(self.least), _finite(self.most))
+        self.least, self.lows = _with_ties(self.least, self.lows, high, places, NEAR_TIE * size)
+        negative, self.highs = _with_ties(-self.most, self.highs, -low, places, NEAR_TIE * size)
         self.most = -negative
 
     def take(self, cells: _Cells, done: NDArray[np.bool_]) -> None:
