@@ -22,10 +22,10 @@ from optlaws.synthesis.search import LawSearch
 from optlaws.synthesis.spaces.bases import Chebyshev
 from optlaws.tolerances import AGREEMENT, SHORT_STRETCH
 
-#: the kinds of problems: orders, degrees by what is minimised, and the range of B
+#: the kinds of problems: orders, and by what is minimised degrees and the least B, and the greatest B
 _ORDERS = range(2, 7)
 _DEGREES = {"C": (*range(3, 42, 2), 51, 61), "J": range(3, 22, 2), "D": range(3, 22, 2)}
-_LEAST, _GREATEST = 1.1, 3.0
+_LEAST, _GREATEST = {"C": 1.001, "J": 1.001, "D": 1.1}, 3.0
 #: coefficients of a place along B, where it moves
 _TERMS = 4
 #: where on a stretch laws of problems that are not convex are sought from several starts too
@@ -40,7 +40,7 @@ def structures_along_velocity(problem: Problem) -> list[StoredStructure]:
     >>> [len(structure.sign) for structure in structures_along_velocity(Problem(order=4, basis=Chebyshev(3)))]
     [2, 2, 1, 2, 1]
     """
-    ends = (_LEAST, _GREATEST)
+    ends = (_LEAST[repr(problem.objective)], _GREATEST)
     path = between(problem.at_velocity(ends[0]), problem.at_velocity(ends[1]))
     segments = [] if path is None else segments_of(path, 0.0, 1.0)
     structures = [_stored(segment, ends) for segment in segments if segment.end - segment.begin > SHORT_STRETCH]

@@ -65,7 +65,7 @@ from optlaws.synthesis.problem.ranges import Bounds, read_bounds
 from optlaws.synthesis.problem.windows import QUANTITIES, read_window
 from optlaws.synthesis.program import writer
 from optlaws.synthesis.program.evaluation import evaluate, shortfalls
-from optlaws.synthesis.program.writer import Model, least_violation, model_of, relaxed
+from optlaws.synthesis.program.writer import Model, extreme_velocity, least_violation, model_of, relaxed
 from optlaws.synthesis.proof import make
 from optlaws.synthesis.proof.certificate import RELAXED, VIOLATION, _model
 from optlaws.synthesis.proof.duality import _weighted, row_of, sum_of_rows

@@ -12,6 +12,7 @@ from optlaws import Chebyshev, Problem, Solution, synthesize
 from tests.internals.synthesis import (
     ActiveSet,
     Model,
+    extreme_velocity,
     key_of,
     model_of,
     stored_guess,
@@ -64,16 +65,21 @@ def test_the_last_digit_is_that_of_the_general_way(problem: Problem) -> None:
         assert quick.certificate == other.certificate
 
 
+def least_velocity(problem: Problem) -> Model:
+    """The program of the least B."""
+    return extreme_velocity(problem, greatest=False)
+
+
 @pytest.mark.sample(4)
 @pytest.mark.parametrize("minimise", ["C", "J", "D"])
 @pytest.mark.parametrize("monotone", [False, True])
 def test_the_file_holds_what_is_computed(minimise: str, monotone: bool) -> None:  # noqa: FBT001
     problem = Problem(order=4, basis=Chebyshev(3), minimise=minimise, monotone=monotone)
-    for computed, one in (
-        (structures_along_velocity(problem), problem.at_velocity(2.0)),
-        (structure_of_program(model_of(problem)), problem),
+    for computed, model in (
+        (structures_along_velocity(problem), model_of(problem.at_velocity(2.0))),
+        *((structure_of_program(single), single) for single in (model_of(problem), least_velocity(problem))),
     ):
-        key = key_of(model_of(one))
+        key = key_of(model)
         assert key is not None
         stored = stored_structures(key)
         assert len(stored) == len(computed)
