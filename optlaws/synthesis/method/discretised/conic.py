@@ -19,7 +19,8 @@ from optlaws.synthesis.families.squares import SumOfSquares
 from optlaws.synthesis.method.discretised.ipopt import Answer
 from optlaws.tolerances import CONIC_SOLVER, EMPTY_ROW
 
-_USABLE = ("Solved", "AlmostSolved")
+SOLVED = "Solved"  #: to the accuracy that is set
+_USABLE = (SOLVED, "AlmostSolved")
 _MAGNIFIED = 2.0**12
 #: what a cone is taken to be at its tip by, magnified
 _NOTHING = 16.0

@@ -16,7 +16,7 @@ from optlaws.synthesis.families.cone import ConeFamily
 from optlaws.synthesis.families.energy import EnergyFamily
 from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, Points, Program
 from optlaws.synthesis.families.kinked import KinkedIntegralFamily
-from optlaws.synthesis.method.discretised.conic import conic, of_cones, optimum_on_points
+from optlaws.synthesis.method.discretised.conic import SOLVED, conic, of_cones, optimum_on_points
 from optlaws.synthesis.method.discretised.grids import with_extrema
 from optlaws.synthesis.method.discretised.ipopt import Answer, solve_on_points
 from optlaws.synthesis.method.strategies.identified import as_answered, optimum_near
@@ -159,13 +159,15 @@ class ByInteriorPoints(Strategy[list[Points], ActiveSet]):
         return self.sound is None or bool(self.program.objective @ (x - self.sound.x) < 0.0)
 
     def _answer(self, program: Program, points: list[Points]) -> Answer:
-        """Clarabel's solution of a conic program; IPOPT's solution of any other program, or if Clarabel fails."""
+        """Clarabel's solution of a conic program; IPOPT's of any other, or if Clarabel ends short of its accuracy."""
         quick = optimum_on_points(program, points) if conic(program) else None
-        if quick is not None:
+        if quick is not None and quick.status == SOLVED:
             return self._noted(quick)
         fine = self.count > 1 and _only(program, LinearFamily, ConeFamily, EnergyFamily)
         answer = self._answer_on(program, points, fine=fine)
-        return self._answer_on(program, points, fine=False) if fine and not answer.usable else answer
+        if answer.usable or not (fine or quick is not None):
+            return answer
+        return self._noted(quick) if quick is not None else self._answer_on(program, points, fine=False)
 
     def _answer_on(self, program: Program, points: list[Points], *, fine: bool) -> Answer:
         return self._noted(solve_on_points(program, points, self.start, fine=fine))
