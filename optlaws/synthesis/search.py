@@ -15,7 +15,7 @@ from optlaws.laws import MotionLaw
 from optlaws.numbers import Array
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.limits.of_problem import known_limit
-from optlaws.synthesis.method.exchange import Outcome, solve, vertex_optimum
+from optlaws.synthesis.method.exchange import ROUNDS, Outcome, solve
 from optlaws.synthesis.method.stored_structures import stored_guess
 from optlaws.synthesis.method.without_interior import fallbacks_without_interior, on_equations
 from optlaws.synthesis.problem.constants import Functional, PeakConstant
@@ -302,7 +302,9 @@ def _of_any_way(search: LawSearch) -> Solution | None:
 
 def _from_vertices(search: LawSearch) -> Solution | None:
     """The best law of a linear program by its vertices, where interior points led to no law."""
-    optimum = vertex_optimum(search.model.program) if search.outcomes[0].tried or search.outcomes[0].optimum else None
+    if search.model.program.curved or not (search.outcomes[0].tried or search.outcomes[0].optimum):
+        return None
+    optimum = solve(search.model.program, vertices=True).optimum
     return None if optimum is None else LawSearch(search.model, warm=optimum, began=search.began).answer()
 
 
@@ -391,8 +393,7 @@ def attempt(
         # a constant that is minimised is a variable, which may have to be above the law's own
         return exact and not shortfalls(model.problem, law)
 
-    rounds = {"rounds": 0} if near else {}
-    outcome = solve(model.program, warm, start=point, holds=holds, **rounds)
+    outcome = solve(model.program, warm, start=point, holds=holds, rounds=0 if near else ROUNDS)
     led = outcome.tried if outcome.optimum is None else (outcome.optimum,)
     candidates = (laws.candidate(state.at(on_equations(model.program, state.x))) for state in led)
     return outcome, min((law for law in candidates if law is not None), key=lambda law: law.objective, default=None)

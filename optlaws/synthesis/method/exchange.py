@@ -26,7 +26,7 @@ from optlaws.synthesis.method.vanishing import at_apex
 if TYPE_CHECKING:
     from optlaws.synthesis.method.strategies.interior_points import ByInteriorPoints
 
-_ROUNDS = 12
+ROUNDS = 12
 _DIVERGING = "Diverging_Iterates"
 _CONTINUED = "continued from a neighbour"
 DEPTH = 1e5  # beyond what laws of the field have
@@ -62,39 +62,28 @@ def solve(
     *,
     start: Array | None = None,
     holds: Callable[[Array], bool] | None = None,
-    rounds: int = _ROUNDS,
+    rounds: int = ROUNDS,
+    vertices: bool = False,
 ) -> Outcome:
     """Solve a semi-infinite program; a neighbour's optimum as `warm` is tried before IPOPT, which begins at `start`.
 
     `holds` may decide from x alone, and more quickly than the families do, whether every constraint holds. With no
     `rounds` of interior points quadratic programs lead on from a start, which they do not leave for a worse law.
+    With `vertices` a linear program is solved by them alone: where contacts lie close together interior points may end
+    near an optimum without showing it.
     """
     units = units_of(program)
     if units is None:
-        return _in_own_units(program, warm, start, holds, rounds)
+        return _in_own_units(program, warm, start, holds, rounds, vertices=vertices)
     outcome = _in_own_units(
         units.program,
         None if warm is None else units.inward(warm),
         None if start is None else start / units.variables,
         None if holds is None else lambda x: holds(x * units.variables),
         rounds,
+        vertices=vertices,
     )
     return outcome.mapped(units.outward)
-
-
-def vertex_optimum(program: Program) -> ActiveSet | None:
-    """The optimum of a linear program by cutting planes from the first points; None where they lead to none.
-
-    Where contacts lie close together interior points may end near an optimum without showing it.
-    """
-    from optlaws.synthesis.method.strategies.vertices import ByVertices
-
-    if program.curved or not independent(program.equalities).all():
-        return None
-    units = units_of(program)
-    scaled = program if units is None else units.program
-    optimum, _ = cutting_plane_loop(ByVertices(scaled, None), first_points(scaled))
-    return optimum if optimum is None or units is None else units.outward(optimum)
 
 
 def _in_own_units(
@@ -103,6 +92,8 @@ def _in_own_units(
     start: Array | None,
     holds: Callable[[Array], bool] | None,
     rounds: int,
+    *,
+    vertices: bool = False,
 ) -> Outcome:
     """The solution of a program whose numbers are near 1."""
     if warm is not None:
@@ -111,7 +102,7 @@ def _in_own_units(
             return Outcome(optimum, 0, 0, _CONTINUED)
     chosen = independent(program.equalities)
     if chosen.all():
-        return _solved(program, start, holds, rounds)
+        return _solved(program, start, holds, rounds, vertices=vertices)
     if contradiction(program.equalities, program.right) is not None:
         return Outcome(None, 0, 0, "equations that contradict each other")
     fewer = replace(program, equalities=program.equalities[chosen], right=program.right[chosen])
@@ -121,10 +112,12 @@ def _in_own_units(
         multipliers[chosen] = state.equality_multipliers
         return replace(state, equality_multipliers=multipliers)
 
-    return _solved(fewer, start, holds, rounds).mapped(of_all)
+    return _solved(fewer, start, holds, rounds, vertices=vertices).mapped(of_all)
 
 
-def _solved(program: Program, start: Array | None, holds: Callable[[Array], bool] | None, rounds: int) -> Outcome:
+def _solved(
+    program: Program, start: Array | None, holds: Callable[[Array], bool] | None, rounds: int, *, vertices: bool
+) -> Outcome:
     """The solution of a program whose equations are independent."""
     # what knows its contacts needs none of them
     from optlaws.synthesis.method.strategies.interior_points import ByInteriorPoints
@@ -145,9 +138,9 @@ def _solved(program: Program, start: Array | None, holds: Callable[[Array], bool
         stepwise = ByQuadratics(program, start, holds, straight=False)
         optimum, count = cutting_plane_loop(stepwise, points)
         return Outcome(optimum, stepwise.iterations, count, "quadratic programs")
-    if many_pieces(program):
+    if vertices or many_pieces(program):
         optimum, count = cutting_plane_loop(ByVertices(program, holds), points)
-        if optimum is not None:
+        if optimum is not None or vertices:
             return Outcome(optimum, 0, count, "vertices")
     if bends_both_ways(program):
         stepwise = ByQuadratics(program, initial_guess(program, points) if start is None else start, holds)
