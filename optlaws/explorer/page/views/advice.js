@@ -4,7 +4,7 @@
 import { Chart, spanOf } from "../chart.js";
 import { group } from "../fields.js";
 import { Latest } from "../latest.js";
-import { known, localised, plain } from "../language.js";
+import { known, localised, plain, say } from "../language.js";
 import { Panels } from "../panels.js";
 import { html, renew } from "../svg.js";
 import { unanswered } from "../trust.js";
@@ -277,9 +277,10 @@ function placed(points, range, log) {
   for (const point of [...points].sort((one, other) => other.of - one.of || (one.kind === "optimal") - (other.kind === "optimal"))) {
     if (point.name.includes(",") && !point.of) continue;
     const text = point.of ? "to take" : point.name;
-    const end = along(point.x) > 0.66;
-    const from = along(point.x) - (end ? LETTER * text.length : 0);
-    const box = { from, to: from + LETTER * text.length, at: (point.y - low) / tall };
+    const long = LETTER * say(text).length;
+    const end = along(point.x) > Math.min(0.66, 1 - long);
+    const from = along(point.x) - (end ? long : 0);
+    const box = { from, to: from + long, at: (point.y - low) / tall };
     if (kept.some(({ box: other }) => box.from < other.to && box.to > other.from && Math.abs(box.at - other.at) < LINE)) continue;
     kept.push({ box, at: [point.x, point.y], text, name: point.of ? "chosen" : "", anchor: end ? "end" : "start", up: point.of ? 9 : 6 });
   }
@@ -292,8 +293,8 @@ function layout(root) {
     asked: html("aside", { id: "advice-asked", "aria-label": "What is asked of the laws" }),
     words: panel("advice-words", { role: "status", "aria-live": "polite" }),
     table: panel("advice-table"),
-    chart: html("div", { id: "advice-chart", class: "picture", translate: "no" }),
-    names: html("p", { id: "advice-names", class: "quiet", translate: "no" }),
+    chart: html("div", { id: "advice-chart", class: "picture" }),
+    names: html("p", { id: "advice-names", class: "quiet" }),
     curves: html("div", { id: "advice-curves" }),
   };
   root.append(
