@@ -8,7 +8,9 @@ from math import ceil, inf
 
 from optlaws.cycles.specification.joints import LawSpan, State
 from optlaws.cycles.specification.programme import TimedSegment, is_optimal
+from optlaws.errors import InputError
 from optlaws.motion.piece import factor
+from optlaws.numbers import MOST_PIECES
 from optlaws.synthesis.problem.constants import FUNCTIONALS, RootMeanSquare
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.problem.windows import Window, via
@@ -16,7 +18,7 @@ from optlaws.synthesis.spaces.bases import Pieces, PolynomialBasis
 from optlaws.synthesis.spaces.periodic_pieces import PeriodicPieces
 from optlaws.tolerances import AGREEMENT
 
-_MOST = 600  # pieces of a law
+_MOST, _LEAST = 600, 3  # pieces of a law, and of a motion even so: fewer may not bend as its ends require
 #: pieces of a stretch where what is minimised has its peaks inside of pieces: the velocity, what a load does, power
 _FEW = {1: 6, -2: 4, -3: 4}
 
@@ -38,7 +40,12 @@ def joined_basis(span: LawSpan, order: int, degree: int, minimised: int) -> Piec
     (49, 3)
     """
     curved = sum(len(points) - 1 for stretch, points in _points(span) if is_optimal(stretch.given))
-    most = max(1, min(2 * (degree + order), _MOST // curved))
+    most = min(2 * (degree + order), max(_LEAST, _MOST // curved))
+    if _LEAST * curved > MOST_PIECES:
+        raise InputError(
+            f"{len(span.stretches)} motions through {len(span.via)} points are one law, of at most {MOST_PIECES} pieces: "
+            "put a dwell or a move between them, where velocity and acceleration are known"
+        )
     each = most if minimised not in _FEW else max(1, min(most, _FEW[minimised] * (degree + order) // 12))
     fastest = least_velocity(span)
     breaks, straight = [0.0], list[int]()
