@@ -6,9 +6,8 @@ import numpy as np
 import pytest
 
 from optlaws import Chebyshev, Cycle, Pieces, Problem, Solution, synthesize
-from optlaws.synthesis.proof.certificate import weighted_rows
-from optlaws.synthesis.proof.duality import lines_of
 from tests.bench.growth import free_motions, moves
+from tests.internals.synthesis import lines_of, weighted_rows
 
 GAP = 1e-8
 

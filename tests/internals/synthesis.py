@@ -67,8 +67,8 @@ from optlaws.synthesis.program import writer
 from optlaws.synthesis.program.evaluation import evaluate, shortfalls
 from optlaws.synthesis.program.writer import Model, extreme_velocity, least_violation, model_of, relaxed
 from optlaws.synthesis.proof import make
-from optlaws.synthesis.proof.certificate import RELAXED, VIOLATION, _model
-from optlaws.synthesis.proof.duality import _weighted, row_of, sum_of_rows
+from optlaws.synthesis.proof.certificate import RELAXED, VIOLATION, _model, weighted_rows
+from optlaws.synthesis.proof.duality import _weighted, lines_of, row_of, sum_of_rows
 from optlaws.synthesis.proof.farkas import farkas_margin
 from optlaws.synthesis.proof.infeasible import failure
 from optlaws.synthesis.proof.nodes import PlaceRange

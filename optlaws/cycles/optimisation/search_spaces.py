@@ -43,8 +43,8 @@ def joined_basis(span: LawSpan, order: int, degree: int, minimised: int) -> Piec
     most = min(2 * (degree + order), max(_LEAST, _MOST // curved))
     if _LEAST * curved > MOST_PIECES:
         raise InputError(
-            f"{len(span.stretches)} motions through {len(span.via)} points are one law, of at most {MOST_PIECES} pieces: "
-            "put a dwell or a move between them, where velocity and acceleration are known"
+            f"{len(span.stretches)} motions through {len(span.via)} points are one law, of at most {MOST_PIECES} "
+            "pieces: put a dwell or a move between them, where velocity and acceleration are known"
         )
     each = most if minimised not in _FEW else max(1, min(most, _FEW[minimised] * (degree + order) // 12))
     fastest = least_velocity(span)
