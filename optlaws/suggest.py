@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
-from difflib import get_close_matches
 from functools import wraps
 from inspect import Parameter, signature
 from typing import Any, TypeVar
@@ -91,6 +90,8 @@ def keywords_of(options: type, **defaults: Any) -> Callable[[FunctionT], Functio
 
 def _nearest(name: str, names: list[str], words: Mapping[str, str]) -> str | None:
     """The name with other capitals, the name of a synonym, or the most similar name."""
+    from difflib import get_close_matches
+
     folded = name.casefold()
     same = [known for known in names if known.casefold() == folded]
     meant = [known for word, known in words.items() if word in folded.split("_") and known in names]

@@ -12,11 +12,8 @@ import stat
 import struct
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
-from hashlib import sha256
 from itertools import count
 from pathlib import Path
-from secrets import token_hex
-from tempfile import TemporaryFile
 from zlib import crc32
 
 from optlaws.echo import shortened
@@ -145,6 +142,8 @@ def _with_mark(data: bytes, mark: re.Match[bytes], new: bytes) -> bytes:
 
 
 def _seal(content: bytes) -> str:
+    from hashlib import sha256
+
     plain = content if content.startswith(_PNG) else content.replace(b"\r\n", b"\n")
     return sha256(plain).hexdigest()[:16]
 
@@ -234,6 +233,8 @@ def _keep_copy(file: Path) -> None:
 
 
 def _beside(file: Path) -> Path:
+    from secrets import token_hex
+
     return file.with_name(f".{file.name[:100]}.{token_hex(8)}")
 
 
@@ -251,6 +252,8 @@ def check_place(file: Path) -> None:
     Traceback (most recent call last):
     optlaws.errors.InputError: cannot write /dev/null/law.json: /dev/null is not a folder
     """
+    from tempfile import TemporaryFile
+
     check_name(file)
     if file.is_dir():
         raise InputError(f"cannot write {file}: it is a folder")

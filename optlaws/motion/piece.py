@@ -26,7 +26,6 @@ from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
-from optlaws.laws.catalogue.reading import is_file, read_law
 from optlaws.numbers import Array
 from optlaws.tolerances import CLOSURE, INSIDE_PIECE, SAME_TIME
 
@@ -45,6 +44,8 @@ def named_law(given: Any, where: str) -> MotionLaw:  # noqa: ANN401 - it is chec
 
 @lru_cache(maxsize=64)
 def _of_name(name: str) -> MotionLaw:
+    from optlaws.laws.catalogue.reading import read_law
+
     return read_law(name)
 
 
@@ -53,6 +54,8 @@ def _read(given: Any) -> MotionLaw:  # noqa: ANN401
         raise InputError(
             f"a law, a name of the catalogue, a formula, a JSON or CSV file or 'optimal', got {shortened(given)}"
         )
+    from optlaws.laws.catalogue.reading import is_file, read_law
+
     return read_law(given) if is_file(given) else _of_name(given)
 
 
