@@ -60,7 +60,7 @@ def _answering() -> Console:
         def on_broken_pipe(self) -> None:
             raise BrokenPipeError
 
-    return Answering()
+    return Answering(emoji=False)
 
 
 def _show_table(rows: Table, console: Console) -> None:

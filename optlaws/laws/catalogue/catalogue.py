@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from optlaws.echo import shortened
@@ -51,11 +52,10 @@ class Catalogue(Mapping[str, "CatalogueEntry"]):
     @kept_property
     def _entries(self) -> dict[str, CatalogueEntry]:
         import tomllib
-        from importlib.resources import files
 
         from optlaws.laws.catalogue.entry import CatalogueEntry
 
-        text = files("optlaws.laws.catalogue").joinpath("catalogue.toml").read_text(encoding="utf-8")
+        text = Path(__file__).with_name("catalogue.toml").read_text(encoding="utf-8")
         return {entry["name"]: CatalogueEntry.of_table(entry) for entry in tomllib.loads(text)["law"]}
 
     @kept_property
