@@ -22,10 +22,11 @@ from optlaws.synthesis.search import LawSearch
 from optlaws.synthesis.spaces.bases import Chebyshev
 from optlaws.tolerances import AGREEMENT, SHORT_STRETCH
 
-#: the kinds of problems: orders, and by what is minimised degrees and the least B, and the greatest B
+#: the kinds of problems: orders, and by what is minimised degrees and where walks along B begin, and the
+#: greatest B
 _ORDERS = range(2, 7)
 _DEGREES = {"C": (*range(3, 42, 2), 51, 61), "J": range(3, 22, 2), "D": range(3, 22, 2)}
-_LEAST, _GREATEST = {"C": 1.001, "J": 1.001, "D": 1.1}, 3.0
+_LEAST, _GREATEST = {"C": (1.001, 1.1), "J": (1.001, 1.1), "D": (1.1,)}, 3.0
 #: coefficients of a place along B, where it moves
 _TERMS = 4
 #: where on a stretch laws of problems that are not convex are sought from several starts too
@@ -40,11 +41,25 @@ def structures_along_velocity(problem: Problem) -> list[StoredStructure]:
     >>> [len(structure.sign) for structure in structures_along_velocity(Problem(order=4, basis=Chebyshev(3)))]
     [2, 2, 1, 2, 1]
     """
-    ends = (_LEAST[repr(problem.objective)], _GREATEST)
+    walks = (_along(problem, (least, _GREATEST)) for least in _LEAST[repr(problem.objective)])
+    structures = max(walks, key=covered)
+    return structures if problem.convex else [known for known in structures if _none_better(problem, known)]
+
+
+def _along(problem: Problem, ends: tuple[float, float]) -> list[StoredStructure]:
+    """The structures that a walk between two B finds: at high degrees it may end early."""
     path = between(problem.at_velocity(ends[0]), problem.at_velocity(ends[1]))
     segments = [] if path is None else segments_of(path, 0.0, 1.0)
-    structures = [_stored(segment, ends) for segment in segments if segment.end - segment.begin > SHORT_STRETCH]
-    return structures if problem.convex else [known for known in structures if _none_better(problem, known)]
+    return [_stored(segment, ends) for segment in segments if segment.end - segment.begin > SHORT_STRETCH]
+
+
+def covered(structures: list[StoredStructure]) -> float:
+    """The range of B that structures cover, to two decimals.
+
+    >>> covered(structures_along_velocity(Problem(order=4, basis=Chebyshev(3))))
+    1.68
+    """
+    return round(sum(known.end - known.begin for known in structures), 2)
 
 
 def _none_better(problem: Problem, structure: StoredStructure) -> bool:
