@@ -5,7 +5,8 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from optlaws import Chebyshev, Cycle, Pieces, Problem, Solution, synthesize
+from optlaws import Chebyshev, Cycle, InputError, Pieces, Problem, Solution, synthesize
+from optlaws.verification import verify
 from tests.bench.growth import free_motions, moves
 from tests.internals.synthesis import lines_of, weighted_rows
 
@@ -35,8 +36,16 @@ def test_positions_are_summed_up_as_bends_to_the_same_bound() -> None:
 
     sizes = sum(abs(weight) * float(np.abs(row * x).sum()) for weight, row, _ in plain)
     assert abs(summed(plain) - summed(turned)) < 1e-14 * sizes
+    proven = verify(solution.certificate.to_dict()).bound
+    assert proven is not None
+    assert solution.lower_bound <= float(proven) <= solution.objective
     # rows of bends are short: few of the law's coordinates matter to each
     assert max(np.count_nonzero(row) for _, row, _ in turned[-8:]) < model.space.terms / 2
+
+
+def test_more_free_motions_than_one_law_has_pieces_for_are_refused() -> None:
+    with pytest.raises(InputError, match=r"399 motions .* one law, of at most 1000 pieces: put a dwell"):
+        free_motions(400).status  # noqa: B018 - laws are looked for where they are needed
 
 
 @pytest.mark.long
