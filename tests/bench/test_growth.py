@@ -38,7 +38,8 @@ def test_positions_are_summed_up_as_bends_to_the_same_bound() -> None:
     assert abs(summed(plain) - summed(turned)) < 1e-14 * sizes
     proven = verify(solution.certificate.to_dict()).bound
     assert proven is not None
-    assert solution.lower_bound <= float(proven) <= solution.objective
+    # the objective is rounded, the bound is exact
+    assert solution.lower_bound <= float(proven) <= solution.objective * (1.0 + 1e-13)
     # rows of bends are short: few of the law's coordinates matter to each
     assert max(np.count_nonzero(row) for _, row, _ in turned[-8:]) < model.space.terms / 2
 
