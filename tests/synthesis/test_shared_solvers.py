@@ -1,5 +1,6 @@
 """What is kept for the next problem, and many threads at once: answers are those of one thread, to the last bit."""
 
+import os
 import subprocess
 import sys
 
@@ -16,6 +17,36 @@ def test_threads_and_children_answer_as_one_thread_does(rounds: int) -> None:
     answer = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False, timeout=60 * rounds)
     assert answer.returncode == 0, answer.stderr
     assert f"and {rounds} children" in answer.stdout
+
+
+NESTED = """
+import os, threading
+from optlaws.locks import process_lock
+
+outer, inner, held = process_lock(), process_lock(), threading.Event()
+
+def nested():
+    with outer:
+        held.set()
+        threading.Event().wait(0.2)
+        with inner:
+            pass
+
+thread = threading.Thread(target=nested)
+thread.start()
+held.wait()
+child = os.fork()
+if child == 0:
+    os._exit(0 if outer.acquire(blocking=False) and inner.acquire(blocking=False) else 1)
+thread.join()
+raise SystemExit(os.waitpid(child, 0)[1])
+"""
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="nothing forks here")
+def test_a_fork_waits_for_no_lock_with_another_in_hand() -> None:
+    """A thread that holds one lock waits for a second one meanwhile."""
+    assert subprocess.run([sys.executable, "-c", NESTED], cwd=ROOT, check=False, timeout=30).returncode == 0
 
 
 def test_solvers_are_kept_as_many_as_their_rows_allow(monkeypatch: pytest.MonkeyPatch) -> None:
