@@ -24,10 +24,6 @@ GREEN = "#1b7f5c"
 GREY = "#595959"
 VIOLET = "#7b3294"
 BROWN = "#a6761d"
-#: what the command alone imports
-_COMMAND = "optlaws.cli.app"
-#: what writes the properties of each kind of artist into its docstrings and signatures
-_LISTS = ("kwdoc", "_update_set_signature_and_docstring")
 #: colours of curves that have no order of their own, apart for those too who see no red and green
 DISTINCT = (BLUES[3], WARM, GREEN, VIOLET, BROWN, GREY)
 
@@ -65,26 +61,9 @@ def plot_style() -> Iterator[None]:
         yield
 
 
-@contextmanager
-def _without_lists() -> Iterator[None]:
-    """Import matplotlib without lists of properties in docstrings, a third of its time, where none can be read."""
-    import matplotlib.artist as artists
-
-    owners: list[Any] = [artists, artists.Artist] if _COMMAND in sys.modules else []
-    writers = [(owner, name, vars(owner)[name]) for owner in owners for name in _LISTS if name in vars(owner)]
-    try:
-        for owner, name, _ in writers:
-            setattr(owner, name, staticmethod(lambda *_: ""))
-        yield
-    finally:
-        for owner, name, writer in writers:
-            setattr(owner, name, writer)
-
-
 def empty_figure(width: float = 7.2, height: float = 4.6) -> Figure:
     """An empty figure without a window; sizes in inches."""
-    with _without_lists():
-        from matplotlib.figure import Figure
+    from matplotlib.figure import Figure
 
     return Figure(figsize=(width, height), layout="constrained")
 
