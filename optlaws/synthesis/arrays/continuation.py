@@ -115,9 +115,13 @@ class StructureSegment:
         self.t, self.rows = every, np.concatenate([self.rows, rows])[unique]
 
 
-def segment_at(path: Path, t: float, near: ActiveSet | None) -> StructureSegment | None:
-    """The structure at one t, as a segment of one law; None where none is proven optimal."""
-    optimum = solve(path.program(t), near).optimum
+def segment_at(path: Path, t: float, near: ActiveSet | None, *, anew: bool = True) -> StructureSegment | None:
+    """The structure at one t, as a segment of one law; None where none is proven optimal.
+
+    Where the contacts of a nearby law do not lead to it, it is sought `anew`.
+    """
+    program = path.program(t)
+    optimum = solve(program, near).optimum if anew or near is None else polished(program, near, None)
     return None if optimum is None else ParametricContinuation(path, t, t).begun(t, optimum)
 
 

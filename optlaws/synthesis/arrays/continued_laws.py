@@ -152,7 +152,9 @@ def _laws_of_neighbours(path: Path, t: Array, known: SolvedBatch | None = None) 
         untried[place] = False
         solved = np.flatnonzero(laws.solved)
         near = laws.active_set(int(solved[np.argmin(np.abs(solved - place))])) if len(solved) else None
-        segment = segment_at(path, float(t[place]), near)
+        # beyond the laws of stored structures there may be none, and to find that takes long
+        between = known is None or not len(solved) or bool(solved[0] < place < solved[-1])
+        segment = segment_at(path, float(t[place]), near, anew=between)
         if segment is not None and segment.structure.count <= laws.u.shape[1]:
             left = np.flatnonzero(~laws.solved)
             _enter(laws, path, segment.structure, left, (t[left], segment.interpolated(t[left])))
