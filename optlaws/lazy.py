@@ -93,8 +93,10 @@ class Registry(MutableMapping[str, T]):
         self._values: dict[str, T] = {}
 
     def __getitem__(self, name: str) -> T:
-        if name not in self._values and name in self._modules:
-            imported(self._modules[name])
+        module = self._modules.get(name)
+        # a class is registered before the rest of its module has run: another thread's import is waited for
+        if module is not None and (module in sys.modules or name not in self._values):
+            imported(module)
         return self._values[name]
 
     def __setitem__(self, name: str, value: T) -> None:
