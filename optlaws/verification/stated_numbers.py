@@ -80,7 +80,9 @@ def near(name: str, stated: float, pair: tuple[float, float], scale: float = 1.0
     """The claim that a stated value is the proven one up to rounding; a value near 0 is compared with its scale."""
     low, high = pair
     room = STATED_CONSTANT * max(scale, abs(high)) if high < inf else 0.0
-    return Claim(name, low - room <= stated <= high + room, f"{stated!r} stated, in [{low!r}, {high!r}]")
+    # an enclosure that is wider than what may be off proves nothing of a number in it
+    narrow = low == high or high - low <= room
+    return Claim(name, narrow and low - room <= stated <= high + room, f"{stated!r} stated, in [{low!r}, {high!r}]")
 
 
 def _reached(name: str, value: float, k: float, law: ExactLaw) -> Claim:

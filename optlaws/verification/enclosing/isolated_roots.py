@@ -79,8 +79,10 @@ def _enclosed(polynomial: fmpz_poly) -> arb:
     before = arb.pos_inf()
     while root.rad() < _NARROWER * before:
         before, centre = root.rad(), root.mid()
-        there = polynomial(centre)
-        root = root.intersection(centre - there / slope(root))
+        there, steepness = polynomial(centre), slope(root)
+        # a ball within one whose slope has a sign may be evaluated more roughly
+        if not steepness.contains(0):
+            root = root.intersection(centre - there / steepness)
         if 2 * root.rad() > before and not there.contains(0):
             root = root.intersection(centre.union(root.upper() if (there < 0) == rises else root.lower()))
     return root

@@ -1,9 +1,11 @@
 """Real roots in balls: none may be missing, whatever the polynomial's symmetry."""
 
-import pytest
-from flint import arb, ctx, fmpq, fmpq_poly
+from math import inf
 
-from tests.internals.verification import between, real_roots
+import pytest
+from flint import arb, ctx, fmpq, fmpq_poly, fmpz_poly
+
+from tests.internals.verification import between, near, real_roots
 
 
 def product(*roots: fmpq | int) -> fmpq_poly:
@@ -35,6 +37,24 @@ def test_roots_next_to_one_another_and_to_an_end_are_told_apart(place: fmpq, apa
         balls = real_roots(polynomial, fmpq(-1), fmpq(1))
         assert len(balls) == len(inside)
         assert all(sum(ball.overlaps(arb(root)) for ball in balls) == 1 for root in inside)
+
+
+@pytest.mark.parametrize("bits", [53, 113, 128, 256])
+def test_a_root_next_to_an_end_and_to_a_turn_of_the_slope_is_enclosed(bits: int) -> None:
+    """In a narrower ball than one in which the slope has a sign it had none: the jerk at the end of an optimal law."""
+    chebyshev = [-1.680059301997406, 2.4049935593187253, -0.7778447938436768, 0.020026138328819082, 0.0328843981935381]
+    terms = [fmpq(*value.as_integer_ratio()) * fmpq_poly(fmpz_poly.chebyshev_t(n)) for n, value in enumerate(chebyshev)]
+    with ctx.workprec(bits):
+        (root,) = real_roots(sum(terms, fmpq_poly([0])).derivative(), fmpq(-1), fmpq(1))
+        assert root.is_finite()
+        assert root.rad() < 1e-7
+
+
+def test_an_infinite_enclosure_proves_no_number() -> None:
+    assert near("C", 8.0, (8.0 - 1e-15, 8.0)).proven
+    assert near("C", inf, (inf, inf)).proven
+    assert not near("C", 8.0, (-inf, inf)).proven
+    assert not near("C", 8.0, (7.9, 8.1)).proven
 
 
 def test_a_polynomial_without_slope_is_its_own_extremes() -> None:
