@@ -100,8 +100,7 @@ class ByInteriorPoints(Strategy[list[Points], ActiveSet]):
             self.tried.append(last if self.units is None else self.units.outward(last))
         optimum = None if lost else optimum_near(self.program, self.holds, points, answer)
         if optimum is None and self._vertices_help(lost=lost):
-            # its vertex on the same points would be the answer itself
-            optimum = self._by_vertices(points if lost else with_extrema(self.program, points, answer.x))
+            optimum = self._by_vertices(points)
         if optimum is not None:
             return optimum, None
         if self.apex and (self.count == _COARSE or not conic(self.program)):
