@@ -80,6 +80,7 @@ EXTREME_WIDTH = 1e-3  # of the whole: ties nearer to each other are one extreme
 CELL_END = 2.0**-10  # of a cell that is sloped: what stays of it at an edge
 TOUCHING = 1e-12  # of a function's size: where it turns or jumps so near to a value, it has it
 POLISHING_REACH = 1e-3  # of an interval: Newton's steps towards a root go no further
+NO_SLOPE = 1e-200  # by less a value is not divided, for it might overflow
 POLISHED = 1e-12  # a step of Newton's method that is the last
 EXTREME_POLISHED = 1e-11  # of the whole: a place of an extreme that moves by less is settled
 SAME_EXPONENT = 1e-9  # exponents nearer to each other were the same number before they were rounded

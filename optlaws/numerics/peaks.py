@@ -11,7 +11,7 @@ import numpy as np
 
 from optlaws.files.reading import JsonText, entries_of
 from optlaws.numbers import Array, bounded, finite
-from optlaws.tolerances import POLISHED, POLISHING_REACH, TIE
+from optlaws.tolerances import NO_SLOPE, POLISHED, POLISHING_REACH, TIE
 
 POLISH_STEPS = 3
 
@@ -115,6 +115,5 @@ def polished(x: Array, residual: Callable[[Array], tuple[Array, Array]]) -> Arra
 
 
 def _step(value: Array, slope: Array) -> tuple[Array, Array]:
-    safe = np.where(slope == 0.0, 1.0, slope)
-    step = np.where(slope == 0.0, 0.0, value / safe)
+    step = value / np.where(np.abs(slope) < NO_SLOPE, np.inf, slope)
     return np.abs(value), np.clip(step, -POLISHING_REACH, POLISHING_REACH)

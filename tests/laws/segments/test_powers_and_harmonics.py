@@ -5,7 +5,7 @@ from typing import Any
 import mpmath  # type: ignore[import-untyped]
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from optlaws import InputError, MotionLaw, PiecewiseLaw
@@ -82,6 +82,7 @@ def test_peaks_are_no_less_than_samples(
     assert MotionLaw.from_json(law.to_json()) == law
 
 
+@example(amplitude=1.0, frequency=1.0, phase=1.1125369292536007e-308, b0=0.0)
 @given(
     amplitude=st.floats(0.5, 8.0) | st.floats(-8.0, -0.5),
     frequency=st.floats(0.5, 60.0),
