@@ -23,7 +23,7 @@ from cosmic_ray.work_item import MutationSpec, TestOutcome
 from tests.mutants.modules import TESTS
 
 ROOT = Path(__file__).parent.parent.parent
-NEEDED = ("optlaws", "problems", "tests", "conftest.py", "pyproject.toml")
+NEEDED = ("optlaws", "problems", "docs", "tests", "conftest.py", "pyproject.toml")
 #: bits and remainders are not what these modules are about, and | stands in annotations
 SENSIBLE = ("Add", "Sub", "Mul", "Div")
 KINDS = (
