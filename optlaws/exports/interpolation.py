@@ -37,7 +37,7 @@ def spline_powers(x: Array, y: Array, ends: Ends = "clamped", slopes: tuple[floa
     steps = np.diff(x)
     chords = np.diff(y) / steps
     if ends == "periodic":
-        at_points = _periodic_slopes(steps, chords)
+        at_points = periodic_slopes(steps, chords)
     else:
         free = ends == "natural"
         first, last = (3.0 * chords[0], 3.0 * chords[-1]) if free else slopes
@@ -59,8 +59,12 @@ def _continuous(before: Array, after: Array, chord: Array, next_chord: Array) ->
     return after, 2.0 * (before + after), before, 3.0 * (after * chord + before * next_chord)
 
 
-def _periodic_slopes(steps: Array, chords: Array) -> Array:
-    """The slopes at all points where the last is the first again."""
+def periodic_slopes(steps: Array, chords: Array) -> Array:
+    """The slopes of a periodic cubic spline at all points, of which the last is the first again.
+
+    >>> periodic_slopes(np.ones(4), np.array([1.0, -1.0, -1.0, 1.0])).round(12) + 0.0
+    array([ 1.5,  0. , -1.5,  0. ,  1.5])
+    """
     below, diagonal, above, right = _continuous(np.roll(steps, 1), steps, np.roll(chords, 1), chords)
     if len(steps) < 3:  # both neighbours are one point, or the point itself
         table = np.diag(diagonal)

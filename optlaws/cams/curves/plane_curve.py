@@ -10,6 +10,7 @@ from typing import Any, Self
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.exports.interpolation import periodic_slopes
 from optlaws.numbers import Array, derivative, finite, number_or_array, real_times, whole
 from optlaws.numerics import chebyshev
 from optlaws.numerics.interval import Interval
@@ -87,37 +88,9 @@ class PiecewiseCurve(CurveByJets):
 
 
 def closed_slopes(places: Array, values: Array) -> Array:
-    """The slopes at its places of the closed cubic spline through rows of values, by Gauss's elimination.
-
-    Each slope has an equation with its neighbours', around the turn; the last unknown is set apart.
-
-    >>> closed_slopes(np.arange(5.0), np.array([[0.0], [1.0], [0.0], [-1.0], [0.0]])).ravel().round(12) + 0.0
-    array([ 1.5,  0. , -1.5,  0. ,  1.5])
-    """
-    widths = np.diff(places)
-    rates, before = np.diff(values, axis=0) / widths[:, None], np.roll(widths, 1)
-    right = 3.0 * (widths[:, None] * np.roll(rates, 1, axis=0) + before[:, None] * rates)
-    lower, pivots, upper = widths.tolist(), (2.0 * (before + widths)).tolist(), before.tolist()
-    last = len(widths) - 1
-    apart = [0.0] * last
-    apart[0] += lower[0]
-    apart[-1] += upper[last - 1]
-    # of numbers one by one, which no library of arrays does faster
-    rows = [*(column[:last] for column in right.T.tolist()), apart]
-    for i in range(1, last):
-        share = lower[i] / pivots[i - 1]
-        pivots[i] -= share * upper[i - 1]
-        for row in rows:
-            row[i] -= share * row[i - 1]
-    for row in rows:
-        row[-1] /= pivots[last - 1]
-        for i in range(last - 2, -1, -1):
-            row[i] = (row[i] - upper[i] * row[i + 1]) / pivots[i]
-    solved, along = np.array(rows[:-1]).T, np.array(apart)[:, None]
-    whole = pivots[last] - upper[last] * along[0] - lower[last] * along[-1]
-    at_last = (right[last] - upper[last] * solved[0] - lower[last] * solved[-1]) / whole
-    slopes = np.vstack([solved - along * at_last, at_last])
-    return np.vstack([slopes, slopes[:1]])
+    """The slopes at its places of the closed cubic spline through rows of values; the last is the first again."""
+    steps = np.diff(places)
+    return np.column_stack([periodic_slopes(steps, np.diff(column) / steps) for column in values.T])
 
 
 @dataclass(frozen=True, eq=False)
