@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from math import sqrt, tan
+from math import atan, sqrt, tan
 from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
@@ -34,7 +34,7 @@ from optlaws.synthesis.problem.windows import Window
 from optlaws.synthesis.solution import Solution
 from optlaws.synthesis.solve import synthesize
 from optlaws.synthesis.status import Status
-from optlaws.tolerances import CAM_FEASIBILITY, CAM_GAIN
+from optlaws.tolerances import CAM_GAIN
 
 
 class SolvedPiece(NamedTuple):
@@ -336,11 +336,11 @@ def _are_met(cam: DiscCam, limits: dict[str, float]) -> bool:
 def _check_met(cam: DiscCam, limits: dict[str, float]) -> None:
     """Refuse laws that break a limit which is not convex in them."""
     extremes = cam.extremes
-    if PRESSURE in limits and tan(extremes.greatest_pressure_angle.low) > limits[PRESSURE] * (1.0 + CAM_FEASIBILITY):
+    if PRESSURE in limits and not extremes.keeps_pressure_angle(atan(limits[PRESSURE])):
         raise SolverFailure(
             f"the best laws have a pressure angle of {np.degrees(extremes.greatest_pressure_angle.value):.6g} deg"
         )
-    if CURVATURE in limits and extremes.least_convex_radius.high < limits[CURVATURE] * (1.0 - CAM_FEASIBILITY):
+    if CURVATURE in limits and not extremes.keeps_radius(limits[CURVATURE]):
         raise SolverFailure(
             f"the best laws under the other limits have a radius of curvature of "
             f"{shown(extremes.least_convex_radius.value)}, and what a dwell or a given law has no other "

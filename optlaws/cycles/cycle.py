@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from copy import copy
 from dataclasses import dataclass, field, replace
 from functools import partial
 from math import sqrt
@@ -13,6 +14,7 @@ import numpy as np
 from optlaws.cycles.interchange import CycleInterchange
 from optlaws.cycles.jerk_comparison import jerk_limit, usual_jerk
 from optlaws.cycles.kinematics import SegmentPeaks, TimedCycle
+from optlaws.cycles.limit_rows import LimitTaken, limits_taken, refuse_beyond
 from optlaws.cycles.optimisation.bounds import bound_of, is_exact
 from optlaws.cycles.optimisation.drive_formulas import known_drive
 from optlaws.cycles.optimisation.durations import durations
@@ -40,8 +42,8 @@ from optlaws.cycles.specification.joints import LawSpan, Layout, layout
 from optlaws.cycles.specification.load import LOAD, Load, read_load
 from optlaws.cycles.specification.position_drive import PositionDrive, position_drive
 from optlaws.cycles.specification.process import is_process, read_process
-from optlaws.cycles.specification.programme import Programme, is_optimal, period_of, programme
-from optlaws.cycles.specification.segments import CycleSegment
+from optlaws.cycles.specification.programme import Programme, period_of, programme
+from optlaws.cycles.specification.segments import CycleSegment, Dwell
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.mechanisms.drives.drive_train import Drive
@@ -86,10 +88,10 @@ class Cycle(CycleInterchange):
         drive "force", "rms force" (of a table "torque", "rms torque"), "power", "energy" and, of a `Drive` whose motor
         has a motor constant, "heat": what its winding and its brake resistor burn.
     limits
-        Of all optimal segments: `{"velocity": "616 mm/s", "power": "400 W"}`, of derivatives up to the "snap". Of two
-        quantities, as ("-8 m/s^2", "12 m/s^2"), the first is the least value; a "deceleration" is of moves that slow
-        down. "rms force", "rms torque" and "energy" are of the whole cycle, as motors are rated; `{"motor": True}` are
-        all those of the motor of a `Drive`.
+        Of all segments, by optimal laws and by given ones: `{"velocity": "616 mm/s", "power": "400 W"}`, of derivatives
+        up to the "snap". Of two quantities, as ("-8 m/s^2", "12 m/s^2"), the first is the least value; a "deceleration"
+        is of moves that slow down. "rms force", "rms torque" and "energy" are of the whole cycle, as motors are rated;
+        `{"motor": True}` are all those of the motor of a `Drive`.
     start
         Position at the start, 0 unless given.
     advance
@@ -116,7 +118,8 @@ class Cycle(CycleInterchange):
         If durations do not sum, positions do not close or velocities do not meet; the error states the remedy, as it
         does where a method is given what is no time, speed or angle, or needs a load or drive that the cycle has not.
     InfeasibleProblem
-        If a joint takes more force than a limit allows; limits that no law satisfies are reported by the search.
+        If a joint takes more force than a limit allows. A limit that a given law breaks, or no law satisfies, is
+        reported when the motion is first needed; `fastest` finds the speed that keeps them all.
 
     Examples
     --------
@@ -178,13 +181,24 @@ class Cycle(CycleInterchange):
 
     @kept_property
     def pieces(self) -> tuple[Piece, ...]:
-        """The laws in their places, in order."""
+        """The laws in their places, in order.
+
+        Raises
+        ------
+        InfeasibleProblem
+            If a given law breaks a limit, or no law keeps one.
+        """
         pieces = [*self._layout.pieces, *(piece for piece, _ in self._best.laws)]
         return tuple(sorted(pieces, key=lambda piece: piece.start))
 
     @property
     def status(self) -> Status:
-        """The worst status of the solutions; optimal where no motion is optimised."""
+        """The worst status of the solutions; optimal where no motion is optimised.
+
+        Infeasible where a limit is broken, of a cycle that is `unchecked`: others are refused.
+        """
+        if self._reports and not all(taken.is_kept for taken in self.limits_taken):
+            return Status.INFEASIBLE
         ranks = (Status.OPTIMAL, Status.LOCAL, Status.INACCURATE)
         worst = max((solution.status for solution in self.solutions), key=ranks.index, default=Status.OPTIMAL)
         if self.solutions and worst == Status.OPTIMAL and self.lower_bound is not None:
@@ -225,6 +239,41 @@ class Cycle(CycleInterchange):
         if not mean:
             return max(peak.peak(nu) for peak in self.peaks)
         return sqrt(sum(piece.duration * piece.mean_square(nu) for piece in self.pieces) / self.duration)
+
+    @property
+    def limits_taken(self) -> tuple[LimitTaken, ...]:
+        """The use of every limit, by the segment that takes most of it; of a motor, those of the `sheet`.
+
+        Examples
+        --------
+        >>> from optlaws import Return, Rise
+        >>> moves = [Rise("35 mm", "0.1 s", law="cycloidal"), Return(law="cycloidal")]
+        >>> cycle = Cycle(moves, period="0.25 s", limits={"velocity": "1 m/s", "acceleration": "25 m/s^2"})
+        >>> [(taken.name, round(taken.share, 4)) for taken in cycle.limits_taken]
+        [('velocity', 0.7), ('acceleration', 0.8796)]
+        """
+        return limits_taken(self)
+
+    def unchecked(self) -> Cycle:
+        """The same cycle, of which given laws that break limits are not refused but reported.
+
+        Its `status` is then infeasible, and `limits_taken` names them.
+
+        Examples
+        --------
+        >>> from optlaws import Return, Rise
+        >>> moves = [Rise("35 mm", "0.1 s", law="cycloidal"), Return(law="cycloidal")]
+        >>> cycle = Cycle(moves, period="0.25 s", limits={"velocity": "616 mm/s"})
+        >>> cycle.peak(1)
+        Traceback (most recent call last):
+        optlaws.errors.InfeasibleProblem: segment 1 (Rise): it takes the velocity 700 mm/s at 72 deg of the master, ...
+        >>> shown = cycle.unchecked()
+        >>> shown.status.value, round(shown.peak(1), 9)
+        ('infeasible', 0.7)
+        """
+        other = copy(self)
+        vars(other)["_reports"] = True
+        return other
 
     @kept_property
     def lower_bound(self) -> float | None:
@@ -458,7 +507,8 @@ class Cycle(CycleInterchange):
         objective = self._cycle_objective
         bound = None if objective.shares else bound_of(self._layout, placed, objective, self.duration)
         other = replace(self)
-        vars(other).update(durations=self.durations, _layout=self._layout, _best=Best(placed, (), bound))
+        known = {"durations": self.durations, "_layout": self._layout, "_reports": self._reports}
+        vars(other).update(known | {"_best": Best(placed, (), bound)})
         return other
 
     def with_motor(self, motor: Motor) -> Cycle:
@@ -491,7 +541,7 @@ class Cycle(CycleInterchange):
             )
         driven = replace(source, motor=motor)
         other = replace(self, drive=driven)
-        same = ("durations", "_layout", "_best", "pieces", "_timed", "peaks", "effort")
+        same = ("durations", "_layout", "_best", "_reports", "pieces", "_timed", "peaks", "effort")
         vars(other).update({name: getattr(self, name) for name in same})
         vars(other)["_along"] = tuple(each.of_drive(replace(known, source=driven)) for each in self._along)
         return other
@@ -615,7 +665,7 @@ class Cycle(CycleInterchange):
     def limits_of_segments(self) -> tuple[dict[int, tuple[float, float]], ...]:
         """The least and greatest allowed values of derivatives in each segment, by the derivative's order; SI units.
 
-        Of the force or torque by -1 and of the power by -3; nothing of a segment whose law is given.
+        Of the force or torque by -1 and of the power by -3; nothing of a dwell.
 
         Examples
         --------
@@ -626,7 +676,7 @@ class Cycle(CycleInterchange):
         """
         limits = (limits_of_stretch(stretch, self._cycle_objective, self.axis) for stretch in self.programme.stretches)
         return tuple(
-            both_sides(limited) if is_optimal(stretch.given) else {}
+            {} if isinstance(stretch.given, Dwell) else both_sides(limited)
             for limited, stretch in zip(limits, self.programme.stretches, strict=True)
         )
 
@@ -638,6 +688,7 @@ class Cycle(CycleInterchange):
 
     @kept_property
     def _timed(self) -> TimedCycle:
+        """The laws in their places, with the joints."""
         return TimedCycle(self.programme, self._layout.starts, self.pieces)
 
     @kept_property
@@ -684,4 +735,13 @@ class Cycle(CycleInterchange):
 
     @kept_property
     def _best(self) -> Best:
+        if not self._reports:
+            given = copy(self)
+            vars(given).update(_best=Best((), (), None), _reports=True)
+            refuse_beyond(given, self._cycle_objective.limits)
         return best_of(self._layout, self._cycle_objective, self.axis, self.duration)
+
+    @kept_property
+    def _reports(self) -> bool:
+        """Whether given laws beyond limits are reported in place of refused."""
+        return False

@@ -227,6 +227,11 @@ def fastest_cycle(cycle: Any, objective: CycleObjective) -> FastestCycle:  # noq
             "the greatest speed is not computed with a load that is minimised or limited, whose vibration follows its "
             "own period: limit the cycle's own quantities, and look at load_motion of the cycle at that speed"
         )
+    if objective.energy is not None:
+        raise InputError(
+            "the greatest speed is not computed with a limit of the energy of a cycle: limit the power or the force or "
+            "torque, and look at effort.energy of the cycle at that speed"
+        )
     source = getattr(objective.drive, "source", None)
     if cycle.limits.get(MOTOR) is True and isinstance(source, Drive) and source.motor.continuous:
         raise InputError(

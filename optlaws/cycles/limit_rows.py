@@ -1,11 +1,17 @@
-"""The use of limits by a cycle, whatever its laws; and rows of those limits that its peaks do not show."""
+"""The use of limits by a cycle, whatever its laws; the refusal of given laws beyond them; and rows of limits."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
-from typing import TYPE_CHECKING, NamedTuple
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from itertools import accumulate, pairwise
+from math import inf, isfinite
+from typing import Any, NamedTuple, TypeAlias
 
+import numpy as np
+
+from optlaws.cycles.optimisation.drive_formulas import known_drive
 from optlaws.cycles.optimisation.motion_limits import (
+    CURVE,
     FORCE,
     FORCES,
     POWER,
@@ -18,18 +24,25 @@ from optlaws.cycles.optimisation.motion_limits import (
 )
 from optlaws.cycles.optimisation.motor_limits import MOTOR
 from optlaws.cycles.optimisation.objectives import read_energy, read_load_limits, read_mean_force
+from optlaws.cycles.specification.drive import CycleDrive
+from optlaws.cycles.specification.effort import PieceEffort
 from optlaws.cycles.specification.load import read_load
+from optlaws.cycles.specification.position_drive import PositionDrive
 from optlaws.cycles.specification.process import is_process
-from optlaws.cycles.specification.programme import is_optimal
-from optlaws.cycles.specification.segments import Free, Move
-from optlaws.motion.piece import unit_of
+from optlaws.cycles.specification.programme import TimedSegment, is_optimal
+from optlaws.cycles.specification.segments import Dwell, Free, Move
+from optlaws.errors import InfeasibleProblem
+from optlaws.mechanisms.drives.drive_train import Drive
+from optlaws.mechanisms.drives.sheet import share_used
+from optlaws.motion.piece import Piece, unit_of
+from optlaws.numerics.peaks import is_kept
 from optlaws.shown.summary import Row
-from optlaws.tolerances import AGREEMENT
 
-if TYPE_CHECKING:
-    from optlaws.cycles.cycle import Cycle
+#: a `Cycle`, which knows this module
+AnyCycle: TypeAlias = Any
 
 _SNAP = 4
+_DRIVEN = (FORCE, POWER, CURVE)
 _OF_MOTOR = {"speed": "rad/s", "torque-speed curve": ""}
 
 
@@ -43,9 +56,11 @@ class LimitTaken(NamedTuple):
     where
         The segment that takes most of it; empty of a limit of the whole.
     value, limit
-        What is taken, and what is allowed.
+        What is taken at most, everywhere in the segment or the cycle, and what is allowed.
     text
         The limit in the unit that machines have it in.
+    value_text
+        The value in that unit.
     """
 
     name: str
@@ -53,6 +68,7 @@ class LimitTaken(NamedTuple):
     value: float
     limit: float
     text: str
+    value_text: str = ""
 
     @property
     def share(self) -> float:
@@ -61,8 +77,12 @@ class LimitTaken(NamedTuple):
 
     @property
     def is_kept(self) -> bool:
-        """Whether the limit is satisfied, up to rounding."""
-        return self.share <= 1.0 + AGREEMENT
+        """Whether the limit is satisfied, up to rounding: one that is reached is kept."""
+        return is_kept(self.value, self.limit)
+
+    def __str__(self) -> str:
+        text = f"{self.name}, {self.value_text or f'{self.value:.6g}'} of {self.text or f'{self.limit:.6g}'}"
+        return f"{self.where}: {text}" if self.where else text
 
 
 class _Taken(NamedTuple):
@@ -71,9 +91,20 @@ class _Taken(NamedTuple):
     key: LimitKey
     taken: LimitTaken
     time: float | None
+    stretch: TimedSegment
 
 
-def limits_taken(cycle: Cycle, limited: Cycle | None = None) -> tuple[LimitTaken, ...]:
+class _InPlace(NamedTuple):
+    """A segment with its law in its place, its times, and the drive of its motion."""
+
+    stretch: TimedSegment
+    piece: Piece
+    start: float
+    stop: float
+    drive: CycleDrive | PositionDrive | None
+
+
+def limits_taken(cycle: AnyCycle, limited: AnyCycle | None = None) -> tuple[LimitTaken, ...]:
     """The use of every limit of a cycle, or of another cycle with the same segments, by all its laws.
 
     Of each limit the segment that takes most of it counts. A motor's limits are those of the sheet.
@@ -82,15 +113,67 @@ def limits_taken(cycle: Cycle, limited: Cycle | None = None) -> tuple[LimitTaken
     --------
     >>> from optlaws import Cycle, Return, Rise
     >>> moves = [Rise("35 mm", "0.1 s", law="cycloidal"), Return(law="cycloidal")]
-    >>> (taken,) = limits_taken(Cycle(moves, period="0.25 s", limits={"velocity": "616 mm/s"}))
-    >>> taken.name, taken.where, round(taken.share, 4), taken.is_kept
-    ('velocity', 'segment 1 (Rise)', 1.1364, False)
+    >>> (taken,) = Cycle(moves, period="0.25 s", limits={"velocity": "616 mm/s"}).unchecked().limits_taken
+    >>> print(taken, round(taken.share, 4), taken.is_kept)
+    segment 1 (Rise): velocity, 700 mm/s of 616 mm/s 1.1364 False
     """
     given = cycle if limited is None else limited
-    return (*(taken.taken for taken in _most(_of_segments(cycle, given, every=True))), *_of_whole(cycle, given))
+    of_cycle = read_limits(given.limits, cycle.axis, "limits")
+    segments = _of_segments(_in_place(cycle), given.programme.stretches, of_cycle, cycle.axis)
+    return (*(taken.taken for taken in _most(segments)), *_of_whole(cycle, given))
 
 
-def limit_rows(cycle: Cycle) -> list[Row]:
+def refuse_beyond(cycle: AnyCycle, of_cycle: Mapping[LimitKey, float]) -> None:
+    """Refuse given laws that break a limit of the cycle or of their segments.
+
+    The cycle has its given laws alone; where no law is optimised, the limits of the whole are looked at as well.
+
+    Raises
+    ------
+    InfeasibleProblem
+        If a limit is broken: by how much, and what helps; its `proof` is every `LimitTaken` that is.
+    """
+    placed = [each for each in _in_place(cycle) if not is_optimal(each.stretch.given)]
+    taken = list(_of_segments(placed, cycle.programme.stretches, of_cycle, cycle.axis))
+    broken = [each for each in taken if not each.taken.is_kept]
+    if not any(is_optimal(segment) for segment in cycle.segments):
+        # limits of the motor but its rating are among those of the segments
+        known = {f"motor's {name}" for name in ("peak torque", "torque-speed curve", "speed")}
+        of_whole = [each for each in _of_whole(cycle, cycle) if not each.is_kept and each.name not in known]
+    else:
+        of_whole = []
+    proof = (*(each.taken for each in broken), *of_whole)
+    if proof:
+        others = "" if len(proof) == 1 else f"; beyond a limit is also {'; '.join(map(str, proof[1:]))}"
+        reason = _reason(broken[0], cycle) if broken else _reason_of_whole(proof[0])
+        raise InfeasibleProblem(f"{reason}{others}", proof=proof)
+
+
+def _reason(broken: _Taken, cycle: AnyCycle) -> str:
+    """The limit that a given law breaks, and what helps."""
+    key, taken, time, stretch = broken
+    nu = key if isinstance(key, int) else key.nu
+    at = "" if time is None else f" at {360.0 * time / cycle.duration:.6g} deg of the master"
+    if not isfinite(taken.value):
+        return (
+            f"{taken.where}: its law jumps{at}, so that no time keeps the {taken.name} {taken.text}: take a smoother "
+            "law, or leave that limit out"
+        )
+    longer = f"{taken.share ** (1.0 / nu):.6g} times as much time" if nu > 0 else "more time"
+    remedy = f"give it {longer}, a wider limit{', or another law' * isinstance(stretch.given, Move)}"
+    if isinstance(stretch.given, Dwell):
+        remedy = "allow more, or change the drive's spring, preload, gravity or friction"
+    return f"{taken.where}: it takes the {taken.name} {taken.value_text}{at}, but its limit is {taken.text}: {remedy}"
+
+
+def _reason_of_whole(broken: LimitTaken) -> str:
+    return (
+        f"limits: the {broken.name} over the cycle is {broken.value_text}, but its limit is {broken.text}: allow more, "
+        "give the cycle more time, or give its moves other laws"
+    )
+
+
+def limit_rows(cycle: AnyCycle) -> list[Row]:
     """Rows of limits: the value in the segment that uses most of the limit, with its time and the limit.
 
     Examples
@@ -101,6 +184,8 @@ def limit_rows(cycle: Cycle) -> list[Row]:
     >>> [(row.name, round(row.value, 6), row.note) for row in limit_rows(cycle)][0]
     ('deceleration', 14.0, 'limit 14 m/s^2 of segment 1 (Rise)')
     """
+    limits = read_limits(cycle.limits, cycle.axis, "limits")
+    taken_of = _of_segments(_in_place(cycle), cycle.programme.stretches, limits, cycle.axis, keys=_is_unshown)
     return [
         Row(
             taken.name,
@@ -109,9 +194,24 @@ def limit_rows(cycle: Cycle) -> list[Row]:
             time,
             f"limit {taken.text} of {taken.where}",
         )
-        for key, taken, time in _most(_of_segments(cycle, cycle, every=False))
-        if isinstance(key, OneSided) or key == _SNAP
+        for key, taken, time, _ in _most(taken_of)
     ]
+
+
+def _is_unshown(key: LimitKey) -> bool:
+    """Whether the peaks of a cycle do not show what is limited."""
+    return isinstance(key, OneSided) or key == _SNAP
+
+
+def _in_place(cycle: AnyCycle) -> list[_InPlace]:
+    """The segments whose laws are in their places."""
+    drive = cycle._drive  # noqa: SLF001 - its numbers
+    times = list(accumulate(cycle.durations, initial=0.0))
+    placed = []
+    for stretch, (start, stop) in zip(cycle.programme.stretches, pairwise(times), strict=True):
+        before = [piece for piece in cycle.pieces if piece.start <= start < piece.stop]
+        placed += [_InPlace(stretch, piece, start, stop, drive) for piece in before[-1:]]
+    return placed
 
 
 def _most(taken: Iterable[_Taken]) -> list[_Taken]:
@@ -123,44 +223,72 @@ def _most(taken: Iterable[_Taken]) -> list[_Taken]:
     return list(most.values())
 
 
-def _of_segments(cycle: Cycle, limited: Cycle, *, every: bool) -> Iterator[_Taken]:
-    """The use of the limits of `limited` by segments with an optimal law, or by every moving one."""
-    of_cycle = read_limits(limited.limits, cycle.axis, "limits")
-    for i, (stretch, given) in enumerate(zip(cycle.programme.stretches, limited.programme.stretches, strict=True)):
-        has_limits = isinstance(stretch.given, Move | Free) if every else is_optimal(stretch.given)
-        limits = limits_of_segment(given, of_cycle, cycle.axis) if has_limits else {}
+def _of_segments(
+    placed: Iterable[_InPlace],
+    limited: Sequence[TimedSegment],
+    of_cycle: Mapping[LimitKey, float],
+    axis: str,
+    *,
+    keys: Callable[[LimitKey], bool] = lambda _: True,
+) -> Iterator[_Taken]:
+    """The use of limits by segments, whose own are those of `limited`; rests take of those of a drive alone."""
+    for each in placed:
+        limits = limits_of_segment(limited[each.stretch.number - 1], of_cycle, axis)
         for key, limit in limits.items():
-            value, time = _greatest(cycle, i, key)
-            name = name_of(key, cycle.axis)
-            yield _Taken(key, LimitTaken(name, stretch.where, value, limit, amount(key, limit, cycle.axis)), time)
+            if keys(key) and (key in _DRIVEN or not isinstance(each.stretch.given, Dwell)):
+                value, time = _greatest(each, key)
+                texts = (amount(key, size, axis) for size in (limit, value))
+                taken = LimitTaken(name_of(key, axis), each.stretch.where, value, limit, *texts)
+                yield _Taken(key, taken, time, each.stretch)
 
 
-def _greatest(cycle: Cycle, number: int, key: LimitKey) -> tuple[float, float | None]:
+def _greatest(placed: _InPlace, key: LimitKey) -> tuple[float, float | None]:
     """The greatest magnitude in a segment on the side that a limit bounds, and its time where it has one."""
-    if key in {FORCE, POWER}:
-        effort = cycle.efforts[number]
-        return (effort.peak_force if key == FORCE else max(effort.motoring_power, effort.braking_power)), None
-    peaks = cycle.peaks[number]
+    stretch, piece, start, stop, _ = placed
+    if key in _DRIVEN:
+        return _greatest_of_drive(placed, key)
     nu = key if isinstance(key, int) else key.nu
-    piece = next(piece for piece in reversed(cycle.pieces) if piece.start <= peaks.start)
-    (low, first), (high, last) = piece.extremes(nu, peaks.start, peaks.start + peaks.duration)
+    if not isinstance(stretch.given, Move | Free):
+        # straight: what its law has beside is rounding
+        speed = stretch.displacement / (stop - start) if nu == 1 else 0.0
+        return (key.sign * speed if isinstance(key, OneSided) else abs(speed)), start
+    if not is_optimal(stretch.given) and not isfinite(piece.law.peak(nu).value):
+        return inf, piece.start + piece.law.peak(nu).k * piece.duration
+    (low, first), (high, last) = piece.extremes(nu, start, stop)
     if isinstance(key, OneSided):
         return (high, last) if key.sign > 0.0 else (-low, first)
-    return max((abs(low), first), (abs(high), last))
+    before, after = sorted([(first, abs(low)), (last, abs(high))])
+    return (before if is_kept(after[1], before[1]) else after)[::-1]
 
 
-def _of_whole(cycle: Cycle, limited: Cycle) -> Iterator[LimitTaken]:
+def _greatest_of_drive(placed: _InPlace, key: LimitKey) -> tuple[float, float | None]:
+    """The greatest force or power in a segment, or share of the motor's curve of torque over speed."""
+    drive = known_drive(placed.drive)
+    along = PieceEffort(drive, placed.piece, (placed.start, placed.stop))
+    if key == POWER:
+        return max(along.powers), None
+    if key == FORCE or not isinstance(drive, PositionDrive) or not isinstance(drive.source, Drive):
+        return along.peak_force
+    motor = drive.source.motor
+    return along.parts.greatest(lambda times: share_used(np.abs(along.force(times)), motor.peak_at(along.speed(times))))
+
+
+def _of_whole(cycle: AnyCycle, limited: AnyCycle) -> Iterator[LimitTaken]:
     """The use of limits of the whole: of means and sums, of the motor, of the load."""
     mean, energy = read_mean_force(limited.limits, cycle.axis), read_energy(limited.limits)
     force, unit = FORCES[cycle.axis], "N" if cycle.axis == "length" else "N m"
     if mean is not None:
-        yield LimitTaken(f"rms {force}", "", cycle.effort.rms_force, mean, f"{mean:.6g} {unit}")
+        yield _of_cycle(f"rms {force}", cycle.effort.rms_force, mean, unit)
     if energy is not None:
-        yield LimitTaken("energy", "", cycle.effort.energy, energy, f"{energy:.6g} J")
+        yield _of_cycle("energy", cycle.effort.energy, energy, "J")
     for margin in cycle.sheet.margins if limited.limits.get(MOTOR) else ():
-        text = f"{margin.limit:.6g} {_OF_MOTOR.get(margin.name, 'N m')}".strip()
-        yield LimitTaken(f"motor's {margin.name}", "", margin.needed, margin.limit, text)
+        unit = _OF_MOTOR.get(margin.name, "N m")
+        yield _of_cycle(f"motor's {margin.name}", margin.needed, margin.limit, unit)
     load = None if limited.load is None or is_process(limited.load) else read_load(limited.load, cycle.axis)
     for (output, rms), limit in read_load_limits(limited.limits, load).items():
         value = cycle.load_motion.rms(output) if rms else cycle.load_motion.peak(output).value
-        yield LimitTaken(f"{'rms ' * rms}load {output}", "", value, limit, f"{limit:.6g}")
+        yield _of_cycle(f"{'rms ' * rms}load {output}", value, limit, "")
+
+
+def _of_cycle(name: str, value: float, limit: float, unit: str) -> LimitTaken:
+    return LimitTaken(name, "", value, limit, *(f"{size:.6g} {unit}".strip() for size in (limit, value)))

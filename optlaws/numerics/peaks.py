@@ -11,7 +11,7 @@ import numpy as np
 
 from optlaws.files.reading import JsonText, entries_of
 from optlaws.numbers import Array, bounded, finite
-from optlaws.tolerances import NO_SLOPE, POLISHED, POLISHING_REACH, TIE
+from optlaws.tolerances import AGREEMENT, NO_SLOPE, POLISHED, POLISHING_REACH, TIE
 
 POLISH_STEPS = 3
 
@@ -117,3 +117,16 @@ def polished(x: Array, residual: Callable[[Array], tuple[Array, Array]]) -> Arra
 def _step(value: Array, slope: Array) -> tuple[Array, Array]:
     step = value / np.where(np.abs(slope) < NO_SLOPE, np.inf, slope)
     return np.abs(value), np.clip(step, -POLISHING_REACH, POLISHING_REACH)
+
+
+def is_kept(value: float, limit: float, rounding: float = AGREEMENT) -> bool:
+    """Whether a value is within a limit from above: one that is reached is kept, up to the rounding of the value.
+
+    `rounding` is a share of the limit. Of a limit from below both are given with the other sign.
+
+    Examples
+    --------
+    >>> is_kept(25.0 + 1e-10, 25.0), is_kept(25.001, 25.0), is_kept(-14.9, -15.0)
+    (True, False, False)
+    """
+    return value <= limit + rounding * abs(limit)

@@ -17,7 +17,7 @@ from tests.internals.jobs import read_of_cycle_entries as read
 PRESS = Cycle(
     [Rise("35 mm", "120 deg", name="up"), Dwell("90 deg"), Return("35 mm", "100 deg", law="modified sine"), Dwell()],
     speed="200 rpm",
-    limits={"velocity": "616 mm/s"},
+    limits={"velocity": "740 mm/s"},
     drive={"mass": "2 kg"},
 )
 SHEAR = Cycle([ConstantVelocity("1.5 m/s", "80 ms"), Return()], period="400 ms", degree=15)

@@ -35,7 +35,7 @@ def changed(study: dict[str, Any], take: dict[str, Any]) -> Cycle:
     pairs = zip(axis["segment"], take["laws"], strict=True)
     segments = [segment if law is None else {**segment, "law": law} for segment, law in pairs]
     others = {name: take[name] for name in ("minimise", "limits") if name in take}
-    return known({**study, "axis": [{**axis, **others, "segment": segments}]})
+    return known({**study, "axis": [{**axis, **others, "segment": segments}]}).unchecked()
 
 
 @pytest.mark.parametrize("follower", [None, FOLLOWER])

@@ -407,13 +407,13 @@ def test_a_cycle_within_its_limits_is_proven() -> None:
     assert view["trust"]["word"] == "proven optimal"
     assert [one["peaks"][0]["text"] for one in view["segments"]] == ["616", "0", "616", "0"]
     assert not any(peak["beyond"] for one in view["segments"] for peak in one["peaks"])
-    assert [one["value"] for one in view["panels"][1]["limits"]] == [616.0] * 4
+    assert [one["value"] for one in view["panels"][1]["limits"]] == [616.0] * 2  # a dwell has none
 
 
 def test_a_given_law_beyond_a_limit_is_marked() -> None:
     view = cycle_view.answer(cycle_of(segment=with_law("cycloidal")))
     assert (view["trust"]["status"], view["trust"]["word"]) == ("refused", "beyond a limit")
-    assert view["trust"]["advice"] == "Beyond what is allowed: Rise (velocity), Return (velocity)."
+    assert view["trust"]["advice"] == "Beyond what is allowed: segment 3 (Return): velocity, 840 mm/s of 616 mm/s."
     assert cycle_view.answer(cycle_of(segment=with_law("cycloidal"), limits={}))["trust"] is None
     assert [one["peaks"][0]["beyond"] for one in view["segments"]] == [True, False, True, False]
 

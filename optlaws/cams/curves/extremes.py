@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from math import atan, degrees, inf, nextafter
+from math import atan, degrees, inf, nextafter, tan
 from typing import Literal, TypeAlias
 
 from optlaws.cams.curves.motion_by_angle import CamMotion
 from optlaws.numerics.branch_and_bound import extremes
+from optlaws.numerics.peaks import is_kept
 from optlaws.numerics.taylor import Jet
-from optlaws.tolerances import CAM_EXTREMES, EQUAL_EXTREMES, ROUNDOFF
+from optlaws.tolerances import CAM_EXTREMES, CAM_FEASIBILITY, EQUAL_EXTREMES, ROUNDOFF
 
 #: of the displacement's jet; shorter than it by as many orders as the function takes derivatives
 Function: TypeAlias = Callable[[Jet], Jet]
@@ -140,6 +141,14 @@ class CamExtremes:
         """The greatest magnitude of the pressure angle."""
         least, greatest = self.pressure_angles
         return greatest if greatest.value >= -least.value else -least
+
+    def keeps_pressure_angle(self, limit: float) -> bool:
+        """Whether no pressure angle is beyond a limit in radians, but for the rounding of laws that reach it."""
+        return is_kept(tan(self.greatest_pressure_angle.low), tan(limit), CAM_FEASIBILITY)
+
+    def keeps_radius(self, limit: float) -> bool:
+        """Whether no convex radius is below a limit in metres, but for the rounding of laws that reach it."""
+        return is_kept(-self.least_convex_radius.high, -limit, CAM_FEASIBILITY)
 
 
 def angle_of_tangent(tangent: EnclosedExtreme) -> EnclosedExtreme:

@@ -185,13 +185,13 @@ class AdvisedCycle:
     def _known(self, segments: Sequence[CycleSegment]) -> Cycle:
         """A cycle of known laws, without limits and without an objective of the load."""
         minimise = "acceleration" if kind_of(self.cycle.minimise)[0] == LOADED else self.cycle.minimise
-        cycle = replace(self.cycle, segments=segments, minimise=minimise, limits={})
+        cycle = replace(self.cycle, segments=segments, minimise=minimise, limits={}).unchecked()
         _ = cycle.peaks  # what does not fit is refused here
         return cycle
 
     @kept_property
     def _standing(self) -> Cycle:
-        return self.cycle if self.usual is None else self._known(self.cycle.segments)
+        return self.cycle.unchecked() if self.usual is None else self._known(self.cycle.segments)
 
     def _advised(self, name: str, kind: Any, cycle: Cycle, proof: ProvenLeast | None = None) -> AdvisedLaw:  # noqa: ANN401
         values = {measure.name: self._value(cycle, measure.name) for measure in self.measures}

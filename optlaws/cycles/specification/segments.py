@@ -87,8 +87,8 @@ class Move(CycleSegment):
         A law, the name of one in the catalogue, a formula of k such as "formula: k^2*(3 - 2*k)", a JSON or CSV file
         that holds one, or "optimal". Half segments ("C1", "H2") move at one end, where their neighbour must be as fast.
     limits
-        Of an optimal law, in machine units: `{"velocity": "616 mm/s", "acceleration": "90 m/s^2", "jerk": ...}`; two
-        quantities are the least and the greatest value, a "deceleration" is of slowing down.
+        Of its law, in machine units: `{"velocity": "616 mm/s", "acceleration": "90 m/s^2", "jerk": ...}`; two are the
+        least and the greatest value, a "deceleration" is of slowing down.
     start_velocity, end_velocity
         Of an optimal law; those of its neighbours, or rest, unless given.
 

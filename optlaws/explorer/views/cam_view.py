@@ -146,7 +146,7 @@ def _panels(spec: CamProblemFile, cam: DiscCam, angles: Array) -> list[dict[str,
     turns = drawn(np.degrees(angles), 4)
     unit, factor = ("mm", _MILLI) if cam.follower.axis == "length" else ("deg", degrees(1.0))
     pressure = cam.extremes.greatest_pressure_angle
-    limit = None if spec.pressure_angle is None else degrees(quantity(spec.pressure_angle, "angle", "pressure_angle"))
+    limit = _steepest(spec)
     radius = _MILLI * np.asarray(cam.radius_of_curvature(angles))
     far = _FAR * _MILLI * quantity(cam.prime_radius, "length", "prime_radius")
     bulging = cam.extremes.least_convex_radius
@@ -155,12 +155,17 @@ def _panels(spec: CamProblemFile, cam: DiscCam, angles: Array) -> list[dict[str,
         panel(
             "pressure angle", "deg", turns, np.degrees(cam.pressure_angle(angles)), [_mark(pressure, degrees(1.0), cam)]
         )
-        | {"limits": [] if limit is None else [{"from": 0.0, "to": _TURN, "value": limit}]}
-        | {"beyond": limit is not None and degrees(pressure.value) > limit},
+        | {"limits": [] if limit is None else [{"from": 0.0, "to": _TURN, "value": degrees(limit)}]}
+        | {"beyond": limit is not None and not cam.extremes.keeps_pressure_angle(limit)},
         panel(
             "radius of curvature", "mm", turns, np.where(np.abs(radius) < far, radius, np.nan), [_mark(bulging, _MILLI)]
         ),
     ]
+
+
+def _steepest(spec: CamProblemFile) -> float | None:
+    """The limit of the pressure angle in radians; None without one."""
+    return None if spec.pressure_angle is None else quantity(spec.pressure_angle, "angle", "pressure_angle")
 
 
 def panel(name: str, unit: str, turns: Any, values: Array, peaks: list[dict[str, Any]]) -> dict[str, Any]:  # noqa: ANN401
@@ -195,10 +200,10 @@ def _broken_limits(spec: CamProblemFile, cam: DiscCam) -> dict[str, str]:
     """A verdict on limits that the cam does not keep; nothing where it keeps all."""
     extremes, broken = cam.extremes, []
     pressure, radius = extremes.greatest_pressure_angle.value, extremes.least_convex_radius.value
-    if spec.pressure_angle is not None and pressure > quantity(spec.pressure_angle, "angle", "pressure_angle"):
+    steepest, least = _steepest(spec), spec.radius_of_curvature
+    if steepest is not None and not extremes.keeps_pressure_angle(steepest):
         broken.append(f"the pressure angle, {digits(degrees(pressure), 5)} deg of {spec.pressure_angle}")
-    least = spec.radius_of_curvature
-    if least is not None and radius < quantity(least, "length", "radius_of_curvature"):
+    if least is not None and not extremes.keeps_radius(quantity(least, "length", "radius_of_curvature")):
         broken.append(f"the radius of curvature, {digits(_MILLI * radius, 5)} mm of {least}")
     if not broken or extremes.undercut.status == "undercut":
         return {}

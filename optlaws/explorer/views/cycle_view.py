@@ -14,7 +14,8 @@ import numpy as np
 
 from optlaws import Cycle, Status
 from optlaws.cycles.kinematics import SegmentPeaks
-from optlaws.cycles.optimisation.motion_limits import LIMITS, both_sides, limits_of_segment, read_limits
+from optlaws.cycles.optimisation.motion_limits import LIMITS
+from optlaws.cycles.optimisation.motor_limits import MOTOR
 from optlaws.cycles.optimisation.objectives import OBJECTIVES
 from optlaws.cycles.summary import drive_rows, joint_rows, objective_unit
 from optlaws.errors import InfeasibleProblem, InputError, OptlawsError, SolverFailure, located
@@ -26,27 +27,17 @@ from optlaws.jobs.cycle_entries import AxisEntries, CycleProblemFile, cycle_of
 from optlaws.laws.catalogue import reading
 from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.mechanisms.drives.motor import OF_TORQUE, Motor
-from optlaws.motion.quantities import QUANTITIES, either
+from optlaws.motion.quantities import QUANTITIES
 from optlaws.numbers import bounded
+from optlaws.numerics.peaks import is_kept
 from optlaws.plots.cycle import UNITS, samples
-from optlaws.tolerances import AGREEMENT, BOUND_SLACK, CYCLE_ROUNDING
+from optlaws.tolerances import BOUND_SLACK, CYCLE_ROUNDING
 
 _EACH = 100
 _TURN = 360.0
 _WHERE = Path("the cycle")
 #: entries of a motor that change no torque
 LIMITING = {entry.name for entry in fields(Motor)} - {*OF_TORQUE, "name"}
-#: limits of a cycle's drive, and what its effort calls that
-_OF_DRIVE = {
-    "force": "peak_force",
-    "torque": "peak_force",
-    "rms force": "rms_force",
-    "rms torque": "rms_force",
-    "power": "peak_power",
-    "energy": "energy",
-}
-_FORCES = ("force", "torque")
-_DIMENSIONS = {"peak_force": _FORCES, "rms_force": _FORCES, "peak_power": ("power",), "energy": ("energy",)}
 
 
 class CycleRequest(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
@@ -118,7 +109,7 @@ def _solved(question: bytes) -> Cycle:
         with located("drive"), located("motor"):
             limited = Motor.from_dict(motor)
         return _solved(msgspec.json.encode((same, speed, period))).with_motor(limited)
-    cycle_of_axis = cycle_of(axis, speed, period)
+    cycle_of_axis = cycle_of(axis, speed, period).unchecked()
     _ = cycle_of_axis.peaks  # what cannot be found is told here
     return cycle_of_axis
 
@@ -139,12 +130,6 @@ def _degrees(shown: Cycle, time: float) -> float:
     return round(_TURN * time / shown.duration, 4)
 
 
-def limits_of(shown: Cycle) -> list[dict[int, tuple[float, float]]]:
-    """The least and greatest allowed values in each segment: its own limits and the axis's limits, by order."""
-    whole = read_limits(shown.limits, shown.axis, "limits")
-    return [both_sides(limits_of_segment(stretch, whole, shown.axis)) for stretch in shown.programme.stretches]
-
-
 def _panel(shown: Cycle, nu: int) -> dict[str, Any]:
     unit, factor = UNITS[shown.axis][nu]
     times, sampled = samples(shown, nu, _EACH)
@@ -159,7 +144,7 @@ def _panel(shown: Cycle, nu: int) -> dict[str, Any]:
             "value": bounded(limit[nu][1] * factor),
             "least": bounded(limit[nu][0] * factor),
         }
-        for peak, limit in zip(shown.peaks, limits_of(shown), strict=True)
+        for peak, limit in zip(shown.peaks, shown.limits_of_segments, strict=True)
         if nu in limit
     ]
     name = QUANTITIES[nu]
@@ -180,7 +165,7 @@ def _peaks(shown: Cycle, nu: int) -> list[dict[str, Any]]:
 
 def _segments(shown: Cycle) -> Iterator[dict[str, Any]]:
     units = UNITS[shown.axis]
-    for peak, limits, stretch in zip(shown.peaks, limits_of(shown), shown.programme.stretches, strict=True):
+    for peak, limits, stretch in zip(shown.peaks, shown.limits_of_segments, shown.programme.stretches, strict=True):
         peaks = [
             {
                 "text": _plain(peak.peak(nu) * units[nu][1], shown.peak(nu) * units[nu][1]),
@@ -201,7 +186,7 @@ def _segments(shown: Cycle) -> Iterator[dict[str, Any]]:
 
 def _beyond(peaks: SegmentPeaks, nu: int, limits: tuple[float, float]) -> bool:
     (least, _), (most, _) = peaks.extremes[nu]
-    return least < limits[0] * (1.0 + AGREEMENT) or most > limits[1] * (1.0 + AGREEMENT)
+    return not (is_kept(-least, -limits[0]) and is_kept(most, limits[1]))
 
 
 def _plain(value: float, size: float) -> str:
@@ -235,33 +220,19 @@ def trust(shown: Cycle) -> dict[str, Any] | None:
 
 def broken_limits(shown: Cycle) -> dict[str, str]:
     """A verdict on the limits that the given laws exceed; nothing where all limits are satisfied."""
-    broken = [
-        f"{peak.name} ({QUANTITIES[nu]})"
-        for peak, limits in zip(shown.peaks, limits_of(shown), strict=True)
-        for nu in (1, 2, 3)
-        if _beyond(peak, nu, limits.get(nu, (-inf, inf)))
-    ]
-    broken += [*_broken_by_drive(shown), *_too_weak(shown)]
+    broken = [str(taken) for taken in shown.limits_taken if not taken.is_kept]
+    if not shown.limits.get(MOTOR):
+        broken += _too_weak(shown)
     if not broken:
         return {}
-    return {"status": "refused", "word": "beyond a limit", "advice": f"Beyond what is allowed: {', '.join(broken)}."}
-
-
-def _broken_by_drive(shown: Cycle) -> Iterator[str]:
-    """Limits of torque, power and energy that the whole cycle goes beyond."""
-    for name, attribute in _OF_DRIVE.items():
-        given = shown.limits.get(name)
-        if isinstance(given, str) and shown.drive is not None:
-            taken = getattr(shown.effort, attribute)
-            if taken > either(given, _DIMENSIONS[attribute], name)[1] * (1.0 + AGREEMENT):
-                yield f"{name}, {digits(taken, 6)} of {given}"
+    return {"status": "refused", "word": "beyond a limit", "advice": f"Beyond what is allowed: {'; '.join(broken)}."}
 
 
 def _too_weak(shown: Cycle) -> Iterator[str]:
     """The quantity of which a motor provides too little."""
     if isinstance(shown.drive, Drive):
         for margin in shown.sheet.margins:
-            if margin.use > 1.0 + AGREEMENT:
+            if not margin.is_kept:
                 yield f"the motor's {margin.name}, {digits(100.0 * margin.use, 4)} % of it"
 
 

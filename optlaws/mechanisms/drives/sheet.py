@@ -13,6 +13,7 @@ from optlaws.laws.storage import PlainNumbers
 from optlaws.mechanisms.drives.motor import Motor
 from optlaws.mechanisms.drives.motor_motion import MotorMotion
 from optlaws.numbers import Array
+from optlaws.numerics.peaks import is_kept
 from optlaws.shown.summary import Row, Summary
 from optlaws.tolerances import AGREEMENT, LIMIT_USED
 
@@ -39,6 +40,11 @@ class Margin(NamedTuple):
     needed: float
     limit: float
     use: float
+
+    @property
+    def is_kept(self) -> bool:
+        """Whether the motor is strong enough, up to rounding: a limit that is reached is kept."""
+        return is_kept(self.use, 1.0)
 
 
 @dataclass(frozen=True)
@@ -112,7 +118,7 @@ class DriveSheet(PlainNumbers):
     @property
     def fits(self) -> bool:
         """Whether the motor satisfies all requirements of the move."""
-        return all(margin.use <= 1.0 for margin in self.margins)
+        return all(margin.is_kept for margin in self.margins)
 
     def summary(self) -> Summary:
         """The sheet as rows: values, units, and the k of those that are reached somewhere."""
@@ -131,7 +137,7 @@ class DriveSheet(PlainNumbers):
             Row("inertia of load by motor", self.inertia_match),
         ]
         rows += [
-            Row(f"{margin.name}, used", 100.0 * margin.use, "%", note="" if margin.use <= 1.0 else "too weak")
+            Row(f"{margin.name}, used", 100.0 * margin.use, "%", note="" if margin.is_kept else "too weak")
             for margin in self.margins
         ]
         return Summary(rows, at=self._at)

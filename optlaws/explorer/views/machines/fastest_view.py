@@ -452,7 +452,7 @@ def _view_of_cycle(request: FastestRequest) -> dict[str, Any]:
     spec, axis = _axis(request)
     quickest = _fastest_cycle(msgspec.json.encode((spec, axis)))
     shown = _cycle_in_time(spec, axis, quickest, request.time)
-    edges = cycle_view.limits_of(shown)
+    edges = shown.limits_of_segments
     times = np.unique(np.concatenate([np.linspace(p.start, p.stop, _EACH) for p in shown.pieces]))
     places = np.array([time for peak in shown.peaks for pair in peak.extremes[1:] for _, time in pair])
     functions = [partial(lambda t, nu: np.asarray(shown(t, nu)), nu=nu) for nu in range(4)]

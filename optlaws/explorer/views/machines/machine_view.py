@@ -148,7 +148,7 @@ def _evaluated(spec: CycleProblemFile, axis: AxisEntries, given: Sequence[dict[s
         raise InputError(f"laws: {axis.name} has {len(moves)} optimised moves, and {len(given)} laws are given")
     for i, law in zip(moves, given, strict=True):
         segments[i] = replace(cast("Move", segments[i]), law=_stored(msgspec.json.encode(law)))
-    return replace(cycle, segments=segments)
+    return replace(cycle, segments=segments).unchecked()
 
 
 @lru_cache(maxsize=64)
