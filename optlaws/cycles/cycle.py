@@ -38,6 +38,7 @@ from optlaws.cycles.optimisation.shared_limits import Best, best_of
 from optlaws.cycles.optimisation.sums import total
 from optlaws.cycles.specification.drive import CycleDrive, read_drive
 from optlaws.cycles.specification.effort import Effort, PieceEffort, SegmentEffort, effort
+from optlaws.cycles.specification.frozen import frozen
 from optlaws.cycles.specification.joints import LawSpan, Layout, layout
 from optlaws.cycles.specification.load import LOAD, Load, read_load
 from optlaws.cycles.specification.position_drive import PositionDrive, position_drive
@@ -148,6 +149,8 @@ class Cycle(CycleInterchange):
         object.__setattr__(self, "segments", tuple(self.segments))
         for entry in ("speed", "period", "start", "advance"):
             object.__setattr__(self, entry, written(getattr(self, entry)))
+        for entry in ("limits", "drive", "load"):
+            object.__setattr__(self, entry, frozen(getattr(self, entry)))
         check_objective(self.minimise, self._load)
         self.limits_of_segments  # noqa: B018 - limits and drives that are wrong are refused at once
         if all(stretch.fixed for stretch in self.programme.stretches):

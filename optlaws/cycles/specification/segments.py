@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, fields
 from typing import Any
 
+from optlaws.cycles.specification.frozen import frozen
 from optlaws.laws import MotionLaw
 from optlaws.motion.quantities import written
 from optlaws.numbers import Quantity
@@ -25,7 +26,7 @@ class CycleSegment:
 
     def __post_init__(self) -> None:
         for entry in fields(self):  # type: ignore[arg-type] # its heirs are dataclasses
-            object.__setattr__(self, entry.name, written(getattr(self, entry.name)))
+            object.__setattr__(self, entry.name, frozen(written(getattr(self, entry.name))))
 
     @property
     def label(self) -> str:
