@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Any, Literal, TypeAlias, Unpack
+from typing import Any, Literal, TypeAlias, Unpack
 
 from optlaws.cycles.cycle import Cycle
 from optlaws.cycles.interchange import problem_file
@@ -13,7 +13,7 @@ from optlaws.cycles.interlocks.interlock_kinds import checked
 from optlaws.cycles.specification.programme import is_optimal, period_of
 from optlaws.cycles.specification.segments import CycleSegment, Dwell
 from optlaws.echo import shortened
-from optlaws.errors import InfeasibleProblem, InputError, located
+from optlaws.errors import InputError, located
 from optlaws.extras import needed
 from optlaws.files.reading import JsonText
 from optlaws.kept import kept_property
@@ -23,9 +23,6 @@ from optlaws.numbers import Quantity
 from optlaws.suggest import keywords_of, unknown_key
 from optlaws.synthesis.status import Status
 from optlaws.tolerances import CLOSURE, CYCLE_OPTIMALITY
-
-if TYPE_CHECKING:
-    from optlaws.cycles.interlocks.overlapping import BestInstants
 
 #: what pictures of axes show
 AxesPicture: TypeAlias = Literal["motion", "timing", "plane", "clearance"]
@@ -124,22 +121,21 @@ class Axes(JsonText, Mapping[str, Cycle]):
     def fastest(self) -> Overlap:
         """The least period that the interlocks allow: moves overlap as far as they can, each in its least time.
 
-        Laws that are given keep their shapes. A move whose axis has limits of velocity, acceleration or jerk takes the
-        least time under these; another one keeps its time, or its angle of the master. Where no move has a law, all are
-        looked for together with their instants, within limits of velocity, acceleration and jerk: the law bends for
-        the interlocks. Dwells last at least as long as they were given, or their `least`. The order of the segments of
-        each axis stays, and all axes rest when the cycle begins.
+        Laws that are given keep their shapes; a move without one takes its own fastest law, as of `Cycle.fastest`, from
+        rest to rest. A move with limits takes the least time under these; another one keeps its time, or its angle of
+        the master. Dwells last at least as long as they were given, or their `least`. The order of the segments of each
+        axis stays, and all axes rest when the cycle begins.
 
         Returns
         -------
-        An `Overlap`: its axes, its period, and the bound that no other instants of these moves pass.
+        An `Overlap`: its axes, its period, and the bound that no other instants of these laws pass.
 
         Raises
         ------
         InputError
-            If a segment is no move from rest to rest and no dwell.
+            If a segment is no move from rest to rest and no dwell, or a limit is of the whole cycle, as an rms torque.
         InfeasibleProblem
-            If no instants keep all interlocks; the error names those that contradict each other.
+            If no instants of these laws keep all interlocks; the error names those that contradict each other.
 
         Examples
         --------
@@ -164,8 +160,8 @@ class Axes(JsonText, Mapping[str, Cycle]):
     def gentlest(self, *of: str) -> Overlap:
         """The least greatest acceleration in the same period: moves grow into the time that the interlocks leave.
 
-        Laws that are given keep their shapes. Where no move of the axes `of` has a law, theirs are looked for together
-        with the instants at which they wait; the other axes move as they did.
+        Laws that are given keep their shapes; a move without one takes the law of least acceleration within its limits
+        in its time, from rest to rest.
 
         Parameters
         ----------
@@ -175,14 +171,15 @@ class Axes(JsonText, Mapping[str, Cycle]):
 
         Returns
         -------
-        An `Overlap`: its axes, its acceleration as a share of what it was, and the bound that no other instants pass.
+        An `Overlap`: its axes, its acceleration as a share of what it was, and the bound that no other instants of
+        these laws pass.
 
         Raises
         ------
         InputError
             If an axis is unknown, or a segment is no move from rest to rest and no dwell.
         InfeasibleProblem
-            If no instants keep all interlocks; the error names those that contradict each other.
+            If no instants of these laws keep all interlocks; the error names those that contradict each other.
 
         Examples
         --------
@@ -204,35 +201,14 @@ class Axes(JsonText, Mapping[str, Cycle]):
         return self._overlap("acceleration", of or tuple(self))
 
     def _overlap(self, goal: str, longer: Sequence[str]) -> Overlap:
-        from optlaws.cycles.coordination.timeline import bends_at
         from optlaws.cycles.interlocks.overlapping import best_instants
 
-        if all(bends_at(self[name]) for name in longer):
-            return self._bent(goal, longer)
-        instants = best_instants(self, self.rules, goal, longer)
-        axes = self._at_instants(instants)
-        value = instants.period if goal == "period" else 1.0 / instants.pace**2
-        return Overlap(axes, goal, value, instants.bound, instants.binding, self)
-
-    def _at_instants(self, instants: BestInstants) -> Axes:
-        cycles = {name: _retimed(cycle, instants.durations[name], instants.period) for name, cycle in self.items()}
-        return Axes(cycles, interlocks=self.rules)
-
-    def _bent(self, goal: str, longer: Sequence[str]) -> Overlap:
-        from optlaws.cycles.coordination.instant_search import best_bent
-        from optlaws.cycles.interlocks.overlapping import best_instants
-
-        try:
-            start = self._at_instants(best_instants(self, self.rules, goal, longer))
-        except InfeasibleProblem:
-            start = None  # laws that bend may do what these shapes cannot
-        best = best_bent(self, self.rules, goal, longer, start)
-        cycles = dict(self)
-        for name, axis in best.axes.items():
-            cycles[name] = _retimed(self[name], axis.durations, best.period, axis.laws)
-        axes = Axes(cycles, interlocks=self.rules)
-        value = best.period if goal == "period" else max(axes[name].peak(2) / self[name].peak(2) for name in longer)
-        return Overlap(axes, goal, value, best.bound, (), self)
+        best = best_instants(self, self.rules, goal, longer)
+        cycles = {
+            name: _retimed(cycle, best.durations[name], best.laws[name], best.period) for name, cycle in self.items()
+        }
+        value = best.period if goal == "period" else 1.0 / best.pace**2
+        return Overlap(Axes(cycles, interlocks=self.rules), goal, value, best.bound, best.binding, self)
 
     @kept_property
     def clearances(self) -> tuple[LeastClearance, ...]:
@@ -450,12 +426,11 @@ class Overlap:
     objective
         The period in seconds, or the greatest acceleration as a share of what it was.
     lower_bound
-        Nothing has less in the order of the segments, with all axes at rest when the cycle begins: of laws that are
-        given no instants, with each move of an axis around one rest of the other axis; of laws that are looked for no
-        motions from rest to rest that never turn back within a move.
+        No instants and durations of the laws that the moves of `axes` have give less, in the order of the segments,
+        with all axes at rest when the cycle begins and each move of an axis around one rest of the other axis. Other
+        laws may have less.
     binding
-        What leaves no room where the objective is least: limits of moves, dwells and interlocks, by their names; empty
-        where laws are looked for.
+        What leaves no room where the objective is least: limits of moves, dwells and interlocks, by their names.
     given
         The machine as it was.
     """
@@ -493,19 +468,15 @@ class Overlap:
         return f"Overlap({what}, {self.gain:.4g} times better, status={self.status.value!r}, bound by {self.binding})"
 
 
-def _retimed(
-    cycle: Cycle, durations: Sequence[float], period: float, laws: Mapping[int, MotionLaw] | None = None
-) -> Cycle:
-    """The cycle with its laws in other times, or by others; dwells of no time are left out."""
-    segments, pieces = list[CycleSegment](), {piece.start: piece for piece in cycle.pieces}
-    for i, (stretch, peaks, duration) in enumerate(zip(cycle.programme.stretches, cycle.peaks, durations, strict=True)):
+def _retimed(cycle: Cycle, durations: Sequence[float], laws: Sequence[MotionLaw | None], period: float) -> Cycle:
+    """The cycle with laws of its moves in other times; dwells of no time are left out."""
+    segments = list[CycleSegment]()
+    for stretch, law, duration in zip(cycle.programme.stretches, laws, durations, strict=True):
         segment = stretch.given
         if isinstance(segment, Dwell) and duration <= CLOSURE * period:
             continue
-        law: dict[str, Any] = {}
-        if not isinstance(segment, Dwell) and is_optimal(segment):
-            law["law"] = laws[i] if laws else pieces[peaks.start].law
-        segments.append(replace(segment, duration=f"{duration!r} s", **law))  # type: ignore[type-var]
+        sought: dict[str, Any] = {"law": law} if law is not None and is_optimal(segment) else {}
+        segments.append(replace(segment, duration=f"{duration!r} s", **sought))  # type: ignore[type-var]
     minimise = "acceleration" if cycle.load is not None else cycle.minimise
     return replace(cycle, segments=segments, speed=None, period=f"{period!r} s", minimise=minimise)
 

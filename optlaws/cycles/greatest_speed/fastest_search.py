@@ -26,6 +26,7 @@ from optlaws.cycles.specification.programme import Programme
 from optlaws.cycles.specification.segments import Dwell
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.kept import kept_property
+from optlaws.laws import MotionLaw
 from optlaws.motion.piece import Piece, factor
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.proof.certificate import VIOLATION, Certificate
@@ -190,6 +191,22 @@ class FastestSearch:
             if span.least.proof is not None
         }
 
+    def alone(self, i: int) -> LawSpan:
+        """A move by itself, from rest to rest whatever is beside it."""
+        stretch, start, stop = self.programme.stretches[i], self._layout.starts[i], self._layout.starts[i + 1]
+        offset = self.programme.start + sum(each.displacement for each in self.programme.stretches[:i])
+        rest = State(0.0, 0.0)
+        return LawSpan((stretch,), (start,), stop, offset, stretch.displacement, rest, rest, ())
+
+    def of_law(self, span: LawSpan, law: MotionLaw) -> SpanTime:
+        """The least time of a law within the limits of a span."""
+        return least_time_of_law(law, self._rows(span, scale(span)))
+
+    def fastest(self, span: LawSpan) -> SpanTime:
+        """The least time of all laws within the limits of a span; without a law where nothing limits it."""
+        rows = self._rows(span, scale(span))
+        return least_time(self._base(span, scale(span)), rows, span.where) if rows else SpanTime(0.0, None, ())
+
     def time_of(self, span: TimedSpan) -> float:
         """The time that a motion has at the least period."""
         return sum(self.durations[i] for i in span.places)
@@ -285,12 +302,7 @@ class FastestSearch:
     def _of_span(self, span: LawSpan) -> TimedSpan:
         """A motion with an optimised law."""
         places = tuple(stretch.number - 1 for stretch in span.stretches)
-        stroke = scale(span)
-        rows = self._rows(span, stroke)
-        if not rows:
-            return TimedSpan(places, span.where, span.duration, SpanTime(0.0, None, ()), span, given=False)
-        least = least_time(self._base(span, stroke), rows, span.where)
-        return TimedSpan(places, span.where, span.duration, least, span, given=False)
+        return TimedSpan(places, span.where, span.duration, self.fastest(span), span, given=False)
 
     def _rows(self, span: LawSpan, stroke: float) -> list[SpanLimit]:
         limits = [limits_of_segment(stretch, self.objective.limits, self.programme.axis) for stretch in span.stretches]

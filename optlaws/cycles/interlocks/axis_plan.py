@@ -2,24 +2,32 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from math import inf
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 
-from optlaws.cycles.optimisation.motion_limits import LimitKey, limits_of_segment, read_limits, word_of
-from optlaws.cycles.specification.programme import TimedSegment
+from optlaws.cycles.greatest_speed.fastest_search import FastestSearch
+from optlaws.cycles.greatest_speed.scaling import slower
+from optlaws.cycles.optimisation.motion_limits import word_of
+from optlaws.cycles.optimisation.optimal import solve
+from optlaws.cycles.specification.joints import LawSpan
+from optlaws.cycles.specification.programme import TimedSegment, is_optimal
 from optlaws.cycles.specification.segments import Dwell, Move
-from optlaws.errors import InfeasibleProblem, InputError
+from optlaws.errors import InfeasibleProblem, InputError, SolverFailure, located
+from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
+from optlaws.motion.piece import named_law
 from optlaws.motion.quantities import either
 from optlaws.numbers import Array
-from optlaws.synthesis.functionals.makers import peak
 from optlaws.tolerances import INTERLOCK, PASS_WIDTH
 
 #: a time as seconds and a share of the period
 Spell = tuple[float, float]
+#: how the moves of an axis find their laws and times
+Way = Literal["fastest", "gentlest", "kept"]
 
 
 @dataclass(frozen=True)
@@ -30,7 +38,6 @@ class PlannedSegment:
     start: float
     stop: float
     law: MotionLaw | None
-    duration: float
     least: Spell
     most: Spell | None
     limit: str
@@ -112,46 +119,130 @@ class AxisPlan:
         return None
 
 
-def plan_of(cycle: Any, name: str, first: int, count: int, goal: str, *, longer: bool) -> AxisPlan:  # noqa: ANN401
-    """The plan of a cycle of moves and dwells.
+@dataclass(frozen=True)
+class OwnLaws:
+    """An axis whose moves have laws of their own, each from rest to rest.
 
-    Parameters
+    Attributes
     ----------
     cycle, name
         A cycle and the name of its axis.
-    first, count
-        Where its durations begin among how many unknowns.
-    goal
-        "period": moves with limits take the least time that these allow. "acceleration": all keep their times.
-    longer
-        Of an acceleration: whether moves of this axis may take longer times.
+    way
+        "fastest": moves with limits take the least time that these allow, others keep theirs. "gentlest": moves have
+        the least acceleration, and take at least that time. "kept": they are as in the cycle.
     """
-    pieces = {piece.start: piece for piece in cycle.pieces}
-    position, segments = cycle.programme.start, []
-    for stretch, peaks in zip(cycle.programme.stretches, cycle.peaks, strict=True):
-        piece = pieces.get(peaks.start)
-        where = f"axis {name}: {stretch.where}"
-        if not isinstance(stretch.given, Move | Dwell) or piece is None or abs(piece.duration - peaks.duration) > (
-            INTERLOCK * peaks.duration
-        ):  # fmt: skip
-            raise InputError(f"{where}: only moves from rest to rest and dwells are put together anew")
-        law = None if isinstance(stretch.given, Dwell) or stretch.displacement == 0.0 else piece.law
-        stop = position + stretch.displacement
-        limit = ""
-        if law is None:
-            least, most = dwell_spell(stretch, where)
-        else:
+
+    cycle: Any
+    name: str
+    way: Way
+
+    @property
+    def follows_times(self) -> bool:
+        """Whether a law is another one in another time, as limits let it."""
+        return self.way == "gentlest" and any(self.cycle.limits_of_segments)
+
+    def plan(self, first: int, count: int, times: Sequence[float] | None) -> AxisPlan:
+        """The plan of the axis.
+
+        Parameters
+        ----------
+        first, count
+            Where its durations begin among how many unknowns.
+        times
+            Durations of all segments, in which laws are gentlest; without, they are the fastest.
+
+        Raises
+        ------
+        InputError
+            If a segment is no move from rest to rest and no dwell, or a limit is of the whole cycle.
+        InfeasibleProblem
+            If a law that is given keeps a limit in no time.
+        """
+        if self.way == "fastest" and (self._search.objective.shares or self._search.objective.loaded):
+            raise InputError(
+                f"axis {self.name}: a limit of its whole cycle cannot be kept while the period is sought: leave out "
+                "that of the energy, of a root mean square or of a load, and look at what the result has"
+            )
+        position, segments = self.cycle.programme.start, []
+        for i, stretch in enumerate(self._stretches):
+            if not isinstance(stretch.given, Move | Dwell):
+                raise self._refused(stretch)
+            stop, label = position + stretch.displacement, stretch.given.name or f"segment {stretch.number}"
+            if isinstance(stretch.given, Dwell) or stretch.displacement == 0.0:
+                least, most = _spell_of_dwell(stretch, f"axis {self.name}: {stretch.where}")
+                segments.append(PlannedSegment(label, position, stop, None, least, most, ""))
+                continue
+            with located(f"axis {self.name}"):
+                law, shortest, limit = self._of_move(i, stretch, times)
             if max(abs(law.b(0.0)), abs(law.b(1.0))) > INTERLOCK:
-                raise InputError(f"{where}: only moves from rest to rest and dwells are put together anew")
-            shortest, limit = _least_time(cycle, stretch, law, where) if goal == "period" or longer else (None, "")
-            least, most = _durations(stretch, peaks.duration, shortest, longer=longer)
-        label = stretch.given.name or f"segment {stretch.number}"
-        segments.append(PlannedSegment(label, position, stop, law, peaks.duration, least, most, limit))
-        position = stop
-    return AxisPlan(name, tuple(segments), first, count)
+                raise self._refused(stretch)
+            least, most = self._durations(i, stretch, shortest)
+            segments.append(PlannedSegment(label, position, stop, law, least, most, limit))
+            position = stop
+        return AxisPlan(self.name, tuple(segments), first, count)
+
+    @property
+    def _stretches(self) -> tuple[TimedSegment, ...]:
+        return self.cycle.programme.stretches  # type: ignore[no-any-return]
+
+    @kept_property
+    def _search(self) -> FastestSearch:
+        objective = self.cycle._cycle_objective  # noqa: SLF001 - the cycle's own room
+        if self.way == "gentlest":
+            objective = replace(objective, minimise="acceleration")
+        return FastestSearch(self.cycle.programme, objective, {})
+
+    def _of_move(
+        self, i: int, stretch: TimedSegment, times: Sequence[float] | None
+    ) -> tuple[MotionLaw, float | None, str]:
+        """The law of a move, its least time unless it keeps the one it has, and the limit that binds there."""
+        if self.way == "kept":
+            return self._as_it_is(i, stretch), None, ""
+        search, span, law = self._search, self._search.alone(i), None
+        if isinstance(stretch.given, Move) and not is_optimal(stretch.given):
+            law = named_law(stretch.given.law, stretch.where)
+        elif search.objective.of_load:
+            raise self._refused(stretch)
+        elif self.way == "gentlest" and times is not None:
+            law = self._gentlest(slower(span, times[i] / span.duration))
+        least = search.fastest(span) if law is None else search.of_law(span, law)
+        if not least.rows:
+            law = law or solve(span, search.objective, self.cycle.axis)[0].law
+            return law, 0.0 if self.way == "gentlest" else None, ""
+        limit = word_of(least.binding[0].key, self.cycle.axis)
+        if least.law is None or not least.scale < inf:
+            raise InfeasibleProblem(f"{stretch.where}: its law has no finite {limit}, and so keeps no limit of it")
+        return least.law, least.scale * span.duration, f"{limit} of axis {self.name}: {stretch.where}"
+
+    def _as_it_is(self, i: int, stretch: TimedSegment) -> MotionLaw:
+        """The law that a move has in the cycle."""
+        start, duration = self.cycle.peaks[i].start, self.cycle.peaks[i].duration
+        piece = next((piece for piece in self.cycle.pieces if piece.start == start), None)
+        if piece is None or abs(piece.duration - duration) > INTERLOCK * duration:
+            raise self._refused(stretch)
+        return piece.law  # type: ignore[no-any-return]
+
+    def _gentlest(self, span: LawSpan) -> MotionLaw | None:
+        """The law of the least acceleration within the limits; None where its time is too short for these."""
+        try:
+            return solve(span, self._search.objective, self.cycle.axis)[0].law
+        except (InfeasibleProblem, SolverFailure):
+            return None
+
+    def _durations(self, i: int, stretch: TimedSegment, shortest: float | None) -> tuple[Spell, Spell | None]:
+        if shortest is not None:
+            return (shortest, 0.0), None if self.way == "gentlest" else (shortest, 0.0)
+        text = stretch.given.duration
+        fixed = _spell(text, stretch.where) if isinstance(text, str) else (float(self.cycle.durations[i]), 0.0)
+        return fixed, fixed
+
+    def _refused(self, stretch: TimedSegment) -> InputError:
+        return InputError(
+            f"axis {self.name}: {stretch.where}: only moves from rest to rest and dwells are put together anew"
+        )
 
 
-def dwell_spell(stretch: TimedSegment, where: str) -> tuple[Spell, Spell | None]:
+def _spell_of_dwell(stretch: TimedSegment, where: str) -> tuple[Spell, Spell | None]:
     """The least duration of a dwell: its given or least allowed value, 0 where the duration is omitted."""
     given = stretch.given
     assert isinstance(given, Dwell)  # noqa: S101 - or a move by nothing, which has a duration as well
@@ -161,40 +252,6 @@ def dwell_spell(stretch: TimedSegment, where: str) -> tuple[Spell, Spell | None]
     return ((0.0, 0.0) if text is None else _spell(text, f"{where}: duration")), None
 
 
-def _durations(
-    stretch: TimedSegment, duration: float, shortest: float | None, *, longer: bool
-) -> tuple[Spell, Spell | None]:  # fmt: skip
-    if longer:
-        return (shortest or 0.0, 0.0), None
-    if shortest is not None:
-        return (shortest, 0.0), (shortest, 0.0)
-    text = stretch.given.duration
-    fixed = _spell(text, stretch.where) if isinstance(text, str) else (duration, 0.0)
-    return fixed, fixed
-
-
 def _spell(text: Any, where: str) -> Spell:  # noqa: ANN401 - a quantity
     kind, value = either(text, ("angle", "time"), where)
     return (0.0, value / (2.0 * np.pi)) if kind == "angle" else (value, 0.0)
-
-
-def _least_time(cycle: Any, stretch: TimedSegment, law: MotionLaw, where: str) -> tuple[float | None, str]:  # noqa: ANN401
-    """The least time of a move under the limits of its axis, and which binds; none where it has no limits."""
-    limits = limits_of_segment(stretch, read_limits(cycle.limits, cycle.axis, "limits"), cycle.axis)
-    times = []
-    for key, most in limits.items():
-        nu, name = (key if isinstance(key, int) else key.nu), word_of(key, cycle.axis)
-        if nu > 0:
-            greatest = _greatest(law, key, stretch.displacement)
-            if not greatest < inf:
-                raise InfeasibleProblem(f"{where}: its law has no finite {name}, and so keeps no limit of it")
-            times.append(((greatest / most) ** (1.0 / nu), f"{name} of {where}"))
-    return max(times, default=(None, ""))
-
-
-def _greatest(law: MotionLaw, key: LimitKey, stroke: float) -> float:
-    """The greatest value of a limited derivative, or of one side of it, over the stroke, for a duration of 1 s."""
-    if isinstance(key, int):
-        return float(law.peak(key).value) * abs(stroke)
-    side = peak("abcj"[key.nu], side="high" if key.sign * stroke > 0.0 else "low")
-    return float(side.value(law)) * abs(stroke)

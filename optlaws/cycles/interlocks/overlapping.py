@@ -18,11 +18,12 @@ from typing import Any
 
 import numpy as np
 
-from optlaws.cycles.interlocks.axis_plan import AxisPlan, plan_of
+from optlaws.cycles.interlocks.axis_plan import AxisPlan, OwnLaws
 from optlaws.cycles.interlocks.interlock import Interlock
 from optlaws.cycles.interlocks.requirements import Requirement, WaitOption, requirements
 from optlaws.errors import InfeasibleProblem, SolverFailure
 from optlaws.kept import kept_property
+from optlaws.laws import MotionLaw
 from optlaws.numbers import Array
 from optlaws.tolerances import (
     BROKEN_INSTANT,
@@ -37,8 +38,12 @@ from optlaws.tolerances import (
 _NODES = 4000
 _CUTS = 40
 _LONGEST = 10.0
+#: in which laws of least acceleration follow the times that they leave
+_ROUNDS = 12
 
 Choices = Mapping[int, WaitOption]
+#: durations of all segments by axes
+_Times = Mapping[str, Sequence[float]]
 
 
 @dataclass(frozen=True)
@@ -52,9 +57,10 @@ class Optimum:
 
 @dataclass(frozen=True)
 class BestInstants:
-    """Durations of all segments, the period, the pace, the proven bound of the objective, and the active conditions."""
+    """Durations and laws of all segments, the period, the pace, the proven bound of the objective, and what binds."""
 
     durations: dict[str, list[float]]
+    laws: dict[str, list[MotionLaw | None]]
     period: float
     pace: float
     bound: float
@@ -116,11 +122,9 @@ class Overlapping:
                 free = segment.most is None and least + share > 0.0
                 # of a time that cannot change there is nothing to say
                 name = segment.limit or (f"{kind} {segment.name} of {plan.name}" if free else "")
-                add(
-                    self._row({here: 1.0, -2: -share, -1: -float(self.efforts[here]) / self.unit}),
-                    least / self.unit,
-                    name,
-                )
+                add(self._row({here: 1.0, -2: -share}), least / self.unit, name)
+                if self.efforts[here] > 0.0:
+                    add(self._row({here: 1.0, -1: -float(self.efforts[here]) / self.unit}), 0.0, "")
                 if segment.most is not None:
                     add(self._row({here: -1.0, -2: segment.most[1]}), -segment.most[0] / self.unit, name)
             whole = plan.instant(len(plan.segments))
@@ -310,6 +314,7 @@ class Overlapping:
         }
         return BestInstants(
             durations,
+            {plan.name: [segment.law for segment in plan.segments] for plan in self.plans},
             self.unit * float(x[-2]),
             float(x[-1]),
             bound * (self.unit if self.period is None else 1.0),
@@ -325,7 +330,10 @@ class Overlapping:
             return "the moves and dwells alone take longer than the period: give a longer one, or less of a dwell"
         named = [rule.label for rule in rules if self._solved(forced, [each for each in rules if each is not rule])]
         listed = "; ".join(named or [rule.label for rule in rules])
-        return f"no instants keep all interlocks: {listed}: change a position of one of them, or give a longer period"
+        return (
+            f"no instants of these laws keep all interlocks: {listed}: change a position of one of them, or give a "
+            "longer period"
+        )
 
     def _row(self, entries: Mapping[int, float]) -> Array:
         row = np.zeros(self.size)
@@ -339,33 +347,70 @@ def best_instants(
 ) -> BestInstants:
     """The instants of least period, or of the least acceleration of some axes in the period that they have.
 
-    Where the period is least the answer is longer by what programs are solved to, so that all limits are met.
+    Where the period is least the answer is longer by what programs are solved to, so that all limits are met. Laws of
+    least acceleration are those for the times that they had before, in rounds, while the acceleration falls.
     """
+    if goal == "period":
+        fastest = [OwnLaws(cycle, name, "fastest") for name, cycle in cycles.items()]
+        return _instants(fastest, rules, {})
+    axes = [OwnLaws(cycle, name, "gentlest" if name in longer else "kept") for name, cycle in cycles.items()]
+    times: _Times = {name: cycle.durations for name, cycle in cycles.items()}
+    try:
+        best = _instants(axes, rules, times)
+    except InfeasibleProblem:
+        # the fastest laws leave the most room
+        best, times = _instants(axes, rules, {}), {}
+    step = 1.0
+    for _ in range(_ROUNDS if any(axis.follows_times for axis in axes) else 0):
+        further = {
+            name: [before + step * (after - before) for before, after in zip(times.get(name, now), now, strict=True)]
+            for name, now in best.durations.items()
+        }
+        try:
+            rearranged = _instants(axes, rules, further)
+        except InfeasibleProblem:
+            step *= 0.5
+            continue
+        if abs(rearranged.pace - best.pace) <= OVERLAP_GAP * best.pace:
+            break
+        if rearranged.pace > best.pace:
+            best, times = rearranged, further
+        else:
+            step *= 0.5
+    return best
+
+
+def _instants(
+    axes: Sequence[OwnLaws], rules: Sequence[Interlock], times: Mapping[str, Sequence[float]]
+) -> BestInstants:
+    """The best instants of laws in some times, or of the fastest laws."""
+    cycles = {axis.name: axis.cycle for axis in axes}
     count_of_unknowns = sum(len(cycle.programme.stretches) for cycle in cycles.values()) + 2
     first, plans = 0, dict[str, AxisPlan]()
     efforts = np.zeros(count_of_unknowns - 2)
-    for name, cycle in cycles.items():
-        grows = goal == "acceleration" and name in longer
-        plan = plan_of(cycle, name, first, count_of_unknowns, goal, longer=grows)
-        if grows:
+    for axis in axes:
+        plan = axis.plan(first, count_of_unknowns, times.get(axis.name))
+        if axis.way == "gentlest":
             for i, segment in enumerate(plan.segments):
-                efforts[first + i] = sqrt(segment.acceleration / cycle.peak(2)) if segment.moves else 0.0
-        plans[name], first = plan, first + len(plan.segments)
-    duration = next(iter(cycles.values())).duration
+                efforts[first + i] = sqrt(segment.acceleration / axis.cycle.peak(2)) if segment.moves else 0.0
+        plans[axis.name], first = plan, first + len(plan.segments)
+    duration, shortest = next(iter(cycles.values())).duration, axes[0].way == "fastest"
     least = sum(segment.least[0] for plan in plans.values() for segment in plan.segments)
     problem = Overlapping(
         tuple(plans.values()),
         tuple(requirements(rules, plans, cycles)),
         efforts,
-        None if goal == "period" else duration,
-        duration if goal == "acceleration" else _LONGEST * (duration + least),
+        None if shortest else duration,
+        _LONGEST * (duration + least) if shortest else duration,
         duration,
     )
     best = problem.best()
-    if goal == "acceleration":
+    if not shortest:
         if not best.bound < 0.0:
             labels = "; ".join(rule.label for rule in rules)
-            raise InfeasibleProblem(f"no instants keep all interlocks: {labels}: moves would have to take no time")
+            raise InfeasibleProblem(
+                f"no instants of these laws keep all interlocks: {labels}: moves would have to take no time"
+            )
         return replace(best, bound=1.0 / best.bound**2)
     longer_by = 1.0 + OVERLAP_GAP
     durations = {name: [longer_by * value for value in values] for name, values in best.durations.items()}
