@@ -49,8 +49,6 @@ _load, __dir__, __all__ = face(
         "optlaws.cycles.machine_follower": "MachineFollower machine_follower",
         "optlaws.errors": "InfeasibleProblem InputError NoisyTable NotNormalised OptlawsError SolverFailure",
         "optlaws.files.schemas": "json_schema",
-        "optlaws.exports.best_breaks": "best_breaks",
-        "optlaws.exports.run_time.seven_segments": "jerk_limited_move",
         "optlaws.motion.polynomials": "PiecewiseMotion",
         "optlaws.laws.catalogue.catalogue": "catalogue",
         "optlaws.laws.catalogue.reading": "read_law",
@@ -115,6 +113,12 @@ _load, __dir__, __all__ = face(
         "optlaws.synthesis.spaces.end_conditions": "BoundaryConditions law_from_z",
         "optlaws.synthesis.spaces.periodic_pieces": "PeriodicPieces",
         "optlaws.synthesis.spaces.splines": "BSplines",
+    },
+    removed={
+        "best_breaks": "export(...) to a format of polynomials takes the fewest that are near enough, or points=6 that "
+        "many",
+        "jerk_limited_move": "plan such moves by the motion functions of the controller, export a known one by "
+        "fastest(...).export(...), or smooth ones for a controller by proven_front(...).export('c99')",
     },
 )
 

@@ -78,8 +78,6 @@ from optlaws.errors import NoisyTable as NoisyTable
 from optlaws.errors import NotNormalised as NotNormalised
 from optlaws.errors import OptlawsError as OptlawsError
 from optlaws.errors import SolverFailure as SolverFailure
-from optlaws.exports.best_breaks import best_breaks as best_breaks
-from optlaws.exports.run_time.seven_segments import jerk_limited_move as jerk_limited_move
 from optlaws.files.schemas import json_schema as json_schema
 from optlaws.laws.catalogue.catalogue import catalogue as catalogue
 from optlaws.laws.catalogue.reading import read_law as read_law
@@ -315,7 +313,6 @@ __all__ = [
     "at_most",
     "balanced_law",
     "belt",
-    "best_breaks",
     "best_cam",
     "best_offset",
     "best_prime_circle",
@@ -343,7 +340,6 @@ __all__ = [
     "greatest_roller",
     "inertial_loader",
     "integral",
-    "jerk_limited_move",
     "json_schema",
     "law_from_z",
     "law_through",

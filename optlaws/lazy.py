@@ -39,7 +39,9 @@ def imported(module: str) -> ModuleType:
     return import_module(module)
 
 
-def face(package: str, modules: Mapping[str, str]) -> tuple[Callable[[str], Any], Callable[[], list[str]], list[str]]:
+def face(
+    package: str, modules: Mapping[str, str], *, removed: Mapping[str, str] | None = None
+) -> tuple[Callable[[str], Any], Callable[[], list[str]], list[str]]:
     """`__getattr__`, `__dir__` and `__all__` of a package or module whose names live in other modules (PEP 562).
 
     Type checkers read the same names in the `.pyi` beside it, which `python -m tests.contracts.faces` writes.
@@ -50,6 +52,8 @@ def face(package: str, modules: Mapping[str, str]) -> tuple[Callable[[str], Any]
         Its dotted name.
     modules
         Names, separated by blanks, by the module that has them.
+    removed
+        What to use in place of names of the version before.
 
     Examples
     --------
@@ -58,10 +62,17 @@ def face(package: str, modules: Mapping[str, str]) -> tuple[Callable[[str], Any]
     ['PI', 'deg', 'pi']
     >>> __getattr__("deg")(180.0)
     3.141592653589793
+    >>> __getattr__, __dir__, names = face("optlaws", {"math": "tau"}, removed={"pi": "take tau / 2"})
+    >>> __getattr__("pi")
+    Traceback (most recent call last):
+    ImportError: optlaws has no pi any more: take tau / 2
     """
     homes = {name: module for module, names in modules.items() for name in names.split()}
 
     def load(name: str) -> Any:  # noqa: ANN401 - whatever the name stands for
+        if removed and name in removed:
+            # no AttributeError, whose words `from package import name` leaves out
+            raise ImportError(f"{package} has no {name} any more: {removed[name]}", name=package)
         if name not in homes:
             raise AttributeError(f"module {package!r} has no attribute {name!r}", name=name, obj=sys.modules[package])
         value = getattr(imported(homes[name]), name)

@@ -167,7 +167,6 @@ MODERNISED_JERK = 1.2  # of an old law's greatest jerk: what a law of less accel
 MULTIPLIER_MET = 1e-10  # of a wanted constant: it is met
 MULTIPLIER_CLOSE = 1e-14  # of a wanted constant: no further step is taken
 MULTIPLIER_STEP = 1e-5  # of a coefficient, for slopes by differences
-POSITION_OFF = 1e-3  # of the stroke: how far the position of a run may be off
 ACCELERATION_HIGHER = 1e-3  # of the peak: how far a run's may be above the motion's
 AS_GOOD = 1e-3  # ranks of tables nearer to each other are as good
 RUN_OFF = 1e-4  # of the stroke: a run may be so far from the law for the sake of its peak

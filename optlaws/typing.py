@@ -35,10 +35,8 @@ __getattr__, __dir__, __all__ = face(
         "optlaws.cycles.specification.cycle_sheet": "CycleSheet",
         "optlaws.cycles.specification.effort": "Effort SegmentEffort",
         "optlaws.cycles.specification.segments": "CycleSegment",
-        "optlaws.exports.best_breaks": "BestBreaks",
         "optlaws.exports.run_time.front_export": "FrontExport",
         "optlaws.exports.run_time.planning": "MoveStatus RunTimeMove",
-        "optlaws.exports.run_time.seven_segments": "SegmentExport SegmentTimes",
         "optlaws.formulas.tree": "Formula",
         "optlaws.laws.curve": "Many",
         "optlaws.laws.exporting": "Interpolation",
@@ -95,5 +93,10 @@ __getattr__, __dir__, __all__ = face(
         "optlaws.synthesis.spaces.bases": "PolynomialBasis",
         "optlaws.synthesis.spaces.space": "LawSpace",
         "optlaws.synthesis.spaces.splines": "PiecewiseBasis",
+    },
+    removed={
+        "BestBreaks": "best_breaks has gone: what export(...) returns says its pieces",
+        "SegmentExport": "jerk_limited_move has gone: a FrontExport is of smooth moves",
+        "SegmentTimes": "jerk_limited_move has gone: a FrontExport is of smooth moves",
     },
 )

@@ -43,12 +43,9 @@ from optlaws.cycles.specification.cycle_sheet import CycleSheet as CycleSheet
 from optlaws.cycles.specification.effort import Effort as Effort
 from optlaws.cycles.specification.effort import SegmentEffort as SegmentEffort
 from optlaws.cycles.specification.segments import CycleSegment as CycleSegment
-from optlaws.exports.best_breaks import BestBreaks as BestBreaks
 from optlaws.exports.run_time.front_export import FrontExport as FrontExport
 from optlaws.exports.run_time.planning import MoveStatus as MoveStatus
 from optlaws.exports.run_time.planning import RunTimeMove as RunTimeMove
-from optlaws.exports.run_time.seven_segments import SegmentExport as SegmentExport
-from optlaws.exports.run_time.seven_segments import SegmentTimes as SegmentTimes
 from optlaws.formulas.tree import Formula as Formula
 from optlaws.laws.curve import Many as Many
 from optlaws.laws.exporting import Interpolation as Interpolation
@@ -127,7 +124,6 @@ __all__ = [
     "ActiveSet",
     "Array",
     "AxesPicture",
-    "BestBreaks",
     "BestCam",
     "BestOffset",
     "BestPrimeCircle",
@@ -223,8 +219,6 @@ __all__ = [
     "RunTimeMove",
     "Segment",
     "SegmentEffort",
-    "SegmentExport",
-    "SegmentTimes",
     "Shaper",
     "Side",
     "SolvedPart",

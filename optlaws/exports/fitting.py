@@ -19,8 +19,6 @@ from optlaws.motion.polynomials import PiecewiseMotion, from_exact
 from optlaws.numerics import exact
 from optlaws.tolerances import ACCELERATION_HIGHER
 
-Laid = Callable[[Piece], PiecewiseMotion]
-
 #: how far the run's peak of the acceleration may be above the motion's, and its acceleration off it, as shares
 OFF = 1e-2
 _SHORT = 10
@@ -78,16 +76,13 @@ class _FittedSection:
         return 1 if self.run is None else len(self.run.coefficients)
 
 
-def fitted(
-    motion: Motion, degree: int, most: int, count: int | None = None, *, laid: Laid | None = None, near: float = OFF
-) -> Fitted:
+def fitted(motion: Motion, degree: int, most: int, count: int | None = None, *, near: float = OFF) -> Fitted:
     """Polynomials of a degree from 3 to 9 for a motion: its own where they are low enough, else Hermite's.
 
     Where laws are polynomials of at most the degree they are taken as they are. Elsewhere polynomials of the greatest
     odd degree have the law's derivatives at both ends, and one more is laid where the acceleration is furthest from the
     law's, until its peak is within a thousandth of the motion's and it is nowhere off by more than a share `near` of
-    that, or until there are as many as `count`; the target takes at most `most`. Through a whole law they may
-    be `laid` in another way.
+    that, or until there are as many as `count`; the target takes at most `most`.
 
     >>> from optlaws.motion.motion import motion_of_law
     >>> from optlaws import smoothstep
@@ -97,9 +92,7 @@ def fitted(
     (4, False, '4.9e-04', True)
     """
     orders = (degree + 1) // 2
-    pairs = [
-        (piece, own_stretch) for piece in motion.pieces for own_stretch in _of(piece, degree, whole=laid is not None)
-    ]
+    pairs = [(piece, own_stretch) for piece in motion.pieces for own_stretch in _of(piece, degree)]
     parts = [_FittedSection(0.0, i, piece, stretch) for i, (piece, stretch) in enumerate(pairs)]
     if len(parts) > (most if count is None else count):
         raise InputError(f"the motion has {len(parts)} pieces of its own, {_requested(most, count)}: export its parts")
@@ -108,13 +101,9 @@ def fitted(
     if not np.isfinite(peak):
         raise InputError("the acceleration of the motion has no bound, as where the velocity jumps: smooth it first")
     for part in open_parts:
-        if laid is None:
-            part.split(orders, peak, near)
-        else:
-            part.run = laid(part.piece)
-    if laid is None:
-        left = (most if count is None else count) - len(parts)
-        _divide(open_parts, left, count, lambda part: part.split(orders, peak, near))
+        part.split(orders, peak, near)
+    left = (most if count is None else count) - len(parts)
+    _divide(open_parts, left, count, lambda part: part.split(orders, peak, near))
     joined = _joined(motion, parts)
     if joined.count > most:
         raise InputError(f"{joined.count} pieces are needed, and the target holds {most}: export the motion in parts")
@@ -133,7 +122,7 @@ def exactly(motion: Motion, degree: int) -> Fitted | None:
     >>> fit.exact, fit.count, fit.run.degree
     (True, 6, 17)
     """
-    pairs = [(piece, stretch) for piece in motion.pieces for stretch in _of(piece, degree, whole=False)]
+    pairs = [(piece, stretch) for piece in motion.pieces for stretch in _of(piece, degree)]
     if any(stretch.exact_powers is None for _, stretch in pairs):
         return None
     cut = ((piece, part) for piece, stretch in pairs for part in _cut(stretch))
@@ -167,7 +156,7 @@ def _divide(
     if open_parts and count is None and open_parts[0].rank < -1.0:
         raise InputError(
             "the pieces that the target holds do not bring the acceleration within a thousandth of its peak: say how "
-            "many to take all the same (points=...), let the best breaks be looked for (points='best'), or export parts"
+            "many to take all the same (points=...), or export parts"
         )
 
 
@@ -198,15 +187,14 @@ def _pieces(part: _FittedSection) -> Iterator[tuple[Fraction, Sequence[Fraction]
         yield Fraction(low), [Fraction(c) for c in row]
 
 
-def _of(piece: Piece, degree: int, *, whole: bool) -> list[LawSection]:
-    """The smooth stretches of a piece's law; the whole of it where that is to be approximated at once."""
+def _of(piece: Piece, degree: int) -> list[LawSection]:
+    """The smooth stretches of a piece's law."""
     if piece.stroke == 0.0:
         return [LawSection(piece.law, (0.0, 1.0), (Fraction(0),))]
     law = piece.law
     if not is_polynomial(law):
-        return [LawSection(law, ends) for ends in ([(0.0, 1.0)] if whole else pairwise(law.breaks))]
-    parts = [
+        return [LawSection(law, ends) for ends in pairwise(law.breaks)]
+    return [
         LawSection(law, (float(low), float(high)), tuple(powers) if len(powers) <= degree + 1 else None)
         for low, high, powers in stretches(law)
     ]
-    return [LawSection(law, (0.0, 1.0))] if whole and any(stretch.exact_powers is None for stretch in parts) else parts

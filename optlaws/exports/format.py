@@ -27,8 +27,8 @@ class Request:
     name
         Of the variable or table.
     points
-        How many points or segments, "best" for the number whose run has the least peak of the acceleration; None for
-        what the format would take.
+        How many points or segments, of points "best" for the number whose run has the least peak of the acceleration;
+        None for what the format would take.
     counts
         Steps of the slave's encoder over the stroke, to which positions are rounded.
     digits

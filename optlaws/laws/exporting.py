@@ -18,7 +18,7 @@ class AxesExportOptions(TypedDict, total=False):
     ----------
     points
         How many points, or "best", as it is unless given: the fewest whose run is as good as that of any number.
-        Formats of polynomials take as few pieces as will do unless given; "best" looks for their breaks too.
+        Formats of polynomials take a number, or as few pieces as will do unless given.
     counts
         Steps of the slave's encoder over the stroke, to which positions are rounded.
     digits, decimal

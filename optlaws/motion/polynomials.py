@@ -170,17 +170,6 @@ class PiecewiseMotion:
         low, high = self.extremes(nu)
         return max(Extreme(0.0 - low.value, low.x), high, key=lambda extreme: (extreme.value, -extreme.x))
 
-    def size(self, nu: int) -> float:
-        """The greatest magnitude of the derivative of order nu, without its place.
-
-        Examples
-        --------
-        >>> PiecewiseMotion([0, 1], [[0, 1, -1]]).size(1)
-        1.0
-        """
-        control = self._control(derivative(nu))
-        return bernstein.top(np.concatenate([control, -control])).value
-
     def rms(self, nu: int) -> float:
         """Root mean square of the derivative of order nu, impulses left out.
 

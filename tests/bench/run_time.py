@@ -1,4 +1,4 @@
-"""What a move takes on a controller: compiled functions of a front and of seven segments, beside ruckig's.
+"""What a move takes on a controller: compiled functions of a front, beside ruckig's.
 
 Times are those of the processor, the least of some runs over the same random moves. ruckig is C++ that Python calls:
 the time of a call that only checks the input, or makes nothing, is taken off, which takes off a little too much.
@@ -16,7 +16,7 @@ import numpy as np
 from rich.console import Console
 from rich.table import Table
 
-from optlaws import Problem, jerk_limited_move, proven_front
+from optlaws import Problem, proven_front
 from tests.exports.moves import COMPILER
 
 MOVES, REPEATS, RUNS = 4096, 200, 5
@@ -25,25 +25,18 @@ _PROGRAM = """\
 #include <stdio.h>
 #include <time.h>
 #include "lift.h"
-#include "axis.h"
 static double moves[{count}][4];
 static lift_move lifts[{count}];
-static axis_move axes[{count}];
 static double motions[{count}][4];
 /* called as they stand, so that nothing of them is left out */
 __attribute__((noinline)) static void plan_lift(int i)
 {{
     lift_least_time(moves[i][0], moves[i][1], moves[i][2], moves[i][3], &lifts[i]);
 }}
-__attribute__((noinline)) static void plan_axis(int i)
-{{
-    axis_least_time(moves[i][0], moves[i][1], moves[i][2], moves[i][3], &axes[i]);
-}}
 __attribute__((noinline)) static void move_lift(int i) {{ lift_motion(&lifts[i], moves[i][0], motions[i]); }}
-__attribute__((noinline)) static void move_axis(int i) {{ axis_motion(&axes[i], moves[i][0], motions[i]); }}
 int main(void)
 {{
-    void (*const timed[4])(int) = {{plan_lift, move_lift, plan_axis, move_axis}};
+    void (*const timed[2])(int) = {{plan_lift, move_lift}};
     double sum = 0.0;
     int i, k, r;
     for (i = 0; i < {count}; ++i) {{
@@ -52,7 +45,7 @@ int main(void)
             return 1;
         }}
     }}
-    for (k = 0; k < 4; ++k) {{
+    for (k = 0; k < 2; ++k) {{
         const clock_t began = clock();
         for (r = 0; r < {repeats}; ++r) {{
             for (i = 0; i < {count}; ++i) {{
@@ -76,17 +69,16 @@ def drawn() -> list[list[float]]:
 
 
 def compiled() -> list[float]:
-    """Nanoseconds: a plan and a motion of the front, a plan and a motion of seven segments."""
+    """Nanoseconds: a plan and a motion of the front."""
     given = "\n".join(" ".join(value.hex() for value in move) for move in drawn())
     with tempfile.TemporaryDirectory() as folder:
         place = Path(folder)
         proven_front(Problem(order=4), ("at_most.B", "C"), gap=1e-4).export("c99", name="lift").write(place / "lift.h")
-        jerk_limited_move("c99", name="axis").write(place / "axis.h")
         (place / "main.c").write_text(_PROGRAM.format(count=MOVES, repeats=REPEATS), "utf-8")
         subprocess.run([str(COMPILER), "-std=c99", "-O2", "main.c", "-o", "main", "-lm"], cwd=place, check=True)
         command = [str(place / "main")]
         runs = [subprocess.run(command, input=given, capture_output=True, text=True, check=True) for _ in range(RUNS)]
-    rows = [list(map(float, run.stdout.split()))[:4] for run in runs]
+    rows = [list(map(float, run.stdout.split()))[:2] for run in runs]
     return [min(column) for column in zip(*rows, strict=True)]
 
 
@@ -122,12 +114,11 @@ def main() -> None:
     """Measure and print."""
     if COMPILER is None:
         return
-    plan, motion, of_segments, at_time = compiled()
+    plan, motion = compiled()
     theirs = of_ruckig()
     table = Table("", "plan", "motion", "ratio of plans", title="ns a call, one axis from rest to rest")
-    ratios = ("-", "-") if theirs is None else tuple(f"{value / theirs[0]:.2f}" for value in (plan, of_segments))
-    table.add_row("front, 32 laws", f"{plan:.0f}", f"{motion:.0f}", ratios[0])
-    table.add_row("seven segments", f"{of_segments:.0f}", f"{at_time:.0f}", ratios[1])
+    ratio = "-" if theirs is None else f"{plan / theirs[0]:.2f}"
+    table.add_row("front, 32 laws", f"{plan:.0f}", f"{motion:.0f}", ratio)
     if theirs is not None:
         table.add_row("ruckig, from Python", f"{theirs[0]:.0f}", f"{theirs[1]:.0f}", "1")
     Console(width=120).print(table)

@@ -49,6 +49,27 @@ def test_every_name_of_the_table_is_there(file: Path) -> None:
             assert name in dir(face)
 
 
+def removed_names() -> list[tuple[str, str]]:
+    """Names of the version before, each with its package."""
+    return [
+        (package(file), name)
+        for file in FACES
+        for call in ast.walk(ast.parse(file.read_text("utf-8")))
+        if isinstance(call, ast.Call)
+        for entry in call.keywords
+        if entry.arg == "removed" and isinstance(entry.value, ast.Dict)
+        for name in ast.literal_eval(entry.value)
+    ]
+
+
+@pytest.mark.parametrize(("face", "name"), removed_names())
+def test_a_name_of_the_version_before_says_what_to_use(face: str, name: str) -> None:
+    assert name not in import_module(face).__all__
+    for script in (f"from {face} import {name}", f"import {face}; {face}.{name}"):
+        with pytest.raises(ImportError, match=f"{face} has no {name} any more: "):
+            exec(script, {})  # noqa: S102 - as users write it
+
+
 def test_no_stub_is_without_its_table() -> None:
     assert {file.with_suffix(".py") for file in (ROOT / "optlaws").rglob("*.pyi")} == set(FACES)
 

@@ -13,10 +13,7 @@ from tests.exports.formats.test_structured_text import OUTPUTS
 from tests.exports.moves import SHARES, answers, drawn, exported, program
 from tests.exports.samples import SAID, optimal, press
 from tests.exports.structured_text import Block, parsed
-from tests.exports.test_seven_segments import drawn as drawn_segments
-from tests.exports.test_seven_segments import program_of_segments, run
 from tests.external import matiec
-from tests.internals.exports import jerk_limited_move, segment_times
 
 pytestmark = pytest.mark.long
 needs_both = pytest.mark.skipif(
@@ -37,18 +34,6 @@ def test_fronts_answer_alike_under_gcc_and_clang(name: str, tmp_path: Path) -> N
     for one, other in zip(*found, strict=True):
         assert one.plan == other.plan
         assert one.motion.tolist() == other.motion.tolist()
-
-
-@needs_both
-def test_seven_segments_answer_alike_under_gcc_and_clang(tmp_path: Path) -> None:
-    moves, found = drawn_segments(500, 52), []
-    for compiler in ("gcc", "clang"):
-        folder = tmp_path / compiler
-        folder.mkdir()
-        found.append(run(program_of_segments(folder, compiler), moves))
-    for (plan, motion), (other_plan, other_motion) in zip(*found, strict=True):
-        assert plan == other_plan
-        assert motion.tolist() == other_motion.tolist()
 
 
 #: programs in Structured Text that hold data for a library of the vendor's
@@ -128,21 +113,3 @@ def test_matiec_compiles_a_front_to_what_is_planned_in_python(name: str, tmp_pat
     assert seen[:, 1] == pytest.approx(expected_motion[:, 1], rel=1e-13)
     sizes = np.abs(expected_motion[:, 2:]).reshape(len(moves), -1, 4).max(axis=1).repeat(1 + len(SHARES), axis=0)
     assert (np.abs(seen[:, 2:] - expected_motion[:, 2:]) <= 1e-10 * sizes).all()
-
-
-@needs_matiec
-def test_matiec_compiles_seven_segments_to_what_is_planned_in_python(tmp_path: Path) -> None:
-    source = jerk_limited_move("iec-st", name="FB_Axis").text
-    moves = drawn_segments(200, 54)
-    times = [segment_times(*move).duration for move in moves]
-    inputs = dict(
-        zip(("stroke", "velocityLimit", "accelerationLimit", "jerkLimit"), zip(*moves, strict=True), strict=True)
-    )
-    columns = {"plan": [1.0] * len(moves), **inputs, "elapsed": [0.3 * time for time in times]}
-    seen = matiec.outputs(tmp_path, source, "FB_Axis", columns, ["moveTime", "position", "velocity", "acceleration"])
-    assert seen[:, 0] == pytest.approx(times, rel=1e-13)
-    for move, time, row in zip(moves, times, seen, strict=True):
-        motion = segment_times(*move).motion()
-        sizes = (abs(move[0]), move[1], move[2])
-        for nu, size in enumerate(sizes):
-            assert abs(row[1 + nu] - motion(0.3 * time, nu)) <= 1e-12 * size

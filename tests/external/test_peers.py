@@ -12,7 +12,6 @@ from tests.exports.moves import exported
 from tests.exports.samples import SAID, optimal
 from tests.exports.structured_text import without_comments
 from tests.external.test_disc_cams import inch_moves
-from tests.internals.exports import jerk_limited_move
 
 pytestmark = pytest.mark.long
 #: the moves of these cams as the package mechanism takes them
@@ -86,13 +85,12 @@ def with_named_types(source: str) -> str:
     return "\n".join([*types, body])
 
 
-@pytest.mark.parametrize("block", ["law", "law in REAL", "segments", "front"])
+@pytest.mark.parametrize("block", ["law", "law in REAL", "front"])
 def test_the_compiler_of_pyplcopen_takes_the_function_blocks(block: str) -> None:
     pyplcopen = pytest.importorskip("pyplcopen")
     sources: dict[str, Callable[[], str]] = {
         "law": lambda: optimal().export("iec-st", name="FB_Cam", **SAID).text,
         "law in REAL": lambda: optimal().export("iec-st-real", name="FB_Cam", **SAID).text,
-        "segments": lambda: jerk_limited_move("iec-st", name="FB_Cam").text,
         "front": lambda: exported("pieces", "iec-st").text.replace("FB_pieces", "FB_Cam"),
     }
     source = sources[block]()

@@ -19,7 +19,7 @@ from optlaws import (
     trapezoid,
 )
 from tests.external.published import cases
-from tests.internals.exports import segment_times
+from tests.internals.synthesis import LimitSegments, MoveLimits, segment_times
 
 NAMES = ("velocity", "acceleration", "jerk")
 
@@ -30,10 +30,17 @@ def of_dimensionless(case: dict[str, float], time: float) -> dict[str, float]:
     return dict(zip("BCJ", shares, strict=True))
 
 
+def quickest(stroke: float, velocity: float, acceleration: float, jerk: float) -> LimitSegments:
+    """The segments of the quickest move from rest to rest."""
+    segments = segment_times(stroke, MoveLimits(velocity, acceleration, acceleration, jerk), 3)
+    assert segments is not None
+    return segments
+
+
 def problem(case: dict[str, float], time: float) -> Problem:
     """Least C under the limits, of cubics between the places where the quickest move's jerk jumps."""
-    move = segment_times(case["stroke"], *(case[name] for name in NAMES))
-    ends = np.cumsum([move.jerk_time, move.acceleration_time, move.jerk_time]) / move.duration
+    move = quickest(case["stroke"], *(case[name] for name in NAMES))
+    ends = np.cumsum(move.times[:3]) / move.duration
     breaks = tuple(sorted({0.0, 0.5, 1.0, *ends.round(12).tolist(), *(1.0 - ends).round(12).tolist()}))
     B, C, J = (at_most(value) for value in of_dimensionless(case, time).values())
     return Problem(order=3, basis=Pieces(breaks, degree=3, continuity=2), minimise="C", B=B, C=C, J=J)
@@ -42,9 +49,8 @@ def problem(case: dict[str, float], time: float) -> Problem:
 @pytest.mark.parametrize("case", cases("ruckig"))
 def test_least_times_of_ruckig(case: dict[str, float]) -> None:
     """In its time a law keeps all limits, in a thousandth less no law does; seven segments take just it."""
-    assert segment_times(case["stroke"], *(case[name] for name in NAMES)).duration == pytest.approx(
-        case["time"], rel=1e-10
-    )
+    move = quickest(case["stroke"], *(case[name] for name in NAMES))
+    assert move.duration == pytest.approx(case["time"], rel=1e-10)
     constants = synthesize(problem(case, case["time"] * (1 + 1e-9))).law.constants
     for name, value in of_dimensionless(case, case["time"]).items():
         assert getattr(constants, name).value <= value * (1 + 1e-7)
@@ -76,9 +82,9 @@ def test_peak_velocities_of_a_planner_from_rest_to_rest(stroke: float, accelerat
     peak = (jerk * stroke**2 / 4) ** (1 / 3)
     if (jerk * peak) ** 0.5 > acceleration:
         peak = max(np.roots([1 / acceleration, acceleration / jerk, -stroke]).real)
-    move = segment_times(stroke, 1e3 * peak, acceleration, jerk)
-    assert move.cruise_time == pytest.approx(0.0, abs=1e-9 * move.duration)
-    assert move.motion().peak(1).value == pytest.approx(peak, rel=1e-9)
+    move = quickest(stroke, 1e3 * peak, acceleration, jerk)
+    assert move.times[3] == pytest.approx(0.0, abs=1e-9 * move.duration)
+    assert jerk * move.times[0] * sum(move.times[:2]) == pytest.approx(peak, rel=1e-9)
 
 
 @pytest.mark.parametrize("case", cases("profiles"), ids=lambda case: f"{case['stroke']:g} m")

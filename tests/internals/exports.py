@@ -14,5 +14,4 @@ from optlaws.exports.report import task_sampling
 from optlaws.exports.run_time.clenshaw_bounds import summation_bounds
 from optlaws.exports.run_time.front_export import FrontExport
 from optlaws.exports.run_time.planning import MoveStatus, RunTimeMove
-from optlaws.exports.run_time.seven_segments import jerk_limited_move, segment_times
 from optlaws.exports.text import IEC_KEYWORDS, Labels, iec_name, plain, real

@@ -21,7 +21,7 @@ from optlaws.synthesis.least_time.follower_residual import FollowerResidual
 from optlaws.synthesis.least_time.motor_torque import MotorTorque
 from optlaws.synthesis.least_time.move_limits import MoveLimits, TimedMove
 from optlaws.synthesis.least_time.move_objective import MoveObjective
-from optlaws.synthesis.least_time.segment_times import segment_times, time_of_any_law
+from optlaws.synthesis.least_time.segment_times import LimitSegments, segment_times, time_of_any_law
 from optlaws.synthesis.least_time.time_search import least_time
 from optlaws.synthesis.limits import closed_forms
 from optlaws.synthesis.limits.closed_forms import (

@@ -64,8 +64,8 @@ class FormatOptions:
     Parameters
     ----------
     points
-        How many points or pieces; chosen unless given, for the least peak acceleration of the run. "best" looks for the
-        fewest pieces with the best breaks too, in formats of polynomials.
+        How many points or pieces; chosen unless given: of points, as with "best", for the least peak acceleration of
+        the run, of polynomials the fewest that are near enough.
     counts
         Steps of the slave's encoder over the stroke, to which positions are rounded.
     digits

@@ -8,7 +8,6 @@ from typing import NamedTuple
 import numpy as np
 
 from optlaws.errors import InputError
-from optlaws.exports.best_breaks import fitted_best
 from optlaws.exports.error_bounds import SINGLE, error_bounds
 from optlaws.exports.fitting import OFF, Fitted, exactly, fitted
 from optlaws.exports.format import BEST, Request
@@ -27,14 +26,18 @@ SOURCE_MODEL = f"the law's own polynomials to degree {OWN_DEGREE}, else of degre
 def polynomials_for(
     motion: Motion, request: Request, degree: int, most: int, *, points: bool = False, near: float = OFF
 ) -> Fitted:
-    """Polynomials up to a degree: a given number, the best, or as few as the accuracy `near` of the acceleration needs.
+    """Polynomials up to a degree: a given number, or as few as the accuracy `near` of the acceleration needs.
 
     The request's `points` are segments, or points, of which there is one more, where `points` says so.
     """
     if request.points is None:
         return fitted(motion, degree, most, near=near)
     if request.points == BEST:
-        return fitted_best(motion, degree, most)
+        # said for one version more, in which scripts may still have it
+        raise InputError(
+            "points: 'best' is of tables of points: leave points out for the fewest polynomials that keep the "
+            "acceleration within a thousandth of its peak, or give their number"
+        )
     count = int(request.points) - points
     if count > most:
         raise InputError(f"points must be at most {most + points}, which the target holds, got {request.points}")

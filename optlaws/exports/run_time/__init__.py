@@ -1,1 +1,1 @@
-"""Functions for controllers that choose a law while they run: proven fronts, and moves by pieces in closed form."""
+"""Functions for controllers that choose a law while they run: proven fronts."""

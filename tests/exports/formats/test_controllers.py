@@ -30,7 +30,7 @@ from optlaws import (
 from tests.exports.formats import readers
 from tests.exports.samples import repeating
 from tests.exports.structured_text import Block, parsed
-from tests.internals.exports import FORMATS, Export, export_motion
+from tests.internals.exports import FORMATS, export_motion
 from tests.internals.motion import Motion, motion_of_law
 
 READ: dict[str, Callable[[str], PPoly]] = {
@@ -220,13 +220,11 @@ def test_the_drive_takes_whole_periods_from_zero() -> None:
         export_motion(one_shot("cycloidal"), "br-acp10", counts=2**31 - 1)
 
 
-def test_the_best_breaks_need_fewer_pieces() -> None:
+def test_the_best_number_is_of_points_alone() -> None:
     motion = one_shot("degree 17")
-    usual, best = (export_motion(motion, "codesys-cambuilder", points=points) for points in (None, "best"))
-    assert isinstance(best, Export)
-    assert best.points <= 6
-    assert usual.points > 10
-    assert best.report.ratio(2) == pytest.approx(1.0, abs=1e-3)
+    for name in READ:
+        with pytest.raises(InputError, match=r"points: 'best' is of tables of points: leave points out for the fewest"):
+            export_motion(motion, name, points="best")
 
 
 def test_every_format_of_polynomials_is_listed_with_its_limits() -> None:

@@ -19,7 +19,6 @@ from tests.internals.exports import (
     as_stored,
     error_bounds,
     function_block,
-    jerk_limited_move,
     polynomials_of_law,
     real,
 )
@@ -62,13 +61,12 @@ def test_evaluated_it_keeps_its_bounds_forwards_backwards_and_beyond(single: boo
         assert not block(breaks[0] - 1.0)["inside"]
 
 
-@pytest.mark.parametrize("block", ["motion", "segments", "front"])
+@pytest.mark.parametrize("block", ["motion", "front"])
 def test_statements_end_with_semicolons_and_variables_are_called_like_nothing_of_the_standard(block: str) -> None:
     """The standard's own grammar wants both, though the parser above takes a block without."""
     source = without_comments(
         {
             "motion": lambda: function_block(random_motion(1, pieces=2, degree=2), "FB_Press"),
-            "segments": lambda: jerk_limited_move("iec-st", name="FB_Axis").text,
             "front": lambda: exported("lift", "iec-st").text,
         }[block]()
     )
