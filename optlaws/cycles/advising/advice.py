@@ -103,7 +103,7 @@ class Advice:
         Examples
         --------
         >>> import optlaws
-        >>> summary = optlaws.advise(optlaws.Problem(order=3), points=0).summary()
+        >>> summary = optlaws.advise(optlaws.Rise("1 m", "1 s"), points=0).summary()
         >>> [row.name for row in summary][:3]
         ['take', 'velocity', 'acceleration']
         """
@@ -162,7 +162,7 @@ class Advice:
         Examples
         --------
         >>> import optlaws
-        >>> list(optlaws.advise(optlaws.Problem(order=3), points=0).proofs()["laws"])[0]
+        >>> list(optlaws.advise(optlaws.Rise("1 m", "1 s"), points=0).proofs()["laws"])[0]
         'least acceleration'
         """
 

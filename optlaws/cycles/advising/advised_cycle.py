@@ -157,7 +157,6 @@ class AdvisedCycle:
         InfeasibleProblem, SolverFailure
             If the search fails.
         """
-        assert isinstance(best.motion, Cycle)  # noqa: S101 - as it is one of these
         if self.follower is None and LIMITS.get(self.minimise, 0) > 0:
             # what is near is a limit of the cycle, so that the law is one of a cycle too
             most = self._tighter(best.motion.limits, self.minimise, (1.0 + share) * best.values[self.minimise])

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Protocol
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 from optlaws.cycles.limit_rows import LimitTaken
 from optlaws.errors import InputError
@@ -73,9 +73,9 @@ class AdvisedLaw:
     kind
         "standard", "given" or "optimal".
     motion
-        The cycle with this law in its moves; of a dimensionless problem the law.
+        The cycle with this law in its moves.
     values
-        What it takes of every measure by its name, recomputed from the law; in SI units of a motion in machine units.
+        What it takes of every measure by its name, recomputed from the law; in SI units.
     limits
         What it takes of every limit.
     solutions
@@ -86,7 +86,7 @@ class AdvisedLaw:
     Examples
     --------
     >>> import optlaws
-    >>> advice = optlaws.advise(optlaws.Problem(order=3), points=0)
+    >>> advice = optlaws.advise(optlaws.Rise("1 m", "1 s"), points=0)
     >>> sine = advice["modified sine"]
     >>> sine.kind, round(sine.values["acceleration"], 4), sine.keeps_limits, sine.law.constants.C
     ('standard', 5.528, True, Peak(value=5.527957, k=0.125))
@@ -94,7 +94,7 @@ class AdvisedLaw:
 
     name: str
     kind: LawKind
-    motion: Cycle | MotionLaw = field(repr=False)
+    motion: Cycle = field(repr=False)
     values: Mapping[str, float]
     limits: tuple[LimitTaken, ...] = field(default=(), repr=False)
     solutions: tuple[Solution, ...] = field(default=(), repr=False)
@@ -113,8 +113,6 @@ class AdvisedLaw:
     @property
     def laws(self) -> tuple[MotionLaw, ...]:
         """The law of every motion, in order."""
-        if isinstance(self.motion, MotionLaw):
-            return (self.motion,)
         return tuple(piece.law for piece in self.motion.pieces if piece.stroke)
 
     @property
@@ -166,56 +164,3 @@ class AdvisedLaw:
             ],
             **optimal,
         }
-
-
-class AdvisedMotion(Protocol):
-    """A motion whose laws are compared: the measures of the comparison, and the ways to the laws.
-
-    Attributes
-    ----------
-    minimise
-        The measure that is to be least.
-    limited
-        Measures that have a limit of their own.
-    """
-
-    @property
-    def minimise(self) -> str:
-        """The measure that is to be least."""
-        ...
-
-    @property
-    def measures(self) -> tuple[LawMeasure, ...]:
-        """Everything that laws are compared by."""
-        ...
-
-    @property
-    def limited(self) -> frozenset[str]:
-        """The measures that have a limit."""
-        ...
-
-    @property
-    def objectives(self) -> tuple[str, ...]:
-        """The measures that laws can be least in."""
-        ...
-
-    @property
-    def usual(self) -> str | None:
-        """The name of the law of the catalogue that it has; None where it has none, or several."""
-        ...
-
-    def given(self) -> AdvisedLaw | None:
-        """The given laws; None where all laws are optimised."""
-        ...
-
-    def standard(self, name: str) -> AdvisedLaw:
-        """The motion with a law of the catalogue; an `InputError` where the law does not fit."""
-        ...
-
-    def least(self, name: str, minimise: str, most: Mapping[str, float]) -> AdvisedLaw:
-        """The law that is least in a measure and takes no more of others, within all limits."""
-        ...
-
-    def near(self, name: str, best: AdvisedLaw, minimise: str, share: float) -> AdvisedLaw:
-        """The law that is least in one measure among all laws within a share of an optimum of another measure."""
-        ...

@@ -1,4 +1,4 @@
-"""The entry to advice: the law to choose for a move, a cycle or a problem."""
+"""The entry to advice: the law to choose for a move or a cycle."""
 
 from __future__ import annotations
 
@@ -9,8 +9,6 @@ from typing import Any
 
 from optlaws.cycles.advising.advice import Advice
 from optlaws.cycles.advising.advised_cycle import AdvisedCycle
-from optlaws.cycles.advising.advised_law import AdvisedMotion
-from optlaws.cycles.advising.advised_problem import AdvisedProblem
 from optlaws.cycles.advising.candidates import Candidates
 from optlaws.cycles.advising.recommendation import recommended
 from optlaws.cycles.cycle import Cycle
@@ -21,14 +19,11 @@ from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.mechanisms.linkages.mechanism import Mechanism
-from optlaws.mechanisms.residual import residual_vibration
 from optlaws.motion.piece import unit_of
 from optlaws.motion.quantities import positive_quantity, quantity, table
 from optlaws.numbers import whole
-from optlaws.suggest import unknown_key
 from optlaws.synthesis.least_time.follower_residual import RESIDUAL
 from optlaws.synthesis.problem.problem import Problem
-from optlaws.synthesis.spaces.bases import Chebyshev
 
 #: the laws that most designers choose between, the usual one first
 STANDARD = ("modified sine", "modified trapezoid", "cycloidal", "3-4-5 polynomial", "4-5-6-7 polynomial")
@@ -40,7 +35,7 @@ _FOLLOWER = '{"frequency": ("27 Hz", "33 Hz"), "damping": 0.05}'
 
 
 def advise(
-    motion: Move | Cycle | Problem,
+    motion: Move | Cycle,
     *,
     minimise: str | None = None,
     limits: Mapping[str, Any] | None = None,
@@ -60,23 +55,23 @@ def advise(
     Parameters
     ----------
     motion
-        A single move from rest to rest in machine units, `Rise("35 mm", "0.1 s")`; a `Cycle`, all of whose moves have
-        the laws in turn; or a dimensionless `Problem`.
+        A single move from rest to rest in machine units, `Rise("35 mm", "0.1 s")`, or a `Cycle`, all of whose moves
+        have the laws in turn. Of `Rise("1 m", "1 s")` all numbers are those of laws without units.
     minimise
         What is to be least, as of a `Cycle`: "acceleration", "jerk", "rms torque", "residual acceleration"; what the
-        cycle or problem says unless given, of a single move the acceleration.
+        cycle says unless given, of a single move the acceleration.
     limits
         As of a `Cycle`, more than its own; with a follower of the "residual acceleration" too. A move may have its own.
     follower
         What the motion leaves vibrating: `{"frequency": ("27 Hz", "33 Hz"), "damping": 0.05}`, its natural frequency or
-        the least and the greatest, and its damping ratio. Of a problem the frequency is nu, radians in the motion.
+        the least and the greatest, and its damping ratio.
     drive
         As of a `Cycle`: a mass, a `Mechanism` or a `Drive`, whose torque, power and energy are listed too.
     laws
         Names of the catalogue, members such as "III(7.2)", or files; the first is the usual one. Others are compared
         with it, unless the motion has a law already.
     degree
-        Of the optimal laws' Z; that of the cycle or problem unless given, of a single move 21.
+        Of the optimal laws' Z; that of the cycle unless given, of a single move 21.
     points
         Of the front between what is minimised and what decides between equally good laws; 0 for none.
 
@@ -112,7 +107,7 @@ def advise(
 
 
 def standard_candidates(
-    motion: Move | Cycle | Problem,
+    motion: Move | Cycle,
     *,
     minimise: str | None = None,
     limits: Mapping[str, Any] | None = None,
@@ -122,11 +117,7 @@ def standard_candidates(
     degree: int | None = None,
 ) -> Candidates:
     """The standard laws of a motion with their demands, to which optimal ones can be added, as `advise` takes them."""
-    if isinstance(motion, Problem):
-        _refuse_units(limits, drive)
-        known: AdvisedMotion = _problem(motion, minimise, follower, degree)
-    else:
-        known = _cycle(motion, minimise, limits, follower, drive, degree)
+    known = _cycle(motion, minimise, limits, follower, drive, degree)
     names = list(dict.fromkeys(_checked(laws)))
     if known.usual is not None:
         names = list(dict.fromkeys([known.usual, *names]))
@@ -158,28 +149,6 @@ def _checked(laws: Any) -> list[str]:  # noqa: ANN401 - it is checked here
     return list(laws)
 
 
-def _refuse_units(limits: Any, drive: Any) -> None:  # noqa: ANN401
-    if limits or drive is not None:
-        raise InputError(
-            "a problem is dimensionless: its bounds are its limits, and a drive is of a motion in machine units, such "
-            "as Rise('35 mm', '0.1 s')"
-        )
-
-
-def _problem(problem: Problem, minimise: str | None, follower: Any, degree: int | None) -> AdvisedProblem:  # noqa: ANN401
-    if degree is not None:
-        problem = replace(problem, basis=Chebyshev(degree))
-    residual = None
-    if follower is not None:
-        entries = table(follower, "follower", _FOLLOWER)
-        for name in entries:
-            if name not in {"frequency", "damping"}:
-                raise InputError(unknown_key(name, ("frequency", "damping"), "entry of a follower"))
-        residual = residual_vibration(**entries)
-    advised = AdvisedProblem(problem, residual)
-    return advised if minimise is None else advised.minimising(minimise)
-
-
 def _cycle(
     motion: Any,  # noqa: ANN401 - it is checked here
     minimise: str | None,
@@ -198,8 +167,10 @@ def _cycle(
     elif isinstance(motion, Move):
         cycle = _of_move(motion, given, entries)
     else:
+        # what this names could be given in the version before
+        instead = ": Rise('1 m', '1 s', limits=...) says the same with units" if isinstance(motion, Problem) else ""
         raise InputError(
-            f"advice is of a move such as Rise('35 mm', '0.1 s'), of a Cycle or of a Problem, got {shortened(motion)}"
+            f"advice is of a move such as Rise('35 mm', '0.1 s') or of a Cycle, got {shortened(motion)}{instead}"
         )
     if follower is None and (residual is not None or minimise == RESIDUAL):
         raise InputError(f"{RESIDUAL} is that of a follower: give follower={_FOLLOWER}")

@@ -7,7 +7,8 @@ from dataclasses import dataclass, field
 from functools import partial
 from math import inf
 
-from optlaws.cycles.advising.advised_law import AdvisedLaw, AdvisedMotion
+from optlaws.cycles.advising.advised_cycle import AdvisedCycle
+from optlaws.cycles.advising.advised_law import AdvisedLaw
 from optlaws.errors import OptlawsError
 from optlaws.synthesis.least_time.follower_residual import RESIDUAL
 from optlaws.tolerances import BOUND_SLACK, EQUALLY_GOOD, FRONT_END, SHOWN_DIGITS
@@ -38,7 +39,7 @@ class Candidates:
         The law whose proof says how good any could be.
     """
 
-    motion: AdvisedMotion
+    motion: AdvisedCycle
     laws: dict[str, AdvisedLaw] = field(default_factory=dict)
     errors: dict[str, OptlawsError] = field(default_factory=dict)
     usual: AdvisedLaw | None = None

@@ -35,9 +35,9 @@ class Recommendation:
     Examples
     --------
     >>> import optlaws
-    >>> chosen = optlaws.advise(optlaws.Problem(order=3), points=0).recommendation
+    >>> chosen = optlaws.advise(optlaws.Rise("1 m", "1 s"), points=0).recommendation
     >>> chosen.law.name, round(chosen.gain, 4), round(chosen.changes["jerk"], 4)
-    ('nearly least acceleration, least jerk', 0.052, 0.9516)
+    ('nearly least acceleration, least jerk', 0.0934, 0.9622)
     >>> chosen.rule
     'of the laws that take no more velocity or jerk than modified sine, those within 1 % of the least acceleration ...'
     """

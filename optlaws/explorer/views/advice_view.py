@@ -140,7 +140,6 @@ def _entries(cycle: Cycle, law: AdvisedLaw, *, vibrates: bool) -> dict[str, Any]
     Laws that were sought for a follower are given as they stand: a cycle's entries know none.
     """
     motion, proof = law.motion, law.proof
-    assert isinstance(motion, Cycle)  # noqa: S101 - as it is a cycle's
     moves = [i for i, segment in enumerate(motion.segments) if _is_compared(cycle.segments[i], segment)]
     none: list[str | None] = [None] * len(motion.segments)
     if law.kind == "given":
@@ -191,7 +190,7 @@ def _picture(candidates: Candidates, front: Sequence[AdvisedLaw]) -> dict[str, A
 
 def _curves(laws: Sequence[AdvisedLaw]) -> dict[str, Any]:
     """Velocity, acceleration and jerk of the usual law and of the recommended one, over the time."""
-    cycles = [law.motion for law in laws if isinstance(law.motion, Cycle)]
+    cycles = [law.motion for law in laws]
     if not cycles:
         return {"panels": []}
     duration = cycles[0].duration
