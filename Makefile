@@ -24,13 +24,19 @@ endif
 
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
-.PHONY: help table test test-long test-random wheel check-wheel mutants lint format docs bench results check-results check-proofs constraints clean
+.PHONY: help table ledger atlas test test-long test-random wheel check-wheel mutants lint format docs bench results check-results check-proofs constraints clean
 
 help: ## list the targets
 	@sed -nE 's/^([a-z-]+):[^#]*## (.*)/  make \1|\2/p' Makefile | awk -F'|' '{ printf "%-22s %s\n", $$1, $$2 }'
 
 table: $(RUN) ## set everything up and regenerate the table of optimal laws
 	$(BIN)/optlaws run optimal_table
+
+ledger: $(RUN) ## compute the printed items of the papers again, with their verdicts
+	$(BIN)/optlaws run ledger
+
+atlas: $(RUN) ## solve the atlas of optimal laws again
+	$(BIN)/optlaws run atlas
 
 test: $(DEV) ## run the tests, the doctests and the documents
 	$(BIN)/python -m pytest -n 2

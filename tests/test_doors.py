@@ -204,7 +204,7 @@ def test_a_byte_order_mark_is_read(tmp_path: Path) -> None:
 def test_values_of_the_command(capsys: pytest.CaptureFixture[str], value: str) -> None:
     solve = ["solve", "--order", "3", "--degree", "5", "--peak-velocity", "1.8"]
     for line in (
-        ["constants", "--order", value, "--z", "1"],
+        ["law", "--order", value, "--z", "1"],
         [*solve, "--degree", value] if value != "100000" else ["solve", "--order", "3", "--degree", value],
         ["solve", "--order", value, "--degree", "5"],
         [*solve, "--basis", "pieces", "--breaks", value, "--most", "J=-1"],

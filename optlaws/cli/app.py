@@ -20,6 +20,16 @@ NOT_PROVEN, BAD_INPUT, INFEASIBLE, SOLVER_FAILURE, INTERRUPTED = 1, 2, 3, 4, 130
 #: the files of the commands by their names, imported when one runs
 COMMANDS = {file.stem: file for file in sorted(Path(__file__).parent.glob("*/[!_]*.py"))}
 _HELP = ("--help", "-h")
+#: commands of version 1.0, each with what does its work
+RETIRED = {
+    "atlas": "`make atlas` computes the atlas of a checkout; `optlaws solve` finds the law for an exact request",
+    "cam": "`optlaws run FILE` does every job of a problem file, cams too, and writes their data to cam.json",
+    "constants": '`optlaws law --order 3 --z "COEFFICIENTS"` shows them',
+    "dwell": "optlaws.compare_dwell_mechanisms compares these mechanisms in Python",
+    "ledger": "`make ledger` shows it in a checkout, and `optlaws run ledger` writes its table",
+    "lever": "optlaws.TorsionLever and optlaws.find_torsion_levers compute them in Python",
+    "loader": "optlaws.inertial_loader computes it in Python",
+}
 
 
 def _version() -> str:
@@ -70,6 +80,8 @@ def exit_code(arguments: Sequence[str]) -> int:
             warnings.showwarning = _warn
             listing = not arguments or arguments[0] in _HELP
             commands = application(described=True) if listing else app
+            if not listing and arguments[0] in RETIRED:
+                raise InputError(f"there is no command {arguments[0]} any more: {RETIRED[arguments[0]]}")  # noqa: TRY301
             commands(list(arguments), exit_on_error=False, print_error=False, result_action="return_none")
     except (CycloptsError, InputError) as error:
         text, code = cut(str(error)), BAD_INPUT

@@ -145,8 +145,3 @@ def save_figure(file: Path, figure: Figure) -> None:
     from optlaws.plots.style import rendered
 
     write(file, rendered(figure, file.suffix[1:]))
-
-
-def save_laws(file: Path, laws: Mapping[str, optlaws.MotionLaw]) -> None:
-    """Draw laws by their names, one over the other, into the file of --plot."""
-    save_picture(file, optlaws.Comparison(dict(laws)))

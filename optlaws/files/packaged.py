@@ -1,4 +1,4 @@
-"""Data that come with optlaws: problem files by their names, and the atlas."""
+"""Data that come with optlaws: problem files by their names."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ def problem_file(given: Path) -> tuple[Path, Path | None]:
     ('optimal_table.toml', 'results/optimal_table')
     """
     if given.suffix or len(given.parts) != 1 or given.exists():
-        source = or_packaged(given)
+        source = _or_packaged(given)
         return source, None if source == given else Path("results") / given.stem
     names = problem_names()
     if given.name not in names:
@@ -81,7 +81,7 @@ def problem_of_job(given: Path, job: str) -> GivenProblem:
     return GivenProblem(file, results, entries)
 
 
-def or_packaged(given: Path) -> Path:
+def _or_packaged(given: Path) -> Path:
     """A file of the user or, if it does not exist, the packaged file of this path."""
     if given.is_absolute() or given.exists() or ".." in given.parts:
         return given

@@ -1,26 +1,21 @@
-"""The job "atlas": a study over objective, order, degree and B, as one table and drawn; laws looked up in it."""
+"""The job "atlas": a study over objective, order, degree and B, as one table and drawn."""
 
 from __future__ import annotations
 
-import csv
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Sequence
 from itertools import cycle, pairwise
-from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
-from optlaws.files import reading, tables
+from optlaws.errors import InputError
+from optlaws.files import tables
 from optlaws.plots.style import DISTINCT, GREY, empty_figure, plot_style
 from optlaws.results import Page, Results
 from optlaws.studies.run import run_study
 from optlaws.studies.specification import read_study
 from optlaws.studies.tables import StudyPoint
-from optlaws.suggest import unknown_key
-from optlaws.synthesis import Chebyshev, Problem, Solution, Status, at_most, synthesize
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -136,101 +131,3 @@ def _heights(points: Sequence[StudyPoint]) -> tuple[float, float]:
     objectives = [point.objective for point in points if point.objective is not None]
     low = min([*_limits(points).values(), *objectives])
     return 0.95 * low, min(1.03 * max(objectives), _ROOM * float(np.median(objectives)))
-
-
-@dataclass(frozen=True)
-class AtlasPoint:
-    """A point of the atlas: its problem, and the constants of its law; J is missing where c jumps."""
-
-    minimise: str
-    order: int
-    degree: int
-    B: float
-    constants: Mapping[str, float]
-
-
-def look_up(
-    file: Path, *, minimise: str, order: int, B: float | None = None, most: Mapping[str, float] | None = None
-) -> AtlasPoint:
-    """The point with the nearest B or, where B is free, the best point; of equals, the one of least objective.
-
-    Laws of another objective count too: with a limit, `most` by constant, they may be better.
-    """
-    limits = dict(most or {})
-    for name in limits:
-        if name not in CONSTANTS:
-            raise InputError(unknown_key(name, CONSTANTS, "constant"))
-    points = read(file)
-    for name, value in (("minimise", minimise), ("order", order)):
-        known = sorted({getattr(point, name) for point in points})
-        if value not in known:
-            raise InputError(f"the atlas has {name} = {', '.join(map(str, known))}, not {value}")
-    some = [point for point in points if point.order == order and minimise in point.constants]
-    if B is not None:
-        low, high = min(point.B for point in some), max(point.B for point in some)
-        if not low <= B <= high:
-            raise InputError(f"the atlas has B from {low:g} to {high:g}, not {B:g}")
-    candidates = [
-        p for p in some if all(p.constants.get(name, float("inf")) <= value for name, value in limits.items())
-    ]
-    if not candidates:
-        least = {name: min(p.constants.get(name, float("inf")) for p in some) for name in limits}
-        in_words = ", ".join(
-            f"{name} <= {value:g} (the least there is {least[name]:g})" for name, value in limits.items()
-        )
-        raise InputError(f"no law of order {order} in the atlas keeps {in_words}; optlaws solve may find one between")
-    return min(candidates, key=lambda p: (0.0 if B is None else abs(p.B - B), p.constants[minimise]))
-
-
-def best_law(
-    file: Path, *, minimise: str, order: int, B: float | None = None, most: Mapping[str, float] | None = None
-) -> Solution:
-    """The best law for the exact request, of any degree in the atlas; the arguments are as for `look_up`.
-
-    A point of the atlas says nothing of the best degree under a limit: its law keeps to it by chance. So every degree
-    is solved, except where a proven law of the greatest, which includes the laws of all others, decides.
-    """
-    degrees = sorted({point.degree for point in read(file) if point.order == order}, reverse=True)
-    solutions: list[Solution] = []
-    failed: list[SolverFailure] = []
-    for degree in degrees:
-        try:
-            solutions.append(synthesize(_problem(degree, minimise, order, B, most or {})))
-        except InfeasibleProblem:
-            if not solutions and not failed:
-                raise
-        except SolverFailure as error:
-            failed.append(error)
-        if solutions and solutions[0].status is Status.OPTIMAL:
-            break
-    if not solutions:
-        raise failed[0]
-    return min(solutions, key=lambda solution: solution.objective)
-
-
-def _problem(degree: int, minimise: str, order: int, B: float | None, most: Mapping[str, float]) -> Problem:
-    bounds: dict[str, Any] = {name: at_most(value) for name, value in most.items()}
-    if B is not None:
-        bounds.pop("B", None)
-    return Problem(B=B, order=order, basis=Chebyshev(degree), minimise=minimise, bounds=bounds)
-
-
-def read(file: Path) -> list[AtlasPoint]:
-    """The stored points of an atlas that have a law."""
-    if not file.exists():
-        raise InputError(f"there is no atlas {file}; `optlaws run problems/atlas.toml` computes one")
-    lines = [line for line in reading.text(file).splitlines() if not line.startswith("#")]
-    rows = list(csv.DictReader(lines))
-    if not rows or tuple(rows[0]) != COLUMNS:
-        raise InputError(f"{file} is no atlas: its columns are not {', '.join(COLUMNS)}")
-    return [
-        AtlasPoint(
-            minimise=row["minimise"],
-            order=int(row["order"]),
-            degree=int(row["degree"]),
-            B=float(row["B asked"]),
-            constants={name: float(row[name]) for name in CONSTANTS if row[name]},
-        )
-        for row in rows
-        if row["C"]
-    ]

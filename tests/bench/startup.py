@@ -36,7 +36,7 @@ EXPORT = ("export", "modified sine", "--stroke=35 mm", "--master=120 deg", "--du
 #: commands that people wait for, pictures included; what they write goes to a folder that is left out here
 COMMANDS = {
     "optlaws cycle cycle_press": (("cycle", "cycle_press", "--out"), 11.0),
-    "optlaws cam cam_press": (("cam", "cam_press", "--out"), 16.0),
+    "optlaws run cam_press": (("run", "cam_press", "--out"), 16.0),
     "optlaws run optimal_table": (("run", "optimal_table", "--out"), 20.0),
     "optlaws verify, 104 solutions": (("verify", f"{ROOT}/results/optimal_table/laws.json"), 20.0),
     "optlaws export, a table's best points": ((*EXPORT, "--to=csv"), 6.0),

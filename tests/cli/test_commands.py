@@ -13,6 +13,7 @@ import pytest
 import optlaws
 from optlaws import BoundaryConditions, MotionLaw, Problem, Solution, SolverFailure, law_from_z
 from tests.documents import ROOT
+from tests.internals.cli import COMMANDS, RETIRED
 from tests.internals.cli import app_of_cli as app
 from tests.jobs.examples import SOLUTIONS, SOLUTIONS_PRINTED
 
@@ -170,28 +171,28 @@ def test_moves_that_are_not_clear_are_refused(capsys: Capture, arguments: list[s
     assert says in refused(capsys, *arguments)
 
 
-# --- constants ---
+# --- a law by its Z ---
 
 
-def test_constants_of_a_printed_row(capsys: Capture) -> None:
-    code, out, err = called(capsys, "constants", "--z", ROW_1_53, "--order", 4, "--json")
+def test_a_printed_row(capsys: Capture) -> None:
+    code, out, err = called(capsys, "law", "--z", ROW_1_53, "--order", 4, "--json")
     assert (code, err) == (0, "")
-    data = json.loads(out)
-    assert list(data) == ["B", "C", "D", "J"]
+    data = json.loads(out)["constants"]
+    assert list(data) == ["B", "C", "D", "J", "rms_c"]
     assert [round(data[name]["value"], 4) for name in "BCD"] == [1.53, 7.3618, 6.0604]
     assert round(data["J"]["value"], 3) == 85.783
     assert data["C"]["k"] == pytest.approx(0.1398, abs=5e-5)
 
 
 @pytest.mark.parametrize("z", ["-3 6", "-3, 6", "-3,6", " -3   6 ", "-3\n6"])
-def test_constants_reads_blanks_and_commas(capsys: Capture, z: str) -> None:
-    code, out, _ = called(capsys, "constants", f"--z={z}", "--order", 2, "--json")
+def test_a_z_is_read_with_blanks_and_commas(capsys: Capture, z: str) -> None:
+    code, out, _ = called(capsys, "law", f"--z={z}", "--order", 2, "--json")
     assert code == 0
-    assert json.loads(out)["B"] == {"value": 1.875, "k": 0.5}
+    assert json.loads(out)["constants"]["B"] == {"value": 1.875, "k": 0.5}
 
 
-def test_constants_without_json_is_a_table(capsys: Capture) -> None:
-    code, out, _ = called(capsys, "constants", "--z", ROW_1_53, "--order", 4)
+def test_a_z_without_json_is_a_table(capsys: Capture) -> None:
+    code, out, _ = called(capsys, "law", "--z", ROW_1_53, "--order", 4)
     assert code == 0
     assert "7.36175954" in out
     assert "RMS" in out
@@ -201,8 +202,27 @@ def test_constants_without_json_is_a_table(capsys: Capture) -> None:
     ("z", "order", "says"),
     [("1 2 x", 4, "'x'"), ("nan", 4, "z[0]"), ("1 inf", 4, "z[1]"), ("1 2", 0, "order"), ("1 2", "two", "--order")],
 )
-def test_constants_refuses_bad_input(capsys: Capture, z: str, order: object, says: str) -> None:
-    assert says in refused(capsys, "constants", "--z", z, "--order", order, "--json")
+def test_a_bad_z_is_refused(capsys: Capture, z: str, order: object, says: str) -> None:
+    assert says in refused(capsys, "law", "--z", z, "--order", order, "--json")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "says"),
+    [
+        ([], "name a law, or give --z and --order"),
+        (["--order", 4], "name a law, or give --z and --order"),
+        (["--z", "1"], "name a law, or give --z and --order"),
+        (["cycloidal", "--z", "1", "--order", 4], "leave out 'cycloidal', or them"),
+    ],
+)
+def test_a_law_has_a_name_or_a_z(capsys: Capture, arguments: list[object], says: str) -> None:
+    assert says in refused(capsys, "law", *arguments)
+
+
+@pytest.mark.parametrize("command", RETIRED)
+def test_a_command_of_earlier_versions_names_what_to_use(capsys: Capture, command: str) -> None:
+    assert RETIRED[command] in refused(capsys, command, "anything", "--json")
+    assert command not in COMMANDS
 
 
 # --- run ---
@@ -358,7 +378,7 @@ def test_version_and_help(capsys: Capture) -> None:
     assert called(capsys, "--version") == (0, f"{expected}\n", "")
     code, out, _ = called(capsys, "--help")
     assert code == 0
-    assert all(name in out for name in ("run", "solve", "constants"))
+    assert all(name in out for name in ("run", "solve", "law"))
 
 
 def test_solve_takes_splines_bounds_and_an_inflexion(capsys: Capture) -> None:

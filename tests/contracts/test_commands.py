@@ -20,21 +20,14 @@ STUDY = "[problem]\norder = 2\nbasis = 'pieces'\nbreaks = 4\ncontinuity = 1\ndeg
 #: a call of each that has something infinite to tell where it can have it
 CALLS = {
     "advise": "--stroke 35mm --duration 0.1s --degree 5 --points 0",
-    "atlas": f"--order 4 --peak-velocity 1.71 --file {ROOT}/results/atlas/atlas.csv",
-    "cam": "cam.toml",
     "catalogue": "",
     "compare": "0050 cubic --frequency 20",
-    "constants": "--order 1 --z 0.5",
     "cycle": "cycle.toml",
     "export": "0050 --to csv --stroke 35mm --time 0.1s --points 9",
-    "dwell": "K --dwell 90 --rise 90 --swing 20 --clutch-angle 15 --radius-ratio 1 --inertia-ratio 0.1 --most-torque 1",
     "explore": "cycloidal --no-browser --port 0",
     "follower": "0050 --frequency 20",
     "front": "--order 2 --degree 3 --points 2",
     "law": "0050 --at 0.5",
-    "ledger": f"optimal --kind figure --file {ROOT}/problems/ledger.toml",
-    "lever": "--beta 0.75 --lam 1 --swing 60",
-    "loader": "0050",
     "new": "law law.toml --defaults",
     "run": "problem.toml",
     "solve": "--order 2 --degree 3 --basis pieces --breaks 4 --continuity 1 --peak-velocity 1.8",
@@ -109,7 +102,7 @@ def test_json_is_strict_and_alone(command: str, capsys: Capture) -> None:
 
 
 @pytest.mark.sample(4)
-@pytest.mark.parametrize("command", [one for one, options in COMMANDS.items() if "--plot" in options and one != "cam"])
+@pytest.mark.parametrize("command", [one for one, options in COMMANDS.items() if "--plot" in options])
 def test_a_picture_is_drawn_of_what_was_found(command: str, capsys: Capture) -> None:
     assert exit_code([*call(command), "--plot", "picture.svg", "--json"]) == 0
     capsys.readouterr()
@@ -163,7 +156,7 @@ def test_help_imports_nothing_heavy() -> None:
 
 
 def test_a_command_imports_what_it_needs_and_no_more() -> None:
-    for command in ("catalogue", "law", "constants", "loader"):
+    for command in ("catalogue", "law"):
         script = (
             f"import sys\nfrom optlaws.cli import exit_code\nassert exit_code({[*call(command), '--json']!r}) == 0\n"
             "print(*{'casadi', 'matplotlib', 'rich', 'scipy'} & {*sys.modules}, file=sys.stderr)"

@@ -202,13 +202,6 @@ def test_the_command_front_takes_every_entry_but_the_objective(
     assert caught == [Problem.from_dict({**base(name, others), name: value})]
 
 
-@pytest.mark.parametrize("name", sorted({*ENTRIES} - {"minimise", "order", "B", "C", "D", "J", "bounds"}))
-def test_the_command_atlas_says_what_it_cannot_look_up(name: str, capsys: pytest.CaptureFixture[str]) -> None:
-    options = EXAMPLES[name][3]
-    assert exit_code(["atlas", "--order", "4", *options]) == 2
-    assert f"{options[0]} is not for this command: the atlas holds" in capsys.readouterr().err
-
-
 @pytest.mark.parametrize("name", EXAMPLES)
 def test_the_commands_tell_of_misspelt_options(name: str, capsys: pytest.CaptureFixture[str]) -> None:
     option = options_of(ENTRIES[name])[0].name

@@ -14,7 +14,7 @@ from tests.internals.files import packaged
 from tests.internals.jobs import job
 
 
-def test_a_wheel_holds_the_package_the_problems_and_the_atlas_and_nothing_else() -> None:
+def test_a_wheel_holds_the_package_the_problems_and_nothing_else() -> None:
     inside = {file.distribution_path for file in WheelBuilder(str(ROOT)).recurse_included_files()}
     assert {name.partition("/")[0] for name in inside} == {"optlaws"}
     for folder in ("problems", "optlaws"):
@@ -22,8 +22,7 @@ def test_a_wheel_holds_the_package_the_problems_and_the_atlas_and_nothing_else()
         before = "" if folder == "optlaws" else "optlaws/packaged/"
         held = {before + name for name in names if "__pycache__" not in name}
         assert held <= inside, held - inside
-    assert "optlaws/packaged/results/atlas/atlas.csv" in inside
-    assert sum("packaged/results" in name for name in inside) == 1
+    assert not any("packaged/results" in name for name in inside)
 
 
 def test_what_is_installed_is_found_beside_the_package(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -32,15 +31,15 @@ def test_what_is_installed_is_found_beside_the_package(tmp_path: Path, monkeypat
     monkeypatch.setattr(packaged, "_ROOTS", (tmp_path / "packaged", tmp_path))
     assert packaged.problem_names() == ["own"]
     with pytest.raises(InputError, match="did not come with"):
-        packaged.packaged("results/atlas/atlas.csv")
+        packaged.packaged("problems/atlas.toml")
 
 
 def test_files_of_the_user_come_first(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
-    assert packaged.or_packaged(Path("problems/ledger.toml")) == ROOT / "problems" / "ledger.toml"
+    assert packaged.problem_file(Path("problems/ledger.toml"))[0] == ROOT / "problems" / "ledger.toml"
     Path("problems").mkdir()
     Path("problems/ledger.toml").write_text("", "utf-8")
-    assert packaged.or_packaged(Path("problems/ledger.toml")) == Path("problems/ledger.toml")
+    assert packaged.problem_file(Path("problems/ledger.toml"))[0] == Path("problems/ledger.toml")
     Path("optimal_table").write_text("", "utf-8")
     assert packaged.problem_file(Path("optimal_table")) == (Path("optimal_table"), None)
     assert packaged.problem_file(Path("lever_tables.toml")) == (Path("lever_tables.toml"), None)
@@ -55,7 +54,6 @@ def test_a_packaged_problem_is_run_by_its_name(
     assert (tmp_path / "results" / "savin_families" / "figure.svg").is_file()
     assert exit_code(["run", "savin_familys"]) == 2
     assert "did you mean 'savin_families'?" in capsys.readouterr().err
-    assert exit_code(["atlas", "--order", "4", "--peak-velocity", "1.8"]) == 0
 
 
 def test_commands_of_a_job_take_packaged_problems_by_name_and_by_place(
@@ -69,7 +67,6 @@ def test_commands_of_a_job_take_packaged_problems_by_name_and_by_place(
     assert (tmp_path / "results" / "cycle_savin_design" / "cycle.md").is_file()
     capsys.readouterr()
     for command in (
-        ["cam", "cycle_press"],
         ["cycle", "problems/cam_press.toml"],
         ["export", "cam_press", "--to", "csv"],
     ):

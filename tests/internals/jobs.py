@@ -2,8 +2,7 @@
 
 from optlaws.jobs import cycle as cycle_job
 from optlaws.jobs import fronts, job, solutions
-from optlaws.jobs.atlas import COLUMNS, best_law, look_up
-from optlaws.jobs.atlas import read as read_of_atlas
+from optlaws.jobs.atlas import COLUMNS
 from optlaws.jobs.axes.entry_sweep import sweep_table
 from optlaws.jobs.cam import answer
 from optlaws.jobs.cycle import table_of_motion

@@ -132,7 +132,7 @@ def test_a_wheel_runs_its_scripts_by_name(tmp_path: Path) -> None:
     (wheel,) = WheelBuilder(str(ROOT)).build(directory=str(tmp_path), versions=["standard"])
     ZipFile(wheel).extractall(tmp_path / "site")
     program = "import sys; from optlaws.cli.app import exit_code; sys.exit(exit_code(sys.argv[1:]))"
-    for arguments in (["run", "lever_tables"], ["ledger", "lever", "--id", "Fig. 1"]):
+    for arguments in (["run", "lever_tables"], ["run", "lever_drawing"]):
         environment = {**os.environ, "PYTHONPATH": str(tmp_path / "site")}
         subprocess.run([sys.executable, "-c", program, *arguments], cwd=tmp_path, env=environment, check=True)
     written = tmp_path / "results" / "lever_tables" / "verdicts.csv"

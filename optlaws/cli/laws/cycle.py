@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping, Sequence
-from importlib import import_module
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
@@ -60,7 +58,7 @@ def cycle(
     if fastest:
         _greatest_speed(file, out, plot, as_json=as_json)
     else:
-        do_job("cycle", file, out, plot, as_json=as_json)
+        _job(file, out, plot, as_json=as_json)
 
 
 def _greatest_speed(file: Path, out: Path | None, plot: Path | None, *, as_json: bool) -> None:
@@ -96,39 +94,33 @@ def _greatest_speed(file: Path, out: Path | None, plot: Path | None, *, as_json:
         raise NotProven(f"axis {', '.join(unproven)}: that no law is faster is not proven")
 
 
-def do_job(job: str, file: Path, out: Path | None, plot: Path | None, *, as_json: bool) -> None:
+def _job(file: Path, out: Path | None, plot: Path | None, *, as_json: bool) -> None:
     """The job of a problem file, with its main picture in the file of --plot too; or its data for programs."""
     from optlaws.files import writing
     from optlaws.files.packaged import problem_of_job
+    from optlaws.jobs.cycle import answer
     from optlaws.jobs.job import run
 
     check_files(plot=plot)
-    source, folder, entries = problem_of_job(file, job)
+    source, folder, entries = problem_of_job(file, "cycle")
     if not as_json:
         if out is not None or folder is not None:
             writing.check_place((out or folder or Path()) / "results.md")
         written = done(source, out=out or folder)
         if plot is not None:
-            writing.write(plot, _main_picture(job, entries, written, plot.suffix))
+            writing.write(plot, _main_picture(entries, written, plot.suffix))
         return
     with busy(f"{file}"), TemporaryDirectory() as results:
         if plot is not None:
-            written = run(source, Path(results))
-            writing.write(plot, _main_picture(job, entries, written, plot.suffix))
-        if plot is not None and job == "cam":  # whose data are those of its results
-            data = json.loads(Path(results, "cam.json").read_text("utf-8"))
-            del data["about"]
-        else:
-            data = import_module(f"optlaws.jobs.{job}").answer(entries, source)
+            writing.write(plot, _main_picture(entries, run(source, Path(results)), plot.suffix))
+        data = answer(entries, source)
     print_json(data)
 
 
-def _main_picture(job: str, entries: Mapping[str, Any], written: Sequence[Path], suffix: str) -> bytes:
-    """The most informative picture among the results of a job: the cam, the single axis, or all axes."""
-    name = job
-    if job == "cycle":
-        from optlaws.jobs.cycle import TOGETHER, plain_name
+def _main_picture(entries: Mapping[str, Any], written: Sequence[Path], suffix: str) -> bytes:
+    """The most informative picture among the results of a cycle: the single axis, or all axes."""
+    from optlaws.jobs.cycle import TOGETHER, plain_name
 
-        names = [plain_name(axis["name"]) for axis in entries["axis"]]
-        name = names[0] if len(names) == 1 else TOGETHER
+    names = [plain_name(axis["name"]) for axis in entries["axis"]]
+    name = names[0] if len(names) == 1 else TOGETHER
     return next(path for path in written if path.name == f"{name}{suffix}").read_bytes()

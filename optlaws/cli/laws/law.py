@@ -1,10 +1,10 @@
-"""The command `optlaws law`: a law of the catalogue, of Savin's families or of a file, with its constants."""
+"""The command `optlaws law`: a law of the catalogue, of a family, of a file or of a Z(k), with its constants."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any
 
 from cyclopts import Parameter
 
@@ -18,7 +18,7 @@ from optlaws.errors import InputError
 @Parameter(name="*")
 @dataclass(frozen=True, kw_only=True)
 class MemberOptions:
-    """The member of a family.
+    """The member of a family, or the Z(k) of a law from rest to rest.
 
     Parameters
     ----------
@@ -26,17 +26,33 @@ class MemberOptions:
         Member of the family I, II, III or IV.
     peak_velocity
         B of the member, in place of alpha.
+    z
+        In place of a name: coefficients of Z in ascending powers of k, separated by blanks, such as "0 -107.6 0 -21.8".
+    order
+        Number l of boundary conditions at each end of the law with this Z.
     """
 
     alpha: float | None = None
     peak_velocity: float | None = None
+    z: Annotated[str | None, Parameter(allow_leading_hyphen=True)] = None
+    order: Whole | None = None
+
+    def polynomial(self) -> optlaws.MotionLaw:
+        """The law from rest to rest with the given Z."""
+        if self.z is None or self.order is None:
+            raise InputError("name a law, or give --z and --order in its place")
+        try:
+            powers = [float(text) for text in self.z.replace(",", " ").split()]
+        except ValueError as error:
+            raise InputError(f"--z takes numbers separated by blanks: {error}") from None
+        return optlaws.law_from_z(optlaws.BoundaryConditions.rest(self.order), powers)
 
 
 _NO_MEMBER = MemberOptions()
 
 
 def law(
-    name: str,
+    name: str | None = None,
     /,
     *,
     member: MemberOptions = _NO_MEMBER,
@@ -47,13 +63,14 @@ def law(
     points: TableOptions = WHOLE_TABLE,
     as_json: AsJson = False,
 ) -> None:
-    """Show a law of the catalogue, a coded law, a member of Savin's families or a stored law, with its constants.
+    """Show a law with its constants: of the catalogue, coded, of Savin's families, stored, or with a given Z.
 
     Parameters
     ----------
     name
         A name in any language or of a controller, a code such as "0317(1,5)", a member such as "III(7.2)", a JSON file
-        of a law or of `optlaws solve --output`, or a file with a table of points (.csv, .txt, .tsv, .tab, .dat).
+        of a law or of `optlaws solve --output`, or a file with a table of points (.csv, .txt, .tsv, .tab, .dat); or
+        none, with --z and --order.
     at
         k in [0, 1] to give a, b, c, j and d at; may be repeated.
     plot
@@ -66,17 +83,24 @@ def law(
         Print one JSON object on stdout and nothing else.
     """
     from optlaws.files import writing
+    from optlaws.laws.catalogue.entry import continuity_with_rest
     from optlaws.laws.values import LETTERS, SAMPLES, table_of_values
 
     check_files(csv, plot=plot)
     if samples is not None and csv is None:
         raise InputError("--samples is the number of lines of --csv FILE: name the file")
-    alpha, peak_velocity = member.alpha, member.peak_velocity
-    motion_law = read_law(name, alpha, peak_velocity, by="--alpha or --peak-velocity", points=points)
-    about = _about(name, alpha, peak_velocity, motion_law)
+    if name is None:
+        motion_law = member.polynomial()
+        about = _facts(f"Z(k) of order {member.order}", motion_law) | {"continuity": continuity_with_rest(motion_law)}
+    elif member.z is not None or member.order is not None:
+        raise InputError(f"--z and --order make a law of their own: leave out {name!r}, or them")
+    else:
+        alpha, peak_velocity = member.alpha, member.peak_velocity
+        motion_law = read_law(name, alpha, peak_velocity, by="--alpha or --peak-velocity", points=points)
+        about = _about(name, alpha, peak_velocity, motion_law)
     values = [{"k": k, **{letter: getattr(motion_law, letter)(k) for letter in LETTERS}} for k in at or ()]
     if csv is not None:
-        writing.write(csv, table_of_values(motion_law, name, SAMPLES if samples is None else samples))
+        writing.write(csv, table_of_values(motion_law, name or about["name"], SAMPLES if samples is None else samples))
     if plot is not None:
         save_picture(plot, motion_law)
     if as_json:

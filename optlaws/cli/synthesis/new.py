@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal
@@ -13,7 +12,7 @@ from optlaws.cli.show import show
 from optlaws.errors import InputError
 
 if TYPE_CHECKING:
-    from optlaws.jobs.starters.starter import Question, Starter
+    from optlaws.jobs.starters.starter import Starter
 
 Kind = Literal["cycle", "cam", "machine", "study", "law"]
 
@@ -23,10 +22,10 @@ def new(
     file: Path | None = None,
     /,
     *,
-    defaults: bool = False,
+    defaults: Annotated[bool, Parameter(show=False)] = False,  # noqa: ARG001 - of earlier versions, which prompted
     **answers: Annotated[str, Parameter(help="Any number of the file by its name, such as --stroke 35mm.")],
 ) -> None:
-    """Begin a problem file, commented and ready to run; on a terminal, numbers without an option are prompted for.
+    """Begin a problem file, commented and ready to run: what no option gives is an example, to be changed in the file.
 
     The numbers, by kind; those in brackets may be left out:
 
@@ -42,8 +41,6 @@ def new(
         What is to be solved: a cycle of an axis, a disc cam, a move with an elastic load, a study, or a single law.
     file
         The file to write, which must not be there yet; KIND.toml unless given.
-    defaults
-        Ask nothing: what no option gives is an example, to be changed in the file.
     answers
         Any of the numbers, with its unit.
     """
@@ -57,10 +54,7 @@ def new(
     if place.exists():
         raise InputError(f"{place} is there already, and nothing is written over it: name another file")
     writing.check_place(place)
-    given = _named(starter, answers)
-    if not defaults and sys.stdin is not None and sys.stdin.isatty():
-        given = _prompted(starter, given)
-    text = starter.text(given, place)
+    text = starter.text(_named(starter, answers), place)
     try:
         with place.open("x", encoding="utf-8", newline="\n") as out:
             out.write(text)
@@ -78,31 +72,3 @@ def _named(starter: Starter, answers: Mapping[str, str]) -> dict[str, str]:
         if name not in names:
             raise InputError(f"{starter.kind}: {unknown_key(f'--{name}', [f'--{known}' for known in names], 'option')}")
     return dict(answers)
-
-
-def _prompted(starter: Starter, given: dict[str, str]) -> dict[str, str]:
-    """The given numbers, and the numbers entered at the terminal; an empty answer takes the default."""
-    _say("Enter takes what stands in brackets.")
-    answers = dict(given)
-    for question in starter.questions:
-        answer = given.get(question.name) or _answer(question)
-        if answer is not None:
-            answers[question.name] = answer
-    return answers
-
-
-def _answer(question: Question) -> str | None:
-    """A readable answer, or None for the default; an unreadable answer is reported, and the question is repeated."""
-    while True:
-        _say(f"{question.about.rstrip('.')} [{question.default or 'none'}]: ", end="")
-        line = sys.stdin.readline()
-        if not line.strip():
-            return None
-        try:
-            return question.read(line)
-        except InputError as error:
-            _say(str(error))
-
-
-def _say(text: str, end: str = "\n") -> None:
-    print(text, end=end, file=sys.stderr, flush=True)

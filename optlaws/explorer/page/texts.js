@@ -48,7 +48,6 @@ export const TEXTS = {
   "Lines that reproduce what is seen": ["Zeilen, die wiedergeben, was zu sehen ist", "Lignes qui reproduisent ce qui est visible", "Рядки, що відтворюють видиме"],
   "For optlaws run": ["Für optlaws run", "Pour optlaws run", "Для optlaws run"],
   "For optlaws cycle": ["Für optlaws cycle", "Pour optlaws cycle", "Для optlaws cycle"],
-  "For optlaws cam": ["Für optlaws cam", "Pour optlaws cam", "Для optlaws cam"],
   "Problem file (TOML)": ["Problemdatei (TOML)", "Fichier de problème (TOML)", "Файл задачі (TOML)"],
   "For optlaws law, compare and cycle; a solution with its proof for optlaws verify": ["Für optlaws law, compare und cycle; eine Lösung mit ihrem Beweis für optlaws verify", "Pour optlaws law, compare et cycle ; une solution avec sa preuve pour optlaws verify", "Для optlaws law, compare і cycle; розв’язок із доведенням для optlaws verify"],
   "Law (JSON)": ["Gesetz (JSON)", "Loi (JSON)", "Закон (JSON)"],

@@ -61,7 +61,7 @@ def findings_of(request: CamRequest) -> Findings:
 def _solved(question: str) -> Findings:
     data = json.loads(question)
     if "barrel" in data:
-        raise InputError("the explorer shows disc cams: the command `optlaws cam` computes barrel cams")
+        raise InputError("the explorer shows disc cams: `optlaws run` computes barrel cams")
     check_axis(convert(data, CamProblemFile, _WHERE).motion)
     return Findings.read(data, _WHERE)
 

@@ -30,8 +30,6 @@ class Question:
     ----------
     name
         The name of the option, and of the place in the text.
-    about
-        What it is, as the command's help says it.
     default
         The answer unless another is given; None where the entry is then left out.
     dimensions
@@ -43,7 +41,6 @@ class Question:
     """
 
     name: str
-    about: str
     default: str | None = None
     dimensions: tuple[str, ...] = ()
     choices: tuple[str, ...] = ()
@@ -59,7 +56,7 @@ class Question:
 
         Examples
         --------
-        >>> Question("stroke", "How far.", dimensions=("length",)).read(" 35 mm")
+        >>> Question("stroke", dimensions=("length",)).read(" 35 mm")
         '35 mm'
         """
         answer, name = text.strip(), f"--{self.name}"

@@ -26,19 +26,17 @@ _EITHER = ("length", "angle")
 _DIGITS = 5
 
 _LIMITS = (
-    Question("velocity", "Greatest velocity.", None, ("velocity", "angular velocity")),
-    Question("acceleration", "Greatest acceleration.", None, ("acceleration", "angular acceleration")),
-    Question("jerk", "Greatest jerk; that of modified sine unless given.", None, ("jerk", "angular jerk")),
+    Question("velocity", None, ("velocity", "angular velocity")),
+    Question("acceleration", None, ("acceleration", "angular acceleration")),
+    Question("jerk", None, ("jerk", "angular jerk")),
 )
 _CYCLE = (
-    Question("rise", "Duration of the rise: an angle of the master, or a time.", "120 deg", ("angle", "time")),
-    Question("dwell", "Duration of the dwell after the rise.", "90 deg", ("angle", "time")),
-    Question("return", "Duration of the return.", "100 deg", ("angle", "time")),
-    Question("speed", "Speed of the master.", "200 rpm", ("angular velocity",)),
+    Question("rise", "120 deg", ("angle", "time")),
+    Question("dwell", "90 deg", ("angle", "time")),
+    Question("return", "100 deg", ("angle", "time")),
+    Question("speed", "200 rpm", ("angular velocity",)),
 )
-_OBJECTIVE = Question(
-    "minimise", "What is least: C, D, J, rms_c, rms_j.", "C", choices=("C", "D", "J", "rms_c", "rms_j")
-)
+_OBJECTIVE = Question("minimise", "C", choices=("C", "D", "J", "rms_c", "rms_j"))
 
 
 def _usual(constant: str) -> float:
@@ -138,29 +136,27 @@ STARTERS: dict[str, Starter] = {
         "cycle",
         "cycle {file} --out {folder}",
         (
-            Question("stroke", "How far the axis goes.", "35 mm", _EITHER),
+            Question("stroke", "35 mm", _EITHER),
             *_CYCLE,
             *_LIMITS,
-            Question("mass", "Mass, or moment of inertia, that the drive moves.", None, ("mass", "moment of inertia")),
+            Question("mass", None, ("mass", "moment of inertia")),
         ),
         _of_cycle,
         read_given,
     ),
     "cam": Starter(
         "cam",
-        "cam {file} --out {folder}",
+        "run {file} --out {folder}",
         (
-            Question("stroke", "How far the slide goes.", "35 mm", _LENGTH),
+            Question("stroke", "35 mm", _LENGTH),
             *_CYCLE,
-            Question("roller", "Radius of the roller.", "12 mm", _LENGTH),
-            Question("offset", "By how much the slide's line passes the cam's centre.", None, _LENGTH),
-            Question("pressure-angle", "Greatest pressure angle.", "30 deg", _ANGLE),
-            Question("curvature", "Least radius of curvature of the profile where it bulges.", "5 mm", _LENGTH),
-            Question(
-                "prime-radius", "From the cam's centre to the roller's; the least one unless given.", None, _LENGTH
-            ),
+            Question("roller", "12 mm", _LENGTH),
+            Question("offset", None, _LENGTH),
+            Question("pressure-angle", "30 deg", _ANGLE),
+            Question("curvature", "5 mm", _LENGTH),
+            Question("prime-radius", None, _LENGTH),
             *_LIMITS,
-            Question("mass", "Mass that the cam moves.", None, ("mass",)),
+            Question("mass", None, ("mass",)),
         ),
         _of_cycle,
         _check_cam,
@@ -169,12 +165,12 @@ STARTERS: dict[str, Starter] = {
         "machine",
         "run {file} --out {folder}",
         (
-            Question("stroke", "How far the drive goes.", "300 mm", _EITHER),
-            Question("duration", "Duration of the motion.", "0.4 s", _TIME),
-            Question("frequency", "Natural frequency of the load while the drive stands.", "8.5 Hz", ("frequency",)),
-            Question("damping", "Damping ratio of the load.", "0.02"),
-            Question("spread", "Share by which the frequency may be off.", "0.1"),
-            Question("sway", "How far the load may sway after the motion.", "1 mm", _EITHER),
+            Question("stroke", "300 mm", _EITHER),
+            Question("duration", "0.4 s", _TIME),
+            Question("frequency", "8.5 Hz", ("frequency",)),
+            Question("damping", "0.02"),
+            Question("spread", "0.1"),
+            Question("sway", "1 mm", _EITHER),
         ),
         _of_machine,
         _check_machine,
@@ -183,10 +179,10 @@ STARTERS: dict[str, Starter] = {
         "law",
         "run {file} --out {folder}",
         (
-            Question("stroke", "How far the motion goes.", "35 mm", _EITHER),
-            Question("duration", "Duration of the motion.", "0.1 s", _TIME),
+            Question("stroke", "35 mm", _EITHER),
+            Question("duration", "0.1 s", _TIME),
             _OBJECTIVE,
-            Question("order", "Conditions at each end: 2, 3, 4, ...", "3", whole=True),
+            Question("order", "3", whole=True),
             *_LIMITS,
         ),
         _of_law,
@@ -197,10 +193,10 @@ STARTERS: dict[str, Starter] = {
         "study {file} --out {folder}",
         (
             _OBJECTIVE,
-            Question("from", "Least peak velocity; 1 is the mean velocity.", "1.5"),
-            Question("to", "Greatest peak velocity.", "2"),
-            Question("steps", "How many values of it.", "11", whole=True),
-            Question("degree", "Degree of the free function Z.", "9", whole=True),
+            Question("from", "1.5"),
+            Question("to", "2"),
+            Question("steps", "11", whole=True),
+            Question("degree", "9", whole=True),
         ),
         _of_study,
         _check_study,

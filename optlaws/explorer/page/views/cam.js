@@ -29,7 +29,7 @@ const LOADS = {
 
 const CUT = ["dxf spline", "dxf polyline", "dxf arcs", "svg", "csv", "csv polar", "g-code", "g-code arcs"];
 const FILES = [
-  { kind: "problem", text: "Problem file (TOML)", about: "For optlaws cam" },
+  { kind: "problem", text: "Problem file (TOML)", about: "For optlaws run" },
   ...CUT.map((format) => ({ kind: "cut", format, text: `Profile (${format})`, about: "The cam's edge, within 1 µm" })),
 ];
 
