@@ -1,7 +1,7 @@
 // A band of frequencies in the picture of the residual: dragged, weighed by a measured spectrum, and a bound of the law.
 
 import { slider } from "./fields.js";
-import { localised, plain } from "./language.js";
+import { plain } from "./units.js";
 import { Latest } from "./latest.js";
 import { Strip } from "./strip.js";
 import { html } from "./svg.js";
@@ -86,7 +86,7 @@ export class Band {
     const parts = spectrum ? [html("span", { text: spectrum.name ?? "" }), ...(spectrum.duration ? [html("label", {}, "in ", this.#duration)] : []), html("button", { type: "button", class: "close", "aria-label": "Take the spectrum away", text: "×", onclick: remove })] : [];
     if (JSON.stringify([spectrum?.name, spectrum?.duration]) !== this.#last) this.#spectrum.replaceChildren(...parts);
     this.#last = JSON.stringify([spectrum?.name, spectrum?.duration]);
-    if (spectrum?.duration && document.activeElement !== this.#duration) this.#duration.value = localised(spectrum.duration);
+    if (spectrum?.duration && document.activeElement !== this.#duration) this.#duration.value = spectrum.duration;
   }
 
   /** What the residual is shown with: the ends of the band, its bound, and the spectrum below. */

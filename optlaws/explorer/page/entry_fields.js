@@ -1,7 +1,7 @@
 // Fields of the entries of a table, by their paths: what is written goes into the study, a blank one takes an entry away.
 
 import { put, read } from "./entries.js";
-import { localised, plain } from "./language.js";
+import { plain } from "./units.js";
 import { html } from "./svg.js";
 
 export class EntryFields {
@@ -26,7 +26,7 @@ export class EntryFields {
     field.addEventListener("input", () => this.#change(about, (table) => put(table, path, plain(field.value.trim()))));
     field.addEventListener("change", () => this.#rested());
     this.#shows.push((table) => {
-      const value = localised(read(table, path));
+      const value = read(table, path);
       if (document.activeElement !== field || field.value.trim() !== value) field.value = value;
     });
     return html("label", { class: "entry" }, html("span", { class: "field-name", text: name, title: about }), field);

@@ -1,6 +1,6 @@
 // Motions for controllers: a format is chosen, and what the controller will run stands beside the law before it is saved.
 
-import { localised, plain } from "./language.js";
+import { plain } from "./units.js";
 import { Latest } from "./latest.js";
 import { download } from "./saving.js";
 import { html } from "./svg.js";
@@ -49,7 +49,7 @@ export class Exporting {
     this.#format.value = machine.format;
     for (const [name, field] of Object.entries(this.#fields)) {
       const value = String(machine[name] ?? "");
-      if (document.activeElement !== field || plain(field.value.trim()) !== value) field.value = localised(value);
+      if (document.activeElement !== field || plain(field.value.trim()) !== value) field.value = value;
       field.parentElement.hidden = name in TEXTS ? this.#motion(state)?.view !== "laws" : !takes.includes(name);
     }
     if (this.#dialog.open && this.#motion(state)) this.#ask(state);

@@ -1,6 +1,6 @@
 // Fields of forms: a slider with its number, that may be switched off.
 
-import { localised, plain } from "./language.js";
+import { plain } from "./units.js";
 import { html } from "./svg.js";
 
 /** A row with a name, a slider and a number; `off` makes a switch of it, `most` is the greatest number. Returns
@@ -31,7 +31,7 @@ export function slider({ name, title, low, high, step, most = null, off = false,
     range.disabled = number.disabled = none;
     if (none) return void (number.value = "");
     range.value = value;
-    if (document.activeElement !== number || Number(valueOf(number)) !== value) number.value = localised(value);
+    if (document.activeElement !== number || Number(valueOf(number)) !== value) number.value = value;
   };
   return { element, set };
 }

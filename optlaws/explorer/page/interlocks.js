@@ -1,7 +1,7 @@
 // Interlocks as a form: which two axes, and what must not happen between them.
 
 import { group } from "./fields.js";
-import { localised, plain } from "./language.js";
+import { plain } from "./units.js";
 import { html, renew } from "./svg.js";
 
 const KINDS = { after: "after", clearance: "clearance", forbidden: "forbidden region", synchronous: "synchronous" };
@@ -112,7 +112,7 @@ export class Interlocks {
     this.#shows.push((all) => {
       const value = all[i]?.[name];
       const text = Array.isArray(value) ? value.map((pair) => (Array.isArray(pair) ? pair.join(", ") : String(pair))).join("; ") : String(value ?? "");
-      if (document.activeElement !== field) field.value = localised(text);
+      if (document.activeElement !== field) field.value = text;
     });
     return html("label", { class: "entry" }, html("span", { class: "field-name", text: name === "corners" ? "corners" : "" }), field);
   }
@@ -123,7 +123,7 @@ export class Interlocks {
     field.addEventListener("change", () => this.#study.rest());
     this.#shows.push((all) => {
       const value = String((all[i] && get(all[i])) ?? "");
-      if (document.activeElement !== field || plain(field.value.trim()) !== value) field.value = localised(value);
+      if (document.activeElement !== field || plain(field.value.trim()) !== value) field.value = value;
     });
     return html("label", { class: "entry" }, html("span", { class: "field-name", text: title }), field);
   }

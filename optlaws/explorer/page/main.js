@@ -3,7 +3,7 @@
 import { Documents, begun } from "./documents.js";
 import { Exporting } from "./exporting.js";
 import { tabs } from "./fields.js";
-import { translate } from "./language.js";
+import { watchUnits } from "./units.js";
 import { during, observe } from "./latest.js";
 import { Opening } from "./opening.js";
 import { reporting } from "./report.js";
@@ -88,7 +88,8 @@ function rootOf(name) {
 async function begin() {
   const { view } = read(location.hash);
   if (Object.hasOwn(VIEWS, view)) VIEWS[view].load().catch(() => {}); // on its way while the start is
-  const [start] = await Promise.all([fetch("api/start").then((response) => response.json()), translate()]);
+  watchUnits();
+  const start = await fetch("api/start").then((response) => response.json());
   const { state, examples, formats, names } = start;
   document.body.append(html("datalist", { id: "names" }, ...names.map((name) => html("option", { value: name }))));
   const first = begun(location.hash, state);

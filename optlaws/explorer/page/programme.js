@@ -1,7 +1,7 @@
 // The programme of a cycle as a form: speed, what is least, limits, and the segments with their laws.
 
 import { group } from "./fields.js";
-import { localised, plain } from "./language.js";
+import { plain } from "./units.js";
 import { html, renew } from "./svg.js";
 
 const OBJECTIVES = ["acceleration", "velocity", "jerk", "rms acceleration", "rms jerk", "force", "rms force"];
@@ -101,7 +101,7 @@ export class Programme {
     field.addEventListener("change", () => this.#study.rest());
     this.#shows.push((cycle, axis) => {
       const value = get(axis, cycle) ?? "";
-      if (document.activeElement !== field || plain(field.value.trim()) !== value) field.value = localised(value);
+      if (document.activeElement !== field || plain(field.value.trim()) !== value) field.value = value;
     });
     return html("label", { class: "entry" }, html("span", { class: "field-name", text: name }), field);
   }

@@ -1,6 +1,5 @@
 // The tools of the head: undo, redo, the link, files to save, dark and light.
 
-import { LANGUAGES, language, speak } from "./language.js";
 import { save, savings } from "./saving.js";
 import { html } from "./svg.js";
 import { toggle } from "./theme.js";
@@ -63,7 +62,7 @@ function saves(study, notice, shown) {
   });
 }
 
-/** Language and units: the page begins anew with them, the study stays. */
+/** Units: the page begins anew with them, the study stays. */
 function settings(study) {
   const field = (name, options, value, act) => {
     const select = html("select", { "aria-label": name }, ...Object.entries(options).map(([key, text]) => html("option", { value: key, text, translate: "no" })));
@@ -76,7 +75,7 @@ function settings(study) {
     return html("label", { class: "entry" }, html("span", { class: "field-name", text: name }), select);
   };
   const units = Object.entries(CHOICES).map(([name, all]) => field(name, Object.fromEntries(all.map((unit) => [unit, unit])), chosen()[name], (unit) => choose(name, unit)));
-  return menu("Settings", html("div", { class: "list settings" }, field("language", LANGUAGES, language(), speak), ...units));
+  return menu("Settings", html("div", { class: "list settings" }, ...units));
 }
 
 /** A button with a list below it, which Escape and a click elsewhere close; `opened(close)` fills it. */

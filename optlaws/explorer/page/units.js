@@ -2,6 +2,8 @@
 // the reader writes into fields has the unit that stands behind it.
 
 const KEY = "optlaws-units";
+const ATTRIBUTES = ["aria-label", "aria-valuetext", "title"];
+const SKIPPED = "script, style, textarea, [translate=no]";
 const INCH = 25.4;
 const DEGREE = Math.PI / 180;
 
@@ -88,4 +90,44 @@ function panelInUnits(panel) {
     limits: panel.limits?.map((limit) => ({ ...limit, value: times(limit.value), ...("least" in limit && { least: times(limit.least) }) })),
     peaks: panel.peaks?.map((peak) => ({ ...peak, value: peak.value * factor, text: inUnit(peak.text, factor) })),
   };
+}
+
+/** A number of a field with a decimal point, where it was written with a comma; a list has blanks behind its commas. */
+export const plain = (text) => (text.includes("(") ? text : text.replace(/(\d),(\d)/g, "$1.$2").replace(/^,(\d)/, "0.$1"));
+
+const shown = new WeakMap(); // of text nodes and elements: what stands there, in the units that are chosen
+
+/** Write everything on the page, now and later, in the units that are chosen. */
+export function watchUnits() {
+  if (!switching) return;
+  new MutationObserver((changes) => {
+    for (const { type, target, addedNodes, attributeName } of changes) {
+      if (type === "attributes") attribute(target, attributeName);
+      else if (type === "characterData") text(target);
+      else addedNodes.forEach(all);
+    }
+  }).observe(document.documentElement, { subtree: true, childList: true, characterData: true, attributes: true, attributeFilter: ATTRIBUTES });
+  all(document.documentElement);
+}
+
+function all(root) {
+  if (root.nodeType === Node.TEXT_NODE) return text(root);
+  if (root.nodeType !== Node.ELEMENT_NODE || root.closest(SKIPPED)) return;
+  for (const name of ATTRIBUTES) if (root.hasAttribute(name)) attribute(root, name);
+  root.childNodes.forEach(all);
+}
+
+function text(node) {
+  if (node.parentElement?.closest(SKIPPED) || shown.get(node) === node.data) return;
+  const converted = inUnits(node.data);
+  shown.set(node, converted);
+  if (converted !== node.data) node.data = converted;
+}
+
+function attribute(element, name) {
+  const known = shown.get(element) ?? shown.set(element, {}).get(element);
+  const value = element.getAttribute(name);
+  if (value === null || known[name] === value || element.closest("[translate=no]")) return;
+  known[name] = inUnits(value);
+  if (known[name] !== value) element.setAttribute(name, known[name]);
 }

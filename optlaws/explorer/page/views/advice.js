@@ -4,17 +4,13 @@
 import { Chart, spanOf } from "../chart.js";
 import { group } from "../fields.js";
 import { Latest } from "../latest.js";
-import { known, localised, plain, say } from "../language.js";
 import { Panels } from "../panels.js";
 import { html, renew } from "../svg.js";
 import { unanswered } from "../trust.js";
-import { measured } from "../units.js";
+import { inUnits, measured, plain } from "../units.js";
 
 const SOURCES = { cycle: "the cycle", machine: "the machine" };
 const OBJECTIVES = ["", "acceleration", "jerk", "rms acceleration", "torque", "rms torque", "force", "rms force", "residual acceleration"];
-// between the clauses of a sentence, but not within the quoted name of a law
-const CLAUSES = /([;:,] |(?<=, )and (?=[\d.]+ %)| and (?=[\d.]+ %)| \(|\)(?=[;,.])|\.$)(?=(?:[^"]*"[^"]*")*[^"]*$)/;
-const SEPARATOR = /^(?:[;:,] | ?and | \(|\)|\.)$/;
 const MOVES = ["rise", "return", "move"];
 const OPTIMAL = "optimal";
 const LETTER = 0.018; // of the width of a picture
@@ -135,7 +131,7 @@ export class View {
     field.addEventListener("change", () => this.#study.rest());
     this.#shows.push((state) => {
       const { follower } = this.#asked(state);
-      if (document.activeElement !== field) field.value = localised(String(follower[key]));
+      if (document.activeElement !== field) field.value = String(follower[key]);
       field.disabled = !follower.on;
     });
     return html("label", { class: "entry" }, html("span", { class: "field-name", text: name }), field);
@@ -190,9 +186,9 @@ export class View {
     const row = rows.find(({ name }) => name === chosen);
     const take = row.take ? [html("button", { type: "button", class: "main-button", text: "Take this law", onclick: () => this.#take(row) })] : [];
     return [
-      html("p", { class: "advice" }, html("strong", { class: "word optimal", text: "advice" }), " ", clauses(sentences[0])),
-      html("p", {}, clauses(sentences[1])),
-      html("p", { class: "quiet", translate: "no", lang: "en", text: `Rule: ${rule}.` }),
+      html("p", { class: "advice" }, html("strong", { class: "word optimal", text: "advice" }), " ", sentences[0]),
+      html("p", { text: sentences[1] }),
+      html("p", { class: "quiet", translate: "no", text: `Rule: ${rule}.` }),
       ...take,
     ];
   }
@@ -229,13 +225,6 @@ export class View {
       state.view = source;
     });
   }
-}
-
-/** A sentence by its clauses, each of which has its own text in the table; in English where that lacks one. */
-function clauses(sentence) {
-  const parts = sentence.split(CLAUSES).filter(Boolean);
-  const whole = parts.every((part) => SEPARATOR.test(part) || known(part));
-  return html("span", whole ? {} : { lang: "en", translate: "no" }, ...parts.map((part) => html("span", { text: part })));
 }
 
 function refusal({ word: title, reason, tried }) {
@@ -277,7 +266,7 @@ function placed(points, range, log) {
   for (const point of [...points].sort((one, other) => other.of - one.of || (one.kind === "optimal") - (other.kind === "optimal"))) {
     if (point.name.includes(",") && !point.of) continue;
     const text = point.of ? "to take" : point.name;
-    const long = LETTER * say(text).length;
+    const long = LETTER * inUnits(text).length;
     const end = along(point.x) > Math.min(0.66, 1 - long);
     const from = along(point.x) - (end ? long : 0);
     const box = { from, to: from + long, at: (point.y - low) / tall };

@@ -1,7 +1,7 @@
 // The view of a cam: mechanism and motion on the left, the cam that turns, pressure angle and curvature on the right.
 
 import { explained, group } from "../fields.js";
-import { localised, plain } from "../language.js";
+import { plain } from "../units.js";
 import { Latest } from "../latest.js";
 import { Mechanism } from "../mechanism.js";
 import { Panels } from "../panels.js";
@@ -151,7 +151,7 @@ export class View {
     field.addEventListener("change", () => this.#study.rest());
     this.#shows.push((cam) => {
       const value = String(of(cam)?.[name] ?? "");
-      if (document.activeElement !== field || plain(field.value.trim()) !== value) field.value = localised(value);
+      if (document.activeElement !== field || plain(field.value.trim()) !== value) field.value = value;
     });
     return html("label", { class: "entry" }, html("span", { class: "field-name", text: NAMES[name] ?? name, title: name.replaceAll("_", " ") }), field);
   }

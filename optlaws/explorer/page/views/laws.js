@@ -4,7 +4,7 @@ import { askedOf, move } from "../asked.js";
 import { Band } from "../band.js";
 import { Controls } from "../controls.js";
 import { group, slider, tabs } from "../fields.js";
-import { localised, plain } from "../language.js";
+import { plain } from "../units.js";
 import { Latest } from "../latest.js";
 import { curvesOf } from "../law_curves.js";
 import { Panels } from "../panels.js";
@@ -249,6 +249,6 @@ function sizes(root, study) {
   });
   root.append(group("In machine units", ...fields.map(({ name, field }) => html("label", { class: "entry" }, html("span", { class: "field-name", text: name }), field))));
   return ({ controller }) => {
-    for (const { name, field } of fields) if (document.activeElement !== field) field.value = localised(controller?.[name] ?? "");
+    for (const { name, field } of fields) if (document.activeElement !== field) field.value = controller?.[name] ?? "";
   };
 }

@@ -1,14 +1,13 @@
 // The view of an old cam: its table dropped or chosen, the moves that it holds, and better laws within a tolerance.
 
 import { group, slider } from "../fields.js";
-import { localised, plain } from "../language.js";
 import { Latest } from "../latest.js";
 import { textOf } from "../opening.js";
 import { Panels } from "../panels.js";
 import { Strip } from "../strip.js";
 import { html, renew } from "../svg.js";
 import { checking, showTrust, unanswered } from "../trust.js";
-import { measured } from "../units.js";
+import { measured, plain } from "../units.js";
 
 const told = (value) => JSON.stringify(value);
 const FIELDS = {
@@ -194,7 +193,7 @@ export class View {
     }));
     field.addEventListener("change", () => this.#study.rest());
     this.#shows.push((old) => {
-      if (document.activeElement !== field) field.value = name === "columns" ? old[name] ?? "" : localised(old[name] ?? "");
+      if (document.activeElement !== field) field.value = old[name] ?? "";
     });
     return html("label", { class: "entry" }, html("span", { class: "field-name", text: title }), field);
   }

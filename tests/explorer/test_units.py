@@ -1,0 +1,63 @@
+"""Units of the page: decimal commas are read, numbers are shown in the units of the reader."""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING
+
+import pytest
+
+from tests.explorer.talk import OPTIMAL, Server
+from tests.explorer.test_page import go, settle, told
+from tests.internals.explorer import example
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Page
+
+
+def test_decimal_commas_are_read(page: Page, served: Server) -> None:
+    go(page, f"http://{served.host}/")
+    field = page.locator("#ask .field", has_text="B").locator("input.numeric").first
+    assert field.input_value() == "1.7"
+    field.fill("1,85")
+    settle(page)
+    law = {"problem": OPTIMAL["problem"] | {"B": 1.85}, "weights": {"C": 1}}
+    assert page.locator("#table tbody tr >> nth=0 >> [data-constant]").all_inner_texts() == told(served, law)
+    page.locator("#views [data-key=cycle]").click()
+    settle(page)
+    page.locator("#programme .entry", has_text="velocity").locator("input").fill("700,5 mm/s")
+    settle(page)
+    assert "proven optimal" in page.locator("#cycle-trust").inner_text()
+    # what stands in brackets is a formula, whose commas part its arguments
+    script = "([text]) => import('/units.js').then(({ plain }) => plain(text))"
+    texts = ["700,5 mm/s", "max(1,2)", ",5", "12, 14"]
+    assert [page.evaluate(script, [text]) for text in texts] == ["700.5 mm/s", "max(1,2)", "0.5", "12, 14"]
+
+
+def test_numbers_are_shown_in_the_units_of_the_reader(page: Page, served: Server) -> None:
+    go(page, served.link(view="cycle", laws=[OPTIMAL]))
+    page.get_by_text("Settings").click()
+    page.get_by_label("length").select_option("in")
+    page.wait_for_load_state()
+    settle(page)
+    shown = served.ask("cycle", {"study": example()})
+    peak = shown["panels"][1]["peaks"][-1]
+    mark = page.locator("#motion svg >> nth=1 >> .peak text").last.text_content() or ""
+    assert float(mark) == pytest.approx(peak["value"] / 25.4, rel=1e-3)
+    assert page.locator("#motion .title").all_text_contents()[1] == "velocity, in/s"
+    cell = page.locator("#segments tbody tr >> nth=0 >> td >> nth=4").inner_text()
+    assert float(cell) == pytest.approx(616 / 25.4, rel=1e-3)
+    least = float(re.findall(r"least acceleration = ([\d.]+) in/s²", page.locator("#cycle-trust").inner_text())[0])
+    assert least == pytest.approx(26.51039 / 0.0254, rel=1e-6)
+    page.locator("#views [data-key=advice]").click()
+    settle(page)
+    assert "acceleration, in/s²" in " ".join(page.locator("#advice-table thead").inner_text().split())
+    advised = served.ask("advice", {"study": example()})["rows"][0]["cells"]
+    cell = page.locator("#advice-table tbody tr >> nth=0 >> td >> nth=1").inner_text()
+    assert float(cell) == pytest.approx(1000.0 * float(advised[1]) / 25.4, rel=1e-4)
+    page.locator("#views [data-key=fastest]").click()
+    settle(page)
+    assert "velocity, in/s" in page.locator("#fastest-table").inner_text()
+    page.locator("#views [data-key=old]").click()
+    settle(page)
+    assert "velocity, in/deg" in page.locator("#old-curves .title").all_text_contents()
