@@ -25,7 +25,6 @@ from optlaws.explorer.views import (
     law_view,
     old_cam_view,
     residual_view,
-    study_view,
 )
 from optlaws.explorer.views.machines import fastest_view, machine_view
 from optlaws.explorer.views.requests import Question, read, ready
@@ -39,7 +38,6 @@ QUESTIONS: dict[str, Question] = {
     **residual_view.QUESTIONS,
     **cycle_view.QUESTIONS,
     **cam_view.QUESTIONS,
-    **study_view.QUESTIONS,
     **start.QUESTIONS,
     **axes_view.QUESTIONS,
     **machine_view.QUESTIONS,
@@ -52,7 +50,6 @@ QUESTIONS: dict[str, Question] = {
 EXAMPLES: dict[str, Callable[[], dict[str, Any]]] = {
     "cycle": cycle_view.example,
     "cam": cam_view.example,
-    "study": study_view.example,
     "axes": axes_view.example,
     "machine": machine_view.example,
     "fastest": fastest_view.example,

@@ -22,7 +22,6 @@ from optlaws.explorer.views import axes_view, cam_view, cycle_view, old_cam_view
 from optlaws.explorer.views.law_view import digits, title
 from optlaws.explorer.views.machines import fastest_view
 from optlaws.explorer.views.requests import MOST_LAWS, LawRequest, Question, law_of, problem_of, solved
-from optlaws.explorer.views.study_view import StudyRequest
 from optlaws.exports.format import FORMATS
 from optlaws.files.tables import to_toml
 from optlaws.files.writing import MARK
@@ -62,13 +61,12 @@ class FileRequest(SeenRequest, kw_only=True, forbid_unknown_fields=True):
     """A file of the page's state."""
 
     kind: Literal["python", "problem", "law", "table", "cut", "proof"]
-    view: Literal["laws", "cycle", "axes", "cam", "machine", "fastest", "study", "old"] = "laws"
+    view: Literal["laws", "cycle", "axes", "cam", "machine", "fastest", "old"] = "laws"
     axes: cycle_view.CycleRequest | None = None
     old: old_cam_view.OldCycleRequest | None = None
     cam: cam_view.CamRequest | None = None
     machine: cycle_view.CycleRequest | None = None
     fastest: fastest_view.FastestRequest | None = None
-    study: StudyRequest | None = None
     format: Annotated[str, msgspec.Meta(max_length=40)] = "dxf spline"
 
 
@@ -83,10 +81,6 @@ def answer(request: FileRequest) -> File:
     }  # fmt: skip
     if request.view in of_view:
         return of_view[request.view](request)
-    if request.view == "study" and request.kind == "problem":
-        if request.study is None:
-            raise InputError("there is no study to save")
-        return _file("study.toml", "application/toml", to_toml(_bounds(request.study.study)))
     law = request.law
     makers: Mapping[str, Callable[[], File]] = {
         "python": lambda: _file("study.py", "text/x-python", python(request.laws)),

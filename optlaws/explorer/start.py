@@ -7,15 +7,15 @@ from typing import Annotated, Any
 
 import msgspec
 
-from optlaws import MotionLaw
+from optlaws import MotionLaw, Problem
 from optlaws.errors import InputError, located
 from optlaws.explorer.views import old_cam_view
 from optlaws.explorer.views.requests import MOST_LAWS, LawRequest, Question, problem_of
-from optlaws.explorer.views.study_view import law_entries, rows_of
 from optlaws.files import reading
 from optlaws.files.packaged import is_problem, problem_file
 from optlaws.files.problem_file import convert
 from optlaws.jobs.cycle_entries import CycleProblemFile
+from optlaws.jobs.solutions import SolutionsProblemFile, swept_entries
 from optlaws.laws.catalogue.reading import LARGEST_TABLE, is_file, is_table, law_of_points, read_law
 from optlaws.mechanisms.drives.motor import read_motors
 from optlaws.studies.problem_entries import problem
@@ -24,8 +24,6 @@ from optlaws.suggest import unknown_key
 _FIRST = {"order": 4, "degree": 9, "B": 1.7}
 #: jobs with a view of their own name
 _SHOWN = frozenset({"cam", "cycle"})
-#: jobs of which a file with one problem is shown as its law
-_OF_ONE = (None, "solutions")
 
 
 def start(given: str | None) -> dict[str, Any]:
@@ -96,7 +94,7 @@ def _stem(name: str) -> str:
 
 
 def _of_problem_file(data: dict[str, Any], name: str) -> dict[str, Any]:
-    """The view of a job: rows of problems with the law of the first row, or a single law where there is one problem."""
+    """The view of a job, or a single law where the file has one problem."""
     job = data["job"] if isinstance(data.get("job"), str) else None
     if job == "fastest" or (job == "cycle" and data.get("fastest")):
         return {"view": "fastest", "fastest": data}
@@ -107,12 +105,22 @@ def _of_problem_file(data: dict[str, Any], name: str) -> dict[str, Any]:
     if job in _SHOWN:
         return {"view": job, job: data}
     with located(name):
-        count, rows = rows_of(data)
-    if not count and not isinstance(data.get("problem"), dict):
-        return {"view": "study", "study": data}
-    stated = next(rows)[1] if count else problem(name, data["problem"])
-    laws = _laws(law_entries(stated))
-    return laws if count <= 1 and job in _OF_ONE else laws | {"view": "study", "study": data}
+        stated = _single_problem(data, name)
+    if stated is None:
+        raise InputError(
+            f"{name}: the page shows a law, a cycle, a cam or a move; `optlaws run` does what this file says"
+        )
+    return _laws(_law_entries(stated))
+
+
+def _single_problem(data: dict[str, Any], name: str) -> Problem | None:
+    """The problem of a file that has one."""
+    if data.get("job") == "solutions":
+        spec = convert(data, SolutionsProblemFile, Path(name))
+        swept = [*swept_entries(spec)]
+        return problem("problem", spec.problem.given(), swept[0]) if len(swept) == 1 else None
+    single = isinstance(data.get("problem"), dict) and "job" not in data and "vary" not in data
+    return problem("problem", data["problem"]) if single else None
 
 
 def _of_cycle(data: dict[str, Any], name: str) -> dict[str, Any]:
@@ -161,7 +169,15 @@ def opened(request: OpenRequest) -> dict[str, Any]:
 
 def _problem(entries: dict[str, Any], name: str) -> dict[str, Any]:
     with located(name):
-        return law_entries(problem_of(LawRequest(problem=entries)))
+        return _law_entries(problem_of(LawRequest(problem=entries)))
+
+
+def _law_entries(stated: Problem) -> dict[str, Any]:
+    """A problem in the page's form of a law: with weights where a single constant is minimised."""
+    plain = stated.to_dict()
+    if plain.get("minimise") in {"C", "D", "J", "rms_c"}:
+        return {"weights": {plain.pop("minimise"): 1.0}, "problem": plain}
+    return {"problem": plain}
 
 
 QUESTIONS: dict[str, Question] = {"open": (OpenRequest, opened)}

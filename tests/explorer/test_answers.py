@@ -35,7 +35,6 @@ from tests.internals.explorer import (
     problem_of,
     solved,
     start,
-    study_view,
 )
 from tests.internals.files import to_toml
 
@@ -161,13 +160,10 @@ def test_a_peak_without_bound_is_said_to_be() -> None:
 # --- what is shown first ---
 
 
-@pytest.mark.parametrize("file", ["mixed.toml", "d_minimal.toml", "cycle_press.toml"])
+@pytest.mark.parametrize("file", ["cycle_press.toml", "cycle_motor.toml"])
 def test_problem_files_are_shown(file: str) -> None:
     found = start(str(ROOT / "problems" / file))
-    if found["view"] == "cycle":
-        assert "trust" in cycle_view.answer(CycleRequest(study=found["cycle"]))
-    else:
-        assert isinstance(solved(problem_of(law(found["laws"][0]))), Solution)
+    assert "trust" in cycle_view.answer(CycleRequest(study=found["cycle"]))
 
 
 def test_a_solution_is_shown_as_its_problem_and_a_law_as_itself(tmp_path: Path) -> None:
@@ -188,23 +184,18 @@ def test_what_cannot_be_shown_is_refused_by_its_name(given: str, message: str) -
 
 
 @pytest.mark.parametrize("file", sorted((ROOT / "problems").glob("*.toml")), ids=lambda file: file.stem)
-def test_every_problem_file_is_opened_and_written(file: Path) -> None:
+def test_a_problem_file_with_a_view_is_opened_and_written(file: Path) -> None:
     text = file.read_text("utf-8")
+    data = tomllib.loads(text)
+    if data["job"] not in {"cam", "cycle", "fastest"}:
+        with pytest.raises(InputError, match="`optlaws run` does what this file says"):
+            opened_file(OpenRequest(name=file.name, text=text))
+        return
     state = opened_file(OpenRequest(name=file.name, text=text))["state"]
-    view, data = state["view"], tomllib.loads(text)
+    view = state["view"]
     assert state[view] == data
     asked = {"kind": "problem", "view": view, "laws": [STORED], view: {"study": state[view]}}
     assert tomllib.loads(downloads.answer(msgspec.convert(asked, FileRequest))["text"]) == data
-
-
-def test_rows_of_a_study_are_the_problems_that_its_job_solves() -> None:
-    data = tomllib.loads((ROOT / "problems" / "orders.toml").read_text("utf-8"))
-    shown = study_view.answer(study_view.StudyRequest(study=data))
-    assert len(shown["rows"]) == 48
-    assert shown["names"] == ["minimise", "B", "order", "degree"]
-    assert problem_of(law(shown["rows"][-1]["law"])) == Problem(order=5, minimise="D", basis=Chebyshev(21))
-    atlas = tomllib.loads((ROOT / "problems" / "atlas.toml").read_text("utf-8"))
-    assert study_view.answer(study_view.StudyRequest(study=atlas))["note"] == "The first 400 of 2736 problems."
 
 
 def test_a_file_that_is_opened_is_refused_in_words() -> None:

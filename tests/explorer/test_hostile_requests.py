@@ -17,7 +17,6 @@ from tests.internals.explorer import (
     fastest_view,
     machine_view,
     old_cam_view,
-    study_view,
 )
 
 CYCLE = {"study": example()}
@@ -64,7 +63,6 @@ SEEDS: dict[str, list[Any]] = {
         {"kind": "proof", "view": "fastest", "laws": [OPTIMAL], "fastest": {"study": fastest_view.example()}},
         {"kind": "problem", "view": "cycle", "laws": [OPTIMAL], "cycle": CYCLE},
     ],
-    "study": [{"study": study_view.example()}, {"study": {"problem": {"order": 4}, "vary": {"B": [1.6, 1.7]}}}],
     "open": [{"name": "a.toml", "text": TOML}, {"name": "a.csv", "text": "0;0\n1;0.2\n2;0.7\n3;1\n"}],
     "residual": [
         {"laws": [OPTIMAL], "frequency": 12.0},

@@ -57,8 +57,6 @@ def test_a_formula_that_names_a_file_is_refused(served: Server) -> None:
     law: dict[str, Any] = {"problem": {"order": 4, "bounds": {"residual(spectrum='{/etc/hostname}')": [0, 1]}}}
     (view,) = served.ask("laws", {"laws": [law]})["laws"]
     assert "the page reads none" in view["refused"]["reason"]
-    study = {"job": "solutions", "title": "x", "problem": law["problem"], "sweep": [{"B": [1.7]}]}
-    assert "the page reads none" in served.ask("study", {"study": study})["refused"]["reason"]
 
 
 def test_a_law_is_made_for_the_band_and_for_a_spectrum(page: Page, served: Server) -> None:

@@ -14,7 +14,6 @@ export const FIRST = {
   active: 0,
   picture: "B-C",
   axis: 0,
-  row: 0,
   plane: 0,
   frequency: 20,
   damping: 0,
@@ -24,7 +23,7 @@ export const FIRST = {
 const pair = (value) => Array.isArray(value) && value.length === 2 && value.every(Number.isFinite);
 const spectrum = (value) => object(value) && [value.raw, value.pairs].every((pairs) => Array.isArray(pairs) && pairs.length > 1 && pairs.every(pair));
 const WHOLE = { controller: object, band: pair, spectrum, ...Object.fromEntries(Object.entries(VIEWS).filter(([, { whole }]) => whole).map(([name, { whole }]) => [name, whole])) };
-const KNOWN = ["name", "notes", "view", "active", "picture", "machinePicture", "move", "time", "axis", "row", "plane", "frequency", "damping", ...Object.keys(WHOLE)];
+const KNOWN = ["name", "notes", "view", "active", "picture", "machinePicture", "move", "time", "axis", "plane", "frequency", "damping", ...Object.keys(WHOLE)];
 
 const same = (one, other) => JSON.stringify(one) === JSON.stringify(other);
 
@@ -56,7 +55,7 @@ export function read(fragment) {
     if (KNOWN.includes(name) && value !== undefined && value !== null) state[name] = value;
   }
   if (!Number.isInteger(state.active) || state.active < 0 || state.active >= state.laws.length) state.active = 0;
-  for (const name of ["frequency", "damping", "axis", "row", "plane"]) if (typeof state[name] !== "number") state[name] = FIRST[name];
+  for (const name of ["frequency", "damping", "axis", "plane"]) if (typeof state[name] !== "number") state[name] = FIRST[name];
   for (const name of ["name", "notes", "view", "picture"]) if (typeof state[name] !== "string") state[name] = FIRST[name];
   for (const [name, whole] of Object.entries(WHOLE)) if (name in state && !whole(state[name])) delete state[name];
   return state;

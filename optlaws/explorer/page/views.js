@@ -39,5 +39,4 @@ export const VIEWS = {
   old: { title: "Old cam", whole: (value) => object(value) && typeof value.text === "string", load: () => import("./views/old.js") },
   proof: { title: "Proof", load: () => import("./views/proof.js") },
   advice: { title: "Advice", whole: object, load: () => import("./views/advice.js") },
-  study: { title: "Study", whole: object, load: () => import("./views/study.js") },
 };
