@@ -1,4 +1,4 @@
-"""Documents in tabs, files that are opened and written, rows of a study, in a real browser."""
+"""The document of a tab: files that are opened and written, name and notes, in a real browser."""
 
 from __future__ import annotations
 
@@ -18,79 +18,68 @@ if TYPE_CHECKING:
     from playwright.sync_api import Page
 
 
-def opens(page: Page, *files: Path) -> None:
-    page.get_by_label("Files to open").set_input_files(files)
-    page.locator("#documents .document").nth(len(files)).wait_for()
-    settle(page)
-
-
-def tabs(page: Page) -> list[str]:
-    return [text.strip() for text in page.locator("#documents .open").all_inner_texts()]
-
-
-def test_documents_are_kept_named_closed_and_opened_again(page: Page, served: Server) -> None:
+def test_a_document_has_a_name_and_notes_and_is_there_another_day(page: Page, served: Server) -> None:
     go(page, f"http://{served.host}/")
     page.get_by_label("Peak velocity B, number").fill("1.8")
     settle(page)
-    page.get_by_label("New document").click()
-    settle(page)
-    assert velocity(page) == 1.7
     page.get_by_role("button", name="Notes", exact=True).click()
     page.get_by_label("Name of the document").fill("Feeder")
     page.get_by_label("Notes", exact=True).fill("first shift")
     page.get_by_role("button", name="Done").click()
-    assert tabs(page) == ["Laws", "Feeder"]
-    page.get_by_role("button", name="Laws", exact=True).click()
-    settle(page)
-    assert velocity(page) == 1.8
-    page.get_by_role("button", name="Undo").click()  # each document has its own steps
-    assert velocity(page) == 1.7
+    assert page.title() == "Feeder - optlaws"
     page.wait_for_timeout(200)
-    # another day: nothing is lost
     page.goto("about:blank")
     go(page, f"http://{served.host}/")
-    assert tabs(page) == ["Laws", "Feeder"]
-    page.get_by_label("Close Feeder").click()
-    assert tabs(page) == ["Laws"]
-    page.get_by_role("button", name="Notes", exact=True).click()
-    page.get_by_label("Open Feeder again").click()
-    settle(page)
-    assert tabs(page) == ["Laws", "Feeder"]
-    assert page.locator(".document[aria-current]").inner_text().startswith("Feeder")
+    assert page.title() == "Feeder - optlaws"
+    assert velocity(page) == 1.8
 
 
-def test_a_link_opens_a_document_of_its_own(page: Page, served: Server) -> None:
+def test_what_is_opened_is_a_step_that_can_be_undone(page: Page, served: Server) -> None:
     go(page, f"http://{served.host}/")
+    page.get_by_label("Peak velocity B, number").fill("1.8")
+    settle(page)
+    page.get_by_label("Files to open").set_input_files(ROOT / "problems" / "cam_rocker.toml")
+    page.locator("#cam-view").wait_for()
+    settle(page)
+    page.get_by_label("Files to open").set_input_files(ROOT / "problems" / "mixed.toml")
+    page.get_by_text("`optlaws run` does what this file says").wait_for()
     page.evaluate("hash => (location.hash = hash)", served.link(laws=[at_velocity(1.9)]).partition("#")[2])
-    page.locator("#documents .document").nth(1).wait_for()
+    page.locator("#laws-view").wait_for()
     settle(page)
     assert velocity(page) == 1.9
-    page.locator("#documents .open").first.click()
+    page.get_by_role("button", name="Undo").click()
+    page.locator("#cam-view").wait_for()
+    page.get_by_role("button", name="Undo").click()
     settle(page)
-    assert velocity(page) == 1.7
+    assert velocity(page) == 1.8
 
 
-def test_two_windows_with_one_document_keep_both_changes(page: Page, served: Server) -> None:
+def test_two_tabs_of_the_browser_keep_their_own_studies(page: Page, served: Server) -> None:
     go(page, f"http://{served.host}/")
     other = page.context.new_page()
     go(other, f"http://{served.host}/")
-    for window, value in ((page, "1.81"), (other, "1.92")):
-        window.get_by_label("Peak velocity B, number").fill(value)
-        settle(window)
-        window.wait_for_timeout(300)
-    kept = page.evaluate("() => Object.values(localStorage).join()")
-    assert "1.81" in kept
-    assert "1.92" in kept
+    for tab, value in ((page, "1.81"), (other, "1.92")):
+        tab.get_by_label("Peak velocity B, number").fill(value)
+        settle(tab)
+        tab.wait_for_timeout(300)
+    for tab, value in ((page, 1.81), (other, 1.92)):
+        tab.reload()
+        settle(tab)
+        assert velocity(tab) == value
 
 
-def test_problem_files_are_opened_as_documents(page: Page, served: Server) -> None:
+def test_documents_of_an_earlier_version_are_not_lost(page: Page, served: Server) -> None:
     go(page, f"http://{served.host}/")
-    opens(page, ROOT / "problems" / "cam_rocker.toml")
-    page.get_by_label("Files to open").set_input_files(ROOT / "problems" / "mixed.toml")
-    page.get_by_text("`optlaws run` does what this file says").wait_for()
-    page.locator("#documents .open").nth(1).click()
+    address = "#" + served.link(laws=[at_velocity(1.77)]).partition("#")[2]
+    kept = json.dumps({"title": "Feeder", "address": address, "closed": 1})
+    page.evaluate("text => localStorage.setItem('optlaws-document-abc', text)", kept)
+    page.reload()
     settle(page)
-    assert page.locator("#cam-view").is_visible()
+    page.get_by_role("button", name="Notes", exact=True).click()
+    with page.context.expect_page() as opened:
+        page.get_by_role("link", name="Feeder").click()
+    settle(opened.value)
+    assert velocity(opened.value) == 1.77
 
 
 def test_a_document_is_written_and_opened_again(page: Page, served: Server, tmp_path: Path) -> None:
@@ -101,7 +90,7 @@ def test_a_document_is_written_and_opened_again(page: Page, served: Server, tmp_
     file.write_text(text, "utf-8")
     go(page, served.link(laws=[OPTIMAL]))
     page.get_by_label("Files to open").set_input_files(file)
-    page.get_by_role("button", name="Feeder").nth(1).wait_for()
+    page.wait_for_function("() => document.title.startsWith('Feeder')")
     settle(page)
     assert velocity(page) == 1.859
 

@@ -1,6 +1,6 @@
 // The page: state in, views out.
 
-import { Documents, begun } from "./documents.js";
+import { Details, begun, keep } from "./document.js";
 import { Exporting } from "./exporting.js";
 import { tabs } from "./fields.js";
 import { watchUnits } from "./units.js";
@@ -94,7 +94,7 @@ async function begin() {
   document.body.append(html("datalist", { id: "names" }, ...names.map((name) => html("option", { value: name }))));
   const first = begun(location.hash, state);
   const views = {};
-  const study = new Study(first.state, render, (address) => documents.keep(address));
+  const study = new Study(first, render, keep);
   const named = (now) => (Object.hasOwn(VIEWS, now.view) ? now.view : "laws");
   const titles = Object.fromEntries(Object.entries(VIEWS).map(([name, { title }]) => [name, title]));
   const choose = tabs(document.getElementById("views"), titles, (key) => study.change("view", (next) => {
@@ -103,9 +103,17 @@ async function begin() {
   }));
   const shown = () => views[named(study.state)];
   const exporting = new Exporting(study, formats, (now) => shown()?.exported?.(now) ?? null);
-  const opening = new Opening((next) => documents.add(next), notice, shown, (name, text) => during(show(name, text)).catch((error) => notice(error.message)));
-  const documents = new Documents(document.getElementById("documents"), study, { id: first.id, notice });
-  const tools = new Tools(document.getElementById("tools"), study, notice, { exporting, opening, documents, shown });
+  const opened = (next) => {
+    study.rest();
+    study.change("open", (state) => {
+      for (const name of Object.keys(state)) delete state[name];
+      Object.assign(state, next);
+    });
+    study.rest();
+  };
+  const opening = new Opening(opened, notice, shown, (name, text) => during(show(name, text)).catch((error) => notice(error.message)));
+  const details = new Details(study);
+  const tools = new Tools(document.getElementById("tools"), study, notice, { exporting, opening, details, shown });
 
   /** A view is loaded when it is first shown. */
   async function load(name) {
@@ -126,7 +134,7 @@ async function begin() {
       exporting.show(now);
     } else if (view === undefined) during(load(name)).catch((error) => notice(error.message));
     tools.show(study, Boolean(view?.exported?.(now)));
-    documents.show(now);
+    details.show(now);
   }
 
   /** The proof of a file is checked by the second checker, which shares no code with the library. */
@@ -153,9 +161,10 @@ async function begin() {
     const shown = [".handle", ".panels", "[tabindex]"].flatMap((name) => [...document.querySelectorAll(`.view:not([hidden]) ${name}`)]);
     shown.find((one) => one.checkVisibility())?.focus();
   });
-  addEventListener("hashchange", () => documents.add(read(location.hash)));
+  addEventListener("hashchange", () => opened(read(location.hash)));
   for (const kind of ["input", "pointermove", "keydown"]) addEventListener(kind, () => marked("input"), { capture: true, passive: true });
-  render(first.state);
+  addEventListener("pagehide", () => study.keep());
+  render(first);
 }
 
 begin().catch((error) => notice(error instanceof TypeError ? "The server does not answer: start `optlaws explore` again; the address keeps the study." : error.message));

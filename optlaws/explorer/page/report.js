@@ -2,7 +2,7 @@
 // proven, and by which optlaws; pictures and tables are those of the view.
 
 import { html } from "./svg.js";
-import { titled } from "./documents.js";
+import { titled } from "./document.js";
 
 const FIELDS = ".field:not(.off), .entry, .switch";
 

@@ -76,16 +76,6 @@ export class Study {
     this.#kept = kept;
   }
 
-  /** Another study in the place of this one, with its own steps; returns this one. */
-  exchange({ state, past = [], future = [] }) {
-    this.keep();
-    const before = { state: this.state, past: this.#past, future: this.#future };
-    [this.#past, this.#future] = [past, future];
-    this.rest();
-    this.#show(state);
-    return before;
-  }
-
   /** Write the address now. */
   keep() {
     if (this.#writing === null) return;

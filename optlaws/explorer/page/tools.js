@@ -11,7 +11,7 @@ export class Tools {
   #export;
 
   /** `shown()` is the view that is shown. */
-  constructor(root, study, notice, { exporting, opening, documents, shown }) {
+  constructor(root, study, notice, { exporting, opening, details, shown }) {
     const button = (text, title, act) => html("button", { type: "button", title, text, onclick: act });
     this.#undo = button("Undo", "Undo (Ctrl Z)", () => study.undo());
     this.#redo = button("Redo", "Redo (Ctrl Shift Z)", () => study.redo());
@@ -26,7 +26,7 @@ export class Tools {
     });
     this.#export = button("Export", "For a controller, with what it will run", () => exporting.open());
     root.replaceChildren(
-      button("Open", "Open a problem file, a law, a table or a document", () => opening.choose()), button("Notes", "Name, notes and closed documents", () => documents.details()),
+      button("Open", "Open a problem file, a law, a table or a document", () => opening.choose()), button("Notes", "Name and notes", () => details.open()),
       this.#undo, this.#redo, link, this.#export, saves(study, notice, shown), button("Print", "A report on one page: print it, or save it as PDF", () => print()), settings(study), button("◐", "Dark or light", toggle),
     );
     addEventListener("keydown", (event) => this.#key(event, study));

@@ -1,0 +1,74 @@
+// The document of this tab of the browser: a study with its name and notes. The address holds it, and the browser the last.
+
+import { FIRST, read, written } from "./state.js";
+import { html } from "./svg.js";
+import { VIEWS } from "./views.js";
+
+const LAST = "optlaws-study";
+const EARLIER = "optlaws-document-"; // documents that version 1.0 kept in tabs of the page
+
+/** The state that the page begins with: of its address, of what the server was started with, or the last one. */
+export function begun(hash, given) {
+  if (hash.length > 1) return read(hash);
+  const state = { ...structuredClone(FIRST), ...given };
+  const last = written(state) === written(FIRST) ? stored(LAST) : null;
+  return last === null ? state : read(last);
+}
+
+/** Store an address for the next time that the page is opened; a browser that stores nothing begins anew. */
+export function keep(address) {
+  try {
+    localStorage.setItem(LAST, address);
+  } catch {
+    // the address itself holds the study
+  }
+}
+
+function stored(key) {
+  try {
+    return localStorage.getItem(key);
+  } catch {
+    return null;
+  }
+}
+
+/** Titles and addresses of the documents of version 1.0. */
+function earlier() {
+  try {
+    return Object.keys(localStorage).filter((key) => key.startsWith(EARLIER)).map((key) => JSON.parse(stored(key)));
+  } catch {
+    return [];
+  }
+}
+
+/** What a document is called: its name, or what it shows. */
+export function titled(state) {
+  const file = state[state.view]?.title ?? state.laws[state.active]?.title ?? state.laws[state.active]?.name;
+  return state.name || file || VIEWS[state.view]?.title || "Study";
+}
+
+/** The name and the notes, in a dialog; the title of the browser's tab. */
+export class Details {
+  #name = html("input", { type: "text", maxlength: 80, "aria-label": "Name of the document" });
+  #notes = html("textarea", { maxlength: 20_000, "aria-label": "Notes" });
+  #dialog;
+
+  constructor(study) {
+    this.#name.addEventListener("input", () => study.change("name", (state) => (state.name = this.#name.value)));
+    this.#notes.addEventListener("input", () => study.change("notes", (state) => (state.notes = this.#notes.value)));
+    const done = html("button", { type: "button", text: "Done", onclick: () => this.#dialog.close() });
+    const links = earlier().map(({ title, address }) => html("li", {}, html("a", { href: address, target: "_blank", text: title })));
+    const kept = links.length ? [html("h3", { text: "Documents of an earlier version" }), html("ul", {}, ...links)] : [];
+    this.#dialog = html("dialog", { id: "document-dialog", "aria-label": "Document" }, html("h2", { text: "Document" }), html("label", {}, "name", this.#name), html("label", {}, "notes", this.#notes), ...kept, html("div", { class: "buttons" }, done));
+    document.body.append(this.#dialog);
+  }
+
+  show(state) {
+    for (const [field, value] of [[this.#name, state.name], [this.#notes, state.notes]]) if (field.value !== value) field.value = value;
+    document.title = `${titled(state)} - optlaws`;
+  }
+
+  open() {
+    this.#dialog.showModal();
+  }
+}
