@@ -391,8 +391,9 @@ def _instants(
     for axis in axes:
         plan = axis.plan(first, count_of_unknowns, times.get(axis.name))
         if axis.way == "gentlest":
+            now = axis.cycle.unchecked().peak(2)  # limits bind the laws in the times that are sought
             for i, segment in enumerate(plan.segments):
-                efforts[first + i] = sqrt(segment.acceleration / axis.cycle.peak(2)) if segment.moves else 0.0
+                efforts[first + i] = sqrt(segment.acceleration / now) if segment.moves else 0.0
         plans[axis.name], first = plan, first + len(plan.segments)
     duration, shortest = next(iter(cycles.values())).duration, axes[0].way == "fastest"
     least = sum(segment.least[0] for plan in plans.values() for segment in plan.segments)

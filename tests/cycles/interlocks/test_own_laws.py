@@ -199,7 +199,7 @@ def test_the_acceleration_of_given_laws_with_limits_is_that_of_their_cycle() -> 
     best = machine.gentlest()
     # both have half of the period
     assert best.objective == pytest.approx((0.1 / 0.5) ** 2, rel=1e-7)
-    assert best.axes["slide"].peak(2) == pytest.approx(best.objective * machine["slide"].peak(2), rel=1e-9)
+    assert best.axes["slide"].peak(2) == pytest.approx(best.objective * machine["slide"].unchecked().peak(2), rel=1e-9)
 
 
 @pytest.mark.parametrize("law", ["optimal", "cycloidal"])
