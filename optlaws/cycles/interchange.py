@@ -86,12 +86,12 @@ class CycleInterchange(JsonText):
         return cls(**given | {"segments": segments})
 
     def to_toml(self, title: str = "Cycle", *, axis: str = "axis") -> str:
-        """A problem file for `optlaws cycle`, with this cycle as its only axis.
+        """A problem file for `optlaws cycle`, with this cycle as its only axis; a law that is a value as its JSON text.
 
         Raises
         ------
         InputError
-            If a law is a value: a problem file names laws, or JSON files that hold them.
+            If the load is a `Machine`: a problem file takes a mass on a spring only.
 
         Examples
         --------
@@ -289,9 +289,9 @@ def problem_file(
 def _axis_entries(axis: str, cycle: CycleInterchange) -> dict[str, Any]:
     data = {name: value for name, value in cycle.to_dict().items() if name not in {"format", *CLOCK}}
     segments = data.pop("segments")
-    for i, segment in enumerate(segments, start=1):
-        if not isinstance(segment.get("law", ""), str):
-            raise InputError(f"segment {i}: a problem file names its law: save the law as a JSON file and name that")
+    for segment in segments:
+        if isinstance(segment.get("law"), dict):
+            segment["law"] = MotionLaw.from_dict(segment["law"]).to_json()
     if "A" in data.get("load", {}):
         raise InputError("load: a problem file takes a mass on a spring only: Cycle.to_json stores a machine")
     return {"name": axis, **data, **_drive_tables(cycle._cycle.drive), "segment": segments}  # noqa: SLF001

@@ -8,7 +8,21 @@ import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
-from optlaws import ConstantVelocity, Cycle, Dwell, Free, InputError, Machine, Move, Return, Rise, smoothstep
+from optlaws import (
+    Chebyshev,
+    ConstantVelocity,
+    Cycle,
+    Dwell,
+    Free,
+    InputError,
+    Machine,
+    Move,
+    Problem,
+    Return,
+    Rise,
+    smoothstep,
+    synthesize,
+)
 from tests.documents import ROOT
 from tests.internals.cli import exit_code
 from tests.internals.files import reading
@@ -48,8 +62,22 @@ def test_laws_and_machines_that_are_values_are_kept_as_data() -> None:
     again = Cycle.from_json(cycle.to_json())
     assert again.pieces[0].law == smoothstep(4)
     assert again.load == machine
-    with pytest.raises(InputError, match="segment 1: a problem file names its law: save the law"):
+    with pytest.raises(InputError, match="load: a problem file takes a mass on a spring only"):
         cycle.to_toml()
+
+
+def test_a_law_that_is_a_value_goes_through_a_problem_file(tmp_path: Path) -> None:
+    harmonic = synthesize(Problem(order=3, basis=Chebyshev(9), B=1.75)).law
+    laws = [smoothstep(4), harmonic, PRESS.pieces[0].law]
+    moves = [Move("10 mm", "60 deg", law=law, name='a "quoted" name') for law in laws]
+    cycle = Cycle([*moves, Return(law="cycloidal")], speed="200 rpm")
+    file = tmp_path / "cycle.toml"
+    file.write_text(cycle.to_toml(axis="slide"), "utf-8")
+    again = read(reading.toml(file), file)[1]["slide"]
+    assert [piece.law for piece in again.pieces] == [piece.law for piece in cycle.pieces]
+    assert [again.peak(nu) for nu in range(4)] == [cycle.peak(nu) for nu in range(4)]
+    # and as often as it is written
+    assert again.to_toml(axis="slide") == cycle.to_toml(axis="slide")
 
 
 @pytest.mark.parametrize(

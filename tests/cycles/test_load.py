@@ -69,6 +69,14 @@ def test_a_load_with_too_many_peaks_is_refused(period: str, says: str) -> None:
         cycle(load={"period": period, "damping": 1e-4}, minimise="load acceleration", speed="60 rpm").status  # noqa: B018
 
 
+def test_a_load_that_is_too_stiff_is_refused_before_it_is_moved(monkeypatch: pytest.MonkeyPatch) -> None:
+    stiff = cycle(load={"period": "0.1 ms", "damping": 1e-4}, minimise="load acceleration", speed="60 rpm")
+    machine = Machine([[0, 1], [-400, -2]], [[0], [400]], [[1, 0]])
+    monkeypatch.setattr(type(machine.dynamics), "moved", None)
+    with pytest.raises(InputError, match="vibrates 10000 times"):
+        stiff.status  # noqa: B018 - it is refused by its numbers alone
+
+
 def test_limits_of_the_load_are_kept() -> None:
     loose = cycle(minimise="rms acceleration")
     most = 0.9 * loose.load_motion.peak("acceleration").value

@@ -38,9 +38,12 @@ class Load:
 
     def constant(self, output: str, period: float, *, mean: bool) -> Functional:
         """Peak or root mean square of an output as a constant of the law of a whole cycle; per metre or radian."""
-        from optlaws.mechanisms.machine.output_constants import output_peak, output_rms
+        from optlaws.mechanisms.machine.output_constants import check_peaks_of_cycle, output_peak, output_rms
 
-        return (output_rms if mean else output_peak)(of=self.machine.at_speed(1.0 / period), output=output, steady=True)
+        machine = self.machine.at_speed(1.0 / period)
+        if not mean:
+            check_peaks_of_cycle(machine, output)
+        return (output_rms if mean else output_peak)(of=machine, output=output, steady=True)
 
     def motion(self, pieces: Sequence[Piece]) -> RepeatedMotion:
         """The steady outputs of the load under pieces that form a cycle, over time in seconds."""

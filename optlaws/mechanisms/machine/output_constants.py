@@ -275,19 +275,28 @@ class OutputPeak(OutputConstant):
 
     def _rows(self, space: LawSpace) -> Array:
         """Series in the place u, which falls with time, a panel each; before each its start."""
+        if self.steady:
+            check_peaks_of_cycle(self.machine, self.output, [drive.length for drive in drives.of_space(space)])
         panels = self.panels(space)
-        if self.steady and len(panels) > _MOST_PANELS:
-            raise InputError(
-                f"{self.output!r} vibrates {self.machine.dynamics.fastest / (2.0 * pi):.0f} times in a cycle and "
-                "hardly dies away: its peaks are too many to look at each, and so stiff a machine moves as if it were "
-                "rigid: leave it out and minimise the acceleration itself, or give it more damping"
-            )
         count = max(len(series) for *_, series in panels)
         rows = np.zeros((len(panels), count + 1, panels[0][2].shape[1]))
         for i, (start, _, series) in enumerate(panels):
             rows[i, 0] = start
             rows[i, 1 : 1 + len(series)] = series * np.where(np.arange(len(series)) % 2, -1.0, 1.0)[:, None]
         return np.ascontiguousarray(rows[:, : 1 + _terms(rows[:, 1:])])
+
+
+def check_peaks_of_cycle(machine: StateSpace, output: str, lengths: Sequence[float] = (1.0,)) -> None:
+    """Refuse peaks of a cycle that repeats if there are too many to look at each, by the machine's roots alone.
+
+    `lengths` are those of the cycle's stretches; fewer stretches have no more peaks.
+    """
+    if sum(len(machine.dynamics.edges(length, _RADIANS)) - 1 for length in lengths) > _MOST_PANELS:
+        raise InputError(
+            f"{output!r} vibrates {machine.dynamics.fastest / (2.0 * pi):.0f} times in a cycle and hardly dies away: "
+            "its peaks are too many to look at each, and so stiff a machine moves as if it were rigid: leave it out "
+            "and minimise the acceleration itself, or give it more damping"
+        )
 
 
 def _terms(series: Array) -> int:
