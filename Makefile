@@ -73,14 +73,14 @@ bench: $(DEV) ## run the benchmarks
 	$(BIN)/python -m tests.bench
 
 results: $(RUN) ## regenerate results/ from every problem file
-	@set -e; for problem in $(PROBLEMS); do echo "optlaws run $$problem"; $(BIN)/optlaws run "$$problem"; done
+	@set -e; for problem in $(PROBLEMS); do echo "optlaws run $$problem"; $(BIN)/optlaws run --force "$$problem"; done
 
 # A run leaves every file that says the same as it is: what differs afterwards says something else.
 check-results: $(RUN) ## run every problem file on a copy of results/ and see that nothing in it changes
 	@set -e; top=$$(pwd); copy=$$(mktemp -d); trap 'rm -rf "$$copy"' EXIT; \
 	cp -R results "$$copy"; cd "$$copy"; rm -rf $(UNSTEADY:%=results/%); mkdir said; \
 	printf '%s\n' $(STEADY) | xargs -P 2 -I FILE sh -c \
-		'echo "optlaws run FILE"; "$$0" run FILE >said/FILE' "$$top/$(BIN)/optlaws"; \
+		'echo "optlaws run FILE"; "$$0" run --force FILE >said/FILE' "$$top/$(BIN)/optlaws"; \
 	grep -hx 'results/[^ ]*' said/* >written; \
 	LC_ALL=C sort written >made; find results -type f | LC_ALL=C sort >there; \
 	{ diff there made && diff -rq $(UNSTEADY:%=-x %) "$$top/results" results; } \

@@ -206,7 +206,7 @@ class Results:
         self._texts[name] = content
 
     def picture(self, name: str, figure: Figure) -> None:
-        """A picture `name`.svg, and the same as `name`.png."""
+        """A picture `name`.svg."""
         self._pictures[name] = figure
 
     def add(self, name: str, write: Callable[[Path], Path]) -> None:
@@ -215,20 +215,34 @@ class Results:
 
     def pictures(self) -> dict[str, str]:
         """The pictures as svg, by the names of their files."""
+        return {f"{name}.svg": self.drawn(name, "svg").decode() for name in self._pictures}
+
+    def drawn(self, name: str, kind: str) -> bytes:
+        """A picture as svg or png."""
         from optlaws.plots.style import rendered
 
-        return {f"{name}.svg": rendered(figure, "svg").decode() for name, figure in self._pictures.items()}
+        return rendered(self._pictures[name], kind)
 
-    def write(self, out: Path | None = None) -> list[Path]:
+    def write(self, out: Path | None = None, *, force: bool = False) -> list[Path]:
         """Write the results into a folder, `results/NAME` in the current folder by default, and return the files.
 
-        Files with the same contents are left unchanged; a file that a user changed is kept as `name.orig`.
+        Files with the same contents, but for rounding, are left unchanged.
+
+        Raises
+        ------
+        InputError
+            If a file is there with other contents, and these are not to be replaced (`force`): then none is written.
         """
-        from optlaws.plots.style import save_pictures
+        from tempfile import TemporaryDirectory
 
         folder = Path("results", self.file.stem) if out is None else out
-        texts = [
-            writing.write(folder / name, str(content), digits=self.digits) for name, content in self._texts.items()
+        texts = {name: str(content) for name, content in self._texts.items()} | self.pictures()
+        contents = [(folder / name, text.encode(), False) for name, text in texts.items()]
+        with TemporaryDirectory() as place:
+            files = [write(Path(place) / name) for name, write in self._written.items()]
+            contents += [(folder / file.name, file.read_bytes(), True) for file in files]
+        writing.check_free(contents, digits=self.digits, force=force)
+        return [
+            writing.write(file, data, digits=None if exact else self.digits, exact=exact, force=force)
+            for file, data, exact in contents
         ]
-        files = [write(folder / name) for name, write in self._written.items()]
-        return texts + save_pictures(self._pictures, folder) + files

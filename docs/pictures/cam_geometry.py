@@ -77,8 +77,8 @@ def write(axes: Axes, at: complex, label: str) -> None:
     axes.text(at.real, at.imag, label, ha="center", va="center")
 
 
-def draw(folder: Path) -> list[Path]:
-    """Write cam_geometry.svg and cam_geometry.png into a folder."""
+def draw(folder: Path) -> Path:
+    """Write cam_geometry.svg into a folder."""
     with plot_style():
         figure = empty_figure(9.2, 4.9)
         left, right = figure.subplots(1, 2)

@@ -9,8 +9,8 @@ from optlaws import Chebyshev, Problem, ProblemArray, synthesize, synthesize_arr
 from optlaws.plots.style import BLUES, GREY, WARM, empty_figure, plot_style, save_picture
 
 
-def draw(folder: Path) -> list[Path]:
-    """Write certificate.svg and certificate.png into a folder."""
+def draw(folder: Path) -> Path:
+    """Write certificate.svg into a folder."""
     solution = synthesize(Problem(B=1.859, order=4, basis=Chebyshev(9)))
     proof, law = solution.certificate, solution.law
     with plot_style():

@@ -11,8 +11,8 @@ END = 0.5
 SHOWN = {"C": (BLUES[3], "c = C"), "chord": (WARM, "b = B")}
 
 
-def draw(folder: Path) -> list[Path]:
-    """Write contact_places.svg and contact_places.png into a folder."""
+def draw(folder: Path) -> Path:
+    """Write contact_places.svg into a folder."""
     laws = synthesize_array(ProblemArray(B=np.linspace(1.42, 2.3, 200), order=4, basis=Chebyshev(9)))
     lists = [law.certificate.contacts for law in laws]
     # two places between the ends, one at the end k = 1/2, one equation: as many as the five coordinates and C

@@ -20,8 +20,8 @@ def compared() -> Comparison:
     return Comparison({"modified sine": sine, **laws})
 
 
-def draw(folder: Path) -> list[Path]:
-    """Write gain.svg and gain.png into a folder."""
+def draw(folder: Path) -> Path:
+    """Write gain.svg into a folder."""
     comparison = compared()
     with plot_style():
         figure = empty_figure(9.2, 5.6)

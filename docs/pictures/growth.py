@@ -85,8 +85,8 @@ def slopes(axes: Axes, powers: tuple[int, ...]) -> None:
     axes.set_ylim(bottom, max(top, bottom * 10.0))
 
 
-def draw(folder: Path) -> list[Path]:
-    """Write growth.svg and growth.png into a folder."""
+def draw(folder: Path) -> Path:
+    """Write growth.svg into a folder."""
     kinds = series()
     with plot_style():
         figure = empty_figure(9.2, 9.6)

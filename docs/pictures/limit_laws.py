@@ -11,8 +11,8 @@ SHOWN = (("C", 3, "C"), ("D", 3, "D"), ("RMS", 3, "RMS of c"), ("J", 2, "J, l = 
 STYLES = ("-", "-", "-", "--", "-")  # up to B = 3/2 the law of least J with l = 2 is that of least RMS
 
 
-def draw(folder: Path) -> list[Path]:
-    """Write limit_laws.svg and limit_laws.png into a folder."""
+def draw(folder: Path) -> Path:
+    """Write limit_laws.svg into a folder."""
     k = np.linspace(0, 0.5, 401)
     with plot_style():
         figure = empty_figure(9.2, 4.4)

@@ -28,8 +28,8 @@ def limit_profile(B: float, k: Array) -> Array:
     return np.asarray(np.minimum(falls, rate(angle) * (0.5 - k)))
 
 
-def draw(folder: Path) -> list[Path]:
-    """Write loader_angle.svg and loader_angle.png into a folder."""
+def draw(folder: Path) -> Path:
+    """Write loader_angle.svg into a folder."""
     k = np.linspace(0, 0.5, 501)
     with plot_style():
         figure = empty_figure(9.2, 4.2)

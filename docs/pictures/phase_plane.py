@@ -11,8 +11,8 @@ from optlaws.plots.style import BLUES, WARM, empty_figure, plot_style, save_pict
 MOST = 2.2
 
 
-def draw(folder: Path) -> list[Path]:
-    """Write phase_plane.svg and phase_plane.png into a folder."""
+def draw(folder: Path) -> Path:
+    """Write phase_plane.svg into a folder."""
     torque = drive_torque(inertia="1 + 0.6*a^2", load="3*a")
     limit = drive_limit(torque, "rms torque", B=MOST)
     problem = Problem(order=3, basis=Powers(11), symmetric=False, monotone=True, B=at_most(MOST), minimise=rms(torque))

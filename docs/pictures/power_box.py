@@ -11,8 +11,8 @@ B = 1.8
 BOX = (0.7, 1.5)
 
 
-def draw(folder: Path) -> list[Path]:
-    """Write power_box.svg and power_box.png into a folder."""
+def draw(folder: Path) -> Path:
+    """Write power_box.svg into a folder."""
     solution = synthesize(Problem(B=B, order=4, basis=Chebyshev(9), minimise="D"))
     law, D = solution.law, solution.objective
     with plot_style():

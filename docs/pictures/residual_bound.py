@@ -30,8 +30,8 @@ def amplitudes(law: MotionLaw, frequencies: Array) -> Array:
     return np.asarray(-(frequencies**2) * (rows @ (weights / 2 * b)))
 
 
-def draw(folder: Path) -> list[Path]:
-    """Write residual_bound.svg and residual_bound.png into a folder."""
+def draw(folder: Path) -> Path:
+    """Write residual_bound.svg into a folder."""
     around = residual_vibration(frequency=(LOW, HIGH), design=DESIGN)
     least = cam_constant("C", frequency=DESIGN)
     solution = synthesize(Problem(order=4, basis=Chebyshev(15), minimise=least, bounds={around: at_most(MOST)}))

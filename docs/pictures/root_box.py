@@ -10,8 +10,8 @@ from optlaws.plots.style import BLUES, WARM, empty_figure, plot_style, save_pict
 FREQUENCIES, DAMPING = (18.0, 22.0), (0.0, 0.1)
 
 
-def draw(folder: Path) -> list[Path]:
-    """Write root_box.svg and root_box.png into a folder."""
+def draw(folder: Path) -> Path:
+    """Write root_box.svg into a folder."""
     nodes, weights = np.polynomial.legendre.leggauss(100)
     k = (nodes + 1) / 2
     frequency, damping = np.meshgrid(np.linspace(*FREQUENCIES, 161), np.linspace(*DAMPING, 121))

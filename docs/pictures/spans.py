@@ -10,8 +10,8 @@ from optlaws.plots.style import BLUES, WARM, empty_figure, plot_style, save_pict
 SPANS = ((0.0, 0.15), (0.25, 0.65), (0.72, 0.92))
 
 
-def draw(folder: Path) -> list[Path]:
-    """Write spans.svg and spans.png into a folder."""
+def draw(folder: Path) -> Path:
+    """Write spans.svg into a folder."""
     segments = [
         Rise("30 mm", "0.15 s"),
         Dwell("0.1 s"),

@@ -157,6 +157,7 @@ class DiscCam:
         *,
         curve: CutCurve | None = None,
         cutter_radius: Quantity | None = None,
+        force: bool = False,
         **options: Unpack[CuttingOptions],
     ) -> Path:
         """Write the profile, the pitch curve or the path of a cutter to a file, whole or not at all; return its path.
@@ -181,6 +182,8 @@ class DiscCam:
             Of a tool, such as "200 mm/min"; left to the machine unless given.
         about
             The comment in the file.
+        force
+            Whether a file with other contents is replaced.
 
         Raises
         ------
@@ -190,7 +193,7 @@ class DiscCam:
         from optlaws.cams.curves.cam_files import format_of, write_outline
 
         format_of(Path(file), as_)
-        return write_outline(self.outline(curve, cutter_radius), file, as_, **options)
+        return write_outline(self.outline(curve, cutter_radius), file, as_, force=force, **options)
 
     def summary(self) -> Summary:
         """The proven undercut, pressure angles and radii of the cam, and its forces if it has a drive, as rows.

@@ -6,6 +6,7 @@ import os
 import sys
 import warnings
 from collections.abc import Sequence
+from contextlib import AbstractContextManager, nullcontext
 from inspect import cleandoc
 from pathlib import Path
 from typing import Any
@@ -30,6 +31,8 @@ RETIRED = {
     "lever": "optlaws.TorsionLever and optlaws.find_torsion_levers compute them in Python",
     "loader": "optlaws.inertial_loader computes it in Python",
 }
+#: of all commands, wherever it stands
+FORCE = "--force"
 
 
 def _version() -> str:
@@ -42,7 +45,8 @@ def application(*, described: bool = False) -> App:
     """The commands, each with its description for the list; the file of a command is imported when it runs."""
     commands = App(
         name="optlaws",
-        help="Optimal motion laws for cam mechanisms and servo axes, with proof of their optimality.",
+        help="Optimal motion laws for cam mechanisms and servo axes, with proof of their optimality.\n\n"
+        "Files with other contents are left as they are; with --force, any command replaces what it is to write.",
         version=_version,
         help_format="plaintext",
         default_parameter=Parameter(negative=()),
@@ -75,14 +79,15 @@ class NotProven(OptlawsError):  # noqa: N818
 
 def exit_code(arguments: Sequence[str]) -> int:
     """Run the command and return its exit code; an error is one clear text on stderr."""
+    given = [argument for argument in arguments if argument != FORCE]
     try:
-        with warnings.catch_warnings():
+        with warnings.catch_warnings(), _forced(arguments):
             warnings.showwarning = _warn
-            listing = not arguments or arguments[0] in _HELP
+            listing = not given or given[0] in _HELP
             commands = application(described=True) if listing else app
-            if not listing and arguments[0] in RETIRED:
-                raise InputError(f"there is no command {arguments[0]} any more: {RETIRED[arguments[0]]}")  # noqa: TRY301
-            commands(list(arguments), exit_on_error=False, print_error=False, result_action="return_none")
+            if not listing and given[0] in RETIRED:
+                raise InputError(f"there is no command {given[0]} any more: {RETIRED[given[0]]}")  # noqa: TRY301
+            commands(given, exit_on_error=False, print_error=False, result_action="return_none")
     except (CycloptsError, InputError) as error:
         text, code = cut(str(error)), BAD_INPUT
     except InfeasibleProblem as error:
@@ -103,6 +108,15 @@ def exit_code(arguments: Sequence[str]) -> int:
         return 0
     print(f"optlaws: {text}", file=sys.stderr)
     return code
+
+
+def _forced(arguments: Sequence[str]) -> AbstractContextManager[None]:
+    """What every command writes goes over files with other contents where `--force` is among its arguments."""
+    if FORCE not in arguments:
+        return nullcontext()
+    from optlaws.files.writing import forced
+
+    return forced()
 
 
 def _warn(message: Warning | str, *_: Any, **__: Any) -> None:

@@ -78,9 +78,15 @@ class Export:
         """How many points or segments there are."""
         return self.written.points
 
-    def write(self, file: str | Path) -> Path:
-        """Write the file, completely or not at all; an existing file with other contents is kept as NAME.orig."""
-        return writing.write_any(Path(file), self.text)
+    def write(self, file: str | Path, *, force: bool = False) -> Path:
+        """Write the file, completely or not at all.
+
+        Raises
+        ------
+        InputError
+            If it is there with other contents, and these are not to be replaced (`force`).
+        """
+        return writing.write(Path(file), self.text, exact=True, force=force)
 
     def plot(self, ax: Any = None, **style: Any) -> list[Any]:  # noqa: ANN401 - matplotlib's
         """Draw the motion and the executed motion over the master, down to the jerk; return the artists.

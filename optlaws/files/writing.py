@@ -1,7 +1,6 @@
-"""Writing of results: completely or not at all, never over a user's file, and only where contents have changed.
+"""Writing of files: completely or not at all, and over other contents only where that is allowed.
 
-Whoever else writes the same file at the same moment: the file of one of them is there, and what a user had is kept.
-Every file carries the mark "made by optlaws" with a seal, a digest of all else that it holds, so that an edit shows.
+Whoever else writes the same file at the same moment: the file of one of them is there, and nothing is lost unseen.
 """
 
 from __future__ import annotations
@@ -9,12 +8,10 @@ from __future__ import annotations
 import os
 import re
 import stat
-import struct
-from collections.abc import Iterator
-from contextlib import contextmanager, suppress
-from itertools import count
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from contextvars import ContextVar
 from pathlib import Path
-from zlib import crc32
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError
@@ -27,46 +24,73 @@ _DEVICES = {"con", "prn", "aux", "nul", "conin$", "conout$"} | {
     f"{port}{i}" for port in ("com", "lpt") for i in range(10)
 }
 _BLANK = 32
-_PNG = b"\x89PNG"
-_SEALED = MARK.encode() + rb"(?: ([0-9a-f]{16}))?"
-_IN_TEXT = re.compile(_SEALED + rb"(?=\r?$|\"|<|\)| -->)", re.MULTILINE)
-_IN_PNG = re.compile(rb"(?<=tEXtSoftware\0)" + _SEALED)
+_NAMED = 5  # files in an error
+#: behind the mark the version before wrote a digest of the file
+_DIGEST = re.compile(MARK.encode() + rb" [0-9a-f]{16}(?=\r?$|\"|<|\)| -->)", re.MULTILINE)
+_forced: ContextVar[bool] = ContextVar("_forced", default=False)
 
 
-def write(file: Path, content: str | bytes, *, digits: int | None = None, exact: bool = False) -> Path:
-    """Replace a file in a single step, unless its contents agree already.
+@contextmanager
+def forced() -> Iterator[None]:
+    """Within this every file is written over whatever is there, as by `--force`."""
+    token = _forced.set(True)
+    try:
+        yield
+    finally:
+        _forced.reset(token)
 
-    A file that is there and was not written by optlaws, or was changed since, is kept as `name.orig`; one that says the
-    same but for rounding (see `comparison`; `digits` is how many mean something) is left as it is, unless every digit
-    counts (`exact`), as in files that a machine follows. A new file has the rights that the umask leaves, a replaced
-    one those it had.
 
-    Every content passed must hold the mark "made by optlaws", at the end of a line, a text or an entry; the seal is
-    put behind it.
+def write(
+    file: Path, content: str | bytes, *, digits: int | None = None, exact: bool = False, force: bool = False
+) -> Path:
+    """Write a file in a single step, unless its contents agree already.
+
+    A file that says the same but for rounding (see `comparison`; `digits` is how many mean something) is left as it is,
+    unless every digit counts (`exact`), as in files that a machine follows. A new file has the rights that the umask
+    leaves, a replaced one those it had.
+
+    Raises
+    ------
+    InputError
+        If the file is there with other contents, and these are not to be replaced (`force`).
     """
     check_name(file)
     data = content.encode() if isinstance(content, str) else content
+    over = force or _forced.get()
     with _named(file):
-        there = _content(file)
-        plain = _unsealed(there)[0]
-        same = plain == data if exact else say_the_same(plain, data, file.suffix, digits)
-        if not (is_sealed(there) and same):
-            _put(file, sealed(data))
-    return file
+        while True:
+            there = _content(file)
+            if there is not None and _agree(there, data, file.suffix, digits, exact=exact):
+                return file
+            if there is not None and not over:
+                raise _refused([file])
+            if _put(file, data, over=over):
+                return file
 
 
-def write_any(file: Path, content: str) -> Path:
-    """Replace a file at once by a text that may have no mark, as formats of controllers have no place for one.
+def check_free(contents: Sequence[tuple[Path, bytes, bool]], *, digits: int | None = None, force: bool = False) -> None:
+    """Refuse to write several files, each exact or not, of which some are there with other contents."""
+    for file, _, _ in contents:
+        check_name(file)
+    if force or _forced.get():
+        return
+    there = [(file, _content(file), data, exact) for file, data, exact in contents]
+    other = [
+        file
+        for file, known, data, exact in there
+        if known is not None and not _agree(known, data, file.suffix, digits, exact=exact)
+    ]
+    if other:
+        raise _refused(other)
 
-    A file with other contents is kept as `name.orig`, unless its seal shows that optlaws wrote all of it.
-    """
-    if MARK in content:
-        return write(file, content, exact=True)
-    check_name(file)
-    with _named(file):
-        if _content(file) != content.encode():
-            _put(file, content.encode())
-    return file
+
+def _refused(files: Sequence[Path]) -> InputError:
+    more = f" and {len(files) - _NAMED} more" if len(files) > _NAMED else ""
+    named = ", ".join(str(file) for file in files[:_NAMED]) + more
+    return InputError(
+        f"there is {named} with other contents, and nothing is written over them: --force, or force=True in Python, "
+        "replaces them; or choose another place"
+    )
 
 
 @contextmanager
@@ -80,93 +104,38 @@ def _named(file: Path) -> Iterator[None]:
         raise
 
 
-def is_current(file: Path, content: bytes, *, digits: int | None = None) -> bool:
-    """Whether a file was written by optlaws, is unchanged, and agrees with given contents up to rounding."""
-    there = _content(file)
-    return is_sealed(there) and say_the_same(_unsealed(there)[0], content, file.suffix, digits)
+def _agree(there: bytes, data: bytes, kind: str, digits: int | None, *, exact: bool) -> bool:
+    """Whether contents are the same, or differ in rounding alone where not every digit counts."""
+    plain = _DIGEST.sub(MARK.encode(), there)
+    return plain == data if exact else say_the_same(plain, data, kind, digits)
 
 
-def is_own(file: Path) -> bool:
-    """Whether a file was written by optlaws and is unchanged: its seal matches its contents.
-
-    Line ends count for nothing: some systems change them on their own.
-    """
-    return is_sealed(_content(file))
-
-
-def _content(file: Path) -> bytes:
-    """Content of a file; empty if there is no such file."""
+def _content(file: Path) -> bytes | None:
+    """Content of a file; None if there is nothing of its name."""
     try:
-        return file.read_bytes() if file.is_file() else b""
+        return file.read_bytes()
     except FileNotFoundError:
-        return b""
+        # a link that leads nowhere is there
+        return b"" if os.path.lexists(file) else None
 
 
-def is_sealed(content: bytes) -> bool:
-    """Whether contents carry a matching seal."""
-    plain, seal = _unsealed(content)
-    return seal is not None and seal == _seal(plain)
-
-
-def sealed(content: bytes) -> bytes:
-    """The content with the seal behind its mark.
-
-    Examples
-    --------
-    >>> sealed(b"# about; made by optlaws")
-    b'# about; made by optlaws a554eb6dcb07b0e4'
-    """
-    plain, _ = _unsealed(content)
-    mark = _mark(plain)
-    if mark is None:
-        raise ValueError(f"what is written must hold the mark {MARK!r}")
-    return _with_mark(plain, mark, f"{MARK} {_seal(plain)}".encode())
-
-
-def _unsealed(data: bytes) -> tuple[bytes, str | None]:
-    """The content as it was passed, and its seal, if it has one."""
-    mark = _mark(data)
-    if mark is None or mark[1] is None:
-        return data, None
-    return _with_mark(data, mark, MARK.encode()), mark[1].decode()
-
-
-def _mark(data: bytes) -> re.Match[bytes] | None:
-    return (_IN_PNG if data.startswith(_PNG) else _IN_TEXT).search(data)
-
-
-def _with_mark(data: bytes, mark: re.Match[bytes], new: bytes) -> bytes:
-    if data.startswith(_PNG):
-        return data.replace(_chunk(mark[0]), _chunk(new), 1)
-    return data[: mark.start()] + new + data[mark.end() :]
-
-
-def _seal(content: bytes) -> str:
-    from hashlib import sha256
-
-    plain = content if content.startswith(_PNG) else content.replace(b"\r\n", b"\n")
-    return sha256(plain).hexdigest()[:16]
-
-
-def _chunk(mark: bytes) -> bytes:
-    """The part of a PNG file that names its author program."""
-    text = b"tEXtSoftware\0" + mark
-    return struct.pack(">I", len(text) - 4) + text + struct.pack(">I", crc32(text))
-
-
-def _put(file: Path, data: bytes) -> None:
-    """Write data to a file in a single step, even with concurrent writers: a user's existing file is kept."""
+def _put(file: Path, data: bytes, *, over: bool) -> bool:
+    """Write data to a file in a single step; False if another file has come by its name meanwhile."""
     file.parent.mkdir(parents=True, exist_ok=True)
     copy = _beside(file)
     try:
         # made as any new file is, so that the umask holds
         with copy.open("xb") as stream:
             stream.write(data)
-        while not (_replaced(copy, file) if os.path.lexists(file) else _placed(copy, file)):
-            pass
+        if not over:
+            return _placed(copy, file)
+        if os.path.lexists(file) and stat.S_ISREG(mode := file.lstat().st_mode):
+            copy.chmod(stat.S_IMODE(mode))
+        copy.replace(file)
     except BaseException:
         copy.unlink(missing_ok=True)
         raise
+    return True
 
 
 def _placed(copy: Path, file: Path) -> bool:
@@ -174,73 +143,23 @@ def _placed(copy: Path, file: Path) -> bool:
     try:
         os.link(copy, file)
     except FileExistsError:
+        copy.unlink()
         return False
     except OSError:
         # no links here
+        if os.path.lexists(file):
+            copy.unlink()
+            return False
         copy.replace(file)
         return True
     copy.unlink()
     return True
 
 
-def _replaced(copy: Path, file: Path) -> bool:
-    """Put a copy in the place of a file; a user's file is kept first, unless it has vanished meanwhile."""
-    try:
-        mode = file.lstat().st_mode
-        _keep(file)
-    except FileNotFoundError:
-        return False
-    if stat.S_ISREG(mode):
-        copy.chmod(stat.S_IMODE(mode))
-    # what is there now is what was kept, or what another process of ours has put there
-    copy.replace(file)
-    return True
-
-
-def _keep(file: Path) -> None:
-    """Keep a foreign file as `name.orig`, through a second name, so that it exists at all times."""
-    seen = _beside(file)
-    try:
-        os.link(file, seen, follow_symlinks=False)
-    except FileNotFoundError:
-        raise
-    except OSError:
-        _keep_copy(file)
-        return
-    try:
-        if is_own(seen):
-            return
-        for copy in _free_names(file):
-            try:
-                os.link(seen, copy, follow_symlinks=False)
-            except FileExistsError:
-                if not os.path.samestat(copy.lstat(), seen.lstat()):
-                    continue
-            return
-    finally:
-        seen.unlink(missing_ok=True)
-
-
-def _keep_copy(file: Path) -> None:
-    """A copy of the user's file where a file cannot have two names."""
-    content = file.read_bytes()
-    if is_sealed(content):
-        return
-    for copy in _free_names(file):
-        with suppress(FileExistsError), copy.open("xb") as stream:
-            stream.write(content)
-            return
-
-
 def _beside(file: Path) -> Path:
     from secrets import token_hex
 
     return file.with_name(f".{file.name[:100]}.{token_hex(8)}")
-
-
-def _free_names(file: Path) -> Iterator[Path]:
-    yield file.with_name(f"{file.name}.orig")
-    yield from (file.with_name(f"{file.name}.orig{number}") for number in count(1))
 
 
 def check_place(file: Path) -> None:

@@ -80,12 +80,12 @@ def exports_of(
     for name in sorted(together & {plain_name(axis.name) for axis in spec.axis}) if len(spec.axis) > 1 else ():
         raise InputError(f"{file}: an axis is called {name}, as the picture of all is: give it another name")
     taken = {"cycle.md", "cycle.json", "fastest.json", TRANSITIONS}
-    taken |= {f"{name}{ending}" for name in _transition_names(spec) for ending in (".csv", ".svg", ".png")}
-    taken |= {f"{name}{ending}" for name in together for ending in (".svg", ".png")}
-    taken |= {f"{SWEEP}{i}{end}" for i in range(1, len(spec.sweep) + 1) for end in (".csv", ".svg", ".png")}
-    taken |= {f"{plain_name(axis.name)}{ending}" for axis in spec.axis for ending in (".csv", ".svg", ".png")}
+    taken |= {f"{name}{ending}" for name in _transition_names(spec) for ending in (".csv", ".svg")}
+    taken |= {f"{name}.svg" for name in together}
+    taken |= {f"{SWEEP}{i}{end}" for i in range(1, len(spec.sweep) + 1) for end in (".csv", ".svg")}
+    taken |= {f"{plain_name(axis.name)}{ending}" for axis in spec.axis for ending in (".csv", ".svg")}
     drawn = (picture.name for pictures in _drive_pictures(cycles).values() for picture in pictures)
-    taken |= {f"{name}{ending}" for name in drawn for ending in (".svg", ".png")}
+    taken |= {f"{name}.svg" for name in drawn}
     names = variable_names(axis.name for axis in spec.axis)
     for axis in spec.axis:
         exports[axis.name] = {}

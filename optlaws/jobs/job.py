@@ -30,10 +30,17 @@ def do(name: str, results: Results) -> None:
 
 
 def run(file: Path, out: Path | None = None) -> list[Path]:
-    """Do the job of a problem file and return the files written.
+    """Do the job of a problem file and return the files written, into `folder_of` the file unless another is given."""
+    return done(file).write(folder_of(file) if out is None else out)
 
-    They go into a folder, `results/<name of the file>` beside the problem file's folder unless given.
-    """
+
+def folder_of(file: Path) -> Path:
+    """The folder of the results, `results/<name of the file>` beside the problem file's folder."""
+    return file.resolve().parent.parent / "results" / file.stem
+
+
+def done(file: Path) -> Results:
+    """The results of the job of a problem file, not yet written."""
     if file.suffix == ".py":
         raise InputError(
             f"{file}: optlaws runs no code but its own scripts, by name (`optlaws run {file.stem}`); "
@@ -43,25 +50,24 @@ def run(file: Path, out: Path | None = None) -> list[Path]:
     name = results.entries.get("job")
     if name is None:
         raise InputError(f"{file}: the entry job is missing; known jobs are {', '.join(JOBS)}")
-    target = out if out is not None else file.resolve().parent.parent / "results" / file.stem
     if name == SCRIPT:
-        return _scripted(file, target)
+        return _scripted(file)
     if not isinstance(name, str) or name not in JOBS:
         raise InputError(f"{file}: {unknown_key(name, JOBS, 'job')}")
     try:
         do(name, results)
-        return results.write(target)
     except InputError as error:
         text = str(error)
         raise InputError(text if str(file) in text else f"{file}: {text}") from None
+    return results
 
 
-def _scripted(file: Path, out: Path) -> list[Path]:
+def _scripted(file: Path) -> Results:
     """The results of a script that comes with optlaws, whose own problem file this must be."""
     from optlaws import problems
 
     if file.stem in problems.names() and packaged(f"problems/{file.stem}.toml").samefile(file):
-        return problems.run(file.stem, out)
+        return problems.results_of(file.stem)
     raise InputError(
         f"{file}: scripts are run for the problems that come with optlaws alone, by name: "
         f"`optlaws run {file.stem if file.stem in problems.names() else 'optimal_table'}`; "

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import io
 import sys
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -111,23 +111,9 @@ def name_point(axes: Axes, text: str, point: tuple[float, float], at: tuple[floa
     return axes.annotate(text, point, xytext=at, textcoords="offset points", **style)
 
 
-def save_picture(drawing: Figure, place: Path) -> list[Path]:
-    """Write a figure as svg and png to `place`, without an ending; files with the same picture stay unchanged.
-
-    Fonts and renderers differ between machines, so that the svg, whose places can be compared, speaks for its twin.
-    """
-    vector, raster = (place.with_name(f"{place.name}.{kind}") for kind in ("svg", "png"))
-    with plot_style(), _laid_out(drawing):
-        content = rendered(drawing, "svg")
-        if not (writing.is_current(vector, content) and writing.is_own(raster)):
-            writing.write(raster, rendered(drawing, "png"))
-    writing.write(vector, content)
-    return [vector, raster]
-
-
-def save_pictures(drawings: Mapping[str, Figure], folder: Path) -> list[Path]:
-    """Write figures by name: see `save_picture`."""
-    return [path for name, drawing in drawings.items() for path in save_picture(drawing, folder / name)]
+def save_picture(drawing: Figure, place: Path) -> Path:
+    """Write a figure as svg to `place`, without an ending; a file with the same picture stays unchanged."""
+    return writing.write(place.with_name(f"{place.name}.svg"), rendered(drawing, "svg"))
 
 
 def rendered(drawing: Figure, kind: str) -> bytes:
@@ -137,23 +123,3 @@ def rendered(drawing: Figure, kind: str) -> bytes:
     with plot_style():
         drawing.savefig(stream, format=kind, metadata=metadata)
     return stream.getvalue()
-
-
-@contextmanager
-def _laid_out(drawing: Figure) -> Iterator[None]:
-    """The figure with everything in its place: matplotlib else lays it out, and draws it to nothing, for each file."""
-    from matplotlib.backends.backend_svg import FigureCanvasSVG
-
-    engine, canvas, dpi = drawing.get_layout_engine(), drawing.canvas, drawing.dpi
-    if engine is None:
-        yield
-        return
-    FigureCanvasSVG(drawing)  # texts are as long as they are in an svg
-    engine.execute(drawing)
-    drawing.set_dpi(dpi)
-    drawing.set_canvas(canvas)
-    drawing.set_layout_engine(None)
-    try:
-        yield
-    finally:
-        drawing.set_layout_engine(engine)

@@ -45,6 +45,11 @@ def run(name: str, out: Path | None = None) -> list[Path]:
     OptlawsError
         If a number is not what the script asserts of it; then nothing is written.
     """
+    return results_of(name).write(out)
+
+
+def results_of(name: str) -> Results:
+    """The results of a script, not yet written; errors are as of `run`."""
     if name not in names():
         raise InputError(unknown_key(name, names(), "script"))
     results = Results(packaged(f"problems/{name}.toml"))
@@ -53,4 +58,4 @@ def run(name: str, out: Path | None = None) -> list[Path]:
     except AssertionError as error:
         line = extract_tb(error.__traceback__)[-1]
         raise OptlawsError(f"{name}: not as asserted in {line.filename}, line {line.lineno}: {line.line}") from None
-    return results.write(out)
+    return results

@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 import json
 import os
+import re
 import shutil
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
@@ -32,6 +33,7 @@ GROUP = 4096
 _UNIQUE = ("key", "law")
 #: rows of chunks that are in memory at a time
 _IN_MEMORY = 1024
+_DIGEST = re.compile(rf"{writing.MARK} [0-9a-f]{{16}}")
 _decode = msgspec.json.Decoder(StudyPoint).decode
 
 
@@ -174,7 +176,7 @@ class StudyDirectory:
             typed(about, _About)
         except msgspec.ValidationError as error:
             raise InputError(f"{self.about} is damaged: {error}; put a whole copy in its place") from None
-        if not writing.is_sealed(text.encode()):
+        if not _is_as_written(text):
             raise InputError(
                 f"{self.about} is damaged: it is not as it was written, and its points may be others; put a whole copy "
                 "in its place"
@@ -186,7 +188,8 @@ class StudyDirectory:
         mine: dict[str, Any] = {"format": FORMAT, "hash": digest(study), "versions": versions()}
         if not self.about.exists():
             about = {"about": writing.MARK, "title": study.title, **mine, "points": len(points), "chunk": points.chunk}
-            writing.write(self.about, json.dumps({**about, "study": msgspec.to_builtins(study)}, indent=1) + "\n")
+            text = json.dumps({**about, "study": msgspec.to_builtins(study)}, indent=1) + "\n"
+            writing.write(self.about, _with_digest(text), exact=True, force=True)
             return points.chunk
         about, known = self.read()
         if not mine["hash"] == about["hash"] == digest(known):
@@ -246,7 +249,8 @@ class StudyDirectory:
             _flush(copy)
             # read again before the chunks go
             _check_rows(copy, len(points), chunks.counts)
-            writing.write(self.checksum, f"{_digest(copy)}  {self.table.name}\n# {writing.MARK}\n")
+            text = f"{_digest(copy)}  {self.table.name}\n# {writing.MARK}\n"
+            writing.write(self.checksum, text, exact=True, force=True)
             copy.replace(self.table)
         except OSError as error:
             copy.unlink(missing_ok=True)
@@ -304,6 +308,17 @@ class StudyDirectory:
     def _begun(self, file: Path) -> bool:
         # a run may have been killed while it wrote the first of its files
         return file.name == self.lock.name or file.name.startswith(f".{self.about.name}")
+
+
+def _with_digest(text: str) -> str:
+    """A text with a digest of it behind its mark, by which an edit shows."""
+    return text.replace(writing.MARK, f"{writing.MARK} {hashlib.sha256(text.encode()).hexdigest()[:16]}", 1)
+
+
+def _is_as_written(text: str) -> bool:
+    """Whether a text is what was written, whatever its line ends."""
+    plain = text.replace("\r\n", "\n")
+    return plain == _with_digest(_DIGEST.sub(writing.MARK, plain, count=1))
 
 
 def _checksum(text: bytes) -> bytes:

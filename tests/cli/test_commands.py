@@ -266,18 +266,19 @@ def test_run_twice_gives_the_same_bytes(capsys: Capture, tmp_path: Path) -> None
         assert (tmp_path / "one" / name).read_bytes() == (tmp_path / "two" / name).read_bytes(), name
 
 
-def test_run_keeps_a_foreign_file_and_replaces_its_own(capsys: Capture, tmp_path: Path) -> None:
+def test_run_writes_over_other_contents_by_force_alone(capsys: Capture, tmp_path: Path) -> None:
     file = workspace(tmp_path)
     out = tmp_path / "results"
     out.mkdir()
     (out / "table.csv").write_text("mine\n", "utf-8")
-    (out / "table.csv.orig").write_text("older\n", "utf-8")
-    for _ in range(2):
-        assert called(capsys, "run", file, "--out", out)[0] == 0
-    assert (out / "table.csv.orig").read_text("utf-8") == "older\n"
-    assert (out / "table.csv.orig1").read_text("utf-8") == "mine\n"
+    code, _, err = called(capsys, "run", file, "--out", out)
+    assert code == 2
+    assert "table.csv with other contents" in err
+    assert "--force" in err
+    assert {path.name: path.read_text("utf-8") for path in out.iterdir()} == {"table.csv": "mine\n"}
+    for force in (["--force"], []):
+        assert called(capsys, *force, "run", file, "--out", out)[0] == 0
     assert "made by optlaws" in (out / "table.csv").read_text("utf-8").splitlines()[0]
-    assert sorted(path.name for path in out.iterdir() if ".orig" in path.name) == ["table.csv.orig", "table.csv.orig1"]
     assert not [path for path in out.iterdir() if path.name.startswith(".")]
 
 

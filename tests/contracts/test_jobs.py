@@ -1,4 +1,4 @@
-"""What every job keeps: errors that name file and entry, nothing written then, sealed files, the same bytes again."""
+"""What every job keeps: errors that name file and entry, nothing written then, marked files, the same bytes again."""
 
 import json
 import re
@@ -60,21 +60,23 @@ def test_a_job_is_imported_when_it_runs() -> None:
 @pytest.mark.parametrize(
     "name", [pytest.param(name, marks=[pytest.mark.long] if name in SLOW else []) for name in EXAMPLES]
 )
-def test_a_job_writes_sealed_files_and_the_same_again(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str
-) -> None:
+def test_a_job_writes_marked_files_and_the_same_again(tmp_path: Path, name: str) -> None:
     written = done(tmp_path, name)
     first = {file: file.read_bytes() for file in (tmp_path / "out").iterdir()}
     assert sorted(written) == sorted(first)
     assert {file.suffix for file in written} >= {".md"}
     for file, content in first.items():
-        assert writing.is_own(file)
         assert writing.MARK.encode() in content
         if file.suffix == ".json":
             json.loads(content, parse_constant=refuse)
     # nothing is left as it is: every file is written again
-    monkeypatch.setattr(writing, "is_current", lambda *_, **__: False)
-    assert sorted(done(tmp_path, name)) == sorted(first)
+    for file in first:
+        file.write_text("changed\n", "utf-8")
+    with pytest.raises(InputError, match="other contents"):
+        done(tmp_path, name)
+    assert all(file.read_text("utf-8") == "changed\n" for file in first)
+    with writing.forced():
+        assert sorted(done(tmp_path, name)) == sorted(first)
     assert {file: file.read_bytes() for file in (tmp_path / "out").iterdir()} == first
 
 
@@ -97,7 +99,8 @@ def test_what_another_machine_rounds_otherwise_changes_no_file(
     assert {file: file.read_bytes() for file in done(tmp_path, name)} == first
     noisy(3e-6)
     page = next(file for file in first if file.suffix == ".md")
-    assert {file: file.read_bytes() for file in done(tmp_path, name)}[page] != first[page]
+    with writing.forced():
+        assert {file: file.read_bytes() for file in done(tmp_path, name)}[page] != first[page]
     assert sorted((tmp_path / "out").iterdir()) == sorted(first)
 
 

@@ -11,7 +11,7 @@ import pytest
 
 from optlaws import Axes, Cycle, InputError, Machine, MotionLaw, Problem, at_least, open_study, read_law
 from optlaws.verification import verify, verify_all
-from tests.internals.files import reading, writing
+from tests.internals.files import reading
 from tests.internals.mechanisms import output_peak
 
 READERS: list[Callable[[Path], Any]] = [verify, verify_all, read_law, lambda file: open_study(file.parent)]
@@ -107,10 +107,3 @@ def test_a_duration_whose_square_is_no_number_is_refused(duration: float) -> Non
         Machine.from_units(
             [[0, 1], [-1, -1]], [[0], [1]], [[1, 0]], [[0]], inputs="c", outputs=["p"], duration=duration
         )
-
-
-def test_what_is_sealed_stays_so_with_other_line_ends() -> None:
-    content = writing.sealed(f"a\n{writing.MARK}\n".encode())
-    assert writing.is_sealed(content)
-    assert writing.is_sealed(content.replace(b"\n", b"\r\n"))
-    assert not writing.is_sealed(content.replace(b"a", b"b"))

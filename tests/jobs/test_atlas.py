@@ -61,9 +61,7 @@ def test_the_job_writes_table_and_figures(tmp_path: Path) -> None:
     file = tmp_path / "atlas.toml"
     file.write_text(examples.ATLAS)
     written = run(file, tmp_path / "out")
-    assert sorted(one.name for one in written) == sorted(
-        ["atlas.csv", "atlas.md", *(f"least-{name}.{kind}" for name in "cd" for kind in ("svg", "png"))]
-    )
+    assert sorted(one.name for one in written) == sorted(["atlas.csv", "atlas.md", "least-c.svg", "least-d.svg"])
     lines = written[0].read_text("utf-8").splitlines()
     assert tuple(lines[1].split(",")) == COLUMNS
     assert len(lines) == 2 + 16

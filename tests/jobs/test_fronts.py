@@ -50,7 +50,6 @@ def test_the_figures_are_pictures(made: Path) -> None:
         ("one", ("C at given B", "Savin", "smoothsteps", "modified sine", "limit of all laws")),
         ("two", ("J at given C", "limit of each constant alone")),
     ):
-        assert (made / f"{name}.png").read_bytes().startswith(b"\x89PNG")
         text = (made / f"{name}.svg").read_text("utf-8")
         for label in labels:
             assert label in text

@@ -14,7 +14,7 @@ import pytest
 import optlaws
 from optlaws import FUNCTIONALS, InputError, MotionLaw, Problem, SolverFailure, open_study, run_study, synthesize
 from tests.internals.files import writing
-from tests.internals.studies import Study, digest, read_study
+from tests.internals.studies import Study, digest, read_study, with_digest
 from tests.studies.sweeping import SMALL, rows, serially, troubled
 
 P = ParamSpec("P")
@@ -214,7 +214,8 @@ def test_other_versions_may_not_finish_a_study(tmp_path: Path) -> None:
     about = json.loads((tmp_path / "study.json").read_text())
     about["versions"]["casadi"] = "3.0"
     (tmp_path / "study.json").unlink()
-    writing.write(tmp_path / "study.json", json.dumps(about, indent=1) + "\n")
+    about["about"] = writing.MARK
+    (tmp_path / "study.json").write_text(with_digest(json.dumps(about, indent=1) + "\n"), "utf-8")
     with pytest.raises(InputError, match=r"was begun with .*casadi 3\.0"):
         serially(SMALL, tmp_path)
 

@@ -295,11 +295,17 @@ def text(outline: Outline, name: str, options: Cutting) -> str:
 
 
 def write_outline(
-    outline: Outline, file: str | Path, as_: str | None = None, **options: Unpack[CuttingOptions]
+    outline: Outline,
+    file: str | Path,
+    as_: str | None = None,
+    *,
+    force: bool = False,
+    **options: Unpack[CuttingOptions],
 ) -> Path:
     """The file of a closed curve, written whole or not at all: a profile, a pitch curve, the path of a cutter.
 
-    `as_` is one of `FORMATS`, that of the file's ending unless given; options are those of `Cutting`.
+    `as_` is one of `FORMATS`, that of the file's ending unless given; `force` replaces other contents; options are
+    those of `Cutting`.
     """
     place = Path(file)
     name = format_of(place, as_)
@@ -309,4 +315,4 @@ def write_outline(
             raise InputError(unknown_key(key, Cutting.__dataclass_fields__, "entry"))
     cutting = Cutting(**given)
     writing.check_place(place)
-    return writing.write(place, text(outline, name, cutting), exact=True)
+    return writing.write(place, text(outline, name, cutting), exact=True, force=force)

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from pathlib import Path
-from tempfile import TemporaryDirectory
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from optlaws.cli.app import NotProven
 from optlaws.cli.old_cam import NO_OLD_CAM, OldCamOptions, old_cam, refuse_options
@@ -14,6 +13,9 @@ from optlaws.cli.show import busy, print_json, show
 from optlaws.cli.synthesis.run import done
 from optlaws.errors import InputError
 from optlaws.synthesis.status import Status
+
+if TYPE_CHECKING:
+    from optlaws.results import Results
 
 
 def cycle(
@@ -98,29 +100,28 @@ def _job(file: Path, out: Path | None, plot: Path | None, *, as_json: bool) -> N
     """The job of a problem file, with its main picture in the file of --plot too; or its data for programs."""
     from optlaws.files import writing
     from optlaws.files.packaged import problem_of_job
+    from optlaws.jobs import job as jobs
     from optlaws.jobs.cycle import answer
-    from optlaws.jobs.job import run
 
     check_files(plot=plot)
     source, folder, entries = problem_of_job(file, "cycle")
     if not as_json:
         if out is not None or folder is not None:
             writing.check_place((out or folder or Path()) / "results.md")
-        written = done(source, out=out or folder)
+        results = done(source, out=out or folder)
         if plot is not None:
-            writing.write(plot, _main_picture(entries, written, plot.suffix))
+            writing.write(plot, _main_picture(entries, results, plot.suffix))
         return
-    with busy(f"{file}"), TemporaryDirectory() as results:
+    with busy(f"{file}"):
         if plot is not None:
-            writing.write(plot, _main_picture(entries, run(source, Path(results)), plot.suffix))
+            writing.write(plot, _main_picture(entries, jobs.done(source), plot.suffix))
         data = answer(entries, source)
     print_json(data)
 
 
-def _main_picture(entries: Mapping[str, Any], written: Sequence[Path], suffix: str) -> bytes:
+def _main_picture(entries: Mapping[str, Any], results: Results, suffix: str) -> bytes:
     """The most informative picture among the results of a cycle: the single axis, or all axes."""
     from optlaws.jobs.cycle import TOGETHER, plain_name
 
     names = [plain_name(axis["name"]) for axis in entries["axis"]]
-    name = names[0] if len(names) == 1 else TOGETHER
-    return next(path for path in written if path.name == f"{name}{suffix}").read_bytes()
+    return results.drawn(names[0] if len(names) == 1 else TOGETHER, suffix[1:])

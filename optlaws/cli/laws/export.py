@@ -120,7 +120,7 @@ def export(
     listed
         List the formats: who takes them, how it interpolates, what it cannot hold.
     output
-        The file to write; an existing file with other contents is kept as NAME.orig.
+        The file to write.
     as_json
         Print one JSON object on stdout and nothing else: the report, and the text without --output.
     """

@@ -60,7 +60,7 @@ class FileOptions:
     name
         Before every name of a C header, or of the function block.
     output
-        The file to write; an existing file with other contents is kept as NAME.orig.
+        The file to write.
     """
 
     csv: Path | None = None

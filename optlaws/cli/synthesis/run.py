@@ -3,9 +3,13 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from optlaws.cli.show import busy, show
 from optlaws.errors import InputError
+
+if TYPE_CHECKING:
+    from optlaws.results import Results
 
 
 def run(*files: Path, out: Path | None = None) -> None:
@@ -34,18 +38,19 @@ def run(*files: Path, out: Path | None = None) -> None:
         done(file, out or folder)
 
 
-def done(file: Path, out: Path | None) -> list[Path]:
-    """Do the job of a problem file, print its tables and what was written, and return that."""
+def done(file: Path, out: Path | None) -> Results:
+    """Do the job of a problem file, write its results, and print its tables and the files."""
     from optlaws.jobs import job
 
     with busy(f"{file}"):
-        written = job.run(file, out)
+        results = job.done(file)
+        written = results.write(job.folder_of(file) if out is None else out)
     for text in (w for w in written if w.suffix == ".md"):
         lines = text.read_text(encoding="utf-8").splitlines()
         show(*(line for line in lines if not line.startswith("<!--")))
     for result in written:
         print(_near(result))
-    return written
+    return results
 
 
 def _near(file: Path) -> Path:

@@ -111,9 +111,15 @@ class FrontExport:
             raise InputError(f"there is no law of a move of status {move.status.name}")
         return law_between(self.laws[move.law], self.laws[move.law + 1], move.share)
 
-    def write(self, file: str | Path) -> Path:
-        """Write the file, completely or not at all; an existing file with other contents is kept as NAME.orig."""
-        return writing.write_any(Path(file), self.text)
+    def write(self, file: str | Path, *, force: bool = False) -> Path:
+        """Write the file, completely or not at all.
+
+        Raises
+        ------
+        InputError
+            If it is there with other contents, and these are not to be replaced (`force`).
+        """
+        return writing.write(Path(file), self.text, exact=True, force=force)
 
     def results(self) -> dict[str, Any]:
         """The export as plain data: everything but the text and the table."""

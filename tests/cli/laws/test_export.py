@@ -28,13 +28,16 @@ def test_the_file_goes_to_stdout_and_the_report_to_stderr(capsys: Capture) -> No
 def test_a_file_is_written_and_never_lost(tmp_path: Path, capsys: Capture) -> None:
     file = tmp_path / "cam.csv"
     file.write_text("mine\n", "utf-8")
-    assert exit_code(["export", *LAW, "--to", "sew", "--points", "13", "--output", str(file)]) == 0
+    command = ["export", *LAW, "--to", "sew", "--points", "13", "--output", str(file)]
+    assert exit_code(command) == 2
+    assert file.read_text("utf-8") == "mine\n"
+    assert "--force" in capsys.readouterr().err
+    assert exit_code([*command, "--force"]) == 0
     assert "cubics whose acceleration jumps" in capsys.readouterr().out
-    assert (tmp_path / "cam.csv.orig").read_text("utf-8") == "mine\n"
     written = file.read_bytes()
-    assert exit_code(["export", *LAW, "--to", "sew", "--points", "13", "--output", str(file)]) == 0
+    assert exit_code(command) == 0
     assert file.read_bytes() == written
-    assert sorted(one.name for one in tmp_path.iterdir()) == ["cam.csv", "cam.csv.orig"]
+    assert [one.name for one in tmp_path.iterdir()] == ["cam.csv"]
 
 
 def test_an_axis_of_a_problem_file(capsys: Capture) -> None:
