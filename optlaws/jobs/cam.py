@@ -22,7 +22,7 @@ from optlaws.cams.least_sizes import LeastPrimeCircle
 from optlaws.cams.sizing.springs import CONTACT, GREATEST
 from optlaws.cams.summary import named_forces
 from optlaws.cycles.summary import objective_unit
-from optlaws.files import tables, writing
+from optlaws.files import tables
 from optlaws.jobs.cam_entries import CamProblemFile, FileEntries
 from optlaws.jobs.cam_findings import EXTREMES, FORCE, STIFFNESS, Findings, Limits, enclosure, extreme_rows, plain
 from optlaws.plots.cam import animated, cam_figure, forces_figure, pair_figure
@@ -57,7 +57,7 @@ def run(results: Results) -> None:
     for entry in spec.file:
         results.add(entry.name, partial(_cut, first, entry, results.about))
     if spec.animation:
-        results.add("animation.svg", partial(writing.write, content=animated(first)))
+        results.text("animation.svg", animated(first))
     if second is None:
         return
     results.picture("pair", pair_figure(first, second, spec.title))
