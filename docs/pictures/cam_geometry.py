@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from optlaws import Cycle, DiscCam, Dwell, OscillatingRoller, Return, Rise, TranslatingRoller, deg
+from optlaws.files.writing import forced
 from optlaws.numbers import Array
 from optlaws.plots.style import BLUES, GREY, WARM, empty_figure, plot_style, save_picture
 
@@ -109,4 +110,5 @@ def draw(folder: Path) -> Path:
 
 
 if __name__ == "__main__":
-    draw(Path(__file__).parent)
+    with forced():
+        draw(Path(__file__).parent)

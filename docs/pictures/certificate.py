@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 
 from optlaws import Chebyshev, Problem, ProblemArray, synthesize, synthesize_array
+from optlaws.files.writing import forced
 from optlaws.plots.style import BLUES, GREY, WARM, empty_figure, plot_style, save_picture
 
 
@@ -40,4 +41,5 @@ def draw(folder: Path) -> Path:
 
 
 if __name__ == "__main__":
-    draw(Path(__file__).parent)
+    with forced():
+        draw(Path(__file__).parent)

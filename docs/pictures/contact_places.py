@@ -5,6 +5,7 @@ from pathlib import Path
 import numpy as np
 
 from optlaws import Chebyshev, ProblemArray, synthesize_array
+from optlaws.files.writing import forced
 from optlaws.plots.style import BLUES, WARM, empty_figure, plot_style, save_picture
 
 END = 0.5
@@ -39,4 +40,5 @@ def draw(folder: Path) -> Path:
 
 
 if __name__ == "__main__":
-    draw(Path(__file__).parent)
+    with forced():
+        draw(Path(__file__).parent)

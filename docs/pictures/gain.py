@@ -4,6 +4,7 @@ from pathlib import Path
 from typing import Any
 
 from optlaws import Chebyshev, Comparison, Problem, at_most, catalogue, synthesize
+from optlaws.files.writing import forced
 from optlaws.plots.style import empty_figure, plot_style, save_picture
 
 PANELS = ((0, "displacement a", None), (1, "velocity b", "B"), (2, "acceleration c", "C"), (3, "jerk j", "J"))
@@ -42,4 +43,5 @@ def draw(folder: Path) -> Path:
 
 
 if __name__ == "__main__":
-    draw(Path(__file__).parent)
+    with forced():
+        draw(Path(__file__).parent)

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from optlaws.files.writing import forced
 from optlaws.plots.style import DISTINCT, GREY, empty_figure, plot_style, save_picture
 
 if TYPE_CHECKING:
@@ -116,4 +117,5 @@ def draw(folder: Path) -> Path:
 
 
 if __name__ == "__main__":
-    draw(Path(__file__).parent)
+    with forced():
+        draw(Path(__file__).parent)

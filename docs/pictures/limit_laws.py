@@ -4,6 +4,7 @@ from pathlib import Path
 
 import numpy as np
 
+from optlaws.files.writing import forced
 from optlaws.plots.style import DISTINCT, empty_figure, plot_style, save_picture
 from optlaws.synthesis.limits import limit_law
 
@@ -28,4 +29,5 @@ def draw(folder: Path) -> Path:
 
 
 if __name__ == "__main__":
-    draw(Path(__file__).parent)
+    with forced():
+        draw(Path(__file__).parent)

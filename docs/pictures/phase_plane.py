@@ -6,6 +6,7 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 
 from optlaws import Powers, Problem, at_most, drive_limit, drive_torque, rms, synthesize
+from optlaws.files.writing import forced
 from optlaws.plots.style import BLUES, WARM, empty_figure, plot_style, save_picture
 
 MOST = 2.2
@@ -42,4 +43,5 @@ def draw(folder: Path) -> Path:
 
 
 if __name__ == "__main__":
-    draw(Path(__file__).parent)
+    with forced():
+        draw(Path(__file__).parent)

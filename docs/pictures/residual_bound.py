@@ -15,6 +15,7 @@ from optlaws import (
     savin,
     synthesize,
 )
+from optlaws.files.writing import forced
 from optlaws.numbers import Array
 from optlaws.plots.style import BLUES, GREY, WARM, empty_figure, plot_style, save_picture
 
@@ -69,4 +70,5 @@ def draw(folder: Path) -> Path:
 
 
 if __name__ == "__main__":
-    draw(Path(__file__).parent)
+    with forced():
+        draw(Path(__file__).parent)

@@ -5,6 +5,7 @@ from pathlib import Path
 import numpy as np
 
 from optlaws import smoothstep
+from optlaws.files.writing import forced
 from optlaws.plots.style import BLUES, WARM, empty_figure, plot_style, save_picture
 
 FREQUENCIES, DAMPING = (18.0, 22.0), (0.0, 0.1)
@@ -35,4 +36,5 @@ def draw(folder: Path) -> Path:
 
 
 if __name__ == "__main__":
-    draw(Path(__file__).parent)
+    with forced():
+        draw(Path(__file__).parent)

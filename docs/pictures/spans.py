@@ -5,6 +5,7 @@ from pathlib import Path
 import numpy as np
 
 from optlaws import Cycle, Dwell, Free, Return, Rise
+from optlaws.files.writing import forced
 from optlaws.plots.style import BLUES, WARM, empty_figure, plot_style, save_picture
 
 SPANS = ((0.0, 0.15), (0.25, 0.65), (0.72, 0.92))
@@ -43,4 +44,5 @@ def draw(folder: Path) -> Path:
 
 
 if __name__ == "__main__":
-    draw(Path(__file__).parent)
+    with forced():
+        draw(Path(__file__).parent)
