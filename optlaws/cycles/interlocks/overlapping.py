@@ -403,7 +403,8 @@ def _instants(
         efforts,
         None if shortest else duration,
         _LONGEST * (duration + least) if shortest else duration,
-        duration,
+        # the answer may be far shorter than what was given, and programs are as exact as their unit
+        max(map(_least_period, plans.values())) or duration if shortest else duration,
     )
     best = problem.best()
     if not shortest:
@@ -416,3 +417,9 @@ def _instants(
     longer_by = 1.0 + OVERLAP_GAP
     durations = {name: [longer_by * value for value in values] for name, values in best.durations.items()}
     return replace(best, durations=durations, period=longer_by * best.period)
+
+
+def _least_period(plan: AxisPlan) -> float:
+    """The period that an axis takes by itself; 0 where that is not known."""
+    seconds, shares = (sum(segment.least[i] for segment in plan.segments) for i in (0, 1))
+    return seconds / (1.0 - shares) if shares < 1.0 else 0.0

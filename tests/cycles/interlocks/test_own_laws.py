@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from scipy.optimize import linprog
 
@@ -39,6 +39,7 @@ def least_time(stroke: str, limits: dict[str, Any], **given: Any) -> float:
     dwell=st.floats(0.0, 2.0),
     limited=st.sampled_from([("acceleration", "jerk"), ("velocity", "jerk"), ("jerk",), ("acceleration",)]),
 )
+@example(size=1e-12, times=(191.0, 1000.0), dwell=1.2e-7, limited=("acceleration", "jerk"))
 def test_an_axis_without_interlocks_takes_its_own_least_times(
     size: float, times: tuple[float, float], dwell: float, limited: tuple[str, ...]
 ) -> None:
