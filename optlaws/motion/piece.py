@@ -114,7 +114,8 @@ class Piece:
         low, high = (float(place) for place in self.places(np.array([first, last])))
         if nu >= _JUMPS:
             # what jumps where a segment ends has the value of the segment, not of its neighbour
-            low, high = low + INSIDE_PIECE * (low > 0.0), high - INSIDE_PIECE * (high < 1.0)
+            inside = min(INSIDE_PIECE, 0.25 * (high - low))
+            low, high = low + inside * (low > 0.0), high - inside * (high < 1.0)
         extremes = self.law.extrema(nu, within=(low, high))
         base = self._origin if nu == 0 else 0.0
         sized = [

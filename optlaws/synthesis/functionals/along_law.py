@@ -75,7 +75,9 @@ def _inside(motion: MotionFormula, law: MotionLaw, low: float, high: float) -> C
 def _on(motion: MotionFormula, law: MotionLaw, ends: tuple[float, float], k: Array) -> tuple[Array, Array]:
     """Places of a piece, its ends just within it, and the values there."""
     low, high = ends
-    inside = np.clip(k, low + BESIDE_BREAK * (low > 0.0), high - BESIDE_BREAK * (high < 1.0))
+    # kinks that meet at an end may leave a piece shorter than that
+    beside = min(BESIDE_BREAK, 0.25 * (high - low))
+    inside = np.clip(k, low + beside * (low > 0.0), high - beside * (high < 1.0))
     return inside, _values(motion, law, inside)
 
 

@@ -10,13 +10,16 @@ from numpy.polynomial import Polynomial
 from scipy.optimize import linprog
 
 from optlaws import (
+    Chebyshev,
     Drive,
     FastestMove,
     InputError,
+    Loads,
     Mechanism,
     Motor,
     Problem,
     TimeFront,
+    belt,
     fastest,
     smoothstep,
     synthesize,
@@ -142,6 +145,20 @@ def test_energy_is_bounded_by_the_phase_plane(turn: FastestMove) -> None:
     angle, speed, gain = (motion[nu] * stroke / energy.duration**nu for nu in range(3))
     power = np.asarray(TABLE.torque(angle, speed, gain)) * 20.0 * speed
     assert np.trapezoid(np.maximum(power, 0.0), k) * energy.duration == pytest.approx(energy.value, rel=1e-6)
+
+
+@pytest.mark.sample(3)
+@pytest.mark.parametrize("regeneration", [0.5, 0.0, 1.0])
+def test_the_energy_of_a_lossy_gear_falls_with_the_time_where_the_load_helps(regeneration: float) -> None:
+    lift = belt("30 mm", "8 kg", loads=Loads(gravity="0 deg"))
+    motor = Motor("3e-4 kg m^2", peak_torque="30 N m", greatest_speed="9000 rpm")
+    drive = Drive(lift, motor, ratio=2.5, regeneration=regeneration, efficiency=0.9)
+    least = fastest(Problem(order=3, basis=Chebyshev(5)), stroke="10 rad", limits={}, drive=drive)
+    front = time_front(least, "energy", longest=f"{least.duration * 1.5!r} s", points=2, drive=drive)
+    for point in front:
+        sheet = drive.sheet(point.law, "0 rad", "10 rad", f"{point.duration!r} s")
+        assert point.value == pytest.approx(sheet.energy, rel=1e-9)
+        assert point.lower_bound <= point.value * (1.0 + 1e-9)
 
 
 @pytest.mark.parametrize("size", [1e-9, 1e6])

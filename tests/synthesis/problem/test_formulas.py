@@ -23,6 +23,7 @@ from optlaws import (
     maximum,
     peak,
     rms,
+    smoothstep,
     synthesize,
     value,
     via,
@@ -247,6 +248,16 @@ def test_integrals_of_kinks_are_exact_and_bounded(text: str, status: str) -> Non
     assert solution.objective == pytest.approx(plain**0.5 if text.startswith("rms") else plain, rel=1e-6)
     assert solution.objective <= constant.value(synthesize(replace(problem, minimise="J")).law) + 1e-9
     assert solution.lower_bound <= solution.objective * (1.0 + 1e-12)
+
+
+@pytest.mark.parametrize("text", ["abs(c - 1)", "exp(c)"])
+@pytest.mark.parametrize("length", [2.0**-52, 2.0**-51, 2.0**-50, 2.0**-40])
+@pytest.mark.parametrize("first", [True, False], ids=["start", "end"])
+def test_a_part_may_be_as_short_as_rounding(text: str, length: float, first: bool) -> None:  # noqa: FBT001 - a case
+    ends = (0.0, length) if first else (1.0 - length, 1.0)
+    law, (start, stop) = smoothstep(3), ends
+    assert integral(text, start=start, stop=stop).value(law) == pytest.approx(length, rel=1e-9)
+    assert peak(text, side="high", start=start, stop=stop).value(law) == pytest.approx(1.0, rel=1e-9)
 
 
 def test_what_divides_by_nothing_at_an_end_shows_where() -> None:
