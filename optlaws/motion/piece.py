@@ -26,8 +26,9 @@ from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
+from optlaws.laws.direction import direction_of
 from optlaws.numbers import Array
-from optlaws.tolerances import CLOSURE, INSIDE_PIECE, SAME_TIME
+from optlaws.tolerances import CLOSURE, INSIDE_PIECE, JUMP, SAME_TIME
 
 
 def named_law(given: Any, where: str) -> MotionLaw:  # noqa: ANN401 - it is checked here
@@ -96,12 +97,31 @@ class Piece:
         base = self._origin if nu == 0 else 0.0
         return base + factor(self.stroke, self.duration, nu) * self.law(self.places(times), nu)
 
+    def direction(self, times: Array) -> Array:
+        """The direction of the motion at times in it: 1 towards greater positions, -1 towards lesser ones, 0 at rest.
+
+        It is that of the law, whatever the rounding of a velocity near rest.
+        """
+        if not self.stroke:
+            return np.zeros(np.shape(times))
+        return np.asarray(np.copysign(1.0, self.stroke) * direction_of(self.law)(self.places(times)))
+
+    @property
+    def turns(self) -> tuple[float, ...]:
+        """The times inside at which the direction changes."""
+        places = direction_of(self.law).turns if self.stroke else ()
+        return tuple(self.start + self.duration * float(k) for k in places)
+
     def end(self, nu: int, side: int) -> float:
         """The derivative of order nu at its start (side 0) or its end (side 1)."""
         if nu not in self._ends:
             first, last = self.values(np.array([self.start, self.stop]), nu).tolist()
             self._ends[nu] = first, last
         return self._ends[nu][side]
+
+    def leaves(self, side: int) -> bool:
+        """Whether it is in motion at its start (side 0) or its end (side 1), by more than rounding."""
+        return abs(self.law.b(float(side))) > JUMP * self.law.peak(1).value
 
     def jump(self, time: float, nu: int) -> float:
         """The jump of the derivative of order nu at a time inside."""

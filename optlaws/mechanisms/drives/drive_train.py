@@ -175,18 +175,27 @@ class Drive(JsonText):
         """The drive with another ratio."""
         return replace(self, ratio=ratio)
 
-    def torque(self, position: Any, velocity: Any, acceleration: Any, process: Any = 0.0) -> Any:  # noqa: ANN401 - numbers or arrays
+    def torque(
+        self,
+        position: Any,  # noqa: ANN401 - numbers or arrays, as all here
+        velocity: Any,  # noqa: ANN401
+        acceleration: Any,  # noqa: ANN401
+        process: Any = 0.0,  # noqa: ANN401
+        *,
+        direction: Any = None,  # noqa: ANN401
+    ) -> Any:  # noqa: ANN401
         """The torque at the motor, N m, from position, velocity and acceleration of the mechanism's input, SI units.
 
-        A process adds to the load at that input. It moves the way of its velocity, and from rest that of its
-        acceleration; at rest the motor holds the load without help of the gear's losses.
+        A process adds to the load at that input. Unless the `direction` is given, 1, -1 or 0, it moves the way of its
+        velocity, and from rest that of its acceleration; at rest the motor holds the load without help of the gear's
+        losses.
         """
         v, w = np.asarray(velocity, dtype=np.float64), np.asarray(acceleration, dtype=np.float64)
-        direction, train, i = np.where(v == 0.0, np.sign(w), np.sign(v)), self.train, self.ratio
-        load = np.asarray(self.mechanism.torque(position, v, w)) + self.mechanism.coulomb * (direction - np.sign(v))
-        load = load + process
-        inertial = i * (train.inertia * w + train.viscous * v) + train.coulomb * direction
-        through = np.where(direction == 0.0, load, train.through_gear(load * direction) * direction)
+        train, i = self.train, self.ratio
+        way = np.where(v == 0.0, np.sign(w), np.sign(v)) if direction is None else np.asarray(direction)
+        load = np.asarray(self.mechanism.torque(position, v, w, way)) + process
+        inertial = i * (train.inertia * w + train.viscous * v) + train.coulomb * way
+        through = np.where(way == 0.0, load, train.through_gear(load * way) * way)
         values = inertial + through / i
         return values if np.ndim(values) else float(values)
 

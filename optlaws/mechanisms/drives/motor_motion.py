@@ -9,10 +9,10 @@ import numpy as np
 
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
+from optlaws.laws.direction import direction_of
 from optlaws.mechanisms.linkages.mechanism import Mechanism
 from optlaws.motion.smooth_parts import SmoothParts
 from optlaws.numbers import Array
-from optlaws.tolerances import VALUE_ROUNDING
 
 
 class Train(NamedTuple):
@@ -68,19 +68,17 @@ class MotorMotion:
         if self.mechanism.has_end:
             position = np.clip(position, *self.mechanism.over)
         v, w = side * speed / self.ratio, side * self.acceleration(k) / self.ratio
-        # friction of a motion that has just begun or is about to end
-        missing = self.mechanism.coulomb * (self._direction(speed) - np.sign(speed))
-        return np.asarray(side * self.mechanism.torque(position, v, w) + missing)
+        return np.asarray(side * self.mechanism.torque(position, v, w, side * self.direction(k)))
 
     def through_gear(self, k: Array) -> Array:
         """The load's torque times the ratio as the motor feels it."""
-        direction = self._direction(self.speed(k))
-        return self.train.through_gear(self.load(k) * direction) * direction
+        direction, load = self.direction(k), self.load(k)
+        return np.where(direction == 0.0, load, self.train.through_gear(load * direction) * direction)
 
     def motor_torque(self, k: Array) -> Array:
         """The torque that moves the motor and the gear's first shaft alone."""
         speed, train = self.speed(k), self.train
-        return train.inertia * self.acceleration(k) + train.viscous * speed + train.coulomb * self._direction(speed)
+        return train.inertia * self.acceleration(k) + train.viscous * speed + train.coulomb * self.direction(k)
 
     def torque(self, k: Array) -> Array:
         """The motor's torque, N m."""
@@ -90,11 +88,9 @@ class MotorMotion:
         """Power of the motor at places k, W."""
         return self.torque(k) * self.speed(k)
 
-    @staticmethod
-    def _direction(speed: Array) -> Array:
-        """The direction of the motion, 1 or -1; at rest, the direction of the stroke."""
-        size = float(np.max(np.abs(speed), initial=0.0))
-        return np.where(speed < -VALUE_ROUNDING * size, -1.0, 1.0)
+    def direction(self, k: Array) -> Array:
+        """The direction of the motion: 1 that of the stroke, -1 against it, 0 at rest."""
+        return direction_of(self.law)(k)
 
     @property
     def holding_torque(self) -> float:
@@ -106,4 +102,5 @@ class MotorMotion:
     @kept_property
     def parts(self) -> SmoothParts:
         """Parts of the move on which speed, load and torque are smooth, between breaks and changes of sign."""
-        return SmoothParts.between(0.0, 1.0, breaks=self.law.breaks, signs=(self.speed, self.load, self.torque))
+        breaks = [*self.law.breaks, *direction_of(self.law).turns]
+        return SmoothParts.between(0.0, 1.0, breaks=breaks, signs=(self.load, self.torque))

@@ -224,7 +224,7 @@ class _ByRatio:
         self.k, self.weights = direct.parts.places
         self.weights = self.weights * (motion.duration / period)
         self.speed = np.asarray(direct.speed(self.k))
-        self.dry = motion.train.coulomb * np.where(self.speed < 0.0, -1.0, 1.0)
+        self.dry = motion.train.coulomb * direct.direction(self.k)
         self.turning, self.load = (
             np.asarray(direct.motor_torque(self.k)) - self.dry,
             np.asarray(direct.through_gear(self.k)),

@@ -261,13 +261,15 @@ class Mechanism(JsonText):
         values = self._values(_derived(formula, derivative(nu)), self.position(x))
         return values if np.ndim(values) else float(values)
 
-    def torque(self, position: Any, velocity: Any, acceleration: Any) -> Any:  # noqa: ANN401 - numbers or arrays
+    def torque(self, position: Any, velocity: Any, acceleration: Any, direction: Any = None) -> Any:  # noqa: ANN401 - numbers or arrays
         """The torque, N m, or force, N, that moves the input: J x'' + J' x'²/2 + friction + load, all in SI units.
 
         Parameters
         ----------
         position, velocity, acceleration
             Of the input: numbers in rad or m and their like by the second, quantities, or arrays.
+        direction
+            In which friction resists: 1, -1, or 0 at rest; the sign of the velocity unless given.
         """
         known = DIMENSIONS[self.axis]
         x = self.position(position)
@@ -275,7 +277,8 @@ class Mechanism(JsonText):
         w = real_times(si_number(acceleration, (known["acceleration"],), "acceleration"))
         inertia, slope_of_inertia, load = self._of_torque.values({"x": x}, NUMPY)
         inertial, turning = inertia * w, slope_of_inertia * v * v / 2.0
-        values = np.asarray(inertial + turning + self.viscous * v + self.coulomb * np.sign(v) + load)
+        way = np.sign(v) if direction is None else direction
+        values = np.asarray(inertial + turning + self.viscous * v + self.coulomb * way + load)
         return values if np.ndim(values) else float(values)
 
     def dimensionless(
