@@ -12,10 +12,11 @@ import numpy as np
 from optlaws.balancing.loaders.loader import Loader
 from optlaws.cams.curves.motion_by_angle import CamMotion
 from optlaws.cycles.cycle import Cycle
-from optlaws.cycles.specification.drive import CycleDrive, read_constant_drive
+from optlaws.cycles.specification.drive import CycleDrive, read_linear_drive
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
+from optlaws.mechanisms.linkages.linear_force import LinearForce
 from optlaws.motion.piece import Piece
 from optlaws.motion.quantities import TURN, either
 from optlaws.numbers import Array, Quantity, finite, number_or_array, real_times
@@ -78,12 +79,16 @@ class Balancing:
             raise InputError(f"share must be at least 0, got {self.share!r}")
         self.load, self._loaders  # noqa: B018 - what is wrong is refused at once
 
-    @kept_property
-    def load(self) -> CycleDrive:
+    @property
+    def load(self) -> LinearForce:
         """The load that the cycle drives."""
+        return self._drive[1]
+
+    @kept_property
+    def _drive(self) -> tuple[CycleDrive, LinearForce]:
         if self.cycle.drive is None:
             raise InputError("the cycle has no drive: give one, such as drive={'mass': '3 kg'}")
-        return read_constant_drive(self.cycle.drive, self.cycle.axis)
+        return read_linear_drive(self.cycle.drive, self.cycle.axis)
 
     @property
     def rate(self) -> float:
@@ -176,7 +181,9 @@ class Balancing:
         return TorqueOverTurn(times, sqrt(max(square, 0.0) / TURN))
 
     def _executive(self, time: Array) -> Array:
-        return self._by_piece(time, lambda piece, _, at: self.load.along(piece, at) * piece.values(at, 1) / self.rate)
+        return self._by_piece(
+            time, lambda piece, _, at: self._drive[0].along(piece, at) * piece.values(at, 1) / self.rate
+        )
 
     def _loader(self, time: Array) -> Array:
         return self._by_piece(time, self._of_loader)

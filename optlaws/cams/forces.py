@@ -14,10 +14,11 @@ from optlaws.cams.curves.process_by_angle import ProcessByAngle, read_process_by
 from optlaws.cams.disc import DiscCam
 from optlaws.cams.followers.contact import Friction, Transmission
 from optlaws.cycles.cycle import Cycle
-from optlaws.cycles.specification.drive import CycleDrive, read_constant_drive
+from optlaws.cycles.specification.drive import read_linear_drive
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
+from optlaws.mechanisms.linkages.linear_force import LinearForce
 from optlaws.motion.quantities import TURN, positive_quantity, quantity
 from optlaws.numbers import Array, Quantity, finite, number_or_array, real_times
 from optlaws.numerics.branch_and_bound import Extremes, Function, extremes
@@ -167,13 +168,13 @@ class CamForces:
         return TURN / self.cam.motion.duration
 
     @kept_property
-    def load(self) -> CycleDrive:
+    def load(self) -> LinearForce:
         """The inertia, spring and friction that the follower moves, in SI units."""
         motion = self.cam.motion
         given = motion.drive if self.drive is None and isinstance(motion, Cycle) else self.drive
         if given is None:
             raise InputError("forces need what the follower moves: give a drive, such as drive={'mass': '2 kg'}")
-        return read_constant_drive(given, self.cam.displacement.axis)
+        return read_linear_drive(given, self.cam.displacement.axis)[1]
 
     @kept_property
     def process_force(self) -> ProcessByAngle:

@@ -41,7 +41,6 @@ from optlaws.cycles.specification.effort import Effort, PieceEffort, SegmentEffo
 from optlaws.cycles.specification.frozen import frozen
 from optlaws.cycles.specification.joints import LawSpan, Layout, layout
 from optlaws.cycles.specification.load import LOAD, Load, read_load
-from optlaws.cycles.specification.position_drive import PositionDrive, position_drive
 from optlaws.cycles.specification.process import is_process, read_process
 from optlaws.cycles.specification.programme import Programme, period_of, programme
 from optlaws.cycles.specification.segments import CycleSegment, Dwell
@@ -419,7 +418,7 @@ class Cycle(CycleInterchange):
         """
         from optlaws.cycles.specification.cycle_sheet import cycle_sheet
 
-        if not isinstance(self._drive, PositionDrive):
+        if self._drive is None:
             raise InputError("the cycle has no motor: give one, as drive=Drive(mechanism, Motor(...), ratio=20)")
         return cycle_sheet(self._drive, self._along, self.effort, self.duration)
 
@@ -534,7 +533,7 @@ class Cycle(CycleInterchange):
         [0.729259, 1.458518]
         """
         source, known = self.drive, self._drive
-        if not isinstance(source, Drive) or not isinstance(known, PositionDrive):
+        if not isinstance(source, Drive) or known is None:
             raise InputError("the cycle has no motor: give one, as drive=Drive(mechanism, Motor(...), ratio=20)")
         if self.limits.get(MOTOR):
             raise InputError("the laws keep the limits of the motor: make the cycle anew with the other motor")
@@ -701,15 +700,12 @@ class Cycle(CycleInterchange):
         return tuple(PieceEffort(drive, piece) for piece in self.pieces)
 
     @kept_property
-    def _drive(self) -> CycleDrive | PositionDrive | None:
+    def _drive(self) -> CycleDrive | None:
+        known = None if self.drive is None else read_drive(self.drive, self.axis)
         if not is_process(self.load):
-            return None if self.drive is None else read_drive(self.drive, self.axis)
-        if not isinstance(self.drive, Mechanism | Drive):
-            raise InputError(
-                "load: a process force is of a mechanism: give drive=Mechanism(...) or Drive(...); a mass alone is "
-                "Mechanism('2 kg', axis='length')"
-            )
-        known = position_drive(self.drive, self.axis)
+            return known
+        if known is None:
+            raise InputError("load: a process force is of a drive: give one, such as drive={'mass': '2 kg'}")
         return replace(known, process=read_process(self.load, known.mechanism, self.duration))
 
     @kept_property

@@ -27,7 +27,6 @@ from optlaws.cycles.optimisation.objectives import read_energy, read_load_limits
 from optlaws.cycles.specification.drive import CycleDrive
 from optlaws.cycles.specification.effort import PieceEffort
 from optlaws.cycles.specification.load import read_load
-from optlaws.cycles.specification.position_drive import PositionDrive
 from optlaws.cycles.specification.process import is_process
 from optlaws.cycles.specification.programme import TimedSegment, is_optimal
 from optlaws.cycles.specification.segments import Dwell, Free, Move
@@ -101,7 +100,7 @@ class _InPlace(NamedTuple):
     piece: Piece
     start: float
     stop: float
-    drive: CycleDrive | PositionDrive | None
+    drive: CycleDrive | None
 
 
 def limits_taken(cycle: AnyCycle, limited: AnyCycle | None = None) -> tuple[LimitTaken, ...]:
@@ -267,7 +266,7 @@ def _greatest_of_drive(placed: _InPlace, key: LimitKey) -> tuple[float, float | 
     along = PieceEffort(drive, placed.piece, (placed.start, placed.stop))
     if key == POWER:
         return max(along.powers), None
-    if key == FORCE or not isinstance(drive, PositionDrive) or not isinstance(drive.source, Drive):
+    if key == FORCE or not isinstance(drive.source, Drive):
         return along.peak_force
     motor = drive.source.motor
     return along.parts.greatest(lambda times: share_used(np.abs(along.force(times)), motor.peak_at(along.speed(times))))

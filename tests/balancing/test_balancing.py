@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 from optlaws import Balancing, CamForces, Cycle, DiscCam, Dwell, InputError, Loader, Return, Rise, TranslatingRoller
-from tests.internals.cycles import PieceEffort, effort
 
 
 def cycle(law: str, back: str = "90 deg", **drive: str) -> Cycle:
@@ -40,12 +39,7 @@ def test_what_no_loader_balances_is_left() -> None:
     rest = Balancing(cycle("3-4-5", stiffness="1 N/mm", dry="5 N", mass="0 kg"))
     degrees = np.linspace(0.0, 359.0, 200)
     assert balancing.torque(degrees) == pytest.approx(rest.torque(degrees, balanced=False), abs=1e-9)
-    assert balancing.before.peak == pytest.approx(
-        effort(
-            [PieceEffort(balancing.load, piece) for piece in balancing.cycle.pieces], balancing.cycle.duration
-        ).peak_power
-        / balancing.rate
-    )
+    assert balancing.before.peak == pytest.approx(balancing.cycle.effort.peak_power / balancing.rate)
 
 
 def test_a_lighter_loader_leaves_its_share() -> None:

@@ -93,7 +93,7 @@ def test_other_units_of_a_process(unit: float) -> None:
 @pytest.mark.parametrize(
     ("entries", "says"),
     [
-        ({"load": {"force": "3 N"}, "drive": {"inertia": "1 kg m^2"}}, "a process force is of a mechanism"),
+        ({"load": {"force": "3 N"}, "drive": None}, "a process force is of a drive"),
         ({"load": {"force": "3 N"}}, "on='slider'"),
         ({"load": {"force": "3 N", "on": "slidr"}}, "did you mean 'slider'"),
         ({"load": {"force": "3 N", "on": "slider", "ovr": "time"}}, "did you mean 'over'"),
@@ -102,7 +102,7 @@ def test_other_units_of_a_process(unit: float) -> None:
         ({"load": {"force": {"0 s": "0 N", "0.9 s": "3 N"}, "on": "slider"}}, "give a table over the whole cycle"),
         ({"load": {"force": {"0 m": "0 N", "0.9 m": "3 N"}, "on": "slider"}}, "time"),
     ],
-    ids=["constants", "link", "name", "entry", "over", "two", "end", "dimension"],
+    ids=["none", "link", "name", "entry", "over", "two", "end", "dimension"],
 )
 def test_wrong_processes_are_refused(entries: dict[str, Any], says: str) -> None:
     with pytest.raises(InputError, match=says):

@@ -5,4 +5,4 @@ from optlaws.cycles.old_tables.reading import read_points
 from optlaws.cycles.optimisation.motion_limits import FORCE, POWER
 from optlaws.cycles.optimisation.search_spaces import halved
 from optlaws.cycles.specification.drive import read_drive
-from optlaws.cycles.specification.effort import PieceEffort, effort, size_of
+from optlaws.cycles.specification.effort import size_of

@@ -17,7 +17,6 @@ from optlaws.cycles.optimisation.motion_limits import CURVE, FORCE, POWER, in_un
 from optlaws.cycles.optimisation.motor_limits import driven_curve, torque_at_rest
 from optlaws.cycles.specification.drive import CycleDrive
 from optlaws.cycles.specification.joints import LawSpan
-from optlaws.cycles.specification.position_drive import PositionDrive
 from optlaws.errors import InfeasibleProblem
 from optlaws.formulas.tree import Number
 from optlaws.laws import MotionLaw
@@ -40,7 +39,7 @@ class DrivenLimit:
     key: int
     most: float
     span: LawSpan
-    drive: CycleDrive | PositionDrive
+    drive: CycleDrive
     stroke: float
     part: int = 0
 
@@ -48,9 +47,10 @@ class DrivenLimit:
     def scales(self) -> bool:
         """Whether the limit is the original one, so that a law which keeps it keeps it at every lower speed."""
         resting = not any((self.span.first.velocity, self.span.last.velocity))
-        if isinstance(self.drive, PositionDrive):
+        drive = self.drive.linear
+        if drive is None:
             return self.driven(1.0).exact and _torque_scales(self.drive, self.key, resting=resting)
-        drive, plain = self.drive, resting and self.drive.stiffness == 0.0
+        plain = resting and drive.stiffness == 0.0
         if self.key == FORCE:
             return drive.viscous == 0.0 or plain
         static = drive.dry + (drive.constant if self.span.displacement > 0.0 else -drive.constant)
@@ -108,7 +108,7 @@ class DrivenLimit:
 
 
 def driven_limits(
-    key: int, most: float, span: LawSpan, drive: CycleDrive | PositionDrive, stroke: float, axis: str
+    key: int, most: float, span: LawSpan, drive: CycleDrive, stroke: float, axis: str
 ) -> list[DrivenLimit]:
     """A drive limit along a span, as one limit for each constant that it involves.
 
@@ -130,7 +130,7 @@ def driven_limits(
     return [replace(first, part=part) for part in range(len(first.driven(1.0).constants))]
 
 
-def _torque_scales(drive: PositionDrive, key: int, *, resting: bool) -> bool:
+def _torque_scales(drive: CycleDrive, key: int, *, resting: bool) -> bool:
     """Whether a torque that keeps its limit keeps it at every lower speed: where the static one does, which is one."""
     mechanism = drive.mechanism
     if key == POWER or drive.process is not None or not isinstance(mechanism.load_formula, Number):
@@ -140,11 +140,11 @@ def _torque_scales(drive: PositionDrive, key: int, *, resting: bool) -> bool:
     return plain or (resting and isinstance(mechanism.inertia_formula, Number))
 
 
-def static_force(span: LawSpan, drive: CycleDrive | PositionDrive) -> tuple[float, float]:
+def static_force(span: LawSpan, drive: CycleDrive) -> tuple[float, float]:
     """The greatest static force of a motion, and its position: spring, weight and dry friction."""
     direction = -1.0 if span.displacement < 0.0 else 1.0
     ends = [span.offset, *(position for _, position in span.via), span.offset + span.displacement]
-    if isinstance(drive, PositionDrive):
+    if drive.linear is None:
         ends = [span.offset + span.displacement * i / (_PLACES - 1) for i in range(_PLACES)]
     forces = [(abs(drive.at_joint((position, 0.0, 0.0), direction, span.start)), position) for position in ends]
     force, position = max(forces)

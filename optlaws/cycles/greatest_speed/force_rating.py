@@ -20,7 +20,6 @@ from optlaws.cycles.optimisation.optimal import solve
 from optlaws.cycles.specification.drive import CycleDrive
 from optlaws.cycles.specification.effort import PieceEffort
 from optlaws.cycles.specification.joints import LawSpan, Layout
-from optlaws.cycles.specification.position_drive import PositionDrive
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.kept import kept_property
 from optlaws.motion.piece import Piece
@@ -50,7 +49,7 @@ class ForceRating:
     fastest: Callable[[LawSpan], Piece | None]
 
     @kept_property
-    def drive(self) -> CycleDrive | PositionDrive:
+    def drive(self) -> CycleDrive:
         """The drive of the motion."""
         if self.objective.drive is None:
             raise InputError("limits: an rms force or torque is of a drive: give one, such as drive={'mass': '2 kg'}")
@@ -116,10 +115,10 @@ class ForceRating:
     @property
     def scales(self) -> bool:
         """Whether a cycle that keeps the limit keeps it at every lower speed."""
-        drive = self.drive
-        if isinstance(drive, PositionDrive) or (drive.viscous and (drive.stiffness or drive.constant)):
+        drive = self.drive.linear
+        if drive is None or (drive.viscous and (drive.stiffness or drive.constant)):
             return False
-        return all(static_force(span, drive)[1] <= self.most for span in self.placed(self.given).spans)
+        return all(static_force(span, self.drive)[1] <= self.most for span in self.placed(self.given).spans)
 
     @property
     def _of_force(self) -> CycleObjective:

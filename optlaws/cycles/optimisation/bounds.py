@@ -18,11 +18,11 @@ from optlaws.cycles.optimisation.drive_formulas import Driven, driven_mean, driv
 from optlaws.cycles.optimisation.motion_limits import CURVE, FORCE, POWER
 from optlaws.cycles.optimisation.objectives import LOADED, SUMS, CycleObjective, kind_of, limits_of_stretch
 from optlaws.cycles.optimisation.sums import span_sum, total
-from optlaws.cycles.specification.drive import CycleDrive, read_drive
+from optlaws.cycles.specification.drive import read_drive
 from optlaws.cycles.specification.effort import size_of
 from optlaws.cycles.specification.joints import LawSpan, Layout
-from optlaws.cycles.specification.position_drive import PositionDrive
 from optlaws.errors import InfeasibleProblem, SolverFailure
+from optlaws.mechanisms.linkages.linear_force import LinearForce
 from optlaws.motion.piece import Piece, factor
 from optlaws.synthesis.functionals.makers import peak, rms
 from optlaws.synthesis.limits.drive_limits import limit_beside
@@ -66,15 +66,16 @@ def bound_by_energy(span: LawSpan, objective: CycleObjective, stroke: float, sol
     if (
         solution.problem.convex
         or not (least or most)
-        or not isinstance(objective.drive, CycleDrive)
-        or not _is_plain(span, objective.drive)
+        or objective.drive is None
+        or objective.drive.linear is None
+        or not _is_plain(span, objective.drive.linear)
     ):
         return solution.lower_bound
     unit = driven_peak(span, objective.drive, stroke, POWER).unit
     ceiling = min(solution.objective if least else inf, most / unit if most else inf)
     try:
         relaxed = synthesize(
-            _relaxed(solution.problem, _powers(span, objective.drive, stroke, unit), ceiling, least=least)
+            _relaxed(solution.problem, _powers(span, objective.drive.linear, stroke, unit), ceiling, least=least)
         )
     except (InfeasibleProblem, SolverFailure):
         return solution.lower_bound
@@ -95,7 +96,7 @@ def _relaxed(problem: Problem, powers: _Powers, ceiling: float, *, least: bool) 
     return replace(problem, minimise=minimise, bounds=bounds, B=most, D=None)
 
 
-def _powers(span: LawSpan, drive: CycleDrive, stroke: float, unit: float) -> _Powers:
+def _powers(span: LawSpan, drive: LinearForce, stroke: float, unit: float) -> _Powers:
     way = factor(stroke, span.duration, 1)
     direction = 1.0 if span.displacement > 0.0 else -1.0
     constant = drive.constant + drive.stiffness * span.origin + drive.dry * direction
@@ -104,7 +105,7 @@ def _powers(span: LawSpan, drive: CycleDrive, stroke: float, unit: float) -> _Po
     return _Powers(*(part / unit for part in parts))
 
 
-def _is_plain(span: LawSpan, drive: CycleDrive) -> bool:
+def _is_plain(span: LawSpan, drive: LinearForce) -> bool:
     """Whether a span is one move from rest to rest, with an inertia and no spring that pushes away."""
     resting = span.first.velocity == 0.0 == span.last.velocity
     return not may_turn(span) and resting and drive.inertia > 0.0 and drive.stiffness >= 0.0
@@ -162,7 +163,7 @@ def is_exact(span: LawSpan, objective: CycleObjective) -> bool:
     Peaks behind a gear with losses are counted as if power flowed back wherever the motor brakes.
     """
     drive, (nu, mean) = objective.drive, kind_of(objective.minimise)
-    if not isinstance(drive, PositionDrive) or not drive.loses or drive.brakes_as_it_drives:
+    if drive is None or not drive.loses or drive.brakes_as_it_drives:
         return True
     limited = {order for stretch in span.stretches for order in limits_of_stretch(stretch, objective, "angle")}
     return not limited & {CURVE, FORCE, POWER} and (mean or nu not in {FORCE, POWER})

@@ -9,15 +9,15 @@ v, and F = u + d sgn v with u = m v' + c v. The mean of F² is then that of u² 
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from itertools import pairwise
 
 from optlaws.cycles.optimisation.motion_limits import FORCE, POWER
 from optlaws.cycles.specification.drive import CycleDrive
 from optlaws.cycles.specification.joints import LawSpan
-from optlaws.cycles.specification.position_drive import PositionDrive
 from optlaws.cycles.specification.segments import Dwell
 from optlaws.errors import InputError
+from optlaws.mechanisms.linkages.linear_force import LinearForce
 from optlaws.motion.piece import factor
 from optlaws.synthesis.functionals.makers import peak, rms
 from optlaws.synthesis.problem.constants import FUNCTIONALS, Functional
@@ -53,18 +53,13 @@ def may_turn(span: LawSpan) -> bool:
     return any(state.velocity * span.displacement < 0.0 for state in (span.first, span.last))
 
 
-def driven_peak(span: LawSpan, drive: CycleDrive | PositionDrive | None, stroke: float, nu: int) -> Driven:
+def driven_peak(span: LawSpan, drive: CycleDrive | None, stroke: float, nu: int) -> Driven:
     """Peak of the force (nu -1) or the power (nu -3) along a span's law."""
     known = known_drive(drive)
-    if (
-        nu == POWER
-        and isinstance(known, CycleDrive)
-        and known.inertia > 0.0
-        and replace(known, regeneration=0.0) == CycleDrive(known.inertia, 0.0, 0.0, 0.0, 0.0)
-    ):
-        return Driven((FUNCTIONALS["D"],), known.inertia * stroke**2 / span.duration**3)
+    if nu == POWER and known.linear is not None and known.linear.inertia > 0.0 and not any(known.linear[1:]):
+        return Driven((FUNCTIONALS["D"],), known.linear.inertia * stroke**2 / span.duration**3)
     formula, unit = driven_formula(span, drive, stroke, nu)
-    if not isinstance(known, PositionDrive) or not known.loses:
+    if not known.loses:
         return Driven((peak(formula),), unit)
     to_load, back = _branches(span, known, stroke)
     braked = f"({back})*b" if nu == POWER else back
@@ -74,9 +69,7 @@ def driven_peak(span: LawSpan, drive: CycleDrive | PositionDrive | None, stroke:
     return Driven((peak(formula, side="high"), peak(braked, side="low")), unit, beneath=beneath, exact=exact)
 
 
-def driven_formula(
-    span: LawSpan, drive: CycleDrive | PositionDrive | None, stroke: float, nu: int
-) -> tuple[str, float]:
+def driven_formula(span: LawSpan, drive: CycleDrive | None, stroke: float, nu: int) -> tuple[str, float]:
     """Force or power along a span's law as a formula, and its unit."""
     known = known_drive(drive)
     if known.dry > 0.0 and may_turn(span):
@@ -92,51 +85,55 @@ def driven_formula(
     return formula, unit
 
 
-def driven_mean(span: LawSpan, drive: CycleDrive | PositionDrive | None, stroke: float) -> Driven:
+def driven_mean(span: LawSpan, drive: CycleDrive | None, stroke: float) -> Driven:
     """Root mean square of the force along a span's law."""
     known = known_drive(drive)
     unit = _unit(span, known, stroke)
     if known.dry == 0.0 or not may_turn(span):
         formula = _formula(span, known, stroke, unit)
-        below = isinstance(known, PositionDrive) and known.loses and known.brakes_as_it_drives
-        beneath = _branches(span, known, stroke)[1:] if isinstance(known, PositionDrive) and below else ()
+        below = known.loses and known.brakes_as_it_drives
+        beneath = _branches(span, known, stroke)[1:] if below else ()
         return Driven((rms(formula),), unit, formula=formula, beneath=beneath)
-    if isinstance(known, PositionDrive):
+    linear = known.linear
+    if linear is None:
         raise InputError(
             f"drive: {span.where} may turn back, where friction of a mechanism jumps: take moves between rests"
         )
-    if known.stiffness or known.constant or not (known.inertia or known.viscous):
+    if linear.stiffness or linear.constant or not (linear.inertia or linear.viscous):
         raise InputError(
             f"drive: dry: {span.where} may turn back: with dry friction the rms force of such a motion is convex only "
             "without stiffness, preload and gravity: leave these out, or take moves between rests"
         )
-    formula = known.formula(stroke, span.duration, span.origin, 0.0, unit)
-    return Driven((rms(formula),), unit, _friction(span, known), formula)
+    _check_range(span, known)
+    formula = linear.formula(stroke, span.duration, span.origin, 0.0, unit)
+    return Driven((rms(formula),), unit, _friction(span, linear), formula)
 
 
-def force_unit(span: LawSpan, drive: CycleDrive | PositionDrive, stroke: float) -> float:
+def force_unit(span: LawSpan, drive: CycleDrive, stroke: float) -> float:
     """The order of magnitude of the force along a span, as its unit."""
     return drive.size(stroke, span.times, span.origin)
 
 
-def _unit(span: LawSpan, drive: CycleDrive | PositionDrive, stroke: float) -> float:
+def _unit(span: LawSpan, drive: CycleDrive, stroke: float) -> float:
     unit = force_unit(span, drive, stroke)
     if unit == 0.0:
         raise InputError("drive: nothing resists the motion: give it a mass, an inertia, a spring or friction")
     return unit
 
 
-def known_drive(drive: CycleDrive | PositionDrive | None) -> CycleDrive | PositionDrive:
+def known_drive(drive: CycleDrive | None) -> CycleDrive:
     """The drive of the cycle; without one, the error explains how to give it."""
     if drive is None:
         raise InputError("force, torque and power are of a drive: give one, such as drive={'mass': '2 kg'}")
     return drive
 
 
-def _formula(span: LawSpan, drive: CycleDrive | PositionDrive, stroke: float, unit: float) -> str:
+def _formula(span: LawSpan, drive: CycleDrive, stroke: float, unit: float) -> str:
     """The force along a span's law, in a unit."""
-    if isinstance(drive, CycleDrive):
-        return drive.formula(stroke, span.duration, span.origin, 1.0 if span.displacement > 0.0 else -1.0, unit)
+    if drive.linear is not None:
+        _check_range(span, drive)
+        direction = 1.0 if span.displacement > 0.0 else -1.0
+        return drive.linear.formula(stroke, span.duration, span.origin, direction, unit)
     if may_turn(span):
         raise InputError(
             f"drive: {span.where} may turn back, and its torque is that of laws that do not: take moves between rests"
@@ -144,20 +141,29 @@ def _formula(span: LawSpan, drive: CycleDrive | PositionDrive, stroke: float, un
     return drive.formula(stroke, span.times, span.origin, unit)
 
 
-def branches_of(span: LawSpan, drive: PositionDrive, stroke: float) -> tuple[str, str, float]:
+def _check_range(span: LawSpan, drive: CycleDrive) -> None:
+    """Refuse motions that may turn back beyond the range of a mechanism."""
+    if drive.mechanism.has_end and may_turn(span):
+        raise InputError(
+            f"drive: {span.where} may turn back and leave the range of the {drive.mechanism.name}: take moves between "
+            "rests, or leave out its over="
+        )
+
+
+def branches_of(span: LawSpan, drive: CycleDrive, stroke: float) -> tuple[str, str, float]:
     """The torque at the motor, the torque of power that flows back through the gear, and their unit."""
     formula, unit = driven_formula(span, drive, stroke, FORCE)
     return formula, _branches(span, drive, stroke)[-1], unit
 
 
-def _branches(span: LawSpan, drive: PositionDrive, stroke: float) -> tuple[str, ...]:
+def _branches(span: LawSpan, drive: CycleDrive, stroke: float) -> tuple[str, ...]:
     """The torques at the motor of power that flows to the load and back, in the unit of the span's force."""
     moved = drive.moved(stroke, span.times, span.origin)
     share = moved.unit / _unit(span, drive, stroke)
     return tuple(f"{share!r}*({branch})" for branch in moved.branches)
 
 
-def _friction(span: LawSpan, drive: CycleDrive) -> float:
+def _friction(span: LawSpan, drive: LinearForce) -> float:
     """The least addition of dry friction to the mean square of the force of a motion that may turn back."""
     moving = sum(stop - start for segment, start, stop in span.timed if not isinstance(segment.given, Dwell))
     gained = 0.0 if span.turns else abs(span.last.velocity) - abs(span.first.velocity)

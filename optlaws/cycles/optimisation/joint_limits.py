@@ -13,7 +13,6 @@ from optlaws.cycles.optimisation.objectives import CycleObjective, kind_of, limi
 from optlaws.cycles.optimisation.optimal import solve
 from optlaws.cycles.specification.effort import size_of
 from optlaws.cycles.specification.joints import LawSpan, Layout, State
-from optlaws.cycles.specification.position_drive import PositionDrive
 from optlaws.cycles.specification.programme import TimedSegment, is_optimal
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.motion.piece import Piece
@@ -44,7 +43,7 @@ class SegmentEnd:
         drive = objective.drive
         if nu != FORCE or drive is None:
             return 0.0
-        if (isinstance(drive, PositionDrive) or drive.inertia) and objective.order < _ACCELERATION_KNOWN:
+        if (drive.linear is None or drive.linear.inertia) and objective.order < _ACCELERATION_KNOWN:
             return 0.0
         return abs(drive.at_joint((self.position, *self.state), self.direction, self.time))
 

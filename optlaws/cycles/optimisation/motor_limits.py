@@ -12,7 +12,6 @@ from optlaws.cycles.optimisation.drive_formulas import Driven, branches_of, know
 from optlaws.cycles.optimisation.motion_limits import CURVE, FORCE, Limits
 from optlaws.cycles.specification.drive import CycleDrive
 from optlaws.cycles.specification.joints import LawSpan
-from optlaws.cycles.specification.position_drive import PositionDrive
 from optlaws.cycles.specification.programme import Programme
 from optlaws.echo import shortened
 from optlaws.errors import InputError
@@ -36,9 +35,7 @@ class MotorLimits:
     mean_torque: float | None = None
 
 
-def motor_limits(
-    entries: Mapping[str, Any], drive: CycleDrive | PositionDrive | None, programme: Programme
-) -> MotorLimits:
+def motor_limits(entries: Mapping[str, Any], drive: CycleDrive | None, programme: Programme) -> MotorLimits:
     """The limits of the motor, if the cycle is required to keep them.
 
     The continuous torque is that at the mean speed, which no law that never turns back changes.
@@ -52,7 +49,7 @@ def motor_limits(
         return MotorLimits()
     if entries[MOTOR] is not True:
         raise InputError(f"limits, motor must be True or False, got {shortened(entries[MOTOR])}")
-    source = drive.source if isinstance(drive, PositionDrive) else None
+    source = drive.source if drive is not None else None
     if not isinstance(source, Drive):
         raise InputError("limits, motor: there is no motor: give one, as drive=Drive(mechanism, Motor(...), ratio=20)")
     motor, ratio = source.motor, source.ratio
@@ -84,17 +81,17 @@ def curve_lines(motor: Motor) -> list[tuple[float, float]]:
     return [(torque - slope * speed, slope) for (speed, torque), slope in zip(curve, slopes, strict=False)]
 
 
-def torque_at_rest(drive: CycleDrive | PositionDrive) -> float:
+def torque_at_rest(drive: CycleDrive) -> float:
     """The torque that the curve of a drive's motor allows at rest; infinite without a curve."""
-    source = drive.source if isinstance(drive, PositionDrive) else None
+    source = drive.source
     lines = curve_lines(source.motor) if isinstance(source, Drive) else []
     return min((torque for torque, _ in lines), default=inf)
 
 
-def driven_curve(span: LawSpan, drive: CycleDrive | PositionDrive | None, stroke: float) -> Driven:
+def driven_curve(span: LawSpan, drive: CycleDrive | None, stroke: float) -> Driven:
     """The share of the motor's curve that a span's law uses: at most 1 where the motor can."""
     known = known_drive(drive)
-    if not isinstance(known, PositionDrive) or not isinstance(known.source, Drive):
+    if not isinstance(known.source, Drive):
         raise AssertionError  # noqa: TRY004 - limits of a motor are read with it
     speed = known.speed_ratio * abs(factor(stroke, span.duration, 1))
     torque, back, unit = branches_of(span, known, stroke)

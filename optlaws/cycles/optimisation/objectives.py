@@ -9,7 +9,6 @@ from typing import Any
 from optlaws.cycles.optimisation.motion_limits import FORCE, FORCES, MEANS, POWER, LimitKey, Limits, limits_of_segment
 from optlaws.cycles.specification.drive import CycleDrive
 from optlaws.cycles.specification.load import Load, load_output
-from optlaws.cycles.specification.position_drive import PositionDrive
 from optlaws.cycles.specification.programme import TimedSegment
 from optlaws.errors import InputError
 from optlaws.motion.quantities import positive_quantity
@@ -49,7 +48,7 @@ class CycleObjective:
     limits: Mapping[LimitKey, float]
     order: int
     degree: int
-    drive: CycleDrive | PositionDrive | None
+    drive: CycleDrive | None
     load: Load | None = None
     loaded: Mapping[tuple[str, bool], float] = field(default_factory=dict)
     mean_force: float | None = None

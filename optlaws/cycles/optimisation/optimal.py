@@ -39,7 +39,6 @@ from optlaws.cycles.optimisation.search_spaces import (
 from optlaws.cycles.optimisation.sums import span_sum
 from optlaws.cycles.specification.joints import LawSpan, State
 from optlaws.cycles.specification.load import load_output
-from optlaws.cycles.specification.position_drive import PositionDrive
 from optlaws.cycles.specification.programme import is_optimal
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.motion.piece import Piece, factor
@@ -192,7 +191,7 @@ def never_back(span: LawSpan, objective: CycleObjective) -> bool:
     if drive is None or may_turn(span):
         return False
     summed = kind_of(objective.minimise)[0] in SUMS or objective.energy is not None
-    return isinstance(drive, PositionDrive) or drive.dry > 0.0 or summed
+    return drive.linear is None or drive.mechanism.has_end or drive.dry > 0.0 or summed
 
 
 def scale(span: LawSpan) -> float:

@@ -29,7 +29,6 @@ from optlaws.cycles.optimisation.sums import SpanSum, span_sum, total
 from optlaws.cycles.specification.drive import CycleDrive
 from optlaws.cycles.specification.effort import size_of
 from optlaws.cycles.specification.joints import LawSpan, Layout
-from optlaws.cycles.specification.position_drive import PositionDrive
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.kept import kept_property
 from optlaws.motion.piece import Piece
@@ -83,7 +82,7 @@ class _SharedLimit:
 
     layout: Layout
     objective: CycleObjective
-    drive: CycleDrive | PositionDrive
+    drive: CycleDrive
     axis: str
     period: float
 

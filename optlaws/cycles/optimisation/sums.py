@@ -19,7 +19,6 @@ from optlaws.cycles.optimisation.objectives import ENERGY, HEAT
 from optlaws.cycles.specification.drive import CycleDrive
 from optlaws.cycles.specification.effort import PieceEffort
 from optlaws.cycles.specification.joints import LawSpan
-from optlaws.cycles.specification.position_drive import PositionDrive
 from optlaws.errors import InputError
 from optlaws.mechanisms.drives.drive_train import DimensionlessDrive, Drive
 from optlaws.motion.piece import Piece, factor
@@ -62,26 +61,30 @@ class SpanSum:
         return max((limit.value for limit in limits if limit is not None), default=-inf)
 
 
-def span_sum(span: LawSpan, nu: int, drive: CycleDrive | PositionDrive | None, stroke: float) -> SpanSum:
+def span_sum(span: LawSpan, nu: int, drive: CycleDrive | None, stroke: float) -> SpanSum:
     """The integrand over a span: the square of a derivative or of the force (nu -1), energy (-4) or heat (-5)."""
     if nu > 0:
         return SpanSum(f"{'abcj'[nu]}^2", factor(stroke, span.duration, nu) ** 2 * span.duration)
     if nu == FORCE:
         driven = driven_mean(span, drive, stroke)
         # in the direction of the stroke, as phase planes have it
-        force = f"-({driven.formula})" if isinstance(drive, CycleDrive) and stroke < 0.0 else driven.formula
+        force = (
+            f"-({driven.formula})"
+            if drive is not None and drive.linear is not None and stroke < 0.0
+            else driven.formula
+        )
         return SpanSum(f"({force})^2", driven.unit**2 * span.duration, driven.friction * span.duration)
     known = known_drive(drive)
-    if isinstance(known, CycleDrive):
+    if known.linear is not None:
         if nu == HEAT:
             raise InputError(NO_HEAT)
-        return _of_constants(span, known, stroke)
+        return _of_linear(span, known, stroke)
     # a span that may turn back is refused as it is for forces
     driven_formula(span, known, stroke, FORCE)
     return _heat(span, known, stroke) if nu == HEAT else _energy(span, known, stroke)
 
 
-def sum_of_piece(piece: Piece, nu: int, drive: CycleDrive | PositionDrive | None) -> float:
+def sum_of_piece(piece: Piece, nu: int, drive: CycleDrive | None) -> float:
     """A piece's contribution to a sum, in SI units."""
     if nu > 0:
         return piece.duration * piece.mean_square(nu)
@@ -91,24 +94,25 @@ def sum_of_piece(piece: Piece, nu: int, drive: CycleDrive | PositionDrive | None
     return along.energy if nu == ENERGY else along.heat
 
 
-def total(pieces: Sequence[Piece], nu: int, drive: CycleDrive | PositionDrive | None) -> float:
+def total(pieces: Sequence[Piece], nu: int, drive: CycleDrive | None) -> float:
     """A sum over pieces, in SI units."""
     return sum(sum_of_piece(piece, nu, drive) for piece in pieces)
 
 
-def _of_constants(span: LawSpan, drive: CycleDrive, stroke: float) -> SpanSum:
-    """The energy of a drive of constants."""
+def _of_linear(span: LawSpan, drive: CycleDrive, stroke: float) -> SpanSum:
+    """The energy of a linear drive."""
     force, unit = driven_formula(span, drive, stroke, FORCE)
     power = f"({force})*b" if stroke > 0.0 else f"(-({force}))*b"
     return SpanSum(_without_recovered(power, drive.regeneration), unit * abs(stroke))
 
 
-def _energy(span: LawSpan, drive: PositionDrive, stroke: float) -> SpanSum:
+def _energy(span: LawSpan, drive: CycleDrive, stroke: float) -> SpanSum:
     """The energy of a mechanism, or of a motor that drives it."""
     moved = drive.moved(stroke, span.times, span.origin)
     branches = moved.branches if drive.loses else ()
     beneath = tuple(_without_recovered(f"({branch})*b", drive.regeneration) for branch in branches)
-    return SpanSum(moved.energy, moved.energy_unit, beneath=beneath)
+    energy = moved.energy if branches else _without_recovered(moved.power, drive.regeneration)
+    return SpanSum(energy, moved.energy_unit, beneath=beneath)
 
 
 def _without_recovered(power: str, regeneration: float) -> str:
@@ -118,7 +122,7 @@ def _without_recovered(power: str, regeneration: float) -> str:
     return f"max({power}, {f'{regeneration!r}*{power}' if regeneration else '0'})"
 
 
-def _heat(span: LawSpan, drive: PositionDrive, stroke: float) -> SpanSum:
+def _heat(span: LawSpan, drive: CycleDrive, stroke: float) -> SpanSum:
     """The copper heat of a motor and the braking energy that is not fed back."""
     moved, source = drive.moved(stroke, span.times, span.origin), drive.source
     if not isinstance(source, Drive) or not isinstance(moved, DimensionlessDrive) or not drive.copper:
@@ -134,7 +138,7 @@ def _heat(span: LawSpan, drive: PositionDrive, stroke: float) -> SpanSum:
     return SpanSum(formula, moved.energy_unit, -burnt * _work(span, drive, source, stroke), least=0.0)
 
 
-def _work(span: LawSpan, drive: PositionDrive, source: Drive, stroke: float) -> float:
+def _work(span: LawSpan, drive: CycleDrive, source: Drive, stroke: float) -> float:
     """The work of a motor along a span's stroke without viscous friction, J: whatever the law."""
     mechanism, ends = drive.mechanism, (span.origin, span.origin + stroke)
     load = SmoothParts.between(*sorted(ends)).integral(mechanism.load) * (1.0 if stroke > 0.0 else -1.0)

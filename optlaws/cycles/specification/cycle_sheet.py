@@ -10,8 +10,8 @@ from typing import ClassVar
 
 import numpy as np
 
+from optlaws.cycles.specification.drive import CycleDrive
 from optlaws.cycles.specification.effort import Effort, PieceEffort
-from optlaws.cycles.specification.position_drive import PositionDrive
 from optlaws.errors import InputError
 from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.mechanisms.drives.motor import Motor
@@ -44,7 +44,7 @@ class CycleSheet(DriveSheet):
     _at: ClassVar[str] = "s"
 
 
-def cycle_sheet(drive: PositionDrive, along: Sequence[PieceEffort], effort: Effort, period: float) -> CycleSheet:
+def cycle_sheet(drive: CycleDrive, along: Sequence[PieceEffort], effort: Effort, period: float) -> CycleSheet:
     """The sheet of a motor, from its values along each piece of a cycle and its effort over all pieces.
 
     Raises
@@ -95,7 +95,7 @@ def _use(motor: Motor, along: PieceEffort, times: Array) -> Array:
     return share_used(np.abs(along.force(times)), motor.peak_at(along.speed(times)))
 
 
-def _greatest_inertia(drive: PositionDrive, pieces: Sequence[Piece]) -> float:
+def _greatest_inertia(drive: CycleDrive, pieces: Sequence[Piece]) -> float:
     """The greatest inertia of the mechanism at the positions of a cycle."""
     positions = [piece.values(np.linspace(piece.start, piece.stop, _LOOKS), 0) for piece in pieces]
     return float(np.max(drive.mechanism.inertia(np.concatenate(positions))))

@@ -9,7 +9,6 @@ from math import sqrt
 import numpy as np
 
 from optlaws.cycles.specification.drive import CycleDrive
-from optlaws.cycles.specification.position_drive import PositionDrive
 from optlaws.kept import kept_property
 from optlaws.laws.storage import PlainNumbers
 from optlaws.motion.piece import Piece, factor
@@ -89,11 +88,11 @@ class SegmentEffort:
 class PieceEffort:
     """The drive's force, power and energy along a piece, or between two times in it, in SI units."""
 
-    drive: CycleDrive | PositionDrive
+    drive: CycleDrive
     piece: Piece
     ends: tuple[float, float] | None = None
 
-    def of_drive(self, drive: PositionDrive) -> PieceEffort:
+    def of_drive(self, drive: CycleDrive) -> PieceEffort:
         """The same effort by a drive whose torque is the same, with what is known of it."""
         other = replace(self, drive=drive)
         vars(other).update({**vars(self), "drive": drive})
@@ -115,10 +114,11 @@ class PieceEffort:
     def parts(self) -> SmoothParts:
         """Parts of the piece on which force and power are smooth and of one sign."""
         piece = self.piece
-        breaks = [*(piece.start + piece.duration * place for place in piece.law.breaks), *self.drive.breaks]
+        places = (piece.start + piece.duration * place for place in piece.law.breaks)
+        breaks = [*places, *piece.turns, *self.drive.breaks]
         signs: list[Callable[[Array], Array]] = []
         if piece.stroke:
-            signs = [lambda times: piece.values(times, 1), *self.drive.kinks(piece), self.force]
+            signs = [*self.drive.kinks(piece), self.force]
         start, stop = self.ends or (piece.start, piece.stop)
         inside = [time for time in breaks if start < time < stop]
         return SmoothParts.between(start, stop, breaks=inside, signs=signs)
@@ -168,7 +168,8 @@ def effort(along: Sequence[PieceEffort], period: float) -> Effort:
     """The force and power of a drive over a cycle, from its values along each piece.
 
     >>> from optlaws import smoothstep
-    >>> drive = CycleDrive(inertia=2.0, viscous=0.0, stiffness=0.0, constant=0.0, dry=0.0)
+    >>> from optlaws import Mechanism
+    >>> drive = CycleDrive(Mechanism("2 kg", axis="length"))
     >>> rise = Piece(0.0, 1.0, 0.0, 1.0, smoothstep(2))
     >>> known = effort([PieceEffort(drive, rise)], 1.0)
     >>> round(known.peak_force, 9), round(known.motoring_energy, 9)
@@ -186,7 +187,7 @@ def effort(along: Sequence[PieceEffort], period: float) -> Effort:
     )
 
 
-def size_of(piece: Piece, nu: int, drive: CycleDrive | PositionDrive | None, *, mean: bool = False) -> float:
+def size_of(piece: Piece, nu: int, drive: CycleDrive | None, *, mean: bool = False) -> float:
     """The peak or RMS of a derivative, or of the force (-1) or power (-3) of a drive, in a piece, in SI units."""
     if nu > 0 or drive is None:
         if not piece.stroke:

@@ -132,7 +132,9 @@ def _joint(programme: Programme, pieces: dict[int, Piece], i: int) -> State | No
 
 def _known(programme: Programme, pieces: dict[int, Piece], i: int, side: int) -> State | None:
     if i in pieces:
-        return State(pieces[i].end(1, side), pieces[i].end(2, side))
+        velocity, acceleration = (pieces[i].end(nu, side) for nu in (1, 2))
+        # rounding would turn what follows back
+        return State(velocity if pieces[i].leaves(side) else 0.0, acceleration)
     stretch = programme.stretches[i].given
     given = (stretch.start_velocity, stretch.end_velocity)[side] if isinstance(stretch, Move) else None
     if given is None:

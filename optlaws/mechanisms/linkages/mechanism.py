@@ -20,6 +20,7 @@ from optlaws.formulas.tree import Formula, Name, Table
 from optlaws.kept import kept_property
 from optlaws.mechanisms.linkages.dimensionless import DimensionlessMechanism, InputFriction, dimensionless
 from optlaws.mechanisms.linkages.entries import formula_of
+from optlaws.mechanisms.linkages.linear_force import LinearForce, line_of
 from optlaws.motion.quantities import either, in_small_units, si_number
 from optlaws.numbers import Array, NumberOrQuantity, derivative, finite, not_negative, positive, real_times
 from optlaws.suggest import unknown_key
@@ -205,6 +206,14 @@ class Mechanism(JsonText):
 
     def _values(self, formula: Formula, x: Any) -> Array:  # noqa: ANN401 - a number or an array
         return np.broadcast_to(np.asarray(evaluate(formula, {"x": x}, NUMPY), dtype=np.float64), np.shape(x))
+
+    @kept_property
+    def linear(self) -> LinearForce | None:
+        """Its force where inertia is constant and the load a straight line over x; None where they are not."""
+        inertia, load = line_of(self.inertia_formula), line_of(self.load_formula)
+        if inertia is None or load is None or inertia[0] != 0.0:
+            return None
+        return LinearForce(inertia[1], self.viscous, *load, self.coulomb)
 
     @property
     def has_end(self) -> bool:

@@ -1,0 +1,122 @@
+"""A drive of constants and a mechanism that says the same: objectives, bounds and refusals are equal."""
+
+from typing import Any
+
+import pytest
+
+from optlaws import ConstantVelocity, Cycle, Dwell, Free, InfeasibleProblem, InputError, Mechanism, Return, Rise
+
+LIMITS = {"acceleration": "60 m/s^2"}
+CAM = [Rise("35 mm", "120 deg"), Dwell("90 deg"), Return("35 mm", "100 deg"), Dwell()]
+SHEAR = [ConstantVelocity("1.5 m/s", "80 ms"), Return()]
+SWINGS = [Dwell("0.1 s"), Free("30 mm", "0.2 s"), Free("-30 mm")]
+TIMES: dict[str, dict[str, Any]] = {"cam": {"speed": "200 rpm"}, "shear": {"period": "400 ms", "degree": 15}}
+TIMES["swings"] = {"period": "0.5 s"}
+MOTIONS = {"cam": CAM, "shear": SHEAR, "swings": SWINGS}
+
+ENTRIES: dict[str, dict[str, str]] = {
+    "mass": {"mass": "2 kg"},
+    "weight": {"mass": "2 kg", "gravity": "19.6 N"},
+    "rubbed weight": {"mass": "2 kg", "gravity": "19.6 N", "dry": "5 N"},
+    "lifted": {"mass": "2 kg", "gravity": "-19.6 N", "viscous": "3 N s/m"},
+    "spring": {"mass": "0.5 kg", "stiffness": "2 N/mm", "preload": "20 N", "viscous": "8 N s/m"},
+    "damper": {"viscous": "30 N s/m", "dry": "2 N"},
+}
+#: the same mechanisms, in other words
+WRITTEN: dict[str, tuple[str, Any, dict[str, Any]]] = {
+    "mass": ("2 kg", 0.0, {}),
+    "weight": ("1 + 1", "2*9.8", {}),
+    "rubbed weight": ("2 kg", "19.6 N", {"coulomb": "5 N"}),
+    "lifted": ("2", "x - 19.6 - x*4/4", {"viscous": "3 N s/m"}),
+    "spring": ("0.5 kg", "2000*(x + 0.01)", {"viscous": "8 N s/m"}),
+    "damper": ("0 kg", "0 N", {"coulomb": "2 N", "viscous": "30 N s/m"}),
+}
+
+
+def outcome(motion: str, drive: Any, **entries: Any) -> tuple[Any, ...]:  # noqa: ANN401 - either way of saying it
+    """Status, objective, bound and efforts; of a refusal what it says."""
+    try:
+        cycle = Cycle(MOTIONS[motion], **{**TIMES[motion], **entries}, drive=drive)
+    except (InputError, InfeasibleProblem) as error:
+        return type(error).__name__, str(error)
+    effort = cycle.effort
+    return cycle.status, cycle.objective, cycle.lower_bound, effort.peak_force, effort.rms_force, effort.energy
+
+
+def agree(first: tuple[Any, ...], second: tuple[Any, ...]) -> None:
+    assert len(first) == len(second)
+    assert first[0] == second[0], (first, second)
+    for one, other in zip(first[1:], second[1:], strict=True):
+        assert one == (other if isinstance(other, str) or other is None else pytest.approx(other, rel=1e-9))
+
+
+def mechanism(name: str) -> Mechanism:
+    inertia, load, friction = WRITTEN[name]
+    return Mechanism(inertia, load, axis="length", **friction)
+
+
+@pytest.mark.sample(5)
+@pytest.mark.parametrize("motion", MOTIONS)
+@pytest.mark.parametrize("name", ENTRIES)
+@pytest.mark.parametrize("what", ["force", "rms force", "power", "energy", "acceleration"])
+def test_one_drive_in_two_words_has_one_answer(motion: str, name: str, what: str) -> None:
+    if (motion, what) in {("swings", "power"), ("swings", "energy"), ("shear", "energy")}:
+        pytest.skip("a product of many pieces takes minutes, either way it is said")
+    limits = LIMITS if what == "energy" else {}
+    both = [outcome(motion, drive, minimise=what, limits=limits) for drive in (ENTRIES[name], mechanism(name))]
+    agree(*both)
+
+
+@pytest.mark.sample(3)
+@pytest.mark.parametrize("motion", MOTIONS)
+@pytest.mark.parametrize("name", ["mass", "spring", "damper"])
+@pytest.mark.parametrize(
+    ("minimise", "limits"),
+    [
+        ("acceleration", {"force": "90 N"}),
+        ("rms force", {"velocity": "3 m/s"}),
+        ("force", {"rms force": "45 N"}),
+        ("rms acceleration", {"force": "1 N"}),
+    ],
+)
+def test_limits_of_one_drive_in_two_words_are_one(
+    motion: str, name: str, minimise: str, limits: dict[str, str]
+) -> None:
+    both = [outcome(motion, drive, minimise=minimise, limits=limits) for drive in (ENTRIES[name], mechanism(name))]
+    agree(*both)
+
+
+@pytest.mark.parametrize("name", ["rubbed weight", "spring"])
+def test_the_fastest_cycle_is_one(name: str) -> None:
+    def fastest(drive: Any) -> Any:  # noqa: ANN401 - either way of saying it
+        return Cycle(CAM, speed="60 rpm", drive=drive, limits={"force": "120 N", "rms force": "60 N"}).fastest()
+
+    first, second = fastest(ENTRIES[name]), fastest(mechanism(name))
+    assert first.status == second.status
+    assert first.cycle.duration == pytest.approx(second.cycle.duration, rel=1e-9)
+
+
+def test_a_process_acts_on_constants_too() -> None:
+    pushed = {"force": {"0 deg": "0 N", "180 deg": "-30 N", "360 deg": "0 N"}, "over": "master"}
+    first, second = (
+        Cycle(CAM, speed="200 rpm", minimise="rms force", drive=drive, load=pushed)
+        for drive in (ENTRIES["spring"], mechanism("spring"))
+    )
+    assert first.objective == pytest.approx(second.objective, rel=1e-12)
+
+
+def test_a_range_of_the_mechanism_is_kept() -> None:
+    ranged = Mechanism("2 kg", "19.6 N", over=("0 mm", "35 mm"))
+    cycle = Cycle(CAM, speed="200 rpm", minimise="power", drive=ranged)
+    assert cycle.lower_bound == pytest.approx(
+        Cycle(CAM, speed="200 rpm", minimise="power", drive=ENTRIES["weight"]).lower_bound, rel=1e-9
+    )
+    with pytest.raises(InputError, match=r"may turn back and leave the range of the mechanism: .* leave out its over="):
+        Cycle(SWINGS, period="0.5 s", minimise="force", drive=ranged)
+
+
+def test_tables_on_a_line_are_lines() -> None:
+    table = Mechanism({"0 mm": "2 kg", "10 mm": "2 kg", "20 mm": "2 kg", "40 mm": "2 kg"},
+        {"0 mm": "10 N", "20 mm": "30 N", "40 mm": "50 N"}, axis="length")  # fmt: skip
+    known = {"mass": "2 kg", "stiffness": "1 N/mm", "preload": "10 N"}
+    agree(outcome("cam", table, minimise="power"), outcome("cam", known, minimise="power"))
