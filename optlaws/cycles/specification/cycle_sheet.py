@@ -21,8 +21,6 @@ from optlaws.motion.smooth_parts import Greatest
 from optlaws.numbers import Array
 from optlaws.tolerances import VALUE_ROUNDING
 
-_LOOKS = 721
-
 
 @dataclass(frozen=True)
 class CycleSheet(DriveSheet):
@@ -97,5 +95,6 @@ def _use(motor: Motor, along: PieceEffort, times: Array) -> Array:
 
 def _greatest_inertia(drive: CycleDrive, pieces: Sequence[Piece]) -> float:
     """The greatest inertia of the mechanism at the positions of a cycle."""
-    positions = [piece.values(np.linspace(piece.start, piece.stop, _LOOKS), 0) for piece in pieces]
-    return float(np.max(drive.mechanism.inertia(np.concatenate(positions))))
+    reached = [value for piece in pieces for value, _ in piece.extremes(0, piece.start, piece.stop)]
+    low, high = np.clip([min(reached), max(reached)], *drive.mechanism.over).tolist()
+    return drive.mechanism.greatest_inertia(low, high)

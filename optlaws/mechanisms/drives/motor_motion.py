@@ -61,12 +61,17 @@ class MotorMotion:
         """The motor's angular acceleration, rad/s²."""
         return self.ratio * abs(self.stroke) / self.duration**2 * self.law(k, 2)
 
+    @property
+    def reach(self) -> tuple[float, float]:
+        """The least and the greatest position of the mechanism's input."""
+        ends = (self.start + self.stroke * extreme.value for extreme in self.law.extrema(0))
+        low, high = sorted(np.clip(list(ends), *self.mechanism.over).tolist())
+        return low, high
+
     def load(self, k: Array) -> Array:
         """The torque at the mechanism's input, N m."""
         speed, side = self.speed(k), np.sign(self.stroke)
-        position = self.start + self.stroke * self.law(k)
-        if self.mechanism.has_end:
-            position = np.clip(position, *self.mechanism.over)
+        position = np.clip(self.start + self.stroke * self.law(k), *self.mechanism.over)
         v, w = side * speed / self.ratio, side * self.acceleration(k) / self.ratio
         return np.asarray(side * self.mechanism.torque(position, v, w, side * self.direction(k)))
 
@@ -95,8 +100,7 @@ class MotorMotion:
     @property
     def holding_torque(self) -> float:
         """The torque that holds the load after the move, N m, above 0 in the direction of the stroke."""
-        end = self.start + self.stroke
-        at_end = min(max(end, self.mechanism.over[0]), self.mechanism.over[1]) if self.mechanism.has_end else end
+        at_end = float(np.clip(self.start + self.stroke, *self.mechanism.over))
         return float(np.sign(self.stroke) * self.mechanism.load(at_end)) / self.ratio
 
     @kept_property

@@ -191,7 +191,7 @@ def drive_sheet(motion: MotorMotion, motor: Motor, period: float, regeneration: 
     mean_speed = motion.duration / period * motion.parts.integral(lambda k: np.abs(motion.speed(k)))
     use = motion.parts.greatest(lambda k: share_used(np.abs(motion.torque(k)), motor.peak_at(motion.speed(k))))
     rated = float(motor.continuous_at(mean_speed))
-    load = float(np.max(motion.mechanism.inertia(motion.start + motion.stroke * np.linspace(0.0, 1.0, 721))))
+    load = motion.mechanism.greatest_inertia(*motion.reach)
     inertia = motion.train.inertia
     return DriveSheet(
         *(peak.value, peak.place, rms, motion.holding_torque, speed.value, mean_speed),

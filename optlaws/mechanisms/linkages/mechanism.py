@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
+from math import factorial
 from typing import TYPE_CHECKING, Any, Literal, Self
 
 import numpy as np
@@ -13,18 +14,22 @@ from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.files.reading import JsonText, entries_of
 from optlaws.formulas.arithmetic import NUMPY, Together, evaluate
+from optlaws.formulas.intervals import Endpoints, enclosed
 from optlaws.formulas.reading import read
 from optlaws.formulas.slopes import added
 from optlaws.formulas.slopes import derivative as slope
-from optlaws.formulas.tree import Formula, Name, Table
+from optlaws.formulas.tree import Formula, Name, Table, table_places
 from optlaws.kept import kept_property
 from optlaws.mechanisms.linkages.dimensionless import DimensionlessMechanism, InputFriction, dimensionless
 from optlaws.mechanisms.linkages.entries import formula_of
 from optlaws.mechanisms.linkages.linear_force import LinearForce, line_of
 from optlaws.motion.quantities import either, in_small_units, si_number
 from optlaws.numbers import Array, NumberOrQuantity, derivative, finite, not_negative, positive, real_times
+from optlaws.numerics.branch_and_bound import extremes
+from optlaws.numerics.interval import Interval
+from optlaws.numerics.taylor import Jet
 from optlaws.suggest import unknown_key
-from optlaws.tolerances import CLOSURE, VALUE_ROUNDING
+from optlaws.tolerances import CLOSURE, OPERATIONS_ROUNDING, VALUE_ROUNDING
 
 if TYPE_CHECKING:
     from optlaws.mechanisms.linkages.move_limit import MoveLimit
@@ -50,6 +55,7 @@ DIMENSIONS: dict[InputAxis, dict[str, str]] = {
 }
 FORMAT = 1
 _LOOKS = 1441
+_PARTS = 64
 _ENTRIES = ("format", "name", "axis", "over", "inertia", "load", "coulomb", "viscous", "linkage")
 
 
@@ -248,6 +254,18 @@ class Mechanism(JsonText):
             The order of the derivative.
         """
         return self._given(self.inertia_formula, x, nu)
+
+    def greatest_inertia(self, low: float, high: float) -> float:
+        """The greatest inertia between two positions in rad or m, enclosed over the whole range between them.
+
+        Examples
+        --------
+        >>> round(Mechanism("0.02 + 0.01*sin(x)^2").greatest_inertia(0.0, 3.0), 12)
+        0.03
+        """
+        if low == high or line_of(self.inertia_formula) is not None:
+            return float(np.max(self.inertia(np.array([low, high]))))
+        return _greatest(self.inertia_formula, low, high)
 
     def load(self, x: Any, nu: int = 0) -> Any:  # noqa: ANN401 - as for the inertia
         """The load at the input, N m or N, above 0 where it resists motion to greater x, or a derivative of it by x."""
@@ -524,6 +542,26 @@ def duration_of(minimise: str, duration: NumberOrQuantity | None) -> NumberOrQua
             "duration is missing, such as '0.25 s'" if duration is None else "leave out the duration: it is minimised"
         )
     return 1.0 if duration is None else duration
+
+
+@lru_cache(maxsize=64)
+def _greatest(formula: Formula, low: float, high: float) -> float:
+    """The greatest value of a smooth formula of x between two places."""
+
+    def value(x: Interval, order: int) -> Jet:
+        at = {"x": Endpoints(x.low, x.high)}
+        terms = [enclosed(_derived(formula, nu), at) for nu in range(order + 1)]
+        return Jet([_as_interval(term, x.middle.shape, factorial(nu)) for nu, term in enumerate(terms)])
+
+    inner = [place for place in table_places(formula, "x") if low < place < high]
+    return extremes(value, [low, *inner, high], parts=_PARTS).most
+
+
+def _as_interval(ends: Endpoints, shape: tuple[int, ...], divisor: float) -> Interval:
+    """What is between ends, divided by a number, as middles and radii."""
+    low, high = (np.broadcast_to(end, shape) / divisor for end in (ends.low, ends.high))
+    middle, radius = 0.5 * (low + high), 0.5 * (high - low)
+    return Interval(middle, radius + OPERATIONS_ROUNDING * (np.abs(middle) + radius))
 
 
 @lru_cache(maxsize=256)

@@ -12,12 +12,15 @@ from scipy.integrate import quad
 from scipy.optimize import minimize_scalar
 
 from optlaws import (
+    Cycle,
     Drive,
     InfeasibleProblem,
     InputError,
     Loads,
     Mechanism,
     Motor,
+    Return,
+    Rise,
     integral,
     rack,
     read_law,
@@ -25,6 +28,7 @@ from optlaws import (
     rms,
     slider_crank,
     smoothstep,
+    with_end_velocity,
 )
 from optlaws.typing import DriveSheet
 
@@ -202,3 +206,22 @@ REFUSED: list[tuple[Callable[[], Any], str]] = [
 def test_what_cannot_be_is_refused(wrong: Callable[[], Any], message: str) -> None:
     with pytest.raises(InputError, match=message):
         wrong()
+
+
+@pytest.mark.parametrize("width", [1e-2, 1e-4, 1e-6])
+def test_the_greatest_inertia_is_that_of_the_whole_way(width: float) -> None:
+    bump = Mechanism(f"1 + 4*exp(-((x - 0.3)/{width!r})^2)", over=(-1.0, 2.0))
+    drive = Drive(bump, Motor("1 kg m^2"), ratio=2.0)
+    assert drive.sheet("cycloidal", 0.0, 1.0, 1.0).inertia_match == pytest.approx(5.0 / 4.0, rel=1e-9)
+    assert drive.sheet("cycloidal", 0.3, 1.0, 1.0).inertia_match == pytest.approx(5.0 / 4.0, rel=1e-9)
+    assert drive.sheet("cycloidal", 0.4, 1.0, 1.0).inertia_match == pytest.approx(bump.inertia(0.4) / 4.0, rel=1e-9)
+    cycle = Cycle([Rise("1 rad", "1 s", law="cycloidal"), Return(law="cycloidal")], period="2 s", drive=drive)
+    assert cycle.sheet.inertia_match == pytest.approx(5.0 / 4.0, rel=1e-9)
+
+
+def test_a_law_that_overshoots_meets_the_inertia_beyond_its_stroke() -> None:
+    law = with_end_velocity(smoothstep(3), -1.0)
+    (low, high) = (extreme.value for extreme in law.extrema(0))
+    assert high > 1.01
+    drive = Drive(Mechanism("1 + x^2"), Motor("1 kg m^2"))
+    assert drive.sheet(law, 0.0, 1.0, 1.0).inertia_match == pytest.approx(1.0 + max(high, -low) ** 2, rel=1e-9)
