@@ -176,8 +176,8 @@ def compare_laws(
         raise InputError("stroke and duration go together: the peaks in the machine need both")
     kind, height = ("length", None) if stroke is None else either(stroke, ("length", "angle"), "stroke")
     seconds = None if duration is None else positive(quantity(duration, "time", "duration"), "duration")
-    if height is not None:
-        positive(height, "stroke")
+    if height is not None and not height > 0.0:
+        raise InputError(f"stroke must be above 0, got {shortened(stroke)}: give how far the machine moves as '35 mm'")
     if frequency is not None:
         residual_vibration(frequency=frequency, damping=damping)
     named: dict[str, MotionLaw] = {}

@@ -213,7 +213,7 @@ def motion_of_law(
     """
     moved = given_quantity(stroke, SLAVES, "stroke")
     if moved.number == 0.0:
-        raise InputError("stroke must not be 0: nothing would move")
+        raise InputError("stroke must not be 0: give how far the slave moves, such as '35 mm'")
     if duration is None and master is None:
         raise InputError(
             "say how long the motion takes, duration='0.1 s', or how far its master goes, master='120 deg'"

@@ -75,6 +75,7 @@ def test_all_laws_are_drawn_into_the_axes_given() -> None:
         (("cubic", "cubic"), {}, "given twice"),
         (("cubic",), {"stroke": "35 mm"}, "go together"),
         (("cubic",), {"stroke": "35 kg", "duration": "1 s"}, "mass"),
+        (("cubic",), {"stroke": "0 mm", "duration": "1 s"}, "got .0 mm.: give how far the machine moves"),
         (("cubic",), {"stroke": "35 mm", "duration": "0 s"}, "duration"),
         (("cubic", 3), {}, "motion law"),
         (("cubic",), {"frequency": -1}, "frequency"),

@@ -59,6 +59,7 @@ LEVEL = [Rise("35 mm", "180 deg"), Return("30 mm", "180 deg")]
             "with several free ones only moves",
         ),
         ([Rise("-35 mm", "90 deg"), Return()], {}, "`by` is given as a positive displacement"),
+        ([Rise("0 mm", "90 deg"), Dwell()], {}, r"segment 1 \(Rise\): `by` must not be 0, got '0 mm': .* is a Dwell"),
         ([Move(duration="90 deg"), Return()], {}, "either a displacement `by` or a position `to`"),
         ([Rise("35 mm", "90 deg", law="modified sin x"), Return()], {}, r"segment 1 \(Rise\): law: .*modified sin x"),
         (

@@ -170,7 +170,8 @@ def _move(
     """The move whose time is sought in SI units, and the unit of its stroke."""
     dimension, far = either(stroke, tuple(AXES.values()), "stroke")
     if not far > 0.0:
-        raise InputError(f"stroke must be above 0, got {shortened(stroke)}: turn the axis and its limits round")
+        remedy = "turn the axis and its limits round" if far else "give how far it moves, such as '100 mm'"
+        raise InputError(f"stroke must be above 0, got {shortened(stroke)}: {remedy}")
     angular = "angular " if dimension == "angle" else ""
     read = _read_limits(limits, angular)
     if not isinstance(problem, Problem):

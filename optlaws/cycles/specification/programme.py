@@ -165,7 +165,9 @@ def _displacement(segment: CycleSegment, axis: str, where: str, *, here: float, 
     if segment.to is not None:
         return quantity(segment.to, axis, f"{where}: to") - here
     moved = quantity(segment.by, axis, f"{where}: by")
-    if isinstance(segment, Rise | Return) and moved <= 0.0:
+    if moved == 0.0 and isinstance(segment, Rise | Return):
+        raise InputError(f"{where}: `by` must not be 0, got {shortened(segment.by)}: what does not move is a Dwell")
+    if moved < 0.0 and isinstance(segment, Rise | Return):
         raise InputError(
             f"{where}: `by` is given as a positive displacement, got {shortened(segment.by)}; or take a Move"
         )

@@ -347,7 +347,10 @@ class Mechanism(JsonText):
         way = finite(si_number(stroke, (self.axis,), "stroke"), "stroke")
         time = positive(si_number(duration, ("time",), "duration"), "duration")
         if way == 0.0:
-            raise InputError("stroke must not be 0: a mechanism at rest has no dimensionless form")
+            raise InputError(
+                "stroke must not be 0: give how far the input moves, such as "
+                f"'{'45 deg' if self.axis == 'angle' else '35 mm'}'; at rest it takes its load"
+            )
         self.position(np.array([first, first + way]))
         friction = InputFriction(self.coulomb, self.viscous)
         load = self.load_formula if process is None else added([self.load_formula, process])

@@ -139,7 +139,8 @@ def test_damaged_files_are_refused(name: str, move: FastestMove) -> None:
 @pytest.mark.parametrize(
     ("changes", "named"),
     [
-        ({"stroke": "-100 mm"}, "stroke must be above 0"),
+        ({"stroke": "-100 mm"}, "stroke must be above 0, got '-100 mm': turn the axis"),
+        ({"stroke": "0 mm"}, "stroke must be above 0, got '0 mm': give how far it moves"),
         ({"stroke": "1 s"}, "stroke must be a length"),
         ({"limits": {"speed": "1 m/s"}}, "unknown limit 'speed'"),
         ({"limits": {"acceleraton": "1 m/s^2"}}, "did you mean 'acceleration'"),

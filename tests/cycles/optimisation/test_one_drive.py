@@ -37,9 +37,9 @@ def outcome(motion: str, drive: Any, **entries: Any) -> tuple[Any, ...]:  # noqa
     """Status, objective, bound and efforts; of a refusal what it says."""
     try:
         cycle = Cycle(MOTIONS[motion], **{**TIMES[motion], **entries}, drive=drive)
+        effort = cycle.effort
     except (InputError, InfeasibleProblem) as error:
-        return type(error).__name__, str(error)
-    effort = cycle.effort
+        return type(error).__name__, error.args[0]
     return cycle.status, cycle.objective, cycle.lower_bound, effort.peak_force, effort.rms_force, effort.energy
 
 
@@ -86,10 +86,11 @@ def test_limits_of_one_drive_in_two_words_are_one(
     agree(*both)
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize("name", ["rubbed weight", "spring"])
 def test_the_fastest_cycle_is_one(name: str) -> None:
     def fastest(drive: Any) -> Any:  # noqa: ANN401 - either way of saying it
-        return Cycle(CAM, speed="60 rpm", drive=drive, limits={"force": "120 N", "rms force": "60 N"}).fastest()
+        return Cycle(CAM, speed="60 rpm", drive=drive, limits={"force": "120 N"}).fastest()
 
     first, second = fastest(ENTRIES[name]), fastest(mechanism(name))
     assert first.status == second.status
@@ -112,7 +113,7 @@ def test_a_range_of_the_mechanism_is_kept() -> None:
         Cycle(CAM, speed="200 rpm", minimise="power", drive=ENTRIES["weight"]).lower_bound, rel=1e-9
     )
     with pytest.raises(InputError, match=r"may turn back and leave the range of the mechanism: .* leave out its over="):
-        Cycle(SWINGS, period="0.5 s", minimise="force", drive=ranged)
+        Cycle(SWINGS, period="0.5 s", minimise="force", drive=ranged).objective  # noqa: B018 - solved when it is read
 
 
 def test_tables_on_a_line_are_lines() -> None:

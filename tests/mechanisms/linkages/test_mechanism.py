@@ -184,7 +184,10 @@ REFUSED: list[tuple[Callable[[], Any], str]] = [
     (lambda: Mechanism({0.0: 1.0, 1.0: 1.0}), "a table of spline needs 4 pairs"),
     (lambda: Mechanism(1.0, {1.0: 1.0, 0.5: 1.0}), "places of a table must ascend, got 1 before 0.5"),
     (lambda: ALL["formula"].dimensionless(1.0, 3.0, 1.0), "defined from 0 deg to 171.887339 deg, got 229.183"),
-    (lambda: ALL["formula"].dimensionless(1.0, 0.0, 1.0), "stroke must not be 0"),
+    (
+        lambda: ALL["formula"].dimensionless(1.0, 0.0, 1.0),
+        "stroke must not be 0: give how far the input moves, such as '45 deg'",
+    ),
     (lambda: Mechanism(0.0).dimensionless(0.0, 1.0, 1.0), "neither inertia nor load nor friction"),
     (lambda: ALL["formula"].driven_position("ram", 0.0), "unknown driven link 'ram'"),
     (lambda: slider_crank(0.1, 0.08, bodies={"slider": 1.0}), r"rod of 0.08 m is too short .* at 53.15"),
