@@ -35,7 +35,9 @@ class DimensionlessDrive:
     Attributes
     ----------
     torque
-        At the motor, above 0 in the direction of the stroke.
+        At the motor, above 0 in the direction of the stroke. Where a gear loses power, its magnitude is no maximum of
+        smooth formulas: `peak` takes it with side="high", and the last branch with side="low", which braking never
+        passes.
     branches
         The torques of which it is the greatest: where a gear loses power, that of power to the load and that of power
         back.
@@ -226,6 +228,14 @@ class Drive(JsonText):
         >>> moved = drive.dimensionless("0 deg", "45 deg", "0.25 s")
         >>> round(rms(moved.torque).value(smoothstep(3)) * moved.unit, 6)
         2.444632
+
+        The greatest torque of a gear that loses power has a branch for each side:
+
+        >>> from optlaws import Problem, maximum, peak, synthesize
+        >>> both = maximum(peak(moved.torque, side="high"), peak(moved.branches[-1], side="low"))
+        >>> least = synthesize(Problem(order=3, minimise=both, monotone=True))
+        >>> round(least.objective * moved.unit, 6), round(drive.sheet(least.law, 0.0, np.pi / 4.0, 0.25).peak_torque, 6)
+        (2.514189, 2.514189)
         """
         moved = self.mechanism.dimensionless(start, stroke, duration, process=process)
         unit, i = moved.unit / self.ratio, self.ratio

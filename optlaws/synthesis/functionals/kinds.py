@@ -315,7 +315,10 @@ def refusal(constant: OfFormula) -> str | None:
     if not bad or not isinstance(constant, FormulaPeak | FormulaValue):
         return None
     side = "high" if bad == [-1.0] else "low"
-    hint = f'; side="{side}" is possible' if len(signs) == 2 and len(bad) == 1 else ""
+    hint = ""
+    if len(signs) == 2 and len(bad) == 1:
+        other = {"high": "low", "low": "high"}[side]
+        hint = f'; side="{side}" is possible, together with side="{other}" of one branch of its maximum by maximum(...)'
     formula = constant.motion.formula
     if any(isinstance(part, Table) and not part.smooth for part in formula.walk()):
         hint += "; the lines of a table have corners: a spline has none, of loads by interpolation='spline'"
