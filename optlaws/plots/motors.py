@@ -8,6 +8,7 @@ import numpy as np
 
 from optlaws.plots.cycle import samples, samples_of_drive
 from optlaws.plots.style import BLUES, GREY, WARM, name_point, new_axes, new_figure, plot_style, titled
+from optlaws.tolerances import VALUE_ROUNDING
 
 if TYPE_CHECKING:
     from matplotlib.artist import Artist
@@ -52,6 +53,7 @@ def draw_torque_over_speed(
     """Draw torques over speeds within the motor's curves of peak and continuous torque, on either side of rest."""
     axes = axes or new_axes()
     artists: list[Artist] = []
+    goes_back = course[0].min() < -VALUE_ROUNDING * np.abs(course[0]).max()
     fastest = min(motor.greatest_speed, 1.5 * float(np.abs(course[0]).max()))
     speeds = np.unique([*np.linspace(0.0, fastest, _SAMPLES), *(speed for speed, _ in motor.curve if speed <= fastest)])
     limits = (motor.peak_at(speeds), "peak torque", "-"), (motor.continuous_at(speeds), "continuous torque", "--")
@@ -59,7 +61,7 @@ def draw_torque_over_speed(
         if np.isfinite(values).all():
             look: dict[str, Any] = {"color": GREY, "linestyle": dashes, "linewidth": 1.1}
             for side, label in ((1.0, name), (-1.0, None)):
-                for way in (1.0, -1.0) if course[0].min() < 0.0 else (1.0,):
+                for way in (1.0, -1.0) if goes_back else (1.0,):
                     shown = label if way > 0.0 else None
                     artists += axes.plot(way * _RPM * speeds, side * values, **look, label=shown)
     artists += axes.plot(_RPM * course[0], course[1], **{"color": BLUES[3], **style})
