@@ -111,13 +111,14 @@ class LeastTime(JsonText):
     @property
     def binding(self) -> tuple[str, ...]:
         """The limits that the law reaches and that keep it from being faster."""
-        gains = self.gains(1.0)
+        slopes = self.slopes
         return tuple(
-            name for name, used in self.used.items() if gains.get(name, 1.0) > 0.0 and used > 1.0 - LIMIT_REACHED
+            name for name, used in self.used.items() if slopes.get(name, 1.0) > 0.0 and used > 1.0 - LIMIT_REACHED
         )
 
-    def gains(self, more: float = 0.1) -> dict[str, float]:
-        """The share of the time that a share more of each limit saves, by its multiplier; exact for small shares.
+    @property
+    def slopes(self) -> dict[str, float]:
+        """The share of the time that is saved by the share that is added to a limit, of little more, by its multiplier.
 
         Empty where a torque or what vibrates is limited: the multipliers speak of one time alone.
         """
@@ -130,7 +131,7 @@ class LeastTime(JsonText):
         )
         steep = sum(nu * share for nu, share in weighed) - sum(nu * share for nu, share in left)
         names = (limit.name for limit in self.move.rates)
-        return {name: more * share / steep for name, (_, share) in zip(names, weighed, strict=True)}
+        return {name: share / steep for name, (_, share) in zip(names, weighed, strict=True)}
 
     def to_dict(self) -> dict[str, Any]:
         """Plain JSON-able dict: law and proofs in one, which `optlaws verify` checks."""

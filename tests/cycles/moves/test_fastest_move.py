@@ -76,10 +76,22 @@ def test_the_summary_says_which_limits_bind(move: FastestMove) -> None:
     rows = {row.name: row for row in move.summary()}
     assert rows["least time"].unit == "s"
     assert rows["deceleration"].value == pytest.approx(8.0, rel=1e-9)
-    assert rows["deceleration"].note == "binds: 10 % more saves about 2.1 % of the time"
+    assert rows["deceleration"].note == "binds: 10 % more saves 1.7 % of the time"
     assert rows["velocity"].note == "81.4 % of the limit"
     assert "the space costs 1.6 %" in rows["limit"].note
     assert move.notes[0].startswith("acceleration: 10 % more saves")
+
+
+def test_what_more_of_a_limit_saves_is_that_of_the_move_within_it(move: FastestMove) -> None:
+    gains = move.gains(0.1)
+    assert gains["velocity"] == 0.0  # which does not bind
+    si = {"velocity": 1.0, "acceleration": 12.0, "deceleration": 8.0, "jerk": 300.0}
+    units = {"velocity": "m/s", "acceleration": "m/s^2", "deceleration": "m/s^2", "jerk": "m/s^3"}
+    for name in move.binding:
+        raised = {each: f"{most * (1.1 if each == name else 1.0)!r} {units[each]}" for each, most in si.items()}
+        again = fastest(ORDER_3, stroke="100 mm", limits=raised)
+        assert gains[name] == pytest.approx(1.0 - again.duration / move.duration, rel=1e-6)
+        assert f"{name}: 10 % more saves {100.0 * gains[name]:.2g} % of the time" in move.notes
 
 
 def test_the_export_has_the_stroke_and_the_time(move: FastestMove) -> None:
