@@ -17,7 +17,7 @@ from optlaws.laws.catalogue.reading import read_law
 from optlaws.laws.law import motion_law
 from optlaws.mechanisms.residual import residual_vibration
 from optlaws.motion.piece import factor, unit_of
-from optlaws.motion.quantities import either, quantity
+from optlaws.motion.quantities import check_scale, either, quantity
 from optlaws.numbers import Quantity, bounded, positive
 from optlaws.tolerances import AGREEMENT
 
@@ -176,8 +176,11 @@ def compare_laws(
         raise InputError("stroke and duration go together: the peaks in the machine need both")
     kind, height = ("length", None) if stroke is None else either(stroke, ("length", "angle"), "stroke")
     seconds = None if duration is None else positive(quantity(duration, "time", "duration"), "duration")
-    if height is not None and not height > 0.0:
-        raise InputError(f"stroke must be above 0, got {shortened(stroke)}: give how far the machine moves as '35 mm'")
+    if height is not None:
+        if not height > 0.0:
+            given = shortened(stroke)
+            raise InputError(f"stroke must be above 0, got {given}: give how far the machine moves as '35 mm'")
+        check_scale(height, unit_of(kind), "stroke", stroke)
     if frequency is not None:
         residual_vibration(frequency=frequency, damping=damping)
     named: dict[str, MotionLaw] = {}

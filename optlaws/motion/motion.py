@@ -14,7 +14,7 @@ from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.motion.piece import Piece, factor, values_of_pieces
-from optlaws.motion.quantities import Given, either, given_quantity, positive_quantity, quantity
+from optlaws.motion.quantities import Given, check_scale, either, given_quantity, positive_quantity, quantity
 from optlaws.numbers import Quantity, derivative, number_or_array, real_times
 from optlaws.tolerances import CLOSURE, JUMP
 
@@ -214,6 +214,7 @@ def motion_of_law(
     moved = given_quantity(stroke, SLAVES, "stroke")
     if moved.number == 0.0:
         raise InputError("stroke must not be 0: give how far the slave moves, such as '35 mm'")
+    check_scale(moved.number, moved.unit, "stroke", stroke)
     if duration is None and master is None:
         raise InputError(
             "say how long the motion takes, duration='0.1 s', or how far its master goes, master='120 deg'"
@@ -270,6 +271,7 @@ def _span(master: Quantity | None, seconds: float | None) -> Given:
     span = given_quantity(master, MASTERS, "master")
     if span.number <= 0.0:
         raise InputError(f"master must be above 0, got {master!r}")
+    check_scale(span.number, span.unit, "master", master)
     return span
 
 

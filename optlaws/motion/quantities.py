@@ -72,6 +72,7 @@ DIMENSIONS = {
 }
 
 TURN = 2.0 * pi
+MOST_SCALE = 1e30
 #: the displacement of a motion and its derivatives, as tables and pictures call them
 QUANTITIES = ("position", "velocity", "acceleration", "jerk")
 
@@ -142,7 +143,33 @@ def quantity(value: Any, dimension: str, name: str) -> float:  # noqa: ANN401 - 
     factor = _si_factor(unit, dimension)
     if factor is None:
         raise InputError(f"{_asks(dimension, name)}, but {shortened(value)} is {_kind(unit)}{_remedy(unit, dimension)}")
-    return finite(number * factor, name)
+    return _measurable(finite(number * factor, name), dimension, name, value)
+
+
+def _measurable(number: float, dimension: str, name: str, value: Any) -> float:  # noqa: ANN401 - it is checked here
+    """A number; a time is refused whose powers, by which derivatives are divided, would be beyond double precision."""
+    if dimension == "time":
+        check_scale(number, "s", name, value)
+    return number
+
+
+def check_scale(number: float, unit: str, name: str, value: Any) -> None:  # noqa: ANN401 - what an error quotes
+    """Refuse a time or a stroke that is nearer to 0, or greater, than any of a machine; 0 is left to what reads it.
+
+    Raises
+    ------
+    InputError
+        If it is below 1e-30 or above 1e30 of its unit.
+
+    Examples
+    --------
+    >>> check_scale(1e-300, "s", "period", "1e-300 s")
+    Traceback (most recent call last):
+    optlaws.errors.InputError: period must be from 1e-30 to 1e+30 s, got '1e-300 s'
+    """
+    if number and not 1.0 / MOST_SCALE <= abs(number) <= MOST_SCALE:
+        ends = f"{1.0 / MOST_SCALE:g} to {MOST_SCALE:g} {unit}".rstrip()
+        raise InputError(f"{name} must be from {ends}, got {shortened(value)}")
 
 
 def positive_quantity(value: Any, dimension: str, name: str) -> float:  # noqa: ANN401 - it is checked here
@@ -183,7 +210,7 @@ def either(value: Any, dimensions: tuple[str, ...], name: str) -> tuple[str, flo
     for dimension in dimensions:
         factor = _si_factor(unit, dimension)
         if factor is not None:
-            return dimension, finite(number * factor, name)
+            return dimension, _measurable(finite(number * factor, name), dimension, name, value)
     kinds = " or ".join(f"{_article(kind)} such as {DIMENSIONS[kind][1]!r}" for kind in dimensions)
     raise InputError(f"{name} must be {kinds}, but {shortened(value)} is {_kind(unit)}")
 

@@ -19,8 +19,8 @@ from optlaws.cycles.specification.segments import (
 )
 from optlaws.echo import shortened
 from optlaws.errors import InputError
-from optlaws.motion.quantities import TURN, either, in_small_units, positive_quantity, quantity
-from optlaws.tolerances import CLOSURE
+from optlaws.motion.quantities import TURN, check_scale, either, in_small_units, positive_quantity, quantity
+from optlaws.tolerances import CLOSURE, SAME_TIME
 
 #: dimensions of the derivatives of a position, for slides and for tables
 AXES = {
@@ -66,7 +66,9 @@ def period_of(speed: Any, period: Any) -> float:  # noqa: ANN401 - it is checked
         raise InputError('a cycle has either a speed such as "200 rpm" or a period such as "0.3 s"')
     if speed is None:
         return positive_quantity(period, "time", "period")
-    return TURN / positive_quantity(speed, "angular velocity", "speed")
+    turn = TURN / positive_quantity(speed, "angular velocity", "speed")
+    check_scale(turn, "s", "speed: a turn", speed)
+    return turn
 
 
 def axis_of(segments: Sequence[CycleSegment]) -> str:
@@ -146,6 +148,11 @@ def _bounds(segment: CycleSegment, period: float, name: str) -> tuple[float, flo
         least = most = time_of(segment.duration, period, name)
     if not 0.0 < least <= most and not (least == 0.0 < most):
         raise InputError(f"{name} must be above 0, the least first, got {shortened(segment.duration)}")
+    if most <= SAME_TIME * period:
+        raise InputError(
+            f"{name} is too short beside the cycle's {period:.6g} s, got {shortened(segment.duration)}: leave the "
+            "segment out"
+        )
     return least, most
 
 

@@ -19,7 +19,7 @@ from optlaws.mechanisms.drives.sheet import BestRatio, DriveSheet, best_ratio, d
 from optlaws.mechanisms.linkages.mechanism import DIMENSIONS, Mechanism, duration_of
 from optlaws.mechanisms.linkages.move_limit import MoveBounds, MoveCosts, MoveLimit, MoveScales, move_limit
 from optlaws.motion.piece import named_law
-from optlaws.motion.quantities import si_number
+from optlaws.motion.quantities import check_scale, si_number
 from optlaws.numbers import NumberOrQuantity, finite, not_negative, positive, real
 from optlaws.suggest import unknown_key
 from optlaws.synthesis.limits.drive_limits import DriveObjective
@@ -119,7 +119,8 @@ class Drive(JsonText):
                 "mechanism over the angle of its input"
             )
         turning = not_negative(si_number(self.inertia, ("moment of inertia",), "inertia"), "inertia")
-        object.__setattr__(self, "ratio", positive(self.ratio, "ratio"))
+        check_scale(positive(self.ratio, "ratio"), "", "ratio", self.ratio)
+        object.__setattr__(self, "ratio", float(self.ratio))
         object.__setattr__(self, "inertia", turning)
         given: Any = self.efficiency
         shares = given if isinstance(given, list | tuple) else (given,) * 2

@@ -12,6 +12,7 @@ from optlaws.formulas.arithmetic import NUMPY, evaluate
 from optlaws.formulas.slopes import added, multiplied, opposite, scaled
 from optlaws.formulas.tree import Formula, Name, Negative, Number, Product, Sum, Table, number, rebuilt
 from optlaws.synthesis.functionals.makers import drive_torque
+from optlaws.tolerances import TINY
 
 _LOOKS = 721
 
@@ -93,7 +94,7 @@ def dimensionless(
     places = {"x": x, "k": np.linspace(0.0, 1.0, _LOOKS)}
     greatest = (float(np.max(np.abs(evaluate(formula, places, NUMPY)))) for formula in (inertia, load))
     unit = max(next(greatest) * accelerating, next(greatest), moved, friction.coulomb)
-    if unit == 0.0:
+    if unit < TINY:
         raise InputError("the mechanism has neither inertia nor load nor friction on this stroke: nothing drives it")
     resisting = _times(_over_stroke(load, start, way), direction / unit)
     return DimensionlessMechanism(

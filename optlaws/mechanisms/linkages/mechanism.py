@@ -23,7 +23,7 @@ from optlaws.kept import kept_property
 from optlaws.mechanisms.linkages.dimensionless import DimensionlessMechanism, InputFriction, dimensionless
 from optlaws.mechanisms.linkages.entries import formula_of
 from optlaws.mechanisms.linkages.linear_force import LinearForce, line_of
-from optlaws.motion.quantities import either, in_small_units, si_number
+from optlaws.motion.quantities import check_scale, either, in_small_units, si_number
 from optlaws.numbers import Array, NumberOrQuantity, derivative, finite, not_negative, positive, real_times
 from optlaws.numerics.branch_and_bound import extremes
 from optlaws.numerics.interval import Interval
@@ -346,11 +346,13 @@ class Mechanism(JsonText):
         first = finite(si_number(start, (self.axis,), "start"), "start")
         way = finite(si_number(stroke, (self.axis,), "stroke"), "stroke")
         time = positive(si_number(duration, ("time",), "duration"), "duration")
+        check_scale(time, "s", "duration", duration)
         if way == 0.0:
             raise InputError(
                 "stroke must not be 0: give how far the input moves, such as "
                 f"'{'45 deg' if self.axis == 'angle' else '35 mm'}'; at rest it takes its load"
             )
+        check_scale(way, "rad" if self.axis == "angle" else "m", "stroke", stroke)
         self.position(np.array([first, first + way]))
         friction = InputFriction(self.coulomb, self.viscous)
         load = self.load_formula if process is None else added([self.load_formula, process])

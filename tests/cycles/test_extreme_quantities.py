@@ -1,0 +1,141 @@
+"""Quantities that no machine has, in the doors of cycles, moves, drives, cams and exports: errors of ours alone."""
+
+from collections.abc import Callable
+from typing import Any
+
+import pytest
+
+from optlaws import (
+    Axes,
+    ConstantVelocity,
+    Cycle,
+    DiscCam,
+    Drive,
+    Dwell,
+    Follower,
+    Loads,
+    Mechanism,
+    Motor,
+    OptlawsError,
+    Problem,
+    Return,
+    Rise,
+    TranslatingRoller,
+    advise,
+    compare_laws,
+    fastest,
+    smoothstep,
+)
+
+EXTREMES = (
+    "5e-324",
+    "1e-320",
+    "1e-300",
+    "1e-160",
+    "1e-31",
+    "1e-29",
+    "1e29",
+    "1e31",
+    "1e160",
+    "1e300",
+    "1.7e308",
+    "0",
+    "-1",
+    "-1e300",
+    "nan",
+    "inf",
+)
+LAW: dict[str, Any] = {"law": "cycloidal"}
+ORDER_3 = Problem(order=3)
+
+
+def rise_and_return(by: str = "35 mm", duration: str = "120 deg", **entries: Any) -> Cycle:
+    clock: dict[str, Any] = {} if "speed" in entries or "period" in entries else {"period": "1 s"}
+    return Cycle([Rise(by, duration, **LAW), Return(**LAW)], **clock, **entries)
+
+
+def sought(by: str = "35 mm", duration: str = "120 deg", **entries: Any) -> Cycle:
+    return Cycle([Rise(by, duration), Return()], **{"period": "1 s", **entries})
+
+
+def smooth() -> Cycle:
+    return Cycle([Rise("3 mm", "120 deg", law="III(7.2)"), Return(law="III(7.2)")], period="1 s")
+
+
+def geared(inertia: str = "0.8 kg m^2", rotor: str = "3e-4 kg m^2", ratio: float = 20.0) -> Drive:
+    return Drive(Mechanism(inertia), Motor(rotor, peak_torque="4 N m"), ratio=ratio)
+
+
+def sheet(drive: Drive, stroke: Any = "45 deg", duration: Any = "0.2 s", period: Any = "1 s") -> Any:  # noqa: ANN401
+    return drive.sheet("cycloidal", 0.0, stroke, duration, period=period)
+
+
+DOORS: dict[str, Callable[[str], Any]] = {
+    "period": lambda x: rise_and_return(period=f"{x} s").peaks,
+    "period of optimal laws": lambda x: sought(period=f"{x} s").objective,
+    "speed": lambda x: rise_and_return(speed=f"{x} rpm").peaks,
+    "duration, time": lambda x: rise_and_return(duration=f"{x} s").peaks,
+    "duration, angle": lambda x: rise_and_return(duration=f"{x} deg").peaks,
+    "duration of optimal laws": lambda x: sought(duration=f"{x} s").objective,
+    "displacement": lambda x: rise_and_return(f"{x} mm").peaks,
+    "start": lambda x: rise_and_return(start=f"{x} mm").peaks,
+    "advance": lambda x: Cycle([Rise(f"{x} mm", **LAW), Dwell("9 deg")], period="1 s", advance=f"{x} mm").peaks,
+    "constant velocity": lambda x: Cycle([ConstantVelocity(f"{x} m/s", "80 ms"), Return()], period="400 ms").objective,
+    "limit of a given law": lambda x: rise_and_return(limits={"acceleration": f"{x} m/s^2"}).objective,
+    "limit of optimal laws": lambda x: sought(limits={"velocity": f"{x} m/s"}).objective,
+    "limit of the jerk": lambda x: sought(limits={"jerk": f"{x} m/s^3"}).objective,
+    "mass": lambda x: rise_and_return(drive={"mass": f"{x} kg"}).effort,
+    "stiffness": lambda x: rise_and_return(drive={"mass": "1 kg", "stiffness": f"{x} N/m"}).effort,
+    "limit of the force": lambda x: rise_and_return(drive={"mass": "1 kg"}, limits={"force": f"{x} N"}).status,
+    "limit of the rms force": lambda x: rise_and_return(drive={"mass": "1 kg"}, limits={"rms force": f"{x} N"}).status,
+    "limit of the energy": lambda x: rise_and_return(drive={"mass": "1 kg"}, limits={"energy": f"{x} J"}).status,
+    "period of a load": lambda x: rise_and_return(load={"period": f"{x} s"}).load_motion.peak("acceleration"),
+    "another speed": lambda x: rise_and_return().at(f"{x} rpm").peaks,
+    "greatest speed": lambda x: rise_and_return(limits={"jerk": f"{x} m/s^3"}).fastest(),
+    "run-in": lambda x: rise_and_return().run_in("60 deg", rest="-2 mm", over=f"{x} s"),
+    "cam of a follower": lambda x: smooth().cam(f"{x} s"),
+    "polynomials": lambda x: rise_and_return(period=f"{x} s").polynomials(),
+    "axes": lambda x: Axes({"slide": [Rise("3 mm", "120 deg", **LAW), Return(**LAW)]}, period=f"{x} s")["slide"].peaks,
+    "stroke of a move": lambda x: fastest(ORDER_3, stroke=f"{x} mm", limits={"jerk": "300 m/s^3"}),
+    "limit of a move": lambda x: fastest(ORDER_3, stroke="9 mm", limits={"jerk": f"{x} m/s^3"}),
+    "limits of a move": lambda x: fastest(ORDER_3, stroke="9 mm", limits={"velocity": "1 m/s", "jerk": f"{x} m/s^3"}),
+    "velocity of a move": lambda x: fastest(
+        ORDER_3, stroke="9 mm", start_velocity=f"{x} m/s", limits={"velocity": "1 m/s", "acceleration": "8 m/s^2"}
+    ),
+    "longer time": lambda x: fastest(ORDER_3, stroke="9 mm", limits={"jerk": "300 m/s^3"}).within(f"{x} s"),
+    "duration of an export": lambda x: smoothstep(3).export("csv", stroke="35 mm", duration=f"{x} s"),
+    "stroke of an export": lambda x: smoothstep(3).export("csv", stroke=f"{x} mm", duration="1 s"),
+    "master of an export": lambda x: smoothstep(3).export("csv", stroke="35 mm", duration="1 s", master=f"{x} deg"),
+    "master of a cycle": lambda x: rise_and_return().export("csv", master=f"{x} deg"),
+    "duration of a comparison": lambda x: compare_laws("cycloidal", stroke="35 mm", duration=f"{x} s").rows,
+    "stroke of a comparison": lambda x: compare_laws("cycloidal", stroke=f"{x} mm", duration="1 s").rows,
+    "advice": lambda x: advise(rise_and_return(period=f"{x} s"), laws=("cycloidal",), points=0),
+    "duration of a sheet": lambda x: sheet(geared(), duration=f"{x} s"),
+    "duration of a sheet, a number": lambda x: sheet(geared(), duration=float(x)),
+    "stroke of a sheet": lambda x: sheet(geared(), f"{x} deg"),
+    "period of a sheet": lambda x: sheet(geared(), period=f"{x} s"),
+    "inertia": lambda x: sheet(geared(f"{x} kg m^2")),
+    "inertia of a rotor": lambda x: sheet(geared(rotor=f"{x} kg m^2")),
+    "ratio": lambda x: sheet(geared(ratio=float(x))),
+    "loads": lambda x: Loads([("0 deg", "0 N"), ("90 deg", f"{x} N")], over="input"),
+    "follower": lambda x: Follower(frequency=float(x)).response(smoothstep(4)),
+    "prime circle": lambda x: DiscCam(rise_and_return(), f"{x} mm", TranslatingRoller("12 mm")).extremes,
+    "roller": lambda x: DiscCam(rise_and_return(), "60 mm", TranslatingRoller(f"{x} mm")).extremes,
+}  # fmt: skip
+
+
+@pytest.mark.filterwarnings("ignore")
+@pytest.mark.parametrize("value", EXTREMES)
+@pytest.mark.parametrize("door", DOORS)
+def test_a_quantity_of_no_machine_ends_in_an_error_of_ours_if_in_any(door: str, value: str) -> None:
+    try:
+        DOORS[door](value)
+    except OptlawsError as error:
+        # what it names is the user's: no array, no number of an inner formula
+        assert not any(word in str(error) for word in ("array(", "np.float64", "division", "NaN"))  # noqa: PT017 - if any
+
+
+@pytest.mark.parametrize("door", ["period", "duration, time", "run-in", "duration of an export", "advice"])
+def test_a_duration_that_is_nearly_nothing_is_refused_by_its_name(door: str) -> None:
+    with pytest.raises(OptlawsError, match=r"(period|duration|over).*(from 1e-30 to 1e\+30 s|too short beside)"):
+        DOORS[door]("1e-300")
