@@ -356,6 +356,12 @@ BOUND_ENCLOSED = 2.0**-80  # of the objective's scale: in a wider ball a bound g
 # --- limits in the phase plane --------------------------------------------------------------------------------------
 PHASE_ACTIVE = 1e-4  # of a bound: places of a conic program so near to it have it active
 SMALLEST_ELEMENT = 1e-7  # of the move: elements of a potential are not cut further
+HOLDING_ENCLOSED = 1e-9  # of the torque that holds a load nearest to 0: how narrow its enclosure is
+PHASE_TIGHT = 1e-7  # of a bound: by so much narrower is what the motion of a limit keeps to, so that it keeps the bound
+BOUND_KEPT = 1e-6  # of a bound: a motion integrated at nodes that is beyond it by so little keeps it
+INTEGRATION = 1e-6  # of a time or a value: what integrating a motion at nodes may be off
+PHASE_WEIGHT = 1e-9  # of what is minimised: the price of the time where the torque at rest alone bounds it
+EVEN_FALL = 1e-3  # of a potential by which a torque has one price everywhere: its fall, so that no velocity pays
 PHASE_PACE = 1e-5  # of what is minimised: the least price of the time
 PHASE_TIE = 1e-7  # of a bound or of two torques: nearer values are equal, and the potential says at what price
 AFFINE_SLACK = 1e-12  # of a price: keeps affine shares within 0 and 1 and magnitudes below their lines after rounding

@@ -316,7 +316,7 @@ class Drive(JsonText):
         bounds = bounds.within(
             self.motor.greatest_speed / self.ratio, [(most, fall * self.ratio) for most, fall in lines]
         )
-        return move_limit(moved.torque, minimise, scales, bounds, MoveCosts.read(self.regeneration, heat))
+        return move_limit(moved.torque, minimise, scales, bounds, MoveCosts.read(self.regeneration, heat), way.holding)
 
     def sheet(
         self,

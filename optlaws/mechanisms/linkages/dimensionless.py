@@ -35,6 +35,8 @@ class DimensionlessMechanism:
         Of the torque, N m or N.
     start, stroke, duration
         In rad or m, and s; the stroke is below 0 for motion to smaller x.
+    holding
+        The load without friction: what holds it at rest.
     """
 
     inertia: str
@@ -44,6 +46,7 @@ class DimensionlessMechanism:
     start: float
     stroke: float
     duration: float
+    holding: str
 
     @property
     def torque(self) -> str:
@@ -105,6 +108,7 @@ def dimensionless(
         start,
         way,
         time,
+        str(resisting),
     )
 
 

@@ -404,7 +404,7 @@ class Mechanism(JsonText):
         velocity, dimension = abs(moved.stroke) / moved.duration, "N m" if self.axis == "angle" else "N"
         scales = MoveScales(moved.unit, moved.energy_unit, velocity, moved.duration, dimension)
         bounds = MoveBounds.read(limits, DIMENSIONS[self.axis]).over(moved.start, moved.stroke)
-        return move_limit(moved.torque, minimise, scales, bounds, MoveCosts.read(recovered, heat))
+        return move_limit(moved.torque, minimise, scales, bounds, MoveCosts.read(recovered, heat), moved.holding)
 
     def with_friction(self, *, coulomb: NumberOrQuantity = 0.0, viscous: NumberOrQuantity = 0.0) -> Self:
         """The mechanism with this friction at its input in place of its own."""

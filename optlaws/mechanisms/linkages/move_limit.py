@@ -4,16 +4,26 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from math import inf, nextafter
+from itertools import pairwise
+from math import fsum, inf, nextafter
 from typing import Any, NamedTuple, get_args
 
 from optlaws.echo import shortened
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.files.reading import JsonText, entries_of
+from optlaws.formulas.reading import read
+from optlaws.formulas.slopes import scaled
 from optlaws.motion.quantities import si_number
 from optlaws.numbers import finite, not_negative, positive
 from optlaws.suggest import unknown_key
-from optlaws.synthesis.limits.drive_limits import DriveLimit, DriveObjective, limit_of_plane, phase_torque
+from optlaws.synthesis.limits.drive_limits import (
+    LONG,
+    DriveLimit,
+    DriveObjective,
+    limit_of_plane,
+    phase_torque,
+    unreachable,
+)
 from optlaws.synthesis.limits.phase_plane import PhasePlane, TorqueLimit, VelocityLimit
 from optlaws.synthesis.limits.phase_torque import ACCELERATION, AnyTorque
 from optlaws.tolerances import CLOSURE
@@ -57,20 +67,23 @@ class MoveLimit(JsonText):
 
     @property
     def value(self) -> float:
-        """The proven lower bound, rounded down."""
-        return nextafter(self.drive_limit.value * self.unit, -inf)
+        """The proven lower bound, rounded down; minus infinity of an energy that nothing bounds."""
+        value = self.drive_limit.value * self.unit
+        return nextafter(value, -inf) if self.drive_limit.value else 0.0
 
     @property
     def attained(self) -> float:
-        """The value of the best motion of the search, which is not proven."""
+        """The value of a motion that keeps the limits, by integration; infinite where no such one is known."""
         return self.drive_limit.attained * self.unit
 
     @property
     def gap(self) -> float:
-        """The relative difference between the best motion of the search and the bound."""
+        """The difference between that motion and the bound, as a share of the bound."""
         return self.drive_limit.gap
 
     def __str__(self) -> str:
+        if self.value in {0.0, -inf}:
+            return f"{self.minimise}: no bound {'above 0 ' if self.value == 0.0 else ''}is known"
         return f"{self.minimise} at least {self.value:.{_DIGITS}g} {self.dimension}"
 
     def to_dict(self) -> dict[str, Any]:
@@ -158,8 +171,19 @@ class MoveBounds(NamedTuple):
             slack = CLOSURE if -CLOSURE <= low < high <= 1.0 + CLOSURE else 0.0
             if not slack:
                 raise InputError(f"a part of the way must be within the stroke and have a length, got {positions!r}")
-            windows.append((name, max(low, 0.0), min(high, 1.0), bound))
+            low, high = (0.0 if low < CLOSURE else low), (1.0 if high > 1.0 - CLOSURE else high)
+            windows.append((name, low, high, bound))
         return self._replace(windows=tuple(windows))
+
+    def least_share(self, mean: float) -> float:
+        """The least time for the whole way within the bounds of velocities, by the time at a mean velocity."""
+        limits = [(low, high, bound) for name, low, high, bound in self.windows if name == "velocity"]
+        places = sorted({0.0, 1.0, *(end for limit in limits for end in limit[:2])})
+        shares = []
+        for low, high in pairwise(places):
+            most = min([self.velocity, *(bound for start, stop, bound in limits if start <= low and high <= stop)])
+            shares.append((high - low) * mean / most)
+        return fsum(shares)
 
     def within(self, velocity: float, torques: Sequence[tuple[float, float]]) -> MoveBounds:
         """The bounds, with the motor's bounds added."""
@@ -209,7 +233,12 @@ class MoveCosts(NamedTuple):
 
 
 def move_limit(
-    torque: str, minimise: DriveObjective, scales: MoveScales, bounds: MoveBounds, costs: MoveCosts
+    torque: str,
+    minimise: DriveObjective,
+    scales: MoveScales,
+    bounds: MoveBounds,
+    costs: MoveCosts,
+    holding: str,
 ) -> MoveLimit:
     """The limit of a dimensionless torque over one stroke within bounds in SI units.
 
@@ -225,6 +254,8 @@ def move_limit(
         In SI units.
     costs
         What of an energy counts.
+    holding
+        The torque over a that holds the load at rest, without friction and losses.
 
     Raises
     ------
@@ -237,26 +268,29 @@ def move_limit(
         raise InputError(unknown_key(minimise, get_args(DriveObjective), "minimise"))
     if costs.heat and minimise != "energy":
         raise InputError("heat is a part of the energy that is minimised: take minimise='energy'")
-    if minimise != "time" and bounds.velocity <= scales.velocity:
-        least = scales.velocity * scales.duration / bounds.velocity
-        fastest, given = f"{bounds.velocity:.{_DIGITS}g} {scales.of_velocity}", f"{scales.duration:.{_DIGITS}g} s"
-        raise InfeasibleProblem(
-            f"at the greatest velocity of {fastest} alone the stroke takes {least:.{_DIGITS}g} s, and {given} are "
-            "given: take more time, or a greater velocity"
-        )
+    if minimise != "time" and (least := bounds.least_share(scales.velocity)) >= 1.0:
+        takes, given = f"{least * scales.duration:.{_DIGITS}g} s", f"{scales.duration:.{_DIGITS}g} s"
+        speed = f" of {bounds.velocity:.{_DIGITS}g} {scales.of_velocity}" if bounds.velocity < inf else ""
+        proof = f"at the greatest velocity{speed} alone the stroke takes {takes}"
+        raise InfeasibleProblem(f"{proof}, and {given} are given: take more time, or a greater velocity", proof=proof)
     form = phase_torque(torque)
     unit = form.size
     plane = _plane(form, minimise, scales, bounds, costs)
+    if plane.squared is not None or plane.peak is not None:
+        plane = replace(plane, holding=scaled(read(holding, ("a",)), 1.0 / unit))
     try:
         limit = limit_of_plane(plane, minimise, unit)
     except InfeasibleProblem as error:
         raise _infeasible(plane, form, scales, error) from None
     except SolverFailure as error:
-        if not plane.bounds:
+        beyond = unreachable(plane, unit)
+        if beyond is None:
             raise
+        proof = MoveLimit(beyond, scales.torque, scales.dimension)
         raise InfeasibleProblem(
-            "no motion was found within the limits, in whatever time: the load may be beyond the torque that is "
-            "allowed. Allow more of it",
+            f"no motion keeps the limits in up to {LONG * scales.duration:.{_DIGITS}g} s, which is proven: the load "
+            f"takes a peak of at least {proof.value:.{_DIGITS}g} {scales.dimension}. Allow more torque",
+            proof=proof,
             tried=str(error),
         ) from None
     known = {"energy": (scales.energy, "J"), "time": (scales.duration, "s")}
@@ -302,7 +336,7 @@ def _infeasible(plane: PhasePlane, form: AnyTorque, scales: MoveScales, error: I
     reached = [f"within them the move takes at least {least:.{_DIGITS}g} s"]
     if plane.limits:
         unit = form.size
-        free = replace(plane, squared=None, maxima=(), peak=form.scaled(1.0 / unit), limits=())
+        free = replace(plane, squared=None, maxima=(), peak=form.scaled(1.0 / unit), limits=(), holding=None)
         try:
             peak = limit_of_plane(free, "peak torque", unit).value * scales.torque
             time = f"{scales.duration:.{_DIGITS}g} s"

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from itertools import pairwise
@@ -18,24 +19,42 @@ from optlaws.formulas.reading import read
 from optlaws.formulas.slopes import constant
 from optlaws.formulas.tree import Call, Exponentiation, Formula, Number, Product, Sum, product
 from optlaws.kept import kept_property
-from optlaws.numbers import Array, not_negative, numbers, positive, power_of_two
+from optlaws.numbers import Array, bounded, finite, not_negative, numbers, positive, power_of_two
 from optlaws.suggest import unknown_key
 from optlaws.synthesis.functionals.kinds import FormulaIntegral, FormulaPeak, FormulaRms, OfFormula
+from optlaws.synthesis.limits.motions.integrated import value_of
+from optlaws.synthesis.limits.motions.standing import Standing, standing_level, standing_sign
 from optlaws.synthesis.limits.phase_plane import PhasePlane, TorqueLimit
-from optlaws.synthesis.limits.phase_plane_bound import Guess, Potential, proven_bound
+from optlaws.synthesis.limits.phase_plane_bound import Guess, Potential, even_price, proven_bound
 from optlaws.synthesis.limits.phase_plane_program import PhaseOptimum, optimum
 from optlaws.synthesis.limits.phase_torque import AnyTorque, PhaseTorque, greater_power, torque_of
 from optlaws.synthesis.problem.problem import Problem
-from optlaws.tolerances import MOST_PHASE_GAP, PHASE_GAP, SMALL_PHASE_GAP, STATED_BOUND
+from optlaws.tolerances import (
+    INTEGRATION,
+    MOST_PHASE_GAP,
+    PHASE_GAP,
+    PHASE_WEIGHT,
+    SMALL_PHASE_GAP,
+    STATED_BOUND,
+)
 
 #: what a drive is to take as little of
 DriveObjective: TypeAlias = Literal["peak torque", "rms torque", "energy", "time"]
 
 _KEYS = ("minimise", "value", "attained", "plane", "unit", "weight", "edges", "potential", "s", "b")
+_KEYS += ("level", "price", "near")
 #: by which shares of its size a potential falls more where it proves little
 _STEEPER = (0.0, 1e-8, 1e-6, 1e-4)
+#: of the level about which a torque is squared, where that of the load proves little
+_SHARES = (0.5, 0.0)
 #: how often a program is solved on finer elements where its gap is not small
 _FINER = 6
+#: how many times as many elements there are where a gap is large, as where an inertia varies much
+_MORE_ELEMENTS = 4
+#: positions at which a mean of the load is looked for that is above a bound
+_LOOKS = 512
+#: times the time that is given within which a load beyond a torque is proven not to be moved
+LONG = 2.0**20
 
 
 @dataclass(frozen=True)
@@ -47,9 +66,10 @@ class DriveLimit(JsonText):
     minimise
         Of what.
     value
-        The proven lower bound, dimensionless, rounded down.
+        The proven lower bound, dimensionless, rounded down; minus infinity of an energy that nothing bounds.
     attained
-        The value of the best motion in the phase plane; the infimum is between both. Not proven.
+        The value of the motion of the limit, by integration; the infimum is between both. Infinite where no motion
+        within the bounds is known.
     plane
         The torques and the bounds, divided by `unit`.
     unit
@@ -59,6 +79,11 @@ class DriveLimit(JsonText):
         coefficients of its pieces.
     s, b
         Places of the best motion, where a = sin²(pi s/2), and its velocities there.
+    level, price
+        Of the certificate, what the mean torque adds: the level about which a torque is squared, and the price of the
+        mean where a peak is minimised.
+    near
+        The peak, dimensionless, at which the inner minimum is taken; 0 where none is minimised.
 
     Examples
     --------
@@ -77,13 +102,18 @@ class DriveLimit(JsonText):
     potential: tuple[tuple[float, ...], ...]
     s: tuple[float, ...]
     b: tuple[float, ...]
+    level: float = 0.0
+    price: float = 0.0
+    near: float = 0.0
 
     _json_name = "a drive's limit"
 
     @property
     def gap(self) -> float:
-        """The relative difference between the best motion and the limit."""
-        return (self.attained - self.value) / self.value if self.value > 0.0 else inf
+        """The difference between the motion of the limit and the bound, as a share of the bound."""
+        if self.attained == self.value:
+            return 0.0
+        return (self.attained - self.value) / abs(self.value) if self.value and abs(self.value) < inf else inf
 
     @kept_property
     def bound(self) -> float:
@@ -132,8 +162,8 @@ class DriveLimit(JsonText):
         """The limit and its certificate as plain data."""
         return {
             "minimise": self.minimise,
-            "value": self.value,
-            "attained": self.attained,
+            "value": bounded(self.value),
+            "attained": bounded(self.attained),
             "plane": self.plane.to_dict(),
             "unit": self.unit,
             "weight": self.weight,
@@ -141,6 +171,9 @@ class DriveLimit(JsonText):
             "potential": [list(row) for row in self.potential],
             "s": list(self.s),
             "b": list(self.b),
+            "level": self.level,
+            "price": self.price,
+            "near": self.near,
         }
 
     @classmethod
@@ -161,12 +194,20 @@ class DriveLimit(JsonText):
             raise InputError(f"potential must be rows of numbers, got {shortened(data['potential'])}")
         rows = tuple(numbers(row, f"potential[{i}]") for i, row in enumerate(data["potential"]))
         edges, s, b = (numbers(data[key], key) for key in ("edges", "s", "b"))
-        value, attained, weight = (not_negative(data[key], key) for key in ("value", "attained", "weight"))
+        value, attained = (
+            unknown if data[key] is None else finite(data[key], key)
+            for key, unknown in (("value", -inf), ("attained", inf))
+        )
+        weight, near = not_negative(data["weight"], "weight"), not_negative(data["near"], "near")
+        level, price = finite(data["level"], "level"), finite(data["price"], "price")
         plane, unit = PhasePlane.from_dict(data["plane"]), positive(data["unit"], "unit")
-        limit = cls(data["minimise"], value, attained, plane, unit, weight, edges, rows, s, b)
+        limit = cls(*(data["minimise"], value, attained, plane, unit, weight, edges, rows, s, b, level, price, near))
         _check(limit)
-        if limit.value > limit.bound * (1.0 + STATED_BOUND):
+        if limit.value > limit.bound + STATED_BOUND * abs(limit.bound):
             raise InputError(f"the value {limit.value!r} is above what its certificate proves, {limit.bound!r}")
+        known = _attained(limit)
+        if limit.attained != known and abs(limit.attained - known) > STATED_BOUND * abs(known):
+            raise InputError(f"attained is {limit.attained!r}, and its motion has {known!r}")
         return limit
 
 
@@ -240,87 +281,177 @@ def phase_torque(torque: str) -> AnyTorque:
 
 
 def limit_of_plane(plane: PhasePlane, minimise: DriveObjective, unit: float = 1.0) -> DriveLimit:
-    """The limit of a phase plane of torques in a unit, with its certificate."""
+    """The limit of a phase plane of torques in a unit, with its certificate.
+
+    Raises
+    ------
+    InfeasibleProblem
+        If no motion keeps the bounds in the time 1; its proof is a limit of the time.
+    SolverFailure
+        If the conic program was not solved.
+    """
     if plane.kind == "time":
         return _least_time(plane)
+    level = standing_level(plane)
     try:
-        motion = optimum(plane)
+        best = _finer(Standing(plane, level), minimise, unit)
     except SolverFailure:
-        of_time = replace(plane, squared=None, maxima=(), peak=None)
-        if plane.bounds:
-            shortest = _least_time(of_time)
-            if shortest.value > 1.0:
-                raise InfeasibleProblem(
-                    f"no motion keeps the bounds in the time 1: the least time within them is {shortest.value:.6g}",
-                    problem=plane,
-                    proof=shortest,
-                ) from None
+        _refuse(plane)
         raise
-    return _finer(plane, minimise, unit, _limit(plane, minimise, unit, motion))
+    if best.attained == inf:
+        _refuse(plane)
+    for share in _SHARES if level and plane.squared is not None else ():
+        if best.gap <= MOST_PHASE_GAP:
+            break
+        with suppress(SolverFailure):
+            best = max(best, _finer(Standing(plane, share * level), minimise, unit), key=_proves)
+    return best
 
 
-def _finer(plane: PhasePlane, minimise: DriveObjective, unit: float, limit: DriveLimit) -> DriveLimit:
+def unreachable(plane: PhasePlane, unit: float) -> DriveLimit | None:
+    """A limit of a peak torque in up to LONG times the time that is above a bound of the plane; None where none is.
+
+    The torque's mean from the first position on, or up to the last, is that of the load and of friction.
+    """
+    for bound in plane.limits:
+        if not bound.everywhere or bound.side:
+            continue
+        slow = replace(plane, squared=None, maxima=(), peak=None, limits=(), holding=None).slowed(LONG)
+        torque = bound.torque.slowed(LONG)
+        free = replace(slow, peak=torque)
+        for sign, form in ((1.0, bound.torque.branches[0]), (-1.0, bound.torque.branches[-1])):
+            a = np.linspace(0.0, 1.0, _LOOKS + 1)[1:]
+            load = form.values(a)[3]
+            means = (
+                np.cumsum(load) / np.arange(1, _LOOKS + 1)
+                if sign > 0.0
+                else -np.cumsum(load[::-1]) / np.arange(1, _LOOKS + 1)
+            )
+            beyond = np.flatnonzero(means >= 0.5 * (bound.at_rest + np.max(means)))
+            if np.max(means) <= bound.at_rest:
+                continue
+            most = int(beyond[-1])
+            ends = (0.0, float(a[most])) if sign > 0.0 else (1.0 - float(a[most]), 1.0)
+            potential = even_price(free, torque, sign, *ends)
+            edges, rows = tuple(potential.edges.tolist()), tuple(map(tuple, potential.coefficients.tolist()))
+            limit = DriveLimit(
+                *(
+                    "peak torque",
+                    0.0,
+                    inf,
+                    free,
+                    unit,
+                    PHASE_WEIGHT * bound.at_rest,
+                    edges,
+                    rows,
+                    (0.25, 0.75),
+                    (1.0, 1.0),
+                ),
+                near=float(means[most]),
+            )
+            limit = replace(limit, value=_bound(limit))
+            if limit.value > bound.at_rest * unit:
+                return replace(limit, attained=_attained(limit))
+    return None
+
+
+def _proves(limit: DriveLimit) -> tuple[float, float]:
+    return limit.value, -limit.attained
+
+
+def _refuse(plane: PhasePlane) -> None:
+    """Raise an error with its proof if the least time within the bounds is more than there is."""
+    if not plane.bounds:
+        return
+    shortest = _least_time(replace(plane, squared=None, maxima=(), peak=None, holding=None))
+    if shortest.value > 1.0:
+        raise InfeasibleProblem(
+            f"no motion keeps the bounds in the time 1: the least time within them is {shortest.value:.6g}",
+            problem=plane,
+            proof=shortest,
+        )
+
+
+def _finer(standing: Standing, minimise: DriveObjective, unit: float) -> DriveLimit:
     """The limit or, where its gap is not small, a limit on finer elements if it proves more."""
-    if limit.gap <= SMALL_PHASE_GAP:
+    limit = _limit(standing, minimise, unit, optimum(standing))
+    if limit.gap <= PHASE_GAP:
         return limit
+    more = _MORE_ELEMENTS if limit.gap > MOST_PHASE_GAP else 1
     try:
-        other = _limit(plane, minimise, unit, optimum(plane, _FINER))
+        other = _limit(standing, minimise, unit, optimum(standing, _FINER, more))
     except SolverFailure:
         return limit
-    return max(limit, other, key=lambda proven: proven.value)
+    return max(limit, other, key=_proves)
 
 
 def _least_time(plane: PhasePlane) -> DriveLimit:
     """The least time, in a unit in which it is about 1."""
     bounds = [sqrt(1.0 / bound.at_rest * bound.torque.size) for bound in plane.bounds]
-    unit = power_of_two(max([*bounds, 1.0 / plane.B]))
-    motion = optimum(plane.slowed(unit))
+    unit = power_of_two(max([*bounds, *(1.0 / limit.B for limit in plane.velocities), 1.0 / plane.B]))
+    motion = optimum(Standing(plane.slowed(unit)), 1)
     if not 0.5 <= motion.objective <= 2.0:
         unit *= power_of_two(motion.objective)
-        motion = optimum(plane.slowed(unit))
-    slow = plane.slowed(unit)
-    return _finer(slow, "time", unit, _limit(slow, "time", unit, motion))
+    return _finer(Standing(plane.slowed(unit)), "time", unit)
 
 
-def _limit(plane: PhasePlane, minimise: DriveObjective, unit: float, motion: PhaseOptimum) -> DriveLimit:
-    """The limit by the computed potential or, where that proves little, by a steeper potential."""
-    potential = Potential(motion.edges, motion.potential)
-    attained = _in_units(max(motion.objective, 0.0), minimise, unit, inf)
-    size, best = float(np.abs(motion.potential).max()), None
-    for share in _STEEPER:
-        trial = potential.steeper(share * size) if share else potential
-        limit = DriveLimit(
-            minimise,
-            0.0,
-            attained,
-            plane,
-            unit,
-            motion.weight,
-            tuple(motion.edges.tolist()),
-            tuple(map(tuple, trial.coefficients.tolist())),
-            tuple(motion.s.tolist()),
-            tuple(motion.b.tolist()),
-        )
+def _limit(standing: Standing, minimise: DriveObjective, unit: float, motion: PhaseOptimum) -> DriveLimit:
+    """The limit by the computed potential or, where that proves little, by others."""
+    plane = standing.plane
+    s, b = tuple(motion.s.tolist()), tuple(motion.b.tolist())
+    attained = _in_units(value_of(plane, s, b), minimise, unit, inf)
+    near = max(motion.objective, 0.0) if plane.kind == "peak" else 0.0
+    best = None
+    for potential, weight, price, is_last in _certificates(standing, motion):
+        edges, rows = tuple(potential.edges.tolist()), tuple(map(tuple, potential.coefficients.tolist()))
+        parts = (rows, s, b, standing.level, price, near)
+        limit = DriveLimit(minimise, 0.0, attained, plane, unit, weight, edges, *parts)
         limit = replace(limit, value=_bound(limit))
         if best is None or limit.value > best.value:
             best = limit
-        if best.gap < (PHASE_GAP if share else MOST_PHASE_GAP):
+        if best.gap < (MOST_PHASE_GAP if is_last else SMALL_PHASE_GAP):
             break
-    assert best is not None  # noqa: S101 - there are several shares
-    return best
+    assert best is not None  # noqa: S101 - there are several certificates
+    return replace(best, attained=_attained(best))
+
+
+def _certificates(standing: Standing, motion: PhaseOptimum) -> Iterator[tuple[Potential, float, float, bool]]:
+    """Potentials, weights of the time and prices of the mean torque, and whether the next is for a large gap alone."""
+    plane, potential = standing.plane, Potential(motion.edges, motion.potential)
+    size = float(np.abs(motion.potential).max())
+    for share in _STEEPER:
+        trial = potential.steeper(share * size) if share else potential
+        yield trial, motion.weight, 0.0, share in {0.0, _STEEPER[-1]}
+    little, none = PHASE_WEIGHT * abs(motion.objective), Potential(motion.edges, np.zeros_like(motion.potential))
+    if plane.peak is not None and (sign := standing_sign(plane)):
+        yield none, little, float(sign), True
+        yield even_price(plane, plane.peak, float(sign)), little, 0.0, True
+    elif standing.level:
+        yield none, little, 0.0, True
 
 
 def _bound(limit: DriveLimit) -> float:
     potential = Potential(np.array(limit.edges), np.array(limit.potential))
-    peak = limit.attained / limit.unit if limit.minimise == "peak torque" else inf
+    peak = limit.near if limit.minimise == "peak torque" else inf
     guess = Guess(np.array(limit.s), np.array(limit.b), peak)
-    bound = max(proven_bound(limit.plane, potential, limit.weight, guess), 0.0)
+    bound = proven_bound(Standing(limit.plane, limit.level, limit.price), potential, limit.weight, guess)
+    if limit.plane.at_least_nothing:
+        bound = max(bound, 0.0)
     return _in_units(bound, limit.minimise, limit.unit, 0.0)
+
+
+def _attained(limit: DriveLimit) -> float:
+    """The value of the motion of a limit; what integration is off below the bound is put right."""
+    value = _in_units(value_of(limit.plane, limit.s, limit.b), limit.minimise, limit.unit, inf)
+    below = limit.value - value
+    return limit.value if 0.0 < below <= INTEGRATION * abs(value) else value
 
 
 def _in_units(value: float, minimise: DriveObjective, unit: float, towards: float) -> float:
     """The value of the objective in its own unit, with roots rounded to a side; units are powers of 2."""
-    return unit * (nextafter(sqrt(value), towards) if minimise == "rms torque" else value)
+    if minimise == "rms torque":
+        return unit * nextafter(sqrt(value), towards) if 0.0 < value < inf else value
+    return unit * value
 
 
 def _check(limit: DriveLimit) -> None:
@@ -334,6 +465,8 @@ def _check(limit: DriveLimit) -> None:
     inside = all(0.0 < place < 1.0 for place in limit.s)
     if not limit.s or len(limit.s) != len(limit.b) or not inside or min(limit.b) <= 0.0:
         raise InputError("s and b must be as many places within (0, 1) with velocities above 0")
+    if any(low >= high for low, high in pairwise(limit.s)):
+        raise InputError(f"s must ascend, got {shortened(limit.s)}")
     if limit.plane.kind == "time" and limit.weight != 1.0:
         raise InputError(f"the weight of the time that is minimised is 1, got {limit.weight!r}")
 
@@ -382,10 +515,10 @@ def _plane_of(problem: Problem) -> tuple[PhasePlane, DriveObjective, float] | No
     if plane is None:
         return None
     limits = []
-    for bounded, bounds in problem.bounded:
-        if isinstance(bounded, FormulaPeak) and bounded.of_magnitude and bounds.high < inf:
-            form = torque_of(bounded.motion.formula)
-            if form is not None and (bounded.motion.start, bounded.motion.stop) == (0.0, 1.0):
+    for limited, bounds in problem.bounded:
+        if isinstance(limited, FormulaPeak) and limited.of_magnitude and bounds.high < inf:
+            form = torque_of(limited.motion.formula)
+            if form is not None and (limited.motion.start, limited.motion.stop) == (0.0, 1.0):
                 limits.append(TorqueLimit(form.scaled(1.0 / unit), bounds.high / unit))
     B, C = (inf if (known := problem.range(name)) is None else known.high for name in ("B", "C"))
     minimise: DriveObjective = "energy" if isinstance(term, FormulaIntegral) else "rms torque"

@@ -18,6 +18,8 @@ from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.files.reading import JsonText
 from optlaws.formulas.arithmetic import NUMPY, evaluate
+from optlaws.formulas.reading import read
+from optlaws.formulas.tree import Formula, Number
 from optlaws.kept import kept_property
 from optlaws.numbers import Array, bounded, positive
 from optlaws.synthesis.limits.phase_torque import ACCELERATION, AnyTorque, GearTorque, PhaseTorque, torque_from
@@ -111,6 +113,8 @@ class PhasePlane(JsonText):
         The greatest velocity and the greatest acceleration; infinite where they are free.
     velocities
         Bounds of the velocity over parts of the stroke.
+    holding
+        The torque that holds the load at rest; None where it is that of a slow motion.
 
     Examples
     --------
@@ -127,6 +131,7 @@ class PhasePlane(JsonText):
     C: float = inf
     heat: float = 1.0
     velocities: tuple[VelocityLimit, ...] = ()
+    holding: Formula | None = None
 
     _json_name = "a phase plane"
 
@@ -148,6 +153,11 @@ class PhasePlane(JsonText):
         if self.peak is not None:
             return "peak"
         return "mean" if self.squared is not None or self.maxima else "time"
+
+    @property
+    def at_least_nothing(self) -> bool:
+        """Whether what is minimised is at least 0 by itself: no energy of which a part comes back."""
+        return all(second == PhaseTorque(Number(0.0)) for _, second in self.maxima)
 
     @property
     def torques(self) -> tuple[AnyTorque, ...]:
@@ -265,17 +275,21 @@ class PhasePlane(JsonText):
             "C": bounded(self.C),
             "heat": self.heat,
             "velocities": [[limit.start, limit.stop, limit.B] for limit in self.velocities],
+            "holding": None if self.holding is None else str(self.holding),
         }
 
     @classmethod
     def from_dict(cls, data: Any) -> PhasePlane:  # noqa: ANN401 - it is checked here
         """The plane that `to_dict` described."""
         keys = {"squared", "maxima", "peak", "limits", "B", "C", "heat"}
-        if not isinstance(data, Mapping) or set(data) - {"velocities"} != keys:
-            raise InputError("a phase plane has the keys squared, maxima, peak, limits, B, C, heat and velocities")
+        if not isinstance(data, Mapping) or set(data) - {"velocities", "holding"} != keys:
+            raise InputError(
+                "a phase plane has the keys squared, maxima, peak, limits, B, C, heat, velocities and holding"
+            )
         squared, peak = (None if data[key] is None else torque_from(data[key]) for key in ("squared", "peak"))
         maxima = tuple((torque_from(first), torque_from(second)) for first, second in data["maxima"])
         limits = tuple(map(TorqueLimit.from_data, data["limits"]))
         velocities = tuple(VelocityLimit(*map(float, limit)) for limit in data.get("velocities", []))
         B, C = (inf if data[key] is None else float(data[key]) for key in ("B", "C"))
-        return cls(squared, maxima, peak, limits, B, C, positive(data["heat"], "heat"), velocities)
+        holding = None if data.get("holding") is None else read(data["holding"], ("a",))
+        return cls(squared, maxima, peak, limits, B, C, positive(data["heat"], "heat"), velocities, holding)

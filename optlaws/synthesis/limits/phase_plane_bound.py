@@ -12,13 +12,16 @@ parts.
 
 Where the velocity is bounded from a position on, the potential may jump there: by the squared velocity times the jump.
 
+The time is the one that is given, neither more nor less: see `motions.standing` for what follows of the mean
+torque, where the weight is that of the time above what standing still costs at least.
+
 Behind a gear with losses torques have one form while power flows to the load, x >= 0, and another while it flows back,
 x <= 0, and what is least is the lower of two inner minima, with prices of their own and a price of x >= 0 or of x <= 0.
 """
 
 from __future__ import annotations
 
-from math import fsum, inf, nextafter
+from math import comb, fsum, inf, nextafter
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,49 +30,58 @@ from optlaws.numbers import Array
 from optlaws.numerics.interval import Interval, between, exact
 from optlaws.numerics.taylor import Jet
 from optlaws.synthesis.limits.formula_jets import formula_jet
+from optlaws.synthesis.limits.motions.standing import Standing
 from optlaws.synthesis.limits.phase_plane import PhasePlane
 from optlaws.synthesis.limits.phase_plane_cells import PI, CellBounds, Guess, Potential, ProofCells, positions
-from optlaws.tolerances import ROUNDOFF, SMALLEST_SIZE
+from optlaws.synthesis.limits.phase_torque import AnyTorque
+from optlaws.tolerances import EVEN_FALL, ROUNDOFF, SMALLEST_SIZE
 
-__all__ = ["Guess", "Potential", "proven_bound"]
+__all__ = ["Guess", "Potential", "even_price", "proven_bound"]
 
 _CELLS = 160  # in the whole, besides a few in every piece
 _FEW = 3
 _ENDS_ROUNDING = 64.0 * ROUNDOFF  # cells are a little wider than they are
+#: pieces of a potential that gives a torque the same price everywhere, and their degree
+_EVEN, _DEGREE = 64, 4
 #: cells of which little is proven: in how many parts they are divided, how often, how many may be
 _PARTS, _DEEPEST, _MOST_WEAK = 4, 6, 60
 
 
-def proven_bound(plane: PhasePlane, potential: Potential, weight: float, guess: Guess) -> float:
-    """A lower bound for all motions of a phase plane, by a potential.
+def proven_bound(standing: Standing, potential: Potential, weight: float, guess: Guess) -> float:
+    """A lower bound for all motions of a phase plane, by a potential; minus infinity where it proves nothing.
 
     Parameters
     ----------
-    plane
-        What is minimised, and within which bounds.
+    standing
+        The plane, with what is minimised and within which bounds, and the part of its mean torque.
     potential
         The multiplier of the equation of motion.
     weight
-        The multiplier of the time, at least 0; 1 where the time is minimised.
+        The multiplier of the time above what standing still costs, at least 0; 1 where the time is minimised.
     guess
         Near what the inner minimum is looked for.
     """
-    total, free = _sums(plane, potential, weight, guess)
+    if not standing.holds:
+        return -inf
+    plane = standing.plane
+    total, free = _sums(standing, potential, weight, guess)
     if plane.kind == "time":
         return total
-    total = nextafter(total - weight, -inf)
+    total = nextafter(total + (standing.offset - weight).low, -inf)
     if plane.kind == "mean":
         return total
     # what is proven is at most 0 of a peak that a motion has, and concave in it: at least the line from its value at 0
-    free = nextafter(free - weight, -inf)
+    free = nextafter(free + (standing.offset - weight).low, -inf)
+    total = nextafter(total - nextafter(abs(standing.price) * guess.peak, inf), -inf)
     if not 0.0 < free < inf or not np.isfinite(total):
-        return 0.0
+        return -inf
     return guess.peak * free / (free - min(total, 0.0)) * (1.0 - 4.0 * ROUNDOFF)
 
 
-def _sums(plane: PhasePlane, potential: Potential, weight: float, guess: Guess) -> tuple[float, float]:
+def _sums(standing: Standing, potential: Potential, weight: float, guess: Guess) -> tuple[float, float]:
     """A lower bound of the integral of the inner minimum, for a guessed peak and without its price."""
-    first, *others = (ProofCells(plane, side, potential, weight, guess) for side in range(len(plane.branches)))
+    plane = standing.plane
+    first, *others = (ProofCells(standing, side, potential, weight, guess) for side in range(len(plane.branches)))
     piece, low, high = _whole(potential)
     sums, free = list[float](), list[float]()
     for deep in range(_DEEPEST):
@@ -88,6 +100,31 @@ def _sums(plane: PhasePlane, potential: Potential, weight: float, guess: Guess) 
         piece, low, high = _divided(piece[weak], low[weak], high[weak])
     jumps = _jumps(plane, potential)
     return nextafter(_sum(sums) - jumps, -inf), nextafter(_sum(free) - jumps, -inf)
+
+
+def even_price(plane: PhasePlane, torque: AnyTorque, price: float, start: float = 0.0, stop: float = 1.0) -> Potential:
+    """The potential by which a torque has the same price at all positions: its mean over the way is what is bounded.
+
+    Parameters
+    ----------
+    plane, torque
+        A torque of a plane.
+    price
+        Of the torque; above 0 from the first position on, below 0 up to the last.
+    start, stop
+        The positions between which it has the price.
+    """
+    kinks = 2.0 / np.pi * np.arcsin(np.sqrt(np.array([start, *plane.kinks, stop])))
+    ends, x = np.union1d(np.linspace(0.0, 1.0, _EVEN + 1), kinks), np.linspace(0.0, 1.0, _DEGREE + 1)
+    places = ends[:-1, None] + np.diff(ends)[:, None] * x
+    a = np.sin(0.5 * np.pi * places) ** 2
+    inertia, reference = (form.values(a)[0] for form in (torque.branches[0], plane.reference))
+    shapes = np.stack([comb(_DEGREE, i) * x**i * (1.0 - x) ** (_DEGREE - i) for i in range(_DEGREE + 1)], axis=1)
+    rows = np.linalg.solve(shapes, (0.5 * price * inertia / reference * np.sin(np.pi * places)).T).T
+    rows[1:, 0] = rows[:-1, -1]
+    potential = Potential(ends, rows).steeper(EVEN_FALL * float(np.abs(rows).max()))
+    potential.coefficients[(a[:, 0] < start) | (a[:, -1] > stop)] = 0.0
+    return potential
 
 
 def _jumps(plane: PhasePlane, potential: Potential) -> float:

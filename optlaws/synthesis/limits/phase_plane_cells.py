@@ -21,6 +21,7 @@ from optlaws.numbers import Array
 from optlaws.numerics.interval import Interval, between, chosen, exact
 from optlaws.numerics.taylor import Jet, variable
 from optlaws.synthesis.limits.formula_jets import formula_jet
+from optlaws.synthesis.limits.motions.standing import Standing
 from optlaws.synthesis.limits.phase_plane import PhasePlane
 from optlaws.synthesis.limits.phase_plane_velocity import InnerMinimum, entries_of
 from optlaws.synthesis.limits.phase_torque import GearTorque, PhaseTorque
@@ -95,6 +96,7 @@ class _Terms(NamedTuple):
     torques: dict[PhaseTorque, tuple[Jet, Jet, Jet, Jet]]
     double: Jet  #: 2 q, times scale
     rate: Jet  #: what multiplies x² of -q' b²
+    mean: tuple[Jet, Jet, Jet] | None  #: of the mean torque: factors of 1, x and 1/x
 
 
 class _Prices(NamedTuple):
@@ -155,12 +157,13 @@ class ProofCells:
     They are those of one direction of the power: torques have one form each.
     """
 
-    def __init__(self, plane: PhasePlane, side: int, potential: Potential, weight: float, guess: Guess) -> None:
-        self.plane, self.potential, self.weight, self.guess = plane.branches[side], potential, weight, guess
+    def __init__(self, standing: Standing, side: int, potential: Potential, weight: float, guess: Guess) -> None:
+        plane, self.standing, self.side = standing.plane, standing, side
+        self.plane, self.potential, self.weight, self.guess = standing.branch(side), potential, weight, guess
         self.inertia = plane.reference
         self.entries = entries_of(self.plane)
         self.maxima = [(first.branches[0], second.branches[0]) for first, second in self.plane.maxima]
-        self.spreads = _spreads(plane, side)
+        self.spreads = _spreads(plane, side) if standing.same else []
         self.peak = guess.peak if plane.kind == "peak" else 0.0
         self.reach: tuple[float, ...] | None = None
 
@@ -181,7 +184,8 @@ class ProofCells:
         inertia, by_a = self.inertia.values(a)[0], self.inertia.inertia_slope(a)
         by_s = slope / sine - np.pi * np.cos(np.pi * s) * value / sine**2
         q_slope = by_a * value / sine + inertia * by_s / (np.pi / 2.0 * sine)
-        inner = InnerMinimum(self.plane, self.weight, a, (inertia * value / sine, q_slope), guess.peak)
+        branch = self.standing, self.side
+        inner = InnerMinimum(branch, self.weight, a, (inertia * value / sine, q_slope), guess.peak)
         b = inner.velocity(np.interp(s, guess.s, guess.b / np.sin(np.pi * guess.s)) * sine)
         shape = (2, len(self.middle))
         known = inner.prices(b)
@@ -315,7 +319,17 @@ class ProofCells:
         turned = (inverse * inverse * potential * cosine).cut(order) * PI
         rate = (turned - scale.cut(order) * inverse.cut(order) * potential.slope()) * (2.0 / PI)
         sine, scale, share, inverse = (jet.cut(order) for jet in (sine, scale, share, inverse))
-        return _Terms(s.cut(order), sine, scale, share, inverse, jets, potential.cut(order) * inverse * 2.0, rate)
+        mean = self._mean_torque(a, sine, scale)
+        return _Terms(s.cut(order), sine, scale, share, inverse, jets, potential.cut(order) * inverse * 2.0, rate, mean)
+
+    def _mean_torque(self, a: Jet, sine: Jet, scale: Jet) -> tuple[Jet, Jet, Jet] | None:
+        """The factors of the mean torque, from jets of which that of a has one order more."""
+        if self.standing.torque is None:
+            return None
+        at = a.cut(sine.order)
+        terms = self.standing.terms(self.side, lambda formula: formula_jet(formula, "a", at))
+        steep = formula_jet(terms.inertia, "a", a).slope() * (terms.slope * 2.0 / PI)
+        return terms.A * sine, (terms.B1 * sine - steep) * scale, terms.L
 
     def _affine(self, ends: Array, s: Jet) -> Jet:
         """The affine function in every cell with given values near its ends."""
@@ -420,8 +434,11 @@ class ProofCells:
                 price_of_peak = magnitude
             A = A - magnitude * (self.peak if entry.role == "peak" else entry.at_rest)
             B1 = B1 + magnitude * scale * entry.fall
+        L = share * self.weight
+        if terms.mean is not None:
+            A, B1, L = A + terms.mean[0], B1 + terms.mean[1], L + share * terms.mean[2]
         half_pi = PI * 0.5
-        return _Integrand(*(jet * half_pi for jet in (A, B1, C2, share * self.weight, price_of_peak)))
+        return _Integrand(*(jet * half_pi for jet in (A, B1, C2, L, price_of_peak)))
 
 
 def positions(s: Interval) -> tuple[Array, Array]:

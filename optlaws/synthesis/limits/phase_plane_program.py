@@ -21,9 +21,10 @@ from numpy.typing import NDArray
 from optlaws.errors import SolverFailure
 from optlaws.numbers import Array
 from optlaws.numerics.chebyshev import gauss
+from optlaws.synthesis.limits.motions.standing import Standing
 from optlaws.synthesis.limits.phase_plane import PhasePlane, TorqueLimit, VelocityLimit
 from optlaws.synthesis.limits.phase_torque import AnyTorque, GearTorque, PhaseTorque
-from optlaws.tolerances import PHASE_ACTIVE, PHASE_PACE, SMALLEST_ELEMENT, SMALLEST_SIZE
+from optlaws.tolerances import PHASE_ACTIVE, PHASE_PACE, PHASE_TIGHT, SMALLEST_ELEMENT, SMALLEST_SIZE
 
 DEGREE = 4
 _ELEMENTS = 8
@@ -31,6 +32,8 @@ _ROUNDS = 3
 _VARIABLES = 4
 #: the first Bernstein coefficient of degree 4 by the others, where the degree is 3
 _LOWER = (4.0, -6.0, 4.0, -1.0)
+#: where the solver stopped without an answer
+_STOPPED = {"InsufficientProgress", "MaxIterations", "NumericalError"}
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,39 +70,42 @@ class PhaseOptimum:
     beyond: bool
 
 
-def optimum(plane: PhasePlane, rounds: int = _ROUNDS) -> PhaseOptimum:
+def optimum(standing: Standing, rounds: int = _ROUNDS, more: int = 1) -> PhaseOptimum:
     """The optimum of a phase plane, on elements that end where bounds become active or inactive.
 
     Parameters
     ----------
-    plane
-        What is minimised, and within which bounds.
+    standing
+        The plane, with what is minimised and within which bounds, and the level about which a torque is squared.
     rounds
         How often the program is solved, each time on finer elements around every change.
+    more
+        How many times as many elements it has at first.
 
     Raises
     ------
     SolverFailure
         If no motion keeps the bounds, or the program was not solved.
     """
+    plane = standing.shifted
     kinks = _in_s(plane.kinks)
-    edges = np.union1d(np.linspace(0.0, 1.0, _ELEMENTS + 1), kinks)
-    solved, pace = _first(plane, edges), 0.0
+    edges = np.union1d(np.linspace(0.0, 1.0, more * _ELEMENTS + 1), kinks)
+    solved, pace = _first(standing, edges), 0.0
     strict = False
     if solved.beyond:
-        other = _Program(plane, edges, pace, solved.driven, strict=True).solved()
+        other = _Program(standing, edges, pace, solved.driven, strict=True).solved()
         strict = other.objective > solved.objective * (1.0 + PHASE_ACTIVE)
         solved = other if strict else solved
     if plane.kind != "time" and solved.weight < PHASE_PACE * abs(solved.objective):
         # where the time costs nothing, velocities are not determined: it is given a little price
         pace = PHASE_PACE * abs(solved.objective)
-        solved = _Program(plane, edges, pace, _driven(plane, solved), strict=strict).solved()
+        solved = _Program(standing, edges, pace, _driven(plane, solved), strict=strict).solved()
     for _ in range(rounds - 1):
         finer, driven = _refined(plane, solved), _driven(plane, solved)
         if len(finer) == len(solved.edges) and driven == solved.driven:
             break
         try:
-            solved = _Program(plane, finer, pace, driven, strict=strict).solved()
+            solved = _Program(standing, finer, pace, driven, strict=strict).solved()
         except SolverFailure:
             if plane.gear_load is None:
                 raise
@@ -115,14 +121,14 @@ def _in_s(positions: Sequence[float]) -> Array:
 _Driven: TypeAlias = tuple[tuple[float, ...], tuple[bool, ...]]
 
 
-def _first(plane: PhasePlane, edges: Array) -> PhaseOptimum:
+def _first(standing: Standing, edges: Array) -> PhaseOptimum:
     """The optimum as if power flowed back wherever a motor brakes or, where that fails, nowhere."""
     try:
-        return _Program(plane, edges, 0.0, ((0.5,), (False, False))).solved()
+        return _Program(standing, edges, 0.0, ((0.5,), (False, False))).solved()
     except SolverFailure:
-        if plane.gear_load is None:
+        if standing.plane.gear_load is None:
             raise
-        return _Program(plane, edges, 0.0, ((0.5,), (True, True))).solved()
+        return _Program(standing, edges, 0.0, ((0.5,), (True, True))).solved()
 
 
 def _driven(plane: PhasePlane, solved: PhaseOptimum) -> _Driven:
@@ -152,8 +158,10 @@ _SQUARE, _ACCELERATION, _VELOCITY, _PACE = range(_VARIABLES)
 class _Program:
     """The conic program on given elements: variables at every place, and the peak."""
 
-    def __init__(self, plane: PhasePlane, edges: Array, pace: float, driven: _Driven, *, strict: bool = False) -> None:
-        self.plane, self.edges, self.pace, self.driven, self.strict = plane, edges, pace, driven, strict
+    def __init__(self, standing: Standing, edges: Array, pace: float, driven: _Driven, *, strict: bool = False) -> None:
+        self.standing, self.plane = standing, standing.shifted
+        plane = self.plane
+        self.edges, self.pace, self.driven, self.strict = edges, pace, driven, strict
         x, share = gauss(DEGREE)
         lengths = np.diff(edges)
         self.s = (edges[:-1, None] + lengths[:, None] * (x + 1.0) / 2.0).ravel()
@@ -172,6 +180,7 @@ class _Program:
         self.right: list[Array] = []
         self.cones: list[Any] = []
         self.costs = np.zeros(self.width)
+        self.constant = 0.0
         self._write_motion((x + 1.0) / 2.0)
         self._write()
 
@@ -192,16 +201,23 @@ class _Program:
             matrix, right = vstack([smooth.T @ matrix[:tests], matrix[tests:]], format="csc"), right[len(self.jumps) :]
             self.cones[0] = clarabel.ZeroConeT(self.count + 1)
         result = clarabel.DefaultSolver(nothing, self.costs / unit, matrix, right, self.cones, settings).solve()
-        if str(result.status) not in {"Solved", "AlmostSolved"}:
-            raise SolverFailure(f"no motion in the phase plane was found within the bounds: {result.status}")
         x, z = np.array(result.x), np.array(result.z)
+        # where it stopped early what it has is no optimum, but a motion and a potential that are checked without it
+        stopped = str(result.status) in _STOPPED and np.isfinite(x).all() and np.isfinite(z).all()
+        if str(result.status) not in {"Solved", "AlmostSolved"} and not stopped:
+            raise SolverFailure(f"no motion in the phase plane was found within the bounds: {result.status}")
         places = self._tests(np.arange(len(self.edges) - 1))
         weight = unit * float(z[self.count + 1]) + self.pace if self.plane.kind != "time" else 1.0
         time = float(self.weights @ x[_PACE * self.count : (_PACE + 1) * self.count])
         c, b = (x[i * self.count : (i + 1) * self.count] for i in (_ACCELERATION, _VELOCITY))
+        # where the time costs little b may be below the root of w, which is what accelerations change
+        b = np.maximum(
+            b, np.minimum(np.sqrt(np.maximum(x[: self.count], 0.0)), self.plane.velocity_bound(self.a, self.a))
+        )
         potential = -unit * (smooth @ z[: self.count + 1])[places]
         beyond = bool(np.any(x[: self.count] > (self.plane.B * (1.0 + PHASE_ACTIVE)) ** 2))
-        objective = unit * float(result.obj_val) - self.pace * time
+        objective = unit * float(result.obj_val) - self.pace * time + self.constant
+        weight = max(weight, 0.0)
         return PhaseOptimum(self.edges, potential, weight, self.s, b, c, objective, self.driven, beyond)
 
     def _write_motion(self, x: Array) -> None:
@@ -258,31 +274,34 @@ class _Program:
         """All other rows with their cones, and the objective."""
         import clarabel
 
-        plane, ones = self.plane, np.ones(self.count)
+        plane, ones, tight = self.plane, np.ones(self.count), 1.0 - PHASE_TIGHT
         if plane.kind == "time":
             self._cost(_PACE, 1.0)
         else:
             self._cost(_PACE, self.pace)
             places = _PACE * self.count + np.arange(self.count)
             self.entries.append((np.full(self.count, self.height), places, self.weights))
-            self._close(np.ones(1), [clarabel.NonnegativeConeT(1)])
+            self._close(np.full(1, tight), [clarabel.NonnegativeConeT(1)])
         if inf > plane.B:
             # of both the first has the more accurate prices, but where energy would be stored beyond it
-            self._at_most({_SQUARE: ones} if self.strict else {_VELOCITY: ones}, plane.B ** (1 + self.strict) * ones)
+            self._at_most(
+                {_SQUARE: ones} if self.strict else {_VELOCITY: ones}, (tight * plane.B) ** (1 + self.strict) * ones
+            )
         self._bound_jumps()
         for limit in plane.velocities:
-            self._at_most({_SQUARE: ones}, limit.B**2 * ones, self._within(limit))
+            self._at_most({_SQUARE: ones}, (tight * limit.B) ** 2 * ones, self._within(limit))
         for bound in plane.bounds:
             sides, size = self._sides(bound.torque)
             for parts, load in sides:
-                falling = {**parts, _VELOCITY: parts[_VELOCITY] + bound.fall / size}
-                self._at_most(falling, bound.at_rest / size - load, self._within(bound))
+                falling = {**parts, _VELOCITY: parts[_VELOCITY] + tight * bound.fall / size}
+                self._at_most(falling, tight * bound.at_rest / size - load, self._within(bound))
         # b² <= w and 1 <= b y
         self._cone(({_SQUARE: ones}, ones), ({_VELOCITY: 2.0 * ones}, 0.0 * ones), ({_SQUARE: ones}, -ones))
         ways = {_VELOCITY: ones, _PACE: ones}, {_VELOCITY: -ones, _PACE: ones}
         self._cone((ways[0], 0.0 * ones), ({}, 2.0 * ones), (ways[1], 0.0 * ones))
         if plane.squared is not None:
             self._write_squared(plane.squared)
+            self._cost_mean()
         for i, torques in enumerate(plane.maxima, self.columns // self.count - len(plane.maxima)):
             self._write_maximum([branch for torque in torques for branch in torque.branches], i)
         if plane.peak is not None:
@@ -290,6 +309,13 @@ class _Program:
             for parts, load in sides:
                 self.entries.append((self.height + np.arange(self.count), np.full(self.count, self.width - 1), -ones))
                 self._at_most(parts, -load)
+
+    def _cost_mean(self) -> None:
+        """What the mean torque of a level adds to the objective."""
+        A, B1, L = (term * self.weights for term in self.standing.values(0, self.a))
+        for variable, values in ((_VELOCITY, B1), (_PACE, np.maximum(L, 0.0))):
+            self.costs[variable * self.count : (variable + 1) * self.count] += values
+        self.constant = float(A.sum() + self.standing.offset.middle)
 
     def _write_squared(self, torque: AnyTorque) -> None:
         """The rows of a squared torque; behind a gear with losses of what is at least its magnitude."""

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.numbers import Array
+from optlaws.synthesis.limits.motions.standing import Standing
 from optlaws.synthesis.limits.phase_plane import PhasePlane
 from optlaws.synthesis.limits.phase_torque import PhaseTorque
 from optlaws.tolerances import INNER_SHARE, PHASE_TIE
@@ -69,8 +70,14 @@ class InnerMinimum:
     plane have one form each.
     """
 
-    def __init__(self, plane: PhasePlane, weight: float, a: Array, potential: tuple[Array, Array], peak: float) -> None:
-        self.plane, self.weight, (self.q, self.slope) = plane, weight, potential
+    def __init__(
+        self, branch: tuple[Standing, int], weight: float, a: Array, potential: tuple[Array, Array], peak: float
+    ) -> None:
+        standing, side = branch
+        self.plane = plane = standing.branch(side)
+        self.q, self.slope = potential
+        self.of_mean, self.drag_of_mean, waiting = standing.values(side, a)
+        self.weight = weight + waiting  # of the time
         self.entries = [
             PricedTorque(entry.torque, entry.role, peak) if entry.role == "peak" else entry
             for entry in entries_of(plane)
@@ -178,7 +185,7 @@ class InnerMinimum:
                 sign = np.sign(self._torque(entry.torque, b, c))
                 inertia, second = self.factors[entry.torque][0], self.factors[other.torque][0]
                 rate, rate_of_other = self._rate(entry, b, sign), self._rate(other, b, other.side)
-                right = 2.0 * self.slope * b + self.weight / b**2
+                right = 2.0 * self.slope * b + self.weight / b**2 - self.drag_of_mean
                 with np.errstate(all="ignore"):
                     price = (2.0 * self.q * rate_of_other - right * second) / (inertia * rate_of_other - second * rate)
                     beside = (2.0 * self.q - price * inertia) / second
@@ -201,7 +208,7 @@ class InnerMinimum:
     def _value(self, b: Array) -> Array:
         """The least Lagrangian at velocities; infinite where no acceleration is within the bounds."""
         _, value = self._acceleration(b)
-        return value + self.weight / b - self.slope * b * b
+        return value + self.weight / b + self.of_mean + (self.drag_of_mean - self.slope * b) * b
 
     def _acceleration(self, b: Array) -> tuple[Array, Array]:
         """The accelerations of least Lagrangian at velocities, and its parts that depend on them."""

@@ -1,0 +1,1 @@
+"""Motions in a phase plane: what the whole time says of their torque, and the value of one of them."""
