@@ -41,7 +41,7 @@ FUNCTIONS = {
 }
 TABLES = ("spline", "spline1", "spline2", "table")
 CONSTANTS = ("pi",)
-LONGEST = 100_000
+LONGEST = 1_000_000
 DEEPEST = 40
 _FEWEST = {"table": 2, "spline": 4, "spline1": 4, "spline2": 4}
 _MOST_PLACES = 400

@@ -33,8 +33,10 @@ from optlaws.synthesis.limits.closed_forms import (
 )
 from optlaws.synthesis.limits.drive_limits import limit_beside, limit_of_plane, phase_torque
 from optlaws.synthesis.limits.formula_jets import formula_jet
+from optlaws.synthesis.limits.motions.standing import Standing
 from optlaws.synthesis.limits.of_problem import known_limit
 from optlaws.synthesis.limits.phase_plane import TorqueLimit, VelocityLimit
+from optlaws.synthesis.limits.phase_plane_program import optimum
 from optlaws.synthesis.limits.rounding import not_above, root_rounded_down, rounded_down, rounded_up
 from optlaws.synthesis.method import exchange, starts
 from optlaws.synthesis.method.discretised import ipopt

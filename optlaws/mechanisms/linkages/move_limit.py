@@ -271,8 +271,8 @@ def move_limit(
     if minimise != "time" and (least := bounds.least_share(scales.velocity)) >= 1.0:
         takes, given = f"{least * scales.duration:.{_DIGITS}g} s", f"{scales.duration:.{_DIGITS}g} s"
         speed = f" of {bounds.velocity:.{_DIGITS}g} {scales.of_velocity}" if bounds.velocity < inf else ""
-        proof = f"at the greatest velocity{speed} alone the stroke takes {takes}"
-        raise InfeasibleProblem(f"{proof}, and {given} are given: take more time, or a greater velocity", proof=proof)
+        shown = f"at the greatest velocity{speed} alone the stroke takes {takes}"
+        raise InfeasibleProblem(f"{shown}, and {given} are given: take more time, or a greater velocity", proof=shown)
     form = phase_torque(torque)
     unit = form.size
     plane = _plane(form, minimise, scales, bounds, costs)

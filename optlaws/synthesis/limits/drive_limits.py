@@ -41,8 +41,8 @@ from optlaws.tolerances import (
 #: what a drive is to take as little of
 DriveObjective: TypeAlias = Literal["peak torque", "rms torque", "energy", "time"]
 
-_KEYS = ("minimise", "value", "attained", "plane", "unit", "weight", "edges", "potential", "s", "b")
-_KEYS += ("level", "price", "near")
+_CERTIFICATE = ("weight", "edges", "potential", "s", "b", "level", "price", "near")
+_KEYS = ("minimise", "value", "attained", "plane", "unit", *_CERTIFICATE)
 #: by which shares of its size a potential falls more where it proves little
 _STEEPER = (0.0, 1e-8, 1e-6, 1e-4)
 #: of the level about which a torque is squared, where that of the load proves little

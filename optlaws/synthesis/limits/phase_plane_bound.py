@@ -122,7 +122,7 @@ def even_price(plane: PhasePlane, torque: AnyTorque, price: float, start: float 
     shapes = np.stack([comb(_DEGREE, i) * x**i * (1.0 - x) ** (_DEGREE - i) for i in range(_DEGREE + 1)], axis=1)
     rows = np.linalg.solve(shapes, (0.5 * price * inertia / reference * np.sin(np.pi * places)).T).T
     rows[1:, 0] = rows[:-1, -1]
-    potential = Potential(ends, rows).steeper(EVEN_FALL * float(np.abs(rows).max()))
+    potential = Potential(ends, np.asarray(rows, dtype=np.float64)).steeper(EVEN_FALL * float(np.abs(rows).max()))
     potential.coefficients[(a[:, 0] < start) | (a[:, -1] > stop)] = 0.0
     return potential
 

@@ -12,6 +12,7 @@ from scipy.integrate import quad
 from scipy.optimize import minimize_scalar
 
 from optlaws import (
+    Body,
     Cycle,
     Drive,
     InfeasibleProblem,
@@ -28,6 +29,7 @@ from optlaws import (
     rms,
     slider_crank,
     smoothstep,
+    toggle,
     with_end_velocity,
 )
 from optlaws.typing import DriveSheet
@@ -225,3 +227,16 @@ def test_a_law_that_overshoots_meets_the_inertia_beyond_its_stroke() -> None:
     assert high > 1.01
     drive = Drive(Mechanism("1 + x^2"), Motor("1 kg m^2"))
     assert drive.sheet(law, 0.0, 1.0, 1.0).inertia_match == pytest.approx(1.0 + max(high, -low) ** 2, rel=1e-9)
+
+
+@pytest.mark.long
+def test_formulas_of_a_toggle_with_masses_behind_a_lossy_gear_can_be_read() -> None:
+    lengths = {"crank": "60 mm", "rod": "250 mm", "upper": "200 mm", "lower": "200 mm", "frame": "280 mm"}
+    moving = {
+        name: Body("2 kg", inertia="0.01 kg m^2", centre=("0.1 m", "10 mm")) for name in ("rod", "upper", "lower")
+    }
+    knee = toggle(lengths, bodies={"ram": "40 kg", **moving}, loads=Loads(gravity="90 deg"))
+    drive = Drive(knee, Motor("3e-4 kg m^2"), ratio=10, efficiency=0.9)
+    text = drive.dimensionless("10 deg", "120 deg", "0.5 s").torque
+    assert len(text) > 100_000
+    assert rms(text).value(smoothstep(3)) > 0.0

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from collections import Counter
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 import pytest
 
 from optlaws import Drive, InfeasibleProblem, Mechanism, Motor, MoveLimit, SolverFailure, catalogue
-from optlaws.mechanisms.drives.sheet import DriveSheet
 from optlaws.typing import DriveObjective
 from optlaws.verification import verify
 
@@ -54,10 +53,10 @@ class RandomMove(NamedTuple):
         drive = Drive(mechanism, motor, ratio, shares, regeneration=float(draw.choice([0.0, 1.0, draw.uniform(0, 1)])))
         return drive, start, stroke, second, kind, 10.0 ** draw.uniform(0.6, 2.0)
 
-    def limits(self) -> dict[str, object]:
+    def limits(self) -> dict[str, Any]:
         """An acceleration, and perhaps a velocity over a part of the way."""
         _, start, stroke, second, kind, accelerates = self.parts()
-        known: dict[str, object] = {"acceleration": accelerates * abs(stroke) / second**2}
+        known: dict[str, Any] = {"acceleration": accelerates * abs(stroke) / second**2}
         if self.seed % 3 == 0 and kind != "peak torque":
             low, high = np.sort(np.random.default_rng(self.seed + 10**6).uniform(0, 1, 2))
             most = 10.0 ** np.random.default_rng(self.seed).uniform(0.2, 0.8) * abs(stroke) / second
@@ -74,9 +73,9 @@ def keeps(move: RandomMove, law: str, second: float) -> bool:
     _, start, stroke, _, _, _ = move.parts()
     limits, k = move.limits(), np.linspace(0.0, 1.0, 4001)
     of = catalogue[law].law
-    if np.max(np.abs(of(k, 2))) * abs(stroke) / second**2 > limits["acceleration"]:  # type: ignore[operator]
+    if np.max(np.abs(of(k, 2))) * abs(stroke) / second**2 > limits["acceleration"]:
         return False
-    for first, last, most in limits.get("velocity", ()):  # type: ignore[attr-defined]
+    for first, last, most in limits.get("velocity", ()):
         low, high = sorted((end - start) / stroke for end in (first, last))
         a = of(k)
         within = (a >= low - 1e-3) & (a <= high + 1e-3)
@@ -85,8 +84,10 @@ def keeps(move: RandomMove, law: str, second: float) -> bool:
     return True
 
 
-def own_value(sheet: DriveSheet, kind: DriveObjective) -> tuple[float, float]:
+def own_value(move: RandomMove, law: str) -> tuple[float, float]:
     """What a law takes, and the size of the numbers whose difference it is."""
+    drive, start, stroke, second, kind, _ = move.parts()
+    sheet = drive.sheet(law, start, stroke, second)
     if kind == "energy":
         return sheet.energy, sheet.motoring_energy + sheet.braking_energy
     value = sheet.peak_torque if kind == "peak torque" else sheet.rms_torque
@@ -96,7 +97,7 @@ def own_value(sheet: DriveSheet, kind: DriveObjective) -> tuple[float, float]:
 def check(seed: int) -> str:
     """The outcome of a random move: what is claimed of it holds."""
     move = RandomMove(seed)
-    drive, start, stroke, second, kind, _ = move.parts()
+    _, _, _, second, kind, _ = move.parts()
     try:
         limit = move.limit()
     except InfeasibleProblem as error:
@@ -108,7 +109,7 @@ def check(seed: int) -> str:
     assert limit.gap >= 0.0, seed
     for law in LAWS if kind != "time" else ():
         if keeps(move, law, second):
-            value, size = own_value(drive.sheet(law, start, stroke, second), kind)
+            value, size = own_value(move, law)
             assert limit.value <= value + AGREES * size, (seed, law, limit.value, value)
     if kind == "time" and limit.value:
         fast = [law for law in LAWS if keeps(move, law, limit.value * (1.0 - AGREES))]

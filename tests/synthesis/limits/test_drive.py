@@ -14,8 +14,7 @@ from scipy.optimize import brentq
 
 from optlaws import DriveLimit, InfeasibleProblem, InputError, catalogue, drive_limit, drive_torque
 from optlaws.laws import MotionLaw
-from optlaws.synthesis.limits.motions.standing import Standing
-from optlaws.synthesis.limits.phase_plane_program import optimum
+from tests.internals.synthesis import Standing, optimum
 from tests.sampling import examples
 
 LOADED = drive_torque(inertia="1 + 0.6*a^2", load="3*a")
