@@ -139,6 +139,8 @@ def _draw(old: OldTable, new: OldTable | None, place: Path) -> Path:
 
 
 def _show(old: OldTable, new: OldTable | None) -> None:
+    from optlaws.cycles.old_tables.better_moves import law_of_move, nothing_to_better
+
     show(f"{old.layout}, {len(old.places)} points", str(old))
     if new is None:
         return
@@ -158,7 +160,9 @@ def _show(old: OldTable, new: OldTable | None) -> None:
     show(table(*headings, f"off by, {old.unit}", rows=rows))
     same = [part for part, was in zip(new.moves, old.moves, strict=True) if part.law is was.law]
     for part in same:
-        show(f"the {part.kind} from {part.start:g} keeps its law: none of degree 15 so near has less acceleration")
+        what = nothing_to_better(law_of_move(part))
+        why = f"it is {what}" if what else "none of degree 15 so near has less acceleration"
+        show(f"the {part.kind} from {part.start:g} keeps its law: {why}")
 
 
 def _change(gain: Any, nu: int) -> str:  # noqa: ANN401 - a MoveGain, which the help must not import

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from optlaws import Cycle, Dwell, InputError, Return, Rise, catalogue, read_cycle_table, smoothstep, split_table
+from tests.internals.cycles import law_of_move, nothing_to_better
 
 PROGRAMME = [Rise("35 mm", "120 deg"), Dwell("90 deg"), Return("35 mm", "100 deg"), Dwell()]
 
@@ -80,3 +81,26 @@ def test_a_file_of_a_cycle_is_read(tmp_path) -> None:  # type: ignore[no-untyped
 def test_what_is_no_cycle_is_refused(says: str, x: list[float], y: list[float]) -> None:
     with pytest.raises(InputError, match=says):
         split_table(x, y)
+
+
+@pytest.mark.parametrize(
+    ("law", "what"),
+    [
+        ("constant velocity", "at constant velocity, without acceleration or jerk"),
+        ("modified sine", ""),
+    ],
+)
+def test_a_move_without_acceleration_keeps_its_law(law: str, what: str) -> None:
+    """A quarter sine up, and a way back whose law may have no acceleration."""
+    x = np.arange(361.0)
+    up = np.where(x <= 120.0, np.sin(0.5 * np.pi * np.minimum(x, 120.0) / 120.0), 1.0)
+    down = catalogue[law].law(np.clip((x - 180.0) / 90.0, 0.0, 1.0))
+    split = split_table(x, np.round(3.0 * (up - down), 3), digit=1e-3)
+    better = split.bettered(0.05)
+    back, after = (next(part for part in each.moves if part.kind == "return") for each in (split, better))
+    assert back.law == law
+    assert nothing_to_better(law_of_move(back)) == what
+    assert (after.law == law) is bool(what)
+    for gain in better.gains(split):
+        assert not gain.share(2) > 0.0
+        assert gain.deviation <= 0.05 * (1.0 + 1e-9)

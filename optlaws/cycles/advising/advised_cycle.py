@@ -124,10 +124,17 @@ class AdvisedCycle:
         Raises
         ------
         InputError
-            If that law does not fit: velocities do not meet, or points on the way are given.
+            If that law does not fit: velocities do not meet, points on the way are given, or it has none of what is
+            minimised, as its velocity jumps.
         """
         cycle = self._known(self._segments(partial(_with_law, name)))
-        return self._advised(name, "standard", cycle)
+        advised = self._advised(name, "standard", cycle)
+        if self.minimise != RESIDUAL and not advised.values[self.minimise] > 0.0:
+            raise InputError(
+                f"the {self.minimise} of {name} is 0 between its ends, where its velocity jumps, so that no law can be "
+                "compared with it: take a law from rest to rest"
+            )
+        return advised
 
     def least(self, name: str, minimise: str, most: Mapping[str, float]) -> AdvisedLaw:
         """The cycle whose laws are least in a measure and take no more of others, within all limits.

@@ -55,9 +55,9 @@ class MoveGain(NamedTuple):
     deviation: float
 
     def share(self, nu: int) -> float:
-        """The relative change of the peak of order nu, 1 to 3; nan if the old one is infinite."""
+        """The relative change of the peak of order nu, 1 to 3; nan if the old one is infinite or 0."""
         old, new = self.old[nu - 1], self.new[nu - 1]
-        return new / old - 1.0 if isfinite(old) else float("nan")
+        return new / old - 1.0 if isfinite(old) and old > 0.0 else float("nan")
 
 
 def better(part: Stretch, room: float, order: int, degree: int, start: Solution | None = None) -> Stretch:
@@ -68,7 +68,7 @@ def better(part: Stretch, room: float, order: int, degree: int, start: Solution 
     if part.law is None:
         return part
     old, share = law_of_move(part), room / abs(part.stroke)
-    if share < least_distance(old, order, degree):
+    if nothing_to_better(old) or share < least_distance(old, order, degree):
         return part
     for places in _PLACES:
         start = solution = _nearby(old, share, places, (order, degree), start)
@@ -78,6 +78,17 @@ def better(part: Stretch, room: float, order: int, degree: int, start: Solution 
         if deviation(solution.law, old) <= share * (1.0 + WITHIN_TOLERANCE):
             return replace(part, law=solution.law, solution=solution)
     return part
+
+
+def nothing_to_better(old: MotionLaw) -> str:
+    """What a law is whose acceleration or jerk is 0, so that none in its place has less; empty for any other law.
+
+    >>> nothing_to_better(catalogue["constant velocity"].law), nothing_to_better(catalogue["cycloidal"].law)
+    ('at constant velocity, without acceleration or jerk', '')
+    """
+    if old.constants.C.value == 0.0:
+        return "at constant velocity, without acceleration or jerk"
+    return "at constant acceleration, without jerk" if old.constants.J.value == 0.0 else ""
 
 
 def least_distance(old: MotionLaw, order: int, degree: int) -> float:

@@ -102,7 +102,8 @@ class OldTable:
     def bettered(self, tolerance: float, *, order: int = 3, degree: int = 15) -> OldTable:
         """The table with the laws of least acceleration that stay within a tolerance of the old laws everywhere.
 
-        A move keeps its law where no law of this order and degree within the tolerance has less acceleration.
+        A move keeps its law where no law of this order and degree within the tolerance has less acceleration, and where
+        it has no acceleration or no jerk, as one at constant velocity.
 
         Parameters
         ----------

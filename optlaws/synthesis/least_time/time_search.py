@@ -56,16 +56,22 @@ _Known = list[tuple[float, Multipliers]]
 def _from_either_side(move: TimedMove, near: LeastTime | None) -> tuple[float, Solution, _Known]:
     """Steps from rest to rest: the multipliers of any time prove an interval from zero up to the next time."""
     duration, warm = _first(move) if near is None else _beside(move, near)
+    known: _Known = []
     for step in range(_STEPS):
         solution = law_in_time(move, duration, warm)
         warm, multipliers = solution.active_set, Multipliers.of(move, duration, solution)
-        too_short = multipliers.longest(duration)
-        gap = 1.0 - too_short / duration
+        too_short, proven = multipliers.longest(duration), known[0][0] if known else 0.0
+        # an inaccurate solution may prove less than one before, or by rounding more than its own law allows
+        long_enough = duration * max(solution.objective, 1.0) * (1.0 + LEAST_TIME_GAP)
+        proves_more = proven < too_short <= long_enough
+        if proves_more:
+            proven, known = too_short, [(too_short, multipliers)]
+        gap = 1.0 - proven / duration
         met = LEAST_TIME_MET if step < _SETTLING else 0.5 * LEAST_TIME_GAP
         if solution.objective <= 1.0 + FEASIBILITY and gap <= met:
-            return duration, solution, [(too_short, multipliers)]
+            return duration, solution, known
         # where the multipliers say no more, the law says how long it takes
-        duration = too_short if abs(gap) > LEAST_TIME_MET else duration * solution.objective
+        duration = proven if proves_more and abs(gap) > LEAST_TIME_MET else duration * solution.objective
     raise unsettled(move, duration)
 
 

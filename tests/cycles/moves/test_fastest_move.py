@@ -169,3 +169,14 @@ def test_damaged_files_are_refused(name: str, move: FastestMove) -> None:
 def test_wrong_inputs_are_named(changes: dict[str, Any], named: str) -> None:
     with pytest.raises(InputError, match=named):
         fastest(ORDER_3, **({"stroke": "100 mm", "limits": LIMITS} | changes))
+
+
+@pytest.mark.parametrize("stroke", [1e3, 51002.562712464198, pytest.param(3e5, marks=pytest.mark.long)])
+def test_pieces_of_a_very_long_move_reach_the_limit(stroke: float) -> None:
+    """Ramps that are a hundred-thousandth of the move: 2 sqrt(v/j) + h/v."""
+    limits = {"velocity": "1 m/s", "acceleration": "2.718257726 m/s^2", "jerk": "1 m/s^3"}
+    smooth = fastest(ORDER_3, stroke=f"{stroke!r} m", limits=limits)
+    pieces = Problem(order=3, basis=Pieces(smooth.limit_breaks, degree=3, continuity=2), symmetric=False)
+    move = fastest(pieces, stroke=f"{stroke!r} m", limits=limits)
+    assert move.duration == pytest.approx(2.0 + stroke, rel=1e-6)
+    assert all(proof.stands(move.least.move) for proof in move.least.proofs)
