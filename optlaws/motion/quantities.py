@@ -31,17 +31,20 @@ radian = [angle] = rad
 minute = 60 * second = min
 hour = 60 * minute = h
 inch = 0.0254 * meter = in = inches
+foot = 0.3048 * meter = ft = feet
+thou = 0.001 * inch = mil
 degree = 3.141592653589793 / 180 * radian = deg = °
 revolution = 360 * degree = rev = turn = r = U
 revolutions_per_minute = revolution / minute = rpm
 revolutions_per_second = revolution / second = rps
+cycles_per_minute = 1 / minute = cpm
 newton = kilogram * meter / second ** 2 = N
 newton_meter = newton * meter = Nm
 pascal = newton / meter ** 2 = Pa
 joule = newton * meter = J
 watt = joule / second = W
 hertz = 1 / second = Hz
-standard_gravity = 9.80665 * meter / second ** 2 = g_n
+standard_gravity = 9.80665 * meter / second ** 2 = g_n = g_0 = g0 = gn
 """
 
 #: by dimension: the SI unit of computations, and an example for errors
@@ -99,12 +102,25 @@ _USUAL: dict[str, dict[str, float]] = {
     "viscous friction": {"N s/m": 1.0},
     "rotary viscous friction": {"N m s/rad": 1.0},
 }
+#: further units that errors name
+_FURTHER = {
+    "length": ("ft", "thou"),
+    "frequency": ("1/min", "cpm"),
+    "velocity": ("m/min", "in/s", "ft/min"),
+    "angular velocity": ("1/min", "cpm"),
+    "acceleration": ("in/s^2", "g"),
+    "jerk": ("in/s^3", "g/s"),
+}
+#: dimensions in which g is not a gram but the acceleration of gravity
+_OF_GRAVITY = {"acceleration", "jerk", "snap"}
 USUAL_UNITS = {unit: (dimension, factor) for dimension, units in _USUAL.items() for unit, factor in units.items()}
 #: the dimensions of one unit, between which nothing but what is meant decides
 _WORK = {"torque", "energy"}
 
 _NUMBER = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,3})?)(?:/([1-9]\d{0,8})(?!\d))?\s*(.*)")
-_UNIT = re.compile(r"[A-Za-zµ°_]+(?:\s*(?:\^|\*\*)\s*-?[1-4])?")
+_UNIT = re.compile(r"(?:g0|[A-Za-zµ°_]+)(?:\s*(?:\^|\*\*)\s*-?[1-4]|[2-4])?")
+#: a power without its sign, as in mm/s2; and g as a unit of its own
+_BARE_POWER, _G = re.compile(r"(?<=[A-Za-zµ°])(?=[2-4])"), re.compile(r"(?<![A-Za-zµ_])g(?![A-Za-z_0])")
 _LONGEST = 60
 #: signs of other keyboards and of print, as the others write them
 _SIGNS = str.maketrans({"−": "-", "μ": "µ", "⋅": "·", "²": "^2", "³": "^3", "⁴": "^4", "⁻": "^-", "¹": "1"})
@@ -119,7 +135,8 @@ def quantity(value: Any, dimension: str, name: str) -> float:  # noqa: ANN401 - 
     ----------
     value
         Text: a number, with a decimal point, and its unit; or a quantity of pint, of any registry. Angles are no bare
-        numbers: 45 deg, 0.5 rad, 1 turn. An angular velocity in 1/min is one in turns.
+        numbers: 45 deg, 0.5 rad, 1 turn. An angular velocity in 1/min or cpm is one in turns. In an acceleration g is
+        that of gravity, elsewhere a gram.
     dimension
         The required dimension, one of `DIMENSIONS`.
     name
@@ -128,7 +145,8 @@ def quantity(value: Any, dimension: str, name: str) -> float:  # noqa: ANN401 - 
     Raises
     ------
     InputError
-        If there is no unit, it is not known, or it is one of another dimension; the error names both dimensions.
+        If there is no unit, it is not known, or it is one of another dimension; the error names both dimensions, and
+        the units that are known.
 
     Examples
     --------
@@ -139,10 +157,12 @@ def quantity(value: Any, dimension: str, name: str) -> float:  # noqa: ANN401 - 
     optlaws.errors.InputError: limit must be a velocity such as '616 mm/s', but '35 mm' is a length
     """
     value = written(value)
-    number, unit = _parts(value, dimension, name)
+    number, unit = _parts(value, (dimension,), name)
     factor = _si_factor(unit, dimension)
     if factor is None:
-        raise InputError(f"{_asks(dimension, name)}, but {shortened(value)} is {_kind(unit)}{_remedy(unit, dimension)}")
+        raise InputError(
+            f"{_asks((dimension,), name)}, but {shortened(value)} is {_kind(unit)}{_remedy(unit, dimension)}"
+        )
     return _measurable(finite(number * factor, name), dimension, name, value)
 
 
@@ -206,13 +226,12 @@ def either(value: Any, dimensions: tuple[str, ...], name: str) -> tuple[str, flo
     ('time', 0.1)
     """
     value = written(value)
-    number, unit = _parts(value, dimensions[0], name)
+    number, unit = _parts(value, dimensions, name)
     for dimension in dimensions:
         factor = _si_factor(unit, dimension)
         if factor is not None:
             return dimension, _measurable(finite(number * factor, name), dimension, name, value)
-    kinds = " or ".join(f"{_article(kind)} such as {DIMENSIONS[kind][1]!r}" for kind in dimensions)
-    raise InputError(f"{name} must be {kinds}, but {shortened(value)} is {_kind(unit)}")
+    raise InputError(f"{_asks(dimensions, name)}, but {shortened(value)} is {_kind(unit)}")
 
 
 def si_number(value: Any, dimensions: tuple[str, ...], name: str) -> Any:  # noqa: ANN401 - what is none is checked later
@@ -264,7 +283,9 @@ def written(value: Any) -> Any:  # noqa: ANN401 - whatever is given
     from pint.errors import PintError
 
     try:
-        known = value if _known_unit(f"{value.units:~C}") is not None else value.to_base_units()
+        # a gram of pint is one wherever it is given
+        read = not re.search(r"\bgram\b", f"{value.units:D}") and _known_unit(f"{value.units:~C}") is not None
+        known = value if read else value.to_base_units()
         # a magnitude may be any number, or an array, which has no float that is meant
         return value if getattr(known.magnitude, "ndim", 0) else f"{float(known.magnitude)!r} {known.units:~C}"
     except (PintError, ArithmeticError, TypeError, ValueError):
@@ -314,26 +335,34 @@ def given_quantity(value: Any, dimensions: tuple[str, ...], name: str) -> Given:
     return Given(dimension, _number(match), match[3].strip())
 
 
-def _parts(value: Any, dimension: str, name: str) -> tuple[float, str]:  # noqa: ANN401
+def _parts(value: Any, dimensions: tuple[str, ...], name: str) -> tuple[float, str]:  # noqa: ANN401
     """The number of a quantity, and the text of its unit, which is known."""
+    asks = _asks(dimensions, name)
     match = _NUMBER.fullmatch(_plain(value)) if isinstance(value, str) and len(value) <= _LONGEST else None
     if real(value) is not None or (match is not None and not match[3].strip()):
-        example = DIMENSIONS[dimension][1]
+        example = DIMENSIONS[dimensions[0]][1]
         raise InputError(
-            f"{_asks(dimension, name)}, got {shortened(value)} without a unit: write it as text with its unit, as in "
-            f"{example!r}"
+            f"{asks}, got {shortened(value)} without a unit: write it as text with its unit, as in {example!r}"
         )
     parted = _SEPARATED.match(value) if isinstance(value, str) and len(value) <= _LONGEST else None
     if parted is not None:
-        raise InputError(f"{_asks(dimension, name)}, got {shortened(value)}: {_with_a_point(value, parted.group())}")
+        raise InputError(f"{asks}, got {shortened(value)}: {_with_a_point(value, parted.group())}")
     if match is None:
-        raise InputError(f"{_asks(dimension, name)}, got {shortened(value)}")
+        raise InputError(f"{asks}, got {shortened(value)}")
     number, unit = _number(match), match[3].strip()
     if not isfinite(number):
         raise InputError(f"{name} must be finite, got {shortened(value)}")
     if unit not in USUAL_UNITS and _known_unit(unit) is None:
-        raise InputError(f"{_asks(dimension, name)}, but the unit of {shortened(value)} is not known")
+        known = " or ".join(f"{_article(each)} in {_units_of(each)}" for each in dimensions)
+        raise InputError(f"{asks}, but the unit of {shortened(value)} is not known: write {known}")
     return number, unit
+
+
+def _units_of(dimension: str) -> str:
+    """The usual units of a dimension, in words."""
+    units = [*_USUAL.get(dimension, ()), *_FURTHER.get(dimension, ())]
+    units = [unit for unit in units if unit not in {"°", "µm"}] or [DIMENSIONS[dimension][1].partition(" ")[2]]
+    return units[0] if len(units) == 1 else f"{', '.join(units[:-1])} or {units[-1]}"
 
 
 def _plain(text: str) -> str:
@@ -357,12 +386,14 @@ def _number(match: re.Match[str]) -> float:
 @lru_cache(maxsize=256)
 def _si_factor(unit: str, dimension: str) -> float | None:
     """How many units of SI a known unit is, None where it is of another dimension; 1/min of a speed counts turns."""
-    if unit in USUAL_UNITS:
+    if unit in USUAL_UNITS and (dimension not in _OF_GRAVITY or not _G.search(unit)):
         of, factor = USUAL_UNITS[unit]
         return factor if of == dimension or {of, dimension} == _WORK else None
     si, meant = _registry().parse_units(DIMENSIONS[dimension][0]), _known_unit(unit)
-    if dimension == "angular velocity" and meant == _registry().parse_units("1 / minute"):
+    if dimension == "angular velocity" and str(meant) in {"1 / minute", "cycles_per_minute"}:
         meant *= _registry().parse_units("turn")
+    if meant.dimensionality != si.dimensionality and dimension in _OF_GRAVITY:
+        meant = _known_unit(_G.sub("g_n", unit))
     if meant.dimensionality != si.dimensionality:
         return None
     return float(_registry().Quantity(1.0, meant).to(si).magnitude)
@@ -376,7 +407,7 @@ def _known_unit(text: str) -> Any:  # noqa: ANN401 - pint's, or None
     words = re.sub(r"(?<=[\w°])[\s·](?=[A-Za-zµ°])", "*", f"1{text}" if text.startswith("/") else text)
     if re.fullmatch(rf"(?:1\s*/\s*)?{_UNIT.pattern}(?:\s*[*/]\s*{_UNIT.pattern})*", words) is not None:
         try:
-            return _registry().parse_units(words.replace("^", "**"))
+            return _registry().parse_units(_BARE_POWER.sub("**", words.replace("^", "**")))
         except (PintError, ValueError, TypeError):
             pass
     return None
@@ -388,8 +419,9 @@ def _remedy(unit: str, dimension: str) -> str:
     return ": write rev/s or rad/s" if dimension == "angular velocity" and frequency else ""
 
 
-def _asks(dimension: str, name: str) -> str:
-    return f"{name} must be {_article(dimension)} such as {DIMENSIONS[dimension][1]!r}"
+def _asks(dimensions: tuple[str, ...], name: str) -> str:
+    kinds = " or ".join(f"{_article(kind)} such as {DIMENSIONS[kind][1]!r}" for kind in dimensions)
+    return f"{name} must be {kinds}"
 
 
 def _article(dimension: str) -> str:

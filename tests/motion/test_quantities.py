@@ -1,5 +1,6 @@
 """Quantities with units: what they are in SI, and what errors say of those that are wrong."""
 
+import re
 from collections.abc import Callable
 from dataclasses import fields, is_dataclass
 from math import pi
@@ -51,6 +52,21 @@ from tests.internals.motion import DIMENSIONS, USUAL_UNITS, either, quantity
         ("12 m/s^2", "acceleration", 12.0),
         ("12 m/s**2", "acceleration", 12.0),
         ("1 g_n", "acceleration", 9.80665),
+        ("1e4 mm/s2", "acceleration", 10.0),
+        ("5 in/s2", "acceleration", 0.127),
+        ("900 m/s3", "jerk", 900.0),
+        ("2.5 kg m2", "moment of inertia", 2.5),
+        ("100 ft/min", "velocity", 0.508),
+        ("5 thou", "length", 0.000127),
+        ("5 mil", "length", 0.000127),
+        ("2 g", "acceleration", 19.6133),
+        ("2g", "acceleration", 19.6133),
+        ("0.5 g0", "acceleration", 4.903325),
+        ("3 g/s", "jerk", 29.41995),
+        ("2 g", "mass", 0.002),
+        ("3 N/g", "acceleration", 3000.0),
+        ("120 cpm", "angular velocity", 4.0 * pi),
+        ("120 cpm", "frequency", 2.0),
         ("2.5 kg cm^2", "moment of inertia", 2.5e-4),
         ("0.4 N m", "torque", 0.4),
         ("0.4 N*m", "torque", 0.4),
@@ -75,6 +91,29 @@ def test_usual_units_are_what_pint_says(unit: str) -> None:
     # with a second over a second beside it no unit is a usual one
     for dimension in DIMENSIONS:
         assert read_as(f"1 {unit}", dimension) == read_as(f"1 {unit} * s / s", dimension)
+
+
+@pytest.mark.parametrize("dimension", DIMENSIONS)
+def test_an_unknown_unit_is_answered_by_those_that_are_known(dimension: str) -> None:
+    """Each of the list is one of the dimension."""
+    with pytest.raises(InputError, match="the unit of '3 parsec' is not known") as refused:
+        quantity("3 parsec", dimension, "it")
+    for unit in re.split(", | or ", str(refused.value).partition(f" {dimension} in ")[2]):
+        assert either(f"2 {unit}", (dimension,), "it")[0] == dimension
+
+
+def test_of_several_dimensions_a_unit_that_is_not_known_is_answered_for_all() -> None:
+    with pytest.raises(InputError, match=r"not known: write an angle in rad, .* or a time in s, ms or min$"):
+        either("3 parsec", ("angle", "time"), "duration")
+    with pytest.raises(InputError, match=r"must be an angle such as '45 deg' or a time such as '0.3 s', got 'np"):
+        either("np.float64(0.0131) s", ("angle", "time"), "duration")
+
+
+def test_a_gram_of_pint_is_no_acceleration() -> None:
+    units: UnitRegistry[Any] = UnitRegistry()
+    with pytest.raises(InputError, match="is a mass"):
+        quantity(2 * units.g, "acceleration", "it")
+    assert quantity(2 * units.g_0, "acceleration", "it") == pytest.approx(19.6133, rel=1e-14)
 
 
 def test_every_example_of_an_error_is_of_its_dimension() -> None:
