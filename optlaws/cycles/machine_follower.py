@@ -12,7 +12,7 @@ from optlaws.laws.law import motion_law
 from optlaws.mechanisms.follower import Follower
 from optlaws.mechanisms.response import Response
 from optlaws.motion.piece import factor, unit_of
-from optlaws.motion.quantities import either, quantity
+from optlaws.motion.quantities import quantity, read_stroke
 from optlaws.numbers import Quantity, positive
 
 _WAYS = "give natural_frequency, such as '16.7 Hz', or natural_period, such as '60 ms', and not both"
@@ -174,10 +174,10 @@ def machine_follower(
     Traceback (most recent call last):
     optlaws.errors.InputError: natural_frequency must be a frequency such as '16.7 Hz', got '16.7' without a unit: ...
     """
-    kind, height = either(stroke, ("length", "angle"), "stroke")
+    kind, height = read_stroke(stroke)
     seconds = _duration(duration, speed, rise)
     frequency = tau * seconds * _natural_frequency(natural_frequency, natural_period)
-    return MachineFollower(Follower(frequency, damping), positive(height, "stroke"), seconds, unit_of(kind))
+    return MachineFollower(Follower(frequency, damping), height, seconds, unit_of(kind))
 
 
 def _natural_frequency(frequency: Quantity | None, period: Quantity | None) -> float:

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.motion.motion import Motion
 from optlaws.motion.polynomials import Extreme, PiecewiseMotion
@@ -20,6 +21,8 @@ from optlaws.numerics.roots import bisect_each
 
 _NAMES = ("Position", "Velocity", "Acceleration", "Jerk")
 ORDERS = range(4)
+#: of a motion that is sampled: its second differences need some
+_FEWEST_TASKS = 4
 ROUNDING = 1e-9, 2.0**-46  # jumps below these shares, of the peak and of what positions leave, are rounding
 
 
@@ -280,8 +283,12 @@ def task_sampling(run: PiecewiseMotion, motion: Motion, task: Quantity) -> TaskS
     if motion.units.rate is None:
         raise InputError("task: how fast the master goes is not known: say how long the motion takes, duration='0.1 s'")
     step = seconds * motion.units.rate
-    if not 4.0 * step <= motion.length <= MOST_VALUES * step:
-        raise InputError(f"task must be between {MOST_VALUES} and 4 of it in the motion, got {task!r}")
+    if not _FEWEST_TASKS * step <= motion.length <= MOST_VALUES * step:
+        longest, shortest = (motion.length / motion.units.rate / count for count in (_FEWEST_TASKS, MOST_VALUES))
+        raise InputError(
+            f"task must be between {shortest:.3g} s and {longest:.3g} s, so that the motion has {_FEWEST_TASKS} to "
+            f"{MOST_VALUES} of them, got {shortened(task)}"
+        )
     count = floor(motion.length / step * (1.0 + 1e-12))
     y = np.asarray(run(np.minimum(run.start + step * np.arange(count + 1), run.stop)))
     last = float(run.ends(0)[1][-1])

@@ -234,6 +234,34 @@ def either(value: Any, dimensions: tuple[str, ...], name: str) -> tuple[str, flo
     raise InputError(f"{_asks(dimensions, name)}, but {shortened(value)} is {_kind(unit)}")
 
 
+def read_stroke(value: Any, back: str = "") -> tuple[str, float]:  # noqa: ANN401 - it is checked here
+    """A stroke above 0: its dimension, and its size in SI units.
+
+    Parameters
+    ----------
+    value
+        A length or an angle.
+    back
+        The remedy for a stroke below 0.
+
+    Raises
+    ------
+    InputError
+        If it is no length or angle, 0, or below 0.
+
+    Examples
+    --------
+    >>> read_stroke("0 mm")
+    Traceback (most recent call last):
+    optlaws.errors.InputError: stroke must be above 0, got '0 mm'; nothing moves: leave it out, or take a Dwell
+    """
+    dimension, size = either(value, ("length", "angle"), "stroke")
+    if not size > 0.0:
+        remedy = back if size < 0.0 else "nothing moves: leave it out, or take a Dwell"
+        raise InputError(f"stroke must be above 0, got {shortened(value)}{'; ' if remedy else ''}{remedy}")
+    return dimension, size
+
+
 def si_number(value: Any, dimensions: tuple[str, ...], name: str) -> Any:  # noqa: ANN401 - what is none is checked later
     """A quantity with one of several dimensions as a float in SI units; bare numbers are not changed.
 

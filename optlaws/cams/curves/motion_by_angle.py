@@ -14,7 +14,7 @@ from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.motion.piece import Piece, named_law
-from optlaws.motion.quantities import TURN, either, in_small_units, quantity
+from optlaws.motion.quantities import TURN, in_small_units, quantity, read_stroke
 from optlaws.motion.smooth_stretches import EnclosedStretch, jet_of_parts, smooth_parts
 from optlaws.numbers import Array, Quantity, derivative, number_or_array, real_times
 from optlaws.numerics.interval import Interval, hull
@@ -107,12 +107,8 @@ class CamMotion:
         InputError
             If the stroke or the angle is no such quantity, not above 0, or the angle is more than a turn.
         """
-        axis, height = either(stroke, ("length", "angle"), "stroke")
+        axis, height = read_stroke(stroke, "direction='return' is the way back")
         turn = quantity(angle, "angle", "angle")
-        if height <= 0.0:
-            raise InputError(
-                f"stroke must be above 0, got {shortened(stroke)}; take direction='return' is the way back"
-            )
         if not 0.0 < turn <= TURN * (1.0 + CLOSURE):
             raise InputError(f"angle must be above 0 and at most 360 deg, got {shortened(angle)}")
         if direction not in tuple(DIRECTIONS):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from math import atan2, cos, pi, sin
+from math import ceil, cos, pi, sin
 from typing import Any, Literal
 
 import numpy as np
@@ -33,9 +33,12 @@ from optlaws.suggest import unknown_key
 
 FourBarBranch = Literal["open", "crossed"]
 SIDES: dict[FourBarBranch, float] = {"open": 1.0, "crossed": -1.0}
-#: rad from the middle of its swing: beyond it the angle of a rocker has no formula without a jump
+#: rad from the middle of its swing: beyond it the angle of a rocker from a direction has no formula without a jump
 _MOST_SWING = 0.9 * pi
+#: of a turn of the crank
 _LOOKS = 2881
+#: turns of the direction from which the angle of a rocker is measured, by turn of the crank
+_TURNING = (0.0, 1.0, -1.0)
 
 
 @dataclass(frozen=True)
@@ -114,9 +117,16 @@ class FourBarKinematics:
         """The way from the rocker's pivot to its pin."""
         return self._combined(self.share - self.square, self.base)
 
-    def rocker_along(self, direction: float) -> tuple[Traced, Traced]:
-        """The rocker's joint in coordinates along a direction, rad from the frame, and across it."""
-        (dx, dy), (c, s) = self.base, (cos(direction), sin(direction))
+    def rocker_along(self, direction: float, turning: float = 0.0) -> tuple[Traced, Traced]:
+        """The rocker's joint in coordinates along a direction, rad from the frame, and across it.
+
+        The direction may turn with the crank (`turning` 1) or against it (-1).
+        """
+        (dx, dy), (sine, cosine) = self.base, self.waves
+        c: Any = cos(direction)
+        s: Any = sin(direction)
+        if turning:
+            c, s = c * cosine - turning * s * sine, s * cosine + turning * c * sine
         return self._combined(self.share - self.square, (c * dx + s * dy, c * dy - s * dx))
 
     def _combined(self, share: Traced, base: tuple[Traced, Traced]) -> tuple[Traced, Traced]:
@@ -124,18 +134,22 @@ class FourBarKinematics:
         return (share * dx - self.height * dy) / self.square, (share * dy + self.height * dx) / self.square
 
     def rocker_position(self, ends: tuple[float, float]) -> Formula | None:
-        """The rocker's angle from the frame, without a jump over a range of x; None where it turns too far."""
-        x = np.linspace(*ends, _LOOKS)
+        """The rocker's angle from the frame, without a jump over a range of x; None where it turns too far.
+
+        One that turns round with the crank is measured from a direction that does.
+        """
+        x = np.linspace(*ends, ceil(_LOOKS * max(1.0, (ends[1] - ends[0]) / (2.0 * pi))))
         ex, ey = (self.values(part, x) for part in self.rocker_direction)
         angles = np.unwrap(np.arctan2(ey, ex))
-        middle = 0.5 * (angles.min() + angles.max())
-        if angles.max() - middle > _MOST_SWING:
-            return None
-        first = atan2(ey[0], ex[0])
-        reference = middle + first - angles[0]
-        along, across = self.rocker_along(reference)
-        turned: Traced = np.arctan(across / (along + self.rocker))
-        return (float(reference) + 2.0 * turned).formula
+        for turning in _TURNING:
+            swing = angles - turning * x
+            if swing.max() - swing.min() <= 2.0 * _MOST_SWING:
+                reference = float(0.5 * (swing.min() + swing.max()))
+                along, across = self.rocker_along(reference, turning)
+                turned: Traced = np.arctan(across / (along + self.rocker))
+                from_frame = reference + 2.0 * turned
+                return (from_frame + turning * Traced(Name("x")) if turning else from_frame).formula
+        return None
 
     @staticmethod
     def values(part: Traced, x: Any) -> Any:  # noqa: ANN401 - an array for an array

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from math import cos, hypot, pi, radians, sin
+from typing import Literal
 
 import numpy as np
 import pytest
@@ -218,19 +219,6 @@ def test_a_traced_function_is_the_slider_crank() -> None:
     assert read.load(x) == pytest.approx(written.load(x), rel=1e-12)
 
 
-def test_four_bars_that_turn_far() -> None:
-    # with the shortest link as frame both pivoted links turn fully: the rocker's angle would jump
-    lengths = (0.3, 0.35, 0.4, 0.1)
-    bodies = {"rocker": "0.05 kg m^2"}
-    dragged = four_bar(*lengths, bodies=bodies, loads=Loads("2 N m"))
-    x = np.linspace(0.0, 2.0 * pi, 2001)
-    assert dragged.linkage.driven == ()
-    # the torque does its work over a whole turn of the rocker
-    assert np.trapezoid(dragged.load(x), x) == pytest.approx(-4.0 * pi, rel=1e-6)
-    with pytest.raises(ValueError, match="over='input'"):
-        four_bar(*lengths, bodies=bodies, loads=Loads("2*s"))
-
-
 @pytest.mark.long
 def test_the_law_of_a_linkage_with_long_formulas_is_stored() -> None:
     moved = linkage().dimensionless("200 deg", "-150 deg", "0.3 s")
@@ -238,3 +226,23 @@ def test_the_law_of_a_linkage_with_long_formulas_is_stored() -> None:
     solution = synthesize(Problem(order=3, basis=Chebyshev(5), minimise=rms(moved.torque)))
     assert solution.objective < rms(moved.torque).value(LAW)
     assert Solution.from_json(solution.to_json()) == solution
+
+
+@pytest.mark.parametrize("branch", ["open", "crossed"])
+@pytest.mark.parametrize("ends", [(0.0, 360.0), (-720.0, 1080.0), (30.0, 200.0)])
+def test_a_rocker_that_turns_round_is_followed(branch: Literal["open", "crossed"], ends: tuple[float, float]) -> None:
+    """A double crank: the coupler keeps its length, and the angle has no jump and turns as often as the crank."""
+    over = (f"{ends[0]} deg", f"{ends[1]} deg")
+    loads = Loads("s")
+    turned = four_bar(0.3, 0.35, 0.32, 0.1, bodies={"rocker": "0.05 kg m^2"}, over=over, branch=branch, loads=loads)
+    x = np.linspace(radians(ends[0]), radians(ends[1]), 2001)
+    angle, slope = turned.driven_position("rocker", x), turned.driven_position("rocker", x, 1)
+    pins = 0.3 * np.exp(1j * x), 0.1 + 0.32 * np.exp(1j * angle)
+    assert np.abs(pins[1] - pins[0]) == pytest.approx(0.35, abs=1e-12)
+    assert np.diff(angle) == pytest.approx(0.5 * (slope[1:] + slope[:-1]) * np.diff(x), abs=1e-4)
+    if ends[1] - ends[0] >= 360.0:
+        assert angle[-1] - angle[0] == pytest.approx(x[-1] - x[0], rel=1e-12)
+    # without springs the torque does its work over every turn of the rocker
+    dragged = four_bar(0.3, 0.35, 0.32, 0.1, bodies={}, over=over, branch=branch, loads=Loads("2 N m"))
+    assert np.trapezoid(dragged.load(x), x) == pytest.approx(-2.0 * (angle[-1] - angle[0]), rel=1e-5)
+    assert turned.load(x) == pytest.approx(-angle * slope, abs=1e-9)
