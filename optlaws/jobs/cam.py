@@ -159,7 +159,7 @@ def page(findings: Findings) -> Page:
     if rows := _size_rows(findings):
         result.heading("Sizes").table(("what", "kept with", "broken with", "unit", "at, deg"), rows, digits=7)
     if isinstance(least, str):
-        result.text(f"{least[0].upper()}{least[1:]}.")
+        result.text(_sentence(least))
     if findings.second is not None:
         result.heading("Return cam").figure("pair", "Both cams on one shaft, with their followers at the start")
         result.text(f"{_circles(findings.second)}\n\nUndercut: {findings.second.extremes.undercut}.")
@@ -169,6 +169,7 @@ def page(findings: Findings) -> Page:
     if findings.spring is not None:
         result.heading("Spring")
         result.table(("what", "value", "unit"), _spring_rows(findings), digits=6)
+        result.text(_sentence(findings.spring.remark))
     if findings.as_made:
         unit = "um" if findings.cam.displacement.axis == "length" else "urad"
         headings = ("what", f"deviation, {unit}", "peak acceleration, ratio", "peak jerk, ratio")
@@ -269,6 +270,10 @@ def _force_rows(forces: CamForces) -> list[list[tables.Cell]]:
         first, last = (_rounded(degrees(at), _TURN) for at in (curve.least_at, curve.most_at))
         rows.append([name, low, first, high, last, unit])
     return rows
+
+
+def _sentence(text: str) -> str:
+    return f"{text[0].upper()}{text[1:]}." if text else ""
 
 
 def _spring_rows(findings: Findings) -> list[list[tables.Cell]]:

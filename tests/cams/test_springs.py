@@ -69,3 +69,19 @@ def test_wrong_springs_say_why() -> None:
             least_spring(cam, **asked)
     with pytest.raises(InfeasibleProblem, match="are missing; give so much more preload"):
         least_spring(cam, drive={"mass": "2 kg"}, speeds=SPEEDS, force="20 N", preload="10 N")
+
+
+def test_a_stiffness_or_a_preload_of_0_has_its_reason() -> None:
+    cam = cam_of("translating flat", law="cycloidal")
+    drive = {"mass": "2 kg"}
+    enough = least_spring(cam, drive=drive, speeds=SPEEDS, preload="2 kN")
+    assert enough.stiffness == 0.0
+    assert enough.remark.startswith("no stiffness is needed: the preload alone")
+    assert enough.margin > 0.0
+    for arguments in ({"preload": "1 N"}, {"stiffness": "0 N/m"}):
+        assert least_spring(cam, drive=drive, speeds=SPEEDS, **arguments).remark == ""
+    heavy = {"mass": "0.1 kg", "gravity": "1 kN"}
+    for arguments in ({"preload": "0 N"}, {"stiffness": "0 N/m"}, {}):
+        spring = least_spring(cam, drive=heavy, speeds=("0 rpm", "10 rpm"), **arguments)
+        assert (spring.stiffness, spring.preload) == (0.0, 0.0)
+        assert spring.remark.startswith("no spring is needed")

@@ -88,6 +88,24 @@ class Spring(PlainNumbers):
         """The value of the objective that was sought."""
         return self.greatest if self.objective == CONTACT else float(getattr(self, self.objective))
 
+    @property
+    def remark(self) -> str:
+        """Why what was sought is 0; empty where the spring needs both stiffness and preload.
+
+        >>> Spring(0.0, 500.0, 500.0, "stiffness", 0.0, 27.0, (92.0, 31.4)).remark
+        'no stiffness is needed: the preload alone keeps the follower on the cam at every speed; a real spring has ...'
+        """
+        if self.stiffness == self.preload == 0.0:
+            return "no spring is needed: its own forces keep the follower on the cam at every speed"
+        if self.stiffness == 0.0 and self.objective != "preload":
+            return (
+                "no stiffness is needed: the preload alone keeps the follower on the cam at every speed; a real spring "
+                "has some, and presses harder by it where the follower is up"
+            )
+        if self.preload == 0.0 and self.objective != "stiffness":
+            return "no preload is needed: the stiffness alone keeps the follower on the cam at every speed"
+        return ""
+
 
 def least_spring(
     cam: DiscCam,
@@ -104,7 +122,8 @@ def least_spring(
 
     The spring's preload is sought where its stiffness is given, its stiffness where the preload is, and where neither
     is, both, so that the greatest force is least; of several such springs the one whose mean force is least. The
-    problem is linear; at each angle the worst speed is known in closed form.
+    problem is linear; at each angle the worst speed is known in closed form. Where one of the two is 0, `Spring.remark`
+    has the reason.
 
     Parameters
     ----------

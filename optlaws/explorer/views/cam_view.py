@@ -339,7 +339,8 @@ def _spring(findings: Findings) -> list[str]:
     sizes = f"{digits(spring.stiffness, 6)} {STIFFNESS[axis]}, preload {digits(preload, 6)} {FORCE[axis]}"
     pressed = findings.spec.spring is not None and findings.spec.spring.greatest == "contact"
     greatest = f"{digits(spring.greatest, 6)} {'N of contact' if pressed else f'{FORCE[axis]} on the follower'}"
-    return [f"least spring without lift-off: {sizes}, up to {greatest}"]
+    remark = [spring.remark] if spring.remark else []
+    return [f"least spring without lift-off: {sizes}, up to {greatest}", *remark]
 
 
 QUESTIONS: dict[str, Question] = {
