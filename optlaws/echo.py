@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from reprlib import Repr
+from typing import Any
 
 LONGEST = 2000
 
@@ -22,9 +23,16 @@ class _Echo(Repr):
 
     def repr_instance(self, x: object, level: int) -> str:
         try:
+            if type(x).__module__ == "numpy" and hasattr(x, "tolist"):
+                return self._of_numpy(x, level)
             return super().repr_instance(x, level)
         except (RecursionError, ValueError, OverflowError, MemoryError):
             return f"<{type(x).__name__}>"
+
+    def _of_numpy(self, x: Any, level: int) -> str:  # noqa: ANN401 - an array or a number of any kind
+        """An array or a number of numpy as plain lists and numbers, of which no more are made than are shown."""
+        some = x[(slice(0, self.maxlist + 1),) * x.ndim].tolist() if x.ndim else x.item()
+        return self.repr1(some, level)
 
 
 _ECHO = _Echo()
@@ -37,6 +45,9 @@ def shortened(value: object) -> str:
     --------
     >>> shortened([1, 2.5]), shortened(10**400)
     ('[1, 2.5]', 'an integer of 1329 bits')
+    >>> import numpy as np
+    >>> shortened(np.array([[1.5, 2.0]])), shortened(np.float64(3.0))
+    ('[[1.5, 2.0]]', '3.0')
     """
     return _ECHO.repr(value)
 

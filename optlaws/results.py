@@ -242,7 +242,8 @@ class Results:
             files = [write(Path(place) / name) for name, write in self._written.items()]
             contents += [(folder / file.name, file.read_bytes(), True) for file in files]
         writing.check_free(contents, digits=self.digits, force=force)
-        return [
-            writing.write(file, data, digits=None if exact else self.digits, exact=exact, force=force)
-            for file, data, exact in contents
-        ]
+        with writing.all_or_none():
+            return [
+                writing.write(file, data, digits=None if exact else self.digits, exact=exact, force=force)
+                for file, data, exact in contents
+            ]

@@ -87,7 +87,8 @@ def exit_code(arguments: Sequence[str]) -> int:
             commands = application(described=True) if listing else app
             if not listing and given[0] in RETIRED:
                 raise InputError(f"there is no command {given[0]} any more: {RETIRED[given[0]]}")  # noqa: TRY301
-            commands(given, exit_on_error=False, print_error=False, result_action="return_none")
+            with nullcontext() if listing else _files_of(given):
+                commands(given, exit_on_error=False, print_error=False, result_action="return_none")
     except (CycloptsError, InputError) as error:
         text, code = cut(str(error)), BAD_INPUT
     except InfeasibleProblem as error:
@@ -117,6 +118,15 @@ def _forced(arguments: Sequence[str]) -> AbstractContextManager[None]:
     from optlaws.files.writing import forced
 
     return forced()
+
+
+def _files_of(arguments: Sequence[str]) -> AbstractContextManager[None]:
+    """All files of a command or, on an error, none; but those of a study, which resumes, and what is not all proven."""
+    if arguments[:1] == ["study"]:
+        return nullcontext()
+    from optlaws.files.writing import all_or_none
+
+    return all_or_none(but=(NotProven,))
 
 
 def _warn(message: Warning | str, *_: Any, **__: Any) -> None:

@@ -77,12 +77,13 @@ def old_cam(
         new = None if options.modernise is None else old.bettered(_tolerance(options.modernise, old))
     latest = new or old
     written: dict[str, str] = {}
-    if options.save is not None:
-        written["saved"] = str(_save(latest, options.save, file, options.speed))
     if chosen is not None:
         export = _cycle(latest, options.speed).export(chosen.name)
         place = (out or Path()) / f"{file.stem}_{chosen.name}{chosen.extension}"
         check_files(place)
+    if options.save is not None:
+        written["saved"] = str(_save(latest, options.save, file, options.speed))
+    if chosen is not None:
         written["exported"] = str(export.write(place))
     if plot is not None:
         written["picture"] = str(_draw(old, new, plot))
@@ -109,7 +110,12 @@ def _tolerance(text: str, old: OldTable) -> float:
 def _cycle(old: OldTable, speed: str | None) -> Cycle:
     if speed is None and old.rate is None and old.master not in {"s", "ms"}:
         raise InputError("--save and --export need the speed of the master, such as --speed 200rpm: the file has none")
-    return old.cycle(speed=speed)
+    try:
+        return old.cycle(speed=speed)
+    except InputError as error:
+        raise InputError(
+            f"{error}; segments are the stretches of the table, as they are listed without --save"
+        ) from None
 
 
 def _save(latest: OldTable, place: Path, source: Path, speed: str | None) -> Path:

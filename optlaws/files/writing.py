@@ -8,9 +8,10 @@ from __future__ import annotations
 import os
 import re
 import stat
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager, suppress
 from contextvars import ContextVar
+from functools import partial
 from pathlib import Path
 
 from optlaws.echo import shortened
@@ -93,6 +94,56 @@ def _refused(files: Sequence[Path]) -> InputError:
     )
 
 
+#: how to take back what was written within `all_or_none`
+_written: ContextVar[list[Callable[[], object]] | None] = ContextVar("_written", default=None)
+
+
+@contextmanager
+def all_or_none(*, but: tuple[type[BaseException], ...] = ()) -> Iterator[None]:
+    """Within this all files are written or, on an error other than these, none: each place is as it was before.
+
+    Examples
+    --------
+    >>> try:
+    ...     with all_or_none():
+    ...         _ = write(Path("laws", "first.txt"), f"first; {MARK}")
+    ...         raise InputError("the second has no stroke")
+    ... except InputError:
+    ...     Path("laws").exists()
+    False
+    """
+    if _written.get() is not None:
+        yield
+        return
+    undo: list[Callable[[], object]] = []
+    token = _written.set(undo)
+    try:
+        yield
+    except BaseException as error:
+        if not isinstance(error, but):
+            for step in reversed(undo):
+                step()
+        raise
+    finally:
+        _written.reset(token)
+
+
+def _remember(file: Path) -> None:
+    """Note how a place is taken back to what it is now; folders that are made for it go if they are left empty."""
+    undo = _written.get()
+    if undo is None:
+        return
+    folders = [folder for folder in reversed(file.absolute().parents) if not folder.exists()]
+    undo += [partial(_remove_empty, folder) for folder in folders]
+    there = file.read_bytes() if file.is_file() else None
+    undo.append(partial(file.unlink, missing_ok=True) if there is None else partial(file.write_bytes, there))
+
+
+def _remove_empty(folder: Path) -> None:
+    with suppress(OSError):
+        folder.rmdir()
+
+
 @contextmanager
 def _named(file: Path) -> Iterator[None]:
     """Report errors of the system with the user's file name, not with the temporary copy's."""
@@ -121,6 +172,7 @@ def _content(file: Path) -> bytes | None:
 
 def _put(file: Path, data: bytes, *, over: bool) -> bool:
     """Write data to a file in a single step; False if another file has come by its name meanwhile."""
+    _remember(file)
     file.parent.mkdir(parents=True, exist_ok=True)
     copy = _beside(file)
     try:

@@ -15,11 +15,10 @@ from optlaws.cycles.old_tables.controller_files import FEWEST_POINTS
 from optlaws.cycles.old_tables.reading import CamPoints, read_points
 from optlaws.cycles.old_tables.stretches import Stretch, of_standard_laws, seam_of, stretches_of
 from optlaws.cycles.specification.segments import CycleSegment, Dwell, Return, Rise
-from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.laws import MotionLaw
 from optlaws.laws.making.through_points import noise
-from optlaws.numbers import Array, Quantity, not_negative, positive
+from optlaws.numbers import Array, Quantity, not_negative, numbers, positive
 from optlaws.tolerances import AGREEMENT, NOISE_ROOM, STANDARD_LAW_ROOM
 
 
@@ -366,10 +365,11 @@ def split_table(
     dwell  260 to 360 deg
     within 0.0001 mm of the points
     """
-    places, heights = np.asarray(x, dtype=np.float64), np.asarray(y, dtype=np.float64)
+    places, heights = np.array(numbers(x, "x")), np.array(numbers(y, "y"))
     if places.shape != heights.shape or places.ndim != 1 or len(places) < FEWEST_POINTS:
         raise InputError(
-            f"a cycle's table has at least {FEWEST_POINTS} points, as many places as positions, got {shortened(x)}"
+            f"a cycle's table has at least {FEWEST_POINTS} points, as many places as positions, got {places.size} "
+            f"and {heights.size}"
         )
     if not np.all(np.diff(places) > 0.0) or not np.all(np.isfinite(heights)):
         raise InputError("the places of a table must increase, and its positions be finite numbers")
