@@ -38,15 +38,26 @@ ANY = st.one_of(NUMBERS, TEXTS, SMALL, st.none(), st.just(DEEP), st.just({}), st
 QUICK = settings(examples(60), database=None, suppress_health_check=list(HealthCheck))
 
 
+#: of bounds, terms and arrays that the library makes itself, and of errors that are Python's
+INNER = re.compile(
+    r"got (?:at_most|at_least)\(|array\(|np\.\w+\(|\b0\.0\*|IndexError|KeyError|object at 0x|out of bounds"
+)
+
+
 @contextmanager
-def a_door() -> Iterator[None]:
-    """Nothing but an error of optlaws leaves, its text is short and can be printed, and it does not take long."""
+def a_door(names: str = "") -> Iterator[None]:
+    """Nothing but an error of optlaws leaves, its text is short and can be printed, and it does not take long.
+
+    It has one of the names of the user's entries, and nothing that the library made itself.
+    """
     began = perf_counter()
     try:
         yield
     except OptlawsError as error:
         text = str(error)
         assert len(text) < 5000
+        assert not INNER.search(text), text
+        assert re.search(names, text), text
         text.encode()
     # a second on a machine that does nothing else
     assert perf_counter() - began < 5.0
@@ -100,6 +111,63 @@ def test_entries_of_a_problem_and_of_a_study(name: str, value: object, basis: st
     with a_door():
         study = read_study({"problem": {k: v for k, v in entries.items() if k != name}, "vary": {name: [value, 1]}})
         check(study, StudyPoints.of(study))
+
+
+QUANTITIES = st.sampled_from(
+    [
+        "0 mm",
+        "1e-9 mm",
+        "35 mm",
+        "51 km",
+        "-3 mm",
+        "0 s",
+        "1e-300 s",
+        "0.1 s",
+        "1e9 s",
+        "2 g",
+        "45 deg",
+        "1 parsec",
+        "mm",
+    ]
+)
+#: what each names of its user's where it refuses
+MACHINES: dict[str, tuple[Callable[..., Any], str]] = {
+    "stroke": (lambda a, b: optlaws.machine_follower(stroke=a, natural_period=b, duration="0.1 s"), "stroke|natural_p"),
+    "cycle": (
+        lambda a, b: optlaws.Cycle([optlaws.Rise(a, b), optlaws.Return(duration="0.1 s")], period="0.3 s"),
+        "Rise|segment|period",
+    ),
+    "move": (
+        lambda a, b: optlaws.Cycle([optlaws.Move(a, "0.1 s", law="cycloidal"), optlaws.Dwell(b)], period="0.3 s"),
+        "Move|segment|period|come back|advance",
+    ),
+    "export": (lambda a, b: optlaws.smoothstep(3).export("csv", stroke=a, duration=b), "stroke|duration"),
+    "task": (
+        lambda a, b: optlaws.smoothstep(3).export("codesys-cambuilder", stroke="1 mm", duration=a, task=b),
+        "duration|task",
+    ),
+    "stroke of a least time": (
+        lambda a, b: optlaws.fastest(optlaws.Problem(order=2), stroke=a, limits={"acceleration": b}),
+        "stroke|acceleration",
+    ),
+    "table": (lambda a, b: optlaws.split_table([a] * 12, [b] * 12), "x|y|places"),
+    "limits": (
+        lambda a, b: optlaws.fastest(
+            optlaws.Problem(order=2), stroke="1 mm", limits={"velocity": a, "acceleration": b}
+        ),
+        "velocity|acceleration",
+    ),
+}
+
+
+@pytest.mark.parametrize("name", MACHINES)
+@seed(15)
+@settings(QUICK, max_examples=examples(30).max_examples)
+@given(a=QUANTITIES | ANY, b=QUANTITIES | ANY)
+def test_doors_of_machines_name_what_they_refuse(name: str, a: object, b: object) -> None:
+    door, names = MACHINES[name]
+    with a_door(names):
+        door(a, b)
 
 
 PATHS = st.lists(st.integers(0, 30), min_size=1, max_size=4)

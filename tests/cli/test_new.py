@@ -131,7 +131,10 @@ def test_entries_left_out_are_comments_with_examples_of_the_right_kind(capsys: C
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (["cycle", "--stroke", "35"], "--stroke must be a length such as '35 mm', got '35' without a unit"),
+        (
+            ["cycle", "--stroke", "35"],
+            "--stroke must be a length such as '35 mm' or an angle such as '45 deg', got '35' without a unit",
+        ),
         (["cycle", "--stroke", "35 kg"], "--stroke must be a length such as '35 mm' or an angle"),
         (["cycle", "--stroke", "0 mm"], "--stroke must be above 0"),
         (["cycle", "--stroke", "90 deg", "--velocity", "1 m/s"], "angular velocity"),

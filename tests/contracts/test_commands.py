@@ -77,7 +77,9 @@ def call(command: str, **changed: str) -> list[str]:
 
 
 def refused(capsys: Capture, arguments: list[str]) -> str:
+    before = sorted(Path.cwd().rglob("*"))
     assert exit_code(arguments) == BAD_INPUT
+    assert sorted(Path.cwd().rglob("*")) == before
     out, err = capsys.readouterr()
     assert out == ""
     assert err.startswith("optlaws: ")

@@ -39,12 +39,18 @@ class FrozenTable(dict[str, Any]):
         return type(self), (dict(self),)
 
 
-def frozen(value: Any) -> Any:  # noqa: ANN401 - whatever is given
-    """A value with its tables frozen and its lists as tuples, all the way down; other values unchanged.
+#: no entry has tables or lists within each other so often: what has is refused by whoever reads it
+_DEEPEST = 20
+
+
+def frozen(value: Any, depth: int = 0) -> Any:  # noqa: ANN401 - whatever is given
+    """A value with its tables frozen and its lists as tuples, as far down as entries go; other values unchanged.
 
     >>> frozen({"acceleration": ["-8 m/s^2", "12 m/s^2"], "motor": True})
     {'acceleration': ('-8 m/s^2', '12 m/s^2'), 'motor': True}
     """
+    if depth > _DEEPEST:
+        return value
     if isinstance(value, Mapping):
-        return FrozenTable({name: frozen(entry) for name, entry in value.items()})
-    return tuple(map(frozen, value)) if type(value) in {list, tuple} else value
+        return FrozenTable({name: frozen(entry, depth + 1) for name, entry in value.items()})
+    return tuple(frozen(entry, depth + 1) for entry in value) if type(value) in {list, tuple} else value
