@@ -56,7 +56,6 @@ TESTS: dict[str, tuple[str, ...]] = {
     ),
     "optlaws.verification.machines.floors": ("tests/verification/machines/test_floors.py",),
     "optlaws.synthesis.spaces.space": ("tests/synthesis/spaces/test_space.py",),
-    "optlaws.cli.laws.dwell": ("tests/cli/laws/test_loader_and_dwell.py",),
     "optlaws.cycles.optimisation.optimal": (
         "tests/cycles/optimisation/test_optimal.py",
         "tests/cycles/optimisation/test_shared_limits.py",
