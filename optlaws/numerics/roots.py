@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from optlaws.errors import InputError
 from optlaws.numbers import Array
-from optlaws.numerics.chebyshev import derivative, from_values, interpolated, nodes, real_parts_of_roots
+from optlaws.numerics.chebyshev import derivative, from_values, interpolated, nodes, real_parts_of_roots, shortened
 from optlaws.tolerances import EPSILON, NEAR_NOTHING, QUOTIENT_BLUR, ROUNDOFF, TOUCHING, VALUE_ROUNDING
 
 _DEEPEST = 12
@@ -116,8 +116,9 @@ def cut_at_all(functions: Iterable[Callable[[Array], Array]], edges: list[float]
 def sign_changes(functions: Callable[[Array], Array], edges: Sequence[float], count: int) -> Array:
     """Places between edges where any of several smooth functions changes its sign, ascending.
 
-    Looked at where a series of as many terms would be fixed, and at turning points near 0 between these; a root is
-    known to rounding, or to what rounding of the greatest value makes of it.
+    Looked at where a series of as many terms is fixed, where these series turn, and where parabolas come near 0 between
+    these: no change of a polynomial of a degree below the count is missed, however near others are. A root is known to
+    rounding, or to what rounding of the greatest value makes of it.
 
     Parameters
     ----------
@@ -126,7 +127,7 @@ def sign_changes(functions: Callable[[Array], Array], edges: Sequence[float], co
     edges
         Ascending; at none of them a change is looked for.
     count
-        How many places are looked at between two edges, at the least.
+        The terms of each series between two edges.
 
     Examples
     --------
@@ -136,10 +137,11 @@ def sign_changes(functions: Callable[[Array], Array], edges: Sequence[float], co
     low, width = np.array(edges[:-1])[:, None], np.diff(edges)[:, None]
     places = (low + width * (1.0 - nodes(count)) / 2.0).ravel()
     values = functions(places)
-    for _ in range(_TURNS):
-        turning = np.setdiff1d(_turning_points(places, values), places)
+    for turn in range(_TURNS + 1):
+        found = _turning_points(places, values) if turn else _where_series_turn(values, low, width)
+        turning = np.setdiff1d(found, places)
         if not len(turning):
-            break
+            continue
         places = np.concatenate([places, turning])
         order = np.argsort(places, kind="stable")
         places, values = places[order], np.hstack([values, functions(turning)])[:, order]
@@ -162,6 +164,19 @@ def sign_changes(functions: Callable[[Array], Array], edges: Sequence[float], co
             ROUNDOFF * np.abs(values).max(axis=1)[rows],
         )
     )
+
+
+def _where_series_turn(values: Array, low: Array, width: Array) -> Array:
+    """Places where the series through values at the nodes between edges, a row each, are stationary, and their ends."""
+    # beside the edges too, on whose far sides the functions may be others
+    found = [(low + ROUNDOFF * width)[:, 0], (low + (1.0 - 2.0 * ROUNDOFF) * width)[:, 0]]
+    for of in values:
+        noise = VALUE_ROUNDING * float(np.abs(of).max())
+        for piece, start, length in zip(of.reshape(len(low), -1), low[:, 0], width[:, 0], strict=True):
+            if np.isfinite(noise) and np.abs(piece).max() > noise:
+                x = real_parts_of_roots(derivative(shortened(from_values(piece[::-1]), noise)))
+                found.append(start + length * (x[np.abs(x) < 1.0] + 1.0) / 2.0)
+    return np.concatenate(found)
 
 
 def _turning_points(places: Array, values: Array) -> Array:

@@ -26,6 +26,26 @@ def test_roots_next_to_each_other_are_both_there(apart: float) -> None:
     assert places == pytest.approx([low, high], abs=1e-3 * apart)
 
 
+@pytest.mark.parametrize("unit", [1e-12, 1.0, 1e9])
+def test_no_root_of_a_polynomial_is_missed_in_a_crowd(unit: float) -> None:
+    """Two to six roots within less than the spacing of the places that are looked at, and others far away."""
+    rng = np.random.default_rng(40)
+    for _ in range(50):
+        crowd = rng.uniform(0.1, 0.9) + 0.04 * np.arange(rng.integers(2, 7)) * rng.uniform(0.1, 1.0)
+        known = np.sort(np.append(crowd, rng.uniform(0.0, 0.1, 2)))
+        known = known[known < 1.0]
+        places = sign_changes(lambda x, of=known: unit * np.prod(x - of[:, None], axis=0)[None], [0.0, 1.0], 12)  # type: ignore[misc]
+        size = np.abs(np.prod(np.linspace(0.0, 1.0, 99) - known[:, None], axis=0)).max()
+        between = (known[1:] + known[:-1]) / 2.0
+        plain = np.abs(np.prod(between - known[:, None], axis=0)) > 1e-9 * size
+        assert not plain.all() or len(places) == len(known), known
+
+
+def test_a_root_beside_an_edge_is_found() -> None:
+    """Nearer to it than the first place that is looked at."""
+    assert sign_changes(lambda x: np.array([x - 1e-6, 0.4999 - x]), [0.0, 0.5], 8) == pytest.approx([1e-6, 0.4999])
+
+
 def test_what_touches_nothing_has_no_roots() -> None:
     assert len(sign_changes(lambda x: np.array([(x - 0.3) ** 2 + 1e-4, 0.0 * x]), [0.0, 1.0], 12)) == 0
 

@@ -92,6 +92,53 @@ def test_integrals_of_sizes_are_proven(formula: str, options: dict[str, object])
     assert exact.value >= solution.objective * (1.0 - 1e-8)
 
 
+@pytest.mark.sample(3)
+@pytest.mark.parametrize(
+    ("order", "weight", "velocity"), [(4, 1.3, 1.7), (3, 0.5, 1.7), (5, 1.3, 1.7), (3, 1.3, 1.7), (4, 0.5, 1.7)]
+)
+def test_kinks_that_crowd_are_all_found(order: int, weight: float, velocity: float) -> None:
+    """A formula that nearly vanishes along a stretch changes its sign four times within a few hundredths there."""
+    solution = synthesize(Problem(B=velocity, order=order, minimise=f"integral(abs(c - {weight}*b))"))
+    assert solution.status is Status.OPTIMAL
+    assert solution.objective == pytest.approx(least_with_velocity(order, 9, weight, velocity), rel=1e-6)
+
+
+def least_with_velocity(order: int, free: int, weight: float, velocity: float) -> float:
+    """The least integral of |c - weight b| with b at most b(1/2), by Gauss's rule on many short parts."""
+    terms, rest = free + 2, order - 1
+
+    def rows(k: Array) -> tuple[Array, Array]:
+        basis, hill = np.polynomial.chebyshev.chebvander(2.0 * k - 1.0, terms - 1), (4.0 * k * (1.0 - k)) ** rest
+        slope = 4.0 * rest * (4.0 * k * (1.0 - k)) ** (rest - 1) * (1.0 - 2.0 * k)
+        turned = 2.0 * np.polynomial.chebyshev.chebder(np.eye(terms))
+        of_basis = np.polynomial.chebyshev.chebvander(2.0 * k - 1.0, terms - 2) @ turned
+        return hill[:, None] * basis, slope[:, None] * basis + hill[:, None] * of_basis
+
+    x, share = np.polynomial.legendre.leggauss(4)
+    edges = 0.5 - 0.5 * np.cos(np.linspace(0.0, np.pi, 401))
+    width = np.diff(edges)[:, None]
+    k, weights = (edges[:-1, None] + width * (x + 1.0) / 2.0).ravel(), (width * share / 2.0).ravel()
+    b, c = rows(k)
+    middle = rows(np.array([0.5]))
+    most = rows(edges)[0]
+    size = np.eye(len(k))
+    answer = linprog(
+        np.concatenate([np.zeros(terms), weights, weights]),
+        A_ub=np.hstack([most, np.zeros((len(most), 2 * len(k)))]),
+        b_ub=np.full(len(most), velocity),
+        A_eq=np.vstack(
+            [
+                np.hstack([c - weight * b, -size, size]),
+                np.hstack([np.vstack([weights @ b, middle[0][0], middle[1][0]]), np.zeros((3, 2 * len(k)))]),
+            ]
+        ),
+        b_eq=np.concatenate([np.zeros(len(k)), [1.0, velocity, 0.0]]),
+        bounds=[(None, None)] * terms + [(0.0, None)] * (2 * len(k)),
+        method="highs-ipm",
+    )
+    return float(np.asarray(answer.fun))
+
+
 def test_they_are_bounds_and_parts_of_mixtures_too() -> None:
     problem = Problem(B=1.8, order=4, symmetric=False)
     wander = integral("abs(j)")
