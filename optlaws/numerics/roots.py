@@ -138,8 +138,8 @@ def sign_changes(functions: Callable[[Array], Array], edges: Sequence[float], co
     places = (low + width * (1.0 - nodes(count)) / 2.0).ravel()
     values = functions(places)
     for turn in range(_TURNS + 1):
-        found = _turning_points(places, values) if turn else _where_series_turn(values, low, width)
-        turning = np.setdiff1d(found, places)
+        stationary = _turning_points(places, values) if turn else _where_series_turn(values, low, width)
+        turning = np.setdiff1d(stationary, places)
         if not len(turning):
             continue
         places = np.concatenate([places, turning])
@@ -169,14 +169,14 @@ def sign_changes(functions: Callable[[Array], Array], edges: Sequence[float], co
 def _where_series_turn(values: Array, low: Array, width: Array) -> Array:
     """Places where the series through values at the nodes between edges, a row each, are stationary, and their ends."""
     # beside the edges too, on whose far sides the functions may be others
-    found = [(low + ROUNDOFF * width)[:, 0], (low + (1.0 - 2.0 * ROUNDOFF) * width)[:, 0]]
+    places = [(low + ROUNDOFF * width)[:, 0], (low + (1.0 - 2.0 * ROUNDOFF) * width)[:, 0]]
     for of in values:
         noise = VALUE_ROUNDING * float(np.abs(of).max())
         for piece, start, length in zip(of.reshape(len(low), -1), low[:, 0], width[:, 0], strict=True):
             if np.isfinite(noise) and np.abs(piece).max() > noise:
                 x = real_parts_of_roots(derivative(shortened(from_values(piece[::-1]), noise)))
-                found.append(start + length * (x[np.abs(x) < 1.0] + 1.0) / 2.0)
-    return np.concatenate(found)
+                places.append(start + length * (x[np.abs(x) < 1.0] + 1.0) / 2.0)
+    return np.concatenate(places)
 
 
 def _turning_points(places: Array, values: Array) -> Array:
