@@ -14,7 +14,9 @@ from tests.internals.exports import FrontExport
 COMPILER = shutil.which("gcc") or shutil.which("cc")
 STRICT = ["-std=c99", "-Wall", "-Wextra", "-Werror", "-pedantic", "-Wconversion", "-Wdouble-promotion", "-O2"]
 SANITISED = ["-g", "-fsanitize=undefined,address", "-fno-sanitize-recover=all"]
-SHARES = (-0.25, 0.0, 1e-9, 0.113, 0.5, 0.77, 1.0, 1.5)
+#: near the ends more: there the derivatives of a series, and what rounding adds to them, are greatest
+_NEAR_ENDS = tuple(n / 1000 for n in range(1, 50, 4))
+SHARES = (-0.25, 0.0, 1e-9, *_NEAR_ENDS, 0.113, 0.5, 0.77, *(1.0 - near for near in _NEAR_ENDS[::-1]), 1.0, 1.5)
 
 PROBLEMS = {
     "lift": Problem(order=4),
