@@ -1,10 +1,10 @@
-"""A cycle whose strokes and limits are multiplied alike is the same problem: its status, objective and bound say so."""
+"""A cycle or a move whose strokes and limits are multiplied alike is the same problem: its status, objective and bound say so."""
 
 from typing import Any
 
 import pytest
 
-from optlaws import Cycle, Dwell, Return, Rise
+from optlaws import Cycle, Dwell, Problem, Return, Rise, fastest
 
 #: what is minimised, limits for strokes of 35 mm, and the power of the strokes by which the objective grows
 CASES: list[tuple[str, dict[str, tuple[float, str]], int]] = [
@@ -39,4 +39,29 @@ def test_strokes_in_another_scale_change_no_status(
     one, other = scaled(minimise, limits, 1.0), scaled(minimise, limits, scale)
     assert other.status == one.status
     assert other.objective / scale**grows == pytest.approx(one.objective, rel=1e-9)
+    assert other.lower_bound is not None
+    assert one.lower_bound is not None
     assert other.lower_bound / scale**grows == pytest.approx(one.lower_bound, rel=1e-8)
+
+
+@pytest.mark.parametrize("scale", [1.0001, 1.1, 1e-9, 1e6])
+@pytest.mark.parametrize(
+    "limits",
+    [
+        {"velocity": (1000.0, "mm/s"), "acceleration": (12.0, "m/s^2"), "jerk": (300.0, "m/s^3")},
+        {"velocity": (700.0, "mm/s"), "acceleration": (8.0, "m/s^2")},
+        {"jerk": (300.0, "m/s^3")},
+    ],
+)
+def test_the_least_time_is_of_no_scale(limits: dict[str, tuple[float, str]], scale: float) -> None:
+    one, other = (
+        fastest(
+            Problem(order=3),
+            stroke=f"{100.0 * times!r} mm",
+            limits={key: f"{value * times!r} {unit}" for key, (value, unit) in limits.items()},
+        )
+        for times in (1.0, scale)
+    )
+    assert other.binding == one.binding
+    assert other.duration == pytest.approx(one.duration, rel=1e-9)
+    assert other.limit == pytest.approx(one.limit, rel=1e-8)
