@@ -1,4 +1,4 @@
-"""A cycle or a move whose strokes and limits are multiplied alike is the same problem: its status, objective and bound say so."""
+"""Cycles and moves whose strokes and limits are multiplied alike are the same problem: status, objective, bound agree."""
 
 from typing import Any
 
