@@ -1,4 +1,4 @@
-"""Cycles and moves whose strokes and limits are multiplied alike are the same problem: status, objective, bound agree."""
+"""Cycles and moves whose strokes and limits are multiplied alike keep status, objective and bound."""
 
 from typing import Any
 
