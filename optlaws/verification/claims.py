@@ -13,6 +13,7 @@ from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.files.reading import entries_of, of_known_format
 from optlaws.laws import MotionLaw
+from optlaws.lazy import imported
 from optlaws.numbers import listed
 from optlaws.suggest import unknown_key
 from optlaws.synthesis.limits.drive_limits import DriveLimit
@@ -130,13 +131,21 @@ def _arrays(data: Mapping[str, Any]) -> Verification:
 
 
 def _limit_of_drive(data: Mapping[str, Any]) -> Verification:
-    """A limit of drives, whose bound is computed again from its potential; in SI units by a factor."""
-    unit, inner = (Fraction(1), data) if is_drive_limit(data) else (Fraction(number(data, "unit")), data["drive_limit"])
-    if not isinstance(inner, Mapping) or unit <= 0:
-        raise InputError(f"the limit of a move has a drive_limit and a unit above 0, got {shortened(data)}")
-    limit = built(DriveLimit.from_dict, inner, "the drive's limit")
-    claim = at_most("the drive's limit", limit.value, Fraction(limit.bound), limit.bound, " by the phase plane")
-    return Verification(problem=None, bound=rounded_down(Fraction(limit.bound) * unit), claims=(claim,))
+    """A limit of drives, whose bound is computed again from its potential; in SI units by the unit of its move."""
+    claims, unit = [], Fraction(1)
+    if is_drive_limit(data):
+        limit = built(DriveLimit.stated, data, "the drive's limit")
+    else:
+        kind = imported("optlaws.mechanisms.linkages.move_limit").MoveLimit
+        moved, wrong = built(kind.stated, data, "the limit of a move")
+        limit, unit = moved.drive_limit, Fraction(moved.unit)
+        detail = wrong or f"{moved.unit!r} {moved.dimension}, computed again from the drive and the move"
+        claims.append(Claim("the move and its unit", not wrong, detail))
+    wrong = built(lambda stated: stated.contradiction(), limit, "the drive's limit")
+    detail = f"{limit.value!r} stated, {limit.bound!r} proven by the phase plane; {limit.attained!r} attained"
+    claims.append(Claim("the drive's limit", not wrong, wrong or detail))
+    bound = None if any(not claim.proven for claim in claims) or limit.bound == -inf else Fraction(limit.bound) * unit
+    return Verification(problem=None, bound=None if bound is None else rounded_down(bound), claims=tuple(claims))
 
 
 def _law(data: Mapping[str, Any]) -> ExactLaw:

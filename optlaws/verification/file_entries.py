@@ -178,7 +178,7 @@ def is_drive_limit(data: Data) -> bool:
 
 def is_move_limit(data: Data) -> bool:
     """Whether this is the limit of a drive in SI units."""
-    return {"drive_limit", "unit", "dimension"} == data.keys()
+    return {"drive_limit", "unit", "dimension"} <= data.keys()
 
 
 def is_least_time(data: Data) -> bool:

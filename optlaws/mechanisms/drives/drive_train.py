@@ -17,7 +17,15 @@ from optlaws.mechanisms.drives.motor import Motor
 from optlaws.mechanisms.drives.motor_motion import MotorMotion, Train
 from optlaws.mechanisms.drives.sheet import BestRatio, DriveSheet, best_ratio, drive_sheet
 from optlaws.mechanisms.linkages.mechanism import DIMENSIONS, Mechanism, duration_of
-from optlaws.mechanisms.linkages.move_limit import MoveBounds, MoveCosts, MoveLimit, MoveScales, move_limit
+from optlaws.mechanisms.linkages.move_limit import (
+    LimitedMove,
+    MoveBounds,
+    MoveCosts,
+    MoveLimit,
+    MoveScales,
+    PhaseMove,
+    move_limit,
+)
 from optlaws.motion.piece import named_law
 from optlaws.motion.quantities import check_scale, si_number
 from optlaws.numbers import NumberOrQuantity, finite, not_negative, positive, real
@@ -308,15 +316,12 @@ class Drive(JsonText):
         >>> print(drive.limit("rms torque", "0 deg", "45 deg", "0.25 s"))
         rms torque at least 2.02548 N m
         """
-        moved = self.dimensionless(start, stroke, duration_of(minimise, duration))
         way = self.mechanism.dimensionless(start, stroke, duration_of(minimise, duration))
-        scales = MoveScales(moved.unit, moved.energy_unit, abs(way.stroke) / way.duration, way.duration)
-        lines = [] if minimise == "peak torque" else self.motor.peak_lines
-        bounds = MoveBounds.read(limits, DIMENSIONS[self.mechanism.axis]).over(way.start, way.stroke)
-        bounds = bounds.within(
-            self.motor.greatest_speed / self.ratio, [(most, fall * self.ratio) for most, fall in lines]
-        )
-        return move_limit(moved.torque, minimise, scales, bounds, MoveCosts.read(self.regeneration, heat), way.holding)
+        dimensions = DIMENSIONS[self.mechanism.axis]
+        bounds = MoveBounds.read(limits, dimensions).plain(dimensions["load"])
+        time = None if duration is None else way.duration
+        costs = MoveCosts.read(self.regeneration, heat)
+        return move_limit(LimitedMove(self, minimise, way.start, way.stroke, time, bounds, *costs))
 
     def sheet(
         self,
@@ -440,3 +445,17 @@ class Drive(JsonText):
         return MotorMotion(self.mechanism, self.train, self.ratio, by, moved.start, moved.stroke, moved.duration), max(
             time, moved.duration
         )
+
+
+def phase_move_of(move: LimitedMove) -> PhaseMove:
+    """A move of a drive without dimensions, within what its motor allows."""
+    drive = move.driven
+    assert isinstance(drive, Drive)  # noqa: S101 - it is a drive's
+    time = duration_of(move.minimise, move.duration)
+    moved = drive.dimensionless(move.start, move.stroke, time)
+    way = drive.mechanism.dimensionless(move.start, move.stroke, time)
+    scales = MoveScales(moved.unit, moved.energy_unit, abs(way.stroke) / way.duration, way.duration)
+    lines = [] if move.minimise == "peak torque" else drive.motor.peak_lines
+    bounds = MoveBounds.read(move.limits, DIMENSIONS[drive.mechanism.axis]).over(way.start, way.stroke)
+    bounds = bounds.within(drive.motor.greatest_speed / drive.ratio, [(top, fall * drive.ratio) for top, fall in lines])
+    return PhaseMove(moved.torque, scales, bounds, MoveCosts.read(drive.regeneration, move.heat), way.holding)

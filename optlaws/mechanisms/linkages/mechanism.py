@@ -32,7 +32,7 @@ from optlaws.suggest import unknown_key
 from optlaws.tolerances import CLOSURE, OPERATIONS_ROUNDING, VALUE_ROUNDING
 
 if TYPE_CHECKING:
-    from optlaws.mechanisms.linkages.move_limit import MoveLimit
+    from optlaws.mechanisms.linkages.move_limit import LimitedMove, MoveLimit, PhaseMove
     from optlaws.synthesis.limits.drive_limits import DriveObjective
 
 InputAxis = Literal["angle", "length"]
@@ -398,13 +398,13 @@ class Mechanism(JsonText):
         >>> print(table.limit("time", "0 deg", "45 deg", limits={"torque": "50 N m", "velocity": "6 rad/s"}))
         time at least 0.2269 s
         """
-        from optlaws.mechanisms.linkages.move_limit import MoveBounds, MoveCosts, MoveScales, move_limit
+        from optlaws.mechanisms.linkages.move_limit import LimitedMove, MoveBounds, MoveCosts, move_limit
 
         moved = self.dimensionless(start, stroke, duration_of(minimise, duration))
-        velocity, dimension = abs(moved.stroke) / moved.duration, "N m" if self.axis == "angle" else "N"
-        scales = MoveScales(moved.unit, moved.energy_unit, velocity, moved.duration, dimension)
-        bounds = MoveBounds.read(limits, DIMENSIONS[self.axis]).over(moved.start, moved.stroke)
-        return move_limit(moved.torque, minimise, scales, bounds, MoveCosts.read(recovered, heat), moved.holding)
+        bounds = MoveBounds.read(limits, DIMENSIONS[self.axis]).plain(DIMENSIONS[self.axis]["load"])
+        time = None if duration is None else moved.duration
+        costs = MoveCosts.read(recovered, heat)
+        return move_limit(LimitedMove(self, minimise, moved.start, moved.stroke, time, bounds, *costs))
 
     def with_friction(self, *, coulomb: NumberOrQuantity = 0.0, viscous: NumberOrQuantity = 0.0) -> Self:
         """The mechanism with this friction at its input in place of its own."""
@@ -532,6 +532,19 @@ def _end(value: Any, axis: Any) -> tuple[Any, float]:  # noqa: ANN401
     if isinstance(value, str) or hasattr(value, "units"):
         return either(value, (axis,) if axis else ("angle", "length"), "over")
     return None, finite(value, "over")
+
+
+def phase_move_of(move: LimitedMove) -> PhaseMove:
+    """A move of a mechanism without dimensions."""
+    from optlaws.mechanisms.linkages.move_limit import MoveBounds, MoveCosts, MoveScales, PhaseMove
+
+    mechanism = move.driven
+    assert isinstance(mechanism, Mechanism)  # noqa: S101 - it is a mechanism's
+    moved = mechanism.dimensionless(move.start, move.stroke, duration_of(move.minimise, move.duration))
+    velocity, dimension = abs(moved.stroke) / moved.duration, "N m" if mechanism.axis == "angle" else "N"
+    scales = MoveScales(moved.unit, moved.energy_unit, velocity, moved.duration, dimension)
+    bounds = MoveBounds.read(move.limits, DIMENSIONS[mechanism.axis]).over(moved.start, moved.stroke)
+    return PhaseMove(moved.torque, scales, bounds, MoveCosts.read(move.recovered, move.heat), moved.holding)
 
 
 def duration_of(minimise: str, duration: NumberOrQuantity | None) -> NumberOrQuantity:

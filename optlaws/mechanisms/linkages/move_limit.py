@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from itertools import pairwise
 from math import fsum, inf, nextafter
-from typing import Any, NamedTuple, get_args
+from typing import Any, NamedTuple, Protocol, get_args
 
 from optlaws.echo import shortened
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.files.reading import JsonText, entries_of
 from optlaws.formulas.reading import read
 from optlaws.formulas.slopes import scaled
+from optlaws.kept import kept_property
+from optlaws.lazy import imported
 from optlaws.motion.quantities import si_number
 from optlaws.numbers import finite, not_negative, positive
 from optlaws.suggest import unknown_key
@@ -22,13 +24,20 @@ from optlaws.synthesis.limits.drive_limits import (
     DriveObjective,
     limit_of_plane,
     phase_torque,
+    planes_of_proof,
     unreachable,
 )
 from optlaws.synthesis.limits.phase_plane import PhasePlane, TorqueLimit, VelocityLimit
 from optlaws.synthesis.limits.phase_torque import ACCELERATION, AnyTorque
-from optlaws.tolerances import CLOSURE
+from optlaws.tolerances import CLOSURE, STATED_BOUND
 
-_ENTRIES = ("dimension", "unit", "drive_limit")
+_ENTRIES = ("dimension", "unit", "move", "drive_limit")
+_MOVE_ENTRIES = ("minimise", "start", "stroke", "duration", "limits", "recovered", "heat")
+#: what a move moves, by the entry that describes it
+_DRIVEN = {
+    "mechanism": ("optlaws.mechanisms.linkages.mechanism", "Mechanism", "phase_move_of"),
+    "drive": ("optlaws.mechanisms.drives.drive_train", "Drive", "phase_move_of"),
+}
 _DIGITS = 6
 _PART = 3
 
@@ -41,6 +50,8 @@ class MoveLimit(JsonText):
     ----------
     drive_limit
         The limit without dimensions, with its certificate.
+    move
+        The mechanism or the drive, with the move and its limits.
     unit, dimension
         By what its value is multiplied, and the unit that it then has: "N m", "N", "J" or "s".
 
@@ -55,10 +66,23 @@ class MoveLimit(JsonText):
     """
 
     drive_limit: DriveLimit
-    unit: float
-    dimension: str
+    move: LimitedMove
 
     _json_name = "the limit of a move"
+
+    @property
+    def unit(self) -> float:
+        """By what the value without dimensions is multiplied, in SI units."""
+        return self._scale[0]
+
+    @property
+    def dimension(self) -> str:
+        """The unit of the value: "N m", "N", "J" or "s"."""
+        return self._scale[1]
+
+    @kept_property
+    def _scale(self) -> tuple[float, str]:
+        return self.move.phase_move().scales.of(self.minimise)
 
     @property
     def minimise(self) -> DriveObjective:
@@ -87,25 +111,128 @@ class MoveLimit(JsonText):
         return f"{self.minimise} at least {self.value:.{_DIGITS}g} {self.dimension}"
 
     def to_dict(self) -> dict[str, Any]:
-        """The limit and its certificate as plain data."""
-        return {"dimension": self.dimension, "unit": self.unit, "drive_limit": self.drive_limit.to_dict()}
+        """The limit, its move and its certificate as plain data."""
+        parts = {"move": self.move.to_dict(), "drive_limit": self.drive_limit.to_dict()}
+        return {"dimension": self.dimension, "unit": self.unit, **parts}
 
     @classmethod
     def from_dict(cls, data: Any) -> MoveLimit:  # noqa: ANN401 - it is checked here
-        """The limit that `to_dict` described, its bound computed again.
+        """The limit that `to_dict` described, its plane, its unit and its bound computed again.
 
         Raises
         ------
         InputError
-            If the data is no such limit, or claims more than its certificate proves.
+            If the data is no such limit, or states what its move, its certificate or its motion does not have.
+        """
+        limit, wrong = cls.stated(data)
+        if wrong := wrong or limit.drive_limit.contradiction():
+            raise InputError(wrong)
+        return limit
+
+    @classmethod
+    def stated(cls, data: Any) -> tuple[MoveLimit, str]:  # noqa: ANN401 - it is checked here
+        """The limit of a file, and what of the file is not that of its move; the certificate is not checked.
+
+        Raises
+        ------
+        InputError
+            If the data is no such limit.
         """
         known = entries_of(data, _ENTRIES, "the limit of a move")
         for name in data:
             if name not in _ENTRIES:
                 raise InputError(unknown_key(name, _ENTRIES, "entry of the limit of a move"))
-        if known["dimension"] not in ("N m", "N", "J", "s"):
-            raise InputError(f"dimension must be N m, N, J or s, got {shortened(known['dimension'])}")
-        return cls(DriveLimit.from_dict(known["drive_limit"]), positive(known["unit"], "unit"), known["dimension"])
+        limit = cls(DriveLimit.stated(known["drive_limit"]), LimitedMove.from_dict(known["move"]))
+        unit = positive(known["unit"], "unit")
+        if known["dimension"] != limit.dimension:
+            return limit, f"dimension is {shortened(known['dimension'])}, and that of the move is {limit.dimension}"
+        if abs(unit - limit.unit) > STATED_BOUND * limit.unit:
+            return limit, f"unit is {unit!r}, and that of the move is {limit.unit!r}"
+        return limit, "" if limit.is_of_its_move() else "drive_limit is the limit of another move"
+
+    def is_of_its_move(self) -> bool:
+        """Whether the limit without dimensions is that of the move, or the proof that the move is impossible."""
+        of_move, form = self.move.phase_move().plane(self.move.minimise)
+        same_unit = self.minimise == "time" or self.drive_limit.unit == form.size
+        same_kind = self.minimise in {"time", "peak torque", self.move.minimise}
+        return same_unit and same_kind and self.drive_limit.plane in planes_of_proof(of_move, self.drive_limit)
+
+
+class Driven(Protocol):
+    """A mechanism or a drive."""
+
+    def to_dict(self) -> dict[str, Any]:
+        """Its numbers as plain data."""
+
+
+@dataclass(frozen=True)
+class LimitedMove(JsonText):
+    """A move of a mechanism or a drive over one stroke, with its limits, in SI units.
+
+    Attributes
+    ----------
+    driven
+        The mechanism, or the drive.
+    minimise
+        Of what a limit is computed.
+    start, stroke, duration
+        Of the input; the duration of the least time is None.
+    limits
+        As `MoveBounds.read` takes them, by position.
+    recovered, heat
+        What of an energy counts, beside what the drive recovers.
+    """
+
+    driven: Driven
+    minimise: DriveObjective
+    start: float
+    stroke: float
+    duration: float | None
+    limits: dict[str, Any] = field(hash=False)
+    recovered: float = 0.0
+    heat: float = 0.0
+
+    _json_name = "a move with its limits"
+
+    @property
+    def _kind(self) -> str:
+        return next(kind for kind, (_, name, _) in _DRIVEN.items() if type(self.driven).__name__ == name)
+
+    def phase_move(self) -> PhaseMove:
+        """The move without dimensions."""
+        module, _, name = _DRIVEN[self._kind]
+        move: PhaseMove = getattr(imported(module), name)(self)
+        return move
+
+    def to_dict(self) -> dict[str, Any]:
+        """The move and what it moves as plain data."""
+        return {self._kind: self.driven.to_dict(), **{name: getattr(self, name) for name in _MOVE_ENTRIES}}
+
+    @classmethod
+    def from_dict(cls, data: Any) -> LimitedMove:  # noqa: ANN401 - it is checked here
+        """The move that `to_dict` described.
+
+        Raises
+        ------
+        InputError
+            If an entry is missing, unknown or wrong.
+        """
+        known = entries_of(data, _MOVE_ENTRIES, cls._json_name)
+        kinds = [kind for kind in _DRIVEN if kind in data]
+        if len(kinds) != 1:
+            raise InputError(f"{cls._json_name} has a mechanism or a drive, got {shortened(data)}")
+        for name in data:
+            if name not in {*_MOVE_ENTRIES, *kinds}:
+                raise InputError(unknown_key(name, (*_MOVE_ENTRIES, *kinds), f"entry of {cls._json_name}"))
+        if known["minimise"] not in get_args(DriveObjective):
+            raise InputError(unknown_key(known["minimise"], get_args(DriveObjective), "minimise"))
+        if not isinstance(known["limits"], Mapping):
+            raise InputError(f"limits must be an object, got {shortened(known['limits'])}")
+        module, name, _ = _DRIVEN[kinds[0]]
+        numbers = {name: finite(known[name], name) for name in ("start", "stroke", "recovered", "heat")}
+        duration = None if known["duration"] is None else positive(known["duration"], "duration")
+        driven = getattr(imported(module), name).from_dict(data[kinds[0]])
+        return cls(driven, known["minimise"], duration=duration, limits=dict(known["limits"]), **numbers)
 
 
 class MoveBounds(NamedTuple):
@@ -157,6 +284,16 @@ class MoveBounds(NamedTuple):
         torques = ((given[load], 0.0),) if load in given else ()
         return cls(given.get("velocity", inf), given.get("acceleration", inf), torques, tuple(windows))
 
+    def plain(self, load: str) -> dict[str, Any]:
+        """The bounds as the table that `read` takes, in SI units, for a load that is a torque or a force."""
+        given = {"velocity": self.velocity, "acceleration": self.acceleration}
+        plain: dict[str, Any] = {name: bound for name, bound in given.items() if bound < inf}
+        if self.torques:
+            plain[load] = self.torques[0][0]
+        for name, low, high, bound in self.windows:
+            plain.setdefault(load if name == "load" else name, []).append([low, high, bound])
+        return plain
+
     def over(self, start: float, stroke: float) -> MoveBounds:
         """The bounds with windows over a, from 0 to 1, in place of positions of the input.
 
@@ -202,6 +339,11 @@ class MoveScales(NamedTuple):
     duration: float
     dimension: str = "N m"
 
+    def of(self, minimise: DriveObjective) -> tuple[float, str]:
+        """The scale of what is minimised, and its unit."""
+        known = {"energy": (self.energy, "J"), "time": (self.duration, "s")}
+        return known.get(minimise, (self.torque, self.dimension))
+
     @property
     def of_velocity(self) -> str:
         """The unit of the velocity."""
@@ -232,22 +374,13 @@ class MoveCosts(NamedTuple):
         return cls(share, not_negative(heat, "heat"))
 
 
-def move_limit(
-    torque: str,
-    minimise: DriveObjective,
-    scales: MoveScales,
-    bounds: MoveBounds,
-    costs: MoveCosts,
-    holding: str,
-) -> MoveLimit:
-    """The limit of a dimensionless torque over one stroke within bounds in SI units.
+class PhaseMove(NamedTuple):
+    """A move without dimensions.
 
-    Parameters
+    Attributes
     ----------
     torque
         The torque over a, b and c.
-    minimise
-        As `drive_limit` takes it.
     scales
         What the torque's numbers mean; for the least time the duration is a unit of time alone.
     bounds
@@ -256,6 +389,25 @@ def move_limit(
         What of an energy counts.
     holding
         The torque over a that holds the load at rest, without friction and losses.
+    """
+
+    torque: str
+    scales: MoveScales
+    bounds: MoveBounds
+    costs: MoveCosts
+    holding: str
+
+    def plane(self, minimise: DriveObjective) -> tuple[PhasePlane, AnyTorque]:
+        """The phase plane of the move, its torques divided by the size of the torque, which is given too."""
+        form = phase_torque(self.torque)
+        plane = _plane(form, minimise, self.scales, self.bounds, self.costs)
+        if plane.squared is not None or plane.peak is not None:
+            plane = replace(plane, holding=scaled(read(self.holding, ("a",)), 1.0 / form.size))
+        return plane, form
+
+
+def move_limit(move: LimitedMove) -> MoveLimit:
+    """The limit of a move of a mechanism or a drive over one stroke.
 
     Raises
     ------
@@ -264,8 +416,11 @@ def move_limit(
     InfeasibleProblem
         If no motion keeps the bounds; the error states what is reachable.
     """
+    minimise = move.minimise
     if minimise not in get_args(DriveObjective):
         raise InputError(unknown_key(minimise, get_args(DriveObjective), "minimise"))
+    parts = move.phase_move()
+    scales, bounds, costs = parts.scales, parts.bounds, parts.costs
     if costs.heat and minimise != "energy":
         raise InputError("heat is a part of the energy that is minimised: take minimise='energy'")
     if minimise != "time" and (least := bounds.least_share(scales.velocity)) >= 1.0:
@@ -273,28 +428,24 @@ def move_limit(
         speed = f" of {bounds.velocity:.{_DIGITS}g} {scales.of_velocity}" if bounds.velocity < inf else ""
         shown = f"at the greatest velocity{speed} alone the stroke takes {takes}"
         raise InfeasibleProblem(f"{shown}, and {given} are given: take more time, or a greater velocity", proof=shown)
-    form = phase_torque(torque)
+    plane, form = parts.plane(minimise)
     unit = form.size
-    plane = _plane(form, minimise, scales, bounds, costs)
-    if plane.squared is not None or plane.peak is not None:
-        plane = replace(plane, holding=scaled(read(holding, ("a",)), 1.0 / unit))
     try:
         limit = limit_of_plane(plane, minimise, unit)
     except InfeasibleProblem as error:
-        raise _infeasible(plane, form, scales, error) from None
+        raise _infeasible(plane, form, move, scales, error) from None
     except SolverFailure as error:
         beyond = unreachable(plane, unit)
         if beyond is None:
             raise
-        proof = MoveLimit(beyond, scales.torque, scales.dimension)
+        proof = MoveLimit(beyond, move)
         raise InfeasibleProblem(
             f"no motion keeps the limits in up to {LONG * scales.duration:.{_DIGITS}g} s, which is proven: the load "
             f"takes a peak of at least {proof.value:.{_DIGITS}g} {scales.dimension}. Allow more torque",
             proof=proof,
             tried=str(error),
         ) from None
-    known = {"energy": (scales.energy, "J"), "time": (scales.duration, "s")}
-    return MoveLimit(limit, *known.get(minimise, (scales.torque, scales.dimension)))
+    return MoveLimit(limit, move)
 
 
 def _plane(
@@ -328,7 +479,9 @@ def _plane(
     return replace(plane, squared=form, heat=costs.heat * torque**2 * scales.duration / scales.energy / unit)
 
 
-def _infeasible(plane: PhasePlane, form: AnyTorque, scales: MoveScales, error: InfeasibleProblem) -> InfeasibleProblem:
+def _infeasible(
+    plane: PhasePlane, form: AnyTorque, move: LimitedMove, scales: MoveScales, error: InfeasibleProblem
+) -> InfeasibleProblem:
     """The error in SI units: the least time and, where torques are bounded, the least peak torque in the time given."""
     if not isinstance(error.proof, DriveLimit):
         return error
@@ -345,5 +498,5 @@ def _infeasible(plane: PhasePlane, form: AnyTorque, scales: MoveScales, error: I
             pass
     return InfeasibleProblem(
         f"no motion keeps the limits in {scales.duration:.{_DIGITS}g} s, which is proven: {', '.join(reached)}",
-        proof=MoveLimit(error.proof, scales.duration, "s"),
+        proof=MoveLimit(error.proof, move),
     )

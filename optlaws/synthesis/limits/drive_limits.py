@@ -185,6 +185,20 @@ class DriveLimit(JsonText):
         InputError
             If the data is no such limit, or claims more than its certificate proves.
         """
+        limit = cls.stated(data)
+        if wrong := limit.contradiction():
+            raise InputError(wrong)
+        return limit
+
+    @classmethod
+    def stated(cls, data: Any) -> DriveLimit:  # noqa: ANN401 - it is checked here
+        """The limit as its data states it, whether or not its certificate and its motion have its numbers.
+
+        Raises
+        ------
+        InputError
+            If the data is no such limit.
+        """
         data = of_known_format(data, cls._json_name) if isinstance(data, Mapping) else data
         if not isinstance(data, Mapping) or set(data) != set(_KEYS):
             raise InputError(f"a drive's limit has the keys {', '.join(_KEYS)}, got {shortened(data)}")
@@ -203,12 +217,16 @@ class DriveLimit(JsonText):
         plane, unit = PhasePlane.from_dict(data["plane"]), positive(data["unit"], "unit")
         limit = cls(*(data["minimise"], value, attained, plane, unit, weight, edges, rows, s, b, level, price, near))
         _check(limit)
-        if limit.value > limit.bound + STATED_BOUND * abs(limit.bound):
-            raise InputError(f"the value {limit.value!r} is above what its certificate proves, {limit.bound!r}")
-        known = _attained(limit)
-        if limit.attained != known and abs(limit.attained - known) > STATED_BOUND * abs(known):
-            raise InputError(f"attained is {limit.attained!r}, and its motion has {known!r}")
         return limit
+
+    def contradiction(self) -> str:
+        """What is stated that the certificate or the motion does not have; empty where all of it agrees."""
+        if self.value > self.bound + STATED_BOUND * abs(self.bound):
+            return f"the value {self.value!r} is above what its certificate proves, {self.bound!r}"
+        known = _attained(self)
+        if self.attained != known and abs(self.attained - known) > STATED_BOUND * abs(known):
+            return f"attained is {self.attained!r}, and its motion has {known!r}"
+        return ""
 
 
 def drive_limit(
@@ -278,6 +296,16 @@ def phase_torque(torque: str) -> AnyTorque:
             f"greater of two, got {shortened(torque)}: give loads over the position a, not over k"
         )
     return form
+
+
+def planes_of_proof(plane: PhasePlane, limit: DriveLimit) -> list[PhasePlane]:
+    """The planes of which a limit may be that of a move in a plane, or the proof that it is impossible there."""
+    if limit.minimise == "time":
+        return [replace(plane, squared=None, maxima=(), peak=None, holding=None).slowed(limit.unit)]
+    slow = replace(plane, squared=None, maxima=(), peak=None, limits=(), holding=None).slowed(LONG)
+    whole = [bound for bound in plane.limits if bound.everywhere and not bound.side]
+    beyond = [replace(slow, peak=bound.torque.slowed(LONG)) for bound in whole]
+    return [plane, *(beyond if limit.minimise == "peak torque" else [])]
 
 
 def limit_of_plane(plane: PhasePlane, minimise: DriveObjective, unit: float = 1.0) -> DriveLimit:

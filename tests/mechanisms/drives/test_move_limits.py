@@ -163,8 +163,9 @@ def test_files_of_limits_are_verified() -> None:
     assert list(verify_all({"a": limit.to_dict(), "b": [limit.drive_limit.to_dict()]})) == ["a", "b[0]"]
     data = limit.to_dict()
     data["drive_limit"]["value"] *= 1.01
+    assert not verify(data).proven
     with pytest.raises(InputError, match="above what its certificate proves"):
-        verify(data)
+        MoveLimit.from_dict(data)
     with pytest.raises(InputError, match="unit"):
         verify({**limit.to_dict(), "unit": -1.0})
 
