@@ -1,23 +1,24 @@
 /* node check_proof.mjs [--json] FILE...: what proof files state, checked in exact numbers.
 
-   It ends with 1 where something is not proven, with 2 where a file cannot be read. */
+   It ends with 1 where something is not proven, with 2 where a file cannot be read, with 3 where something is not checked. */
 
 import { readFileSync } from "node:fs";
 import { fileChecked } from "./proof_check.mjs";
 
 const plain = process.argv.slice(2).filter((argument) => argument !== "--json");
 const asJson = plain.length + 2 < process.argv.length;
-process.exitCode = plain.length ? 0 : 2;
+const ended = new Set(plain.length ? [] : [2]);
 for (const file of plain) {
   let results = [];
   try {
     results = fileChecked(JSON.parse(readFileSync(file, "utf8")));
   } catch (error) {
     console.error(`${file}: ${error.message}`);
-    process.exitCode = 2;
+    ended.add(2);
     continue;
   }
-  if (results.some(({ verdict }) => verdict === "not proven")) process.exitCode ||= 1;
+  if (results.some(({ verdict }) => verdict === "not proven")) ended.add(1);
+  if (results.some(({ verdict }) => verdict === "not checked")) ended.add(3);
   if (asJson) {
     console.log(JSON.stringify(results.map((result) => ({ ...result, bound: result.bound?.toNumber() ?? null }))));
     continue;
@@ -26,3 +27,5 @@ for (const file of plain) {
   const counts = ["proven", "not proven", "not checked"].map((word) => `${results.filter(({ verdict }) => verdict === word).length} ${word}`);
   console.log(`${file}: ${counts.join(", ")}`);
 }
+// what is false comes first, then what cannot be read, then what is checked in part
+process.exitCode = [1, 2, 3].find((status) => ended.has(status)) ?? 0;

@@ -56,10 +56,15 @@ export function solutionChecked(data, path, proven) {
     const limit = limitOf(problem, parsed(problem.minimise));
     const agrees = (stated, bound) => bound !== null && !bound.plus(STATED.times(bound.magnitude())).below(exact(stated));
     const bounds = [...proven.map(({ bound }) => bound), limit].filter((bound) => bound);
+    const certificates = ["certificate", "power_certificate", "peak_certificate"].filter((key) => data[key]);
+    const limitKnown = (data.limit ?? null) === null || agrees(data.limit, limit);
+    const allKnown = !data.drive_limit && limitKnown && proven.filter(({ bound }) => bound).length === certificates.length;
     const best = bounds.length ? bounds.reduce(greatest) : null;
     for (const [name, stated, bound] of [["limit", data.limit ?? null, limit], ["lower bound", data.lower_bound ?? null, best]]) {
       if (stated === null) continue;
       if (agrees(stated, bound)) claim(name, true, `${stated} is stated, ${bound.toNumber()} is proven`);
+      else if (highest && highest.plus(STATED.times(highest.magnitude())).below(exact(stated))) claim(name, false, `${stated} is stated, above the objective of the law, ${highest.toNumber()}`);
+      else if (allKnown && best && name === "lower bound") claim(name, false, `${stated} is stated, ${best.toNumber()} is proven`);
       else claims.push({ path: `${path}: ${name}`, verdict: "not checked", detail: `${stated} is stated, by no proof that this program knows` });
     }
     const gap = highest && best && highest.sign > 0 ? highest.minus(best).over(highest) : null;
