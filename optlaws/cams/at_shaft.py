@@ -126,5 +126,5 @@ def _through_breaks(cam: DiscCam, breaks: list[float]) -> tuple[Formula, Formula
     places = np.concatenate([*parts, [breaks[-1]]])
     x, known = Name("x"), tuple(places.tolist())
     values = [np.asarray(cam.displacement.jet(cam.displacement.within(places), 1).derivative(nu)) for nu in (0, 1)]
-    position, velocity = (Table(x, known, tuple(some.tolist()), smooth=True) for some in values)
+    position, velocity = (Table(x, known, tuple(some.tolist()), "spline") for some in values)
     return position, velocity

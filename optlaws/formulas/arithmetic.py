@@ -175,7 +175,7 @@ def pieces(table: Table) -> Array:
     [[1.0, 1.0], [2.0, 2.0]]
     """
     lines = np.column_stack([table.values[:-1], np.diff(table.values) / np.diff(table.places)])
-    rows = spline(table.places, table.values) if table.smooth else lines
+    rows = _SMOOTH[table.kind](table.places, table.values) if table.smooth else lines
     for _ in range(table.order):
         rows = rows[:, 1:] * np.arange(1, rows.shape[1]) if rows.shape[1] > 1 else np.zeros((len(rows), 1))
     return rows
@@ -222,6 +222,63 @@ def spline(places: tuple[float, ...], values: tuple[float, ...]) -> Array:
     rows.setflags(write=False)
     return rows
 
+
+@lru_cache(maxsize=64)
+def monotone(places: tuple[float, ...], values: tuple[float, ...]) -> Array:
+    """Cubics that rise and fall as the values do, with a continuous slope: rows as those of `spline`.
+
+    The slope at a place is that of the spline where this keeps the cubics beside it monotone, as smooth data allow;
+    otherwise it is that of Fritsch and Butland (SIAM J. Sci. Stat. Comput. 5 (1984) 300), and 0 at a place whose
+    value is as great or as small as those beside it. No value is beyond those of its two neighbours.
+
+    Examples
+    --------
+    >>> monotone((0.0, 1.0, 2.0, 3.0), (0.0, 0.0, 3.0, 3.0))[1].tolist()
+    [0.0, 0.0, 9.0, -6.0]
+    """
+    x, y = np.array(places), np.array(values)
+    h, secants = np.diff(x), np.diff(y) / np.diff(x)
+    beside = np.concatenate([secants[:1], secants, secants[-1:]])
+    before, after = beside[:-1], beside[1:]
+    slopes = _butland(h, secants)
+    if len(x) >= 4:
+        rows = spline(places, values)
+        last = rows[-1, 1] + h[-1] * (2.0 * rows[-1, 2] + 3.0 * h[-1] * rows[-1, 3])
+        smooth = np.append(rows[:, 1], last)
+        size = np.minimum(np.abs(before), np.abs(after))
+        ways = np.sign([before, after, smooth])
+        fits = (ways[0] == ways[1]) & (ways[1] == ways[2]) & (ways[0] != 0.0) & (np.abs(smooth) <= 3.0 * size)
+        slopes = np.where(fits, smooth, slopes)
+    bend = (slopes[:-1] + slopes[1:] - 2.0 * secants) / h
+    rows = np.column_stack([y[:-1], slopes[:-1], (secants - slopes[:-1]) / h - bend, bend / h])
+    rows.setflags(write=False)
+    return rows
+
+
+def _butland(h: Array, secants: Array) -> Array:
+    """Slopes at the places of which no cubic between two of them leaves the range of its ends."""
+    slopes = np.zeros(len(h) + 1)
+    first, other = secants[:-1], secants[1:]
+    rising = np.sign(first) * np.sign(other) > 0.0
+    wide, narrow = 2.0 * h[1:] + h[:-1], h[1:] + 2.0 * h[:-1]
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+        means = (wide + narrow) / (wide / first + narrow / other)
+    slopes[1:-1] = np.where(rising, means, 0.0)
+    slopes[0], slopes[-1] = _end_slope(h, secants), _end_slope(h[::-1], secants[::-1])
+    return slopes
+
+
+def _end_slope(h: Array, secants: Array) -> float:
+    """The slope of the parabola through the first three places, as far as it keeps the first cubic monotone."""
+    if len(h) == 1:
+        return float(secants[0])
+    slope = float(((2.0 * h[0] + h[1]) * secants[0] - h[0] * secants[1]) / (h[0] + h[1]))
+    if np.sign(slope) * np.sign(secants[0]) <= 0.0:
+        return 0.0
+    return float(np.copysign(min(abs(slope), 3.0 * abs(secants[0])), slope))
+
+
+_SMOOTH = {"spline": spline, "monotone": monotone}
 
 NUMPY = Arithmetic(
     number=np.float64,

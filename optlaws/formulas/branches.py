@@ -29,7 +29,7 @@ from optlaws.formulas.tree import (
 from optlaws.numbers import Array
 
 _MOST = 16
-#: into how many parts a line of a table is cut for a spline through its points
+#: into how many parts a line of a table is cut for a smooth curve through its points
 _BETWEEN = 8
 _RISING = frozenset(name for name, function in SMOOTH_FUNCTIONS.items() if function.rising)
 
@@ -88,6 +88,17 @@ def switches(formula: Formula, names: Collection[str]) -> list[Formula]:
         else:
             formulas += [added([first, opposite(other)]) for first, other in combinations(part.parts, 2)]
     return [fromkey for fromkey in dict.fromkeys(formulas) if fromkey.names() & set(names)]
+
+
+def corners(formula: Formula, names: Collection[str]) -> list[Formula]:
+    """Formulas that are 0 where tables of straight lines bend.
+
+    >>> from optlaws.formulas.reading import read
+    >>> corners(read("table(x, 0:0, 1:1, 3:0) + spline(x, 0:1, 1:2, 2:3, 3:3)"), "x")
+    [x - 1]
+    """
+    bent = (part for part in formula.walk() if isinstance(part, Table) and not smooth_itself(part))
+    return [switch for table in dict.fromkeys(bent) for switch in switches(table, names)]
 
 
 def knots(formula: Formula, names: Collection[str]) -> tuple[list[Formula], list[Formula]]:
@@ -179,7 +190,7 @@ def _in_powers(coefficients: Sequence[float], of: Formula) -> Formula:
 def rounded(formula: Formula, radius: float) -> Formula:
     """A smooth formula near it: hyperbolas of this radius in place of the kinks of sizes, maxima and minima.
 
-    Tables of straight lines become splines through as many points between their places as keep them near.
+    Tables of straight lines become smooth curves through as many points between their places as keep them near.
 
     >>> from optlaws.formulas.reading import read
     >>> rounded(read("abs(b)"), 0.5), rounded(read("max(b, c)"), 0.5)
@@ -202,12 +213,12 @@ def rounded(formula: Formula, radius: float) -> Formula:
 
 
 def _through(table: Table, of: Formula) -> Table:
-    """A spline through points on the lines of a table."""
+    """A smooth curve through points on the lines of a table, which leaves no line between two of them."""
     pairs = list(pairwise(zip(table.places, table.values, strict=True)))
     shares = [i / _BETWEEN for i in range(_BETWEEN)]
     places = [x + share * (after - x) for (x, _), (after, _) in pairs for share in shares]
     values = [y + share * (after - y) for (_, y), (_, after) in pairs for share in shares]
-    return Table(of, (*places, table.places[-1]), (*values, table.values[-1]), smooth=True)
+    return Table(of, (*places, table.places[-1]), (*values, table.values[-1]), "monotone")
 
 
 def _hyperbola(of: Formula, radius: float) -> Formula:
@@ -219,9 +230,21 @@ class _Branches:
         self.names, self.sign = names, sign
 
     def of(self, formula: Formula, *, greatest: bool) -> list[Formula] | None:
-        """The smooth formulas of which a formula is the greatest or the least; None where it is neither."""
+        """The smooth formulas of which a formula is the greatest or the least; None where it is neither.
+
+        Between the places of its tables a formula without other kinks is smooth as well.
+        """
         if smooth(formula, self.names):
             return [formula]
+        known = self._maximum(formula, greatest=greatest)
+        return [formula] if known is None and self._has_corners_alone(formula) else known
+
+    def _has_corners_alone(self, formula: Formula) -> bool:
+        """Whether all kinks are those of tables of straight lines."""
+        kinked = (part for part in formula.walk() if not isinstance(part, Table) and not smooth_itself(part))
+        return not any(part.names() & self.names for part in kinked)
+
+    def _maximum(self, formula: Formula, *, greatest: bool) -> list[Formula] | None:
         if isinstance(formula, Negative):
             return _each(self.of(formula.of, greatest=not greatest), opposite)
         if isinstance(formula, Sum):
@@ -265,7 +288,9 @@ class _Branches:
         """Its lines, where it bends one way."""
         lines = pieces(formula).tolist()
         slopes = [line[1] for line in lines]
-        if not smooth(formula.of, self.names) or slopes != sorted(slopes, reverse=not greatest):
+        if not smooth(formula.of, self.names):
+            return None
+        if slopes != sorted(slopes, reverse=not greatest):
             return None
         return [
             added([number(start - slope * place), multiplied([number(slope), formula.of])])

@@ -28,6 +28,7 @@ from optlaws.formulas.tree import (
     Number,
     Reciprocal,
     Table,
+    TableJoin,
     product,
     total,
 )
@@ -39,14 +40,14 @@ FUNCTIONS = {
     **dict.fromkeys((*SMOOTH_FUNCTIONS, "abs"), (1, 1)),
     **dict.fromkeys(("max", "min", "norm"), (2, 12)),
 }
-TABLES = ("spline", "spline1", "spline2", "table")
+#: with the derivatives of those that are smooth, as they are printed
+TABLES = ("monotone", "monotone1", "monotone2", "spline", "spline1", "spline2", "table", "table1")
 CONSTANTS = ("pi",)
 LONGEST = 1_000_000
 DEEPEST = 40
-_FEWEST = {"table": 2, "spline": 4, "spline1": 4, "spline2": 4}
+_FEWEST = {"table": 2, "monotone": 2, "spline": 4}
 _MOST_PLACES = 400
-#: a spline and its derivatives, as they are printed
-_SPLINES = frozenset({"spline", "spline1", "spline2"})
+_SMOOTH: dict[str, TableJoin] = {"spline": "spline", "monotone": "monotone"}
 
 
 def read(text: str, names: Collection[str] | None = None) -> Formula:
@@ -56,7 +57,8 @@ def read(text: str, names: Collection[str] | None = None) -> Formula:
     ----------
     text
         The formula: + - * / ^, brackets, numbers, pi, sin cos tan atan tanh exp log sqrt abs, max min norm of several
-        parts, and tables: `table(k, 0:1, 0.5:2, 1:1)` of straight lines, `spline(...)` of cubic ones.
+        parts, and tables: `table(k, 0:1, 0.5:2, 1:1)` of straight lines, `spline(...)` of a cubic
+        spline, `monotone(...)` of cubics that never leave the range of their neighbours.
     names
         The names that may be in it; any unless given.
 
@@ -193,14 +195,14 @@ class _Parser:
             self.scanner.close(":")
             pairs.append((where, self._number()))
         self.scanner.close()
-        fewest = _FEWEST[kind]
+        joined = kind.rstrip("12")
+        fewest = _FEWEST[joined]
         if not fewest <= len(pairs) <= _MOST_PLACES:
             self.scanner.refuse(f"{kind} needs {fewest} to {_MOST_PLACES} pairs such as 0:1, got {len(pairs)}", place)
         if any(x >= y for (x, _), (y, _) in pairwise(pairs)):
             self.scanner.refuse(f"the places of {kind} must ascend", place)
         places, values = zip(*pairs, strict=True)
-        order = int(kind.removeprefix("spline") or 0) if kind in _SPLINES else 0
-        return Table(of, places, values, kind in _SPLINES, order, place=place)
+        return Table(of, places, values, _SMOOTH.get(joined, "table"), int(kind[len(joined) :] or 0), place=place)
 
     def _number(self) -> float:
         minus = self.scanner.token.text == "-"

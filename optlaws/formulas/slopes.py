@@ -113,10 +113,8 @@ def _of_call(formula: Call, slopes: list[Formula]) -> Formula:
 
 
 def _of_table(formula: Table) -> Formula:
-    """The slope of a spline; of straight lines only where they are over k, whose places are known beforehand."""
-    if not formula.smooth and len(formula.places) > 2 and not formula.of.names() <= {"k"}:
-        raise InputError(f"{formula} has no derivative at its places; spline(...) has one everywhere")
-    return replace(formula, order=formula.order + 1)
+    """The slope of a table, which jumps at the places of straight lines."""
+    return replace(formula, order=formula.order + 1) if formula.smooth or not formula.order else _ZERO
 
 
 def constant(formula: Formula) -> float | None:

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, fields, replace
-from typing import Any, NamedTuple
+from typing import Any, Literal, NamedTuple, TypeAlias
 
 from optlaws.kept import kept_property
 
+#: how the values of a table are joined between its places
+TableJoin: TypeAlias = Literal["table", "spline", "monotone"]
 #: orders of the derivatives of the law, by name
 ORDERS = {"a": 0, "b": 1, "c": 2, "j": 3}
 #: these, the power d = b c and the dimensionless time k
@@ -266,24 +268,29 @@ class Call(Formula):
 class Table(OfOnePart):
     """A function of one part, given by values at places: straight lines between them, which go on beyond them.
 
-    With `smooth` it is the cubic spline through them (not a knot), which goes on as well. Of an order above 0 it is
-    that derivative, with the order in its text: spline1(a, ...).
+    A "spline" is the cubic one through them (not a knot), with continuous curvature; a "monotone" curve is of cubics
+    that rise and fall as the values do and never leave the range of two neighbours. Beyond the places both go on. Of an
+    order above 0 it is that derivative, with the order in its text: spline1(a, ...).
     """
 
     places: tuple[float, ...]
     values: tuple[float, ...]
-    smooth: bool = False
+    kind: TableJoin = "table"
     order: int = 0
 
     @property
+    def smooth(self) -> bool:
+        """Whether the slope is continuous at the places."""
+        return self.kind != "table"
+
+    @property
     def data(self) -> tuple[Any, ...]:
-        """The places and values, and the spline data computed from them."""
-        return self.places, self.values, self.smooth, self.order
+        """The places and values, how they are joined, and the order."""
+        return self.places, self.values, self.kind, self.order
 
     def __str__(self) -> str:
         pairs = (f"{plain(x)}:{plain(y)}" for x, y in zip(self.places, self.values, strict=True))
-        kind = "spline" if self.smooth else "table"
-        return f"{kind}{self.order or ''}({self.of}, {', '.join(pairs)})"
+        return f"{self.kind}{self.order or ''}({self.of}, {', '.join(pairs)})"
 
 
 def table_places(formula: Formula, name: str) -> list[float]:

@@ -1,6 +1,7 @@
 """What is a formula, what is none and where that shows, and that nothing in one is ever executed."""
 
 from random import Random
+from typing import Literal
 
 import pytest
 
@@ -113,7 +114,11 @@ def test_only_texts_are_read() -> None:
     assert isinstance(read("c"), Formula)
 
 
-@pytest.mark.parametrize("order", [1, 2])
-def test_the_slope_of_a_spline_is_read_as_it_is_written(order: int) -> None:
-    table = Table(Name("a"), (0.0, 0.3, 0.7, 1.0), (1.0, 1.1, 1.4, 1.3), smooth=True, order=order)
+@pytest.mark.parametrize(
+    ("kind", "order"), [("spline", 1), ("spline", 2), ("monotone", 1), ("monotone", 2), ("table", 1)]
+)
+def test_the_slope_of_a_table_is_read_as_it_is_written(
+    kind: Literal["table", "spline", "monotone"], order: int
+) -> None:
+    table = Table(Name("a"), (0.0, 0.3, 0.7, 1.0), (1.0, 1.1, 1.4, 1.3), kind, order)
     assert read(str(table), ("a",)) == table

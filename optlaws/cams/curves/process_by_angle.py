@@ -142,7 +142,7 @@ def _runs(
     if not isinstance(pairs, list | tuple):
         return [formula_of(given, dimensions, name, variable=variable_name, interpolation=interpolation)]
     runs: list[list[tuple[float, float]]] = [[]]
-    for place, value in table_numbers(list(pairs), dimensions, name, interpolation):
+    for place, value in table_numbers(list(pairs), dimensions, name):
         if runs[-1] and place == runs[-1][-1][0]:
             runs.append([])
         runs[-1].append((place, value))

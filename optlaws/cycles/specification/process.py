@@ -12,7 +12,7 @@ from optlaws.errors import InputError
 from optlaws.formulas.arithmetic import NUMPY, evaluate
 from optlaws.formulas.slopes import added, derivative, multiplied
 from optlaws.formulas.tree import Formula, Name, Table, number, rebuilt, substituted, table_places
-from optlaws.mechanisms.linkages.entries import FEWEST, TableKind, formula_of
+from optlaws.mechanisms.linkages.entries import JOINED, TableKind, formula_of
 from optlaws.mechanisms.linkages.mechanism import DIMENSIONS, Mechanism
 from optlaws.motion.quantities import TURN
 from optlaws.numbers import Array
@@ -102,8 +102,8 @@ def process_entries(
     over, interpolation = given.get("over", "time"), given.get("interpolation", "lines")
     if over not in variables:
         raise InputError(f"{name}: over: {unknown_key(over, variables, 'variable')}")
-    if interpolation not in tuple(FEWEST):
-        raise InputError(f"{name}: {unknown_key(interpolation, FEWEST, 'interpolation')}")
+    if interpolation not in tuple(JOINED):
+        raise InputError(f"{name}: {unknown_key(interpolation, tuple(JOINED), 'interpolation')}")
     return kinds[0], over, interpolation
 
 
@@ -157,7 +157,7 @@ def rescaled(formula: Formula, name: str, other: str, line: tuple[float, float])
         return added([number(first), way]) if first else way
     if isinstance(formula, Table) and formula.of == Name(name):
         places = tuple((place - first) / slope for place in formula.places)
-        return Table(Name(other), places, formula.values, formula.smooth, formula.order)
+        return Table(Name(other), places, formula.values, formula.kind, formula.order)
     if name not in formula.names():
         return formula
     return rebuilt(formula, [rescaled(part, name, other, line) for part in formula.parts])

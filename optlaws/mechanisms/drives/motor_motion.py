@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
 
+from optlaws.formulas.arithmetic import NUMPY, evaluate
+from optlaws.formulas.branches import corners
+from optlaws.formulas.tree import Formula
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.laws.direction import direction_of
@@ -107,4 +111,10 @@ class MotorMotion:
     def parts(self) -> SmoothParts:
         """Parts of the move on which speed, load and torque are smooth, between breaks and changes of sign."""
         breaks = [*self.law.breaks, *direction_of(self.law).turns]
-        return SmoothParts.between(0.0, 1.0, breaks=breaks, signs=(self.load, self.torque))
+        bends = [partial(self._over_way, switch) for switch in corners(self.mechanism.load_formula, "x")]
+        return SmoothParts.between(0.0, 1.0, breaks=breaks, signs=(*bends, self.load, self.torque))
+
+    def _over_way(self, formula: Formula, k: Array) -> Array:
+        """A formula of the position at places of the law."""
+        values = evaluate(formula, {"x": self.start + self.stroke * np.asarray(self.law.a(k))}, NUMPY)
+        return np.broadcast_to(np.asarray(values, dtype=np.float64), np.shape(k))

@@ -122,7 +122,7 @@ def _over_stroke(formula: Formula, start: float, stroke: float) -> Formula:
             ((place - start) / stroke, value) for place, value in zip(formula.places, formula.values, strict=True)
         )
         places, values = zip(*pairs, strict=True)
-        table = Table(Name("a"), places, values, formula.smooth, formula.order)
+        table = Table(Name("a"), places, values, formula.kind, formula.order)
         return _times(table, stroke**-formula.order)
     return rebuilt(formula, [_over_stroke(part, start, stroke) for part in formula.parts])
 
@@ -135,7 +135,7 @@ def _times(formula: Formula, factor: float) -> Formula:
         return _scaled(formula, factor)
     if isinstance(formula, Table):
         values = tuple(value * factor for value in formula.values)
-        return Table(formula.of, formula.places, values, formula.smooth, formula.order)
+        return Table(formula.of, formula.places, values, formula.kind, formula.order)
     return scaled(formula, factor)
 
 

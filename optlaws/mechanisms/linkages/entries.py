@@ -4,18 +4,26 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
+from dataclasses import replace
 from itertools import pairwise
 from typing import Any, Literal
 
+import numpy as np
+
 from optlaws.echo import shortened
 from optlaws.errors import InputError
+from optlaws.formulas.arithmetic import horner, pieces
 from optlaws.formulas.reading import read
-from optlaws.formulas.tree import Formula, Name, Table, number
+from optlaws.formulas.tree import Formula, Name, Table, TableJoin, number
 from optlaws.motion.quantities import quantity, si_number
 from optlaws.numbers import finite, real
 
 TableKind = Literal["spline", "lines"]
-FEWEST = {"spline": 4, "lines": 2}
+#: how tables of values are joined: a spline of values keeps their shape
+JOINED: dict[str, TableJoin] = {"spline": "monotone", "lines": "table"}
+_FEWEST = 2
+#: of the range of the values of a cubic spline: it may be so much beyond those beside it, as curves are at their tops
+_SWING = 0.02
 #: a number with a unit behind it; in formulas a number is followed by a sign
 _WITH_UNIT = re.compile(r"\s*[+-]?[\d./]*\d(?:[eE][+-]?\d+)?+\s*[^\W\d_]")
 
@@ -42,7 +50,8 @@ def formula_of(
     variable
         The name of the variable in texts.
     interpolation
-        Of tables: "spline", which is smooth, or straight "lines".
+        Of tables: "spline", a smooth curve that rises and falls as the values do and is nowhere beyond its two
+        neighbours, or straight "lines".
 
     Raises
     ------
@@ -63,34 +72,53 @@ def formula_of(
     if isinstance(given, list | tuple):
         return _table(list(given), dimensions, name, variable, interpolation)
     if isinstance(given, str) and _WITH_UNIT.match(given) is None:
-        return read(given, (variable,))
+        formula = read(given, (variable,))
+        for part in formula.walk():
+            if isinstance(part, Table) and part.kind == "spline":
+                _check_shape(part, name)
+        return formula
     return number(finite(si_number(given, (dimensions[1],), name), name))
 
 
 def _table(
     pairs: list[Any], dimensions: tuple[str, str], name: str, variable: str, interpolation: TableKind
 ) -> Formula:
-    numbers = table_numbers(pairs, dimensions, name, interpolation)
+    numbers = table_numbers(pairs, dimensions, name)
     for (place, _), (following, _) in pairwise(numbers):
         if place >= following:
             raise InputError(f"{name}: the places of a table must ascend, got {place:g} before {following:g}")
     places, values = zip(*numbers, strict=True)
-    return Table(Name(variable), places, values, interpolation == "spline")
+    return Table(Name(variable), places, values, JOINED[interpolation])
 
 
-def table_numbers(
-    pairs: list[Any], dimensions: tuple[str, str], name: str, interpolation: TableKind
-) -> list[tuple[float, float]]:
+def _check_shape(table: Table, name: str) -> None:
+    """Refuse a cubic spline that swings beyond its values: between two of them it would be what nobody measured."""
+    values, rows = np.array(table.values), pieces(replace(table, order=0))
+    room = _SWING * float(np.ptp(values))
+    for i, (start, slope, bend, twist) in enumerate(rows.tolist()):
+        length = table.places[i + 1] - table.places[i]
+        turns = [
+            at.real for at in np.roots([3.0 * twist, 2.0 * bend, slope]) if at.imag == 0.0 and 0.0 < at.real < length
+        ]
+        reached = [horner((start, slope, bend, twist), at) for at in turns]
+        low, high = sorted((table.values[i], table.values[i + 1]))
+        worst = max((max(low - value, value - high) for value in reached), default=0.0)
+        if worst > room:
+            raise InputError(
+                f"{name}: between {table.places[i]:g} and {table.places[i + 1]:g} the spline is {worst:.3g} beyond the "
+                "values beside it: monotone(...) in its place never is, nor is a table of places and values"
+            )
+
+
+def table_numbers(pairs: list[Any], dimensions: tuple[str, str], name: str) -> list[tuple[float, float]]:
     """Places and values of a table in SI units, whether they ascend or not.
 
-    >>> table_numbers([("0 deg", "1 kN"), ("90 deg", "0 N")], ("angle", "force"), "force", "lines")
+    >>> table_numbers([("0 deg", "1 kN"), ("90 deg", "0 N")], ("angle", "force"), "force")
     [(0.0, 1000.0), (1.5707963267948966, 0.0)]
     """
-    fewest = FEWEST[interpolation]
-    if len(pairs) < fewest or any(not isinstance(pair, list | tuple) or len(pair) != 2 for pair in pairs):
+    if len(pairs) < _FEWEST or any(not isinstance(pair, list | tuple) or len(pair) != 2 for pair in pairs):
         raise InputError(
-            f"{name}: a table of {interpolation} needs {fewest} pairs of a place and a value at least, got "
-            f"{shortened(pairs)}"
+            f"{name}: a table needs {_FEWEST} pairs of a place and a value at least, got {shortened(pairs)}"
         )
     return [
         (

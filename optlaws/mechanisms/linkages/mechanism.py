@@ -14,6 +14,7 @@ from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.files.reading import JsonText, entries_of
 from optlaws.formulas.arithmetic import NUMPY, Together, evaluate
+from optlaws.formulas.branches import smooth_itself
 from optlaws.formulas.intervals import Endpoints, enclosed
 from optlaws.formulas.reading import read
 from optlaws.formulas.slopes import added
@@ -185,6 +186,11 @@ class Mechanism(JsonText):
     def _check(self) -> None:
         low, high = self.over
         x = np.linspace(low, high, _LOOKS) if np.isfinite(high - low) else np.linspace(-np.pi, np.pi, _LOOKS)
+        if any(isinstance(part, Table) and not smooth_itself(part) for part in self.inertia_formula.walk()):
+            raise InputError(
+                "the inertia has corners, where the torque would jump: a table is joined by a smooth curve, and in a "
+                "formula monotone(x, ...) is one"
+            )
         slope(self.inertia_formula, "x")
         with np.errstate(all="ignore"):
             values = {"inertia": self._values(self.inertia_formula, x), "load": self._values(self.load_formula, x)}
@@ -198,8 +204,7 @@ class Mechanism(JsonText):
         if inertia.min() < -VALUE_ROUNDING * np.abs(inertia).max():
             i = int(np.argmin(inertia))
             raise InputError(
-                f"the inertia must be at least 0, and it is {inertia[i]:.6g} at {self._shown(x[i])}: check its signs, "
-                "or how its table swings between the places"
+                f"the inertia must be at least 0, and it is {inertia[i]:.6g} at {self._shown(x[i])}: check its signs"
             )
 
     def _shown(self, x: float) -> str:

@@ -13,7 +13,7 @@ from optlaws.formulas.branches import smooth
 from optlaws.formulas.convexity import Judge
 from optlaws.formulas.of_motion import MotionFormula
 from optlaws.formulas.slopes import opposite
-from optlaws.formulas.tree import ORDERS, Negative, Table
+from optlaws.formulas.tree import ORDERS, Negative
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.numbers import Array, power_of_two
@@ -320,8 +320,6 @@ def refusal(constant: OfFormula) -> str | None:
         other = {"high": "low", "low": "high"}[side]
         hint = f'; side="{side}" is possible, together with side="{other}" of one branch of its maximum by maximum(...)'
     formula = constant.motion.formula
-    if any(isinstance(part, Table) and not part.smooth for part in formula.walk()):
-        hint += "; the lines of a table have corners: a spline has none, of loads by interpolation='spline'"
     return f"{cut(str(formula), _SHOWN)} has kinks that are not those of a maximum of smooth formulas{hint}"
 
 

@@ -5,10 +5,10 @@ from typing import Any
 
 import numpy as np
 import pytest
-from scipy.interpolate import CubicSpline
 
 from optlaws import CamForces, CamMotion, DiscCam, InputError, TranslatingRoller, least_spring
 from tests.cams.placed import FOLLOWERS, cam_of
+from tests.internals.formulas import NUMPY, evaluate, read
 
 MOVED = {"mass": "2 kg", "stiffness": "3 N/mm", "preload": "90 N", "dry": "4 N"}
 SWUNG = {"inertia": "0.02 kg m^2", "stiffness": "30 N m/rad", "preload": "6 N m"}
@@ -60,7 +60,9 @@ def test_a_force_over_the_way_and_a_spline() -> None:
     way = 1e3 * np.asarray(cam.displacement(ANGLES))
     assert taken({"force": pairs, "over": "driven"}) == pytest.approx(np.interp(way, places, values), abs=1e-9)
     smooth = taken({"force": pairs, "over": "driven", "interpolation": "spline"})
-    assert smooth == pytest.approx(CubicSpline(places, values)(way), abs=1e-9)
+    table = ", ".join(f"{1e-3 * place!r}:{value!r}" for place, value in zip(places, values, strict=True))
+    curve = evaluate(read(f"monotone(s, {table})"), {"s": 1e-3 * way}, NUMPY)
+    assert smooth == pytest.approx(curve, abs=1e-9)
 
 
 @pytest.mark.sample(3)

@@ -181,7 +181,9 @@ REFUSED: list[tuple[Callable[[], Any], str]] = [
         lambda: Mechanism({0.0: 1.0, 0.5: 1.0, 0.8: 1.0, 1.0: 1.0}, over=(0.0, 2.0)),
         "table of the inertia goes from 0 deg to 57.29\\d* deg, and the mechanism from 0 deg to 114.59",
     ),
-    (lambda: Mechanism({0.0: 1.0, 1.0: 1.0}), "a table of spline needs 4 pairs"),
+    (lambda: Mechanism({0.0: 1.0}), "a table needs 2 pairs"),
+    (lambda: Mechanism("table(x, 0:1, 1:2, 2:1)"), "the inertia has corners"),
+    (lambda: Mechanism(1.0, "spline(x, 0:0, 1:0, 1.2:9, 2:9, 3:9)"), "load: between 0 and 1 the spline is .* beyond"),
     (lambda: Mechanism(1.0, {1.0: 1.0, 0.5: 1.0}), "places of a table must ascend, got 1 before 0.5"),
     (lambda: ALL["formula"].dimensionless(1.0, 3.0, 1.0), "defined from 0 deg to 171.887339 deg, got 229.183"),
     (
