@@ -67,13 +67,14 @@ def test_it_is_the_same_curve_mirrored_and_in_other_units(table: Table, factor: 
         pairs = [(factor * x, y) for x, y in zip(table.places, table.values, strict=True)][::-1]
     else:
         pairs = [(x, factor * y) for x, y in zip(table.places, table.values, strict=True)]
-    other = Table(Name("x"), *(tuple(part) for part in zip(*pairs, strict=True)), "monotone")
+    places, values = zip(*pairs, strict=True)
+    other = Table(Name("x"), places, values, "monotone")
     x = np.linspace(table.places[0], table.places[-1], 101)
-    values = np.broadcast_to(evaluate(table, {"x": x}, NUMPY), x.shape)
+    before = np.broadcast_to(evaluate(table, {"x": x}, NUMPY), x.shape)
     changed = np.broadcast_to(evaluate(other, {"x": factor * x if factor < 0.0 else x}, NUMPY), x.shape)
     scale = 1.0 if factor < 0.0 else factor
     size = max(map(abs, table.values)) or 1.0
-    assert changed == pytest.approx(scale * values, abs=1e-9 * scale * size)
+    assert changed == pytest.approx(scale * before, abs=1e-9 * scale * size)
 
 
 def test_smooth_data_are_as_near_as_a_spline_between_their_tops() -> None:
