@@ -62,10 +62,10 @@ def test_two_tabs_of_the_browser_keep_their_own_studies(page: Page, served: Serv
         tab.get_by_label("Peak velocity B, number").fill(value)
         settle(tab)
         tab.wait_for_timeout(300)
-    for tab, value in ((page, 1.81), (other, 1.92)):
+    for tab, known in ((page, 1.81), (other, 1.92)):
         tab.reload()
         settle(tab)
-        assert velocity(tab) == value
+        assert velocity(tab) == known
 
 
 def test_documents_of_an_earlier_version_are_not_lost(page: Page, served: Server) -> None:

@@ -158,7 +158,7 @@ class MoveLimit(JsonText):
         return same_unit and same_kind and self.drive_limit.plane in planes_of_proof(of_move, self.drive_limit)
 
 
-class Driven(Protocol):
+class MovedSource(Protocol):
     """A mechanism or a drive."""
 
     def to_dict(self) -> dict[str, Any]:
@@ -183,7 +183,7 @@ class LimitedMove(JsonText):
         What of an energy counts, beside what the drive recovers.
     """
 
-    driven: Driven
+    driven: MovedSource
     minimise: DriveObjective
     start: float
     stroke: float

@@ -18,8 +18,8 @@ def test_each_curve_of_a_cam_is_exported(tmp_path: Path) -> None:
         ({"curve": "pitch"}, cam.pitch_curve),
         ({"cutter_radius": "8 mm"}, cam.cutter_path("8 mm")),
     ]
-    for arguments, curve in curves:
-        rows = readers.table(cam.export(tmp_path / "cam.csv", points=91, decimals=7, **arguments))
+    for number, (arguments, curve) in enumerate(curves):
+        rows = readers.table(cam.export(tmp_path / f"cam{number}.csv", points=91, decimals=7, **arguments))
         assert rows[:, 1:] == pytest.approx(1e3 * curve(angles), abs=1e-7)
     spline = readers.dxf_spline(cam.export(tmp_path / "cam.dxf"))
     assert spline(angles) == pytest.approx(1e3 * cam.profile(angles), abs=1.1e-3)

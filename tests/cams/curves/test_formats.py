@@ -1,6 +1,7 @@
 import sys
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 import ezdxf.filemanagement
 import numpy as np
@@ -21,7 +22,7 @@ NEAR = 2e-3 + 1e-4
 
 def test_a_dxf_spline_is_read_back_with_all_its_digits(tmp_path: Path) -> None:
     for degree in (3, 5):
-        file = write_outline(ELLIPSE, tmp_path / "profile.dxf", tolerance="0.01 um", degree=degree)
+        file = write_outline(ELLIPSE, tmp_path / f"profile{degree}.dxf", tolerance="0.01 um", degree=degree)
         found = readers.dxf_spline(file)
         assert found.k == degree
         assert ezdxf.filemanagement.readfile(file).header["$INSUNITS"] == 4
@@ -88,7 +89,7 @@ def test_moves_lead_around_within_their_tolerance(tmp_path: Path, name: str) -> 
 
 def test_arcs_take_fewer_moves(tmp_path: Path) -> None:
     lines, turns = (
-        len(readers.moves(write_outline(ELLIPSE, tmp_path / "p.nc", name))) for name in ("g-code", "g-code arcs")
+        len(readers.moves(write_outline(ELLIPSE, tmp_path / f"{name}.nc", name))) for name in ("g-code", "g-code arcs")
     )
     assert turns < 0.3 * lines
 
@@ -100,7 +101,11 @@ def test_files_are_the_same_whenever_they_are_written_and_replaced_whole(tmp_pat
     first = file.read_bytes()
     assert write_outline(ELLIPSE, file, name, decimals=5, about="x <b> (\n) made").read_bytes() == first
     # every digit counts: a file that says the same in fewer of them is another
-    assert write_outline(ELLIPSE, file, name, decimals=4, tolerance="1.1 um", about="x").read_bytes() != first
+    fewer: dict[str, Any] = {"decimals": 4, "tolerance": "1.1 um", "about": "x"}
+    with pytest.raises(InputError, match="with other contents"):
+        write_outline(ELLIPSE, file, name, **fewer)
+    assert file.read_bytes() == first
+    assert write_outline(ELLIPSE, file, name, force=True, **fewer).read_bytes() != first
     assert [one.name for one in tmp_path.iterdir()] == [file.name]
 
 
