@@ -3,7 +3,6 @@
 import ast
 import inspect
 import re
-from collections import Counter
 from collections.abc import Iterator
 from doctest import DocTestParser
 from importlib import import_module
@@ -23,7 +22,6 @@ PYTHON_BLOCK = re.compile(r"^```python\n(.*?)^```", re.DOTALL | re.MULTILINE)
 class Parts(NamedTuple):
     """What several rules look at in the package, which is parsed once: whole trees of it would take much memory."""
 
-    classes: list[str]
     parameters: list[tuple[Path, ast.arg | ast.AnnAssign]]
     docstrings: list[tuple[Path, str, str]]
     tolerances: dict[Path, list[str]]
@@ -32,25 +30,18 @@ class Parts(NamedTuple):
 
 @pytest.fixture(scope="module")
 def parts() -> Parts:
-    parts = Parts([], [], [], {}, {})
+    parts = Parts([], [], {}, {})
     for path in sorted((ROOT / "optlaws").rglob("*.py")):
         tree = ast.parse(path.read_text("utf-8"))
         parts.tolerances[path] = tolerances(tree)
         parts.vague[path] = set()
         for node in ast.walk(tree):
             parts.vague[path] |= vague_names_of(node)
-            if isinstance(node, ast.ClassDef):
-                parts.classes.append(node.name)
             if isinstance(node, ast.arg | ast.AnnAssign):
                 parts.parameters.append((path, node))
             if isinstance(node, ast.Module | ast.ClassDef | ast.FunctionDef | ast.AsyncFunctionDef):
                 parts.docstrings.append((path, getattr(node, "name", "module"), ast.get_docstring(node) or ""))
     return parts
-
-
-def test_a_name_of_a_class_means_one_class(parts: Parts) -> None:
-    names = Counter(parts.classes)
-    assert {name for name, count in names.items() if count > 1} == set()
 
 
 def test_nu_is_the_order_of_a_derivative(parts: Parts) -> None:
@@ -63,29 +54,7 @@ def test_nu_is_the_order_of_a_derivative(parts: Parts) -> None:
         assert name != "nu" or kind is None or ast.unparse(kind) == "int", f"{path.name}: {ast.unparse(node)}"
 
 
-MODULE = ROOT / "optlaws" / "tolerances.py"
 LARGEST = 1e-2
-#: rooms whose tolerances stand in that module; those that are missing have some to move
-WITHOUT_TOLERANCES = (
-    "balancing",
-    "cams",
-    "cli",
-    "cycles",
-    "explorer",
-    "exports",
-    "files",
-    "formulas",
-    "jobs",
-    "laws",
-    "mechanisms",
-    "motion",
-    "numerics",
-    "plots",
-    "shown",
-    "studies",
-    "synthesis",
-    "verification",
-)
 
 
 def assigned(tree: ast.Module) -> Iterator[tuple[str, ast.expr]]:
@@ -113,23 +82,21 @@ def tolerances(tree: ast.Module) -> list[str]:
     return [name for name, value in known.items() if 0.0 < value < LARGEST]
 
 
-@pytest.mark.parametrize("room", WITHOUT_TOLERANCES)
-def test_tolerances_stand_in_one_module(room: str, parts: Parts) -> None:
-    found = {path: names for path, names in parts.tolerances.items() if ROOT / "optlaws" / room in path.parents}
-    assert found
-    assert {str(path): names for path, names in found.items() if names} == {}
-
-
-def test_every_tolerance_has_a_reason_and_a_use() -> None:
-    source = MODULE.read_text("utf-8")
-    tree = ast.parse(source)
-    names = [name for name, _ in assigned(tree)]
-    assert len(names) == len(set(names)), "a second tolerance of the same name takes the first one's place"
-    names = tolerances(tree)
-    lines = {name: line for line in source.splitlines() for name in names if line.startswith(f"{name} = ")}
-    assert [name for name in names if "  # " not in lines[name]] == []
-    others = "".join(path.read_text("utf-8") for path in Path(ROOT / "optlaws").rglob("*.py") if path != MODULE)
-    assert [name for name in names if name not in others] == []
+def test_every_tolerance_has_its_reason_beside_it_and_a_use(parts: Parts) -> None:
+    """What several modules use stands in one place, all others where they are used."""
+    bare, unused = [], []
+    others = {path: path.read_text("utf-8") for path in parts.tolerances}
+    for path, names in parts.tolerances.items():
+        lines = others[path].splitlines()
+        for name in names:
+            at = next(i for i, line in enumerate(lines) if re.match(rf"(?:\w+, )*{name}\b.*=", line))
+            if "  # " not in lines[at] and not lines[at - 1].startswith("#"):
+                bare.append(f"{path.name}: {name}")
+            sources = others.values() if path.name == "tolerances.py" else [others[path]]
+            if sum(len(re.findall(rf"\b{name}\b", source)) for source in sources) < 2:
+                unused.append(f"{path.name}: {name}")
+    assert bare == []
+    assert unused == []
 
 
 def test_a_tolerance_is_seen() -> None:

@@ -24,7 +24,9 @@ from optlaws.numerics.branch_and_bound import Extremes, extremes
 from optlaws.numerics.integral import integral
 from optlaws.numerics.interval import Interval
 from optlaws.numerics.taylor import Jet
-from optlaws.tolerances import AGREEMENT, BALANCING_EXTREMES
+from optlaws.tolerances import AGREEMENT
+
+_BALANCING_EXTREMES = 1e-7  # torques of a machine that is balanced
 
 _PARTS = 12
 
@@ -175,9 +177,9 @@ class Balancing:
             jet = torque(angle, order)
             return jet * jet
 
-        known = extremes(torque, motion.breaks, share=BALANCING_EXTREMES, parts=_PARTS)
+        known = extremes(torque, motion.breaks, share=_BALANCING_EXTREMES, parts=_PARTS)
         times = known._replace(least_at=known.least_at / rate, most_at=known.most_at / rate)
-        _, square = integral(squared, motion.breaks, share=BALANCING_EXTREMES)
+        _, square = integral(squared, motion.breaks, share=_BALANCING_EXTREMES)
         return TorqueOverTurn(times, sqrt(max(square, 0.0) / TURN))
 
     def _executive(self, time: Array) -> Array:

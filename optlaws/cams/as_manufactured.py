@@ -27,7 +27,10 @@ from optlaws.numerics.branch_and_bound import extremes_of_each
 from optlaws.numerics.interval import Interval
 from optlaws.numerics.taylor import Jet, Pair, turned, variable
 from optlaws.suggest import unknown_key
-from optlaws.tolerances import DEVIATIONS, MANUFACTURED_JUMP, MANUFACTURED_PEAKS
+from optlaws.tolerances import DEVIATIONS
+
+_MANUFACTURED_PEAKS = 1e-6  # peaks of a motion as it is manufactured
+_MANUFACTURED_JUMP = 1e-6  # of a derivative's greatest value: a smaller jump of a motion as manufactured is none
 
 
 @dataclass(frozen=True, eq=False)
@@ -269,7 +272,7 @@ def _runs(
         known_extremes = extremes_of_each(
             lambda places, order, which: terms.of_each(places, order, orders[which], curves[which]),
             [edges[i] for i in curves],
-            share=[MANUFACTURED_PEAKS if nu else DEVIATIONS for nu in orders],
+            share=[_MANUFACTURED_PEAKS if nu else DEVIATIONS for nu in orders],
             parts=[max(1, _CELLS // len(edges[i])) for i in curves],
             magnitude=True,
         )
@@ -277,10 +280,10 @@ def _runs(
 
     known = [i for i, reached in enumerate(_reached_each(edges, at)) if reached]
     beside = dict(zip(known, _jumps(known, edges, at), strict=True))
-    smooth = [i for i in known if not jumps or beside[i][0] <= MANUFACTURED_JUMP * beside[i][1]]
+    smooth = [i for i in known if not jumps or beside[i][0] <= _MANUFACTURED_JUMP * beside[i][1]]
     bounds = greatest([(0, i) for i in known] + [(2, i) for i in known] + [(3, i) for i in smooth])
     known = [i for i in known if max(bounds[0, i], bounds[2, i]) < inf]
-    jumping = {i: jump if jump > MANUFACTURED_JUMP * bounds[2, i] else 0.0 for i in known for jump in beside[i][:1]}
+    jumping = {i: jump if jump > _MANUFACTURED_JUMP * bounds[2, i] else 0.0 for i in known for jump in beside[i][:1]}
     endless = [i for i in known if jumps and jumping[i]]
     bounds |= greatest([(3, i) for i in known if (3, i) not in bounds and i not in endless])
     jerks = {i: inf if i in endless else bounds[3, i] for i in known if i in endless or bounds[3, i] < inf}

@@ -34,7 +34,8 @@ from optlaws.synthesis.problem.windows import Window
 from optlaws.synthesis.solution import Solution
 from optlaws.synthesis.solve import synthesize
 from optlaws.synthesis.status import Status
-from optlaws.tolerances import CAM_GAIN
+
+_CAM_GAIN = 1e-4  # of an objective: a round that gains less is the last
 
 
 class SolvedPiece(NamedTuple):
@@ -257,7 +258,7 @@ def _solved(cycle: Cycle, cam: DiscCam, limits: dict[str, float], *, below: bool
         for _ in range(_ROUNDS if below and not cam.contact.linear else 0):
             guide, last = replace(piece, law=best.law), best.objective
             best = _best(guide, solution.problem, cam.contact, limits, cycle.duration, below=True)
-            if best.objective > last * (1.0 - CAM_GAIN):
+            if best.objective > last * (1.0 - _CAM_GAIN):
                 break
         solved.append(SolvedPiece(replace(piece, law=best.law), best))
     return solved

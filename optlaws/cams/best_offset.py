@@ -22,7 +22,9 @@ from optlaws.errors import InputError
 from optlaws.numbers import Array, Quantity
 from optlaws.numerics.interval import Interval, between, exact
 from optlaws.numerics.roots import bracketed_root, holds_throughout
-from optlaws.tolerances import OFFSET_SETTLED, ROUNDOFF, SIZE_BRACKET
+from optlaws.tolerances import ROUNDOFF, SIZE_BRACKET
+
+_OFFSET_SETTLED = 1e-12  # of a pressure angle: at the places that an offset is sought by it is the greatest to so much
 
 _FIRST, _STEPS = 361, 30
 
@@ -119,7 +121,7 @@ def best_offset(
         cam = DiscCam(motion, prime_radius, replace(follower, offset=f"{offset!r} m"), turning=turning)
         ends = cam.extremes.pressure_angles
         reached, greatest = float(np.abs(offsets.tangents(offset, s, slope)).max()), max(-ends[0].low, ends[1].high)
-        if greatest <= atan(reached) * (1.0 + OFFSET_SETTLED) or abs(offset - last) <= ROUNDOFF * radius:
+        if greatest <= atan(reached) * (1.0 + _OFFSET_SETTLED) or abs(offset - last) <= ROUNDOFF * radius:
             break
         last, angles = offset, np.append(angles, [end.angle for end in ends])
     tangents = offsets.tangents(offset, s, slope)

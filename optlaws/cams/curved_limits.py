@@ -31,7 +31,10 @@ from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.problem.ranges import at_most
 from optlaws.synthesis.problem.windows import Window
 from optlaws.synthesis.solve import synthesize
-from optlaws.tolerances import FORMULA_ROUNDING, PLANE_GAIN, PLANE_SLACK
+
+_FORMULA_ROUNDING = 2.0**-40  # of what the value and the slopes of a formula amount to
+_PLANE_GAIN = 2e-4  # of a bound: planes that say no more than this are left out
+_PLANE_SLACK = 1e-9  # of a bound: by so much a formula lies within its planes
 
 Pair = tuple[float, float]
 
@@ -87,17 +90,17 @@ class RollerCurvature:
         k = np.linspace(0.0, 1.0, 50 * _PARTS + 1)
         a, b, c = (np.asarray(quantity(k)) for quantity in (self.piece.law.a, self.piece.law.b, self.piece.law.c))
         needed = np.asarray(evaluate(self._formula, {"a": a, "b": b}, NUMPY))
-        return bool((needed > self.factor * c + PLANE_SLACK).any())
+        return bool((needed > self.factor * c + _PLANE_SLACK).any())
 
     def at_rest(self) -> float | None:
         """The radius of the pitch curve, m, at an end where the follower rests, if it is too small for any law."""
         for k in (0.0, 1.0):
             law = self.piece.law
-            if abs(float(law.b(k))) + abs(float(law.c(k))) > PLANE_SLACK:
+            if abs(float(law.b(k))) + abs(float(law.c(k))) > _PLANE_SLACK:
                 continue
             s = self.piece.offset + self.piece.stroke * float(law.a(k))
             radius = float(self.contact.radius_of_curvature(Jet((np.array(s), 0.0, 0.0)))) + self.contact.roller
-            if 0.0 < radius * (1.0 + PLANE_SLACK) < self.radius:
+            if 0.0 < radius * (1.0 + _PLANE_SLACK) < self.radius:
                 return radius
         return None
 
@@ -110,7 +113,7 @@ class RollerCurvature:
         slopes = np.array([np.asarray(evaluate(slope, values, NUMPY)) + 0.0 * at[0] for slope in self._slopes])
         within = {name: Endpoints(*ends) for name, *ends in zip("ab", low, high, strict=True)}
         size = np.abs(height) + (np.abs(slopes) * np.maximum(np.abs(low), np.abs(high))).sum(axis=0)
-        base = height - (slopes * at).sum(axis=0) - self._taken(within, reach) - FORMULA_ROUNDING * size
+        base = height - (slopes * at).sum(axis=0) - self._taken(within, reach) - _FORMULA_ROUNDING * size
         known = np.isfinite(base) & np.isfinite(slopes).all(axis=0)
         return [
             Window(f"({m!r})*a + ({n!r})*b - ({self.factor!r})*c", high=-bound, start=start, stop=stop)
@@ -154,7 +157,7 @@ def bound_under(curvature: RollerCurvature, problem: Problem, most: float) -> fl
     """
     least = synthesize(problem).lower_bound
     greatest = _most_acceleration(problem, most)
-    if greatest is None or most - least <= PLANE_GAIN * most:
+    if greatest is None or most - least <= _PLANE_GAIN * most:
         return least
     try:
         k, a, b = _tube(replace(_light(problem), C=at_most(greatest)), greatest, curvature.ends)
@@ -178,7 +181,7 @@ def _most_acceleration(problem: Problem, most: float) -> float | None:
     limit = problem.range("C")
     levels = [most] if problem.minimise == "C" else []
     levels += [limit.high] if limit is not None and isfinite(limit.high) else []
-    return min(levels) * (1.0 + PLANE_SLACK) if levels else None
+    return min(levels) * (1.0 + _PLANE_SLACK) if levels else None
 
 
 def _tube(problem: Problem, greatest: float, ends: Pair) -> tuple[list[float], list[Pair], list[Pair]]:

@@ -25,7 +25,11 @@ from optlaws.numbers import Quantity
 from optlaws.numerics.interval import Interval, exact
 from optlaws.numerics.roots import bisect, bracketed_root, holds_throughout
 from optlaws.numerics.taylor import Jet
-from optlaws.tolerances import ROUNDOFF, SIZE_BRACKET, SIZE_MARGIN, SIZE_NUDGE, SMALLEST_BASE
+from optlaws.tolerances import ROUNDOFF, SIZE_BRACKET
+
+_SIZE_MARGIN = 1e-10  # of a radius: by how much more than needed it grows at last
+_SIZE_NUDGE = 1e-9  # of a radius: a step to where a limit is proven to be kept
+_SMALLEST_BASE = 1e-6  # of the greatest length of a mechanism: the smallest prime circle that is looked at
 
 Kind = TypeVar("Kind", bound=FollowerContact)
 
@@ -113,11 +117,11 @@ def least_prime_circle(
         if not broken:
             break
         witnesses += broken
-        radius = max(radius, *(sizes.least_meeting(witness, radius) for witness in broken)) * (1.0 + SIZE_MARGIN)
+        radius = max(radius, *(sizes.least_meeting(witness, radius) for witness in broken)) * (1.0 + _SIZE_MARGIN)
     for _ in range(_NUDGES):  # to where it is not only not broken but proven to be kept
         if not sizes.witnesses(radius, proven=True):
             break
-        radius *= 1.0 + SIZE_NUDGE
+        radius *= 1.0 + _SIZE_NUDGE
     else:
         raise InfeasibleProblem(f"no prime circle was found that keeps {_in_words(limits)}: give wider limits")
     cam = DiscCam(motion, f"{radius!r} m", follower, turning=turning)
@@ -216,7 +220,7 @@ class _Sizes:
     @property
     def least(self) -> float:
         """The least prime circle for which the mechanism exists, m."""
-        rising = self._scale * np.geomspace(SMALLEST_BASE, _LARGEST, _LOOKS)
+        rising = self._scale * np.geomspace(_SMALLEST_BASE, _LARGEST, _LOOKS)
         fit = next((i for i, radius in enumerate(rising) if self._fits(radius)), None)
         if fit is None:
             raise InfeasibleProblem("no prime circle fits the follower: give it other sizes")
@@ -272,7 +276,7 @@ class _Sizes:
         last = radius
         if excess(radius) <= 0.0:
             return radius
-        for size in (radius + self._scale * np.geomspace(SMALLEST_BASE, _LARGEST, _LOOKS)).tolist():
+        for size in (radius + self._scale * np.geomspace(_SMALLEST_BASE, _LARGEST, _LOOKS)).tolist():
             try:
                 meets = excess(size) <= 0.0
             except InputError:  # no such mechanism

@@ -9,12 +9,13 @@ from optlaws.cams.followers.follower import positive
 from optlaws.cams.forces import CamForces
 from optlaws.cycles.cycle import Cycle
 from optlaws.shown.summary import Row, Summary
-from optlaws.tolerances import SMALLEST_ANGLE
 
 if TYPE_CHECKING:
     from optlaws.cams.curves.extremes import EnclosedExtreme
     from optlaws.cams.disc import DiscCam
     from optlaws.numerics.branch_and_bound import Extremes
+
+_SMALLEST_ANGLE = 1e-100  # a pressure angle below it is none
 
 T = TypeVar("T")
 
@@ -36,7 +37,7 @@ def geometry(cam: DiscCam) -> list[Labelled[EnclosedExtreme]]:
         "pressure angle, least": extremes.pressure_angles[0],
         "pressure angle, greatest": extremes.pressure_angles[1],
     }
-    seen = extremes.greatest_pressure_angle.value > SMALLEST_ANGLE
+    seen = extremes.greatest_pressure_angle.value > _SMALLEST_ANGLE
     radii = {"bulging": extremes.least_convex_radius, "hollow": extremes.least_concave_radius}
     return [
         *(Labelled(name, extreme, "deg", degrees(1.0)) for name, extreme in angles.items() if seen),

@@ -17,7 +17,8 @@ from optlaws.motion.motion import Motion
 from optlaws.motion.piece import Piece
 from optlaws.motion.polynomials import PiecewiseMotion, from_exact
 from optlaws.numerics import exact
-from optlaws.tolerances import ACCELERATION_HIGHER
+
+_ACCELERATION_HIGHER = 1e-3  # of the peak: how far a run's may be above the motion's
 
 #: how far the run's peak of the acceleration may be above the motion's, and its acceleration off it, as shares
 OFF = 1e-2
@@ -63,7 +64,7 @@ class _FittedSection:
         count = 1 if self.run is None else len(self.run.coefficients) + 1
         self.run = self.stretch.hermite(np.linspace(*self.stretch.ends, count + 1), orders)
         height = abs(self.piece.stroke) / self.piece.duration**2 * self.run.peak(2).value
-        self.rank = -max(height / ((1.0 + ACCELERATION_HIGHER) * peak), self.off(2) / (near * peak))
+        self.rank = -max(height / ((1.0 + _ACCELERATION_HIGHER) * peak), self.off(2) / (near * peak))
 
     def off(self, nu: int) -> float:
         """The deviation of its derivative of order nu from the motion's derivative."""

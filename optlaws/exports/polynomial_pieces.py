@@ -23,7 +23,9 @@ from optlaws.motion.piece import Piece
 from optlaws.motion.polynomials import PiecewiseMotion, from_exact
 from optlaws.numbers import Array, finite, positive
 from optlaws.numerics import exact
-from optlaws.tolerances import PIECES_OF_MOTION, POSITION_ROUNDING
+
+_POSITION_ROUNDING = 2.0**-50  # of a stroke: positions whose differences make a higher derivative
+_PIECES_OF_MOTION = 1e-9  # of the greatest value: what polynomial pieces of a motion are off
 
 #: a stretch of a law: its first and its last k, and powers of k less the first
 Stretch = tuple[Fraction, Fraction, Sequence[Fraction]]
@@ -127,7 +129,7 @@ _MOST = 4096
 _LEAST = 16.0  # terms that sum up to so many strokes are no cause to halve pieces
 
 
-def pieces_of_motion(motion: Motion, tolerance: float = PIECES_OF_MOTION) -> PiecewiseMotion:
+def pieces_of_motion(motion: Motion, tolerance: float = _PIECES_OF_MOTION) -> PiecewiseMotion:
     """The polynomials of a motion between breaks, in units of its master and slave.
 
     Where laws do not consist of polynomials, the position is within `tolerance`, a share of the stroke, over the whole
@@ -139,7 +141,7 @@ def pieces_of_motion(motion: Motion, tolerance: float = PIECES_OF_MOTION) -> Pie
     return PiecewiseMotion([*breaks, motion.stop], [row for part in parts for row in part.coefficients])
 
 
-def pieces_of_law(law: MotionLaw, tolerance: float = PIECES_OF_MOTION, **placement: Any) -> PiecewiseMotion:
+def pieces_of_law(law: MotionLaw, tolerance: float = _PIECES_OF_MOTION, **placement: Any) -> PiecewiseMotion:
     """The polynomials of a law with its stroke, time and master, as `motion_of_law` takes them."""
     return pieces_of_motion(motion_of_law(law, **placement), tolerance)
 
@@ -148,7 +150,7 @@ def _of_piece(piece: Piece, tolerance: float) -> PiecewiseMotion:
     if piece.stroke == 0.0:
         return PiecewiseMotion([piece.start, piece.stop], [[piece.offset]])
     if is_polynomial(piece.law):
-        cancelled = max(tolerance / (POSITION_ROUNDING * abs(piece.stroke)), _LEAST)
+        cancelled = max(tolerance / (_POSITION_ROUNDING * abs(piece.stroke)), _LEAST)
         return _at_its_place(polynomials_of_law(piece.law, piece.stroke, piece.duration, cancelled=cancelled), piece)
     stretches = [LawSection(piece.law, ends) for ends in pairwise(piece.law.breaks)]
     near = reduce(PiecewiseMotion.then, (_near(stretch, tolerance / abs(piece.stroke)) for stretch in stretches))

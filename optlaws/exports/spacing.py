@@ -17,7 +17,9 @@ from optlaws.motion.motion import Motion
 from optlaws.motion.polynomials import PiecewiseMotion
 from optlaws.numbers import Array
 from optlaws.numerics import bernstein
-from optlaws.tolerances import AS_GOOD, RUN_OFF
+
+_AS_GOOD = 1e-3  # ranks of tables nearer to each other are as good
+_RUN_OFF = 1e-4  # of the stroke: a run may be so far from the law for the sake of its peak
 
 MOST_TRIED = 1001
 _RATIO = 1.12
@@ -119,11 +121,11 @@ class Rank(NamedTuple):
 
 def _fewest(ranks: dict[int, Rank]) -> int:
     """The least number of points of those that are as good as any, one criterion after the other."""
-    nearest = min(rank.off for rank in ranks.values()) * (1.0 + AS_GOOD)
+    nearest = min(rank.off for rank in ranks.values()) * (1.0 + _AS_GOOD)
     near = {count: rank for count, rank in ranks.items() if rank.off <= nearest}
-    lowest = min(rank.peak for rank in near.values()) * (1.0 + AS_GOOD)
+    lowest = min(rank.peak for rank in near.values()) * (1.0 + _AS_GOOD)
     low = {count: rank.jump for count, rank in near.items() if rank.peak <= lowest}
-    smoothest = min(low.values()) + AS_GOOD
+    smoothest = min(low.values()) + _AS_GOOD
     return min(count for count, jump in low.items() if jump <= smoothest)
 
 
@@ -166,7 +168,7 @@ class RunRanking:
         run = (table.powers * after[:, None] ** np.arange(table.powers.shape[1])).sum(axis=1)
         places = np.clip(table.x[:-1] + after, self.motion.start, self.motion.stop)
         apart = float(np.abs(run - self.motion(places)).max())
-        return max(apart / max(RUN_OFF * self.motion.stroke, table.resolution), 1.0)
+        return max(apart / max(_RUN_OFF * self.motion.stroke, table.resolution), 1.0)
 
 
 def _ends(powers: Array, steps: Array, nu: int) -> tuple[Array, Array]:

@@ -7,7 +7,10 @@ import re
 from decimal import Decimal
 from typing import Any
 
-from optlaws.tolerances import FILE_NOISE, PEAK_PLACE, SHOWN_DIGITS
+from optlaws.tolerances import SHOWN_DIGITS
+
+_FILE_NOISE = 1e-9  # numbers of two files that differ by less say the same: a gap of 1e-10 is as good as one of 1e-9
+_PEAK_PLACE = 1e-6  # of k: the place of a smooth peak is known to the root of rounding alone
 
 # a printed number of so many digits was rounded, one of fewer is meant so
 ROUNDED = 6
@@ -71,8 +74,8 @@ def _same_printed(first: Decimal, second: Decimal, *, picture: bool, digits: int
     off = abs(first - second)
     parts = [number.as_tuple() for number in (first, second)]
     last = min(int(part.exponent) for part in parts)
-    if off <= FILE_NOISE or last >= 0 or max(len(part.digits) for part in parts) < min(ROUNDED, digits or ROUNDED):
-        return off <= FILE_NOISE
+    if off <= _FILE_NOISE or last >= 0 or max(len(part.digits) for part in parts) < min(ROUNDED, digits or ROUNDED):
+        return off <= _FILE_NOISE
     allowed = Decimal(1).scaleb(last)
     if picture:
         allowed = max(allowed, Decimal(str(PICTURE)))
@@ -94,7 +97,7 @@ def _same_values(first: Any, second: Any, *, relative: float, key: str = "", sca
             _same_values(a, b, relative=relative, key=key, scale=scale) for a, b in zip(first, second, strict=True)
         )
     if _is_number(first) and _is_number(second):
-        allowed = max(FILE_NOISE, relative * max(scale, abs(first), abs(second)), PEAK_PLACE if key == "k" else 0.0)
+        allowed = max(_FILE_NOISE, relative * max(scale, abs(first), abs(second)), _PEAK_PLACE if key == "k" else 0.0)
         return bool(first == second or abs(first - second) <= allowed)
     if isinstance(first, str) and isinstance(second, str):
         return _same_texts(first, second)

@@ -28,7 +28,8 @@ from optlaws.formulas.tree import (
 )
 from optlaws.kept import kept_property
 from optlaws.numbers import Array
-from optlaws.tolerances import NORM_OFFSET
+
+_NORM_OFFSET = 1e-24  # keeps the slope of a norm finite where it vanishes
 
 
 @dataclass(frozen=True)
@@ -312,6 +313,6 @@ def casadi_arithmetic() -> Arithmetic:
         "abs": ca.fabs,
         "max": ca.fmax,
         "min": ca.fmin,
-        "norm": lambda x, y: ca.sqrt(x * x + y * y + NORM_OFFSET),
+        "norm": lambda x, y: ca.sqrt(x * x + y * y + _NORM_OFFSET),
     }
     return Arithmetic(float, functions | several, lambda base, exponent: base**exponent, table)

@@ -28,7 +28,9 @@ from optlaws.jobs.cam_findings import EXTREMES, FORCE, STIFFNESS, Findings, Limi
 from optlaws.plots.cam import animated, cam_figure, forces_figure, pair_figure
 from optlaws.plots.cycle import UNITS
 from optlaws.results import Page, Results
-from optlaws.tolerances import FORCE_ROUNDING, SIZE_MET
+from optlaws.tolerances import FORCE_ROUNDING
+
+_SIZE_MET = 1e-7  # of a radius: a size that is proven to so much is the least one
 
 _MILLI, _MICRO = 1e3, 1e6
 _TURN = 360.0
@@ -128,7 +130,7 @@ def _status(findings: Findings) -> str:
     assert best is not None  # noqa: S101 - the callers have seen it
     if isinstance(best, BestCam):
         return best.status.value
-    return "optimal" if best.least.radius - best.lower_bound <= SIZE_MET * best.least.radius else "local"
+    return "optimal" if best.least.radius - best.lower_bound <= _SIZE_MET * best.least.radius else "local"
 
 
 def _pair_data(cam: DiscCam | None) -> dict[str, Any]:

@@ -36,11 +36,12 @@ from optlaws.synthesis.pareto import HEADINGS, Front, pareto_front
 from optlaws.synthesis.problem.fields import CONSTANTS
 from optlaws.synthesis.proven.front import ProvenFront
 from optlaws.synthesis.proven.refine import proven_front
-from optlaws.tolerances import DRAWN_GAP
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
+
+_DRAWN_GAP = 1e-4  # of an objective: a gap that no picture shows
 
 Points = Annotated[int, msgspec.Meta(ge=2, le=1000)]
 Pair = Annotated[list[Positive], msgspec.Meta(min_length=2, max_length=2)]
@@ -259,7 +260,7 @@ def _exact(front: Front) -> ProvenFront | None:
     if not front[0].problem.convex or not ends[0] < ends[1]:
         return None
     free = _freed(front[0].problem, name)
-    return proven_front(free, (name, minimised), between=(ends[0], ends[1]), gap=DRAWN_GAP)
+    return proven_front(free, (name, minimised), between=(ends[0], ends[1]), gap=_DRAWN_GAP)
 
 
 def _upper_end(problem: Problem, name: str) -> float:

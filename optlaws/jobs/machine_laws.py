@@ -28,11 +28,13 @@ from optlaws.studies.problem_entries import gap, record
 from optlaws.synthesis import Functional, Problem, Solution, at_most, synthesize
 from optlaws.synthesis.problem.fields import from_entries
 from optlaws.synthesis.problem.named_constants import named
-from optlaws.tolerances import RESIDUAL_ROUNDING, SHOWN_RESIDUAL
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
+
+_SHOWN_RESIDUAL = 1e-4  # of the greatest residual: what a logarithmic picture still shows
+_RESIDUAL_ROUNDING = 1e-12  # of the vibration of a step: a residual that is less is rounding
 
 Pair = tuple[float, float]
 Spread = Annotated[float, msgspec.Meta(ge=0.0, lt=1.0)]
@@ -182,7 +184,7 @@ class Compared:
         roots = np.asarray(mode(self.machine, number).root * factors, dtype=np.complex128)
         amplitudes = np.abs(velocity_transform(self.law, roots))
         # the mode's share in the output is the same at every speed
-        return np.where(amplitudes > RESIDUAL_ROUNDING, vibration.share * amplitudes, 0.0)
+        return np.where(amplitudes > _RESIDUAL_ROUNDING, vibration.share * amplitudes, 0.0)
 
     @kept_property
     def residuals(self) -> list[float]:
@@ -333,7 +335,7 @@ def _residuals(axes: Axes, spec: MachineLawsProblemFile, number: int, laws: Sequ
     spread = spec.figure.spread
     factors = np.linspace(1.0 - spread, 1.0 + spread, _POINTS)
     courses = [law.left(number, factors) for law in laws]
-    least = SHOWN_RESIDUAL * max(float(values.max()) for values in courses)
+    least = _SHOWN_RESIDUAL * max(float(values.max()) for values in courses)
     for course, style in zip(courses, _styles(laws), strict=True):
         axes.semilogy(100.0 * (factors - 1.0), np.maximum(course, least), **style)
     band = 100.0 * spec.vibration.spread

@@ -17,7 +17,9 @@ from optlaws.laws.exporting import LawExport
 from optlaws.laws.storage import StoredLaw
 from optlaws.numbers import Array, Quantity, derivative, times
 from optlaws.numerics.peaks import Peak
-from optlaws.tolerances import JUMP, JUMP_OF_LOWER
+from optlaws.tolerances import JUMP
+
+_JUMP_OF_LOWER = 1e-13  # the same as a share of a lower derivative: uniform motion has c = 0 but for it
 
 Jumps = tuple[tuple[float, float], ...]
 
@@ -183,7 +185,7 @@ class MotionLaw(Curve, LawExport, StoredLaw):
             for k, before, after in zip(inner, left.tolist(), right.tolist(), strict=True)
             if before != after and not abs(after - before) <= rounding
         )
-        unseen = max((JUMP_OF_LOWER * self._size(lower) for lower in range(1, nu)), default=0.0) if jumps else 0.0
+        unseen = max((_JUMP_OF_LOWER * self._size(lower) for lower in range(1, nu)), default=0.0) if jumps else 0.0
         return tuple((k, height) for k, height in jumps if not abs(height) <= unseen)
 
     def _size(self, nu: int) -> float:

@@ -15,7 +15,9 @@ from optlaws.mechanisms.vibration import Oscillator
 from optlaws.numbers import Array
 from optlaws.numerics import chebyshev
 from optlaws.numerics.panels import Panels, equal, resolved
-from optlaws.tolerances import MOTION_RESOLVED, STRETCH_RESOLVED
+
+_MOTION_RESOLVED = 1e-9  # of the whole motion: what a series misses where roots are looked for; Newton does the rest
+_STRETCH_RESOLVED = 1e-14  # of a stretch: the same where squares are integrated
 
 State = tuple[float, float]
 #: of a slope on a stretch by its number, at times since its start: the slope itself, or its derivative
@@ -126,7 +128,7 @@ class MassChain:
 
     def _square(self, i: int, length: float, nu: int) -> float:
         """The integral over a stretch, halved until the series of the product is accurate to rounding."""
-        negligible = STRETCH_RESOLVED * float(np.abs(self._values(i, length * SAMPLES, nu)).max())
+        negligible = _STRETCH_RESOLVED * float(np.abs(self._values(i, length * SAMPLES, nu)).max())
         panels, series = self._resolved(lambda s: self._values(i, s, nu), length, negligible)
         pieces = zip(np.diff(panels.edges).tolist(), series.T, strict=True)
         return float(sum(span * chebyshev.mean_product(column, column) for span, column in pieces))
@@ -134,7 +136,7 @@ class MassChain:
     def _gathered(self, values: Callable[[int, Array], Array], slope: Slope) -> tuple[Array, Array]:
         """Both ends of every stretch and its roots of a slope, with the values there."""
         slopes = [slope(i, stretch.length * SAMPLES, 0) for i, stretch in enumerate(self.stretches)]
-        negligible = MOTION_RESOLVED * float(max(np.abs(steepness).max() for steepness in slopes))
+        negligible = _MOTION_RESOLVED * float(max(np.abs(steepness).max() for steepness in slopes))
         times, heights = [], []
         for i, stretch in enumerate(self.stretches):
             s = np.concatenate([[0.0], self._stops(i, slope, negligible), [stretch.length]])

@@ -19,7 +19,10 @@ from optlaws.laws.segments.sine import SineSegment
 from optlaws.numbers import Array, not_negative, positive
 from optlaws.numerics import chebyshev
 from optlaws.numerics.panels import Panels, resolved
-from optlaws.tolerances import CLOSURE, SHORTEST_STRETCH, VELOCITY_ABSORBED, VELOCITY_RESOLVED
+from optlaws.tolerances import CLOSURE, SHORTEST_STRETCH
+
+_VELOCITY_RESOLVED = 1e-14  # of the velocity: what a series may miss anywhere
+_VELOCITY_ABSORBED = 1e-15  # the same times half the length on which it is missed
 
 
 @dataclass(frozen=True, eq=False)
@@ -136,7 +139,7 @@ class _Frame:
 
         def short(b: Array, length: float) -> bool:
             missed = float(np.abs(b[-4:]).max()) / size
-            return missed <= VELOCITY_RESOLVED or 0.5 * missed * length <= VELOCITY_ABSORBED
+            return missed <= _VELOCITY_RESOLVED or 0.5 * missed * length <= _VELOCITY_ABSORBED
 
         panels, series = resolved(velocity, Panels((low, high), COUNT), short)
         pieces = []

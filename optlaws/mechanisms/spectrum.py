@@ -16,7 +16,9 @@ from optlaws.mechanisms.residual import residual_phasor, roots
 from optlaws.mechanisms.transforms import legendre_from_chebyshev, moments
 from optlaws.numbers import Array, Complex
 from optlaws.numerics import chebyshev
-from optlaws.tolerances import BEYOND_CUBIC, LOAD_RESOLVED
+
+_LOAD_RESOLVED = 1e-10  # of the load on a follower: what a series may miss
+_BEYOND_CUBIC = 1e-6  # of the load: twice integrated it is what lies beyond a quintic
 
 RADIANS = 0.7
 TERMS = 9
@@ -74,7 +76,7 @@ def _panels(piece: Forcing, fastest: float) -> tuple[int, Array, Array, Array, A
         s = starts[:, None] + 0.5 * piece.length / count * (x + 1.0)
         b, c = (chebyshev.from_values(piece.derivative(s, nu).T).T for nu in (1, 2))
         size = float(np.abs(c).max())
-        if np.abs(c[:, -2:]).max() <= LOAD_RESOLVED * size and np.abs(c[:, 4:]).max() <= BEYOND_CUBIC * size:
+        if np.abs(c[:, -2:]).max() <= _LOAD_RESOLVED * size and np.abs(c[:, 4:]).max() <= _BEYOND_CUBIC * size:
             break
         if count >= FINEST:
             break

@@ -13,7 +13,11 @@ from optlaws.errors import InputError
 from optlaws.numbers import Array
 from optlaws.numerics import chebyshev
 from optlaws.numerics.chebyshev import nodes
-from optlaws.tolerances import DIFFERENCE_ROUNDING, DIFFERENCE_SHARE, OPERATIONS_ROUNDING, TIE, TOP_WIDTH
+from optlaws.tolerances import OPERATIONS_ROUNDING, TIE
+
+_DIFFERENCE_ROUNDING = 2.0**-42  # of two functions: their difference is known to no more
+_TOP_WIDTH = 1e-4  # of an interval: a smooth top is flat to TIE over about so much
+_DIFFERENCE_SHARE = 1e-10  # of the greatest difference: to so much it is resolved
 
 PARTS = 8
 _ROUNDS = 20
@@ -91,7 +95,7 @@ def _first(places: Array, least: float) -> tuple[int, float]:
     """Row and place of the first of the highest tops; only tops above a threshold count."""
     rows, u, values = places[:, places[2] >= least]
     first = int(np.lexsort((u, rows))[0])
-    same_top = (rows == rows[first]) & (u <= u[first] + TOP_WIDTH)
+    same_top = (rows == rows[first]) & (u <= u[first] + _TOP_WIDTH)
     highest = int(np.argmax(np.where(same_top, values, -np.inf)))
     return int(rows[highest]), float(u[highest])
 
@@ -159,7 +163,7 @@ def greatest_difference(first: Function, second: Function, places: Array) -> tup
         values, met = _differences(first, second, low, high)
         size, greatest = max(size, met), max(greatest, float(np.abs(values).max()))
         tail = np.abs(chebyshev.from_values(values.T)[-2:]).max(axis=0)
-        done = tail <= max(DIFFERENCE_ROUNDING * size, DIFFERENCE_SHARE * greatest)
+        done = tail <= max(_DIFFERENCE_ROUNDING * size, _DIFFERENCE_SHARE * greatest)
         for gathered, fresh in ((control, from_values(values)), (lows, low), (highs, high)):
             gathered.append(fresh[done])
         if done.all():

@@ -19,17 +19,13 @@ from optlaws.errors import SolverFailure
 from optlaws.numbers import Array
 from optlaws.numerics.interval import Interval, exact
 from optlaws.numerics.taylor import Jet
-from optlaws.tolerances import (
-    CELL_END,
-    EQUAL_EXTREMES,
-    EXTREME_POLISHED,
-    EXTREME_WIDTH,
-    NEAR_TIE,
-    ROUNDOFF,
-    SMALLEST_CELL,
-    SMALLEST_SIZE,
-    TIE,
-)
+from optlaws.tolerances import EQUAL_EXTREMES, ROUNDOFF, SMALLEST_SIZE, TIE
+
+_SMALLEST_CELL = 2.0**-48  # of a place: cells are cut no further
+_NEAR_TIE = 1e-7  # of the greatest magnitude: an extreme that is sampled to so little may be as high
+_EXTREME_WIDTH = 1e-3  # of the whole: ties nearer to each other are one extreme
+_CELL_END = 2.0**-10  # of a cell that is sloped: what stays of it at an edge
+_EXTREME_POLISHED = 1e-11  # of the whole: a place of an extreme that moves by less is settled
 
 #: of places, as intervals, and of an order: the Taylor terms of a function anywhere in each, up to that order
 Function: TypeAlias = Callable[[Interval, int], Jet]
@@ -207,7 +203,7 @@ def _enclosing(edges: Array, options: _Options) -> _Asking[Extremes]:
         if options.magnitude:
             least, most = min(least, -most), max(most, -least)
         beyond = (cells.top > most + slack) | (cells.bottom < least - slack)
-        beyond &= cells.half > SMALLEST_CELL * (np.abs(cells.middle) + cells.half)
+        beyond &= cells.half > _SMALLEST_CELL * (np.abs(cells.middle) + cells.half)
         search.take(cells, ~beyond)
         low, high = search.split(cells, beyond)
         if not 0 < len(low) <= _MOST or max(-search.least, search.most) > options.enough:
@@ -292,7 +288,7 @@ class _Search:
             top,
             slopes,
             rounding,
-            _stationary(slope, swing, 4.0 * (SMALLEST_CELL * half + ROUNDOFF * np.abs(middle))),
+            _stationary(slope, swing, 4.0 * (_SMALLEST_CELL * half + ROUNDOFF * np.abs(middle))),
         )
 
     def _on_edges(self, places: Array) -> NDArray[np.bool_]:
@@ -303,8 +299,8 @@ class _Search:
         low, high = values.low, values.high
         sizes = (np.abs(end[np.isfinite(end)]).max(initial=0.0) for end in (low, high))
         size = max(*sizes, _finite(self.least), _finite(self.most))
-        self.least, self.lows = _with_ties(self.least, self.lows, high, places, NEAR_TIE * size)
-        negative, self.highs = _with_ties(-self.most, self.highs, -low, places, NEAR_TIE * size)
+        self.least, self.lows = _with_ties(self.least, self.lows, high, places, _NEAR_TIE * size)
+        negative, self.highs = _with_ties(-self.most, self.highs, -low, places, _NEAR_TIE * size)
         self.most = -negative
 
     def take(self, cells: _Cells, done: NDArray[np.bool_]) -> None:
@@ -322,8 +318,8 @@ class _Search:
         plain = ~sloped & ~narrowed
         ends = sloped | narrowed
         starts, stops = ends & self._on_edges(low), ends & self._on_edges(high)
-        lows = [first[narrowed], low[plain], middle[plain], low[starts], high[stops] - CELL_END * width[stops]]
-        highs = [last[narrowed], middle[plain], high[plain], low[starts] + CELL_END * width[starts], high[stops]]
+        lows = [first[narrowed], low[plain], middle[plain], low[starts], high[stops] - _CELL_END * width[stops]]
+        highs = [last[narrowed], middle[plain], high[plain], low[starts] + _CELL_END * width[starts], high[stops]]
         some, others = np.concatenate(lows), np.concatenate(highs)
         real = others > some
         return some[real], others[real]
@@ -340,7 +336,7 @@ class _Search:
 
     def _first_of_equals(self, known: tuple[Valued, Valued]) -> _Asking[tuple[Valued, Valued]]:
         """The extremes by Newton's steps; of those as good as one another the first, however near a sample came."""
-        early = yield from self._lowest(NEAR_TIE)
+        early = yield from self._lowest(_NEAR_TIE)
         late = yield from self._polished(known)
         if early == known:
             return late
@@ -360,7 +356,7 @@ class _Search:
 
     def _on_edge(self, lowest: Valued, sign: float) -> _Asking[Valued]:
         """The first edge beside a lowest value that is as good: from there on a function may be flat."""
-        edges = self.edges[np.abs(self.edges - lowest[1]) <= EXTREME_WIDTH * float(self.edges[-1] - self.edges[0])]
+        edges = self.edges[np.abs(self.edges - lowest[1]) <= _EXTREME_WIDTH * float(self.edges[-1] - self.edges[0])]
         if not edges.size:
             return lowest
         terms = (yield Interval(edges, np.zeros(edges.shape)), 0).terms
@@ -379,7 +375,7 @@ class _Search:
                 moved = places - 0.5 * slope / bend
             part = np.searchsorted(self.edges[1:-1], places)
             inside = (self.edges[part] < moved) & (moved < self.edges[part + 1]) & ~np.isin(places, self.edges)
-            inside &= np.abs(moved - places) > EXTREME_POLISHED * np.abs(self.edges[-1] - self.edges[0])
+            inside &= np.abs(moved - places) > _EXTREME_POLISHED * np.abs(self.edges[-1] - self.edges[0])
             if not inside.any():
                 break
             places = np.where(inside, moved, 0.5 * (self.edges[part] + self.edges[part + 1]))
@@ -452,6 +448,6 @@ def _first(known: list[tuple[Array, Array]], most: float, whole: float) -> Value
     """The first place among the lowest values, and the value there."""
     values, places = (np.concatenate(parts) for parts in zip(*known, strict=True))
     values, places = values[values <= most], places[values <= most]
-    same = places <= places.min() + EXTREME_WIDTH * whole
+    same = places <= places.min() + _EXTREME_WIDTH * whole
     lowest = int(np.argmin(np.where(same, values, np.inf)))
     return float(values[lowest]), float(places[lowest])

@@ -11,7 +11,10 @@ import numpy as np
 
 from optlaws.files.reading import JsonText, entries_of
 from optlaws.numbers import Array, bounded, finite
-from optlaws.tolerances import AGREEMENT, NO_SLOPE, POLISHED, POLISHING_REACH, TIE
+from optlaws.tolerances import AGREEMENT, POLISHING_REACH, TIE
+
+_NO_SLOPE = 1e-200  # by less a value is not divided, for it might overflow
+_POLISHED = 1e-12  # a step of Newton's method that is the last
 
 POLISH_STEPS = 3
 
@@ -103,7 +106,7 @@ def polished(x: Array, residual: Callable[[Array], tuple[Array, Array]]) -> Arra
     """
     size, step = _step(*residual(x))
     for _ in range(POLISH_STEPS):
-        if np.abs(step).max(initial=0.0) < POLISHED:
+        if np.abs(step).max(initial=0.0) < _POLISHED:
             break
         trial = np.clip(x - step, -1.0, 1.0)
         trial_size, trial_step = _step(*residual(trial))
@@ -115,7 +118,7 @@ def polished(x: Array, residual: Callable[[Array], tuple[Array, Array]]) -> Arra
 
 
 def _step(value: Array, slope: Array) -> tuple[Array, Array]:
-    step = value / np.where(np.abs(slope) < NO_SLOPE, np.inf, slope)
+    step = value / np.where(np.abs(slope) < _NO_SLOPE, np.inf, slope)
     return np.abs(value), np.clip(step, -POLISHING_REACH, POLISHING_REACH)
 
 

@@ -14,7 +14,10 @@ from numpy.typing import NDArray
 from optlaws.errors import InputError
 from optlaws.numbers import Array
 from optlaws.numerics.chebyshev import derivative, from_values, interpolated, nodes, real_parts_of_roots, shortened
-from optlaws.tolerances import EPSILON, NEAR_NOTHING, QUOTIENT_BLUR, ROUNDOFF, TOUCHING, VALUE_ROUNDING
+from optlaws.tolerances import EPSILON, ROUNDOFF, TOUCHING, VALUE_ROUNDING
+
+_NEAR_NOTHING = 0.5  # of the least value looked at beside it: a turning point nearer to 0 is looked at itself
+_QUOTIENT_BLUR = 1e-8  # of the greatest value: quotients of small numbers are rounded more than others
 
 _DEEPEST = 12
 #: how often parabolas lead to a turning point
@@ -43,7 +46,7 @@ def series_between(
     if count is not None:
         return from_values(of_local(nodes(count)))
     try:
-        return interpolated(of_local, "the function", QUOTIENT_BLUR)
+        return interpolated(of_local, "the function", _QUOTIENT_BLUR)
     except InputError:
         return None
 
@@ -189,7 +192,7 @@ def _turning_points(places: Array, values: Array) -> Array:
         slope = rise + bend * (y - x)
         at = y - slope / (2.0 * bend)
         height = g - slope**2 / (4.0 * bend)
-    near = (np.sign(f) == np.sign(g)) & (np.sign(g) == np.sign(h)) & (height * np.sign(g) < NEAR_NOTHING * np.abs(g))
+    near = (np.sign(f) == np.sign(g)) & (np.sign(g) == np.sign(h)) & (height * np.sign(g) < _NEAR_NOTHING * np.abs(g))
     return np.unique(at[near & (x < at) & (at < z)])
 
 

@@ -16,12 +16,13 @@ from optlaws.files.writing import MARK
 from optlaws.numbers import Array
 from optlaws.plots.cycle import UNITS
 from optlaws.plots.style import BLUES, GREEN, GREY, WARM, new_figure, plot_style, titled
-from optlaws.tolerances import OUTLINE_DRAWN
 
 if TYPE_CHECKING:
     from matplotlib.artist import Artist
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
+
+_OUTLINE_DRAWN = 1e-5  # m: by so much the outline of an animated cam may be off
 
 Values = Callable[[Array], Array]
 
@@ -233,7 +234,7 @@ def animated(cam: DiscCam, seconds: float = 4.0) -> str:
     from optlaws.cams.curves.cam_files import beziers
     from optlaws.cams.curves.spline import spline
 
-    outline = beziers(spline(cam.profile, OUTLINE_DRAWN)) * [_MILLI, -_MILLI]
+    outline = beziers(spline(cam.profile, _OUTLINE_DRAWN)) * [_MILLI, -_MILLI]
     curves = " ".join(f"C {_pair(a)} {_pair(b)} {_pair(c)}" for _, a, b, c in outline)
     path = f"M {_pair(outline[0, 0])} {curves} Z"
     every = f'dur="{seconds:g}s" repeatCount="indefinite"'

@@ -9,7 +9,6 @@ import numpy as np
 
 from optlaws.plots.style import BLUES, GREY, WARM, name_point, new_axes
 from optlaws.synthesis.problem.named_constants import title_of
-from optlaws.tolerances import BESIDE_POINT
 
 if TYPE_CHECKING:
     from matplotlib.artist import Artist
@@ -19,6 +18,8 @@ if TYPE_CHECKING:
     from optlaws.cycles.moves.time_front import TimeFront
     from optlaws.synthesis.pareto import Front
     from optlaws.synthesis.proven.front import ProvenFront
+
+_BESIDE_POINT = 1e-6  # of the time between two points of a front: so near to one what is drawn is what holds between
 
 _AXES = {"B": "peak velocity B", "C": "peak acceleration C", "D": "peak power D", "J": "peak jerk J"}
 
@@ -68,7 +69,7 @@ def draw_time_front(front: TimeFront, axes: Axes | None = None, **style: Any) ->
     points = axes.plot(_MS * times, upper, marker="o", markersize=3.0, label=label, **line)
     if front.falls:
         # both sides jump at points, and are smooth between two of them
-        near = [BESIDE_POINT * (high - low) for low, high in pairwise(times)]
+        near = [_BESIDE_POINT * (high - low) for low, high in pairwise(times)]
         inside = [
             np.linspace(low + by, high - by, _BETWEEN) for by, (low, high) in zip(near, pairwise(times), strict=True)
         ]

@@ -19,12 +19,13 @@ from optlaws.plots.style import BLUES, BROWN, GREEN, GREY, VIOLET, WARM, new_fig
 from optlaws.synthesis.limits.of_problem import limited_laws
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.solution import Solution
-from optlaws.tolerances import LOOKS_EQUAL
 
 if TYPE_CHECKING:
     from matplotlib.artist import Artist
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
+
+_LOOKS_EQUAL = 1e-4  # of the highest peak: others so near look as high in a picture, and the first of them is marked
 
 Panels = Sequence["Axes"]
 
@@ -156,8 +157,8 @@ def _first_peak(curve: Curve, nu: int, k: Array, values: Array) -> tuple[list[fl
     """The first of the peaks that look equally high: which of them is the highest may be rounding."""
     low, high = curve.extrema(nu)
     peak = high if high.value >= -low.value else low
-    first = int(np.nanargmax(np.abs(values) >= (1.0 - LOOKS_EQUAL) * abs(peak.value)))
-    if abs(peak.value) * (1.0 - LOOKS_EQUAL) > abs(values[first]) or abs(k[first] - peak.k) < _BESIDE:
+    first = int(np.nanargmax(np.abs(values) >= (1.0 - _LOOKS_EQUAL) * abs(peak.value)))
+    if abs(peak.value) * (1.0 - _LOOKS_EQUAL) > abs(values[first]) or abs(k[first] - peak.k) < _BESIDE:
         return [peak.k], [peak.value]
     # rounding decides where a flat peak comes near its height, but not where its top is
     while first + 1 < len(values) and abs(values[first + 1]) > abs(values[first]):

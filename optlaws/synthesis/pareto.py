@@ -34,7 +34,10 @@ from optlaws.synthesis.solution import Solution
 from optlaws.synthesis.solve import TIGHT, Bound, check_bound, continued, synthesize
 from optlaws.synthesis.solve_many import SolvedLine
 from optlaws.synthesis.status import Status
-from optlaws.tolerances import AGREEMENT, NEARLY_NOTHING, NO_EXCHANGE
+from optlaws.tolerances import AGREEMENT
+
+_NEARLY_NOTHING = 1e-4  # of a value where it pays: a constant that can be less can be 0, to which no logarithm goes
+_NO_EXCHANGE = 1e-6  # of the first constant of a front: a stretch of it within which nothing is exchanged
 
 _OF_POINTS = ("lower bound", "gap", "limit", "status")
 #: of fronts of B, C, D and J
@@ -473,8 +476,8 @@ class _Curve:
             with suppress(InfeasibleProblem):
                 return low, self._best(self._problem(low))
         least = least_value(self.problem, self.over[0])
-        if least < NEARLY_NOTHING * pays:
-            return NEARLY_NOTHING * pays, self._best(self._problem(NEARLY_NOTHING * pays))
+        if least < _NEARLY_NOTHING * pays:
+            return _NEARLY_NOTHING * pays, self._best(self._problem(_NEARLY_NOTHING * pays))
         value = least * (1.0 + _ABOVE[0])
         solution = self._best(self._problem(value))
         if self.bound == TIGHT and not solution.problem.convex:
@@ -561,7 +564,7 @@ def _widths(points: Sequence[tuple[float, float]]) -> Array:
     """The importance of each gap: its length in normalised logarithms, more where the front bends."""
     logs = np.log(points)
     span = np.abs(logs[-1] - logs[0])
-    if span[0] < NO_EXCHANGE:
+    if span[0] < _NO_EXCHANGE:
         return np.zeros(len(points) - 1)
     steps = np.diff(logs, axis=0) / np.where(span > 0.0, span, 1.0)
     turns = np.abs(np.diff(np.arctan2(steps[:, 1], steps[:, 0])))

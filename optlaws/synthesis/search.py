@@ -27,18 +27,15 @@ from optlaws.synthesis.proof.certificate import Certificate
 from optlaws.synthesis.proof.make import certify, lower_bound
 from optlaws.synthesis.solution import Solution
 from optlaws.synthesis.status import Status, status_of
-from optlaws.tolerances import (
-    AGREEMENT,
-    BEYOND_PROOF,
-    FIRST_MOVE,
-    NEAR_LIMIT,
-    NO_OBJECTIVE,
-    OPTIMALITY_GAP,
-    UNDIVIDED_ROUNDING,
-)
+from optlaws.tolerances import AGREEMENT, NO_OBJECTIVE, OPTIMALITY_GAP
 
 if TYPE_CHECKING:
     from optlaws.synthesis.limits.drive_limits import DriveLimit
+
+_NEAR_LIMIT = 0.25  # of the limit of a drive: of a law that is so near it no other starts are tried
+_FIRST_MOVE = 4e-3  # how far the place of a peak is moved at first
+_UNDIVIDED_ROUNDING = 1e-13  # an excess that passes unlooked at; a contact at the middle may hide a larger one
+_BEYOND_PROOF = 1e-12  # an objective that is better than what is proven by more belongs to a law that breaks a bound
 
 #: of the gap, what the search over the places of a peak leaves
 _LEFT = 0.9
@@ -140,7 +137,7 @@ class LawSearch:
     def _near_limit(self, law: Candidate) -> bool:
         """Whether the limit of a drive leaves a law little slack."""
         limit = _limit_beside(self.problem)
-        return limit is not None and law.objective <= limit.value * (1.0 + NEAR_LIMIT)
+        return limit is not None and law.objective <= limit.value * (1.0 + _NEAR_LIMIT)
 
     def _try(self, warm: ActiveSet | None, point: Array | None, *, near: bool = False) -> Candidate | None:
         outcome, candidate = attempt(self.model, warm, point, near=near)
@@ -192,7 +189,7 @@ class LawSearch:
             return best
         from optlaws.synthesis.method.lower_bounds import active_lower_bounds_at
 
-        step, side = FIRST_MOVE, 1.0
+        step, side = _FIRST_MOVE, 1.0
         for _ in range(_MOVES):
             k = best.law.peak(constant.nu).k + side * step
             states = active_lower_bounds_at(self.model, plain.optimum, constant, low, k) if 0.0 < k < 1.0 else []
@@ -295,7 +292,7 @@ def _of_any_way(search: LawSearch) -> Solution | None:
     if problem.mirrored and solution.status is Status.INACCURATE:
         unfolded = from_symmetric(search)
         # a law that breaks a bound by the little that is allowed may seem nearer its bound
-        exact = evaluate(problem, solution.law).excess <= UNDIVIDED_ROUNDING
+        exact = evaluate(problem, solution.law).excess <= _UNDIVIDED_ROUNDING
         return solution if unfolded is None or (exact and unfolded.gap >= solution.gap) else unfolded
     return solution
 
@@ -389,7 +386,9 @@ def attempt(
 
     def holds(x: Array) -> bool:
         law, value = laws.at(x)
-        exact = value.excess <= UNDIVIDED_ROUNDING and value.objective <= float(claim @ x) * (1.0 + UNDIVIDED_ROUNDING)
+        exact = value.excess <= _UNDIVIDED_ROUNDING and value.objective <= float(claim @ x) * (
+            1.0 + _UNDIVIDED_ROUNDING
+        )
         # a constant that is minimised is a variable, which may have to be above the law's own
         return exact and not shortfalls(model.problem, law)
 
@@ -407,4 +406,4 @@ def feasible(model: Model, optimum: ActiveSet) -> Candidate | None:
 
 def _beyond_proof(solution: Solution) -> bool:
     """Whether the law is better than any law is, so that it breaks a bound by more than rounding."""
-    return solution.objective < solution.lower_bound - BEYOND_PROOF * abs(solution.lower_bound)
+    return solution.objective < solution.lower_bound - _BEYOND_PROOF * abs(solution.lower_bound)

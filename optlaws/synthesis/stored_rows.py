@@ -32,7 +32,9 @@ from optlaws.synthesis.proof.no_law import beyond_limit, proof_of_no_law
 from optlaws.synthesis.spaces.bases import PolynomialBasis
 from optlaws.synthesis.spaces.splines import PiecewiseBasis
 from optlaws.synthesis.status import Status, status_of
-from optlaws.tolerances import STORED_COEFFICIENT, STORED_VALUE
+from optlaws.tolerances import STORED_VALUE
+
+_STORED_COEFFICIENT = 1e-11  # of a law's coefficient: what another machine may round otherwise
 
 Plain = dict[str, Any]
 Kind = TypeVar("Kind")
@@ -297,12 +299,12 @@ def equal_data(first: Any, second: Any) -> bool:  # noqa: ANN401 - JSON
     if isinstance(first, dict) and isinstance(second, dict):
         return first.keys() == second.keys() and all(equal_data(first[name], second[name]) for name in first)
     if isinstance(first, list) and isinstance(second, list) and first and all(map(_is_number, [*first, *second])):
-        allowed = STORED_COEFFICIENT * max(map(abs, first))
+        allowed = _STORED_COEFFICIENT * max(map(abs, first))
         return len(first) == len(second) and all(abs(a - b) <= allowed for a, b in zip(first, second, strict=True))
     if isinstance(first, list) and isinstance(second, list):
         return len(first) == len(second) and all(map(equal_data, first, second))
     if _is_number(first) and _is_number(second):
-        return bool(abs(first - second) <= STORED_COEFFICIENT * max(abs(first), 1.0))
+        return bool(abs(first - second) <= _STORED_COEFFICIENT * max(abs(first), 1.0))
     return bool(first == second)
 
 

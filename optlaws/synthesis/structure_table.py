@@ -20,7 +20,9 @@ from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import Model, extreme_velocity, model_of
 from optlaws.synthesis.search import LawSearch
 from optlaws.synthesis.spaces.bases import Chebyshev
-from optlaws.tolerances import AGREEMENT, SHORT_STRETCH
+from optlaws.tolerances import AGREEMENT
+
+_SHORT_STRETCH = 1e-4  # of a path: structures that hold for less of it are not stored
 
 #: the kinds of problems: orders, and by what is minimised degrees and where walks along B begin, and the
 #: greatest B
@@ -50,7 +52,7 @@ def _along(problem: Problem, ends: tuple[float, float]) -> list[StoredStructure]
     """The structures that a walk between two B finds: at high degrees it may end early."""
     path = between(problem.at_velocity(ends[0]), problem.at_velocity(ends[1]))
     segments = [] if path is None else segments_of(path, 0.0, 1.0)
-    return [_stored(segment, ends) for segment in segments if segment.end - segment.begin > SHORT_STRETCH]
+    return [_stored(segment, ends) for segment in segments if segment.end - segment.begin > _SHORT_STRETCH]
 
 
 def covered(structures: list[StoredStructure]) -> float:

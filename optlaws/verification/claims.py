@@ -25,7 +25,7 @@ from optlaws.synthesis.proof.data import problem_of
 from optlaws.synthesis.proven.front import ProvenFront
 from optlaws.synthesis.status import measure
 from optlaws.synthesis.stored_solutions import read_solutions
-from optlaws.tolerances import CORRECTED_MULTIPLIER, NEGATIVE_MULTIPLIER, OPTIMALITY_GAP
+from optlaws.tolerances import CORRECTED_MULTIPLIER, OPTIMALITY_GAP
 from optlaws.verification.conditions import excesses
 from optlaws.verification.enclosing.balls import enclosed
 from optlaws.verification.exact.bound import Proof, prove
@@ -50,6 +50,8 @@ from optlaws.verification.reading import built, number, read
 from optlaws.verification.result import Claim, Verification
 from optlaws.verification.stated_numbers import at_most, near, stated_constants, stated_numbers
 from optlaws.verification.time_fronts import time_front
+
+_NEGATIVE_MULTIPLIER = 1e-9  # of the greatest multiplier: one so little below 0 is none
 
 #: where further certificates of a solution are
 _MOST_POINTS = 1000
@@ -277,7 +279,7 @@ def _proof_claims(
 def _leaf_claims(proof: Proof, certificate: Certificate, *, accurate: bool) -> Iterator[Claim]:
     count = len(certificate.contacts)
     greatest = max((abs(contact.multiplier) for contact in certificate.contacts), default=0.0)
-    negative = [contact for contact in certificate.contacts if contact.multiplier < -NEGATIVE_MULTIPLIER * greatest]
+    negative = [contact for contact in certificate.contacts if contact.multiplier < -_NEGATIVE_MULTIPLIER * greatest]
     shown = f"{len(negative)} of {count} negative" if negative else f"{count}, none negative"
     yield Claim("multipliers", not negative, shown)
     if proof.unknown:

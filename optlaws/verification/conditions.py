@@ -20,11 +20,13 @@ from optlaws.synthesis.problem.windows import Window
 from optlaws.synthesis.spaces.bases import Basis, Pieces, PolynomialBasis
 from optlaws.synthesis.spaces.periodic_pieces import PeriodicPieces
 from optlaws.synthesis.spaces.splines import PiecewiseBasis
-from optlaws.tolerances import BOUND_FEASIBILITY, BREAK_ROUNDING, COEFFICIENT_ROUNDING
+from optlaws.tolerances import BOUND_FEASIBILITY, COEFFICIENT_ROUNDING
 from optlaws.verification.enclosing.balls import Extremes, ball, rational, upper
 from optlaws.verification.enclosing.pieces import PolynomialPiece, between, least_and_greatest
 from optlaws.verification.exact.law import ExactLaw
 from optlaws.verification.exact.of_basis import unknown_basis
+
+_BREAK_ROUNDING = 2.0**-50  # of k: by so much rounding moves a break to its mirror image
 
 
 @dataclass(frozen=True)
@@ -99,7 +101,7 @@ def _shape(problem: Problem, law: ExactLaw) -> Iterator[Excess]:
         return
     breaks = _folded(shape.breaks) if problem.symmetric else shape.breaks
     apart = max(abs(place - other) for place, other in zip(breaks, law.breaks, strict=True))
-    yield _of("breaks", ball(apart), 1.0, BREAK_ROUNDING)
+    yield _of("breaks", ball(apart), 1.0, _BREAK_ROUNDING)
     for nu in range(1, shape.continuity + 1):
         sides = ((left.exact(nu, left.stop), right.exact(nu, right.start)) for left, right in pairwise(law.polynomials))
         jump = max(abs(after - before) for before, after in sides)

@@ -16,13 +16,16 @@ from optlaws.synthesis.limits.rounding import rounded_down
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.spaces.bases import PolynomialBasis
 from optlaws.synthesis.spaces.splines import PiecewiseBasis
-from optlaws.tolerances import COEFFICIENT_ROUNDING, STATED_BOUND, STATED_CONSTANT, STATED_PLACE
+from optlaws.tolerances import COEFFICIENT_ROUNDING, STATED_BOUND
 from optlaws.verification.enclosing.balls import at, enclosed, rational
 from optlaws.verification.enclosing.pieces import between, least_and_greatest
 from optlaws.verification.exact.law import ExactLaw
 from optlaws.verification.exact.sublevel_bounds import exact_limit
 from optlaws.verification.reading import number
 from optlaws.verification.result import Claim
+
+_STATED_CONSTANT = 1e-11  # of a constant: what one that was computed in doubles may be off
+_STATED_PLACE = 1e-7  # of a constant: what its value may be less at a place that was computed in doubles
 
 _WHOLE = (fmpq(-1), fmpq(1))
 _ORDERS = {"B": 1, "C": 2, "J": 3}
@@ -79,7 +82,7 @@ def stated_constants(data: Mapping[str, Any], law: ExactLaw) -> Iterator[Claim]:
 def near(name: str, stated: float, pair: tuple[float, float], scale: float = 1.0) -> Claim:
     """The claim that a stated value is the proven one up to rounding; a value near 0 is compared with its scale."""
     low, high = pair
-    room = STATED_CONSTANT * max(scale, abs(high)) if high < inf else 0.0
+    room = _STATED_CONSTANT * max(scale, abs(high)) if high < inf else 0.0
     # an enclosure that is wider than what may be off proves nothing of a number in it
     narrow = low == high or high - low <= room
     return Claim(name, narrow and low - room <= stated <= high + room, f"{stated!r} stated, in [{low!r}, {high!r}]")
@@ -97,7 +100,7 @@ def _reached(name: str, value: float, k: float, law: ExactLaw) -> Claim:
                 magnitudes.append(abs(b * others[0]) if name == "D" else abs(others[0]))
     highest = max((enclosed(magnitude)[1] for magnitude in magnitudes), default=0.0)
     # a constant power is the same everywhere, and 0 times infinity at its end
-    holds = highest >= value - STATED_PLACE * max(1.0, value) or not all(
+    holds = highest >= value - _STATED_PLACE * max(1.0, value) or not all(
         magnitude.is_finite() for magnitude in magnitudes
     )
     return Claim(f"place of {name}", holds, f"{highest!r} at k = {k!r}")

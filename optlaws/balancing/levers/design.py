@@ -15,7 +15,9 @@ from optlaws.errors import InputError, OptlawsError
 from optlaws.numbers import Array, NumberOrQuantity, finite
 from optlaws.numerics.roots import bisect
 from optlaws.suggest import unknown_key
-from optlaws.tolerances import LINKAGE_MET, SAME_LINKAGE
+
+_LINKAGE_MET = 1e-9  # a linkage whose equations miss by less is a solution
+_SAME_LINKAGE = 1e-6  # linkages nearer to each other are one
 
 Span = float | tuple[float, float]
 
@@ -197,7 +199,7 @@ def within(
     if not known.any():
         next(iter(goals.values()))[0](lever(0.5 * (low + high)))  # raises, and says which limit it is
     grid, reached = grid[known], reached[known]
-    scale = np.maximum(np.ptp(reached, axis=0), LINKAGE_MET)
+    scale = np.maximum(np.ptp(reached, axis=0), _LINKAGE_MET)
 
     def miss(logs: Array) -> Array:
         return np.asarray(np.nan_to_num((values(logs) - targets) / scale, nan=_BAR))
@@ -206,8 +208,8 @@ def within(
     ends = [least_squares(miss, start, bounds=(low, high), xtol=3e-16, ftol=3e-16, gtol=3e-16).x for start in starts]
     solved: list[Array] = []
     for end in ends:
-        met = np.abs(miss(end)).max() <= LINKAGE_MET
-        if met and not any(np.abs(end - other).max() <= SAME_LINKAGE for other in solved):
+        met = np.abs(miss(end)).max() <= _LINKAGE_MET
+        if met and not any(np.abs(end - other).max() <= _SAME_LINKAGE for other in solved):
             solved.append(end)
     if not solved:
         best = min(ends, key=lambda end: float(np.abs(miss(end)).max()))

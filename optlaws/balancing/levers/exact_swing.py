@@ -10,7 +10,10 @@ import numpy as np
 from optlaws.balancing.levers.motion import LeverMotion
 from optlaws.errors import InputError, SolverFailure
 from optlaws.numbers import Array
-from optlaws.tolerances import SWING_INTEGRATED, SWING_RESOLVED, SWING_SETTLED
+
+_SWING_SETTLED = 1e-14  # of a swing: a step of Newton's method that is the last
+_SWING_RESOLVED = 1e-15  # of a swing: what its last amplitudes leave
+_SWING_INTEGRATED = 1e-9  # of a swing: amplitudes that are integrated at first
 
 Function = Callable[[Array], Array]
 
@@ -56,7 +59,7 @@ def swung(
     """
     for points in POINTS:
         amplitudes, frequency = _integrated(potential, chi01, swing, points)
-        last = int(np.flatnonzero(np.abs(amplitudes) > SWING_INTEGRATED * swing)[-1])
+        last = int(np.flatnonzero(np.abs(amplitudes) > _SWING_INTEGRATED * swing)[-1])
         if 4 * last < points:
             break
     count = 16 + 2 * last
@@ -64,8 +67,8 @@ def swung(
         start = np.zeros(count + 1)
         start[: len(amplitudes)] = amplitudes[: count + 1]
         amplitudes, frequency = _settled(moment, start, frequency, swing)
-        if np.abs(amplitudes[-3:]).max() <= SWING_RESOLVED * swing:
-            known = np.flatnonzero(np.abs(amplitudes) > 0.01 * SWING_RESOLVED * swing)
+        if np.abs(amplitudes[-3:]).max() <= _SWING_RESOLVED * swing:
+            known = np.flatnonzero(np.abs(amplitudes) > 0.01 * _SWING_RESOLVED * swing)
             return LeverMotion(tuple(amplitudes[: known[-1] + 1].tolist()), float(2.0 * pi / np.sqrt(frequency)))
         count = 3 * count // 2
     raise SolverFailure(
@@ -114,7 +117,7 @@ def _settled(
         step = np.linalg.solve(jacobian, np.append(value - frequency * curve, ends @ amplitudes - swing))
         amplitudes = amplitudes - step[:-1]
         frequency -= float(step[-1])
-        if np.abs(step[:-1]).max() <= SWING_SETTLED * swing:
+        if np.abs(step[:-1]).max() <= _SWING_SETTLED * swing:
             return amplitudes, frequency
     raise SolverFailure(
         "the equation of motion did not settle; reduce swing",

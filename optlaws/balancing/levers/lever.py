@@ -17,7 +17,8 @@ from optlaws.kept import kept_property
 from optlaws.laws import PolynomialLaw
 from optlaws.motion.quantities import si_number
 from optlaws.numbers import Array, NumberOrQuantity, finite
-from optlaws.tolerances import ANGLE_LIMIT
+
+_ANGLE_LIMIT = 1e-9  # rad: an angle so far beyond its limit is still within
 
 
 @dataclass(frozen=True, init=False)
@@ -114,13 +115,13 @@ class TorsionLever:
                 (smallest, least - smallest, least),
                 (greatest, greatest - pi + least, pi - least),
             ):
-                if beyond > ANGLE_LIMIT:
+                if beyond > _ANGLE_LIMIT:
                     raise InputError(
                         f"the angle between coupler and {link} is {degrees(angle):.6g} deg {ends}, the limit is "
                         f"{degrees(limit):.6g} deg (least_transmission); reduce swing or change beta or lam"
                     )
         swing = float(np.diff(self.linkage.rocker(np.array([chi02, chi01])))[0])
-        if swing - self.most_rocker_swing > ANGLE_LIMIT:
+        if swing - self.most_rocker_swing > _ANGLE_LIMIT:
             raise InputError(
                 f"the rocker swings by {degrees(swing):.6g} deg {ends}, the limit is "
                 f"{degrees(self.most_rocker_swing):.6g} deg (most_rocker_swing); reduce swing or beta"

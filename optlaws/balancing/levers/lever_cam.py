@@ -21,7 +21,9 @@ from optlaws.numerics import chebyshev
 from optlaws.numerics.branch_and_bound import Extremes, extremes
 from optlaws.numerics.interval import Interval
 from optlaws.numerics.taylor import Jet, variable
-from optlaws.tolerances import ROUNDOFF, TORQUE_EXTREMES
+from optlaws.tolerances import ROUNDOFF
+
+_TORQUE_EXTREMES = 1e-8  # torques of a lever's cam
 
 _EDGES = 9
 
@@ -159,7 +161,7 @@ class LeverCam:
             slope = sum(waves[1:], start=waves[0]).slope()
             return slope * slope.slope() * (share * self.moved * self.rate**2 / self.angle**3)
 
-        return extremes(torque, np.linspace(0.0, 1.0, _EDGES), share=TORQUE_EXTREMES)
+        return extremes(torque, np.linspace(0.0, 1.0, _EDGES), share=_TORQUE_EXTREMES)
 
     def _chi(self, k: Array, nu: int) -> Array:
         """Derivatives of the link's deviation by the cam's angle."""

@@ -11,7 +11,8 @@ from numpy.polynomial import Polynomial
 from optlaws.balancing.levers.linkage import FourBar
 from optlaws.errors import InputError
 from optlaws.numerics.peaks import polished
-from optlaws.tolerances import REAL_ROOT
+
+_REAL_ROOT = 1e-7  # of a swing: roots with a smaller imaginary part are real
 
 #: least transmission angle that is allowed unless another is given, radians
 LEAST_TRANSMISSION = pi / 6.0
@@ -47,7 +48,7 @@ def sized(linkage: FourBar, rho: float, nu: float, swing: float) -> Sizing:
     p = (linkage.P - linkage.R * (1.0 + rho) * gamma01) * chi02
     quartic = 1536.0 * n * chi01 - swing * (768.0 * n - 64.0 * swing * q + swing**2 * p)
     roots = quartic.roots()
-    real = roots.real[np.abs(roots.imag) <= REAL_ROOT * swing] / swing
+    real = roots.real[np.abs(roots.imag) <= _REAL_ROOT * swing] / swing
     inside = real[(real > LEAST_SHARE) & (real < GREATEST_SHARE)]
     if not len(inside):
         raise InputError(

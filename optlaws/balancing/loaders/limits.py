@@ -8,7 +8,8 @@ from math import asin, cos, pi, sin, sqrt
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.numbers import positive
-from optlaws.tolerances import ANGLE_SHARP
+
+_ANGLE_SHARP = 1e-13  # rad: to so much the place of a loader's peak is found
 
 HARMLESS = 4.0 / pi  # here the loader can run at constant acceleration, with C = 4
 EVEN_POWER = 1.5  # here it can run at constant power, with D = 9/4
@@ -122,7 +123,7 @@ def _least(B: float, peak: Callable[[float], float]) -> float:
     # the angle has to keep a distance from the end at which the rate is infinite
     start = asin(1.0 / B)
     bounds = (start + 1e-9 * (0.5 * pi - start), 0.5 * pi)
-    best = minimize_scalar(peak, bounds=bounds, options={"xatol": ANGLE_SHARP})
+    best = minimize_scalar(peak, bounds=bounds, options={"xatol": _ANGLE_SHARP})
     return float(min(best.fun, peak(0.5 * pi)))
 
 

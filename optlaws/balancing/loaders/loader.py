@@ -17,7 +17,9 @@ from optlaws.laws import MotionLaw
 from optlaws.laws.law import motion_law
 from optlaws.motion.quantities import si_number
 from optlaws.numbers import NumberOrQuantity, bounded, real
-from optlaws.tolerances import AGREEMENT, LOADER_TERM
+from optlaws.tolerances import AGREEMENT
+
+_LOADER_TERM = 1e-13  # of C squared: a smaller product of velocity and jerk is rounding
 
 
 @dataclass(frozen=True, repr=False)
@@ -96,7 +98,7 @@ class Loader(JsonText):
         B, C = (self.executive.peak(nu).value for nu in (1, 2))
         if c > AGREEMENT * C or not isfinite(j):
             return inf
-        return self.Y * sqrt(B * j) if B * j > LOADER_TERM * C * C else 0.0
+        return self.Y * sqrt(B * j) if B * j > _LOADER_TERM * C * C else 0.0
 
     @property
     def peaks_at_turn(self) -> bool:

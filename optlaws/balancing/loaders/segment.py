@@ -16,7 +16,10 @@ from optlaws.laws import MotionLaw
 from optlaws.laws.segments.segment import Segment
 from optlaws.numbers import Array
 from optlaws.numerics import panels
-from optlaws.tolerances import LEAST_ROOT, PANEL_ROUNDING, SHORTEST_PANEL
+
+_PANEL_ROUNDING = 2e-15  # of the scale of a root: what its series leaves on a panel
+_LEAST_ROOT = 1e-9  # of its scale: a root that is smaller is known no worse
+_SHORTEST_PANEL = 1e-6  # panels of a root are cut no further
 
 
 @dataclass(frozen=True)
@@ -162,8 +165,8 @@ def _panels_of_root(f: panels.Function, low: float, high: float, scale: float) -
 
     def short(series: Array, length: float) -> bool:
         values = np.abs(series)
-        rounding = PANEL_ROUNDING * scale * max(1.0, scale / max(float(values[0]), LEAST_ROOT * scale))
-        return bool(values[-3:].max() <= rounding) or length < SHORTEST_PANEL
+        rounding = _PANEL_ROUNDING * scale * max(1.0, scale / max(float(values[0]), _LEAST_ROOT * scale))
+        return bool(values[-3:].max() <= rounding) or length < _SHORTEST_PANEL
 
     return panels.resolved(f, panels.Panels((low, high)), short)[0]
 

@@ -14,7 +14,12 @@ from optlaws.errors import InputError
 from optlaws.laws import MotionLaw
 from optlaws.numbers import Array
 from optlaws.numerics import chebyshev
-from optlaws.tolerances import AGREEMENT, CONVERGENCE_RADIUS, TOP_POINT, TOP_REACHED, TOP_STEP, VALUE_ROUNDING
+from optlaws.tolerances import AGREEMENT, VALUE_ROUNDING
+
+_CONVERGENCE_RADIUS = 1e-3  # of a length: a smaller radius of convergence is of no use
+_TOP_REACHED = 1e-10  # of B: velocities so near count as B
+_TOP_STEP = 1e-6  # of a law: the first step along its top
+_TOP_POINT = 1e-4  # a narrower top is a point: b - B is of the fourth order in it
 
 MOST = 41
 
@@ -71,7 +76,7 @@ def _regions(law: MotionLaw, B: float, low: float, high: float, depth: int = 0) 
         return []
     least, most = law.extrema(1, (low, high))
     k = most.k if most.value >= -least.value else least.k
-    if max(most.value, -least.value) < B * (1.0 - TOP_REACHED):
+    if max(most.value, -least.value) < B * (1.0 - _TOP_REACHED):
         return []
     start, end = (_left_behind(law, B, k, limit) for limit in (low, high))
     return [
@@ -83,13 +88,13 @@ def _regions(law: MotionLaw, B: float, low: float, high: float, depth: int = 0) 
 
 def _left_behind(law: MotionLaw, B: float, k: float, limit: float) -> float:
     """The first place on the way from k to the limit where |b| is clearly below B."""
-    step = TOP_STEP if limit > k else -TOP_STEP
+    step = _TOP_STEP if limit > k else -_TOP_STEP
     place = k
     while (limit - place) * step > 0.0:
         place += step
         if (limit - place) * step <= 0.0:
             break
-        if abs(law.b(place)) < B * (1.0 - TOP_REACHED):
+        if abs(law.b(place)) < B * (1.0 - _TOP_REACHED):
             return place
         step *= 1.5
     return limit
@@ -103,7 +108,7 @@ def _narrowed(law: MotionLaw, B: float, low: float, high: float) -> VelocityTop:
         first = last = _polished(law, first, low, high)
     if low < 0.5 < high and is_symmetric(law):
         first, last = min(first, 1.0 - last), max(last, 1.0 - first)
-        if last - first < TOP_POINT:
+        if last - first < _TOP_POINT:
             first = last = 0.5
     return VelocityTop(first, last)
 
@@ -122,7 +127,7 @@ def _polished(law: MotionLaw, k: float, low: float, high: float) -> float:
     """A stationary point of b by Newton's method; a peak at a break, where c jumps, stays."""
     for _ in range(3):
         c, j = law.c(k), law.j(k)
-        if not (isfinite(c) and isfinite(j)) or j == 0.0 or abs(c / j) > TOP_STEP:
+        if not (isfinite(c) and isfinite(j)) or j == 0.0 or abs(c / j) > _TOP_STEP:
             break
         k = min(max(k - c / j, low), high)
     return k
@@ -227,7 +232,7 @@ def _taylor(derivative: Derivative, B: float, length: float) -> list[float] | No
     coefficients: list[float] = []
     for n in range(1, TERMS + 1):
         coefficient = -derivative(0.0, n) / factorial(n)
-        if n >= 3 and not (abs(coefficient) / B) ** (1.0 / n) * CONVERGENCE_RADIUS * length <= 1.0:
+        if n >= 3 and not (abs(coefficient) / B) ** (1.0 / n) * _CONVERGENCE_RADIUS * length <= 1.0:
             return None
         coefficients.append(coefficient)
     return coefficients

@@ -11,7 +11,9 @@ from optlaws.cams.curves.motion_by_angle import CamMotion
 from optlaws.numerics.branch_and_bound import extremes
 from optlaws.numerics.peaks import is_kept
 from optlaws.numerics.taylor import Jet
-from optlaws.tolerances import CAM_EXTREMES, CAM_FEASIBILITY, EQUAL_EXTREMES, ROUNDOFF
+from optlaws.tolerances import CAM_FEASIBILITY, EQUAL_EXTREMES, ROUNDOFF
+
+_CAM_EXTREMES = 1e-10  # pressure angles and radii of curvature
 
 #: of the displacement's jet; shorter than it by as many orders as the function takes derivatives
 Function: TypeAlias = Callable[[Jet], Jet]
@@ -48,7 +50,7 @@ class EnclosedExtreme:
 
 
 def enclosed_extremes(
-    motion: CamMotion, function: Function, lost: int, tolerance: float = CAM_EXTREMES
+    motion: CamMotion, function: Function, lost: int, tolerance: float = _CAM_EXTREMES
 ) -> tuple[EnclosedExtreme, EnclosedExtreme]:
     """The least and the greatest value of a function of a motion's jet, which is shorter than that by `lost` orders."""
     known = extremes(

@@ -14,7 +14,9 @@ from optlaws.numbers import Array
 from optlaws.numerics.branch_and_bound import extremes
 from optlaws.numerics.interval import Interval
 from optlaws.numerics.taylor import Jet, Pair
-from optlaws.tolerances import OUTLINE_SHARE, SMALLEST_SPEED
+
+_SMALLEST_SPEED = 1e-9  # of a place on an outline, so that shares of it can be taken
+_OUTLINE_SHARE = 1e-3  # no part of an outline is left without places, however straight it is
 
 Density = Callable[[Array], Array]
 
@@ -66,7 +68,7 @@ def _accumulated(density: Density, start: float, stop: float) -> tuple[Array, Ar
     """Places on a stretch, and the density integrated up to them."""
     places = np.linspace(start, stop, _SAMPLES)
     values = density(0.5 * (places[1:] + places[:-1]))
-    values = values + OUTLINE_SHARE * max(float(values.max()), SMALLEST_SPEED)
+    values = values + _OUTLINE_SHARE * max(float(values.max()), _SMALLEST_SPEED)
     return places, np.append(0.0, np.cumsum(values)) * (stop - start) / (_SAMPLES - 1)
 
 

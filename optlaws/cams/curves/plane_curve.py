@@ -15,7 +15,9 @@ from optlaws.numbers import Array, derivative, finite, number_or_array, real_tim
 from optlaws.numerics import chebyshev
 from optlaws.numerics.interval import Interval
 from optlaws.numerics.taylor import Jet, Pair
-from optlaws.tolerances import CONTROL_POINT_BLUR
+from optlaws.tolerances import ROUNDOFF
+
+_CONTROL_POINT_BLUR = 128.0 * ROUNDOFF  # of the greatest control point: values are means of these
 
 _MOST = 1_000_000
 
@@ -60,7 +62,7 @@ class PiecewiseCurve(CurveByJets):
                 share = ((at - low) / (high - low))[..., None]
                 values[k] = (1.0 - share) * values[k - 1] + share * values[k]
         powers = np.einsum("kt,tnd->knd", np.linalg.inv(np.vander(t, increasing=True)), values[degree])
-        return cls(places, powers, CONTROL_POINT_BLUR * float(np.abs(controls).max()))
+        return cls(places, powers, _CONTROL_POINT_BLUR * float(np.abs(controls).max()))
 
     @classmethod
     def closed(cls, places: Array, values: Array) -> Self:
@@ -70,7 +72,7 @@ class PiecewiseCurve(CurveByJets):
         half, before, after = 0.5 * width, slopes[:-1], slopes[1:]
         bend, twist = 0.25 * half * (after - before), 0.25 * half * (after + before)
         powers = np.array([0.5 * (values[:-1] + values[1:]) - bend, 0.75 * rises - twist, bend, twist - 0.25 * rises])
-        return cls(places, powers, CONTROL_POINT_BLUR * float(np.abs(values).max()))
+        return cls(places, powers, _CONTROL_POINT_BLUR * float(np.abs(values).max()))
 
     @property
     def breaks(self) -> tuple[float, ...]:

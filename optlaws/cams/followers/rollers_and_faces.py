@@ -25,7 +25,8 @@ from optlaws.motion.piece import Piece
 from optlaws.numbers import Array
 from optlaws.numerics.interval import Interval
 from optlaws.numerics.taylor import Jet, Pair, Term
-from optlaws.tolerances import NO_CROSSING
+
+_NO_CROSSING = 1e-3  # the support of a profile, whose sign is all that counts
 
 
 class RollerContact(FollowerContact):
@@ -119,7 +120,7 @@ class RollerContact(FollowerContact):
             return (y * (x.slope() + y * turning) - x * (y.slope() - x * turning)) / self._speed(s) * turning
 
         # the distance of the tangent from the centre; that of the profile's is less by the roller's radius
-        return enclosed_extremes(motion, support, 1, NO_CROSSING)[0].low > self.roller
+        return enclosed_extremes(motion, support, 1, _NO_CROSSING)[0].low > self.roller
 
     def _speed(self, s: Jet) -> Jet:
         along, across = self.components(s)

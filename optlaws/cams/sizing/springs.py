@@ -24,17 +24,14 @@ from optlaws.numerics.integral import integral
 from optlaws.numerics.interval import Interval, chosen
 from optlaws.numerics.taylor import Jet, variable
 from optlaws.suggest import unknown_key
-from optlaws.tolerances import (
-    BEFORE_BREAK,
-    FORCE_EXTREMES,
-    LIFTED,
-    PROGRAM_ROUNDING,
-    PROGRAM_SLACK,
-    ROUNDOFF,
-    SPRING_EXTREMES,
-    SPRING_LIFT,
-    SPRING_SETTLED,
-)
+from optlaws.tolerances import BEFORE_BREAK, FORCE_EXTREMES, ROUNDOFF
+
+_PROGRAM_ROUNDING = 1e-10  # of the forces: by so much the best spring for some angles may miss what these need
+_SPRING_SETTLED = 1e-9  # of a greatest force: that of the best spring for some angles is met everywhere to so much
+_SPRING_LIFT = 1e-9  # of the stroke: below so much no stiffness adds a force
+_PROGRAM_SLACK = 1e-7  # of the forces: to so much a spring keeps to what is needed everywhere
+_SPRING_EXTREMES = 1e-12  # contact forces that a spring is sized by
+_LIFTED = 1e-3  # of the stroke: so far up more stiffness is more force
 
 _FIRST = 97
 _STEPS = 40
@@ -277,8 +274,8 @@ def _exchange(task: _SpringTask, given: _KnownSpring) -> Spring:
     for _ in range(_STEPS):
         best = _program(task, angles, given)
         force, pushed = _extremes(task, best)
-        slack = PROGRAM_SLACK * max(pushed.peak, task.least)
-        settled = given.objective in _SOLE or pushed.high <= best[2] * (1.0 + SPRING_SETTLED)
+        slack = _PROGRAM_SLACK * max(pushed.peak, task.least)
+        settled = given.objective in _SOLE or pushed.high <= best[2] * (1.0 + _SPRING_SETTLED)
         if force.low >= task.least - slack and settled:
             break
         angles = np.append(angles, [force.least_at, pushed.most_at])
@@ -297,7 +294,7 @@ def _extremes(task: _SpringTask, spring: tuple[float, float, float]) -> tuple[Ex
         return Jet([chosen(which == 0, *pair) for pair in zip(along_way.terms, pressed, strict=True)])
 
     edges = [task.forces.edges] * 2
-    least, greatest = extremes_of_each(forces, edges, share=SPRING_EXTREMES, parts=[_PARTS] * 2)
+    least, greatest = extremes_of_each(forces, edges, share=_SPRING_EXTREMES, parts=[_PARTS] * 2)
     return least, greatest
 
 
@@ -322,7 +319,7 @@ def _program(task: _SpringTask, angles: Array, given: _KnownSpring) -> tuple[flo
         values = (high + preload + stiffness * y) / lever
         worst = int(np.argmax(values))
         rise = slope + float(y[worst])
-        return float(values[worst]), rise / float(lever[worst]) if abs(rise) > SPRING_LIFT * scale else 0.0
+        return float(values[worst]), rise / float(lever[worst]) if abs(rise) > _SPRING_LIFT * scale else 0.0
 
     def mean_of(stiffness: float) -> tuple[float, float]:
         (preload, slope), sums = preload_of(stiffness), task.sums
@@ -331,8 +328,8 @@ def _program(task: _SpringTask, angles: Array, given: _KnownSpring) -> tuple[flo
     if given.stiffness is not None:
         preload, stiffness = preload_of(given.stiffness)[0], given.stiffness
     elif given.preload is not None:
-        preload, missing, lifted = given.preload, needed - given.preload, y > SPRING_LIFT * scale
-        if np.any(missing[~lifted] > PROGRAM_ROUNDING * unit):
+        preload, missing, lifted = given.preload, needed - given.preload, y > _SPRING_LIFT * scale
+        if np.any(missing[~lifted] > _PROGRAM_ROUNDING * unit):
             _refuse(task, angles, given)
         stiffness = max(0.0, float((missing[lifted] / y[lifted]).max(initial=0.0)))
     else:
@@ -396,7 +393,7 @@ def _strengthened(task: _SpringTask, given: _KnownSpring, best: tuple[float, flo
     missing = max(task.least - force.low, 0.0)
     if given.preload is None:
         preload += missing
-    elif (up := float(task.displacement(np.array(force.least_at)))) > LIFTED * task.forces.cam.displacement.range[1]:
+    elif (up := float(task.displacement(np.array(force.least_at)))) > _LIFTED * task.forces.cam.displacement.range[1]:
         stiffness += missing / up
     least, pushed = _extremes(task, (preload, stiffness, greatest))
     return Spring(

@@ -11,7 +11,9 @@ from optlaws.cycles.advising.advised_cycle import AdvisedCycle
 from optlaws.cycles.advising.advised_law import AdvisedLaw
 from optlaws.errors import OptlawsError
 from optlaws.synthesis.least_time.follower_residual import RESIDUAL
-from optlaws.tolerances import BOUND_SLACK, EQUALLY_GOOD, FRONT_END, SHOWN_DIGITS
+from optlaws.tolerances import BOUND_SLACK, EQUALLY_GOOD, SHOWN_DIGITS
+
+_FRONT_END = 0.01  # of what is exchanged: a front goes no further, as some of it can vanish
 
 #: what all laws can be bounded by from the start, as it is convex and quick; and what else is not to grow
 _OF_MOTION = ("velocity", "acceleration", "jerk", RESIDUAL)
@@ -135,7 +137,7 @@ class Candidates:
             self.errors["front"] = error
             return ()
         high, low = (end.values[second] for end in ends)
-        low = max(low * (1.0 + BOUND_SLACK), FRONT_END * high)
+        low = max(low * (1.0 + BOUND_SLACK), _FRONT_END * high)
         points_of_front = [ends[0]]
         for i in range(1, points if low < high else 0):
             value = high * (low / high) ** (i / (points - 1))

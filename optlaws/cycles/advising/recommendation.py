@@ -10,7 +10,9 @@ from optlaws.cycles.advising.advised_law import AdvisedLaw
 from optlaws.cycles.advising.candidates import Candidates, exceeded
 from optlaws.errors import InfeasibleProblem
 from optlaws.synthesis.status import Status
-from optlaws.tolerances import AGREEMENT, EQUALLY_GOOD, TELLING
+from optlaws.tolerances import AGREEMENT, EQUALLY_GOOD
+
+_TELLING = 1e-3  # of a value: a difference or a rest of a limit that is worth a word
 
 
 @dataclass(frozen=True)
@@ -102,7 +104,7 @@ class _Words:
         minimise, usual, law = self.candidates.minimise, self.candidates.usual, self.law
         value = self._with_unit(minimise, law.values[minimise])
         limits = ", and it keeps every limit" if law.limits else ""
-        full = [taken for taken in law.limits if taken.text and taken.share >= 1.0 - TELLING]
+        full = [taken for taken in law.limits if taken.text and taken.share >= 1.0 - _TELLING]
         if full:
             limits += f" ({_listed([f'{taken.name} {taken.text}' for taken in full])} to the full)"
         name = f'"{law.name}"' if law.kind == "optimal" else law.name
@@ -143,7 +145,7 @@ class _Words:
         bound, value = known.proof.lower_bound, self.law.values[minimise]
         as_much = f" with no more {_listed(self.most, 'or')} than {usual.name}" if usual and self.most else ""
         above = value / bound - 1.0
-        near = f" ({_percent(above / (1.0 + above))} less)" if above > TELLING * EQUALLY_GOOD else ""
+        near = f" ({_percent(above / (1.0 + above))} less)" if above > _TELLING * EQUALLY_GOOD else ""
         proven = f"none of the {known.proof.space}{as_much} has less than {self._with_unit(minimise, bound)}{near}"
         if known.proof.status is not Status.OPTIMAL:
             proven = f"that none has less than {self._with_unit(minimise, bound)}{near}, is proven"

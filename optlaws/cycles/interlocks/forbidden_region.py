@@ -19,7 +19,9 @@ from optlaws.motion.quantities import quantity
 from optlaws.numbers import Array
 from optlaws.numerics.interval import Interval
 from optlaws.numerics.taylor import Pair
-from optlaws.tolerances import CLEARANCE_SHARE, INTERLOCK, SQUARED_CLEARANCE
+from optlaws.tolerances import CLEARANCE_SHARE, INTERLOCK
+
+_SQUARED_CLEARANCE = 1e-12  # the same of the square of a distance
 
 
 @dataclass(frozen=True)
@@ -111,7 +113,7 @@ class Forbidden(Interlock):
         clearance, bound, time = known.least, known.low, known.least_at
         if bound > INTERLOCK * size:
             # beyond a corner the distance is more than that from the lines that meet there
-            far = least(lambda at, order: polygon.square(*path(at, order)), (first, second), SQUARED_CLEARANCE)
+            far = least(lambda at, order: polygon.square(*path(at, order)), (first, second), _SQUARED_CLEARANCE)
             clearance, bound, time = sqrt(max(far.least, 0.0)), max(bound, sqrt(max(far.low, 0.0))), far.least_at
         unit = self.unit(first.cycle.axis, second.cycle.axis)
         return self._least(clearance, bound, unit, time, first.duration, size=size)

@@ -25,15 +25,16 @@ from optlaws.errors import InfeasibleProblem, SolverFailure
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.numbers import Array
-from optlaws.tolerances import (
-    BROKEN_INSTANT,
-    BROKEN_PLACE,
-    INSTANT_MARGIN,
-    LP_FEASIBILITY,
-    OVERLAP_GAP,
-    PLACE_WIDTH,
-    TIGHT,
+
+_BROKEN_INSTANT = 1e-11  # of a period: by so much an instant may come too early, as programs are solved
+_OVERLAP_GAP = 1e-9  # of the objective: by so much a least period is longer than the one of its program
+_LP_FEASIBILITY = 1e-10  # of a period: by so much the solver of programs of instants may break a row
+_BROKEN_PLACE = 3e-10  # of a period: the same between the places that programs know
+_INSTANT_MARGIN = (
+    1e-9  # of a period: instants are chosen so much apart from where they touch, which pays for the others
 )
+_PLACE_WIDTH = 1e-9  # of a segment: how near a place comes to where instants are broken most
+_TIGHT = 1e-7  # of a period: what leaves no more binds
 
 _NODES = 4000
 _CUTS = 40
@@ -208,7 +209,7 @@ class Overlapping:
             b_ub=-right,
             bounds=np.column_stack([low, most]),
             method="highs",
-            options={"primal_feasibility_tolerance": LP_FEASIBILITY},
+            options={"primal_feasibility_tolerance": _LP_FEASIBILITY},
         )
         if answer.status != 0:
             return None
@@ -251,7 +252,7 @@ class Overlapping:
 
     def _most_broken(self, unknowns: Array, choices: Choices) -> int | None:
         """The requirement without alternatives whose best option is violated most; None without such a requirement."""
-        worst, which = BROKEN_INSTANT * float(unknowns[-2]), None
+        worst, which = _BROKEN_INSTANT * float(unknowns[-2]), None
         for i, options in enumerate(self.options):
             if i not in choices:
                 off = min(self._broken_by(i, option, unknowns) for option in options)
@@ -282,7 +283,7 @@ class Overlapping:
         """The shares of a segment at which a choice is broken more than nearby."""
         from scipy.optimize import minimize_scalar
 
-        requirement, most = self.requirements[i], BROKEN_PLACE * float(unknowns[-2])
+        requirement, most = self.requirements[i], _BROKEN_PLACE * float(unknowns[-2])
 
         def off(share: float) -> float:
             return max((-float(row @ unknowns) for row in requirement.rows(option, share)), default=-np.inf)
@@ -298,16 +299,16 @@ class Overlapping:
             if value < max(beside) or value <= most - 2.0 * (value - min(beside)):
                 continue
             ends = shares[max(place - 1, 0)], shares[min(place + 1, len(shares) - 1)]
-            lowest = solve(lambda share: -off(share), bounds=ends, method="bounded", options={"xatol": PLACE_WIDTH})
+            lowest = solve(lambda share: -off(share), bounds=ends, method="bounded", options={"xatol": _PLACE_WIDTH})
             at, by = (float(lowest.x), -float(lowest.fun)) if -lowest.fun > value else (float(shares[place]), value)
             if by > most:
                 met.append(at)
         return met
 
     def _result(self, optimum: Optimum, choices: Choices, nodes: int, bound: float) -> BestInstants:
-        solved = self._solved(choices, margin=INSTANT_MARGIN) or optimum
+        solved = self._solved(choices, margin=_INSTANT_MARGIN) or optimum
         x, (rows, sides, names) = solved.unknowns, self._rows(choices)
-        tight = [name for row, side, name in zip(rows, sides, names, strict=True) if row @ x - side <= TIGHT and name]
+        tight = [name for row, side, name in zip(rows, sides, names, strict=True) if row @ x - side <= _TIGHT and name]
         durations = {
             plan.name: [self.unit * float(value) for value in x[plan.first : plan.first + len(plan.segments)]]
             for plan in self.plans
@@ -371,7 +372,7 @@ def best_instants(
         except InfeasibleProblem:
             step *= 0.5
             continue
-        if abs(rearranged.pace - best.pace) <= OVERLAP_GAP * best.pace:
+        if abs(rearranged.pace - best.pace) <= _OVERLAP_GAP * best.pace:
             break
         if rearranged.pace > best.pace:
             best, times = rearranged, further
@@ -414,7 +415,7 @@ def _instants(
                 f"no instants of these laws keep all interlocks: {labels}: moves would have to take no time"
             )
         return replace(best, bound=1.0 / best.bound**2)
-    longer_by = 1.0 + OVERLAP_GAP
+    longer_by = 1.0 + _OVERLAP_GAP
     durations = {name: [longer_by * value for value in values] for name, values in best.durations.items()}
     return replace(best, durations=durations, period=longer_by * best.period)
 

@@ -13,7 +13,9 @@ import numpy as np
 
 from optlaws.errors import InputError
 from optlaws.numerics.taylor import Jet
-from optlaws.tolerances import INTERLOCK, SECTION_WIDTH
+from optlaws.tolerances import INTERLOCK
+
+_SECTION_WIDTH = 1e-12  # of a polygon: sides that are narrower are upright
 
 Corner: TypeAlias = tuple[float, float]
 
@@ -62,7 +64,7 @@ class SimplePolygon:
         A side that is upright but for rounding counts whole.
         """
         across = [corner[0] for corner in self.corners]
-        near = SECTION_WIDTH * (max(across) - min(across))
+        near = _SECTION_WIDTH * (max(across) - min(across))
         x = min(max(x, min(across)), max(across))
         met: list[float] = []
         for (start, first), (stop, last) in self.sides:

@@ -21,7 +21,9 @@ from optlaws.synthesis.problem.windows import Window
 from optlaws.synthesis.solution import Solution
 from optlaws.synthesis.solve import synthesize
 from optlaws.synthesis.spaces.bases import Chebyshev
-from optlaws.tolerances import MODERNISED_JERK, WITHIN_TOLERANCE
+
+_WITHIN_TOLERANCE = 1e-6  # of a tolerance: a new law that is beyond it by no more is within it, but for rounding
+_MODERNISED_JERK = 1.2  # of an old law's greatest jerk: what a law of less acceleration in its place may have
 
 #: places of the spline that stands for the old law in the window of the new one, more where they are too few
 _PLACES = (81, 161)
@@ -75,7 +77,7 @@ def better(part: Stretch, room: float, order: int, degree: int, start: Solution 
         if solution is None or solution.law.constants.C.value >= old.constants.C.value:
             return part
         # between its places the spline is not the old law
-        if deviation(solution.law, old) <= share * (1.0 + WITHIN_TOLERANCE):
+        if deviation(solution.law, old) <= share * (1.0 + _WITHIN_TOLERANCE):
             return replace(part, law=solution.law, solution=solution)
     return part
 
@@ -112,7 +114,7 @@ def _nearby(
     k = np.linspace(0.0, 1.0, places)
     points = ", ".join(f"{place:.9g}:{height:.9g}" for place, height in zip(k, old(k), strict=True))
     near = Window(f"a - spline(k, {points})", low=-share, high=share)
-    jerk = MODERNISED_JERK * old.constants.J.value
+    jerk = _MODERNISED_JERK * old.constants.J.value
     problem = Problem(
         order=space[0], basis=Chebyshev(space[1]), symmetric=False, windows=(near,),
         J=at_most(jerk) if np.isfinite(jerk) else None,

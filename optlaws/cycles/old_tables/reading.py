@@ -18,7 +18,14 @@ from optlaws.files import reading
 from optlaws.laws.catalogue.reading import LARGEST_TABLE, TablePoints, points_of, resolution_of
 from optlaws.motion.quantities import either
 from optlaws.numbers import Array
-from optlaws.tolerances import TABLE_JUMP, TABLE_MASTER, TABLE_RATE, TABLE_SLOPE, WHOLE_TURN
+
+_TABLE_JUMP = 1e-6  # of the positions: by how much pieces of a file may be apart where they meet, as REAL32 leaves them
+_TABLE_MASTER = 1e-9  # of the master's length: places of a table that are nearer are one
+_TABLE_RATE = (
+    0.25  # velocities of a table that are so near the slopes of its positions are by the master, not the second
+)
+_TABLE_SLOPE = 0.5  # of the greatest velocity of a table: one that is farther from the slope of the positions is wrong
+_WHOLE_TURN = 1e-6  # of a turn: a master without a unit whose length is so near 360, 1 or 2 pi is one turn
 
 #: how many places of pieces stand for them
 _PLACES = 721
@@ -205,7 +212,7 @@ def sampled(pieces: Sequence[CurvePiece]) -> tuple[Array, Array]:
     for piece in pieces:
         low, high = piece.position(np.array([0.0, piece.stop - piece.start])).tolist()
         size = max(size, abs(low), abs(high))
-        if at is not None and not (at[0] == piece.start and abs(at[1] - low) <= TABLE_JUMP * size):
+        if at is not None and not (at[0] == piece.start and abs(at[1] - low) <= _TABLE_JUMP * size):
             raise InputError(
                 f"a piece ends at {at[0]:.9g} with the position {at[1]:.9g} and the next begins at {piece.start:.9g} "
                 f"with {low:.9g}: the pieces do not follow each other"
@@ -214,7 +221,7 @@ def sampled(pieces: Sequence[CurvePiece]) -> tuple[Array, Array]:
     joints = np.array([piece.start for piece in pieces] + [stop])
     x = np.unique(np.concatenate([np.linspace(start, stop, _PLACES), joints]))
     # places that are nearly a joint are the joint
-    x = x[np.concatenate([[True], np.diff(x) > TABLE_MASTER * (stop - start)])]
+    x = x[np.concatenate([[True], np.diff(x) > _TABLE_MASTER * (stop - start)])]
     which = np.clip(np.searchsorted(joints, x, side="right") - 1, 0, len(pieces) - 1)
     y = np.empty_like(x)
     for i, piece in enumerate(pieces):
@@ -258,9 +265,9 @@ def rate_of(places: Array, heights: Array, velocities: Array, lines: Sequence[in
     rate = float(np.abs(steps * means).sum()) / way if way else 1.0
     off = np.abs(means - rate * np.diff(heights) / steps) / max(float(np.abs(velocities).max()), np.finfo(float).tiny)
     worst = int(np.argmax(off))
-    if not rate > 0.0 or off[worst] > TABLE_SLOPE:
+    if not rate > 0.0 or off[worst] > _TABLE_SLOPE:
         raise InputError(f"line {lines[worst]}: the velocity there is not that of the positions: check the columns")
-    return 1.0 if abs(rate - 1.0) < TABLE_RATE else rate
+    return 1.0 if abs(rate - 1.0) < _TABLE_RATE else rate
 
 
 def _about(content: str) -> re.Match[str] | None:
@@ -274,7 +281,7 @@ def _units(headings: tuple[str, str], content: str, unit: str | None, master: st
     stated_rate = _RATE.search(content[:10_000])
     rate = about.groupdict().get("rate") if about else None
     rate = rate or (stated_rate[1] if stated_rate else None)
-    supposed = next((name for turn, name in _TURNS.items() if abs(length - turn) <= WHOLE_TURN * turn), "deg")
+    supposed = next((name for turn, name in _TURNS.items() if abs(length - turn) <= _WHOLE_TURN * turn), "deg")
     of_master = master or stated[0] or _unit_in(headings[0], ("angle", "time")) or supposed
     of_slave = unit or stated[1] or _unit_in(headings[1], ("length", "angle")) or "mm"
     slave_size, slave = _sized(of_slave, ("length", "angle"), "unit")

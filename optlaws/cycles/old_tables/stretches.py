@@ -15,7 +15,9 @@ from optlaws.laws.catalogue.catalogue import catalogue
 from optlaws.laws.making.through_points import law_through
 from optlaws.numbers import Array
 from optlaws.synthesis.solution import Solution
-from optlaws.tolerances import CLOSE_FIT, ROUGH_FIT
+
+_CLOSE_FIT = 1e-14  # of a fit of a law to points: what its last step changes of the sum of squares and of its ends
+_ROUGH_FIT = 1e-4  # the same where laws are only ranked by how near they come
 
 StretchKind: TypeAlias = Literal["dwell", "rise", "return"]
 
@@ -164,9 +166,9 @@ def _move(places: Array, heights: Array, first: _Rest, last: _Rest, room: float)
     x, y = places[low : high + 1], (heights[low : high + 1] - first.level) / (last.level - first.level)
     share = room / abs(last.level - first.level)
     some = slice(None, None, max(1, len(x) // _COARSE))
-    near = sorted((_fitted(x[some], y[some], catalogue[name].law, ROUGH_FIT)[0], name) for name in catalogue)
+    near = sorted((_fitted(x[some], y[some], catalogue[name].law, _ROUGH_FIT)[0], name) for name in catalogue)
     distance, start, stop, name = min(
-        (*_fitted(x, y, catalogue[name].law, CLOSE_FIT), name) for _, name in near[:_NEAREST]
+        (*_fitted(x, y, catalogue[name].law, _CLOSE_FIT), name) for _, name in near[:_NEAREST]
     )
     law = catalogue[name].law
     kind: StretchKind = "rise" if last.level > first.level else "return"

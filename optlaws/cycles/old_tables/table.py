@@ -19,7 +19,10 @@ from optlaws.errors import InputError
 from optlaws.laws import MotionLaw
 from optlaws.laws.making.through_points import noise
 from optlaws.numbers import Array, Quantity, not_negative, numbers, positive
-from optlaws.tolerances import AGREEMENT, NOISE_ROOM, STANDARD_LAW_ROOM
+from optlaws.tolerances import AGREEMENT
+
+_NOISE_ROOM = 4.0  # of the standard deviation of a table's noise: points that are farther from a law speak against it
+_STANDARD_LAW_ROOM = 1e-7  # of the stroke of a table with all digits: by how much a standard law may be off its points
 
 
 @dataclass(frozen=True, eq=False)
@@ -377,11 +380,11 @@ def split_table(
     if stroke == 0.0:
         raise InputError("the table never moves: all its positions are the same")
     scatter = noise((places - places[0]) / np.ptp(places), heights / stroke) * stroke
-    least = max(digit, STANDARD_LAW_ROOM * stroke)
+    least = max(digit, _STANDARD_LAW_ROOM * stroke)
     if tolerance is not None:
-        room = max(not_negative(tolerance, "tolerance"), STANDARD_LAW_ROOM * stroke)
+        room = max(not_negative(tolerance, "tolerance"), _STANDARD_LAW_ROOM * stroke)
     else:
-        room = max(least, NOISE_ROOM * scatter)
+        room = max(least, _NOISE_ROOM * scatter)
         # joints of a standard law may look like noise
         if room > least and (split := of_standard_laws(places, heights, least)):
             return OldTable(split, least, 0.0, seam_of(heights, least), unit, master, places, heights)

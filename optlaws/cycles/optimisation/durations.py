@@ -30,7 +30,9 @@ from optlaws.synthesis.problem.constants import FUNCTIONALS
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.solution import Solution
 from optlaws.synthesis.solve import synthesize
-from optlaws.tolerances import AGREEMENT, CLOSURE, DURATION_STEP, SAME_TIME, SHORTEST_MOVE
+from optlaws.tolerances import AGREEMENT, CLOSURE, DURATION_STEP, SAME_TIME
+
+_SHORTEST_MOVE = 1e-6  # of a period: no shorter move is tried
 
 _REST = State(0.0, 0.0)
 _ROUNDS = 30
@@ -174,7 +176,7 @@ def _levelled(
 ) -> list[float]:
     """Durations at which what falls with each is equal, within their bounds, with the given sum."""
     bounds = [
-        (max(part.stretch.least, part.quickest, SHORTEST_MOVE * period), min(part.stretch.most, left))
+        (max(part.stretch.least, part.quickest, _SHORTEST_MOVE * period), min(part.stretch.most, left))
         for part in shares
     ]
     if sum(low for low, _ in bounds) >= left or any(low > high for low, high in bounds):

@@ -34,7 +34,10 @@ from optlaws.kept import kept_property
 from optlaws.motion.piece import Piece
 from optlaws.synthesis.functionals.makers import integral
 from optlaws.synthesis.solution import Solution
-from optlaws.tolerances import FEASIBILITY, LEAST_PEAK_SLACK, PEAK_BRACKET
+from optlaws.tolerances import FEASIBILITY
+
+_LEAST_PEAK_SLACK = 1e-6  # of a least peak, given to problems that are not convex
+_PEAK_BRACKET = 1e-11  # of a peak: where a limit is met
 
 _ROUNDS = 8
 _FARTHEST = 30.0  # logarithm of a limit's greatest multiplier
@@ -210,10 +213,10 @@ class _SharedLimit:
             return log(self._taken(tried[peak]) / self.left)
 
         convex = all(solution.problem.convex for _, solution in laws)
-        low = self._greatest(laws) * (1.0 + (_BELOW[0] if convex else LEAST_PEAK_SLACK))
+        low = self._greatest(laws) * (1.0 + (_BELOW[0] if convex else _LEAST_PEAK_SLACK))
         high = self._greatest(least)
         if over(low) > 0.0:
-            brentq(over, low, high, xtol=PEAK_BRACKET * high, rtol=PEAK_BRACKET)
+            brentq(over, low, high, xtol=_PEAK_BRACKET * high, rtol=_PEAK_BRACKET)
             tried.setdefault(high, tuple(least))
         least_peak = min(peak for peak, laws in tried.items() if self._taken(laws) <= self.left * (1.0 + FEASIBILITY))
         return Best(tried[least_peak], (), max(bound, self._impossible(least_peak, bound)))
@@ -263,7 +266,7 @@ class _SharedLimit:
                     "limits: the limit over the whole cycle cannot be met as near as it is possible: allow more"
                 )
             high += 4.0
-        brentq(over, low, high, xtol=PEAK_BRACKET, rtol=PEAK_BRACKET)
+        brentq(over, low, high, xtol=_PEAK_BRACKET, rtol=_PEAK_BRACKET)
         least = min(
             multiplier for multiplier, laws in tried.items() if self._taken(laws) <= self.left * (1.0 + FEASIBILITY)
         )

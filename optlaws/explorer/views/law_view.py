@@ -39,7 +39,9 @@ from optlaws.numbers import Array, bounded
 from optlaws.plots.cycle import UNITS as UNITS_OF_MOTION
 from optlaws.synthesis.limits.of_problem import limited_laws
 from optlaws.synthesis.proof.infeasible import possible_velocities
-from optlaws.tolerances import BOUND_SLACK, GAP_ROUNDING, NO_MARK
+from optlaws.tolerances import BOUND_SLACK, NO_MARK
+
+_GAP_ROUNDING = 1e-12  # of an objective: a gap below it is rounding
 
 LETTERS = ("a", "b", "c", "d", "j")
 _ORDERS = {"a": 0, "b": 1, "c": 2, "j": 3}
@@ -225,7 +227,7 @@ def gap_text(gap: float) -> str:
     """
     if bounded(gap) is None:
         return "no bound is known"
-    return f"gap {gap:.1e}" if gap > GAP_ROUNDING else "gap below 1e-12"
+    return f"gap {gap:.1e}" if gap > _GAP_ROUNDING else "gap below 1e-12"
 
 
 _FIGURES = 5

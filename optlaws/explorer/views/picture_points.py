@@ -7,7 +7,8 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 from optlaws.numbers import Array
-from optlaws.tolerances import DRAWN_DEVIATION
+
+_DRAWN_DEVIATION = 2e-3  # of a curve's range: a line between two of its places is the curve to the eye
 
 _ROUNDS = 9
 _MOST = 4000
@@ -47,7 +48,7 @@ def _with(
 
 def _added(places: Array, values: Array, function: Callable[[Array], Array]) -> Array:
     finite = values[np.isfinite(values)]
-    allowed = DRAWN_DEVIATION * float(np.ptp(finite)) if finite.size else 0.0
+    allowed = _DRAWN_DEVIATION * float(np.ptp(finite)) if finite.size else 0.0
     left, right, at_left, at_right = places[:-1], places[1:], values[:-1], values[1:]
     added: list[Array] = []
     for _ in range(_ROUNDS):

@@ -11,7 +11,8 @@ from optlaws.exports.formats.program_polynomials import iec_heading, jumps_in_wo
 from optlaws.exports.text import iec_name, real
 from optlaws.motion.motion import Motion
 from optlaws.motion.polynomials import PiecewiseMotion
-from optlaws.tolerances import WHOLE_NUMBER
+
+_WHOLE_NUMBER = 1e-6  # a number of a controller so near to a whole one is meant to be whole
 
 DEGREE = 6
 MOST = 64
@@ -59,7 +60,7 @@ def _write(motion: Motion, request: Request) -> Written:
 
 def _period(value: float, of: str, unit: str, least: int) -> int:
     whole = round(value)
-    if abs(value - whole) > WHOLE_NUMBER * max(1.0, abs(value)) or not least <= whole <= LARGEST:
+    if abs(value - whole) > _WHOLE_NUMBER * max(1.0, abs(value)) or not least <= whole <= LARGEST:
         remedies = {"master": "master='360 deg'", "slave": "another unit or stroke, or counts=..."}
         raise InputError(
             f"B&R takes whole-number periods (DINT), and that of the {of} is {value:.9g} {unit}: choose {remedies[of]}"

@@ -25,7 +25,9 @@ from optlaws.exports.text import plain, plain_column, table_heading
 from optlaws.files.writing import MARK
 from optlaws.motion.motion import Motion
 from optlaws.motion.quantities import quantity
-from optlaws.tolerances import CLOSURE, DECADIC_STEP
+from optlaws.tolerances import CLOSURE
+
+_DECADIC_STEP = 1e-4  # the last digit that an ISG cam table has
 
 MODELS = {
     "linear": "straight lines",
@@ -174,12 +176,12 @@ def _isg(motion: Motion, request: Request) -> Written:
     most = min(ISG_LINES, 1 + int(np.floor(motion.length * x_size / ISG_LEAST * (1 + 1e-12))))
 
     def make(count: int) -> PointTable:
-        return _integers(motion, count, DECADIC_STEP / x_size, DECADIC_STEP / y_size)
+        return _integers(motion, count, _DECADIC_STEP / x_size, _DECADIC_STEP / y_size)
 
     table = chosen(motion, request, make, least=2, most=most)
     name = "".join(letter if letter.isalnum() else "_" for letter in request.name)
-    rows = _whole(table, DECADIC_STEP / x_size, DECADIC_STEP / y_size)
-    if min(after[0] - before[0] for before, after in pairwise(rows)) < round(ISG_LEAST / DECADIC_STEP):
+    rows = _whole(table, _DECADIC_STEP / x_size, _DECADIC_STEP / y_size)
+    if min(after[0] - before[0] for before, after in pairwise(rows)) < round(ISG_LEAST / _DECADIC_STEP):
         raise InputError(f"ISG wants points at least {ISG_LEAST} deg apart: take fewer points")
     head = [
         f"Tablename = {name} # {table_heading(motion, 'cam')[0]}; {MARK}",

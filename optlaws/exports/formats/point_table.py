@@ -13,7 +13,8 @@ from optlaws.exports.interpolation import Ends, akima_powers, hermite_powers, li
 from optlaws.exports.spacing import PointTable, chosen, places
 from optlaws.motion.motion import Motion
 from optlaws.numbers import Array
-from optlaws.tolerances import TABLE_ROUNDING
+
+_TABLE_ROUNDING = 2.0**-46  # of a column of a table: less is printed as 0
 
 DEGREES = {1: "linear", 2: "cubic Hermite", 3: "quintic Hermite", 4: "Hermite of degree 7"}
 
@@ -88,7 +89,7 @@ def spline_table(motion: Motion, points: Points, number_format: NumberFormat, *,
 def end_slopes(motion: Motion, number_format: NumberFormat) -> Array:
     """The velocities of a motion's ends as the target stores them, 0 where rounding beside the mean has missed it."""
     slopes = np.array(motion.ends(1))
-    rounding = TABLE_ROUNDING * motion.stroke / motion.length
+    rounding = _TABLE_ROUNDING * motion.stroke / motion.length
     return number_format.numbers(np.where(np.abs(slopes) <= rounding, 0.0, slopes))
 
 
@@ -150,7 +151,7 @@ def chosen_table(
 
 def _without_rounding(values: Array) -> Array:
     """The values with 0 where rounding, beside the greatest of their row, has missed it."""
-    return np.where(np.abs(values) <= TABLE_ROUNDING * np.abs(values).max(axis=1, keepdims=True), 0.0, values)
+    return np.where(np.abs(values) <= _TABLE_ROUNDING * np.abs(values).max(axis=1, keepdims=True), 0.0, values)
 
 
 def rounding_bound(motion: Motion, x: Array, y: Array, slopes: Array) -> float:

@@ -15,7 +15,9 @@ from optlaws.exports.text import Labels, program_heading, real, rounded_up, safe
 from optlaws.files.writing import MARK
 from optlaws.motion.motion import Motion
 from optlaws.motion.polynomials import PiecewiseMotion
-from optlaws.tolerances import POLYNOMIAL_ROUNDING, SOURCE_CODE_OFF
+
+_POLYNOMIAL_ROUNDING = 1e-9  # of a derivative: where polynomials of a controller meet
+_SOURCE_CODE_OFF = 1e-6  # of the acceleration's peak: how far polynomials of source code may be off
 
 #: of source code: the degree of polynomials for laws that are none, and of laws whose own polynomials are taken
 SOURCE_DEGREE, OWN_DEGREE = 9, 40
@@ -47,7 +49,7 @@ def polynomials_for(
 def source_polynomials(motion: Motion, request: Request) -> tuple[Fitted, tuple[str, ...]]:
     """The polynomials of source code: the law's own, cut where powers would lose digits, or approximations."""
     fit = None if request.points else exactly(motion, OWN_DEGREE)
-    fit = fit or polynomials_for(motion, request, SOURCE_DEGREE, SOURCE_PIECES, near=SOURCE_CODE_OFF)
+    fit = fit or polynomials_for(motion, request, SOURCE_DEGREE, SOURCE_PIECES, near=_SOURCE_CODE_OFF)
     return fit, (fit.in_words(motion.units.slave),)
 
 
@@ -116,7 +118,7 @@ def rounding(run: PiecewiseMotion, nu: int) -> float:
     """The greatest jump of the derivative of order nu that is no more than rounding."""
     size = max(abs(extreme.value) for extreme in run.extremes(nu))
     # positions are rounded, and what is left of that in a derivative grows as pieces get shorter
-    return float(max(POLYNOMIAL_ROUNDING * size, 2.0**-44 * run.peak(0).value / float(run.lengths.min()) ** nu))
+    return float(max(_POLYNOMIAL_ROUNDING * size, 2.0**-44 * run.peak(0).value / float(run.lengths.min()) ** nu))
 
 
 def jumping(run: PiecewiseMotion, nu: int) -> float | None:

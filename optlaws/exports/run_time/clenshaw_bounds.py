@@ -7,7 +7,9 @@ from math import comb, prod
 import numpy as np
 
 from optlaws.numbers import Array
-from optlaws.tolerances import BOUND_ROUNDING, ROUNDOFF, TINY
+from optlaws.tolerances import ROUNDOFF, TINY
+
+_BOUND_ROUNDING = 2.0**-30  # of a bound of roundings: more than its own sum of positive numbers is rounded by
 
 ORDERS = 4
 #: roundings of a step, of a mixed coefficient with its own, and of a place in [-1, 1] less what its scale adds
@@ -46,7 +48,7 @@ def summation_bounds(magnitudes: Array, scale: float) -> tuple[tuple[float, ...]
         moved = ((2.0 * scale + _PLACE) * ROUNDOFF) * float(first_kind[m + 1, : last + 1] @ rounded)
         total = _gamma(_MIXED) * value + moved
         total += sum(comb(m, s) * float(changes[s] @ first_kind[m - s, : last + 1]) for s in range(m + 1))
-        factor = scale**m * (1.0 + BOUND_ROUNDING)
+        factor = scale**m * (1.0 + _BOUND_ROUNDING)
         errors.append(factor * (total + _gamma(4 * m + 4) * (value + total)) + TINY)
         values.append(scale**m * value)
     return tuple(errors), tuple(values)

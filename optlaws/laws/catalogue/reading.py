@@ -17,7 +17,8 @@ from optlaws.laws.law import MotionLaw
 from optlaws.laws.making.through_points import MOST_THROUGH, law_of_table, law_through
 from optlaws.laws.savin import FAMILIES, SavinFamily
 from optlaws.numbers import not_negative
-from optlaws.tolerances import EXACT_DIGITS
+
+_EXACT_DIGITS = 1e-8  # of the stroke: a table whose last digit is less is taken as exact
 
 #: bytes of a table
 LARGEST_TABLE = 20_000_000
@@ -156,7 +157,7 @@ def law_of_points(
     try:
         if tolerance is not None:
             return law_through(k, a, not_negative(tolerance, "tolerance"))
-        exact = unit <= EXACT_DIGITS * stroke and len(k) <= MOST_THROUGH
+        exact = unit <= _EXACT_DIGITS * stroke and len(k) <= MOST_THROUGH
         return law_of_table(k, a, 0.0 if exact else unit, lines=points.lines)
     except InputError as error:
         raise InputError(f"{file}: {error}") from None

@@ -19,7 +19,11 @@ from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import Segment
 from optlaws.numbers import Array, finite, fractions
 from optlaws.numerics import chebyshev, exact
-from optlaws.tolerances import JUMP, MULTIPLIER_CLOSE, MULTIPLIER_MET, MULTIPLIER_STEP, VALUE_ROUNDING
+from optlaws.tolerances import JUMP, VALUE_ROUNDING
+
+_MULTIPLIER_MET = 1e-10  # of a wanted constant: it is met
+_MULTIPLIER_CLOSE = 1e-14  # of a wanted constant: no further step is taken
+_MULTIPLIER_STEP = 1e-5  # of a coefficient, for slopes by differences
 
 Multiplier = Sequence[Any] | NDArray[Any] | Callable[[float], float]
 
@@ -117,7 +121,7 @@ def multiplier_for(
 
     coefficients = _searched(missing, len(targets))
     even = _combined(powers, coefficients)
-    if _most(missing(coefficients)) > MULTIPLIER_MET:
+    if _most(missing(coefficients)) > _MULTIPLIER_MET:
         nearest = _in_words(targets, _values(_product(law, even), targets))
         raise InputError(
             f"no y of {len(powers)} even powers was found that gives {_in_words(targets, values)}; "
@@ -173,7 +177,7 @@ def _searched(missing: Callable[[Array], Array], count: int) -> Array:
         start = np.zeros(count)
         start[0] = first
         answers.append(_newton(missing, start))
-        if _most(missing(answers[-1])) <= MULTIPLIER_MET:
+        if _most(missing(answers[-1])) <= _MULTIPLIER_MET:
             break
     return min(answers, key=lambda weights: _most(missing(weights)))
 
@@ -182,11 +186,11 @@ def _newton(missing: Callable[[Array], Array], weights: Array) -> Array:
     """Newton's method by differences, each step halved until less is missing; peaks that change places bend its way."""
     misses = missing(weights)
     for _ in range(_ROUNDS):
-        if _most(misses) <= MULTIPLIER_CLOSE:
+        if _most(misses) <= _MULTIPLIER_CLOSE:
             break
-        moves = MULTIPLIER_STEP * np.eye(len(weights))
+        moves = _MULTIPLIER_STEP * np.eye(len(weights))
         slopes = np.column_stack([(missing(weights + move) - missing(weights - move)) / 2.0 for move in moves])
-        step = np.linalg.lstsq(slopes / MULTIPLIER_STEP, misses, rcond=None)[0]
+        step = np.linalg.lstsq(slopes / _MULTIPLIER_STEP, misses, rcond=None)[0]
         shares = (0.5**n for n in range(_HALVINGS))
         better = next((s for s in shares if np.linalg.norm(missing(weights - s * step)) < np.linalg.norm(misses)), None)
         if better is None:

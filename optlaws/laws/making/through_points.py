@@ -17,7 +17,8 @@ from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import PolynomialSegment
 from optlaws.numbers import Array, not_negative, numbers
 from optlaws.numerics import chebyshev
-from optlaws.tolerances import THROUGH_POINTS
+
+_THROUGH_POINTS = 1e-7  # of the stroke, by which a law misses its points
 
 #: displacement to snap run through
 DEGREE = 5
@@ -346,7 +347,7 @@ def _through(places: Array, heights: Array, *, rest: bool) -> PiecewiseLaw:
             f"a law goes through at most {MOST_THROUGH} points: give a tolerance, got {len(places)} points"
         )
     law = _joined_at(places, heights, rest=rest)
-    if np.abs(law.a(places) - heights).max() > THROUGH_POINTS:
+    if np.abs(law.a(places) - heights).max() > _THROUGH_POINTS:
         raise InputError("the steps of k differ too much for a law through all points: give a tolerance")
     return law
 

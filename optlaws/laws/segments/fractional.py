@@ -11,7 +11,9 @@ from optlaws.errors import InputError
 from optlaws.laws.segments.segment import Segment
 from optlaws.numbers import Array
 from optlaws.numerics import real_powers
-from optlaws.tolerances import SAME_EXPONENT, SMALLEST_RATIO
+from optlaws.tolerances import SAME_EXPONENT
+
+_SMALLEST_RATIO = 1e-30  # of two ends of a power: below it a power may overflow
 
 
 @dataclass(frozen=True)
@@ -52,7 +54,7 @@ class FractionalSegment(Segment, kind="fractional"):
         low, high = sorted((self.first, self.last))
         if self.exponent <= -1.0 or low < 0.0 or low == high:
             raise InputError(f"a fractional segment needs exponent > -1 and first, last >= 0 and different, got {self}")
-        if 0.0 < low < SMALLEST_RATIO * high:
+        if 0.0 < low < _SMALLEST_RATIO * high:
             raise InputError(f"first and last of a fractional segment must be 0 or of sizes that compare, got {self}")
 
     def derivative(self, u: Array, length: float, nu: int) -> Array:

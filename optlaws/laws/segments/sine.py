@@ -15,7 +15,9 @@ from optlaws.kept import kept_property
 from optlaws.laws.segments.segment import Segment, Wave, Waves
 from optlaws.numbers import Array
 from optlaws.numerics.panels import of_waves
-from optlaws.tolerances import SLOWEST_FREQUENCY, TOUCHING
+from optlaws.tolerances import TOUCHING
+
+_SLOWEST_FREQUENCY = 1e-150  # of a sine: below it the sides of a swing overflow
 
 
 class SwingingSegment(Segment):
@@ -74,7 +76,7 @@ class SineSegment(SwingingSegment, kind="sine"):
 
     def __post_init__(self) -> None:
         self._check()
-        if self.frequency < SLOWEST_FREQUENCY or len(self.powers) > 3:
+        if self.frequency < _SLOWEST_FREQUENCY or len(self.powers) > 3:
             raise InputError(f"a sine segment needs frequency > 0 and at most three powers, got {self}")
 
     def derivative(self, u: Array, length: float, nu: int) -> Array:

@@ -15,7 +15,9 @@ from optlaws.mechanisms.drives.motor_motion import MotorMotion
 from optlaws.numbers import Array
 from optlaws.numerics.peaks import is_kept
 from optlaws.shown.summary import Row, Summary
-from optlaws.tolerances import AGREEMENT, LIMIT_USED
+from optlaws.tolerances import AGREEMENT
+
+_LIMIT_USED = 1e-6  # of a motor's limit: so much of it is left, as peaks are looked for at places alone
 
 _RPM = 30.0 / pi
 _RATIOS = 121
@@ -290,15 +292,15 @@ def _within_limits(by_ratio: _ByRatio, motor: Motor, unlimited: float) -> float:
     from scipy.optimize import brentq
 
     def excess(ratio: float) -> float:
-        return min(float(by_ratio.use(ratio, motor)), _FAR) - (1.0 - LIMIT_USED)
+        return min(float(by_ratio.use(ratio, motor)), _FAR) - (1.0 - _LIMIT_USED)
 
-    fastest = motor.greatest_speed / float(np.abs(by_ratio.speed).max()) * (1.0 - LIMIT_USED)
+    fastest = motor.greatest_speed / float(np.abs(by_ratio.speed).max()) * (1.0 - _LIMIT_USED)
     start = min(unlimited, fastest)
     if excess(start) <= 0.0:
         return start
     tried = start * np.logspace(-1.0, 1.0, 2 * _RATIOS - 1)
     tried = tried[tried <= fastest]
-    allowed = np.flatnonzero(by_ratio.use(tried, motor) <= 1.0 - LIMIT_USED)
+    allowed = np.flatnonzero(by_ratio.use(tried, motor) <= 1.0 - _LIMIT_USED)
     if not len(allowed):
         speed = f"its speed allows a ratio of {fastest:.6g} at most, and " if isfinite(fastest) else ""
         raise InfeasibleProblem(
@@ -307,6 +309,8 @@ def _within_limits(by_ratio: _ByRatio, motor: Motor, unlimited: float) -> float:
         )
     i = int(allowed[np.argmin(np.abs(np.log(tried[allowed] / start)))])
     beyond = tried[i + 1 if tried[i] < start else i - 1]
-    if excess(tried[i]) >= -LIMIT_USED:
+    if excess(tried[i]) >= -_LIMIT_USED:
         return float(tried[i])
-    return float(brentq(lambda ratio: excess(ratio) + LIMIT_USED, tried[i], beyond, xtol=LIMIT_USED * tried[i] / 10.0))
+    return float(
+        brentq(lambda ratio: excess(ratio) + _LIMIT_USED, tried[i], beyond, xtol=_LIMIT_USED * tried[i] / 10.0)
+    )

@@ -14,7 +14,9 @@ from optlaws.laws.law import motion_law
 from optlaws.mechanisms.machine.state_space import StateSpace
 from optlaws.numbers import Array
 from optlaws.numerics import chebyshev
-from optlaws.tolerances import FEEDTHROUGH, FLAT_OUTPUT_JUMP
+
+_FLAT_OUTPUT_JUMP = 1e-7  # the same of the derivatives from which a machine's input is computed
+_FEEDTHROUGH = 1e-9  # of what a coefficient is computed from: less is rounding
 
 
 def flat_output(machine: StateSpace, output: str | None = None) -> tuple[float, ...]:
@@ -44,16 +46,16 @@ def flat_output(machine: StateSpace, output: str | None = None) -> tuple[float, 
     row, column = np.array(machine.C[place]), load[:, 0] + A @ (load[:, 1] + A @ load[:, 2])
     feeds = [direct[2], direct[1] + row @ load[:, 2], direct[0] + row @ (load[:, 1] + A @ load[:, 2])]
     size, fastest = len(A), max(1.0, float(np.abs(machine.dynamics.roots).max()))
-    if any(abs(coefficient) > FEEDTHROUGH * fastest**i for i, coefficient in enumerate(feeds)):
+    if any(abs(coefficient) > _FEEDTHROUGH * fastest**i for i, coefficient in enumerate(feeds)):
         raise InputError(f"{name!r} is not flat: the law enters it directly, so that it has as many zeros as roots")
     reach, most = row, np.abs(row)
     for order in range(1, size + 1):
         gain, scale = float(reach @ column), float(most @ np.abs(column))
-        if abs(gain) > FEEDTHROUGH * scale and order < size:
+        if abs(gain) > _FEEDTHROUGH * scale and order < size:
             raise InputError(f"{name!r} is not flat: {_zeros(A, column, row)}")
         if order < size:
             reach, most = reach @ A, most @ np.abs(A)
-    if abs(gain) <= FEEDTHROUGH * scale:
+    if abs(gain) <= _FEEDTHROUGH * scale:
         raise InputError(f"{name!r} is not flat: the law does not move it, or a vibration does not show in it")
     return tuple((np.poly(A)[::-1] / gain).tolist())
 
@@ -91,7 +93,7 @@ def driving_law(machine: StateSpace, law: MotionLaw, output: str | None = None) 
     weights = flat_output(machine, output)
     for order in range(1, len(weights) + 1):
         ends = np.abs(moves([0.0, 1.0], order))
-        if ends.max() > FLAT_OUTPUT_JUMP * moves.peak(order).value:
+        if ends.max() > _FLAT_OUTPUT_JUMP * moves.peak(order).value:
             raise InputError(
                 f"the output's law must be of order {len(weights) + 1} at least, its derivatives 1 to {len(weights)} "
                 f"zero at both ends, for the driving law not to jump: that of order {order} is {float(ends.max()):.6g}"

@@ -14,7 +14,9 @@ from optlaws.mechanisms.machine.masses import MachineModel
 from optlaws.mechanisms.machine.state_space import StateSpace
 from optlaws.motion.quantities import either
 from optlaws.numbers import Array, Complex, not_negative, numbers, positive
-from optlaws.tolerances import DEFECTIVE, SAME_ROOT
+from optlaws.tolerances import SAME_ROOT
+
+_DEFECTIVE = 1e-6  # of a root's size: by how much vectors of a mode may miss it
 
 
 @dataclass(frozen=True)
@@ -76,7 +78,7 @@ def participation(machine: StateSpace, vibration: Mode, output: str) -> complex:
     triangle, turn, size = schur(dynamics.triangle, output="complex", sort=chosen)
     block, rest = triangle[:size, :size], triangle[size:, size:]
     root = complex(np.trace(block)) / size
-    if np.abs(block - root * np.eye(size)).max() > DEFECTIVE * max(abs(root), 1.0):
+    if np.abs(block - root * np.eye(size)).max() > _DEFECTIVE * max(abs(root), 1.0):
         raise InputError(
             f"mode {vibration.number} is defective: one of its {size} equal vibrations drives the next, so that there "
             "is no amplitude; ask for the peak of an output in the dwell instead"

@@ -22,7 +22,9 @@ from optlaws.mechanisms.machine.dynamics import RADIANS, DriveStretch, Panel
 from optlaws.mechanisms.machine.state_space import StateSpace
 from optlaws.numbers import Array, Complex, real_times, whole
 from optlaws.numerics import chebyshev
-from optlaws.tolerances import END_ROUNDING, EPSILON, RESONANCE, SHORTEST_STRETCH
+from optlaws.tolerances import EPSILON, RESONANCE, SHORTEST_STRETCH
+
+_END_ROUNDING = 1e-14  # of a time: the end of a motion is a sum of lengths
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -90,7 +92,7 @@ class OutputCurve(Curve):
 
     def _times(self, k: Any) -> Array:  # noqa: ANN401 - whatever users give
         places, (low, high) = real_times(k), self.interval
-        rounding = END_ROUNDING * max(abs(low), abs(high))
+        rounding = _END_ROUNDING * max(abs(low), abs(high))
         if places.size and not (low - rounding <= places.min() and places.max() <= high + rounding):
             raise InputError(f"k must be in {low:g} to {high:g}, of which the motion is known, got {shortened(k)}")
         return np.clip(places, low, high)

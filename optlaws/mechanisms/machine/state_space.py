@@ -18,7 +18,9 @@ from optlaws.mechanisms.machine.dynamics import Dynamics
 from optlaws.motion.quantities import si_number
 from optlaws.numbers import MAGNITUDE_LIMIT, Array, Complex, NumberOrQuantity, positive, real_times
 from optlaws.suggest import unknown_key
-from optlaws.tolerances import SETTLED, UNSTABLE
+
+_UNSTABLE = 1e-7  # of the fastest root: what its rounding may be
+_SETTLED = 1e-9  # of a load: what a static state may miss it by
 
 Matrix = tuple[tuple[float, ...], ...]
 
@@ -70,7 +72,7 @@ class StateSpace(JsonText):
         roots = self.dynamics.roots
         size = float(np.abs(roots).max())
         worst = complex(roots[int(np.argmax(roots.real))])
-        if worst.real > UNSTABLE * max(size, 1.0):
+        if worst.real > _UNSTABLE * max(size, 1.0):
             raise InputError(
                 f"the machine is unstable: its root {worst.real:.6g}{worst.imag:+.6g}i grows with time"
                 "; left to itself it must rest or vibrate: check the signs in A"
@@ -152,7 +154,7 @@ class StateSpace(JsonText):
             return np.zeros(right.shape, dtype=np.complex128)
         A = np.array(self.A)
         states = np.linalg.lstsq(A, right, rcond=None)[0]
-        if np.abs(A @ states - right).max() > SETTLED * np.abs(right).max():
+        if np.abs(A @ states - right).max() > _SETTLED * np.abs(right).max():
             raise InputError(
                 "the machine has no state of rest while the law stands away from 0: A x + B a = 0 has no solution"
             )

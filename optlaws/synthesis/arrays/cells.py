@@ -20,7 +20,9 @@ from numpy.typing import NDArray
 from optlaws.kept import kept_property
 from optlaws.numbers import Array
 from optlaws.synthesis.families.family import LinearFamily
-from optlaws.tolerances import CELL_MARGIN, TANGENT_FALL
+
+_CELL_MARGIN = 1e-12  # of a right side, or 1: a residual nearer to 0 is left to tangents
+_TANGENT_FALL = 1e-13  # of the greatest term: by more a tangent at the lowest place may not fall
 
 Flags = NDArray[np.bool_]
 
@@ -187,7 +189,7 @@ class Residuals:
 
     @property
     def _limit(self) -> Array:
-        return np.asarray(self.room - CELL_MARGIN * np.maximum(1.0, np.abs(self.room)))
+        return np.asarray(self.room - _CELL_MARGIN * np.maximum(1.0, np.abs(self.room)))
 
     def _reached(self, most: Array) -> Flags:
         """The cells on which the slack is not proven to be positive."""
@@ -293,7 +295,7 @@ def _by_tangent(rows: Array) -> Array:
     value, first, _ = (jets * np.cos(order * np.arccos(at))).sum(axis=1)
     # from the place itself to the end toward which the tangent falls
     fall = np.abs(first) * np.where(first > 0.0, 1.0 + at, 1.0 - at)
-    return np.where(fall <= TANGENT_FALL * np.abs(rows).max(axis=1), value - fall, np.nan)
+    return np.where(fall <= _TANGENT_FALL * np.abs(rows).max(axis=1), value - fall, np.nan)
 
 
 @lru_cache(maxsize=16)

@@ -16,14 +16,13 @@ from optlaws.synthesis.arrays.newton_steps import States, Structure, batch_famil
 from optlaws.synthesis.arrays.programs import Numbers, Path
 from optlaws.synthesis.families.family import BatchFamily, LinearFamily, NonlinearFamily
 from optlaws.synthesis.program.writer import Model
-from optlaws.tolerances import (
-    CERTIFIED_EXCESS,
-    CERTIFIED_PULL,
-    FIRST_CERTIFIED_GAP,
-    GREAT_MULTIPLIERS,
-    SMALL_OBJECTIVE,
-    WIDE_GAP,
-)
+
+_CERTIFIED_EXCESS = 1e-11  # of a right side, or 1: by so much a row of a certified law may be broken
+_FIRST_CERTIFIED_GAP = 9e-11  # of an objective: a bound that leaves more is reckoned more sharply
+_GREAT_MULTIPLIERS = 1e-9  # of an objective: what rounding may leave of it where multipliers are great
+_CERTIFIED_PULL = 1e-12  # of the greatest multiplier: by so much one may be below 0, for which the bound counts it as 0
+_SMALL_OBJECTIVE = 1e-6  # of an objective's scale: one that is less is measured by that
+_WIDE_GAP = 1e-7  # of an objective: gaps below it are worth a sharper bound
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,28 +49,28 @@ class Certification:
     @property
     def sound(self) -> NDArray[np.bool_]:
         """A mask of states that are proven optimal, or locally optimal if the problem is not convex."""
-        meets = self.gap <= (GREAT_MULTIPLIERS if self.affine else FIRST_CERTIFIED_GAP)
-        return np.asarray(meets & (self.excess <= CERTIFIED_EXCESS) & (self.pull <= CERTIFIED_PULL) & self.best)
+        meets = self.gap <= (_GREAT_MULTIPLIERS if self.affine else _FIRST_CERTIFIED_GAP)
+        return np.asarray(meets & (self.excess <= _CERTIFIED_EXCESS) & (self.pull <= _CERTIFIED_PULL) & self.best)
 
     @property
     def sharp(self) -> NDArray[np.bool_]:
         """A mask of states whose gap is so small that Newton's method cannot reduce it."""
-        return np.asarray(self.sound & (self.gap <= FIRST_CERTIFIED_GAP))
+        return np.asarray(self.sound & (self.gap <= _FIRST_CERTIFIED_GAP))
 
     @property
     def gap(self) -> Array:
         """Between objective and bound, as a share of the objective."""
-        unit = np.where(np.abs(self.objective) > SMALL_OBJECTIVE * self.scale, np.abs(self.objective), self.scale)
+        unit = np.where(np.abs(self.objective) > _SMALL_OBJECTIVE * self.scale, np.abs(self.objective), self.scale)
         return np.asarray(np.abs(self.objective - self.bound) / unit)
 
     @property
     def blurred(self) -> NDArray[np.intp]:
         """Laws that nothing but rounding may keep from being proven optimal."""
         wide = (
-            (self.gap > FIRST_CERTIFIED_GAP)
-            & (self.gap < WIDE_GAP)
-            & (self.excess <= CERTIFIED_EXCESS)
-            & (self.pull <= CERTIFIED_PULL)
+            (self.gap > _FIRST_CERTIFIED_GAP)
+            & (self.gap < _WIDE_GAP)
+            & (self.excess <= _CERTIFIED_EXCESS)
+            & (self.pull <= _CERTIFIED_PULL)
         )
         return np.flatnonzero(wide & self.affine)
 

@@ -20,15 +20,13 @@ from optlaws.synthesis.arrays.programs import Path
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.method.exchange import solve
 from optlaws.synthesis.method.strategies.contacts import polished
-from optlaws.tolerances import (
-    ASTRAY,
-    AT_END,
-    BETWEEN_SEGMENTS,
-    EVENT_WIDTH,
-    LOST_EVENT_WIDTH,
-    SAME_STATE,
-    VALUE_ROUNDING,
-)
+from optlaws.tolerances import AT_END, VALUE_ROUNDING
+
+_ASTRAY = 1e-3  # so near to an event no more than this can be broken: where more is, Newton's method went astray
+_EVENT_WIDTH = 5e-8  # of the path: an event is known to lie in no wider a stretch
+_LOST_EVENT_WIDTH = 1e-5  # of the path: the same where Newton's method ends, and nothing tells where the event is
+_BETWEEN_SEGMENTS = 9e-8  # of the path: a longer stretch between two segments is walked from its other end too
+_SAME_STATE = 1e-5  # of a segment: states nearer to each other are one of those that others are interpolated between
 
 #: of the path: the first stride
 _FIRST = 0.02
@@ -97,7 +95,7 @@ class StructureSegment:
 
     def interpolated(self, t: Array) -> States:
         """States between those that are known, by the polynomial through the nearest on both sides."""
-        distinct = np.flatnonzero(np.diff(self.t, prepend=-np.inf) > SAME_STATE * (self.end - self.begin))
+        distinct = np.flatnonzero(np.diff(self.t, prepend=-np.inf) > _SAME_STATE * (self.end - self.begin))
         near = min(_NEAR, len(distinct))
         begin = np.clip(np.searchsorted(self.t[distinct], t) - near // 2, 0, len(distinct) - near)
         chosen = distinct[begin[:, None] + np.arange(near)]
@@ -180,7 +178,7 @@ class ParametricContinuation:
             if following is None:
                 return
             edge = segment.end if way > 0.0 else segment.begin
-            if abs(following.begin - edge) > BETWEEN_SEGMENTS * self.reach:
+            if abs(following.begin - edge) > _BETWEEN_SEGMENTS * self.reach:
                 self._stretched(following, edge)
             segment = following
             self.segments.append(segment)
@@ -220,7 +218,7 @@ class ParametricContinuation:
         # laws of an affine structure are known at any distance
         bad, stride = goal, self.reach if segment.structure.affine and self.path.one_cost else _FIRST * self.reach
         broken: list[tuple[float, float]] = []
-        near = EVENT_WIDTH * self.reach
+        near = _EVENT_WIDTH * self.reach
         for _ in range(_ROUNDS):
             t = _probes(good, bad, way * stride, broken)
             rows, sound, worst = self._solved(segment.structure, t, segment.guessed(t))
@@ -239,9 +237,9 @@ class ParametricContinuation:
             if known:
                 broken = sorted([*broken, *known], key=lambda pair: abs(pair[0] - good))[:_KNOWN]
                 bad = broken[0][0]
-            near = (EVENT_WIDTH if broken else LOST_EVENT_WIDTH) * self.reach
+            near = (_EVENT_WIDTH if broken else _LOST_EVENT_WIDTH) * self.reach
             if min(abs(bad - good), stride) <= near:
-                if not broken or broken[0][1] <= ASTRAY or not self._met(segment, bad):
+                if not broken or broken[0][1] <= _ASTRAY or not self._met(segment, bad):
                     break
                 good, bad, broken = bad, goal, []
                 stride = _FIRST * self.reach

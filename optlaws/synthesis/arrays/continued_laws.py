@@ -27,7 +27,12 @@ from optlaws.synthesis.method.stored_structures import (
     key_of,
     stored_structures,
 )
-from optlaws.tolerances import AGREEMENT, BEYOND_SEGMENT, CERTIFIED_GAP, INTERPOLATION_TAIL, ROUGH_STEP
+from optlaws.tolerances import AGREEMENT
+
+_INTERPOLATION_TAIL = 1e-7  # of the size of what is interpolated: one step of Newton's method makes the square of it
+_CERTIFIED_GAP = 1e-10  # of an objective: laws of an array whose bound leaves no more are proven
+_ROUGH_STEP = 1e-7  # of a law: a step of more than this share is followed by another
+_BEYOND_SEGMENT = 2e-3  # of the path: how far beyond a segment its laws are tried, where no segment is known
 
 _NODES = 16
 _DEEPEST = 12
@@ -187,7 +192,7 @@ def laws_on(path: Path, segments: list[StructureSegment], t: Array) -> SolvedBat
         places = np.flatnonzero((t >= segment.begin) & (t <= segment.end))
         if len(places):
             _fill(laws, path, segment, places, t[places])
-    beside = BEYOND_SEGMENT * (segments[-1].end - segments[0].begin) if segments else 0.0
+    beside = _BEYOND_SEGMENT * (segments[-1].end - segments[0].begin) if segments else 0.0
     for segment in segments:
         # what lies between two segments is tried with both
         places = np.flatnonzero((t >= segment.begin - beside) & (t <= segment.end + beside) & ~laws.solved)
@@ -243,7 +248,7 @@ class _LawsOfStructure:
     def solve(self, guess: States) -> None:
         """Enter the laws that one step of Newton's method from a guess leads to, or several, as far as proven."""
         states, sizes = step(self.structure, self.numbers, guess)
-        rough = np.flatnonzero(np.isfinite(sizes) & (sizes > ROUGH_STEP))
+        rough = np.flatnonzero(np.isfinite(sizes) & (sizes > _ROUGH_STEP))
         if len(rough):
             better, sizes[rough] = step(self.structure, self.numbers.taken(rough), states.taken(rough))
             rows = states.packed
@@ -312,7 +317,7 @@ def _settled(rows: Array) -> bool:
     weights = np.ones(_NODES)
     weights[[0, -1]] = 0.5
     highest = np.cos(np.outer(np.arange(_NODES - 4, _NODES), angle)) * weights @ rows * (2.0 / (_NODES - 1))
-    return bool((np.abs(highest) <= INTERPOLATION_TAIL * np.maximum(1.0, np.abs(rows).max(axis=0))).all())
+    return bool((np.abs(highest) <= _INTERPOLATION_TAIL * np.maximum(1.0, np.abs(rows).max(axis=0))).all())
 
 
 def _affine(laws: SolvedBatch, path: Path, segment: StructureSegment, places: NDArray[np.intp], t: Array) -> None:
@@ -329,7 +334,7 @@ def _affine(laws: SolvedBatch, path: Path, segment: StructureSegment, places: ND
     numbers = path.numbers(t)
     bound = lower_bounds(path, structure, numbers, first, value)
     objective = path.model.unit * (x @ numbers.cost[0])
-    sound = np.abs(objective - bound) <= CERTIFIED_GAP * np.maximum(np.abs(objective), AGREEMENT * path.model.unit)
+    sound = np.abs(objective - bound) <= _CERTIFIED_GAP * np.maximum(np.abs(objective), AGREEMENT * path.model.unit)
     end_parts = (np.broadcast_to(part, (len(t), part.shape[1])) for part in (first.u, first.weights, first.equations))
     states = States(x, *end_parts).taken(sound)
     _put(laws, structure, places[sound], states, (objective[sound], bound[sound], np.full(int(sound.sum()), excess)))

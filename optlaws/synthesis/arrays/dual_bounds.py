@@ -14,7 +14,9 @@ from optlaws.synthesis.families.family import LinearFamily
 from optlaws.synthesis.program.writer import Model
 from optlaws.synthesis.proof.duality import product_with_rest
 from optlaws.synthesis.proof.sublevel_bounds import greatest_values, least_values, moments
-from optlaws.tolerances import ROUNDOFF, SQUARED_SUMS
+from optlaws.tolerances import ROUNDOFF
+
+_SQUARED_SUMS = 2.0**-20  # of the roundings in a row: what sums of many are off by beyond them
 
 #: roundings in a row before it is weighted, as certificates count them, and what sums are off by beyond
 _IN_A_ROW = 9
@@ -84,7 +86,7 @@ def sharp_sums(
     """
     places = list(model.places.values())
     total = sums_of_rows(np.concatenate([cost, np.zeros((len(cost), 1))], axis=1), multipliers, rows)
-    hidden = ROUNDOFF * (_IN_A_ROW + SQUARED_SUMS) * weighted(np.abs(multipliers), sizes)
+    hidden = ROUNDOFF * (_IN_A_ROW + _SQUARED_SUMS) * weighted(np.abs(multipliers), sizes)
     # the entries of the variables are exact, and so is a sum that is zero
     slope, blur = total[:, :-1], hidden[:, :-1]
     blur[:, places] = 0.0

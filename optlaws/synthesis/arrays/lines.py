@@ -19,7 +19,8 @@ from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.problem.ranges import Range
 from optlaws.synthesis.program.writer import model_of
 from optlaws.synthesis.spaces.bases import PolynomialBasis
-from optlaws.tolerances import OFF_LINE
+
+_OFF_LINE = 1e-12  # of the size of a program's numbers: by so much they may be off a line
 
 #: laws on a line, at least: of jerk structures change often, of root mean squares hardly
 _LEAST, _LEAST_OF_JERK, _LEAST_OF_SMOOTH, _LEAST_OF_POWER = 48, 128, 24, 24
@@ -115,7 +116,7 @@ def _on(path: Path, t: float, problem: Problem) -> bool:
     )
     return all(
         getattr(numbers, name).shape == getattr(own_numbers, name).shape
-        and np.allclose(getattr(numbers, name), getattr(own_numbers, name), rtol=OFF_LINE, atol=OFF_LINE)
+        and np.allclose(getattr(numbers, name), getattr(own_numbers, name), rtol=_OFF_LINE, atol=_OFF_LINE)
         for name in ("right", "bounds", "cost")
     )
 

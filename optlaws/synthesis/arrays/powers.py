@@ -21,7 +21,9 @@ from optlaws.synthesis.problem.constants import D
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import relaxed
 from optlaws.synthesis.spaces.polynomial_space import PolynomialSpace
-from optlaws.tolerances import AGREEMENT, TANGENT_SETTLED
+from optlaws.tolerances import AGREEMENT
+
+_TANGENT_SETTLED = 1e-11  # of a bound: what its certificate may lose, whose tangent is settled to a millionth
 
 #: laws sought from all starts: at least and at most on a path, and of how many one
 _LEAST, _MOST, _EACH = 5, 13, 12
@@ -91,7 +93,7 @@ def with_quick_bounds(path: Path, t: Array, laws: SolvedBatch, limits: Array) ->
     low = np.flatnonzero(laws.solved & ~(weight * _needed_roots(path, laws) ** 2 < limits))
     if len(low):
         roots = _least_roots(path, t[low])
-        proven = weight[low] * roots**2 * (1.0 - TANGENT_SETTLED)
+        proven = weight[low] * roots**2 * (1.0 - _TANGENT_SETTLED)
         bound[low] = np.maximum(bound[low], proven)
         # where the relaxed program has no proof
         bound[low[np.isnan(roots)]] = np.nan

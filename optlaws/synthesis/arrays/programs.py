@@ -17,7 +17,8 @@ from optlaws.synthesis.families.cone import ConeFamily
 from optlaws.synthesis.families.family import ConstraintFamily, Program
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import Model, model_of
-from optlaws.tolerances import UNITS_ROUNDING
+
+_UNITS_ROUNDING = 1e-14  # of the greatest number of a family: by so much two may differ that are one in different units
 
 
 @dataclass(frozen=True, eq=False)
@@ -110,7 +111,7 @@ def _measured(first: ConstraintFamily, other: ConstraintFamily) -> ConstraintFam
     if size == other_size or not other_size:
         return other
     share = size / other_size
-    if np.abs(first.series - share * other.series).max() > UNITS_ROUNDING * size:
+    if np.abs(first.series - share * other.series).max() > _UNITS_ROUNDING * size:
         return other
     return replace(other, series=first.series, slack=share * other.slack, bound=share * other.bound)
 

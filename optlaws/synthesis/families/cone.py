@@ -12,7 +12,9 @@ from optlaws.numbers import Array
 from optlaws.numerics.chebyshev import product, real_parts_of_roots
 from optlaws.synthesis.families.family import NonlinearFamily, RowJet, SeriesFamily, last_result
 from optlaws.synthesis.families.peaks import peaks, products
-from optlaws.tolerances import CONE_NODES, EPSILON, ROW_ROUNDING, TINY
+from optlaws.tolerances import EPSILON, ROW_ROUNDING, TINY
+
+_CONE_NODES = 1e-6  # of the greatest coefficient of a cone's series: those above it say how many nodes are looked at
 
 Complex = NDArray[np.complex128]
 
@@ -39,7 +41,7 @@ class ConeFamily(SeriesFamily, NonlinearFamily):
         if self.domain[0] == self.domain[1]:
             return None
         sizes = np.abs(self.series).max(axis=1)
-        count = max(int((sizes > CONE_NODES * sizes.max()).sum()), 3)
+        count = max(int((sizes > _CONE_NODES * sizes.max()).sum()), 3)
         return np.asarray(chebyshev.chebpts2(count)[::-1])
 
     def tangent(self, u: float, direction: Array) -> Array:

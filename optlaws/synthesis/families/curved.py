@@ -24,7 +24,9 @@ from optlaws.synthesis.families.family import LinearFamily, NonlinearFamily, Row
 from optlaws.synthesis.families.formula_slopes import FactorTables, Slopes
 from optlaws.synthesis.families.peaks import peaks
 from optlaws.synthesis.families.squares import SumOfSquares, sum_of_squares
-from optlaws.tolerances import FORMULA_RESOLVED, LEAST_ENERGY, ROUNDOFF
+from optlaws.tolerances import LEAST_ENERGY, ROUNDOFF
+
+_FORMULA_RESOLVED = 1e-13  # of the greatest value: what the last coefficients of a formula along a law leave
 
 _PLACES_PER_DEGREE = 2
 _SQUARE = 2
@@ -228,7 +230,7 @@ class CurvedFamily(FormulaFamily):
         while count <= MOST:
             series = self._interpolated(formula, point, count)
             tail = np.abs(series[:, -max(2, count // 10) :]).max(axis=1)
-            if (tail <= FORMULA_RESOLVED * np.abs(series).max(axis=1)).all():
+            if (tail <= _FORMULA_RESOLVED * np.abs(series).max(axis=1)).all():
                 return series
             count = 2 * count - 1
         return None

@@ -17,7 +17,10 @@ from optlaws.numbers import Array
 from optlaws.numerics.chebyshev import basis_values, product, real_parts_of_roots
 from optlaws.numerics.gegenbauer import even_gegenbauer_jet
 from optlaws.synthesis.families.peaks import peaks, products
-from optlaws.tolerances import AT_END, END_OF_U, NO_NORM, ROW_ROUNDING
+from optlaws.tolerances import AT_END, ROW_ROUNDING
+
+_END_OF_U = 1e-9  # of u: a place so near to the end is the end
+_NO_NORM = 1e-12  # at standstill and in uniform motion a norm has no slope
 
 Result = TypeVar("Result")
 
@@ -306,7 +309,7 @@ class RootFamily(LinearFamily):
     def columns(self, u: Array) -> Array:
         """f's columns with two derivatives by u; zero at k = 0, where the series has a zero."""
         g0, g1, g2 = super().columns(u)
-        near = 1.0 - u < END_OF_U
+        near = 1.0 - u < _END_OF_U
         left = np.where(near, 1.0, 1.0 - u)[:, None]
         root = np.sqrt(left)
         jets = np.stack([g0, g1 + g0 / (2.0 * left), g2 + g1 / left + 3.0 * g0 / (4.0 * left**2)])
@@ -461,7 +464,7 @@ class NormFamily(WholeLawFamily):
     def _touching(self, point: Array) -> tuple[Array, Array]:
         """The norm of each law, and the plane that touches it there."""
         image = point @ self.matrix.T
-        size = np.maximum(np.sqrt((image * image).sum(axis=1)), NO_NORM)
+        size = np.maximum(np.sqrt((image * image).sum(axis=1)), _NO_NORM)
         return size, (image / size[:, None]) @ self.matrix
 
     def hessians(self, u: Array, point: Array, weights: Array) -> Array:  # noqa: ARG002 - it has no place

@@ -19,7 +19,9 @@ from optlaws.formulas.tree import Formula, Name, Product, Sum, Table, rebuilt, s
 from optlaws.kept import kept_property
 from optlaws.numbers import Array
 from optlaws.numerics.chebyshev import basis_values, from_values, nodes
-from optlaws.tolerances import BESIDE_TABLE, SERIES_ROUNDING
+from optlaws.tolerances import SERIES_ROUNDING
+
+_BESIDE_TABLE = 1e-9  # of a stroke: positions so near a table's end are as good as in it, and places one
 
 _POSITION = "a"
 #: of how many steps a factor is long
@@ -53,7 +55,7 @@ class FactorTables:
     def _reach(self) -> tuple[float, float]:
         """The centre of all cells, and the greatest distance of positions from it."""
         low, high = float(self.edges[0]), float(self.edges[-1])
-        return (low + high) / 2.0, (high - low) / 2.0 + BESIDE_TABLE
+        return (low + high) / 2.0, (high - low) / 2.0 + _BESIDE_TABLE
 
     def within(self, a: Array) -> bool:
         """Whether all positions are in cells."""
@@ -136,7 +138,7 @@ def _resolved(factors: tuple[Formula, ...], low: float, high: float) -> FactorTa
     knots = {place for factor in factors for place in _knots(factor) if low < place < high}
     while count <= _MOST:
         edges = np.array(sorted({*np.linspace(low, high, count + 1).tolist(), *knots}))
-        edges = edges[np.append(True, np.diff(edges) > BESIDE_TABLE)]
+        edges = edges[np.append(True, np.diff(edges) > _BESIDE_TABLE)]
         places = edges[:-1] + np.diff(edges) * (nodes(_TERMS)[:, None] + 1.0) / 2.0
         values = np.empty((len(joint), *places.shape))
         with np.errstate(all="ignore"):

@@ -11,7 +11,8 @@ from numpy.polynomial import chebyshev
 from optlaws.laws import PolynomialLaw
 from optlaws.numbers import Array
 from optlaws.numerics.chebyshev import from_values, nodes
-from optlaws.tolerances import ANGLE_SETTLED
+
+_ANGLE_SETTLED = 1e-8  # of an angle: a peak is off by the square of it
 
 #: points for each degree of the series: between them a peak rises by a share of less than 1/26 (Bernstein)
 _DENSITY = 6
@@ -116,7 +117,7 @@ def _polished(series: Array, angle: Array, apart: float) -> Array:
         further = angle - np.divide(slope, bend, out=np.full_like(slope, np.inf), where=bend != 0.0)
         between = (low <= further) & (further <= high) & (value * bend < 0.0)
         further = np.where(between, further, (low + high) / 2.0)
-        left = np.abs(further - angle) > ANGLE_SETTLED
+        left = np.abs(further - angle) > _ANGLE_SETTLED
         angle, low, high, going = further[left], low[left], high[left], going[left]
         if not len(going):
             break

@@ -19,7 +19,10 @@ from optlaws.numbers import Array
 from optlaws.numerics.chebyshev import gauss, value
 from optlaws.numerics.peaks import Peak, extremes
 from optlaws.numerics.roots import candidates, cut_at_all, cut_at_roots, series_between
-from optlaws.tolerances import BESIDE_BREAK, INTEGRAL_SETTLED, PIECE_SETTLED
+from optlaws.tolerances import BESIDE_BREAK
+
+_INTEGRAL_SETTLED = 1e-14  # of an integral: what twice as many places may change of the whole, where no cut is needed
+_PIECE_SETTLED = 1e-6  # of an integral: what twice as many places may change of the last pieces
 
 _LARGEST = 400
 #: how often a piece that is not smooth is cut in two, and how many places of Gauss's rule the last ones have
@@ -126,10 +129,10 @@ class _Integral:
         """Over a piece that is not smooth: a kink that a law comes near and turns is known to some digits alone."""
         rough, fine = (self._by_rule(ends, count) for count in (_DENSE, 2 * _DENSE))
         off = abs(fine - rough)
-        if off <= INTEGRAL_SETTLED * self.size:
+        if off <= _INTEGRAL_SETTLED * self.size:
             return fine
         if depth == _DEEPEST:
-            return fine if off <= PIECE_SETTLED * abs(fine) else float("inf")
+            return fine if off <= _PIECE_SETTLED * abs(fine) else float("inf")
         middle = (ends[0] + ends[1]) / 2.0
         return sum(self._in_parts(half, depth + 1) for half in ((ends[0], middle), (middle, ends[1])))
 

@@ -22,21 +22,19 @@ from optlaws.synthesis.families.squares import SumOfSquares
 from optlaws.synthesis.functionals.affine_rows import columns, gauss
 from optlaws.synthesis.functionals.curved_rows import columns_of, integral_rows, rule_cells
 from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
-from optlaws.tolerances import (
-    BALANCED,
-    FLAT_INTEGRAL,
-    INVERSE_AGREES,
-    LEAST_SQUARES,
-    POSITIVE_LEVEL,
-    POSITIVE_SHARES,
-    POSITIVE_WEIGHTS,
-    REACH_SETTLED,
-    SIZE_RANK,
-    TINY,
-)
+from optlaws.tolerances import SIZE_RANK, TINY
 
 if TYPE_CHECKING:
     from optlaws.synthesis.spaces.space import LawSpace
+
+_INVERSE_AGREES = 1e-6  # what an inverse times its matrix may differ from the identity by
+_POSITIVE_WEIGHTS = 1e-4  # of a weight: what is no more is not clearly positive
+_POSITIVE_LEVEL = 1e-7  # weights of levels that balance are at least so great
+_BALANCED = 1e-9  # by so much weighted slopes may fail to balance
+_REACH_SETTLED = 1e-6  # of an integral: a step of Newton's method that lowers it by less is the last
+_FLAT_INTEGRAL = 1e-13  # of the greatest curvature: an integral that bends less in a direction is flat in it
+_POSITIVE_SHARES = 1e-3  # how near the weights of tangents that balance are to each other at least
+_LEAST_SQUARES = 1e-3  # of the unit of a sum of squares: the least by whose root the size of laws is bounded
 
 
 _ROUNDED = 1.0 + 1e-6
@@ -120,7 +118,7 @@ def _reach_of(space: LawSpace, values: Array, weights: Array) -> Reach | None:
     fixed, free = feasible_directions(space)
     rows, right = values[:, :-1] @ free, -(values[:, :-1] @ fixed + values[:, -1])
     inverse = np.linalg.pinv(rows)
-    if np.abs(inverse @ rows - np.eye(free.shape[1])).max(initial=0.0) * space.terms > INVERSE_AGREES:
+    if np.abs(inverse @ rows - np.eye(free.shape[1])).max(initial=0.0) * space.terms > _INVERSE_AGREES:
         return None
     rule = space.quadrature(_ORDER)
     moved = rule.values[:, :-1] @ free @ inverse
@@ -174,7 +172,7 @@ def by_squares(space: LawSpace, square: SumOfSquares) -> SizeBound | None:
     fixed = fixed - free @ (back @ (directions.T @ height + back.T @ (square.affine[:-1] @ free) / 2.0))
     lowest = np.append(fixed, 1.0)
     least = float(((square.rows @ lowest) ** 2).sum() + square.affine @ lowest)
-    gain, root = float(np.linalg.norm(bent[:, :-1] @ free @ back, 2)), float(np.sqrt(max(abs(least), LEAST_SQUARES)))
+    gain, root = float(np.linalg.norm(bent[:, :-1] @ free @ back, 2)), float(np.sqrt(max(abs(least), _LEAST_SQUARES)))
     factor = _ROOM * gain / (2.0 * root)
     offset = _ROOM * (float(np.linalg.norm(bent @ lowest)) + gain * root / 2.0)
     return SizeBound(_ORDER, factor, offset - factor * (least - (_ROUNDED - 1.0) * abs(least)))
@@ -194,10 +192,10 @@ def feasible_directions(space: LawSpace) -> tuple[Array, Array]:
 def _turning(rows: Array, right: Array, weights: Array) -> tuple[Array, float] | None:
     """Weights above 0 of the places whose sum with f is the same in every law, near to the rule's own if such are."""
     turning = _balanced(rows, weights, weights)
-    if (turning <= POSITIVE_WEIGHTS * weights).any():
+    if (turning <= _POSITIVE_WEIGHTS * weights).any():
         even = _evenly(rows, weights)
         turning = turning if even is None else _balanced(rows, weights, even)
-    if (turning <= POSITIVE_WEIGHTS * weights).any():
+    if (turning <= _POSITIVE_WEIGHTS * weights).any():
         return None
     return turning, -float(turning @ right)
 
@@ -285,14 +283,14 @@ def _reaches(slopes: Array, heights: Array) -> tuple[float, float] | None:
     # the shares are at least the last variable, which is as great as may be
     shifted = np.column_stack([matrix, matrix.sum(axis=1)])
     optimum = linprog(cost, A_eq=shifted, b_eq=right, method="highs")
-    if optimum.x is None or optimum.x[-1] < POSITIVE_LEVEL:
+    if optimum.x is None or optimum.x[-1] < _POSITIVE_LEVEL:
         return None
     inverse = np.linalg.pinv(matrix)
     level = optimum.x[:-1] + optimum.x[-1]
     level = level - inverse @ (matrix @ level - right)
     moved = inverse[:, :count]
     off = float(np.abs(matrix @ moved - np.eye(count + cells)[:, :count]).max(initial=0.0))
-    if off > BALANCED or (level <= 0.0).any():
+    if off > _BALANCED or (level <= 0.0).any():
         return None
     factor = beside = 0.0
     for column in moved.T:
@@ -326,7 +324,7 @@ def _by_tangents(space: LawSpace, plain: IntegralFamily, family: IntegralFamily)
     if not np.isfinite(bend).all() or not np.isfinite(lowest).all():
         return None
     sizes, turned = np.linalg.eigh(bend)
-    if sizes[0] <= FLAT_INTEGRAL * sizes[-1]:
+    if sizes[0] <= _FLAT_INTEGRAL * sizes[-1]:
         return None
     steps = free @ (turned / np.sqrt(sizes))
     far = float(np.sqrt(2.0 * abs(_value(plain, lowest)))) or 1.0
@@ -371,7 +369,7 @@ def _lowest(family: IntegralFamily, x: Array, free: Array) -> Array:
         else:
             return x
         x, before, value = x + step, value, there
-        if before - value <= REACH_SETTLED * abs(value):
+        if before - value <= _REACH_SETTLED * abs(value):
             return x
     return x
 
@@ -393,11 +391,11 @@ def _shares(slopes: Array) -> Array | None:
         return None
     inverse = np.linalg.pinv(slopes.T)
     level = np.ones(len(slopes)) - inverse @ slopes.sum(axis=0)
-    if level.min() < POSITIVE_SHARES:
+    if level.min() < _POSITIVE_SHARES:
         return None
     shares = units @ inverse.T
     shares = shares + np.maximum((-shares / level).max(axis=1), 0.0)[:, None] * level
-    return shares if np.abs(shares @ slopes - units).max() <= BALANCED else None
+    return shares if np.abs(shares @ slopes - units).max() <= _BALANCED else None
 
 
 def known_values(motion: MotionFormula, conditions: BoundaryConditions) -> list[tuple[float, float]]:

@@ -24,7 +24,9 @@ from optlaws.synthesis.problem.constants import meant
 from optlaws.synthesis.proof.data import problem_of
 from optlaws.synthesis.solution import Solution
 from optlaws.synthesis.status import Status
-from optlaws.tolerances import BOUND_FEASIBILITY, LEAST_TIME_GAP, LIMIT_REACHED, MIRROR, PHASE_GAP, STORED_VALUE
+from optlaws.tolerances import BOUND_FEASIBILITY, LEAST_TIME_GAP, MIRROR, PHASE_GAP, STORED_VALUE
+
+_LIMIT_REACHED = 1e-6  # of a limit of a move: where no more of it is left, the law reaches it
 
 _MOST_PROOFS = 100
 
@@ -113,7 +115,7 @@ class LeastTime(JsonText):
         """The limits that the law reaches and that keep it from being faster."""
         slopes = self.slopes
         return tuple(
-            name for name, used in self.used.items() if slopes.get(name, 1.0) > 0.0 and used > 1.0 - LIMIT_REACHED
+            name for name, used in self.used.items() if slopes.get(name, 1.0) > 0.0 and used > 1.0 - _LIMIT_REACHED
         )
 
     @property

@@ -29,14 +29,11 @@ from optlaws.synthesis.limits.phase_plane_bound import Guess, Potential, even_pr
 from optlaws.synthesis.limits.phase_plane_program import PhaseOptimum, optimum
 from optlaws.synthesis.limits.phase_torque import AnyTorque, PhaseTorque, greater_power, torque_of
 from optlaws.synthesis.problem.problem import Problem
-from optlaws.tolerances import (
-    INTEGRATION,
-    MOST_PHASE_GAP,
-    PHASE_GAP,
-    PHASE_WEIGHT,
-    SMALL_PHASE_GAP,
-    STATED_BOUND,
-)
+from optlaws.tolerances import INTEGRATION, PHASE_GAP, STATED_BOUND
+
+_PHASE_WEIGHT = 1e-9  # of what is minimised: the price of the time where the torque at rest alone bounds it
+_MOST_PHASE_GAP = 1e-2  # of a limit in the phase plane: what leaves less is not mended by more fall
+_SMALL_PHASE_GAP = 1e-6  # of a limit: more is looked for on finer elements
 
 #: what a drive is to take as little of
 DriveObjective: TypeAlias = Literal["peak torque", "rms torque", "energy", "time"]
@@ -329,7 +326,7 @@ def limit_of_plane(plane: PhasePlane, minimise: DriveObjective, unit: float = 1.
     if best.attained == inf:
         _refuse(plane)
     for share in _SHARES if level and plane.squared is not None else ():
-        if best.gap <= MOST_PHASE_GAP:
+        if best.gap <= _MOST_PHASE_GAP:
             break
         with suppress(SolverFailure):
             best = max(best, _finer(Standing(plane, share * level), minimise, unit), key=_proves)
@@ -369,7 +366,7 @@ def unreachable(plane: PhasePlane, unit: float) -> DriveLimit | None:
                     inf,
                     free,
                     unit,
-                    PHASE_WEIGHT * bound.at_rest,
+                    _PHASE_WEIGHT * bound.at_rest,
                     edges,
                     rows,
                     (0.25, 0.75),
@@ -405,7 +402,7 @@ def _finer(standing: Standing, minimise: DriveObjective, unit: float) -> DriveLi
     limit = _limit(standing, minimise, unit, optimum(standing))
     if limit.gap <= PHASE_GAP:
         return limit
-    more = _MORE_ELEMENTS if limit.gap > MOST_PHASE_GAP else 1
+    more = _MORE_ELEMENTS if limit.gap > _MOST_PHASE_GAP else 1
     try:
         other = _limit(standing, minimise, unit, optimum(standing, _FINER, more))
     except SolverFailure:
@@ -437,7 +434,7 @@ def _limit(standing: Standing, minimise: DriveObjective, unit: float, motion: Ph
         limit = replace(limit, value=_bound(limit))
         if best is None or limit.value > best.value:
             best = limit
-        if best.gap < (MOST_PHASE_GAP if is_last else SMALL_PHASE_GAP):
+        if best.gap < (_MOST_PHASE_GAP if is_last else _SMALL_PHASE_GAP):
             break
     assert best is not None  # noqa: S101 - there are several certificates
     return replace(best, attained=_put_right(best, attained))
@@ -450,7 +447,7 @@ def _certificates(standing: Standing, motion: PhaseOptimum) -> Iterator[tuple[Po
     for share in _STEEPER:
         trial = potential.steeper(share * size) if share else potential
         yield trial, motion.weight, 0.0, share in {0.0, _STEEPER[-1]}
-    little, none = PHASE_WEIGHT * abs(motion.objective), Potential(motion.edges, np.zeros_like(motion.potential))
+    little, none = _PHASE_WEIGHT * abs(motion.objective), Potential(motion.edges, np.zeros_like(motion.potential))
     if plane.peak is not None and (sign := standing_sign(plane)):
         yield none, little, float(sign), True
         yield even_price(plane, plane.peak, float(sign)), little, 0.0, True

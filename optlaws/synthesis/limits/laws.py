@@ -11,7 +11,8 @@ from optlaws.laws.segments.constant_power import PowerSegment
 from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import PolynomialSegment, Segment
 from optlaws.synthesis.limits.closed_forms import back_time, back_velocity, best_velocity, limit, run_in
-from optlaws.tolerances import STANDSTILL
+
+_STANDSTILL = 1e-6  # a motion back so slow that its times, of the square of this, would be lost in rounding
 
 Pair = tuple[float, float]
 Piece = TypeVar("Piece")
@@ -131,7 +132,7 @@ def _constant_power(B: float, D: float, *, monotone: bool) -> PiecewiseLaw:
     if B <= 1.5:
         return _straight_squares([1.5 * (B - 1.0) / B, 0.5], [(0.0, B), (B, B)], D)
     speed = back_velocity(B)
-    if monotone or speed < STANDSTILL:
+    if monotone or speed < _STANDSTILL:
         return _straight_squares([0.5 - 0.75 / B, 0.5], [(0.0, 0.0), (0.0, B)], D)
     time = speed * speed / D
     return _straight_squares([0.5 * time, time, 0.5], [(0.0, -speed), (-speed, 0.0), (0.0, B)], D)

@@ -34,7 +34,9 @@ from optlaws.synthesis.limits.motions.standing import Standing
 from optlaws.synthesis.limits.phase_plane import PhasePlane
 from optlaws.synthesis.limits.phase_plane_cells import PI, CellBounds, Guess, Potential, ProofCells, positions
 from optlaws.synthesis.limits.phase_torque import AnyTorque
-from optlaws.tolerances import EVEN_FALL, ROUNDOFF, SMALLEST_SIZE
+from optlaws.tolerances import ROUNDOFF, SMALLEST_SIZE
+
+_EVEN_FALL = 1e-3  # of a potential by which a torque has one price everywhere: its fall, so that no velocity pays
 
 __all__ = ["Guess", "Potential", "even_price", "proven_bound"]
 
@@ -122,7 +124,7 @@ def even_price(plane: PhasePlane, torque: AnyTorque, price: float, start: float 
     shapes = np.stack([comb(_DEGREE, i) * x**i * (1.0 - x) ** (_DEGREE - i) for i in range(_DEGREE + 1)], axis=1)
     rows = np.linalg.solve(shapes, (0.5 * price * inertia / reference * np.sin(np.pi * places)).T).T
     rows[1:, 0] = rows[:-1, -1]
-    potential = Potential(ends, np.asarray(rows, dtype=np.float64)).steeper(EVEN_FALL * float(np.abs(rows).max()))
+    potential = Potential(ends, np.asarray(rows, dtype=np.float64)).steeper(_EVEN_FALL * float(np.abs(rows).max()))
     potential.coefficients[(a[:, 0] < start) | (a[:, -1] > stop)] = 0.0
     return potential
 

@@ -25,7 +25,12 @@ from optlaws.synthesis.limits.motions.standing import Standing
 from optlaws.synthesis.limits.phase_plane import PhasePlane
 from optlaws.synthesis.limits.phase_plane_velocity import InnerMinimum, entries_of
 from optlaws.synthesis.limits.phase_torque import GearTorque, PhaseTorque
-from optlaws.tolerances import AFFINE_SLACK, ROUNDOFF, SHORT_CELL, SMALLEST_SIZE, STATIONARY_SLACK, WEAK_CELL
+from optlaws.tolerances import ROUNDOFF, SMALLEST_SIZE
+
+_AFFINE_SLACK = 1e-12  # of a price: keeps affine shares within 0 and 1 and magnitudes below their lines after rounding
+_STATIONARY_SLACK = 1e-10  # of a velocity: beyond the flat place of a function without a bound it only rises
+_WEAK_CELL = 5e-7  # of what a cell adds to a bound: a cell that may lose more is divided
+_SHORT_CELL = 1e-3  # of the move: of shorter cells what is lost is measured by this length
 
 _ORDER = 4  # of the remainder in a cell
 _FAR = 4.0
@@ -206,7 +211,7 @@ class ProofCells:
             for price, entry in zip(known.prices, self.entries, strict=True)
         ]
         shares = (_to_ends(share.reshape(shape)) for share in known.shares)
-        self.shares = [np.clip(share, AFFINE_SLACK, 1.0 - AFFINE_SLACK) for share in shares]
+        self.shares = [np.clip(share, _AFFINE_SLACK, 1.0 - _AFFINE_SLACK) for share in shares]
         self.follows, self.beside = known.follows.reshape(shape), known.beside.reshape(shape).any(axis=0)
         # in a cell the price follows from q that does so at both ends, else that of the reference
         last = len(self.entries) - 1
@@ -250,7 +255,7 @@ class ProofCells:
 
     def weakness(self, lost: Array, size: Array) -> Array:
         """The loss in cells beyond what is negligible."""
-        more = lost - WEAK_CELL * size * np.maximum(self.half, SHORT_CELL)
+        more = lost - _WEAK_CELL * size * np.maximum(self.half, _SHORT_CELL)
         return np.where(np.isnan(more), inf, more)
 
     def _in_cells(self) -> CellBounds:
@@ -376,7 +381,7 @@ class ProofCells:
         lines = []
         for price, over_cell in zip(prices, around, strict=True):
             ends, bend = self._ends(price, over_cell)
-            above = np.stack([_greatest(end) + bend for end in ends]) * (1.0 + AFFINE_SLACK)
+            above = np.stack([_greatest(end) + bend for end in ends]) * (1.0 + _AFFINE_SLACK)
             low, high = (np.array([getattr(end, side) for end in ends]) for side in ("low", "high"))
             sign = np.where((low > bend).all(axis=0), 1.0, np.where((high < -bend).all(axis=0), -1.0, 0.0))
             lines.append((sign, above))
@@ -457,7 +462,7 @@ def _least(factors: list[Array], near: Array, most: Array) -> Array:
             step = (B1 + 2.0 * C2 * z - L / z**2) / (2.0 * C2 + 2.0 * L / z**3)
             z = np.minimum(np.clip(z - np.where(np.isfinite(step), step, 0.0), 0.5 * z, 2.0 * z), most)
         bounded = np.isfinite(most)
-        z = np.where(bounded, z, z * (1.0 + STATIONARY_SLACK))  # beyond the flat place it only rises
+        z = np.where(bounded, z, z * (1.0 + _STATIONARY_SLACK))  # beyond the flat place it only rises
         place, largest = exact(z), exact(np.where(bounded, most, 1.0))
         K = exact(L) / (place * place)
         E = exact(B1) + exact(C2) * place * 2.0 - K
@@ -497,7 +502,7 @@ def _of_side(ends: Array, side: int) -> Array:
     if side == 0:
         return ends
     sizes = np.maximum(side * ends, 0.0)
-    return np.asarray(side * np.maximum(sizes, AFFINE_SLACK * sizes.max(axis=0)))
+    return np.asarray(side * np.maximum(sizes, _AFFINE_SLACK * sizes.max(axis=0)))
 
 
 def _to_ends(inside: Array) -> Array:

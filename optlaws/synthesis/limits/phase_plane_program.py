@@ -24,7 +24,12 @@ from optlaws.numerics.chebyshev import gauss
 from optlaws.synthesis.limits.motions.standing import Standing
 from optlaws.synthesis.limits.phase_plane import PhasePlane, TorqueLimit, VelocityLimit
 from optlaws.synthesis.limits.phase_torque import AnyTorque, GearTorque, PhaseTorque
-from optlaws.tolerances import PHASE_ACTIVE, PHASE_PACE, PHASE_TIGHT, SMALLEST_ELEMENT, SMALLEST_SIZE
+from optlaws.tolerances import SMALLEST_SIZE
+
+_PHASE_ACTIVE = 1e-4  # of a bound: places of a conic program so near to it have it active
+_SMALLEST_ELEMENT = 1e-7  # of the move: elements of a potential are not cut further
+_PHASE_TIGHT = 1e-7  # of a bound: by so much narrower is what the motion of a limit keeps to
+_PHASE_PACE = 1e-5  # of what is minimised: the least price of the time
 
 DEGREE = 4
 _ELEMENTS = 8
@@ -94,11 +99,11 @@ def optimum(standing: Standing, rounds: int = _ROUNDS, more: int = 1) -> PhaseOp
     strict = False
     if solved.beyond:
         other = _Program(standing, edges, pace, solved.driven, strict=True).solved()
-        strict = other.objective > solved.objective * (1.0 + PHASE_ACTIVE)
+        strict = other.objective > solved.objective * (1.0 + _PHASE_ACTIVE)
         solved = other if strict else solved
-    if plane.kind != "time" and solved.weight < PHASE_PACE * abs(solved.objective):
+    if plane.kind != "time" and solved.weight < _PHASE_PACE * abs(solved.objective):
         # where the time costs nothing, velocities are not determined: it is given a little price
-        pace = PHASE_PACE * abs(solved.objective)
+        pace = _PHASE_PACE * abs(solved.objective)
         solved = _Program(standing, edges, pace, _driven(plane, solved), strict=strict).solved()
     for _ in range(rounds - 1):
         finer, driven = _refined(plane, solved), _driven(plane, solved)
@@ -215,7 +220,7 @@ class _Program:
             b, np.minimum(np.sqrt(np.maximum(x[: self.count], 0.0)), self.plane.velocity_bound(self.a, self.a))
         )
         potential = -unit * (smooth @ z[: self.count + 1])[places]
-        beyond = bool(np.any(x[: self.count] > (self.plane.B * (1.0 + PHASE_ACTIVE)) ** 2))
+        beyond = bool(np.any(x[: self.count] > (self.plane.B * (1.0 + _PHASE_ACTIVE)) ** 2))
         objective = unit * float(result.obj_val) - self.pace * time + self.constant
         weight = max(weight, 0.0)
         return PhaseOptimum(self.edges, potential, weight, self.s, b, c, objective, self.driven, beyond)
@@ -245,7 +250,7 @@ class _Program:
         """The rows of the functions of elements with which the equation is tested."""
         return (elements * DEGREE + self.before[elements])[:, None] + np.arange(DEGREE + 1)
 
-    def _smooth_tests(self, tests: int) -> Any:  # noqa: ANN401 - a matrix of scipy
+    def _smooth_tests(self, tests: int) -> Any:
         """The elements' test functions by the program's, of lower degree after a jump, so that they match the places.
 
         Of degree 4 there is one that vanishes at all places of an element, and nothing would hold it.
@@ -274,7 +279,7 @@ class _Program:
         """All other rows with their cones, and the objective."""
         import clarabel
 
-        plane, ones, tight = self.plane, np.ones(self.count), 1.0 - PHASE_TIGHT
+        plane, ones, tight = self.plane, np.ones(self.count), 1.0 - _PHASE_TIGHT
         if plane.kind == "time":
             self._cost(_PACE, 1.0)
         else:
@@ -425,7 +430,7 @@ def _refined(plane: PhasePlane, solved: PhaseOptimum) -> Array:
     changes = changes[np.searchsorted(ends, solved.s[changes]) == np.searchsorted(ends, solved.s[changes + 1])]
     before, after = solved.s[changes], solved.s[changes + 1]
     edges = np.unique(np.concatenate([solved.edges, before, after, 0.5 * (before + after)]))
-    far = np.append(True, np.diff(edges) > SMALLEST_ELEMENT)
+    far = np.append(True, np.diff(edges) > _SMALLEST_ELEMENT)
     return np.asarray(edges[far | np.isin(edges, _in_s(plane.jumps))])
 
 
@@ -442,7 +447,7 @@ def _along(torque: AnyTorque, solved: PhaseOptimum) -> Array:
 
 def _active(plane: PhasePlane, solved: PhaseOptimum) -> Array:
     """A mask of active bounds at every place, with a row for each bound and sign."""
-    near, a = 1.0 - PHASE_ACTIVE, np.sin(np.pi * solved.s / 2.0) ** 2
+    near, a = 1.0 - _PHASE_ACTIVE, np.sin(np.pi * solved.s / 2.0) ** 2
     rows = [solved.b > near * np.minimum(plane.B, plane.velocity_bound(a, a))]
     bounds = []
     for bound in plane.bounds:
@@ -456,9 +461,9 @@ def _active(plane: PhasePlane, solved: PhaseOptimum) -> Array:
     for torques in plane.maxima:
         values = np.array([_along(torque, solved) for torque in torques])
         top = values.max(axis=0)
-        rows += list(values > top - PHASE_ACTIVE * float(np.abs(values).max()))
+        rows += list(values > top - _PHASE_ACTIVE * float(np.abs(values).max()))
     if plane.gear_load is not None:  # what its direction is counts where torques have prices
         load = _along(plane.gear_load, solved)
         counts = np.any(rows[1:], axis=0) | (plane.squared is not None)
-        rows += [counts & (sign * load > PHASE_ACTIVE * float(np.abs(load).max())) for sign in (1.0, -1.0)]
+        rows += [counts & (sign * load > _PHASE_ACTIVE * float(np.abs(load).max())) for sign in (1.0, -1.0)]
     return np.array(rows)

@@ -13,7 +13,9 @@ from optlaws.numbers import Array
 from optlaws.synthesis.limits.motions.standing import Standing
 from optlaws.synthesis.limits.phase_plane import PhasePlane
 from optlaws.synthesis.limits.phase_torque import PhaseTorque
-from optlaws.tolerances import INNER_SHARE, PHASE_TIE
+
+_PHASE_TIE = 1e-7  # of a bound or of two torques: nearer values are equal, and the potential says at what price
+_INNER_SHARE = 1e-3  # shares of two equal torques that are so far from 0 and 1 follow from the potential
 
 _GOLD = (5.0**0.5 - 1.0) / 2.0
 _SEARCH = 48
@@ -135,8 +137,8 @@ class InnerMinimum:
         for i, entry in enumerate(self.entries):
             if entry.side:
                 over = self._beyond(entry, b, c) / entry.torque.size
-                beside |= over >= -PHASE_TIE
-                prices[i] = np.where(over > PHASE_TIE, entry.side * self.steep, 0.0)
+                beside |= over >= -_PHASE_TIE
+                prices[i] = np.where(over > _PHASE_TIE, entry.side * self.steep, 0.0)
                 rest = rest - prices[i] * self.factors[entry.torque][0]
         open_ones = follows < len(self.entries)  # where no share follows
         for i, entry in sorted(enumerate(self.entries), key=lambda pair: pair[1].side != 0):
@@ -157,21 +159,21 @@ class InnerMinimum:
         shares = []
         for i, (torque, other) in enumerate(self.maxima, len(self.entries)):
             more = self._torque(torque, b, c) - self._torque(other, b, c)
-            tie = np.abs(more) <= PHASE_TIE * (1.0 + np.abs(self._torque(torque, b, c)))
+            tie = np.abs(more) <= _PHASE_TIE * (1.0 + np.abs(self._torque(torque, b, c)))
             inertia, second = self.factors[torque][0], self.factors[other][0]
             with np.errstate(all="ignore"):
                 share = np.clip((rest - second) / (inertia - second), 0.0, 1.0)
             share = np.where(tie & np.isfinite(share), share, more > 0.0)
             shares.append(share)
             rest = rest - share * inertia - (1.0 - share) * second
-            within = (share > INNER_SHARE) & (share < 1.0 - INNER_SHARE) & (self.squared is None)
+            within = (share > _INNER_SHARE) & (share < 1.0 - _INNER_SHARE) & (self.squared is None)
             follows = np.where(within, i, follows)
         return shares, follows, rest
 
     def _is_active(self, entry: PricedTorque, b: Array, c: Array) -> NDArray[np.bool_]:
         if entry.side:
-            return np.asarray(np.abs(self._beyond(entry, b, c)) <= PHASE_TIE * entry.torque.size)
-        return np.asarray(np.abs(self._torque(entry.torque, b, c)) >= self._most(entry, b) * (1.0 - PHASE_TIE))
+            return np.asarray(np.abs(self._beyond(entry, b, c)) <= _PHASE_TIE * entry.torque.size)
+        return np.asarray(np.abs(self._torque(entry.torque, b, c)) >= self._most(entry, b) * (1.0 - _PHASE_TIE))
 
     def _at_vertices(self, b: Array, c: Array, prices: list[Array]) -> None:
         """Prices of a two-sided and a one-sided bound that are active together, so that no other velocity is better."""

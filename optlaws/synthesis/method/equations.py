@@ -6,7 +6,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.numbers import Array
-from optlaws.tolerances import DEPENDENT_ROWS, EMPTY_ROW, EQUATION_OFF, NO_MULTIPLIER
+from optlaws.tolerances import DEPENDENT_ROWS, EMPTY_ROW
+
+_EQUATION_OFF = 1e-9  # of a right side, or 1: by so much an equation may be missed
+_NO_MULTIPLIER = 1e-12  # a multiplier that is less is none
 
 
 def contradiction(rows: Array, right: Array) -> Array | None:
@@ -27,19 +30,19 @@ def contradiction(rows: Array, right: Array) -> Array | None:
     """
     length = np.linalg.norm(rows, axis=1)
     empty = length < EMPTY_ROW
-    for i in np.flatnonzero(empty & (np.abs(right) > EQUATION_OFF)):
+    for i in np.flatnonzero(empty & (np.abs(right) > _EQUATION_OFF)):
         return _unit(len(right), int(i), -float(np.sign(right[i])))
     length[empty] = 1.0
     rows, right = np.where(empty[:, None], 0.0, rows / length[:, None]), right / length
     multipliers = _of_one_value(rows, right)
     if multipliers is None:
         residual = right - rows @ np.linalg.lstsq(rows, right, rcond=DEPENDENT_ROWS)[0]
-        if np.abs(residual).max(initial=0.0) <= EQUATION_OFF * max(1.0, float(np.abs(right).max(initial=0.0))):
+        if np.abs(residual).max(initial=0.0) <= _EQUATION_OFF * max(1.0, float(np.abs(right).max(initial=0.0))):
             return None
         multipliers = -residual
     multipliers = multipliers / length
     multipliers = multipliers / np.abs(multipliers).max()
-    multipliers[np.abs(multipliers) < NO_MULTIPLIER] = 0.0
+    multipliers[np.abs(multipliers) < _NO_MULTIPLIER] = 0.0
     return np.asarray(multipliers, dtype=np.float64)
 
 
@@ -74,7 +77,7 @@ def _of_one_value(rows: Array, right: Array) -> Array | None:
             for sign in (1.0, -1.0):
                 off = right[i] - sign * right[j]
                 same = np.abs(rows[i] - sign * rows[j]).max(initial=0.0) < EMPTY_ROW
-                if same and abs(off) > EQUATION_OFF * max(1.0, abs(right[i])):
+                if same and abs(off) > _EQUATION_OFF * max(1.0, abs(right[i])):
                     size = float(np.sign(off))
                     return _unit(len(right), j, size * sign) + _unit(len(right), i, -size)
     return None

@@ -9,7 +9,9 @@ from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.cone import ConeFamily
 from optlaws.synthesis.families.curved import IntegralFamily
 from optlaws.synthesis.families.family import ConstraintFamily, NormFamily, Points, Program
-from optlaws.tolerances import EXCESS, VANISHED
+from optlaws.tolerances import EXCESS
+
+_VANISHED = 1e-13  # amplitudes that are minimised vanish if their sum is less
 
 #: by how much the room of a start exceeds what its base law needs
 _AMPLE = 1.2
@@ -30,7 +32,7 @@ def vanishing(program: Program) -> ActiveSet | None:
     # what is minimised is to be nothing
     conditions[:, costs] = 0.0
     x = np.linalg.lstsq(conditions, right, rcond=None)[0]
-    if np.abs(conditions @ x - right).max() > VANISHED or program.violation(x) > EXCESS:
+    if np.abs(conditions @ x - right).max() > _VANISHED or program.violation(x) > EXCESS:
         return None
     return of_variables(program, x)
 

@@ -35,7 +35,8 @@ from optlaws.synthesis.problem.expression import leaves
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.evaluation import reaches, shortfalls
 from optlaws.synthesis.program.writer import Model, model_of
-from optlaws.tolerances import LEAST_STEP
+
+_LEAST_STEP = 1e-3  # of a way: a shorter step of a search for a bound is not taken
 
 _FIRST_STEP = 0.25
 _WORTHY = 0.2
@@ -140,7 +141,7 @@ def _continued(
         moved = polished(_with(program, replace(raised, bound=bound)), state, lambda _: False)
         if moved is None:
             step /= 2.0
-            if step < LEAST_STEP:
+            if step < _LEAST_STEP:
                 return None
             continue
         state, done = moved, target

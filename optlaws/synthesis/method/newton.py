@@ -18,17 +18,14 @@ import numpy as np
 from optlaws.numbers import Array, power_of_two
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.family import Program
-from optlaws.tolerances import (
-    AT_END,
-    DEPENDENT_ROWS,
-    NEWTON_CONVERGED,
-    NEWTON_FULFILLED,
-    NEWTON_NEAR,
-    NEWTON_SAME,
-    NEWTON_STALLED,
-    NEWTON_STILL,
-    SAME_PLACE,
-)
+from optlaws.tolerances import AT_END, DEPENDENT_ROWS, SAME_PLACE
+
+_NEWTON_CONVERGED = 1e-13  # of a law: a step of Newton's method that is the last
+_NEWTON_NEAR = 1e-7  # of a law: after a step that changes less a state is rounded
+_NEWTON_SAME = 1e-5  # of a law: nearer than this a state and what it is led to after rounding are one optimum
+_NEWTON_STALLED = 1e-10  # of a law: steps below it that shrink no more are rounding
+_NEWTON_FULFILLED = 1e-9  # of a right side: by so much the equations of Newton's method may be missed
+_NEWTON_STILL = 1e-6  # of a law: a step that is longer wanders
 
 _STEPS = 14
 _FAR = 1.05
@@ -44,11 +41,11 @@ def newton(program: Program, start: ActiveSet, *, deficient: bool = False) -> Ac
     """
     if deficient:
         return _iterated(program, start, deficient=True)
-    near = _iterated(program, start, enough=NEWTON_NEAR)
+    near = _iterated(program, start, enough=_NEWTON_NEAR)
     if near is None:
         return None
     optimum = _iterated(program, _rounded(program, near))
-    if optimum is not None and _distance(near, optimum) <= NEWTON_SAME:
+    if optimum is not None and _distance(near, optimum) <= _NEWTON_SAME:
         return optimum
     return _iterated(program, near)
 
@@ -70,9 +67,9 @@ def _iterated(program: Program, start: ActiveSet, *, enough: float = 0.0, defici
         size = float(steps[: program.size].max()) / scale
         # x may stand still where the conditions do not hold: in a deficient system, or where the optimum is flat
         off = max(float(defects[: program.size].max()), float(defects[program.size :].max(initial=0.0)) / scale)
-        if off < NEWTON_FULFILLED and (size < NEWTON_CONVERGED or (size < NEWTON_STALLED and size > previous / 4)):
-            wandering = float(steps.max()) > NEWTON_STILL
-            if not wandering or off < NEWTON_STALLED:
+        if off < _NEWTON_FULFILLED and (size < _NEWTON_CONVERGED or (size < _NEWTON_STALLED and size > previous / 4)):
+            wandering = float(steps.max()) > _NEWTON_STILL
+            if not wandering or off < _NEWTON_STALLED:
                 return before if wandering else state
         if np.any(np.abs(state.u) > _FAR):
             return None

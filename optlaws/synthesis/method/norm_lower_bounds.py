@@ -17,7 +17,9 @@ from optlaws.numbers import Array
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.family import LinearFamily, NormFamily, Program
 from optlaws.synthesis.method.exchange import solve
-from optlaws.tolerances import DIRECTION_SETTLED, FLAT_DIRECTION
+
+_DIRECTION_SETTLED = 1e-10  # of an objective: a change of directions that gains less is the last
+_FLAT_DIRECTION = 1e-9  # of the longest: directions that are shorter say nothing
 
 _DIRECTIONS = 12
 _BEGUN = 8
@@ -50,10 +52,10 @@ def along_directions(
 def _directions(family: NormFamily, plain: ActiveSet) -> Iterator[Array]:
     """Directions of the norm without the bound, and directions in which the coordinates increase it most."""
     image = _image(family, plain.x)
-    if np.linalg.norm(image) > FLAT_DIRECTION:
+    if np.linalg.norm(image) > _FLAT_DIRECTION:
         yield image / np.linalg.norm(image)
     axes, sizes, _ = np.linalg.svd(family.matrix[:, :-1], full_matrices=False)
-    for axis in axes.T[: min(_DIRECTIONS, int((sizes > FLAT_DIRECTION * sizes[0]).sum()))]:
+    for axis in axes.T[: min(_DIRECTIONS, int((sizes > _FLAT_DIRECTION * sizes[0]).sum()))]:
         yield axis
         yield -axis
 
@@ -68,7 +70,7 @@ def _turned(
         if better is None or better[0].objective_at(better[1].x) > before:
             break
         way = better
-        if before - way[0].objective_at(way[1].x) < DIRECTION_SETTLED * abs(before):
+        if before - way[0].objective_at(way[1].x) < _DIRECTION_SETTLED * abs(before):
             break
     return way
 

@@ -16,7 +16,8 @@ from optlaws.synthesis.families.cone import ConeFamily
 from optlaws.synthesis.families.curved import FormulaFamily
 from optlaws.synthesis.families.energy import EnergyFamily
 from optlaws.synthesis.families.family import ConstraintFamily, ProductFamily, Program
-from optlaws.tolerances import SMALL_COST
+
+_SMALL_COST = 3e-2  # an objective that is less is hidden from an interior-point method by its own tolerance
 
 #: smaller laws are solved as they are
 _GREAT = 100.0
@@ -92,7 +93,7 @@ def units_of(program: Program) -> ProgramUnits | None:
 def units_near(program: Program, x: Array) -> ProgramUnits | None:
     """Units in which a small objective and small amplitudes near x become 1; None if none is small."""
     value = program.objective_at(x)
-    if not 0.0 < value < SMALL_COST:
+    if not 0.0 < value < _SMALL_COST:
         return None
     variables, rows = np.ones(program.size), np.ones(len(program.families))
     for i, family in enumerate(program.families):

@@ -15,7 +15,9 @@ from optlaws.numbers import Array
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.cone import ConeFamily
 from optlaws.synthesis.families.family import Program
-from optlaws.tolerances import APEX_DIRECTION, NEARLY_APEX
+
+_NEARLY_APEX = 1e-5  # of what the base law leaves: an amplitude that is less may vanish
+_APEX_DIRECTION = 1e-9  # of a multiplier: by so much the parts of an amplitude that vanishes may pull more than it does
 
 
 def amplitudes(program: Program) -> list[int]:
@@ -33,7 +35,7 @@ def amplitudes(program: Program) -> list[int]:
 
 def nearly_vanished(program: Program, x: Array) -> list[int]:
     """Amplitudes that nearly vanish, relative to the amplitudes of a law that ignores them."""
-    return [i for i in amplitudes(program) if program.families[i].right_side(x) < NEARLY_APEX]
+    return [i for i in amplitudes(program) if program.families[i].right_side(x) < _NEARLY_APEX]
 
 
 def at_apex(
@@ -71,7 +73,7 @@ def at_apex(
     for part, i in zip(optimum.equality_multipliers[count:].reshape(-1, 3), vanished, strict=True):
         real, imaginary, raised = part
         # what the right side costs is what the amplitude may pull with
-        if not np.hypot(real, imaginary) <= -raised * (1.0 + APEX_DIRECTION):
+        if not np.hypot(real, imaginary) <= -raised * (1.0 + _APEX_DIRECTION):
             return None
         multipliers.append(-raised)
         places.append(program.families[i].domain[0])

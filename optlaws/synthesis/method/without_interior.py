@@ -21,7 +21,9 @@ from optlaws.synthesis.method.exchange import solve
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.evaluation import evaluate
 from optlaws.synthesis.program.writer import Model, least_violation, model_of
-from optlaws.tolerances import EQUATIONS_RANK, LEAST_INTERIOR
+
+_LEAST_INTERIOR = 1e-11  # the most by which the law with most room may break a bound
+_EQUATIONS_RANK = 1e-12  # of a law: by so much it may miss equations that are met
 
 #: the shares by which bounds are loosened, one after the other; a norm's optimum moves with the square root
 _LOOSENED = (1e-8, 1e-10, 1e-12)
@@ -47,7 +49,7 @@ def fallbacks_without_interior(model: Model) -> Iterator[tuple[ActiveSet, Array]
     if anchor is None:
         return
     roomy = model.coordinates(on_equations(elastic.program, anchor.x))
-    if excess(roomy) > LEAST_INTERIOR:
+    if excess(roomy) > _LEAST_INTERIOR:
         return
     state: ActiveSet | None = None
     for share in _LOOSENED:
@@ -76,9 +78,9 @@ def on_equations(program: Program, x: Array) -> Array:
     """The nearest x that keeps the equations to rounding; x itself if it does."""
     off = program.right - program.equalities @ x
     # each by what its own sum is made of: the objective's variables may be great
-    if (np.abs(off) <= EQUATIONS_RANK * np.maximum(1.0, np.abs(program.equalities) @ np.abs(x))).all():
+    if (np.abs(off) <= _EQUATIONS_RANK * np.maximum(1.0, np.abs(program.equalities) @ np.abs(x))).all():
         return x
-    return np.asarray(x + np.linalg.lstsq(program.equalities, off, rcond=EQUATIONS_RANK)[0])
+    return np.asarray(x + np.linalg.lstsq(program.equalities, off, rcond=_EQUATIONS_RANK)[0])
 
 
 def _inward(near: Array, roomy: Array, excess: Callable[[Array], float]) -> Array:

@@ -10,7 +10,8 @@ from typing import Any
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.numbers import MAGNITUDE_LIMIT, power_of_two, real
-from optlaws.tolerances import LEAST_WEIGHT
+
+_LEAST_WEIGHT = 1e-3  # weights of an objective that are less are part of its scale
 
 #: weights beyond are part of an objective's scale
 _GREATEST_WEIGHT = 1e3
@@ -101,7 +102,7 @@ class Expression:
         """
         unit = max(term.scale for _, term in self.terms)
         share = max(weight * (term.scale / unit) for weight, term in self.terms)
-        return unit if LEAST_WEIGHT < share < _GREATEST_WEIGHT else unit * power_of_two(share)
+        return unit if _LEAST_WEIGHT < share < _GREATEST_WEIGHT else unit * power_of_two(share)
 
     def weights(self) -> dict[str, float]:
         """Weights by the name of the term."""

@@ -16,10 +16,13 @@ from optlaws.synthesis.problem.constants import B, Functional
 from optlaws.synthesis.problem.expression import Expression, Maximum
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.problem.windows import Window
-from optlaws.tolerances import BOUND_FEASIBILITY, BOUND_SHORT, ROWS_AGREE
+from optlaws.tolerances import BOUND_FEASIBILITY
 
 if TYPE_CHECKING:
     from optlaws.synthesis.spaces.space import LawSpace
+
+_ROWS_AGREE = 1e-5  # of a value: what rows and values computed in different ways may be apart
+_BOUND_SHORT = 1e-9  # of a lower bound: a constant that is short by more is too small
 
 #: along how many laws the rows of a user's class are compared with its values
 _LAWS = 3
@@ -96,7 +99,7 @@ def shortfalls(problem: Problem, law: MotionLaw) -> dict[Functional, float]:
 
 def reaches(law: MotionLaw, constant: Functional, low: float) -> bool:
     """Whether a constant of a law is at least its lower bound, up to rounding."""
-    return constant.value(law) >= low * (1.0 - BOUND_SHORT)
+    return constant.value(law) >= low * (1.0 - _BOUND_SHORT)
 
 
 def _total(expression: Expression, law: MotionLaw, values: dict[str, float]) -> float:
@@ -126,7 +129,7 @@ def _check(constant: Functional, space: LawSpace) -> None:
         rows = max(float(family.extremes(x)[2].max()) for family in families)
         value = constant.value(space.law(x))
         # what is the same for every law, such as the rounding of a peak of nothing, says nothing
-        if abs(rows - value) > ROWS_AGREE * max(abs(rows), abs(value)) and max(abs(rows), abs(value)) > ROWS_AGREE:
+        if abs(rows - value) > _ROWS_AGREE * max(abs(rows), abs(value)) and max(abs(rows), abs(value)) > _ROWS_AGREE:
             kind = type(constant).__name__
             raise InputError(
                 f"{kind}.families and {kind}.value contradict each other: of a law the rows ask {constant.name} = "

@@ -27,7 +27,8 @@ from optlaws.synthesis.problem.windows import Window
 from optlaws.synthesis.program.evaluation import check_rows
 from optlaws.synthesis.spaces.of_basis import space_of
 from optlaws.synthesis.spaces.space import LawSpace
-from optlaws.tolerances import REST_VELOCITY
+
+_REST_VELOCITY = 1e-15  # a velocity at an end that is less is rest
 
 
 @dataclass(frozen=True, eq=False)
@@ -360,7 +361,7 @@ class _Writer:
             self.families.append(self.space.from_rest(RowName.FROM_START, root, weights=weights))
         if self.space.symmetric and mirrored != power.weights:
             self.families.append(self.space.from_rest(RowName.FROM_END, root, weights=floats(mirrored)))
-        if not self.space.symmetric and abs(end_velocity) < REST_VELOCITY:
+        if not self.space.symmetric and abs(end_velocity) < _REST_VELOCITY:
             self.families.append(self.space.from_rest(RowName.FROM_END, root, backward=True, weights=weights))
         self.row(RowName.TANGENT, 2.0 * self.tangent * root - slack, bound + self.tangent**2)
 

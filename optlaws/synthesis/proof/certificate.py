@@ -26,11 +26,13 @@ from optlaws.synthesis.program.writer import Model, least_violation, model_of, r
 from optlaws.synthesis.proof.duality import Line, by_bends, lines_of, row_of, sum_of_rows
 from optlaws.synthesis.proof.farkas import farkas_margin
 from optlaws.synthesis.proof.nodes import Contact, Leaf, Node
-from optlaws.tolerances import NEIGHBOUR_DISTANCE, NEIGHBOUR_SHARE
 
 if TYPE_CHECKING:
     from optlaws.synthesis.proof.peak_rows import PeakRows
     from optlaws.synthesis.proof.power.box import BoxRows
+
+_NEIGHBOUR_DISTANCE = 2.0**-12  # of u: how far from a contact its neighbours are
+_NEIGHBOUR_SHARE = 2.0**-14  # of a contact's multiplier: how much of it each neighbour takes
 
 OBJECTIVE, RELAXED, VIOLATION = "objective", "relaxed", "violation"
 
@@ -293,10 +295,10 @@ def _contradiction(certificate: Certificate, model: Model) -> float:
 def _neighbourhood(contact: Contact) -> list[tuple[float, float]]:
     """A contact's place, and two beside it that take a little of its multiplier: where it is need not be exact."""
     k = contact.k
-    if contact.direction or not NEIGHBOUR_DISTANCE < k < 1.0 - NEIGHBOUR_DISTANCE:
+    if contact.direction or not _NEIGHBOUR_DISTANCE < k < 1.0 - _NEIGHBOUR_DISTANCE:
         return [(k, 1.0)]
     return [
-        (k, 1.0 - 2.0 * NEIGHBOUR_SHARE),
-        (k - NEIGHBOUR_DISTANCE, NEIGHBOUR_SHARE),
-        (k + NEIGHBOUR_DISTANCE, NEIGHBOUR_SHARE),
+        (k, 1.0 - 2.0 * _NEIGHBOUR_SHARE),
+        (k - _NEIGHBOUR_DISTANCE, _NEIGHBOUR_SHARE),
+        (k + _NEIGHBOUR_DISTANCE, _NEIGHBOUR_SHARE),
     ]

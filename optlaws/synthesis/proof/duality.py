@@ -21,7 +21,9 @@ from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, No
 from optlaws.synthesis.program.writer import Model
 from optlaws.synthesis.proof.nodes import Contact, Leaf
 from optlaws.synthesis.proof.sublevel_bounds import greatest_values, least_values, means_by, moments
-from optlaws.tolerances import WEIGHTED_ROUNDING
+from optlaws.tolerances import ROUNDOFF
+
+_WEIGHTED_ROUNDING = 9 * ROUNDOFF  # roundings in a row before it is weighted, and of the sum
 
 #: a multiplier, a row and its right side
 Line = tuple[float, Array, float]
@@ -161,7 +163,7 @@ def summed(model: Model, lines: list[Line]) -> RowSum:
     weights = np.array([weight for weight, _, _ in lines])
     rows = np.array([[*row, -right] for _, row, right in lines]).reshape(-1, model.program.size + 1)
     total = _weighted(weights, rows, np.append(model.program.objective, 0.0))
-    hidden = WEIGHTED_ROUNDING * (np.abs(weights) @ np.abs(rows))
+    hidden = _WEIGHTED_ROUNDING * (np.abs(weights) @ np.abs(rows))
     slope = total[:-1]
     variables = list(model.places.values())
     # the entries of the variables are exact, and so is a sum that is zero

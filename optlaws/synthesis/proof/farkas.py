@@ -11,7 +11,9 @@ from __future__ import annotations
 import numpy as np
 
 from optlaws.numbers import Array
-from optlaws.tolerances import FARKAS_FIRM, FARKAS_ROUNDING
+
+_FARKAS_ROUNDING = 1e-14  # of weighted lengths of rows: more than the rounding of their sum
+_FARKAS_FIRM = 1e-10  # of the greatest singular value: rows with less leave directions open
 
 #: in units of free functions with peak acceleration 1; of a greater law no double tells whether it keeps the rows
 _GREATEST = 1e12
@@ -45,13 +47,13 @@ def farkas_margin(rows: Array, right: Array, multipliers: Array, count: int) -> 
     values = np.linalg.svd(columns, compute_uv=False)
     corrected = multipliers.copy()
     for _ in range(_ROUNDS):
-        corrected = corrected - np.linalg.lstsq(columns, rows.T @ corrected, rcond=FARKAS_FIRM)[0] * ease / length
+        corrected = corrected - np.linalg.lstsq(columns, rows.T @ corrected, rcond=_FARKAS_FIRM)[0] * ease / length
     if (corrected[:count] < 0.0).any():
         corrected = multipliers
     rest = rows.T @ corrected
     value = -float(corrected @ right)
-    uncertain = float(np.linalg.norm(rest)) + FARKAS_ROUNDING * float(np.abs(corrected) @ length)
-    firm = len(rows) >= rows.shape[1] and float(values[-1]) > FARKAS_FIRM * float(values[0])
+    uncertain = float(np.linalg.norm(rest)) + _FARKAS_ROUNDING * float(np.abs(corrected) @ length)
+    firm = len(rows) >= rows.shape[1] and float(values[-1]) > _FARKAS_FIRM * float(values[0])
     if firm:
         moved = uncertain / float(values[-1]) * ease / length
         if (corrected[:count] >= moved[:count]).all():

@@ -26,7 +26,9 @@ from optlaws.synthesis.proof.certificate import OBJECTIVE, VIOLATION, Certificat
 from optlaws.synthesis.proof.make import certificate, violation_certificate
 from optlaws.synthesis.proof.no_law import beyond_limit, convex_part, least_of
 from optlaws.synthesis.spaces.bases import Basis, PolynomialBasis
-from optlaws.tolerances import DEEP_LAW_EXCESS, INFEASIBLE_WEIGHTLESS
+
+_INFEASIBLE_WEIGHTLESS = 1e-9  # a weight of a proof of infeasibility that is less is none
+_DEEP_LAW_EXCESS = 1e-3  # by how much a law far below all of the field may miss a bound
 
 _ROUNDS = 6
 _PLAIN = 2  # so few equations contradict each other whatever freedom the law has
@@ -101,7 +103,7 @@ def falls_for_ever(problem: Problem) -> bool:
     deepest = solve(bounded).optimum
     # so far down nothing shows which contacts are exact: a law that keeps all bounds is enough
     x = solve_on_points(bounded, first_points(bounded), None).x if deepest is None else deepest.x
-    return program.objective_at(x) < -0.99 * DEPTH and program.violation(x) < DEEP_LAW_EXCESS
+    return program.objective_at(x) < -0.99 * DEPTH and program.violation(x) < _DEEP_LAW_EXCESS
 
 
 def _contradiction(proof: Certificate) -> str:
@@ -193,7 +195,7 @@ def _equations(problem: Problem, proof: Certificate, elastic: Model) -> list[str
         if name == names.velocity_at_peak(problem.peak_at) and isinstance(problem.B, float)
         else name
         for name, weight in zip(elastic.equation_names, weights, strict=True)
-        if abs(weight) > INFEASIBLE_WEIGHTLESS
+        if abs(weight) > _INFEASIBLE_WEIGHTLESS
     ]
 
 

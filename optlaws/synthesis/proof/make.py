@@ -32,17 +32,15 @@ from optlaws.synthesis.proof.duality import row_of, summed
 from optlaws.synthesis.proof.nodes import Contact
 from optlaws.synthesis.proof.sublevel_bounds import least_values, means_by
 from optlaws.synthesis.spaces.bases import PolynomialBasis
-from optlaws.tolerances import (
-    APEX,
-    CUTS_ENOUGH,
-    DIRECTIONS_BALANCED,
-    DIRECTIONS_RANK,
-    EMPTY_ROW,
-    LEFT_SHARES,
-    OPTIMALITY_GAP,
-    PROOF_ENOUGH,
-    PROOF_WEIGHTLESS,
-)
+from optlaws.tolerances import EMPTY_ROW, OPTIMALITY_GAP
+
+_CUTS_ENOUGH = 2e-9  # of an objective: what cuts may leave
+_LEFT_SHARES = (1e-12, 1e-11, 1e-10, 1e-9)  # of a constant's weight: what a proof leaves of it to pay for rounding
+_DIRECTIONS_BALANCED = 1e-13  # a slope that is less is balanced
+_DIRECTIONS_RANK = 1e-10  # of the greatest singular value of pulls: less is rounding
+_APEX = 1e-11  # of the sum of magnitudes: a norm that is less is 0 but for rounding
+_PROOF_WEIGHTLESS = 1e-14  # of the greatest multiplier of a proof: what is less is left out
+_PROOF_ENOUGH = 5e-9  # of an objective: a bound that leaves no more needs no other proof
 
 _TANGENTS = 4
 _PLACES = 256
@@ -97,7 +95,7 @@ def _of_convex(model: Model, optimum: ActiveSet, objective: float) -> Certificat
         if abs(plain.bound) <= OPTIMALITY_GAP * model.problem.objective.scale:
             return plain
     proof = certificate(model, optimum, OBJECTIVE)
-    if objective - proof.bound <= PROOF_ENOUGH * max(abs(objective), PROOF_ENOUGH):
+    if objective - proof.bound <= _PROOF_ENOUGH * max(abs(objective), _PROOF_ENOUGH):
         return proof
     bent = any(isinstance(family, FormulaFamily | NormFamily | ConeFamily) for family in model.program.families)
     if bent or objective - proof.bound > OPTIMALITY_GAP * abs(objective):
@@ -134,7 +132,7 @@ def _shifted(model: Model, optimum: ActiveSet, proof: Certificate) -> Certificat
     matrix = np.vstack([*pulls, program.equalities / length[:, None], *changes])
     if not len(contacts):
         return None
-    change = np.linalg.lstsq(matrix.T, -slope, rcond=DIRECTIONS_RANK)[0]
+    change = np.linalg.lstsq(matrix.T, -slope, rcond=_DIRECTIONS_RANK)[0]
     count = len(contacts)
     share, pull, rest = np.split(change, [count, count + len(equations)])
     parts = np.split(rest, np.cumsum([len(part) for part in changes])[:-1])
@@ -193,7 +191,7 @@ def _leaving(model: Model, optimum: ActiveSet) -> Iterator[Certificate]:
         pulled += multiplier * program.families[i].slack
     for name, place in model.places.items():
         if pulled[place] > 0.0 and least.get(name, -np.inf) >= 0.0 and means_by(model, name):
-            for share in LEFT_SHARES:
+            for share in _LEFT_SHARES:
                 cost = program.objective.copy()
                 cost[place] -= share * pulled[place]
                 state = newton(replace(program, objective=cost), optimum)
@@ -253,7 +251,7 @@ def _direction(family: NormFamily, x: Array) -> tuple[float, ...]:
     """The unit vector along a norm's image; 0 where rounding alone is left of that, and every direction is as good."""
     image = family.matrix @ x
     length = float(np.linalg.norm(image))
-    known = length > APEX * float(np.linalg.norm(np.abs(family.matrix) @ np.abs(x)))
+    known = length > _APEX * float(np.linalg.norm(np.abs(family.matrix) @ np.abs(x)))
     return tuple((image / length if known else np.zeros_like(image)).tolist())
 
 
@@ -313,7 +311,7 @@ def _exactly(model: Model, proof: Certificate, place: int, paying: list[int]) ->
 def violation_certificate(model: Model, optimum: ActiveSet) -> Certificate:
     """The certificate that no law exists, without multipliers that are mere rounding."""
     sizes = (optimum.multipliers, optimum.equality_multipliers)
-    least = PROOF_WEIGHTLESS * max((float(np.abs(size).max(initial=0.0)) for size in sizes), default=0.0)
+    least = _PROOF_WEIGHTLESS * max((float(np.abs(size).max(initial=0.0)) for size in sizes), default=0.0)
     sizeable = [np.where(np.abs(size) < least, 0.0, size) for size in sizes]
     plain = replace(optimum, multipliers=sizeable[0], equality_multipliers=sizeable[1])
     return certificate(model, plain, VIOLATION)
@@ -330,10 +328,10 @@ def _balanced(model: Model, proof: Certificate) -> Certificate:
         return proof
     images = [_image(model, contact) for contact in proof.contacts]
     slope = _slope(model, proof)
-    if all(image is None for image in images) or np.abs(slope).max(initial=0.0) <= DIRECTIONS_BALANCED:
+    if all(image is None for image in images) or np.abs(slope).max(initial=0.0) <= _DIRECTIONS_BALANCED:
         return proof
     pulls = [c.multiplier * image for c, image in zip(proof.contacts, images, strict=True) if image is not None]
-    change = np.linalg.lstsq(np.vstack(pulls).T, -slope, rcond=DIRECTIONS_RANK)[0]
+    change = np.linalg.lstsq(np.vstack(pulls).T, -slope, rcond=_DIRECTIONS_RANK)[0]
     parts = iter(np.split(change, np.cumsum([len(pull) for pull in pulls])[:-1]))
     contacts = tuple(
         contact if image is None else _with_direction(contact, np.array(contact.direction) + next(parts))
@@ -431,7 +429,7 @@ class _Tangents:
             proof = self._stated(weights, points, equations)
             best = proof if best is None or proof.bound > best.bound else best
             if (
-                best.bound >= objective - CUTS_ENOUGH * max(abs(objective), CUTS_ENOUGH)
+                best.bound >= objective - _CUTS_ENOUGH * max(abs(objective), _CUTS_ENOUGH)
                 or len(self.rows) > _MOST_TANGENTS
             ):
                 return best

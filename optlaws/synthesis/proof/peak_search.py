@@ -12,7 +12,9 @@ from optlaws.synthesis.proof.certificate import OBJECTIVE, Certificate
 from optlaws.synthesis.proof.make import certificate
 from optlaws.synthesis.proof.nodes import Leaf, Node, PlaceRange, Split
 from optlaws.synthesis.proof.peak_rows import PeakRows
-from optlaws.tolerances import HARDLY, LEAST_REACH
+
+_LEAST_REACH = 1e-9  # of u: cells of a peak's place are cut no further
+_HARDLY = 1e-9  # of a peak's bound: room that is less is hardly any
 
 _PROGRAMS = 1500
 _HOPELESS, _NEARLY = 1.5, 4.0
@@ -57,7 +59,7 @@ def search(problem: Problem, peak: PeakConstant, claim: float) -> PlaceSearch:
             tree.append(leaf)
         elif optimum is not None and most > rows.low:
             return PlaceSearch(better_at=places.k)
-        elif left <= 0 or places.reach < LEAST_REACH:
+        elif left <= 0 or places.reach < _LEAST_REACH:
             return PlaceSearch()
         else:
             parts += part.halves(optimum, None if optimum is None else rows.low - most)
@@ -69,8 +71,8 @@ def search(problem: Problem, peak: PeakConstant, claim: float) -> PlaceSearch:
 def _too_wide(rows: PeakRows, part: _Part) -> bool:
     """Whether the part is so wide that it is split without solving a program."""
     remainder = rows.remainder(part.places.k, part.places.reach)
-    room = None if part.margin is None else max(part.margin, HARDLY * rows.low)
-    return part.places.reach > LEAST_REACH and (
+    room = None if part.margin is None else max(part.margin, _HARDLY * rows.low)
+    return part.places.reach > _LEAST_REACH and (
         remainder > _HOPELESS * rows.low or (room is not None and remainder > _NEARLY * room)
     )
 

@@ -18,7 +18,9 @@ from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import Model, maxima, relaxed_power
 from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
 from optlaws.synthesis.spaces.space import LawSpace
-from optlaws.tolerances import SUBLEVEL_RANK, VALUE_ROUNDING
+from optlaws.tolerances import VALUE_ROUNDING
+
+_SUBLEVEL_RANK = 1e-15  # of the greatest singular value: less is rounding
 
 _ACCELERATION = 2
 
@@ -177,7 +179,7 @@ def _extension(space: LawSpace, nu: int) -> Array:
         functions, sizes, weights = np.linalg.svd(moments.T, full_matrices=False)
         # what has no such derivative would be told from it by rounding alone
         sizes = sizes[: max(len(moments.T) - space.vanishing(nu), 0)]
-        sizes = sizes[sizes > SUBLEVEL_RANK * sizes.max(initial=0.0)]
+        sizes = sizes[sizes > _SUBLEVEL_RANK * sizes.max(initial=0.0)]
         return np.asarray(weights[: len(sizes)].T @ (functions[:, : len(sizes)] / sizes).T, dtype=np.float64)
 
     return space.cached(("extension", nu), computed)

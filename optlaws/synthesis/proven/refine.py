@@ -30,7 +30,9 @@ from optlaws.synthesis.solution_array import SolutionArray, SolvedPart
 from optlaws.synthesis.solve import synthesize
 from optlaws.synthesis.solve_many import SolvedLine
 from optlaws.synthesis.status import Status, measure
-from optlaws.tolerances import NARROWEST, PROVEN_GAP
+
+_NARROWEST = 1e-12  # of a front's range: laws nearer to each other than this are one
+_PROVEN_GAP = 1e-10  # of the objective: laws of a front whose own gap is greater are looked at alone
 
 _FIRST, _MOST_PIECES = 17, 8
 #: the target as a share of the required gap: widths are whole parts of others
@@ -148,7 +150,7 @@ class _Refined:
                 if count > 1
             ]
         )
-        laws, known = self._solved(new, max(PROVEN_GAP, _LEFT * gap))
+        laws, known = self._solved(new, max(_PROVEN_GAP, _LEFT * gap))
         together = np.concatenate([self.values, new])
         order = np.argsort(together)
         every = self.laws + laws
@@ -211,7 +213,7 @@ class _Refined:
         """Refuse a gap below the certified laws' own gaps, which further laws could not reduce."""
         gaps = self.own_gaps
         worst = int(np.argmax(gaps))
-        narrow = np.diff(self.values).min() <= NARROWEST * float(np.ptp(self.values))
+        narrow = np.diff(self.values).min() <= _NARROWEST * float(np.ptp(self.values))
         if gaps[worst] <= gap and not narrow:
             return
         value = float(self.values[worst])

@@ -26,7 +26,8 @@ from optlaws.synthesis.problem.ranges import Range
 from optlaws.synthesis.proof.certificate import Certificate, weighted_rows
 from optlaws.synthesis.proof.duality import rounding_error_bound, summed
 from optlaws.synthesis.status import measure
-from optlaws.tolerances import PRODUCT_ROUNDING
+
+_PRODUCT_ROUNDING = 2.0**-50  # of a product: what rounding of it and of its factors can be
 
 Ends = tuple[float, float]
 
@@ -204,7 +205,7 @@ def _rates(number: SweptParameter, ends: Ends, *rows: list[tuple[float, Array, f
         raise InputError(f"{number.name} changes more than right sides of rows, so that nothing is proven between")
     low, high = (np.array([right for _, _, right in some]) for some in rows)
     rates = (high - low) / (ends[1] - ends[0])
-    return rates, np.where(rates == 0.0, 0.0, PRODUCT_ROUNDING * np.maximum(np.abs(low), np.abs(high)))
+    return rates, np.where(rates == 0.0, 0.0, _PRODUCT_ROUNDING * np.maximum(np.abs(low), np.abs(high)))
 
 
 def gap_bounds(t: Array, known: Array, scale: float | Array, *, concave: bool) -> Array:

@@ -17,7 +17,8 @@ from optlaws.synthesis.spaces.polynomial_space import PolynomialSpace, polynomia
 from optlaws.synthesis.spaces.space import LawSpace
 from optlaws.synthesis.spaces.spline_space import SplineSpace, spline_space
 from optlaws.synthesis.spaces.splines import PiecewiseBasis
-from optlaws.tolerances import CONVERSION_AGREES
+
+_CONVERSION_AGREES = 1e-8  # how near conversions between bases come, where even powers lose no digits
 
 #: the greatest degree at which conversions are compared, where even powers lose no digits, and how near they come
 _CHECKED = 6
@@ -58,7 +59,7 @@ def check_conversions(basis: PolynomialBasis) -> None:
         series = np.asarray(basis.series(tuple(coefficients.tolist())), dtype=np.float64)
         if coefficients.shape == back.shape and series.ndim == 1 and len(series) <= len(back):
             back[: len(series)] = series
-            if np.abs(back - given).max() <= CONVERSION_AGREES:
+            if np.abs(back - given).max() <= _CONVERSION_AGREES:
                 continue
         raise InputError(
             f"{type(basis).__name__}.coefficients and .series contradict each other at degree {basis.degree}: the "

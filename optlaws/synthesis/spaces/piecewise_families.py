@@ -14,7 +14,9 @@ from optlaws.kept import kept_property
 from optlaws.numbers import Array
 from optlaws.numerics.chebyshev import nodes, product, real_parts_of_roots
 from optlaws.synthesis.families.family import LinearFamily, ProductFamily
-from optlaws.tolerances import BESIDE_BREAK, FLAT_SLOPE
+from optlaws.tolerances import BESIDE_BREAK
+
+_FLAT_SLOPE = 1e-9  # of a series: a slope that is less is flat
 
 _MOST, _LEAST = 6000, 8  # nodes of a family, and of a piece: its extrema join them
 _SHARING = 8  # points of a piece, in the mean, from which on no copy of its series is made for each
@@ -171,14 +173,14 @@ def _stationary(family: PieceFamily, factors: list[Array]) -> Array:
             series = product(factors[0][i], factors[1][i])
         slope = np.asarray(chebyshev.chebder(series), dtype=np.float64)
         slopes.append(np.asarray(chebyshev.chebval(np.array([1.0, -1.0]), slope)))
-        if np.abs(slope).max() > FLAT_SLOPE * np.abs(series).max():
+        if np.abs(slope).max() > _FLAT_SLOPE * np.abs(series).max():
             roots = real_parts_of_roots(slope)
             places.append(pieces.global_places(i, roots[np.abs(roots) < 1.0]))
     needed = np.ones(len(family.corners), dtype=np.bool_)
     if not family.jumps:
         # where the function goes on rising or falling, a corner is no extremum
         needed[1:-1] = [
-            before[1] * after[0] <= FLAT_SLOPE * max(before[1] ** 2, after[0] ** 2)
+            before[1] * after[0] <= _FLAT_SLOPE * max(before[1] ** 2, after[0] ** 2)
             for before, after in pairwise(slopes)
         ]
     return np.concatenate([family.corners[needed], *places])

@@ -25,7 +25,10 @@ from optlaws.synthesis.spaces.end_conditions import BoundaryConditions, law_from
 from optlaws.synthesis.spaces.piecewise_families import PieceFamily, PieceSeries
 from optlaws.synthesis.spaces.piecewise_space import PiecewiseSpace
 from optlaws.synthesis.spaces.splines import PiecewiseBasis
-from optlaws.tolerances import EVEN_PART, VELOCITY_CHANGE
+from optlaws.tolerances import ROUNDOFF
+
+_VELOCITY_CHANGE = 16.0 * ROUNDOFF  # of accelerations: what their mean may miss of the change of the velocity
+_EVEN_PART = 1e-9  # of the greatest singular value: less is no even part
 
 
 class SplineSpace(PiecewiseSpace):
@@ -135,7 +138,7 @@ def _continue(c: Array, lengths: Array, velocities: Array, flat: int) -> None:
     orders = np.arange(0, c.shape[1], 2)
     shares = 1.0 / (1.0 - orders.astype(np.float64) ** 2)
     missed = np.diff(velocities) / lengths - c[:, ::2] @ shares
-    rounding = VELOCITY_CHANGE * (np.abs(c).sum(axis=1) + np.abs(velocities[1:]) / lengths)
+    rounding = _VELOCITY_CHANGE * (np.abs(c).sum(axis=1) + np.abs(velocities[1:]) / lengths)
     # (1 - x²)^n = 2^-n (1 - T2)^n
     hill = chebyshev.chebpow([0.5, 0.0, -0.5], min(flat, (c.shape[1] - 1) // 2), maxpower=c.shape[1])
     hill /= hill[::2] @ shares[: len(hill[::2])]
@@ -152,7 +155,7 @@ def _odd(functions: Array) -> Array:
     """Combinations of the functions that are odd about 1/2, as orthonormal columns."""
     mirrored = functions[:, ::-1] * (-1.0) ** np.arange(functions.shape[2])
     _, sizes, combinations = np.linalg.svd((functions + mirrored).reshape(len(functions), -1).T)
-    even = int((sizes > EVEN_PART * sizes.max()).sum())
+    even = int((sizes > _EVEN_PART * sizes.max()).sum())
     return np.asarray(combinations[even:].T)
 
 

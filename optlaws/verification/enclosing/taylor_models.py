@@ -9,8 +9,11 @@ from typing import Any
 
 from flint import arb, arb_mat, arb_poly, arb_series, ctx, fmpq_poly
 
-from optlaws.tolerances import GREATEST_ENCLOSED, GREATEST_NEGLIGIBLE, TAYLOR_REST
+from optlaws.tolerances import TAYLOR_REST
 from optlaws.verification.enclosing.balls import Extremes, ball, series_length
+
+_GREATEST_ENCLOSED = 2.0**-70  # of a greatest value: how narrow its ball must be
+_GREATEST_NEGLIGIBLE = 2.0**-110  # of what a function is made of: a greatest value that is less is enclosed well enough
 
 #: bits with which the greatest value is searched, and how short a part is cut no further
 _BITS, _SHORTEST = 192, Fraction(1, 2**60)
@@ -132,7 +135,7 @@ class _BranchAndBound:
     """Bounds of the greatest value so far, from below and from above."""
 
     def __init__(self, signs: Sequence[float], size: arb) -> None:
-        self.signs, self.nothing = signs, size * GREATEST_NEGLIGIBLE
+        self.signs, self.nothing = signs, size * _GREATEST_NEGLIGIBLE
         self.least = self.greatest = -size
 
     def _counted(self, value: arb) -> arb:
@@ -161,7 +164,7 @@ class _BranchAndBound:
             if others and sizes[0] > sum((m * size for m, size in enumerate(sizes[1:], 2)), arb(0)):
                 # it rises or falls throughout
                 self.greatest = reduce(arb.max, ((end + off).upper() for end in ends), self.greatest)
-            elif width < (GREATEST_ENCLOSED * abs(self.least)).max(self.nothing) or half < _SHORTEST or not others:
+            elif width < (_GREATEST_ENCLOSED * abs(self.least)).max(self.nothing) or half < _SHORTEST or not others:
                 self.greatest = self.greatest.max(top)
             else:
                 left += [(low, middle), (middle, high)]

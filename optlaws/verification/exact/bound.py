@@ -22,12 +22,15 @@ from optlaws.synthesis.limits.rounding import rounded_up
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.proof.certificate import VIOLATION, Certificate
 from optlaws.synthesis.proof.nodes import Contact
-from optlaws.tolerances import BOUND_ENCLOSED, PAYING_SCALE, ROUNDED_MULTIPLIER
 from optlaws.verification.enclosing.balls import ball, lower, upper
 from optlaws.verification.exact.boxes import tree_holds
 from optlaws.verification.exact.rows import ExactRows
 from optlaws.verification.exact.sublevel_bounds import greatest_values, least_objective, least_values, means
 from optlaws.verification.machines.certificate_rows import BallRow, together
+
+_PAYING_SCALE = 2.0**-40  # of the scale of a constant: in such shares is counted what a sum leaves of it alone
+_ROUNDED_MULTIPLIER = 1e-7  # of the greatest multiplier: a correction that nothing but rounding need explain
+_BOUND_ENCLOSED = 2.0**-80  # of the objective's scale: in a wider ball a bound gains from more bits
 
 Vector = list[arb]
 
@@ -227,7 +230,7 @@ class _System:
 
     def _is_whole(self, proof: Proof, claim: float) -> bool:
         """Whether a proof without helpers is all that they could prove, with multipliers changed by rounding alone."""
-        if self.along is not None or proof.value is None or proof.correction > ROUNDED_MULTIPLIER:
+        if self.along is not None or proof.value is None or proof.correction > _ROUNDED_MULTIPLIER:
             return False
         return isfinite(claim) and proof.value >= Fraction(claim) - _SAME * max(self.unit, abs(proof.value))
 
@@ -271,7 +274,7 @@ class _System:
         proof = Proof(
             proven, rounded_up(upper(charge) * self.unit) + 0.0, moved / greatest, self.negative, self.unknown, bounds
         )
-        return proof, bool(value.rad() < BOUND_ENCLOSED)
+        return proof, bool(value.rad() < _BOUND_ENCLOSED)
 
     def _slopes(self) -> Vector:
         slopes = list(self.cost)
@@ -317,7 +320,7 @@ class _System:
             none, some, more = (means(problem, rows, {name: times * size}) for times in (0.0, 1.0, 2.0))
             unit = [arb(0)] * (self.size + 1)
             unit[rows.space.terms + i] = arb(1)
-            payer = _Helper(unit, arb(0), arb(0), size * PAYING_SCALE, pays=True)
+            payer = _Helper(unit, arb(0), arb(0), size * _PAYING_SCALE, pays=True)
             others = [constant for constant in constants if not bool(constant.vector[rows.space.terms + i] == 1)]
             for nu in none.keys() & some.keys() & more.keys():
                 growth = (some[nu] - none[nu]) * _WIDER
@@ -338,9 +341,9 @@ def _better(proof: Proof, than: Proof, scale: Fraction) -> bool:
     if proof.value is None or than.value is None:
         return proof.value is not None
     rounding = _SAME * max(scale, abs(than.value))
-    if proof.correction <= ROUNDED_MULTIPLIER < than.correction:
+    if proof.correction <= _ROUNDED_MULTIPLIER < than.correction:
         return proof.value > than.value - rounding
-    if than.correction <= ROUNDED_MULTIPLIER < proof.correction:
+    if than.correction <= _ROUNDED_MULTIPLIER < proof.correction:
         return proof.value > than.value + rounding
     return proof.value > than.value
 

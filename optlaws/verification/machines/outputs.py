@@ -14,7 +14,6 @@ from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.synthesis.spaces.space import LawSpace
-from optlaws.tolerances import OUTPUT_REST
 from optlaws.verification.enclosing.balls import ball, rational, root
 from optlaws.verification.enclosing.pieces import PolynomialPiece
 from optlaws.verification.enclosing.taylor_models import Ends, Taylor, cells, greatest_magnitude, integrals_of_products
@@ -30,6 +29,8 @@ from optlaws.verification.machines.output_motion import (
     with_column,
 )
 from optlaws.verification.machines.transfer import MachineConstant, Transfer
+
+_OUTPUT_REST = 2.0**-150  # of what an output is made of: what a Taylor polynomial may leave of it
 
 
 @runtime_checkable
@@ -177,7 +178,7 @@ def _cells(motion: OutputMotion, start: Fraction, stop: Fraction) -> Iterator[tu
     left = _MOST
     for stretch in motion.stretches:
         ends = max(start, stretch.start), min(stop, stretch.start + stretch.length)
-        functions, enough = partial(motion.series, stretch), partial(_next_to_nothing, OUTPUT_REST * stretch.size)
+        functions, enough = partial(motion.series, stretch), partial(_next_to_nothing, _OUTPUT_REST * stretch.size)
         terms = max(_TERMS, stretch.degree + 1)
         several = cells(functions, arb_series, ends, Fraction(0), enough, terms=terms, most=inf)
         for cell in several if ends[0] < ends[1] else ():

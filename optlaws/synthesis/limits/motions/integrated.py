@@ -21,7 +21,9 @@ from optlaws.kept import kept_property
 from optlaws.numbers import Array
 from optlaws.synthesis.limits.phase_plane import PhasePlane, TorqueLimit, VelocityLimit
 from optlaws.synthesis.limits.phase_torque import ACCELERATION, AnyTorque
-from optlaws.tolerances import BOUND_KEPT, INTEGRATION, SMALLEST_SIZE, WINDOW_EDGE
+from optlaws.tolerances import INTEGRATION, SMALLEST_SIZE, WINDOW_EDGE
+
+_BOUND_KEPT = 1e-6  # of a bound: a motion integrated at nodes that is beyond it by so little keeps it
 
 _NODES, _STEPS, _WIDEST = 1200, 40, 60.0
 
@@ -146,7 +148,7 @@ class MotionNodes:
 
     def keeps(self, motion: _Motion) -> bool:
         """Whether a motion keeps the bounds at all nodes, and its acceleration those in the middle of cells."""
-        w, more = motion.w, 1.0 + BOUND_KEPT
+        w, more = motion.w, 1.0 + _BOUND_KEPT
         if np.any(w > self.greatest * more) or not np.all(w[1:-1] > 0.0):
             return False
         for bound in self.plane.bounds:

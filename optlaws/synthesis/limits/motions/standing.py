@@ -31,7 +31,8 @@ from optlaws.numerics.taylor import variable
 from optlaws.synthesis.limits.formula_jets import formula_jet
 from optlaws.synthesis.limits.phase_plane import PhasePlane
 from optlaws.synthesis.limits.phase_torque import AnyTorque, GearTorque, PhaseTorque
-from optlaws.tolerances import HOLDING_ENCLOSED
+
+_HOLDING_ENCLOSED = 1e-9  # of the torque that holds a load nearest to 0: how narrow its enclosure is
 
 _CELLS, _MOST_CELLS, _HALVINGS, _ORDER = 64, 1024, 24, 2
 _PLACES = np.linspace(0.0, 1.0, 1025)
@@ -198,7 +199,7 @@ def _least(formulas: list[Formula], sign: int) -> float:
         below, above = zip(*(_range(formula, sign, low, high) for formula in formulas), strict=True)
         pick = np.max if sign > 0 else np.min  # minus the greatest is the least of those below 0
         least, top = pick(below, axis=0), min(top, float(np.min(pick(above, axis=0))))
-        near = least < top - HOLDING_ENCLOSED * abs(top)
+        near = least < top - _HOLDING_ENCLOSED * abs(top)
         if halving + 1 == _HALVINGS or 2 * np.count_nonzero(near) > _MOST_CELLS:
             near = np.zeros_like(near)
         done = min(done, float(np.min(least[~near], initial=inf)))
@@ -217,5 +218,5 @@ def _range(formula: Formula, sign: int, low: Array, high: Array) -> tuple[Array,
     with np.errstate(invalid="ignore", over="ignore"):
         steep = (exact(np.maximum(np.abs(at.terms[1].low), np.abs(at.terms[1].high))) * half).high
         bent = (exact(np.maximum(np.abs(over.terms[2].low), np.abs(over.terms[2].high))) * half * half).high
-        by_slope = (at.terms[0] - steep * (1.0 + HOLDING_ENCLOSED) - bent * (1.0 + HOLDING_ENCLOSED)).low
+        by_slope = (at.terms[0] - steep * (1.0 + _HOLDING_ENCLOSED) - bent * (1.0 + _HOLDING_ENCLOSED)).low
     return np.fmax(over.terms[0].low, np.where(np.isnan(by_slope), -inf, by_slope)), at.terms[0].high

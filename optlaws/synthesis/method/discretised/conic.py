@@ -17,7 +17,9 @@ from optlaws.synthesis.families.curved import FormulaFamily
 from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, NormFamily, Points, Program
 from optlaws.synthesis.families.squares import SumOfSquares
 from optlaws.synthesis.method.discretised.ipopt import Answer
-from optlaws.tolerances import CONIC_SOLVER, EMPTY_ROW
+from optlaws.tolerances import EMPTY_ROW
+
+_CONIC_SOLVER = 1e-12  # what a solver of cones is told to leave of gap and feasibility
 
 SOLVED = "Solved"  #: to the accuracy that is set
 _USABLE = (SOLVED, "AlmostSolved")
@@ -123,7 +125,7 @@ def optimum_on_points(program: Program, points: list[Points], near: Array | None
     right = np.concatenate([given, *(block.right for block in blocks)])
     cones = [clarabel.ZeroConeT(len(scale)), *(cone for block in blocks for cone in block.cones)]
     straight = np.zeros((program.size, program.size))
-    optimum = conic_optimum(straight, program.objective, matrix, right, cones, tolerance=CONIC_SOLVER)
+    optimum = conic_optimum(straight, program.objective, matrix, right, cones, tolerance=_CONIC_SOLVER)
     if optimum is None:
         return None
     ends = np.cumsum([len(scale), *(len(block.right) for block in blocks)])[:-1]

@@ -19,7 +19,11 @@ from optlaws.synthesis.families.curved import FormulaFamily, IntegralFamily
 from optlaws.synthesis.families.energy import EnergyFamily
 from optlaws.synthesis.families.family import ConstraintFamily, NormFamily, Points, ProductFamily
 from optlaws.synthesis.families.kinked import KinkedIntegralFamily
-from optlaws.tolerances import KINK_RADIUS, LEAST_ENERGY, LEAST_SUM, SMOOTH_NORM
+from optlaws.tolerances import LEAST_ENERGY
+
+_KINK_RADIUS = 0.003  # of hyperbolas in place of kinks, in units of the problem
+_SMOOTH_NORM = 1e-12  # keeps a norm's slope finite where it vanishes; Newton's method goes without it
+_LEAST_SUM = 1e-24  # under a root in IPOPT's expressions: its slope stays finite
 
 
 def _product_numbers(family: ProductFamily, points: Points) -> list[Array]:
@@ -49,7 +53,7 @@ def _norm_numbers(family: NormFamily, _: Points) -> list[Array]:
 def _norm(point: Any, symbols: list[Any], _: Hashable) -> Any:  # noqa: ANN401
     import casadi as ca
 
-    return ca.sqrt(ca.sumsqr(symbols[0] @ point) + SMOOTH_NORM)
+    return ca.sqrt(ca.sumsqr(symbols[0] @ point) + _SMOOTH_NORM)
 
 
 def _energy_numbers(family: EnergyFamily, points: Points) -> list[Array]:
@@ -94,7 +98,7 @@ def _formula_detail(family: Any) -> Hashable:  # noqa: ANN401
     """The formula, its names, whether it is summed over its places, and whether the root of that is meant."""
     if not isinstance(family, IntegralFamily):
         return family.formula, family.names, False, False
-    formula = rounded(family.formula, KINK_RADIUS) if isinstance(family, KinkedIntegralFamily) else family.formula
+    formula = rounded(family.formula, _KINK_RADIUS) if isinstance(family, KinkedIntegralFamily) else family.formula
     return formula, family.names, True, family.root
 
 
@@ -106,7 +110,7 @@ def _formula(point: Any, symbols: list[Any], detail: Any) -> Any:  # noqa: ANN40
     at = {name: column @ point for name, column in zip(names, columns, strict=True)}
     values = weights * evaluate(formula, {**at, "k": k}, casadi_arithmetic())
     total = ca.sum1(values) if summed else values
-    return ca.sqrt(total + LEAST_SUM) if root else total
+    return ca.sqrt(total + _LEAST_SUM) if root else total
 
 
 @dataclass(frozen=True)

@@ -8,7 +8,8 @@ from numpy.polynomial.chebyshev import chebpts2
 from optlaws.numbers import Array
 from optlaws.numerics.chebyshev import nodes
 from optlaws.synthesis.families.family import ConstraintFamily, EvenFamily, Points, Program
-from optlaws.tolerances import NEARLY_BINDING
+
+_NEARLY_BINDING = 1e-2  # of a right side, or 1: extrema within this of binding join the points that are held
 
 
 def first_points(program: Program) -> list[Points]:
@@ -53,7 +54,7 @@ def _joined(family: ConstraintFamily, points: Points, x: Array) -> Points:
     if family.domain[0] == family.domain[1]:
         return points
     u, s, residual = family.extremes(x)
-    near = residual > -NEARLY_BINDING * max(1.0, abs(family.right_side(x)))
+    near = residual > -_NEARLY_BINDING * max(1.0, abs(family.right_side(x)))
     for sign in family.signs:
         near &= (s != sign) | ~np.isin(u, points.u[points.s == sign])
     return points.joined(Points(u[near], s[near]))

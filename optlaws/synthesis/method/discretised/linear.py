@@ -20,7 +20,11 @@ from optlaws.numbers import Array
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.family import LinearFamily, Points, Program
 from optlaws.synthesis.method.discretised.ipopt import Answer
-from optlaws.tolerances import FLAT_GAP, SIZE_RANK, VERTEX_BALANCED, VERTEX_FEASIBILITY
+from optlaws.tolerances import SIZE_RANK
+
+_FLAT_GAP = 1e-9  # of an objective: what a linear program's vertex may be off its dual
+_VERTEX_FEASIBILITY = 1e-11  # of a vertex: by so much its own equations may be missed
+_VERTEX_BALANCED = 1e-12  # of the greatest multiplier: by so much a vertex may fail to balance
 
 #: a row binds if its multiplier exceeds its distance times this, in units in which it has length 1; the more rows hold
 #: together, the better they say where x is: as few as their own number, hardly independent, miss by 1e-10 in between
@@ -58,7 +62,7 @@ def sharpened(program: Program, points: list[Points], answer: Answer) -> ActiveS
             multipliers, equations = balance
             active = np.flatnonzero(binding)
             gap = float(np.abs(multipliers * table.residuals(x)[active]).sum())
-            if gap > FLAT_GAP * max(1.0, abs(program.objective_at(x))):
+            if gap > _FLAT_GAP * max(1.0, abs(program.objective_at(x))):
                 return None
             return ActiveSet(
                 x=x,
@@ -113,7 +117,7 @@ class LinearTable:
         for _ in range(2):
             x = x + np.linalg.lstsq(matrix, right - matrix @ x, rcond=SIZE_RANK)[0]
         left = np.abs(matrix @ x - right).max(initial=0.0)
-        return x if left <= VERTEX_FEASIBILITY * max(1.0, float(np.abs(x).max())) else None
+        return x if left <= _VERTEX_FEASIBILITY * max(1.0, float(np.abs(x).max())) else None
 
     def balanced(self, binding: NDArray[np.bool_], weights: Array, equations: Array) -> tuple[Array, Array] | None:
         """Multipliers near the given ones that balance the objective exactly; None if any would be negative.
@@ -132,7 +136,7 @@ class LinearTable:
             )
         changed, scaled = before * (1.0 + share[: len(before)]), scaled + share[len(before) :]
         left = np.abs(self._defect(rows, changed, scaled)).max()
-        sound = left <= VERTEX_BALANCED * max(1.0, float(changed.max(initial=0.0)))
+        sound = left <= _VERTEX_BALANCED * max(1.0, float(changed.max(initial=0.0)))
         return (changed, scaled / self.equation_length) if sound and not (changed < 0.0).any() else None
 
     def sharp(self, vertex: Answer, points: list[Points]) -> Answer:

@@ -17,14 +17,12 @@ from optlaws.synthesis.families.curved import IntegralFamily
 from optlaws.synthesis.families.family import LinearFamily, Points, Program
 from optlaws.synthesis.method.discretised.conic import conic_optimum
 from optlaws.synthesis.method.discretised.ipopt import Answer
-from optlaws.tolerances import (
-    EMPTY_ROW,
-    QUADRATIC_SOLVER,
-    STEP_FEASIBILITY,
-    STEP_GAIN,
-    STEP_PAYS,
-    STEP_SETTLED,
-)
+from optlaws.tolerances import EMPTY_ROW, STEP_SETTLED
+
+_STEP_PAYS = 1e-4  # of what a quadratic step promises: the share that it must hold
+_STEP_FEASIBILITY = 1e-9  # what a row may be exceeded by in a quadratic step
+_STEP_GAIN = 1e-13  # of the objective: a quadratic step that promises less is rounding
+_QUADRATIC_SOLVER = 1e-13  # what a solver of quadratic steps is told to leave of gap and feasibility
 
 _STEPS = 80
 #: of what a step promises: the share that it must keep, and that with which the damping falls
@@ -126,7 +124,7 @@ class _Descent:
             if step is None:
                 damping *= _DAMPED
                 continue
-            if step.left > STEP_FEASIBILITY and self.price < _MOST_DEAR:
+            if step.left > _STEP_FEASIBILITY and self.price < _MOST_DEAR:
                 # rows that could be kept are too cheap: their costs are computed again
                 self.price *= _DAMPED
                 continue
@@ -136,9 +134,9 @@ class _Descent:
             settled = ratio is None or size <= least
             if ratio is None or settled:
                 multipliers = step.rows
-                x = x if ratio is None or ratio < STEP_PAYS else onward[0]
+                x = x if ratio is None or ratio < _STEP_PAYS else onward[0]
                 break
-            if ratio < STEP_PAYS:
+            if ratio < _STEP_PAYS:
                 damping, refused = damping * _DAMPED, True
                 continue
             multipliers = step.rows
@@ -171,7 +169,7 @@ class _Descent:
                 better = before - self._merit(*again)
                 if better > gained:
                     best, gained = again, better
-        if promised <= STEP_GAIN * max(1.0, abs(before)):
+        if promised <= _STEP_GAIN * max(1.0, abs(before)):
             return best, None
         return best, gained / promised
 
@@ -238,7 +236,7 @@ class _Descent:
         curvature[:size, :size] = bend + damping * np.eye(size)
         cones = [clarabel.ZeroConeT(len(program.right)), clarabel.NonnegativeConeT(int(finite.sum()) + 1)]
         cost = np.append(program.objective, self.price)
-        optimum = conic_optimum(curvature, cost, matrix, right, cones, tolerance=QUADRATIC_SOLVER)
+        optimum = conic_optimum(curvature, cost, matrix, right, cones, tolerance=_QUADRATIC_SOLVER)
         if optimum is None:
             return None
         duals = np.asarray(optimum.z)

@@ -13,7 +13,9 @@ from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.family import ConstraintFamily, Program
 from optlaws.synthesis.method.newton import newton
 from optlaws.synthesis.method.strategies.strategy import Strategy, cutting_plane_loop
-from optlaws.tolerances import EXCESS, PULLING, SAME_PLACE
+from optlaws.tolerances import EXCESS, SAME_PLACE
+
+_PULLING = 1e-10  # of the greatest multiplier: one that is more negative pulls, and its contact is dropped
 
 _CORRECTIONS = 8
 
@@ -56,7 +58,7 @@ def settled(program: Program, state: ActiveSet) -> ActiveSet:
     """Drop the contact that pulls most, or put contacts that left the interval on its end; the same object if none."""
     as_equation = np.array([program.families[i].as_equation for i in state.family], dtype=np.bool_)
     pushing = np.where(as_equation, 0.0, state.multipliers)
-    if np.any(pushing < -PULLING * np.abs(state.multipliers).max(initial=0.0)):
+    if np.any(pushing < -_PULLING * np.abs(state.multipliers).max(initial=0.0)):
         return _without(state, int(np.argmin(pushing)))
     low, high = np.array([program.families[i].domain for i in state.family]).reshape(-1, 2).T
     outside = (state.u < low) | (state.u > high)

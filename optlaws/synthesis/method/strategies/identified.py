@@ -14,7 +14,11 @@ from optlaws.synthesis.method.discretised.ipopt import Answer
 from optlaws.synthesis.method.discretised.linear import sharpened
 from optlaws.synthesis.method.newton import newton
 from optlaws.synthesis.method.strategies.contacts import completed, polished
-from optlaws.tolerances import BOUND_FEASIBILITY, SAME_HEIGHT, SAME_PLACE, WEIGHTLESS, WEIGHTLESS_AT_VERTEX
+from optlaws.tolerances import BOUND_FEASIBILITY, SAME_PLACE
+
+_SAME_HEIGHT = 1e-9  # what an extremum's residual may be below that of a point on its hill: rounding of a series
+_WEIGHTLESS = 1e-7  # of the greatest multiplier, of IPOPT: what is less may be its barrier's, not a contact's
+_WEIGHTLESS_AT_VERTEX = 1e-13  # of the greatest multiplier, at a vertex, which has no barrier: what is less is rounding
 
 #: times the variables: contacts that are nearer to each other may be one that IPOPT's tolerance shows as two
 _OF_SPACING = 1.0
@@ -39,13 +43,13 @@ def optimum_near(
 def as_answered(points: list[Points], answer: Answer) -> ActiveSet:
     """IPOPT's own contacts, for optima that are flat somewhere, where no exact active set exists."""
     return _contacts(
-        points, answer, [WEIGHTLESS * max(1.0, float(w.max(initial=0.0))) for w in answer.multipliers[:-1]]
+        points, answer, [_WEIGHTLESS * max(1.0, float(w.max(initial=0.0))) for w in answer.multipliers[:-1]]
     )
 
 
 def of_vertex(points: list[Points], answer: Answer) -> ActiveSet:
     """The contacts of a vertex: what has a multiplier, however small."""
-    return _contacts(points, answer, [WEIGHTLESS_AT_VERTEX * w.max(initial=0.0) for w in answer.multipliers[:-1]])
+    return _contacts(points, answer, [_WEIGHTLESS_AT_VERTEX * w.max(initial=0.0) for w in answer.multipliers[:-1]])
 
 
 def _contacts(points: list[Points], answer: Answer, least: list[float]) -> ActiveSet:
@@ -72,7 +76,7 @@ def _identified(program: Program, points: list[Points], answer: Answer) -> Activ
         jet = family.jet(answer.x, grid.u, grid.s)
         gathered = np.zeros(len(u))
         for j in np.flatnonzero(_binding(jet.gradient, weights, jet.value)):
-            higher = (s == grid.s[j]) & (residual >= jet.value[j] - SAME_HEIGHT)
+            higher = (s == grid.s[j]) & (residual >= jet.value[j] - _SAME_HEIGHT)
             distance = np.where(higher, np.abs(u - grid.u[j]), np.inf)
             gathered[np.argmin(distance)] += weights[j]
         _merge(family, u, s, gathered)
@@ -95,7 +99,7 @@ def _binding(rows: Array, weights: Array, residual: Array) -> NDArray[np.bool_]:
     length = np.linalg.norm(rows, axis=1)
     sizes = weights * length
     greatest = max(1.0, float(sizes.max(initial=0.0)))
-    binding: NDArray[np.bool_] = (sizes * length > -residual * greatest) & (sizes > WEIGHTLESS * greatest)
+    binding: NDArray[np.bool_] = (sizes * length > -residual * greatest) & (sizes > _WEIGHTLESS * greatest)
     return binding
 
 
@@ -104,7 +108,7 @@ def _sharpened(program: Program, points: list[Points], answer: Answer) -> Active
     if not program.curved:
         return sharpened(program, points, answer)
     products = [isinstance(family, ProductFamily) for family in program.families]
-    if any((w > WEIGHTLESS).any() for w, curved in zip(answer.multipliers, products, strict=False) if curved):
+    if any((w > _WEIGHTLESS).any() for w, curved in zip(answer.multipliers, products, strict=False) if curved):
         return None
     optimum = newton(program, as_answered(points, answer), deficient=True)
     return optimum if optimum is not None and (optimum.multipliers >= 0.0).all() else None

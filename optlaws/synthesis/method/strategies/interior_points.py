@@ -24,7 +24,9 @@ from optlaws.synthesis.method.strategies.strategy import Strategy, cutting_plane
 from optlaws.synthesis.method.strategies.vertices import ByVertices
 from optlaws.synthesis.method.units import ProgramUnits, units_near
 from optlaws.synthesis.method.vanishing import amplitudes, nearly_vanished
-from optlaws.tolerances import EXCESS, LOST
+from optlaws.tolerances import EXCESS
+
+_LOST = 1e7  # coordinates beyond this are no law of the field: the solver has lost its way
 
 _LINEAR_ROUNDS = 6
 _KINKED_ROUNDS = 3
@@ -202,4 +204,4 @@ def _lost(answer: Answer) -> bool:
 
 
 def _astray(x: Array) -> bool:
-    return not np.isfinite(x).all() or float(np.abs(x).max()) > LOST
+    return not np.isfinite(x).all() or float(np.abs(x).max()) > _LOST

@@ -18,7 +18,10 @@ from optlaws.synthesis.method.discretised.quadratic_steps import stepwise_on_poi
 from optlaws.synthesis.method.discretised.straight import straight_step
 from optlaws.synthesis.method.strategies.identified import as_answered, optimum_near
 from optlaws.synthesis.method.strategies.strategy import Strategy
-from optlaws.tolerances import EXCESS, STEP_OF_SMOOTH, STEP_SETTLED, STEP_SHOWS_CONTACTS
+from optlaws.tolerances import EXCESS, STEP_SETTLED
+
+_STEP_OF_SMOOTH = 1e-2  # the same where formulas without kinks stand for those with
+_STEP_SHOWS_CONTACTS = 1e-4  # the same: after one that is less Newton's method may find the exact contacts
 
 #: how far a linear program may go, in times the greatest variable: beyond what laws of the field have
 _REACH = 1e4
@@ -73,7 +76,7 @@ class ByQuadratics(Strategy[list[Points], ActiveSet]):
                 self.x = self.x + step
                 points = with_extrema(self.program, points, self.x)
         self.count += 1
-        self._stepped(points, STEP_SHOWS_CONTACTS)
+        self._stepped(points, _STEP_SHOWS_CONTACTS)
         optimum = self._shown(points)
         if optimum is None:
             self._stepped(points, STEP_SETTLED)
@@ -96,7 +99,7 @@ class ByQuadratics(Strategy[list[Points], ActiveSet]):
             family.rounded(_RADIUS, self.x) if isinstance(family, KinkedIntegralFamily) else family
             for family in self.program.families
         )
-        answer = stepwise_on_points(replace(self.program, families=families), points, self.x, STEP_OF_SMOOTH)
+        answer = stepwise_on_points(replace(self.program, families=families), points, self.x, _STEP_OF_SMOOTH)
         if answer is not None:
             self.x, self.iterations = answer.x, self.iterations + answer.iterations
 

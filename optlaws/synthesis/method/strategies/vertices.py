@@ -22,7 +22,10 @@ from optlaws.synthesis.method.discretised.linear import LinearTable, vertex_on_p
 from optlaws.synthesis.method.strategies.identified import of_vertex, optimum_near
 from optlaws.synthesis.method.strategies.strategy import Strategy
 from optlaws.synthesis.spaces.piecewise_families import PieceFamily
-from optlaws.tolerances import EXCESS, VERTEX_FINE, VERTEX_NEAR
+from optlaws.tolerances import EXCESS
+
+_VERTEX_NEAR = 1e-3  # the excess under which a vertex may show the optimum's contacts
+_VERTEX_FINE = 1e-6  # the excess under which the next vertex is sought from this one, as tolerances count
 
 _ROUNDS = 40
 _PIECES = 12
@@ -67,7 +70,7 @@ class ByVertices(Strategy[list[Points], ActiveSet]):
     central: bool = False
     excess: float = np.inf
     least: float = np.inf
-    promising: float = VERTEX_NEAR
+    promising: float = _VERTEX_NEAR
     near: Array | None = None
 
     def answered(self, points: list[Points]) -> tuple[ActiveSet | None, list[Points] | None]:
@@ -83,7 +86,7 @@ class ByVertices(Strategy[list[Points], ActiveSet]):
         if self._ended(known=known):
             return of_vertex(points, vertex), None
         self.least = min(self.least, self.excess)
-        if self.excess <= VERTEX_FINE:
+        if self.excess <= _VERTEX_FINE:
             self.near = vertex.x
         return None, onward
 
@@ -95,7 +98,7 @@ class ByVertices(Strategy[list[Points], ActiveSet]):
             vertex = vertex_on_points(self.program, points, self.near)
         if vertex is not None:
             self.excess = _excess(self.program, vertex.x)
-            if self.excess <= VERTEX_FINE and not self.program.curved:
+            if self.excess <= _VERTEX_FINE and not self.program.curved:
                 vertex, self.excess = _exact(self.program, points, vertex, self.excess)
         return vertex
 

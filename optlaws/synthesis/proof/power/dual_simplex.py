@@ -8,7 +8,10 @@ from __future__ import annotations
 import numpy as np
 
 from optlaws.numbers import Array
-from optlaws.tolerances import PIVOT_LEAST, ROW_BROKEN, TIE_BROKEN
+
+_ROW_BROKEN = 1e-11  # of a row: what is broken by less is kept
+_PIVOT_LEAST = 1e-8  # of a row: what a row of the basis must have of one that it leaves to
+_TIE_BROKEN = 1e-9  # of a goal: what is added so that multipliers differ
 
 #: steps, for each variable
 _STEPS = 8
@@ -42,7 +45,7 @@ def multipliers_in_cube(goals: Array, rows: Array, right: Array) -> tuple[Array,
     every = np.vstack([rows, np.eye(size), -np.eye(size)])
     most = np.concatenate([right, np.ones(2 * size)])
     # what is minimised is not quite the goal: of multipliers that are 0 none would be the first to leave
-    broken = goals + np.where(goals < 0.0, -TIE_BROKEN, TIE_BROKEN) * (1.0 + np.arange(size) / size)
+    broken = goals + np.where(goals < 0.0, -_TIE_BROKEN, _TIE_BROKEN) * (1.0 + np.arange(size) / size)
     basis = len(rows) + np.arange(size) + np.where(broken > 0.0, size, 0)
     weights, points = np.zeros((count, len(every))), np.full((count, size), np.nan)
     left = np.arange(count)
@@ -51,7 +54,7 @@ def multipliers_in_cube(goals: Array, rows: Array, right: Array) -> tuple[Array,
         z = (inverse @ most[basis[left], None])[:, :, 0]
         excess = z @ every.T - most
         entering = excess.argmax(axis=1)
-        ended = excess[np.arange(len(left)), entering] <= ROW_BROKEN
+        ended = excess[np.arange(len(left)), entering] <= _ROW_BROKEN
         if step == _STEPS * size:
             ended[:] = True
         if ended.any():
@@ -64,7 +67,7 @@ def multipliers_in_cube(goals: Array, rows: Array, right: Array) -> tuple[Array,
         share = (every[entering, None] @ inverse)[:, 0]
         now = np.maximum(-(broken[left, None] @ inverse)[:, 0], 0.0)
         ratio = np.full(now.shape, np.inf)
-        np.divide(now, share, out=ratio, where=share > PIVOT_LEAST)
+        np.divide(now, share, out=ratio, where=share > _PIVOT_LEAST)
         leaving = ratio.argmin(axis=1)
         empty = np.isinf(ratio[np.arange(len(left)), leaving])
         if empty.any():

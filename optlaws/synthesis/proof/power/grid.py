@@ -14,7 +14,10 @@ from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, No
 from optlaws.synthesis.proof.nodes import Contact, Leaf, Tightening
 from optlaws.synthesis.proof.power.box import Box, BoxRows, Places
 from optlaws.synthesis.proof.power.dual_simplex import multipliers_in_cube
-from optlaws.tolerances import GRID_EMPTY, GRID_LIGHT, GRID_NEAR
+
+_GRID_NEAR = 1e-3  # of a right side: rows nearer to binding join the grid
+_GRID_EMPTY = 1e-9  # of the greatest entry: a row that is shorter says nothing
+_GRID_LIGHT = 1e-13  # of the greatest multiplier: what is less is rounding
 
 _PLACES = 16
 
@@ -62,7 +65,7 @@ class Grid:
             if isinstance(family, NormFamily) or family.domain[0] == family.domain[1]:
                 continue
             u, _, residual = family.extremes(x)
-            near = family.k(u[residual > -GRID_NEAR * max(self.rows.units[family.name], abs(family.right_side(x)))])
+            near = family.k(u[residual > -_GRID_NEAR * max(self.rows.units[family.name], abs(family.right_side(x)))])
             seen = self._seen.setdefault(family.name, [])
             new = [k for k in near.tolist() if not seen or min(abs(k - place) for place in seen) > spacing]
             if new:
@@ -121,12 +124,12 @@ class Grid:
         centre, half = (box.low + box.high) / 2.0, (box.high - box.low) / 2.0
         matrix, right = every[:, :-1] * half, -every[:, -1] - every[:, :-1] @ centre
         length = np.abs(matrix).sum(axis=1)
-        which = np.flatnonzero((length > right) & (length > GRID_EMPTY * np.abs(every * rows.sizes).max(axis=1)))
+        which = np.flatnonzero((length > right) & (length > _GRID_EMPTY * np.abs(every * rows.sizes).max(axis=1)))
         equations = rows.equations()
         equal, equal_right = equations[:, :-1] * half, -equations[:, -1] - equations[:, :-1] @ centre
         equal_length = np.abs(equal).sum(axis=1)
         divisor = np.where(
-            equal_length > GRID_EMPTY * np.minimum(1.0, np.abs(equations * rows.sizes).max(axis=1, initial=0.0)),
+            equal_length > _GRID_EMPTY * np.minimum(1.0, np.abs(equations * rows.sizes).max(axis=1, initial=0.0)),
             equal_length,
             np.inf,
         )
@@ -168,7 +171,7 @@ class Grid:
         multipliers = weights[:count] / linear.length
         contacts = []
         objective = 0.0
-        for i in np.flatnonzero(multipliers > GRID_LIGHT * multipliers.max(initial=0.0)).tolist():
+        for i in np.flatnonzero(multipliers > _GRID_LIGHT * multipliers.max(initial=0.0)).tolist():
             contact = self._contact(box, int(linear.which[i]), float(multipliers[i]))
             if contact is None:
                 objective = float(multipliers[i])

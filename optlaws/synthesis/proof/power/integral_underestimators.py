@@ -24,10 +24,13 @@ from optlaws.numbers import Array
 from optlaws.numerics.chebyshev import gauss
 from optlaws.synthesis.families.curved import IntegralFamily
 from optlaws.synthesis.functionals.curved_rows import columns_of, rule_cells
-from optlaws.tolerances import BENEATH_ROUNDING, INTEGRAL_BLUR, RULE_ROUNDING, TINY
+from optlaws.tolerances import BENEATH_ROUNDING, TINY
 
 if TYPE_CHECKING:
     from optlaws.synthesis.proof.power.box import Box, BoxRows
+
+_RULE_ROUNDING = 2.0**-36  # of what sums amount to: more than a rule is off by for what is no polynomial
+_INTEGRAL_BLUR = 1e-12  # of sums and ends of integrals: more than they are rounded by
 
 
 _CELLS = 32
@@ -51,7 +54,7 @@ class CurvatureBound:
         """Negative eigenvalues of a form, their signs turned, and magnitudes of their vectors, in units of the box."""
         scaled = self.half[:, None] * form * self.half
         sizes, turned = np.linalg.eigh(self.free.T @ scaled @ self.free)
-        blur = INTEGRAL_BLUR * float(np.abs(scaled).sum())
+        blur = _INTEGRAL_BLUR * float(np.abs(scaled).sum())
         return np.maximum(blur - sizes, 0.0), np.abs(self.free @ turned).T
 
     def taken(self, at: Array, form: Array) -> float:
@@ -69,7 +72,7 @@ class ConvexUnderestimator:
     def __init__(self, rows: BoxRows, family: IntegralFamily, motion: MotionFormula) -> None:
         self.rows, self.family, self.motion = rows, family, motion
         self.columns = np.stack([rows.mapped(column) for column in family.columns])
-        self._blur = RULE_ROUNDING if motion.degree(dict.fromkeys(ORDERS, 1)) is None else BENEATH_ROUNDING
+        self._blur = _RULE_ROUNDING if motion.degree(dict.fromkeys(ORDERS, 1)) is None else BENEATH_ROUNDING
         edges = rule_cells(rows.space, motion, _CELLS)
         self._last: tuple[Box, CurvatureBound | None] | None = None
         self.middle, self.reach = (edges[:-1] + edges[1:]) / 2.0, np.diff(edges) / 2.0
@@ -113,7 +116,7 @@ class ConvexUnderestimator:
             limit = limits.get(name, np.inf)
             lows.append(np.minimum(np.maximum(value - wide, -limit), value - bent))
             highs.append(np.maximum(np.minimum(value + wide, limit), value + bent))
-        blur = INTEGRAL_BLUR * (1.0 + np.maximum(np.abs(lows), np.abs(highs)))
+        blur = _INTEGRAL_BLUR * (1.0 + np.maximum(np.abs(lows), np.abs(highs)))
         return np.array(lows) - blur, np.array(highs) + blur
 
     def least(self, box: Box, limits: Mapping[str, float]) -> float:
@@ -122,7 +125,7 @@ class ConvexUnderestimator:
         within = self._intervals(low, high)
         least = np.broadcast_to(enclosed(self.motion.formula, within).low, self.middle.shape)
         least_there = float(least @ (2.0 * self.reach))
-        return least_there - INTEGRAL_BLUR * float(np.abs(least) @ self.reach)
+        return least_there - _INTEGRAL_BLUR * float(np.abs(least) @ self.reach)
 
     def _intervals(self, low: Array, high: Array) -> dict[str, Endpoints]:
         """The ranges of the derivatives and of k on the cells."""
@@ -224,7 +227,7 @@ class ConvexUnderestimator:
         if not len(of_laws):
             return np.eye(terms)
         _, sizes, ways = np.linalg.svd(of_laws)
-        rank = int((sizes > INTEGRAL_BLUR * sizes.max(initial=0.0)).sum())
+        rank = int((sizes > _INTEGRAL_BLUR * sizes.max(initial=0.0)).sum())
         return np.asarray(ways[rank:].T)
 
     def row(self, box: Box, at: Array, limits: Mapping[str, float], room: Array) -> Array:

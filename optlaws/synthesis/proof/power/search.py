@@ -16,7 +16,10 @@ from optlaws.synthesis.proof.nodes import Node, Split
 from optlaws.synthesis.proof.power.box import Box, BoxRows
 from optlaws.synthesis.proof.power.grid import Grid
 from optlaws.synthesis.proof.power.rows import rows_of
-from optlaws.tolerances import GIVEN_VARIABLE, NARROW_RANGE, TINY
+from optlaws.tolerances import TINY
+
+_NARROW_RANGE = 1e-3  # added to widths by which rows are weighted
+_GIVEN_VARIABLE = 1e-9  # a variable whose range is narrower is given
 
 #: tells from the variables of some law whether its neighbourhood has a better one than the best known
 Explore = Callable[[Array], bool]
@@ -77,7 +80,7 @@ class BoxSearch:
         root = self.rows.root()
         self._tree: list[Node] = []
         self._root_width = np.maximum(root.high - root.low, TINY)
-        wide = [i for i in range(self.rows.terms) if self._root_width[i] > GIVEN_VARIABLE]
+        wide = [i for i in range(self.rows.terms) if self._root_width[i] > _GIVEN_VARIABLE]
         # where the rows leave one law alone, one coordinate shows that it is not better
         self._variables = [*wide, *self.rows.branched] or [0]
 
@@ -146,6 +149,6 @@ def _points(problem: Problem, claim: float) -> list[float]:
     if rows is None:
         return []
     low, high = rows.brackets_at(k)
-    weighted = rows.rows(1, k)[:, : space.terms] / (high - low + NARROW_RANGE)[:, None]
+    weighted = rows.rows(1, k)[:, : space.terms] / (high - low + _NARROW_RANGE)[:, None]
     chosen = qr(weighted.T, pivoting=True, mode="r")[1][: space.terms]
     return sorted(k[chosen].tolist())

@@ -24,7 +24,12 @@ from optlaws.synthesis.program.writer import model_of
 from optlaws.synthesis.proof.nodes import Contact
 from optlaws.synthesis.proof.power.box import Box, BoxRows, Places
 from optlaws.synthesis.proof.sublevel_bounds import greatest_constants
-from optlaws.tolerances import AWAY_FROM_REST, ENERGY_OUTWARD, FLAT_SECANT, MIDDLE, SECANT_SERIES
+from optlaws.tolerances import AWAY_FROM_REST
+
+_FLAT_SECANT = 1e-12  # of a range: one that is narrower has the secant of a point
+_SECANT_SERIES = 1e-3  # of a parameter: below it a series is nearer than the quotient
+_ENERGY_OUTWARD = 1e-12  # of an energy's bounds: more than they are rounded by
+_MIDDLE = 1e-6  # of t squared: nearer to the middle B - b has no digits left
 
 #: X² (1 - X) is nowhere above
 _MOST = 4.0 / 27.0
@@ -80,7 +85,7 @@ def secant_over_root(B: float, square: Array, low: Array, high: Array) -> Secant
     """
     ends = [_root(B, square, q) for q in (low, high)]
     width = high - low
-    flat = width <= FLAT_SECANT * np.maximum(high, FLAT_SECANT)
+    flat = width <= _FLAT_SECANT * np.maximum(high, _FLAT_SECANT)
     rise = np.where(np.isfinite(ends[1]), ends[1], 0.0) - np.where(np.isfinite(ends[0]), ends[0], 0.0)
     slope = np.where(flat, 0.0, rise / np.where(flat, 1.0, width))
     turn = _turn(B, square, slope)
@@ -104,7 +109,7 @@ def _turn(B: float, square: Array, slope: Array) -> Array:
         kappa = square * eta
         # with X = 1 - t² x it is X² (1 - X) = kappa, of which the greatest root has a closed form
         X = 1.0 / 3.0 + 2.0 / 3.0 * np.cos(np.arccos(np.clip(1.0 - 2.0 * kappa / _MOST, -1.0, 1.0)) / 3.0)
-        x = np.where(kappa < SECANT_SERIES, eta * (1.0 + 2.0 * kappa), (1.0 - X) / square)
+        x = np.where(kappa < _SECANT_SERIES, eta * (1.0 + 2.0 * kappa), (1.0 - X) / square)
         for _ in range(_STEPS):
             rest = 1.0 - square * x
             x = x - (x * rest**2 - eta) / (rest * (1.0 - 3.0 * square * x))
@@ -198,7 +203,7 @@ class EnergyRows(BoxRows):
     @kept_property
     def _integral(self) -> tuple[float, float]:
         """Least and greatest I: from 1/B² + 1/(Y B)² < 1, and from how fast sqrt(B² - b²) can fall."""
-        most = 0.5 * self.B * sqrt(1.0 - 1.0 / self.B**2) * (1.0 + ENERGY_OUTWARD)
+        most = 0.5 * self.B * sqrt(1.0 - 1.0 / self.B**2) * (1.0 + _ENERGY_OUTWARD)
         least = 0.0
         for name, family in self.peaks.items():
             peak = self._greatest(name)
@@ -206,7 +211,7 @@ class EnergyRows(BoxRows):
                 least = max(least, self.B**2 / (4.0 * peak * most))
             else:
                 least = max(least, self.B**3 / (12.0 * peak * most**2))
-        return min(least, most) * (1.0 - ENERGY_OUTWARD), most
+        return min(least, most) * (1.0 - _ENERGY_OUTWARD), most
 
     def brackets_at(self, k: Array) -> tuple[Array, Array]:
         known = (np.array([0.0, 0.5]), np.array([0.0, self.B]), np.array([0.0, self.B]))
@@ -250,7 +255,7 @@ class EnergyRows(BoxRows):
         if isfinite(power):
             least = np.maximum(least, np.sqrt(np.maximum((low**2 - power * away).max(axis=1), 0.0)))
             most = np.minimum(most, np.sqrt((high**2 + power * away).min(axis=1)))
-        return least * (1.0 - ENERGY_OUTWARD), np.minimum(most * (1.0 + ENERGY_OUTWARD), self.B)
+        return least * (1.0 - _ENERGY_OUTWARD), np.minimum(most * (1.0 + _ENERGY_OUTWARD), self.B)
 
     def curved(self, box: Box, places: Places, name: str, signs: Array) -> Array:
         """Rows s p <= M I h/2 or s c <= 4 M I²/b by the planes with the given name."""
@@ -300,10 +305,10 @@ class EnergyRows(BoxRows):
         """Least and greatest q in the box: an affine function of the law, and B - b = t² q; rounded outward."""
         least, most = box.extent(below)
         greatest = np.append(np.maximum(np.abs(box.low), np.abs(box.high)), 1.0)
-        blur = ENERGY_OUTWARD * (np.abs(below) @ greatest)
-        wide = np.where(square > MIDDLE, square, np.inf)
-        first = (self.B * (1.0 - ENERGY_OUTWARD) - velocity[1]) / wide
-        last = np.where(square > MIDDLE, (self.B * (1.0 + ENERGY_OUTWARD) - velocity[0]) / wide, np.inf)
+        blur = _ENERGY_OUTWARD * (np.abs(below) @ greatest)
+        wide = np.where(square > _MIDDLE, square, np.inf)
+        first = (self.B * (1.0 - _ENERGY_OUTWARD) - velocity[1]) / wide
+        last = np.where(square > _MIDDLE, (self.B * (1.0 + _ENERGY_OUTWARD) - velocity[0]) / wide, np.inf)
         low = np.maximum(np.maximum(least - blur, first), 0.0)
         return low, np.maximum(np.minimum(most + blur, last), low)
 
