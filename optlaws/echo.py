@@ -29,7 +29,7 @@ class _Echo(Repr):
         except (RecursionError, ValueError, OverflowError, MemoryError):
             return f"<{type(x).__name__}>"
 
-    def _of_numpy(self, x: Any, level: int) -> str:  # noqa: ANN401 - an array or a number of any kind
+    def _of_numpy(self, x: Any, level: int) -> str:
         """An array or a number of numpy as plain lists and numbers, of which no more are made than are shown."""
         some = x[(slice(0, self.maxlist + 1),) * x.ndim].tolist() if x.ndim else x.item()
         return self.repr1(some, level)

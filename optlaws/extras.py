@@ -20,7 +20,7 @@ class NotInstalled(InputError, ImportError):  # noqa: N818 - as SolverFailure
     """
 
 
-def needed(module: str, what: str, extra: str = "studies") -> Any:  # noqa: ANN401 - a module
+def needed(module: str, what: str, extra: str = "studies") -> Any:
     """An optional library, imported if it is installed; a module within it comes with it."""
     library = module.partition(".")[0]
     if find_spec(library) is None:

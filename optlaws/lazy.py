@@ -69,7 +69,7 @@ def face(
     """
     homes = {name: module for module, names in modules.items() for name in names.split()}
 
-    def load(name: str) -> Any:  # noqa: ANN401 - whatever the name stands for
+    def load(name: str) -> Any:
         if removed and name in removed:
             # no AttributeError, whose words `from package import name` leaves out
             raise ImportError(f"{package} has no {name} any more: {removed[name]}", name=package)

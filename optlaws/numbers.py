@@ -45,7 +45,7 @@ MOST_WHOLE = 2**63 - 1
 _DENOMINATOR_BITS = 100_000
 
 
-def whole(value: Any, name: str, least: int = 0, most: int = MOST_WHOLE) -> int:  # noqa: ANN401
+def whole(value: Any, name: str, least: int = 0, most: int = MOST_WHOLE) -> int:
     """The value as an int, if it is an integer from `least` to `most`; errors call it `name`.
 
     Examples
@@ -64,7 +64,7 @@ def whole(value: Any, name: str, least: int = 0, most: int = MOST_WHOLE) -> int:
     return number
 
 
-def real(value: Any) -> float | None:  # noqa: ANN401
+def real(value: Any) -> float | None:
     """The value as a float, infinite or not; None for anything but a real number within the range of floats.
 
     Examples
@@ -102,7 +102,7 @@ def power_of_two(size: float) -> float:
     return ldexp(0.5, frexp(size)[1]) if 0.0 < size < inf else 1.0
 
 
-def finite(value: Any, name: str) -> float:  # noqa: ANN401
+def finite(value: Any, name: str) -> float:
     """The value as a float; errors call it `name`.
 
     Examples
@@ -120,7 +120,7 @@ def finite(value: Any, name: str) -> float:  # noqa: ANN401
     return number
 
 
-def positive(value: Any, name: str) -> float:  # noqa: ANN401
+def positive(value: Any, name: str) -> float:
     """The value as a float above 0."""
     number = finite(value, name)
     if number <= 0.0:
@@ -128,7 +128,7 @@ def positive(value: Any, name: str) -> float:  # noqa: ANN401
     return number
 
 
-def circular_frequency(value: Any, name: str = "frequency") -> float:  # noqa: ANN401
+def circular_frequency(value: Any, name: str = "frequency") -> float:
     """Radians of a free vibration in the rise, as a float above 0 and at most 100 000."""
     number = positive(value, name)
     if number > MOST_FREQUENCY:
@@ -138,12 +138,12 @@ def circular_frequency(value: Any, name: str = "frequency") -> float:  # noqa: A
     return number
 
 
-def derivative(value: Any, name: str = "nu") -> int:  # noqa: ANN401
+def derivative(value: Any, name: str = "nu") -> int:
     """The order of a derivative as an int, at most 50."""
     return whole(value, name, most=MOST_DERIVATIVE)
 
 
-def not_negative(value: Any, name: str) -> float:  # noqa: ANN401
+def not_negative(value: Any, name: str) -> float:
     """The value as a float of at least 0."""
     number = finite(value, name)
     if number < 0.0:
@@ -151,7 +151,7 @@ def not_negative(value: Any, name: str) -> float:  # noqa: ANN401
     return number
 
 
-def numbers(values: Any, name: str, most: int = MOST_VALUES) -> tuple[float, ...]:  # noqa: ANN401
+def numbers(values: Any, name: str, most: int = MOST_VALUES) -> tuple[float, ...]:
     """The values as a tuple of floats; errors call them `name`."""
     if type(values) in {tuple, list} and len(values) <= most and all(map(_plain, values)):
         return tuple(values)
@@ -173,7 +173,7 @@ def fractions(values: Iterable[Any], name: str, most: int = MOST_TERMS) -> list[
     return [_fraction(value, f"{name}[{i}]") for i, value in enumerate(listed(values, name, most))]
 
 
-def listed(values: Any, name: str, most: int = MOST_TERMS) -> list[Any]:  # noqa: ANN401
+def listed(values: Any, name: str, most: int = MOST_TERMS) -> list[Any]:
     """The values as a list up to a given length."""
     items: list[Any] = []
     try:
@@ -188,7 +188,7 @@ def listed(values: Any, name: str, most: int = MOST_TERMS) -> list[Any]:  # noqa
     return items
 
 
-def _fraction(value: Any, name: str) -> Fraction:  # noqa: ANN401
+def _fraction(value: Any, name: str) -> Fraction:
     if _plain(value):
         return Fraction(value)
     if not isinstance(value, bool) and isinstance(value, Rational):
@@ -206,7 +206,7 @@ def _fraction(value: Any, name: str) -> Fraction:  # noqa: ANN401
     return exact
 
 
-def times(k: Any) -> Array:  # noqa: ANN401
+def times(k: Any) -> Array:
     """Dimensionless times as floats, of any shape.
 
     Examples
@@ -223,7 +223,7 @@ def times(k: Any) -> Array:  # noqa: ANN401
     return given
 
 
-def real_times(k: Any) -> Array:  # noqa: ANN401
+def real_times(k: Any) -> Array:
     """Finite times of any shape."""
     given = _array(k)
     if given is None or not np.isfinite(given).all():
@@ -231,7 +231,7 @@ def real_times(k: Any) -> Array:  # noqa: ANN401
     return given
 
 
-def _array(values: Any) -> Array | None:  # noqa: ANN401
+def _array(values: Any) -> Array | None:
     """The values as floats; None where one is no real number."""
     try:
         given = np.asarray(values)

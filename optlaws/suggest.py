@@ -73,7 +73,7 @@ def keywords_of(options: type, **defaults: Any) -> Callable[[FunctionT], Functio
         known = {parameter.name for parameter in named}
 
         @wraps(function)
-        def checked(*args: Any, **keywords: Any) -> Any:  # noqa: ANN401 - whatever the function takes and returns
+        def checked(*args: Any, **keywords: Any) -> Any:
             for name in keywords.keys() - known:
                 near = unknown_key(name, known, "keyword argument").partition("; did")
                 message = f"{function.__qualname__}() got an unexpected keyword argument {name!r}"

@@ -45,7 +45,7 @@ class Design:
     residual: float
     degree: int
 
-    def problem(self, order: int, minimise: Any, *, of_cam: bool = False, **entries: Any) -> Problem:  # noqa: ANN401 - a constant, and entries
+    def problem(self, order: int, minimise: Any, *, of_cam: bool = False, **entries: Any) -> Problem:
         """Symmetric laws where the cam is undamped: then no other law has a smaller C of the cam.
 
         The cam of a mass law of order l has order l - 2 and the same degree, so that its Z has four degrees more.

@@ -132,7 +132,7 @@ def _heights(family: SavinFamily) -> list[Callable[[float], float]]:
     ]
 
 
-def _label(panels: Any, families: Sequence[SavinFamily]) -> None:  # noqa: ANN401 - an array of axes
+def _label(panels: Any, families: Sequence[SavinFamily]) -> None:
     texts = (
         "start derivative over\nbase law's",
         "peak acceleration C",

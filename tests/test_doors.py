@@ -173,7 +173,7 @@ def test_doors_of_machines_name_what_they_refuse(name: str, a: object, b: object
 PATHS = st.lists(st.integers(0, 30), min_size=1, max_size=4)
 
 
-def damaged(data: Any, path: list[int], value: object) -> Any:  # noqa: ANN401 - plain data
+def damaged(data: Any, path: list[int], value: object) -> Any:
     """A copy in which the value stands at a place."""
     if not path or not isinstance(data, dict | list) or not data:
         return value

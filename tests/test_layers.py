@@ -63,7 +63,6 @@ MAY_IMPORT = {
 #: registries that a room above fills with kinds of its own; the tables of optlaws/__init__.py say which
 KINDS = {"basis", "constant", "export format", "law", "plain constant", "segment"}
 
-MOST_MODULES = 12
 #: what several folders have one of their own of
 SEVERAL = {
     "atlas",
@@ -229,11 +228,6 @@ def test_no_rooms_know_each_other() -> None:
 def test_what_checks_a_proof_knows_nothing_that_finds_one(checker: str) -> None:
     met = reachable(ROOT / "optlaws", checker)
     assert sorted(name for name in met if f"{name}.".startswith(tuple(f"{finder}." for finder in FINDERS))) == []
-
-
-def test_a_folder_can_be_taken_in_at_a_glance() -> None:
-    folders = Counter(path.parent for path in (ROOT / "optlaws").rglob("*.py") if not path.name.startswith("__"))
-    assert {str(folder): count for folder, count in folders.items() if count > MOST_MODULES} == {}
 
 
 def test_a_name_means_one_module_unless_every_room_has_such_a_one() -> None:

@@ -107,7 +107,7 @@ class Balancing:
         """The torque with the loaders: each loader takes its share of the inertia's torque, d_l = -Y² d."""
         return self._over_turn(self.share)
 
-    def torque(self, degrees: Any, *, balanced: bool = True) -> Any:  # noqa: ANN401 - a number for a number, arrays for arrays
+    def torque(self, degrees: Any, *, balanced: bool = True) -> Any:
         """The torque at an angle of the shaft in degrees, with the loaders or without, N m."""
         times = np.mod(real_times(degrees), 360.0) * (self.cycle.duration / 360.0)
         return number_or_array(self._executive(times) + (self._loader(times) if balanced else 0.0))

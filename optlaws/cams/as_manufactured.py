@@ -337,7 +337,7 @@ def _same(places: Interval, curves: NDArray[np.intp], some: NDArray[np.intp], ot
     return len(some) > 0 and all(np.array_equal(each[some], each[others]) for each in values)
 
 
-def _some(jet: Jet, places: Any) -> Jet:  # noqa: ANN401 - numpy's
+def _some(jet: Jet, places: Any) -> Jet:
     return Jet([term[places] for term in jet.terms])
 
 
@@ -458,7 +458,7 @@ def _cut(cam: DiscCam, curve: str) -> tuple[Outline, float]:
     return (cam.profile, 0.0) if curve == "profile" else (cam.pitch_curve, cam.contact.roller)
 
 
-def with_profile_error(cam: DiscCam, error: Quantity, waves: Any) -> AsMade:  # noqa: ANN401 - a quantity and a number
+def with_profile_error(cam: DiscCam, error: Quantity, waves: Any) -> AsMade:
     """The motion of a cam's follower if the profile is off by waves of an amplitude along its normals.
 
     Of four phases of the wave, the greatest values. A wave with n periods in a turn adds about n² times its amplitude

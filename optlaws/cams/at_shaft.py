@@ -85,7 +85,7 @@ def cam_mechanism(
     )
 
 
-def _ends(over: Any, interval: tuple[float, float]) -> tuple[float, float]:  # noqa: ANN401 - it is checked here
+def _ends(over: Any, interval: tuple[float, float]) -> tuple[float, float]:
     if not isinstance(over, list | tuple) or len(over) != 2:
         raise InputError(f"over must be two angles such as ('0 deg', '120 deg'), got {shortened(over)}")
     low, high = (finite(si_number(value, ("angle",), "over"), "over") for value in over)

@@ -138,7 +138,7 @@ class BarrelCam:
             )
         return SpaceCurve(curve.motion, curve.radius, SIDES[side] * (self.roller - cutter), curve.turning)
 
-    def pressure_angle(self, angle: Any, nu: int = 0, radius: float | None = None) -> Any:  # noqa: ANN401
+    def pressure_angle(self, angle: Any, nu: int = 0, radius: float | None = None) -> Any:
         """The pressure angle at a distance from the shaft's axis, the bottom of the groove unless given, rad."""
         nu = derivative(nu)
         at = self.radii[1] if radius is None else self._within(radius)

@@ -213,7 +213,7 @@ class DiscCam:
     def _repr_html_(self) -> str:
         return self.summary()._repr_html_()
 
-    def plot(self, ax: Any = None, **style: Any) -> list[Any]:  # noqa: ANN401 - matplotlib's
+    def plot(self, ax: Any = None, **style: Any) -> list[Any]:
         """Draw the cam with its follower, pressure angle, curvature and displacement; return the artists of matplotlib.
 
         `ax` is one pair of axes, for the cam alone, or four; a new figure unless given. `style` is what `Axes.plot`
@@ -223,13 +223,13 @@ class DiscCam:
 
         return draw_cam(self, ax, **style)
 
-    def pressure_angle(self, angle: Any, nu: int = 0) -> Any:  # noqa: ANN401 - a number for a number, arrays for arrays
+    def pressure_angle(self, angle: Any, nu: int = 0) -> Any:
         """The angle between the force on the follower and its way, rad, or a derivative of it by the cam's angle."""
         nu = derivative(nu)
         s = self.displacement.jet(real_times(angle), nu + 2)
         return number_or_array(self.contact.pressure(s).cut(nu).arctangent().derivative(nu))
 
-    def radius_of_curvature(self, angle: Any) -> Any:  # noqa: ANN401 - as for pressure angles
+    def radius_of_curvature(self, angle: Any) -> Any:
         """The radius of curvature of the profile, m: above 0 where it bulges outward, below where it is hollow."""
         s = self.displacement.jet(real_times(angle), 2)
         return number_or_array(self.contact.radius_of_curvature(s))

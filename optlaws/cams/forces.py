@@ -70,7 +70,7 @@ class LineContact:
         return force * both * (self.modulus / (pi * self.width))
 
 
-def line_contact(width: Any, materials: Any, roller: float) -> LineContact:  # noqa: ANN401 - they are checked here
+def line_contact(width: Any, materials: Any, roller: float) -> LineContact:
     """A contact from its width, the materials of cam and follower, and the follower's radius in m (0 for a face).
 
     A material is one of `MATERIALS`, whose values are those of a handbook, or {"young": "3 GPa", "poisson": 0.4} from a
@@ -83,7 +83,7 @@ def line_contact(width: Any, materials: Any, roller: float) -> LineContact:  # n
     return LineContact(length, 1.0 / yielding, 1.0 / roller if roller else 0.0)
 
 
-def _material(given: Any) -> tuple[float, float]:  # noqa: ANN401
+def _material(given: Any) -> tuple[float, float]:
     """Young's modulus in Pa, and Poisson's ratio."""
     if isinstance(given, str):
         if given not in MATERIALS:
@@ -186,19 +186,19 @@ class CamForces:
         """Angles between which forces are smooth, rad: of motion and process, and where the follower turns back."""
         return np.unique(np.concatenate([self.cam.displacement.monotone_edges, self.process_force.edges]))
 
-    def follower_force(self, angle: Any) -> Any:  # noqa: ANN401 - a number for a number, an array for arrays
+    def follower_force(self, angle: Any) -> Any:
         """The force on the follower along its way, N, or the torque about its pivot, N m."""
         return self._given(self._follower_force, angle)
 
-    def contact_force(self, angle: Any) -> Any:  # noqa: ANN401 - as for the follower's
+    def contact_force(self, angle: Any) -> Any:
         """The force between cam and follower along their normal, N; below 0 where the follower would lift off."""
         return self._given(self._contact_force, angle)
 
-    def shaft_torque(self, angle: Any) -> Any:  # noqa: ANN401 - as for the follower's
+    def shaft_torque(self, angle: Any) -> Any:
         """The torque that turns the cam, N m; below 0 where the follower drives it."""
         return self._given(self._torque, angle)
 
-    def contact_pressure(self, angle: Any) -> Any:  # noqa: ANN401 - as for the follower's
+    def contact_pressure(self, angle: Any) -> Any:
         """Hertz's greatest pressure in the contact, Pa."""
         squared = self._given(self._squared_pressure, angle)
         return number_or_array(np.sqrt(np.maximum(squared, 0.0)))
@@ -285,7 +285,7 @@ class CamForces:
         which = np.searchsorted(self.edges[1:-1], self.cam.displacement.within(middle(angle)), side="right")
         return np.asarray(self._directions[which])
 
-    def _given(self, function: Callable[[Any, int], Jet], angle: Any) -> Any:  # noqa: ANN401
+    def _given(self, function: Callable[[Any, int], Jet], angle: Any) -> Any:
         return number_or_array(np.asarray(function(real_times(angle), 0).terms[0]))
 
     def _enclosed(self, function: Function) -> Extremes:

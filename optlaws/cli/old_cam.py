@@ -171,7 +171,7 @@ def _show(old: OldTable, new: OldTable | None) -> None:
         show(f"the {part.kind} from {part.start:g} keeps its law: {why}")
 
 
-def _change(gain: Any, nu: int) -> str:  # noqa: ANN401 - a MoveGain, which the help must not import
+def _change(gain: Any, nu: int) -> str:
     share = gain.share(nu)
     change = "" if share != share else f" ({100.0 * share:+.1f} %)"  # noqa: PLR0124 - nan
     return f"{gain.old[nu - 1]:.4g} -> {gain.new[nu - 1]:.4g}{change}"

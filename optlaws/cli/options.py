@@ -131,7 +131,7 @@ def save(file: Path, data: Mapping[str, Any]) -> None:
     write(file, json.dumps({"about": MARK, **data}, indent=1) + "\n")
 
 
-def save_picture(file: Path, value: Any) -> None:  # noqa: ANN401 - whatever has a plot
+def save_picture(file: Path, value: Any) -> None:
     """Draw the picture of --plot into its file."""
     from optlaws.plots.style import plot_style
 

@@ -28,7 +28,7 @@ def _numbers(text: str) -> list[float]:
         raise InputError(f'start and end are numbers such as "0, 0.5", got {shortened(text)}') from None
 
 
-def _as_given(value: Any) -> Any:  # noqa: ANN401 - what the parser made of it
+def _as_given(value: Any) -> Any:
     return value
 
 
@@ -47,7 +47,7 @@ class Option:
         """The name of the command's parameter."""
         return self.name.removeprefix("--").replace("-", "_")
 
-    def parameter(self, *, default: Any, shown: bool) -> inspect.Parameter:  # noqa: ANN401
+    def parameter(self, *, default: Any, shown: bool) -> inspect.Parameter:
         """The parameter of a command; the default `...` makes the option's value compulsory."""
         needed = default is ...
         kind = self.type if needed or default is not None else self.type | None
@@ -140,7 +140,7 @@ def asks_for_a_problem(
     return decorated
 
 
-def _default(entry: Entry, option: Option, given: Mapping[str, Any], refused: Mapping[str, str]) -> Any:  # noqa: ANN401
+def _default(entry: Entry, option: Option, given: Mapping[str, Any], refused: Mapping[str, str]) -> Any:
     if option.type is bool:
         return False
     if entry.name in refused:

@@ -26,7 +26,7 @@ def print_json(data: object) -> None:
     print(line.decode())
 
 
-def _plain(value: Any) -> object:  # noqa: ANN401 - a number of numpy
+def _plain(value: Any) -> object:
     return value.item()
 
 

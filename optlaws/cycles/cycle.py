@@ -432,11 +432,11 @@ class Cycle(CycleInterchange):
             for piece, each in spans
         )
 
-    def force(self, time: Any) -> Any:  # noqa: ANN401 - a number for a number, an array for arrays
+    def force(self, time: Any) -> Any:
         """Force or torque of the drive at a time in seconds: at the follower or table, the input or the motor."""
         return self._of_drive(time, PieceEffort.force)
 
-    def power(self, time: Any) -> Any:  # noqa: ANN401 - as the force
+    def power(self, time: Any) -> Any:
         """Power of the drive at a time in seconds, W: above 0 where it drives, below where it brakes."""
         return self._of_drive(time, PieceEffort.power)
 
@@ -445,16 +445,16 @@ class Cycle(CycleInterchange):
         """Times between which force and power of the drive are smooth and of one sign, s."""
         return np.unique(np.concatenate([each.parts.edges for each in self._along]))
 
-    def _of_drive(self, time: Any, function: Callable[[PieceEffort, Array], Array]) -> Any:  # noqa: ANN401
+    def _of_drive(self, time: Any, function: Callable[[PieceEffort, Array], Array]) -> Any:
         places = np.mod(real_times(time), self.duration)
         along = [partial(function, each) for each in self._along]
         return number_or_array(by_pieces(self.pieces, along, places))
 
-    def __call__(self, time: Any, nu: int = 0) -> Any:  # noqa: ANN401 - a number for a number, an array for arrays
+    def __call__(self, time: Any, nu: int = 0) -> Any:
         """Position (nu 0), velocity, acceleration, jerk at a time in seconds, in SI units; the cycle repeats."""
         return number_or_array(self._timed.values(real_times(time), derivative(nu)))
 
-    def at_angle(self, degrees: Any, nu: int = 0) -> Any:  # noqa: ANN401 - as for times
+    def at_angle(self, degrees: Any, nu: int = 0) -> Any:
         """The motion at an angle of the master, in degrees or a text such as "0.5 rad"; derivatives are by time."""
         turns = quantity(degrees, "angle", "angle") / TURN if isinstance(degrees, str) else real_times(degrees) / 360.0
         return self(turns * self.duration, nu)
@@ -631,7 +631,7 @@ class Cycle(CycleInterchange):
 
         return transition_cam(kind, self.programme, self.pieces, self._cycle_objective, **given)
 
-    def per_angle(self, degrees: Any, nu: int = 0) -> Any:  # noqa: ANN401 - as for times
+    def per_angle(self, degrees: Any, nu: int = 0) -> Any:
         """Derivatives by the master's angle in radians, as cams and controllers take them."""
         return self.at_angle(degrees, nu) * (self.duration / TURN) ** nu
 

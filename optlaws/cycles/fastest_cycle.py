@@ -194,7 +194,7 @@ class FastestCycle:
         )
         return {"about": about, **entries}
 
-    def plot(self, ax: Any = None, **style: Any) -> list[Any]:  # noqa: ANN401 - matplotlib's
+    def plot(self, ax: Any = None, **style: Any) -> list[Any]:
         """Draw the motion at the greatest speed over time, with the limits of each segment; return the artists.
 
         `ax` and `style` are as of `Cycle.plot`.
@@ -220,7 +220,7 @@ def _margin(each: LeastDuration) -> str:
     return f"{100.0 * (each.duration / each.least - 1.0):.3g} % to spare, then {limits}"
 
 
-def fastest_cycle(cycle: Any, objective: CycleObjective) -> FastestCycle:  # noqa: ANN401 - a Cycle
+def fastest_cycle(cycle: Any, objective: CycleObjective) -> FastestCycle:
     """The greatest speed of a cycle with such an objective and limits."""
     if objective.of_load:
         raise InputError(

@@ -46,7 +46,7 @@ class CycleInterchange(JsonText):
     _json_name = "a stored cycle"
 
     @property
-    def _cycle(self) -> Any:  # noqa: ANN401 - a Cycle
+    def _cycle(self) -> Any:
         """The cycle itself, with its laws, peaks and proofs."""
         return self
 
@@ -64,7 +64,7 @@ class CycleInterchange(JsonText):
         return {"format": FORMAT, **entries, "segments": [_segment(segment) for segment in self._cycle.segments]}
 
     @classmethod
-    def from_dict(cls, data: Any) -> Self:  # noqa: ANN401 - it is checked here
+    def from_dict(cls, data: Any) -> Self:
         """The cycle that `to_dict` wrote."""
         if not isinstance(data, Mapping) or not isinstance(data.get("segments"), list):
             raise InputError("a stored cycle is a table with a list of segments, as Cycle.to_dict gives it")
@@ -106,7 +106,7 @@ class CycleInterchange(JsonText):
         clock = {name: data[name] for name in CLOCK if name in data}
         return problem_file(title, clock, {axis: self})
 
-    def to_pandas(self) -> Any:  # noqa: ANN401 - pandas is imported where it is asked for
+    def to_pandas(self) -> Any:
         """A data frame with a row for each segment: start, duration, end, peaks, jumps; SI units.
 
         Needs the extra `optlaws[studies]`.
@@ -160,7 +160,7 @@ class CycleInterchange(JsonText):
         master: Quantity | None = "360 deg",
         unit: str | None = None,
         **options: Unpack[ExportOptions],
-    ) -> Any:  # noqa: ANN401 - made a layer above
+    ) -> Any:
         """The cycle in the format of a controller, with a report of the executed motion.
 
         Parameters
@@ -195,7 +195,7 @@ class CycleInterchange(JsonText):
 
         return export_cycle(self, to, {"master": master, "unit": unit}, **options)
 
-    def polynomials(self, *, master: Quantity | None = None, unit: str | None = None, tolerance: float = 1e-9) -> Any:  # noqa: ANN401
+    def polynomials(self, *, master: Quantity | None = None, unit: str | None = None, tolerance: float = 1e-9) -> Any:
         """Times and polynomial coefficients of the cycle, as a `PiecewiseMotion`: `breaks` and `coefficients`.
 
         Over time in seconds unless a master is given; exact where laws are made of polynomials, else within
@@ -218,7 +218,7 @@ class CycleInterchange(JsonText):
 
         return pieces_of_motion(self.motion(master, unit), tolerance)
 
-    def plot(self, ax: Any = None, *, over: PlotOver = "time", **style: Any) -> list[Any]:  # noqa: ANN401 - matplotlib's
+    def plot(self, ax: Any = None, *, over: PlotOver = "time", **style: Any) -> list[Any]:
         """Draw position, velocity, acceleration and jerk over time, with segments and limits; return the artists.
 
         `ax` are four axes of matplotlib, six of a cycle with a drive, which have torque and power as well, or one for
@@ -297,7 +297,7 @@ def _axis_entries(axis: str, cycle: CycleInterchange) -> dict[str, Any]:
     return {"name": axis, **data, **_drive_tables(cycle._cycle.drive), "segment": segments}  # noqa: SLF001
 
 
-def _drive_tables(drive: Any) -> dict[str, Any]:  # noqa: ANN401 - whatever drives a cycle
+def _drive_tables(drive: Any) -> dict[str, Any]:
     """A mechanism, and the motor before it, as the tables of an axis; nothing of a drive of constants."""
     if isinstance(drive, Mechanism):
         entries = {name: value for name, value in drive.to_dict().items() if name != "format"}
@@ -316,7 +316,7 @@ def _segment(segment: CycleSegment) -> dict[str, Any]:
     return {"kind": kind, **entries}
 
 
-def _read_segment(data: Any, number: int) -> CycleSegment:  # noqa: ANN401 - it is checked here
+def _read_segment(data: Any, number: int) -> CycleSegment:
     given = dict(data) if isinstance(data, Mapping) else {}
     kind = KINDS.get(str(given.pop("kind", "")))
     if kind is None:
@@ -333,7 +333,7 @@ def _read_segment(data: Any, number: int) -> CycleSegment:  # noqa: ANN401 - it 
     return segment
 
 
-def _plain(value: Any) -> Any:  # noqa: ANN401 - whatever a person gave
+def _plain(value: Any) -> Any:
     if isinstance(value, MotionLaw | Machine | Mechanism | Drive):
         return value.to_dict()
     if isinstance(value, Mapping):
@@ -343,7 +343,7 @@ def _plain(value: Any) -> Any:  # noqa: ANN401 - whatever a person gave
     return value if value is None or isinstance(value, bool | int | float) else str(written(value))
 
 
-def _proof(cycle: Any) -> tuple[str, ...]:  # noqa: ANN401 - a Cycle
+def _proof(cycle: Any) -> tuple[str, ...]:
     """The proof of the optimised laws, as text for files."""
     if not cycle.solutions:
         return ()

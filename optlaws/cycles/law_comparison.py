@@ -107,12 +107,12 @@ class Comparison(JsonText):
         comparison.rows  # noqa: B018 - what is wrong is refused at once
         return comparison
 
-    def to_pandas(self) -> Any:  # noqa: ANN401 - pandas is imported here alone
+    def to_pandas(self) -> Any:
         """The rows as a data frame with the laws' names as index; needs the extra `optlaws[studies]`."""
         pd = needed("pandas", "to_pandas")
         return pd.DataFrame(self.rows).set_index("law")
 
-    def plot(self, ax: Any = None, **style: Any) -> list[Any]:  # noqa: ANN401 - matplotlib's
+    def plot(self, ax: Any = None, **style: Any) -> list[Any]:
         """Draw a, b, c and j of all laws, one over the other, into four axes of matplotlib; the artists."""
         from optlaws.plots.law import draw_comparison
 
@@ -221,7 +221,7 @@ def _cost(what: str, value: float, other: float, name: str) -> str:
     return f"{what}{value:.4g}, {value / other:.3g} times that of {name}"
 
 
-def _named(given: Any, place: int) -> tuple[str, MotionLaw]:  # noqa: ANN401 - it is checked here
+def _named(given: Any, place: int) -> tuple[str, MotionLaw]:
     if isinstance(given, str):
         return given, read_law(given)
     return getattr(given, "name", f"law {place}"), motion_law(given)

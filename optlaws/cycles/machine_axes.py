@@ -95,11 +95,11 @@ class Axes(JsonText, Mapping[str, Cycle]):
     def __len__(self) -> int:
         return len(self._cycles)
 
-    def __call__(self, time: Any, nu: int = 0) -> dict[str, Any]:  # noqa: ANN401 - as a cycle takes them
+    def __call__(self, time: Any, nu: int = 0) -> dict[str, Any]:
         """Position (nu 0), velocity, acceleration, jerk of every axis at times in seconds, in SI units."""
         return {name: cycle(time, nu) for name, cycle in self.items()}
 
-    def at_angle(self, degrees: Any, nu: int = 0) -> dict[str, Any]:  # noqa: ANN401 - as a cycle takes them
+    def at_angle(self, degrees: Any, nu: int = 0) -> dict[str, Any]:
         """The motion of every axis at an angle of the master, in degrees or a text such as "0.5 rad"."""
         return {name: cycle.at_angle(degrees, nu) for name, cycle in self.items()}
 
@@ -286,7 +286,7 @@ class Axes(JsonText, Mapping[str, Cycle]):
         return {"format": FORMAT, "axes": axes} | ({"interlocks": interlocks} if interlocks else {})
 
     @classmethod
-    def from_dict(cls, data: Any) -> Axes:  # noqa: ANN401 - it is checked here
+    def from_dict(cls, data: Any) -> Axes:
         """The axes that `to_dict` wrote."""
         stored = data.get("axes") if isinstance(data, Mapping) else None
         if not isinstance(stored, Mapping) or data.get("format", FORMAT) != FORMAT:
@@ -317,7 +317,7 @@ class Axes(JsonText, Mapping[str, Cycle]):
         interlocks = [interlock.to_dict() for interlock in self.rules]
         return problem_file(title, {"period": f"{self.duration!r} s"}, self, {"interlocks": interlocks})
 
-    def to_pandas(self) -> Any:  # noqa: ANN401 - pandas is imported where it is asked for
+    def to_pandas(self) -> Any:
         """A data frame with a row for each segment of each axis: start, duration, peaks, jumps; SI units.
 
         Needs the extra `optlaws[studies]`.
@@ -328,7 +328,7 @@ class Axes(JsonText, Mapping[str, Cycle]):
 
     def plot(
         self,
-        ax: Any = None,  # noqa: ANN401 - matplotlib's
+        ax: Any = None,
         *,
         what: AxesPicture = "motion",
         nu: int = 0,
@@ -481,7 +481,7 @@ def _retimed(cycle: Cycle, durations: Sequence[float], laws: Sequence[MotionLaw 
     return replace(cycle, segments=segments, speed=None, period=f"{period!r} s", minimise=minimise)
 
 
-def _entries(given: Any) -> dict[str, Any]:  # noqa: ANN401 - it is checked here
+def _entries(given: Any) -> dict[str, Any]:
     if isinstance(given, list | tuple):
         return {"segments": given}
     if not isinstance(given, Mapping):

@@ -219,7 +219,7 @@ def problem_file(law: LawRequest) -> str:
     return to_toml({"job": "solutions", "title": title(problem), "problem": entries, "sweep": [{swept: [value]}]})
 
 
-def _bounds(value: Any) -> Any:  # noqa: ANN401 - an entry
+def _bounds(value: Any) -> Any:
     """A range without an upper end: JSON has no number for it, a file has infinity."""
     if isinstance(value, list) and len(value) == 2 and value[1] is None:
         return [value[0], float("inf")]
@@ -353,7 +353,7 @@ def _cycle_text(cycle: Cycle) -> str:
     return f"Cycle([\n{segments}\n]{given})"
 
 
-def _plainly(value: Any) -> str:  # noqa: ANN401 - a dataclass
+def _plainly(value: Any) -> str:
     """A segment or an interlock as Python, without what is as it is by default."""
     usual = {each.name: each.default for each in fields(value) if each.init}
     given = {name: getattr(value, name) for name in usual}
@@ -413,7 +413,7 @@ def exported(request: ExportRequest) -> dict[str, Any]:
     }
 
 
-def _export(request: ExportRequest) -> Any:  # noqa: ANN401 - an Export
+def _export(request: ExportRequest) -> Any:
     given: dict[str, Any] = {"points": request.points, "counts": request.counts}
     if request.view == "cycle":
         if request.cycle is None:

@@ -61,7 +61,7 @@ def _of_law_file(given: str) -> dict[str, Any]:
         return _of_table(given, reading.text(file, LARGEST_TABLE, legacy=True))
 
 
-def _of_stored(data: Any, name: str) -> dict[str, Any]:  # noqa: ANN401 - of a file
+def _of_stored(data: Any, name: str) -> dict[str, Any]:
     """The problem of a solution, so that it can be changed; else the law."""
     if isinstance(data, dict) and isinstance(data.get("problem"), dict):
         return _laws(_problem(data["problem"], name))

@@ -88,7 +88,7 @@ class Export:
         """
         return writing.write(Path(file), self.text, exact=True, force=force)
 
-    def plot(self, ax: Any = None, **style: Any) -> list[Any]:  # noqa: ANN401 - matplotlib's
+    def plot(self, ax: Any = None, **style: Any) -> list[Any]:
         """Draw the motion and the executed motion over the master, down to the jerk; return the artists.
 
         `ax` are four axes of matplotlib, new ones unless given; `style` is what `Axes.plot` takes, for the run.
@@ -192,7 +192,7 @@ class Export:
         return "\n".join(lines)
 
 
-def export_motion(motion: Motion, to: Any, *, task: Quantity | None = None, **options: Any) -> Export:  # noqa: ANN401
+def export_motion(motion: Motion, to: Any, *, task: Quantity | None = None, **options: Any) -> Export:
     """A motion in a format, which checks its options; `task` is the time of a drive's task, such as "1 ms"."""
     chosen = format_of(to)
     written = chosen.write(motion, chosen.request(**options))
@@ -212,7 +212,7 @@ def export_law(
     return export_motion(replace(motion_of_law(law, **placement), proof=proof), chosen.name, **options)
 
 
-def export_cycle(cycle: _HasMotion, to: Any, placement: dict[str, Any], **options: Any) -> Export:  # noqa: ANN401
+def export_cycle(cycle: _HasMotion, to: Any, placement: dict[str, Any], **options: Any) -> Export:
     """A cycle with its master and unit, as `Cycle.motion` takes them, in a format, which is checked before laws are."""
     chosen = format_of(to)
     return export_motion(cycle.motion(**placement), chosen.name, **options)
@@ -237,7 +237,7 @@ def export_axes(
 
 
 def export_together(
-    axes: Mapping[str, _HasMotion], to: Any, placement: dict[str, Any], *, task: Quantity | None = None, **options: Any  # noqa: ANN401
+    axes: Mapping[str, _HasMotion], to: Any, placement: dict[str, Any], *, task: Quantity | None = None, **options: Any
 ) -> dict[str, Export]:  # fmt: skip
     """Axes in a single file, for formats that hold several: all exports share the text."""
     form = format_of(to)

@@ -169,7 +169,7 @@ class Format:
 FORMATS: Registry[Format] = Registry("export format")
 
 
-def format_of(name: Any) -> Format:  # noqa: ANN401 - it is checked here
+def format_of(name: Any) -> Format:
     """The format of a name."""
     if not isinstance(name, str) or name not in FORMATS:
         raise InputError(f"to: {unknown_key(name, sorted(FORMATS), 'format')}")

@@ -186,7 +186,7 @@ C_KEYWORDS = frozenset(_C_WORDS.split())
 IEC_KEYWORDS = frozenset(_WORDS.split())
 
 
-def iec_name(name: Any, target: str) -> str:  # noqa: ANN401 - it is checked here
+def iec_name(name: Any, target: str) -> str:
     """The name of a variable in a language of IEC 61131-3; the error of a target that would refuse it proposes one.
 
     >>> iec_name("press 1", "CODESYS")
@@ -217,7 +217,7 @@ def variable_names(names: Iterable[str]) -> dict[str, str]:
     return identifiers
 
 
-def _fault(name: Any) -> str:  # noqa: ANN401
+def _fault(name: Any) -> str:
     if not isinstance(name, str) or not _PLAIN.fullmatch(name) or "__" in name or name.endswith("_"):
         return "letters, digits and single _ between them make a name, a digit does not begin it"
     if name.lower() in IEC_KEYWORDS:
@@ -225,7 +225,7 @@ def _fault(name: Any) -> str:  # noqa: ANN401
     return f"it may have {_LONGEST} characters" if len(name) > _LONGEST else ""
 
 
-def _proposed(name: Any, longest: int) -> str:  # noqa: ANN401
+def _proposed(name: Any, longest: int) -> str:
     words = _RUNS.sub("_", name if isinstance(name, str) else "").strip("_")
     words = words if words and not words[0].isdigit() else f"Cam_{words}".strip("_")
     words = words[:longest].rstrip("_")

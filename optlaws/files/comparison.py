@@ -84,7 +84,7 @@ def _same_printed(first: Decimal, second: Decimal, *, picture: bool, digits: int
     return off <= allowed
 
 
-def _same_values(first: Any, second: Any, *, relative: float, key: str = "", scale: float = 0.0) -> bool:  # noqa: ANN401
+def _same_values(first: Any, second: Any, *, relative: float, key: str = "", scale: float = 0.0) -> bool:
     if isinstance(first, dict) and isinstance(second, dict):
         return first.keys() == second.keys() and all(
             _same_values(first[name], second[name], relative=relative, key=name)

@@ -19,7 +19,7 @@ Kind = TypeVar("Kind")
 _ONE_AT_A_TIME = process_lock()
 
 
-def typed(data: Any, kind: type[Kind]) -> Kind:  # noqa: ANN401 - whatever was read
+def typed(data: Any, kind: type[Kind]) -> Kind:
     """The value of a type from plain data.
 
     One at a time: two threads that met a kind for the first time have crashed in msgspec (0.22).
@@ -50,7 +50,7 @@ def _remedy(error: str) -> str:
     return '; a number with a unit is written as text, such as "35 mm", "120 deg" or "200 rpm"'
 
 
-def _check_keys(data: Any, spec: Any, where: str) -> None:  # noqa: ANN401
+def _check_keys(data: Any, spec: Any, where: str) -> None:
     spec = next((part for part in get_args(spec) if part is not type(None)), spec) if _optional(spec) else spec
     origin, inner = get_origin(spec), get_args(spec)
     if origin is Literal and isinstance(data, str) and data not in inner:
@@ -70,5 +70,5 @@ def _check_keys(data: Any, spec: Any, where: str) -> None:  # noqa: ANN401
             _check_keys(item, names[key], f"{where}, {key}")
 
 
-def _optional(spec: Any) -> bool:  # noqa: ANN401
+def _optional(spec: Any) -> bool:
     return isinstance(spec, UnionType) and type(None) in get_args(spec)

@@ -94,12 +94,12 @@ def toml_text(content: str, name: str) -> dict[str, Any]:
     return data
 
 
-def json_file(file: Path) -> Any:  # noqa: ANN401 - whatever it holds
+def json_file(file: Path) -> Any:
     """The contents of a JSON file."""
     return json_text(text(file), str(file))
 
 
-def json_text(content: Any, name: str) -> Any:  # noqa: ANN401 - it is checked here
+def json_text(content: Any, name: str) -> Any:
     """The contents of a JSON text; errors call it `name`."""
     return checked(parsed(content, name), name)
 
@@ -129,7 +129,7 @@ def of_known_format(data: Mapping[str, Any], name: str) -> dict[str, Any]:
     return entries
 
 
-def entries_of(data: Any, names: Iterable[str], what: str) -> dict[str, Any]:  # noqa: ANN401 - it is checked here
+def entries_of(data: Any, names: Iterable[str], what: str) -> dict[str, Any]:
     """The named entries of a stored value, from which the others are computed; errors call it `what`.
 
     Raises
@@ -150,7 +150,7 @@ def entries_of(data: Any, names: Iterable[str], what: str) -> dict[str, Any]:  #
     return {name: data[name] for name in names}
 
 
-def all_entries_of(data: Any, names: Sequence[str], what: str) -> dict[str, Any]:  # noqa: ANN401 - it is checked here
+def all_entries_of(data: Any, names: Sequence[str], what: str) -> dict[str, Any]:
     """The entries of a stored value that has exactly these; errors call it `what`.
 
     Raises
@@ -190,7 +190,7 @@ class JsonText:
         raise NotImplementedError
 
     @classmethod
-    def from_dict(cls, data: Any) -> Self:  # noqa: ANN401 - it is checked there
+    def from_dict(cls, data: Any) -> Self:
         """The value that `to_dict` described."""
         raise NotImplementedError
 
@@ -210,7 +210,7 @@ class JsonText:
         return cls.from_dict(json_text(text, cls._json_name))
 
 
-def parsed(content: Any, name: str) -> Any:  # noqa: ANN401 - it is checked here
+def parsed(content: Any, name: str) -> Any:
     """The contents of a JSON text, checked for its size and for repeated keys only.
 
     Examples
@@ -232,7 +232,7 @@ def parsed(content: Any, name: str) -> Any:  # noqa: ANN401 - it is checked here
         raise InputError(f"{name} must be JSON text and is not JSON: {error}") from None
 
 
-def _check_extent(content: Any) -> None:  # noqa: ANN401
+def _check_extent(content: Any) -> None:
     """Refuse a text whose values would take more memory than any of ours."""
     if not isinstance(content, str):
         raise InputError(f"must be JSON text, got {shortened(content)}")
@@ -260,7 +260,7 @@ def _no_number(text: str) -> float:
     raise InputError(f"{text} is no JSON number")
 
 
-def checked(data: Any, name: str) -> Any:  # noqa: ANN401 - whatever it holds
+def checked(data: Any, name: str) -> Any:
     """The data, if it is nested at most 50 deep, its integers fit a float, and its texts hold no NUL or surrogate.
 
     Examples

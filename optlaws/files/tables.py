@@ -71,7 +71,7 @@ def _lines(data: Mapping[str, Any], path: tuple[str, ...]) -> Iterator[str]:
             yield from _lines(entry, place)
 
 
-def _has_own_lines(value: Any) -> bool:  # noqa: ANN401
+def _has_own_lines(value: Any) -> bool:
     """Whether a value is a table of tables, a list of tables, or a table of more than a line."""
     if isinstance(value, list):
         return bool(value) and all(isinstance(entry, Mapping) for entry in value)
@@ -85,7 +85,7 @@ def _key(name: str) -> str:
     return name if plain else _quoted(name)
 
 
-def _value(value: Any) -> str:  # noqa: ANN401
+def _value(value: Any) -> str:
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, int):

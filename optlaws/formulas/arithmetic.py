@@ -54,7 +54,7 @@ class Arithmetic:
     table: Callable[[Table, Any], Any] | None = None
 
 
-def evaluate(formula: Formula, names: Mapping[str, Any], arithmetic: Arithmetic) -> Any:  # noqa: ANN401 - its numbers
+def evaluate(formula: Formula, names: Mapping[str, Any], arithmetic: Arithmetic) -> Any:
     """The value of a formula.
 
     Parameters
@@ -114,7 +114,7 @@ def step_value(
     parts: list[Any],
     names: Mapping[str, Any],
     arithmetic: Arithmetic,
-) -> Any:  # noqa: ANN401 - a number of the arithmetic
+) -> Any:
     """The value of a formula from the values of its parts.
 
     >>> from optlaws.formulas.reading import read
@@ -124,18 +124,18 @@ def step_value(
     return _OPERATIONS[type(formula)](formula, parts, names, arithmetic)
 
 
-def _name(formula: Any, _: list[Any], names: Mapping[str, Any], arithmetic: Arithmetic) -> Any:  # noqa: ANN401
+def _name(formula: Any, _: list[Any], names: Mapping[str, Any], arithmetic: Arithmetic) -> Any:
     is_constant = formula.name == "pi" and "pi" not in names
     return arithmetic.number(pi) if is_constant else names[formula.name]
 
 
-def _lookup(formula: Any, parts: list[Any], _: Mapping[str, Any], arithmetic: Arithmetic) -> Any:  # noqa: ANN401
+def _lookup(formula: Any, parts: list[Any], _: Mapping[str, Any], arithmetic: Arithmetic) -> Any:
     if arithmetic.table is None:
         raise TypeError("this arithmetic has no tables")
     return arithmetic.table(formula, parts[0])
 
 
-def _call(formula: Any, parts: list[Any], _: Mapping[str, Any], arithmetic: Arithmetic) -> Any:  # noqa: ANN401
+def _call(formula: Any, parts: list[Any], _: Mapping[str, Any], arithmetic: Arithmetic) -> Any:
     function = arithmetic.functions[formula.function]
     return function(parts[0]) if len(parts) == 1 else reduce(function, parts)
 
@@ -154,11 +154,11 @@ _OPERATIONS: dict[type[Formula], Callable[[Any, list[Any], Mapping[str, Any], Ar
 }
 
 
-def _numpy_power(base: Any, exponent: Any) -> Any:  # noqa: ANN401 - numbers or arrays
+def _numpy_power(base: Any, exponent: Any) -> Any:
     return np.power(np.asarray(base, dtype=np.float64), exponent)
 
 
-def _table(table: Table, at: Any) -> Any:  # noqa: ANN401 - numbers or arrays
+def _table(table: Table, at: Any) -> Any:
     coefficients, places = pieces(table), np.array(table.places)
     piece = np.clip(np.searchsorted(places, at, side="right") - 1, 0, len(places) - 2)
     s, values = np.asarray(at) - places[piece], np.zeros(np.shape(at))
@@ -182,7 +182,7 @@ def pieces(table: Table) -> Array:
     return rows
 
 
-def horner(coefficients: Sequence[Any], x: Any) -> Any:  # noqa: ANN401 - numbers of any kind
+def horner(coefficients: Sequence[Any], x: Any) -> Any:
     """The sum of powers of x, ascending.
 
     Examples
@@ -300,7 +300,7 @@ def casadi_arithmetic() -> Arithmetic:
     """The arithmetic of CasADi's symbols."""
     import casadi as ca
 
-    def table(lookup: Table, at: Any) -> Any:  # noqa: ANN401 - a symbol
+    def table(lookup: Table, at: Any) -> Any:
         """The pieces, chosen by their places."""
         rows = [horner(row, at - x) for x, row in zip(lookup.places[:-1], pieces(lookup).tolist(), strict=True)]
         value = rows[0]

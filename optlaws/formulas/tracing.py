@@ -33,40 +33,40 @@ class Traced:
     def __repr__(self) -> str:
         return str(self.formula)
 
-    def __add__(self, other: Any) -> Traced:  # noqa: ANN401 - a number or another
+    def __add__(self, other: Any) -> Traced:
         return Traced(added([self.formula, _formula(other)]))
 
-    def __radd__(self, other: Any) -> Traced:  # noqa: ANN401
+    def __radd__(self, other: Any) -> Traced:
         return Traced(added([_formula(other), self.formula]))
 
-    def __sub__(self, other: Any) -> Traced:  # noqa: ANN401
+    def __sub__(self, other: Any) -> Traced:
         return Traced(added([self.formula, _opposite(_formula(other))]))
 
-    def __rsub__(self, other: Any) -> Traced:  # noqa: ANN401
+    def __rsub__(self, other: Any) -> Traced:
         return Traced(added([_formula(other), _opposite(self.formula)]))
 
-    def __mul__(self, other: Any) -> Traced:  # noqa: ANN401
+    def __mul__(self, other: Any) -> Traced:
         return Traced(multiplied([self.formula, _formula(other)]))
 
-    def __rmul__(self, other: Any) -> Traced:  # noqa: ANN401
+    def __rmul__(self, other: Any) -> Traced:
         return Traced(multiplied([_formula(other), self.formula]))
 
-    def __truediv__(self, other: Any) -> Traced:  # noqa: ANN401
+    def __truediv__(self, other: Any) -> Traced:
         by = real(other)
         if by == 0.0:
             raise ZeroDivisionError("the function divides by 0")
         return Traced(multiplied([self.formula, Reciprocal(_formula(other)) if by is None else number(1.0 / by)]))
 
-    def __rtruediv__(self, other: Any) -> Traced:  # noqa: ANN401
+    def __rtruediv__(self, other: Any) -> Traced:
         return Traced(multiplied([_formula(other), Reciprocal(self.formula)]))
 
-    def __pow__(self, other: Any) -> Traced:  # noqa: ANN401
+    def __pow__(self, other: Any) -> Traced:
         power = _formula(other)
         if power == Number(1.0):
             return self
         return Traced(Call("sqrt", (self.formula,)) if power == _HALF else Exponentiation(self.formula, power))
 
-    def __rpow__(self, other: Any) -> Traced:  # noqa: ANN401
+    def __rpow__(self, other: Any) -> Traced:
         return Traced(Exponentiation(_formula(other), self.formula))
 
     def __neg__(self) -> Traced:
@@ -107,7 +107,7 @@ def _refuse(what: str) -> NoReturn:
     )
 
 
-def _formula(value: Any) -> Formula:  # noqa: ANN401 - a number or a traced one
+def _formula(value: Any) -> Formula:
     if isinstance(value, Traced):
         return value.formula
     plain = value.item() if isinstance(value, np.ndarray) and value.ndim == 0 else value

@@ -90,7 +90,7 @@ class Formula:
         return hash((type(self).__name__, self.data, self.parts))
 
     @property
-    def data(self) -> Any:  # noqa: ANN401 - whatever a kind of formula has
+    def data(self) -> Any:
         """Data of a part other than its parts; two parts of one kind with equal data and parts are equal."""
         return None
 

@@ -271,7 +271,7 @@ class Curve(ABC):
         ordered = np.lexsort((after, k))
         return k[ordered], values[ordered]
 
-    def to_pandas(self, count: int = 201) -> Any:  # noqa: ANN401 - pandas is imported where it is asked for
+    def to_pandas(self, count: int = 201) -> Any:
         """The samples of a, b, c, d and j as a data frame over k, of an output of a machine its own over time.
 
         Needs the extra `optlaws[studies]`.
@@ -296,7 +296,7 @@ class Curve(ABC):
         places, columns = self._sampled(count)
         return pd.DataFrame(columns, index=pd.Index(places, name=self._over))
 
-    def plot(self, ax: Any = None, **style: Any) -> list[Any]:  # noqa: ANN401 - matplotlib's
+    def plot(self, ax: Any = None, **style: Any) -> list[Any]:
         """Draw a, b, c and j with their peaks, dimensionless over k, by matplotlib; jumps break the line.
 
         An output of a machine is one line over time, in one pair of axes.
@@ -325,7 +325,7 @@ class Curve(ABC):
         """
         return self._plot(ax, style)
 
-    def _plot(self, ax: Any, style: dict[str, Any]) -> list[Any]:  # noqa: ANN401 - matplotlib's
+    def _plot(self, ax: Any, style: dict[str, Any]) -> list[Any]:
         from optlaws.plots.law import draw_curve
 
         return draw_curve(self, ax, **style)
@@ -387,7 +387,7 @@ class Curve(ABC):
         return self._derivative(k, 1) * self._derivative(k, 2)
 
     @abstractmethod
-    def _times(self, k: Any) -> Array:  # noqa: ANN401 - whatever users give
+    def _times(self, k: Any) -> Array:
         """The requested k, as floats; InputError where there are none."""
 
     @abstractmethod

@@ -56,7 +56,7 @@ class LawExport:
         master: Quantity | None = None,
         start: Quantity | None = None,
         **options: Unpack[ExportOptions],
-    ) -> Any:  # noqa: ANN401 - made above
+    ) -> Any:
         """The law in the format of a controller, with the executed motion and the proof of the law.
 
         Parameters

@@ -133,7 +133,7 @@ class MotionLaw(Curve, LawExport, StoredLaw):
         master: Quantity | None = None,
         start: Quantity | None = None,
         tolerance: float = 1e-9,
-    ) -> Any:  # noqa: ANN401 - made two layers above
+    ) -> Any:
         """Times and polynomial coefficients in machine units, as a `PiecewiseMotion`: `breaks`, `coefficients`.
 
         Exact, each coefficient rounded once, where the law consists of polynomials; else within `tolerance`, a share of
@@ -167,7 +167,7 @@ class MotionLaw(Curve, LawExport, StoredLaw):
         title = f"{type(self).__name__}, {self._summary()}"
         return page(title, self.constants._repr_html_(), drawings(self))
 
-    def _times(self, k: Any) -> Array:  # noqa: ANN401 - whatever users give
+    def _times(self, k: Any) -> Array:
         return times(k)
 
     @kept_property
@@ -219,7 +219,7 @@ class MotionLaw(Curve, LawExport, StoredLaw):
         """The text of the repr without the constants."""
 
 
-def motion_law(value: Any, name: str = "law") -> MotionLaw:  # noqa: ANN401 - whatever a caller hands over
+def motion_law(value: Any, name: str = "law") -> MotionLaw:
     """The value, if it is a motion law; of an entry of the catalogue or a solution, its law.
 
     Raises

@@ -262,7 +262,7 @@ def _exact_derivative(values: list[Fraction]) -> list[Fraction]:
     return result[: len(values) - 1]
 
 
-def _numbers(values: Any, name: str) -> tuple[float, ...]:  # noqa: ANN401
+def _numbers(values: Any, name: str) -> tuple[float, ...]:
     try:
         array = np.asarray(values)
         right = array.ndim == 1 and (array.dtype.kind in "fiu" or array.size == 0)

@@ -91,7 +91,7 @@ class PlainNumbers(JsonText):
         return {name: bounded(value) if isinstance(value, float) else value for name, value in values.items()}
 
     @classmethod
-    def from_dict(cls, data: Any) -> Self:  # noqa: ANN401 - it is checked here
+    def from_dict(cls, data: Any) -> Self:
         """The value that `to_dict` described.
 
         Raises
@@ -106,7 +106,7 @@ class PlainNumbers(JsonText):
         return cls(**{key: _restored(value) for key, value in stored.items()})
 
 
-def contents(value: Any) -> dict[str, Any]:  # noqa: ANN401 - any frozen dataclass
+def contents(value: Any) -> dict[str, Any]:
     """The fields of a dataclass as plain data: tuples as lists, what is stored itself as its own dict.
 
     >>> from optlaws.laws.segments import PolynomialSegment
@@ -132,17 +132,17 @@ def known_fields(kind: type, fields: Mapping[str, Any], what: str) -> dict[str, 
     return dict(fields)
 
 
-def _plain(value: Any) -> Any:  # noqa: ANN401
+def _plain(value: Any) -> Any:
     if isinstance(value, tuple):
         return [_plain(part) for part in value]
     return value.to_dict() if hasattr(value, "to_dict") else value
 
 
-def _restored(value: Any) -> Any:  # noqa: ANN401 - plain data
+def _restored(value: Any) -> Any:
     return inf if value is None else tuple(value) if isinstance(value, list) else value
 
 
-def _opened(data: Any) -> dict[str, Any]:  # noqa: ANN401
+def _opened(data: Any) -> dict[str, Any]:
     if not isinstance(data, Mapping):
         msg = f"a law must be a dict, got {type(data).__name__}"
         raise InputError(msg)

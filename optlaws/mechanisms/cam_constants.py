@@ -162,7 +162,7 @@ def check_order(name: str, space: LawSpace, order: int) -> None:
         )
 
 
-def _maker(name: str) -> Any:  # noqa: ANN401 - a callable with two numbers by name
+def _maker(name: str) -> Any:
     def make(*, frequency: float, damping: float = 0.0) -> Functional:
         return cam_constant(name, frequency=frequency, damping=damping)
 

@@ -188,7 +188,7 @@ class Follower:
         )
 
 
-def _state(value: Any) -> tuple[float, float]:  # noqa: ANN401 - whatever a caller hands over
+def _state(value: Any) -> tuple[float, float]:
     """Displacement and velocity of a mass as two floats."""
     pair = numbers(value, "initial")
     if len(pair) != 2:

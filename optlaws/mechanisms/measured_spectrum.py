@@ -38,7 +38,7 @@ class WeightPart(NamedTuple):
     first: float
     last: float
 
-    def at(self, frequency: Any) -> Any:  # noqa: ANN401 - numbers or arrays of any arithmetic
+    def at(self, frequency: Any) -> Any:
         """The weight at frequencies in the interval."""
         if self.low == self.high:
             return self.first + 0.0 * frequency
@@ -48,7 +48,7 @@ class WeightPart(NamedTuple):
 Spectrum = tuple[tuple[float, float], ...]
 
 
-def spectrum_of(given: Any, frequency: tuple[float, float] | None = None) -> Spectrum:  # noqa: ANN401 - it is checked here
+def spectrum_of(given: Any, frequency: tuple[float, float] | None = None) -> Spectrum:
     """A weight as pairs of a frequency nu and an amplitude, linear between them, over an interval where one is given.
 
     Parameters
@@ -90,7 +90,7 @@ def spectrum_of(given: Any, frequency: tuple[float, float] | None = None) -> Spe
     return tuple(zip(inside, np.interp(inside, nu, sizes).tolist(), strict=True))
 
 
-def weight_of(given: Any, duration: Any = None) -> Spectrum:  # noqa: ANN401 - as `spectrum_of`; seconds or a quantity
+def weight_of(given: Any, duration: Any = None) -> Spectrum:
     """A weight from pairs, text or a file, whose frequencies are in Hz where the duration of the motion is given.
 
     >>> [(round(nu, 3), size) for nu, size in weight_of("{30: 0.2, 32: 1}", 0.1)]
@@ -121,7 +121,7 @@ def parts_of(spectrum: Spectrum) -> tuple[WeightPart, ...]:
     return tuple(WeightPart(a[0], b[0], a[1], b[1]) for a, b in pairs if a[1] or b[1])
 
 
-def above(frequency: Any, amplitude: Any, points: int = _FROM_FILE) -> Spectrum:  # noqa: ANN401 - numbers of any kind
+def above(frequency: Any, amplitude: Any, points: int = _FROM_FILE) -> Spectrum:
     """A spectrum of fewer points that is nowhere below the original.
 
     At each point stands the greatest amplitude of the two intervals beside it: what is linear between is above all.
@@ -203,7 +203,7 @@ def read_spectrum(
         raise InputError(f"{file}: {error}") from None
 
 
-def _columns(given: Any) -> tuple[Any, Any]:  # noqa: ANN401 - it is checked here
+def _columns(given: Any) -> tuple[Any, Any]:
     pairs = _pairs_of_text(given) if isinstance(given, str) else given
     try:
         listed = [tuple(pair) for pair in (pairs.items() if isinstance(pairs, Mapping) else pairs)]

@@ -29,7 +29,7 @@ _SPARE = 40
 _MOST_POLYDYNE = 4
 
 
-def residual_phasor(law: MotionLaw, frequency: Any, damping: float = 0.0) -> Complex:  # noqa: ANN401 - numbers of any kind
+def residual_phasor(law: MotionLaw, frequency: Any, damping: float = 0.0) -> Complex:
     """Complex amplitude Z of the free vibration after a law, the mass at rest at first; linear in the law.
 
     For k >= 1 the mass moves by a_m = a(1) + Re(Z exp(w (k - 1))), w = -n + i lambda, lambda = nu sqrt(1 - zeta²). |Z|
@@ -64,7 +64,7 @@ def residual_phasor(law: MotionLaw, frequency: Any, damping: float = 0.0) -> Com
     return -1j * w.conj() / damped * velocity_transform(law, w)
 
 
-def residual_functional(count: int, frequency: Any, damping: float = 0.0) -> tuple[Complex, Complex]:  # noqa: ANN401
+def residual_functional(count: int, frequency: Any, damping: float = 0.0) -> tuple[Complex, Complex]:
     """The rows that turn a polynomial law's coefficients into the complex amplitude of its free vibration.
 
     With ``rows, start = residual_functional(len(law.acceleration), frequency, damping)`` the residual acceleration is
@@ -106,7 +106,7 @@ def residual_functional(count: int, frequency: Any, damping: float = 0.0) -> tup
     return scale * rows, scale[:, 0] * np.expm1(w)
 
 
-def roots(frequency: Any, damping: float) -> tuple[Array, Complex, Array]:  # noqa: ANN401 - numbers of any kind
+def roots(frequency: Any, damping: float) -> tuple[Array, Complex, Array]:
     """Frequencies nu, roots w = -n + i lambda and lambda of followers below critical damping."""
     frequencies = np.array(numbers(np.atleast_1d(np.asarray(frequency)).tolist(), "frequency"))
     ratio = not_negative(damping, "damping")
@@ -247,8 +247,8 @@ def residual_vibration(
     damping: float = 0.0,
     design: float | None = None,
     design_damping: float | None = None,
-    spectrum: Any = None,  # noqa: ANN401 - pairs, or text
-    duration: Any = None,  # noqa: ANN401 - a quantity, or seconds
+    spectrum: Any = None,
+    duration: Any = None,
 ) -> Residual:
     """The greatest residual acceleration of an elastic follower over a whole interval of frequencies.
 

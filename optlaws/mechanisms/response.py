@@ -52,7 +52,7 @@ class MassMotion(Curve):
 
         return page(repr(self), drawings(self))
 
-    def _times(self, k: Any) -> Array:  # noqa: ANN401 - whatever users give
+    def _times(self, k: Any) -> Array:
         return real_times(k)
 
     def _sides(self, nu: int) -> Sides:
@@ -179,7 +179,7 @@ class Response(MassMotion):
         off = self._motion.off_at_end
         return off[0], off[1] + velocity
 
-    def _times(self, k: Any) -> Array:  # noqa: ANN401 - whatever users give
+    def _times(self, k: Any) -> Array:
         times = super()._times(k)
         if (times < 0.0).any():
             raise InputError(f"k must be at least 0, got {float(times.min())!r}")

@@ -190,7 +190,7 @@ class ResponseSpectrum:
         return peak_accelerations(self.law, self.frequency, w)
 
 
-def response_spectrum(law: MotionLaw, frequency: Any, damping: float = 0.0) -> ResponseSpectrum:  # noqa: ANN401 - numbers of any kind
+def response_spectrum(law: MotionLaw, frequency: Any, damping: float = 0.0) -> ResponseSpectrum:
     """The response spectrum of a law, the mass at rest at first.
 
     Parameters

@@ -111,7 +111,7 @@ class Motion:
         """The net displacement of the motion, its end value less its start value."""
         return self.pieces[-1].end(0, 1) - self.pieces[0].end(0, 0)
 
-    def __call__(self, x: Any, nu: int = 0) -> Any:  # noqa: ANN401 - a number for a number, an array for arrays
+    def __call__(self, x: Any, nu: int = 0) -> Any:
         """The derivative of order nu at x; at a break just after it, at the end just before it."""
         places, nu = real_times(x), derivative(nu)
         beyond = (places < self.start) | (places > self.stop)

@@ -31,7 +31,7 @@ from optlaws.numbers import Array
 from optlaws.tolerances import CLOSURE, INSIDE_PIECE, JUMP, SAME_TIME
 
 
-def named_law(given: Any, where: str) -> MotionLaw:  # noqa: ANN401 - it is checked here
+def named_law(given: Any, where: str) -> MotionLaw:
     """The law with a name, from a file or as a value; errors call the segment `where`."""
     try:
         law = given if isinstance(given, MotionLaw) else _read(given)
@@ -50,7 +50,7 @@ def _of_name(name: str) -> MotionLaw:
     return read_law(name)
 
 
-def _read(given: Any) -> MotionLaw:  # noqa: ANN401
+def _read(given: Any) -> MotionLaw:
     if not isinstance(given, str):
         raise InputError(
             f"a law, a name of the catalogue, a formula, a JSON or CSV file or 'optimal', got {shortened(given)}"

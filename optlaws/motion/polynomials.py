@@ -63,7 +63,7 @@ class PiecewiseMotion:
     breaks: tuple[float, ...]
     coefficients: tuple[tuple[float, ...], ...]
 
-    def __init__(self, breaks: Any, coefficients: Any) -> None:  # noqa: ANN401 - rows of numbers, arrays too
+    def __init__(self, breaks: Any, coefficients: Any) -> None:
         places = numbers(_plain(breaks), "breaks")
         if len(places) < 2 or any(map(ge, places, places[1:])):
             raise InputError(f"breaks must be at least two increasing numbers, got {shortened(places)}")
@@ -74,7 +74,7 @@ class PiecewiseMotion:
         shape = f"{len(self.coefficients)} pieces of degree {self.degree}"
         return f"PiecewiseMotion({shape} from {self.start:g} to {self.stop:g})"
 
-    def __call__(self, x: Any, nu: int = 0) -> Any:  # noqa: ANN401 - a number for a number, an array for arrays
+    def __call__(self, x: Any, nu: int = 0) -> Any:
         """The derivative of order nu at x.
 
         Examples
@@ -336,14 +336,14 @@ def from_exact(breaks: Sequence[Fraction], rows: Sequence[Sequence[Fraction]]) -
     return PiecewiseMotion([float(place) for place in breaks], [[float(c) for c in row] for row in rows])
 
 
-def _horner(table: Array, x: Any) -> Any:  # noqa: ANN401 - numbers or arrays
+def _horner(table: Array, x: Any) -> Any:
     total = table[..., -1]
     for n in range(table.shape[-1] - 2, -1, -1):
         total = total * x + table[..., n]
     return total
 
 
-def _rows(coefficients: Any, count: int) -> tuple[tuple[float, ...], ...]:  # noqa: ANN401 - rows of numbers, arrays too
+def _rows(coefficients: Any, count: int) -> tuple[tuple[float, ...], ...]:
     """Rows of finite floats, one for each piece; an array is checked as a whole."""
     rows = listed(_plain(coefficients), "coefficients", count + 1)
     if len(rows) != count:
@@ -354,5 +354,5 @@ def _rows(coefficients: Any, count: int) -> tuple[tuple[float, ...], ...]:  # no
     return tuple(numbers(_plain(row), f"coefficients[{i}]") or (0.0,) for i, row in enumerate(rows))
 
 
-def _plain(values: Any) -> Any:  # noqa: ANN401 - whatever is given; it is checked where it goes
+def _plain(values: Any) -> Any:
     return values.tolist() if isinstance(values, np.ndarray) else values

@@ -128,7 +128,7 @@ _POWERS = re.compile(r"\^-\^?(?=[1-4])")
 _SEPARATED = re.compile(r"\s*[+-]?[\d.]*\d[,_'’]\d[\d.,_'’]*")
 
 
-def quantity(value: Any, dimension: str, name: str) -> float:  # noqa: ANN401 - it is checked here
+def quantity(value: Any, dimension: str, name: str) -> float:
     """A quantity such as "616 mm/s" as a float in SI units; errors call it `name`.
 
     Parameters
@@ -166,14 +166,14 @@ def quantity(value: Any, dimension: str, name: str) -> float:  # noqa: ANN401 - 
     return _measurable(finite(number * factor, name), dimension, name, value)
 
 
-def _measurable(number: float, dimension: str, name: str, value: Any) -> float:  # noqa: ANN401 - it is checked here
+def _measurable(number: float, dimension: str, name: str, value: Any) -> float:
     """A number; a time is refused whose powers, by which derivatives are divided, would be beyond double precision."""
     if dimension == "time":
         check_scale(number, "s", name, value)
     return number
 
 
-def check_scale(number: float, unit: str, name: str, value: Any) -> None:  # noqa: ANN401 - what an error quotes
+def check_scale(number: float, unit: str, name: str, value: Any) -> None:
     """Refuse a time or a stroke that is nearer to 0, or greater, than any of a machine; 0 is left to what reads it.
 
     Raises
@@ -192,7 +192,7 @@ def check_scale(number: float, unit: str, name: str, value: Any) -> None:  # noq
         raise InputError(f"{name} must be from {ends}, got {shortened(value)}")
 
 
-def positive_quantity(value: Any, dimension: str, name: str) -> float:  # noqa: ANN401 - it is checked here
+def positive_quantity(value: Any, dimension: str, name: str) -> float:
     """A quantity above 0 as a float in SI units, as `quantity` reads it.
 
     Raises
@@ -212,7 +212,7 @@ def positive_quantity(value: Any, dimension: str, name: str) -> float:  # noqa: 
     return number
 
 
-def either(value: Any, dimensions: tuple[str, ...], name: str) -> tuple[str, float]:  # noqa: ANN401
+def either(value: Any, dimensions: tuple[str, ...], name: str) -> tuple[str, float]:
     """A quantity that may be of several dimensions: which it is, and its value in SI units.
 
     Raises
@@ -234,7 +234,7 @@ def either(value: Any, dimensions: tuple[str, ...], name: str) -> tuple[str, flo
     raise InputError(f"{_asks(dimensions, name)}, but {shortened(value)} is {_kind(unit)}")
 
 
-def read_stroke(value: Any, back: str = "") -> tuple[str, float]:  # noqa: ANN401 - it is checked here
+def read_stroke(value: Any, back: str = "") -> tuple[str, float]:
     """A stroke above 0: its dimension, and its size in SI units.
 
     Parameters
@@ -262,7 +262,7 @@ def read_stroke(value: Any, back: str = "") -> tuple[str, float]:  # noqa: ANN40
     return dimension, size
 
 
-def si_number(value: Any, dimensions: tuple[str, ...], name: str) -> Any:  # noqa: ANN401 - what is none is checked later
+def si_number(value: Any, dimensions: tuple[str, ...], name: str) -> Any:
     """A quantity with one of several dimensions as a float in SI units; bare numbers are not changed.
 
     Raises
@@ -278,7 +278,7 @@ def si_number(value: Any, dimensions: tuple[str, ...], name: str) -> Any:  # noq
     return either(value, dimensions, name)[1] if isinstance(value, str) or hasattr(value, "units") else value
 
 
-def table(entries: Any, name: str, example: str) -> Mapping[str, Any]:  # noqa: ANN401 - it is checked here
+def table(entries: Any, name: str, example: str) -> Mapping[str, Any]:
     """Entries by name, as limits and drives are given.
 
     Raises
@@ -297,7 +297,7 @@ def table(entries: Any, name: str, example: str) -> Mapping[str, Any]:  # noqa: 
     return entries
 
 
-def written(value: Any) -> Any:  # noqa: ANN401 - whatever is given
+def written(value: Any) -> Any:
     """A quantity of pint as equivalent text, in SI units where its own are unknown here; other values unchanged.
 
     Examples
@@ -332,7 +332,7 @@ class Given(NamedTuple):
     number: float
     unit: str
 
-    def same_unit(self, value: Any, name: str) -> float:  # noqa: ANN401 - a quantity
+    def same_unit(self, value: Any, name: str) -> float:
         """Another quantity of the same dimension, as a number of this unit.
 
         Raises
@@ -343,7 +343,7 @@ class Given(NamedTuple):
         return quantity(value, self.dimension, name) / quantity(f"1 {self.unit}", self.dimension, name)
 
 
-def given_quantity(value: Any, dimensions: tuple[str, ...], name: str) -> Given:  # noqa: ANN401 - it is checked here
+def given_quantity(value: Any, dimensions: tuple[str, ...], name: str) -> Given:
     """A quantity with one of several dimensions, in its written unit, as tables of machines have it.
 
     Raises
@@ -363,7 +363,7 @@ def given_quantity(value: Any, dimensions: tuple[str, ...], name: str) -> Given:
     return Given(dimension, _number(match), match[3].strip())
 
 
-def _parts(value: Any, dimensions: tuple[str, ...], name: str) -> tuple[float, str]:  # noqa: ANN401
+def _parts(value: Any, dimensions: tuple[str, ...], name: str) -> tuple[float, str]:
     """The number of a quantity, and the text of its unit, which is known."""
     asks = _asks(dimensions, name)
     match = _NUMBER.fullmatch(_plain(value)) if isinstance(value, str) and len(value) <= _LONGEST else None
@@ -428,7 +428,7 @@ def _si_factor(unit: str, dimension: str) -> float | None:
 
 
 @lru_cache(maxsize=256)
-def _known_unit(text: str) -> Any:  # noqa: ANN401 - pint's, or None
+def _known_unit(text: str) -> Any:
     """The unit that a text means; only names, their powers, products and quotients are read, so nothing runs away."""
     from pint.errors import PintError
 

@@ -78,7 +78,7 @@ class Extremes(NamedTuple):
 
 def extremes(
     function: Function,
-    edges: Any,  # noqa: ANN401 - numbers
+    edges: Any,
     *,
     share: float = 1e-9,
     parts: int = 1,
@@ -387,7 +387,7 @@ class _Search:
         return least, most
 
 
-def _as_interval(term: Any, count: int) -> Interval:  # noqa: ANN401 - an interval or a number
+def _as_interval(term: Any, count: int) -> Interval:
     interval = term if isinstance(term, Interval) else exact(term)
     if interval.middle.shape == (count,):
         return interval

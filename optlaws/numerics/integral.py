@@ -18,7 +18,7 @@ _DEEPEST = 60
 _MOST = 200_000
 
 
-def integral(function: Function, edges: Any, *, share: float = 1e-9) -> tuple[float, float]:  # noqa: ANN401 - numbers
+def integral(function: Function, edges: Any, *, share: float = 1e-9) -> tuple[float, float]:
     """Between which values the integral of a function is, from the first of some edges to the last.
 
     Parameters

@@ -39,7 +39,7 @@ class Interval:
         """The greatest; infinity where nothing is known."""
         return np.where(np.isfinite(self.radius), self.middle + self._outer, np.inf)
 
-    def __getitem__(self, places: Any) -> Interval:  # noqa: ANN401 - numpy's
+    def __getitem__(self, places: Any) -> Interval:
         return Interval(self.middle[places], self.radius[places])
 
     @property
@@ -49,34 +49,34 @@ class Interval:
     def __neg__(self) -> Interval:
         return Interval(-self.middle, self.radius)
 
-    def __add__(self, other: Any) -> Interval:  # noqa: ANN401 - a number, an array or an interval
+    def __add__(self, other: Any) -> Interval:
         if isinstance(other, Interval):
             return _rounded(self.middle + other.middle, self.radius + other.radius)
         return _rounded(self.middle + other, self.radius)
 
-    def __sub__(self, other: Any) -> Interval:  # noqa: ANN401
+    def __sub__(self, other: Any) -> Interval:
         return self.__add__(-other)
 
-    def __mul__(self, other: Any) -> Interval:  # noqa: ANN401
+    def __mul__(self, other: Any) -> Interval:
         with np.errstate(invalid="ignore"):  # 0 times infinity: no bound
             if not isinstance(other, Interval):
                 return _rounded(self.middle * other, self.radius * abs(other))
             return _rounded(self.middle * other.middle, _radius_of_product(self, other))
 
-    def __truediv__(self, other: Any) -> Interval:  # noqa: ANN401
+    def __truediv__(self, other: Any) -> Interval:
         if isinstance(other, int | float):
             return _rounded(self.middle / other, self.radius / abs(other))
         return self.__mul__(_interval(other)._reciprocal())
 
     __radd__, __rmul__ = __add__, __mul__
 
-    def __rsub__(self, other: Any) -> Interval:  # noqa: ANN401
+    def __rsub__(self, other: Any) -> Interval:
         return (-self).__add__(other)
 
-    def __rtruediv__(self, other: Any) -> Interval:  # noqa: ANN401
+    def __rtruediv__(self, other: Any) -> Interval:
         return self._reciprocal().__mul__(other)
 
-    def __array_ufunc__(self, ufunc: Any, method: str, *inputs: Any) -> Any:  # noqa: ANN401 - numpy's
+    def __array_ufunc__(self, ufunc: Any, method: str, *inputs: Any) -> Any:
         """The meaning of numpy's functions, and of an array to the left of an operator."""
         if method != "__call__" or ufunc not in _FUNCTIONS:
             return NotImplemented
@@ -139,7 +139,7 @@ def bearing(y: Interval, x: Interval) -> Interval:
     return Interval(np.arctan2(y.middle, x.middle), turned * (1.0 + 8.0 * ROUNDOFF) + WAVE_ROUNDING)
 
 
-def dot(first: Sequence[Any], second: Sequence[Any]) -> Any:  # noqa: ANN401 - numbers, arrays or intervals
+def dot(first: Sequence[Any], second: Sequence[Any]) -> Any:
     """The sum of products of two sequences, up to the length of the shorter one.
 
     >>> dot([1.0, 2.0], [3.0, 4.0])
@@ -228,7 +228,7 @@ def _one_by_one(pairs: Sequence[tuple[Interval, Interval]]) -> Interval:
     return _summed(middle, radius)
 
 
-def _radius_of_product(left: Interval, right: Interval) -> Any:  # noqa: ANN401 - an array, or a number
+def _radius_of_product(left: Interval, right: Interval) -> Any:
     """The deviation of a product from the product of the midpoints, without its rounding."""
     radius = np.abs(left.middle) * right.radius
     # in place: what such steps cost is the memory that they take
@@ -246,7 +246,7 @@ def hull(first: Interval, second: Interval) -> Interval:
     return between(np.minimum(first.low, second.low), np.maximum(first.high, second.high))
 
 
-def highest(value: Any) -> Array:  # noqa: ANN401 - numbers or intervals
+def highest(value: Any) -> Array:
     """The greatest that numbers may be.
 
     >>> float(highest(2.0)), bool(highest(exact(2.0)) >= 2.0)
@@ -255,7 +255,7 @@ def highest(value: Any) -> Array:  # noqa: ANN401 - numbers or intervals
     return value.high if isinstance(value, Interval) else np.asarray(value, dtype=np.float64)
 
 
-def middle(value: Any) -> Array:  # noqa: ANN401 - numbers or intervals
+def middle(value: Any) -> Array:
     """The middles of intervals; numbers are their own middles.
 
     >>> float(middle(2.0)), float(middle(exact(2.0)))
@@ -264,7 +264,7 @@ def middle(value: Any) -> Array:  # noqa: ANN401 - numbers or intervals
     return value.middle if isinstance(value, Interval) else np.asarray(value, dtype=np.float64)
 
 
-def chosen(where: Any, first: Interval, second: Interval) -> Interval:  # noqa: ANN401 - an array of truths
+def chosen(where: Any, first: Interval, second: Interval) -> Interval:
     """The first where a condition holds, else the second.
 
     >>> chosen(np.array([True, False]), exact(np.array([1.0, 1.0])), exact(np.array([2.0, 2.0]))).middle
@@ -273,7 +273,7 @@ def chosen(where: Any, first: Interval, second: Interval) -> Interval:  # noqa: 
     return Interval(np.where(where, first.middle, second.middle), np.where(where, first.radius, second.radius))
 
 
-def exact(value: Any) -> Interval:  # noqa: ANN401 - a number or an array
+def exact(value: Any) -> Interval:
     """Intervals without width around exact numbers.
 
     >>> exact(2.0).high - exact(2.0).low < 2e-15
@@ -283,7 +283,7 @@ def exact(value: Any) -> Interval:  # noqa: ANN401 - a number or an array
     return Interval(middle, np.zeros_like(middle))
 
 
-def _interval(value: Any) -> Interval:  # noqa: ANN401
+def _interval(value: Any) -> Interval:
     return value if isinstance(value, Interval) else exact(value)
 
 

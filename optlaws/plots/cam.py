@@ -71,7 +71,7 @@ def forces_figure(forces: CamForces, title: str) -> Figure:
         return titled(figure, title)
 
 
-def _work_above_mean(axes: Axes, curve: Any, mean: float) -> None:  # noqa: ANN401 - matplotlib's
+def _work_above_mean(axes: Axes, curve: Any, mean: float) -> None:
     """The mean of a torque, and what lies between them."""
     at, torque = (np.asarray(part) for part in curve.get_data())
     axes.axhline(mean, color=WARM, linewidth=0.8, linestyle=(0, (6, 4)), label="mean")
@@ -120,7 +120,7 @@ def _linked(first: DiscCam, second: DiscCam) -> Array:
     return np.array(joints)
 
 
-def draw_cam(cam: DiscCam, axes: Any = None, **style: Any) -> list[Artist]:  # noqa: ANN401 - matplotlib's
+def draw_cam(cam: DiscCam, axes: Any = None, **style: Any) -> list[Artist]:
     """Draw a cam with its follower around it, and displacement, pressure angle and curvature over the cam's angle.
 
     Into one pair of axes the cam alone is drawn.
@@ -192,7 +192,7 @@ def _draw_mechanism(cam: DiscCam, axes: Axes, style: dict[str, Any]) -> list[Art
     return artists
 
 
-def _draw_circle(axes: Axes, radius: float, label: str, dashes: Any) -> None:  # noqa: ANN401 - matplotlib's
+def _draw_circle(axes: Axes, radius: float, label: str, dashes: Any) -> None:
     turn = np.linspace(0.0, 2.0 * np.pi, _SAMPLES)
     points = _MILLI * radius * np.array([np.cos(turn), np.sin(turn)])
     axes.plot(*points, color=GREY, linewidth=0.8, linestyle=dashes, zorder=2, label=label)

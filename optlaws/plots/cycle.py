@@ -49,7 +49,7 @@ def _panels(cycle: Cycle) -> list[Any]:
     return list(new_figure(8.6, 8.2).subplots(4, 1, sharex=True))
 
 
-def draw_cycle(cycle: Cycle, axes: Any = None, **style: Any) -> list[Artist]:  # noqa: ANN401 - matplotlib's
+def draw_cycle(cycle: Cycle, axes: Any = None, **style: Any) -> list[Artist]:
     """Draw position, velocity, acceleration and jerk into four axes, and return the artists.
 
     Into six axes force (or torque) and power as well. New axes unless given: six where the cycle has a drive.
@@ -172,7 +172,7 @@ def axes_figure(cycles: Mapping[str, Cycle], title: str) -> Figure:
 
 def draw_axes(
     cycles: Mapping[str, Cycle],
-    axes: Any = None,  # noqa: ANN401 - matplotlib's
+    axes: Any = None,
     *,
     nu: int = 0,
     **style: Any,

@@ -128,7 +128,7 @@ def _front_of_advice(advice: Advice, axes: Axes, style: dict[str, Any]) -> list[
     return [*points, between, *below]
 
 
-def _proven(law: Any) -> float:  # noqa: ANN401 - a law of an advice
+def _proven(law: Any) -> float:
     """The proven least value at a point of a front; 0 where nothing is proven."""
     bound = law.proof.lower_bound
     return 0.0 if bound is None else max(bound, 0.0)

@@ -50,7 +50,7 @@ def clearance_figure(cycles: Mapping[str, Cycle], interlocks: Sequence[Interlock
 def draw_interlocked(
     cycles: Mapping[str, Cycle],
     interlocks: Sequence[Interlock],
-    axes: Any,  # noqa: ANN401 - matplotlib's
+    axes: Any,
     what: AxesPicture,
     interlock: int | str,
     style: dict[str, Any],
@@ -238,7 +238,7 @@ def _wider(low: float, high: float) -> tuple[float, float]:
 def _clearances(
     cycles: Mapping[str, Cycle],
     interlocks: Sequence[Interlock],
-    axes: Any,  # noqa: ANN401 - matplotlib's
+    axes: Any,
     style: dict[str, Any],
 ) -> list[Artist]:
     """The clearance of every interlock over the master, with the least of each."""

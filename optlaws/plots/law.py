@@ -78,7 +78,7 @@ def draw_curve(
     return [artist for nu, panel in enumerate(four(axes)) for artist in _with_peak(curve, panel, nu, style)]
 
 
-def four(axes: Any) -> list[Axes]:  # noqa: ANN401 - it is checked here
+def four(axes: Any) -> list[Axes]:
     """The axes of a, b, c and j.
 
     Examples
@@ -166,7 +166,7 @@ def _first_peak(curve: Curve, nu: int, k: Array, values: Array) -> tuple[list[fl
     return [float(k[first])], [float(values[first])]
 
 
-def _sides(axes: Axes, k: Array, values: Array, colour: Any) -> Iterator[Artist]:  # noqa: ANN401 - matplotlib's
+def _sides(axes: Axes, k: Array, values: Array, colour: Any) -> Iterator[Artist]:
     """Small rings on both sides of every break of a line."""
     gaps = np.flatnonzero(np.isnan(values[1:-1])) + 1
     ends = np.unique(np.concatenate([gaps - 1, gaps + 1]))

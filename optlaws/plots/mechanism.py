@@ -28,7 +28,7 @@ _SCALES = {
 }
 
 
-def draw_mechanism(mechanism: Mechanism, axes: Any = None, **style: Any) -> list[Artist]:  # noqa: ANN401
+def draw_mechanism(mechanism: Mechanism, axes: Any = None, **style: Any) -> list[Artist]:
     """Draw a mechanism into four pairs of axes, one for the linkage alone, or a new figure; return the artists.
 
     One that has no linkage to draw has three panels.

@@ -109,7 +109,7 @@ def transition_figure(cam: TransitionCam, cycle: Cycle, title: str) -> Figure:
 
 def draw_transition(
     cam: TransitionCam,
-    axes: Any = None,  # noqa: ANN401 - matplotlib's
+    axes: Any = None,
     *,
     cycle: Cycle | None = None,
     **style: Any,
@@ -152,7 +152,7 @@ def _of_cycle(cam: TransitionCam, cycle: Cycle, nu: int, size: float) -> tuple[A
 _INSIDE_RUN = 25
 
 
-def draw_export(export: Export, axes: Any = None, **style: Any) -> list[Artist]:  # noqa: ANN401 - matplotlib's
+def draw_export(export: Export, axes: Any = None, **style: Any) -> list[Artist]:
     """Draw the exported motion and the executed motion over the master into four axes; return the artists."""
     if axes is None:
         with plot_style():

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 _EACH = 400  # samples in a move
 
 
-def draw_old_table(table: OldTable, axes: Any = None, new: OldTable | None = None, **style: Any) -> list[Artist]:  # noqa: ANN401
+def draw_old_table(table: OldTable, axes: Any = None, new: OldTable | None = None, **style: Any) -> list[Artist]:
     """Draw positions, velocity, acceleration and jerk into four axes; with a new table five, the second its difference.
 
     Points are those of the table. New axes unless given.
@@ -55,7 +55,7 @@ def draw_old_table(table: OldTable, axes: Any = None, new: OldTable | None = Non
     return artists
 
 
-def _difference(table: OldTable, new: OldTable, panel: Any) -> list[Artist]:  # noqa: ANN401 - matplotlib's
+def _difference(table: OldTable, new: OldTable, panel: Any) -> list[Artist]:
     """The deviation of the points, and of the new law, from the old law."""
     at = np.linspace(table.places[0], table.places[-1], 8 * _EACH)
     points: dict[str, Any] = {"linestyle": "", "marker": ".", "markersize": 2.0, "color": GREY}

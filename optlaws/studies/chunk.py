@@ -228,7 +228,7 @@ def array_along_B(base: Mapping[str, Any], run: Run, bound: Bound) -> ProblemArr
     return ProblemArray(**{**alike, "B": np.array([inputs["B"] for _, inputs in run])})
 
 
-def _tuples(value: Any) -> Any:  # noqa: ANN401
+def _tuples(value: Any) -> Any:
     """Pairs of bounds as tuples: lists would be arrays."""
     if isinstance(value, Mapping):
         return {name: _tuples(entry) for name, entry in value.items()}

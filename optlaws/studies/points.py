@@ -76,7 +76,7 @@ class _Lazy(Sequence[Any]):
     def __len__(self) -> int:
         return len(self._places)
 
-    def __getitem__(self, place: Any) -> Any:  # noqa: ANN401 - an integer or a slice
+    def __getitem__(self, place: Any) -> Any:
         places = self._places[place]
         return [self._value(i) for i in places] if isinstance(place, slice) else self._value(places)
 
@@ -162,7 +162,7 @@ def _check_span(name: str, span: SteppedRange | SampleSpan) -> None:
         raise InputError(f"{name}: a log scale needs from and to above 0, got {span.low!r} and {span.high!r}")
 
 
-def _whole(name: str, value: Any) -> int:  # noqa: ANN401 - it is checked here
+def _whole(name: str, value: Any) -> int:
     """The value as an integer."""
     number = numbers.real(value)
     if number is None or not number.is_integer():

@@ -45,7 +45,7 @@ class OptionalEntries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
         return {name: getattr(self, name) for name in ENTRIES if getattr(self, name) is not None}
 
 
-def _struct(name: str, doc: str, types: Mapping[str, Any]) -> Any:  # noqa: ANN401 - a type
+def _struct(name: str, doc: str, types: Mapping[str, Any]) -> Any:
     members = [(entry, types[entry] | None, None) for entry in ENTRIES]
     return msgspec.defstruct(name, members, bases=(OptionalEntries,), namespace={"__doc__": doc}, module=__name__)
 
@@ -87,7 +87,7 @@ def problem(where: str, *parts: Mapping[str, Any]) -> Problem:
         return Problem.from_dict(entries)
 
 
-def shown(name: str, value: Any) -> str | float | int:  # noqa: ANN401 - an entry
+def shown(name: str, value: Any) -> str | float | int:
     """The value of an entry as a table's cell.
 
     Examples
@@ -109,7 +109,7 @@ def shown(name: str, value: Any) -> str | float | int:  # noqa: ANN401 - an entr
     return value if isinstance(value, int | float) and not isinstance(value, bool) else str(value)
 
 
-def _brief(part: Any) -> str:  # noqa: ANN401 - a window or a number
+def _brief(part: Any) -> str:
     if isinstance(part, Mapping):
         return repr(Window.from_dict(part))
     return part if isinstance(part, str) else f"{part:g}"

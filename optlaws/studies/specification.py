@@ -194,7 +194,7 @@ def entries(base: Mapping[str, Any], inputs: Mapping[str, Any]) -> dict[str, Any
     return merged | ({"bounds": bounds} if bounds else {})
 
 
-def _bounded(bounds: Any, name: str, value: float) -> list[float | None]:  # noqa: ANN401
+def _bounded(bounds: Any, name: str, value: float) -> list[float | None]:
     """Both bounds of a constant, one of them new; a bound replaces a fixed value."""
     low, high = bounds if isinstance(bounds, list) else (0.0, None)
     return [low, value] if name.startswith(AT_MOST) else [value, high]

@@ -227,7 +227,7 @@ class Study:
         self._known_chunks.refresh()
         return self._known_chunks
 
-    def _parquet(self) -> Any:  # noqa: ANN401 - pyarrow has no types
+    def _parquet(self) -> Any:
         pq = needed("pyarrow.parquet", f"reading {self._directory.table}")
         there = self._directory.table.stat()
         state = (there.st_mtime_ns, there.st_size)

@@ -113,13 +113,13 @@ class Front(JsonText):
             for values, point in zip(constants, self.points, strict=True)
         ]
 
-    def plot(self, ax: Any = None, **style: Any) -> list[Any]:  # noqa: ANN401 - matplotlib's
+    def plot(self, ax: Any = None, **style: Any) -> list[Any]:
         """Draw the points into matplotlib's axes, new ones by default; returns the artists."""
         from optlaws.plots.front import draw_front
 
         return draw_front(self, ax, **style)
 
-    def to_pandas(self) -> Any:  # noqa: ANN401 - pandas is imported here alone
+    def to_pandas(self) -> Any:
         """The rows as a data frame, a line for each point; needs the extra `optlaws[studies]`.
 
         Examples
@@ -133,7 +133,7 @@ class Front(JsonText):
         pd = needed("pandas", "to_pandas")
         return pd.DataFrame(self.rows, columns=list(self.headings))
 
-    def to_xarray(self) -> Any:  # noqa: ANN401 - xarray is imported here alone
+    def to_xarray(self) -> Any:
         """The rows as a dataset along the points, with the coordinates of the exchanged constants; needs xarray.
 
         Examples

@@ -99,7 +99,7 @@ class Solution(LawExport, JsonText):
 
     if not TYPE_CHECKING:
 
-        def __getattr__(self, name: str) -> Any:  # noqa: ANN401 - called for what is not there yet
+        def __getattr__(self, name: str) -> Any:
             later = self.__dict__.get("_later", {})
             if name not in later:
                 raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}", name=name, obj=self)
@@ -196,7 +196,7 @@ class Solution(LawExport, JsonText):
         """Versions of the libraries that took part."""
         return versions()
 
-    def plot(self, ax: Any = None, **style: Any) -> list[Any]:  # noqa: ANN401 - matplotlib's
+    def plot(self, ax: Any = None, **style: Any) -> list[Any]:
         """Draw the law as `MotionLaw.plot` does, with the bounds and windows of its problem and its `limit`.
 
         Raises

@@ -243,7 +243,7 @@ class SolutionArray(JsonText):
     def __iter__(self) -> Iterator[Any]:
         return (self[i] for i in range(len(self)))
 
-    def __getitem__(self, index: Any) -> Any:  # noqa: ANN401 - what numpy takes
+    def __getitem__(self, index: Any) -> Any:
         """The solution at a place, or the solutions of several as an array.
 
         Raises

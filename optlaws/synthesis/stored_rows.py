@@ -239,7 +239,7 @@ def _check_z(series: list[float], problem: Problem, law: MotionLaw) -> None:
         raise InputError("the coefficients of Z in the arrays do not make its law")
 
 
-def _z(basis: PolynomialBasis | PiecewiseBasis, series: NDArray[np.float64], k: NDArray[np.float64]) -> Any:  # noqa: ANN401
+def _z(basis: PolynomialBasis | PiecewiseBasis, series: NDArray[np.float64], k: NDArray[np.float64]) -> Any:
     """Z at times k, of its Chebyshev series, on each piece where it has some."""
     if isinstance(basis, PolynomialBasis):
         return np.polynomial.chebyshev.chebval(2.0 * k - 1.0, series)
@@ -294,7 +294,7 @@ def _is_problem(problem: Callable[[], Problem]) -> bool:
     return True
 
 
-def equal_data(first: Any, second: Any) -> bool:  # noqa: ANN401 - JSON
+def equal_data(first: Any, second: Any) -> bool:
     """Whether plain data are equal, numbers up to the rounding of the greatest beside them."""
     if isinstance(first, dict) and isinstance(second, dict):
         return first.keys() == second.keys() and all(equal_data(first[name], second[name]) for name in first)

@@ -132,7 +132,7 @@ def _need_flint() -> None:
         raise InputError('exact verification needs python-flint: pip install "optlaws[verify]"')
 
 
-def __getattr__(name: str) -> Any:  # noqa: ANN401
+def __getattr__(name: str) -> Any:
     # a package that imports its own modules and a thread that imports one of them first would wait for each other
     if name in {"Claim", "Verification"}:
         return getattr(imported("optlaws.verification.result"), name)

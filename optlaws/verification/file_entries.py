@@ -203,7 +203,7 @@ def check_keys(data: Data) -> None:
         _stated(data, LawFile, "the law with its constants")
 
 
-def _stated(data: object, kind: type[Any], name: str) -> Any:  # noqa: ANN401 - of that kind
+def _stated(data: object, kind: type[Any], name: str) -> Any:
     try:
         return typed(data, kind)
     except msgspec.ValidationError as error:

@@ -48,7 +48,7 @@ def searched(values: Callable[[Any], Any], breaks: tuple[float, ...]) -> float:
     return best
 
 
-def signed(values: Callable[[Any], Any], sign: float, angle: Array) -> Any:  # noqa: ANN401 - as values
+def signed(values: Callable[[Any], Any], sign: float, angle: Array) -> Any:
     return sign * np.asarray(values(angle))
 
 

@@ -355,7 +355,7 @@ def test_run_names_the_wrong_printed_number(capsys: Capture, tmp_path: Path, old
 # --- as a command ---
 
 
-def command(*arguments: str) -> Any:  # noqa: ANN401
+def command(*arguments: str) -> Any:
     return subprocess.run(
         [sys.executable, "-m", "optlaws", *arguments], capture_output=True, text=True, check=False, timeout=60
     )

@@ -3,8 +3,6 @@
 `python -m tests.contracts.frozen` writes it down again; tests/contracts/test_frozen.py lets only additions pass.
 """
 
-# ruff: noqa: ANN401 - types are the data here
-
 import inspect
 import json
 import re

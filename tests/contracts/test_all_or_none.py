@@ -38,7 +38,7 @@ def failing(monkeypatch: pytest.MonkeyPatch, after: int, error: BaseException) -
     """Let the write after so many fail, as where a computation between them does; how many were done."""
     put, done = writing._put, 0
 
-    def counted(*arguments: Any, **options: Any) -> Any:  # noqa: ANN401
+    def counted(*arguments: Any, **options: Any) -> Any:
         nonlocal done
         if done == after:
             raise error

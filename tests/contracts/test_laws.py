@@ -82,7 +82,7 @@ MASSES: dict[str, MassMotion] = {
 }
 
 
-def shape(curve: Any) -> Any:  # noqa: ANN401 - of crossed parameters none is asked for
+def shape(curve: Any) -> Any:
     """What a curve is made of."""
     return type(curve), frozenset(map(type, getattr(curve, "segments", ())))
 
@@ -559,11 +559,11 @@ def test_mirrored_reversed_and_scaled_laws_are_what_their_definitions_say(law: M
     assert with_end_velocity(law, 0.0).constants.C.value == pytest.approx(law.constants.C.value, rel=1e-12)
 
 
-def exact(law: PiecewiseLaw, i: int, nu: int) -> Any:  # noqa: ANN401 - a function of mpmath's numbers
+def exact(law: PiecewiseLaw, i: int, nu: int) -> Any:
     """Derivative of order nu >= 2 of a segment of a law by mpmath, of the time since its start."""
     segment, length = law.segments[i], mpmath.mpf(law.breaks[i + 1]) - mpmath.mpf(law.breaks[i])
 
-    def c(s: Any) -> Any:  # noqa: ANN401
+    def c(s: Any) -> Any:
         if isinstance(segment, PolynomialSegment):
             x = 2 * s / length - 1
             return mpmath.fsum(value * mpmath.chebyt(n, x) for n, value in enumerate(segment.acceleration))
@@ -609,7 +609,7 @@ def test_peaks_are_those_of_many_digits(name: str, nu: int) -> None:
     assert law.peak(nu).value == pytest.approx(float(best), rel=1e-11)
 
 
-def refined(f: Any, low: Any, high: Any) -> Any:  # noqa: ANN401
+def refined(f: Any, low: Any, high: Any) -> Any:
     """The greatest |f| between two places around it, by golden sections to 14 digits of the value."""
     golden = (mpmath.sqrt(5) - 1) / 2
     for _ in range(36):

@@ -138,7 +138,7 @@ def test_defaults_are_those_of_a_problem() -> None:
 
 
 @pytest.mark.parametrize("door", DOORS)
-def test_every_door_takes_every_entry(door: Any, caught: list[Problem], tmp_path: Path) -> None:  # noqa: ANN401
+def test_every_door_takes_every_entry(door: Any, caught: list[Problem], tmp_path: Path) -> None:
     for name, (others, value, _, _) in EXAMPLES.items():
         caught.clear()
         asked = base(name, others)
@@ -159,7 +159,7 @@ def test_an_example_asks_something(name: str) -> None:
 
 
 @pytest.mark.parametrize("door", DOORS)
-def test_wrong_values_and_misspelt_names_are_told(door: Any, caught: list[Problem], tmp_path: Path) -> None:  # noqa: ANN401
+def test_wrong_values_and_misspelt_names_are_told(door: Any, caught: list[Problem], tmp_path: Path) -> None:
     for name, (others, value, wrong, _) in EXAMPLES.items():
         asked = base(name, others)
         with pytest.raises(InputError, match=rf"\b{name}\b"):

@@ -287,13 +287,13 @@ def exponential() -> Iterator[type]:
     del Segment.kinds[Exponential.kind]
 
 
-def rise(kind: Any) -> PiecewiseLaw:  # noqa: ANN401 - the class of the fixture
+def rise(kind: Any) -> PiecewiseLaw:
     """Exponential to the middle and back from there."""
     half = kind(3.0, 0.4)
     return from_half([(0.5, half)])
 
 
-def test_a_new_kind_makes_laws_that_are_stored(exponential: Any) -> None:  # noqa: ANN401
+def test_a_new_kind_makes_laws_that_are_stored(exponential: Any) -> None:
     law = PiecewiseLaw([0, 0.5, 1], [exponential(1.0), PolynomialSegment((), float(np.exp(0.5)))])
     assert MotionLaw.from_json(law.to_json()) == law
     assert pickle.dumps(law.to_dict())
@@ -307,7 +307,7 @@ def test_a_new_kind_makes_laws_that_are_stored(exponential: Any) -> None:  # noq
         exponential(float("inf"))
 
 
-def test_a_new_kind_is_transformed(exponential: Any) -> None:  # noqa: ANN401
+def test_a_new_kind_is_transformed(exponential: Any) -> None:
     law = PiecewiseLaw([0, 1], [exponential(np.log(2.0))])
     k = np.linspace(0.0, 1.0, 101)
     assert with_end_velocity(law, 0.25).a(k) == pytest.approx(0.75 * law.a(k) + 0.25 * k, abs=1e-14)
@@ -321,7 +321,7 @@ def test_a_new_kind_is_transformed(exponential: Any) -> None:  # noqa: ANN401
     assert ratio == pytest.approx(np.full(49, ratio[0]), rel=1e-11)
 
 
-def test_a_new_kind_drives_a_follower_and_is_driven_by_a_cam(exponential: Any) -> None:  # noqa: ANN401
+def test_a_new_kind_drives_a_follower_and_is_driven_by_a_cam(exponential: Any) -> None:
     law = rise(exponential)
     same = PiecewiseLaw(law.breaks, [segment.interpolated(0.5) for segment in law.segments])
     k = np.linspace(0.0, 1.5, 151)
@@ -334,8 +334,8 @@ def test_a_new_kind_drives_a_follower_and_is_driven_by_a_cam(exponential: Any) -
         polydyne(joined, frequency=20)
 
 
-def test_a_new_kind_goes_through_a_cam(exponential: Any) -> None:  # noqa: ANN401
-    def smooth(segment: Any, u: Array, length: float) -> Any:  # noqa: ANN401
+def test_a_new_kind_goes_through_a_cam(exponential: Any) -> None:
+    def smooth(segment: Any, u: Array, length: float) -> Any:
         return segment.plus_derivatives(length, 0.01, 0.0025).derivative(u, length, 2)
 
     segment, u = exponential(2.0, 0.5), np.linspace(0.0, 1.0, 21)

@@ -90,7 +90,7 @@ def test_axes_are_exported_under_their_own_names(form: str) -> None:
         (lambda: Axes.from_dict({"format": "other"}), "stored axes have format 'optlaws axes 1'"),
     ],
 )  # fmt: skip
-def test_what_is_wrong_names_the_axis(make: Any, says: str) -> None:  # noqa: ANN401 - a function
+def test_what_is_wrong_names_the_axis(make: Any, says: str) -> None:
     with pytest.raises(InputError, match=says):
         make()
 
@@ -142,7 +142,7 @@ def test_axes_are_one_trajectory_of_several_joints() -> None:
 
 
 @pytest.mark.parametrize("interpolation", ["cubic", "quintic", "linear"])
-def test_axes_are_columns_of_one_table(interpolation: Any) -> None:  # noqa: ANN401 - one of the literals
+def test_axes_are_columns_of_one_table(interpolation: Any) -> None:
     made = MACHINE.export("csv", together=True, points=37, interpolation=interpolation)
     assert made["table"].text == made["weld head"].text
     _, headings, *lines = made["table"].text.splitlines()

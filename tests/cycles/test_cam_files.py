@@ -76,7 +76,7 @@ def test_decimal_commas_are_read(name: str, tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("interpolation", ["c1", "quintic", "septic"])
-def test_derivatives_in_columns_are_what_runs_between_points(interpolation: Any, tmp_path: Path) -> None:  # noqa: ANN401 - a Literal
+def test_derivatives_in_columns_are_what_runs_between_points(interpolation: Any, tmp_path: Path) -> None:
     made = press().export("csv", points=25, interpolation=interpolation)
     compared(made, tmp_path / "cam.csv")
     heading, *rows = made.text.splitlines()[1:]

@@ -66,7 +66,7 @@ def geared(inertia: str = "0.8 kg m^2", rotor: str = "3e-4 kg m^2", ratio: float
     return Drive(Mechanism(inertia), Motor(rotor, peak_torque="4 N m"), ratio=ratio)
 
 
-def sheet(drive: Drive, stroke: Any = "45 deg", duration: Any = "0.2 s", period: Any = "1 s") -> Any:  # noqa: ANN401
+def sheet(drive: Drive, stroke: Any = "45 deg", duration: Any = "0.2 s", period: Any = "1 s") -> Any:
     return drive.sheet("cycloidal", 0.0, stroke, duration, period=period)
 
 

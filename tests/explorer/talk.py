@@ -38,14 +38,14 @@ class Server:
         finally:
             connection.close()
 
-    def ask(self, name: str, question: object, code: int = 200) -> Any:  # noqa: ANN401 - JSON
+    def ask(self, name: str, question: object, code: int = 200) -> Any:
         """The answer to a question of the page."""
         body = question if isinstance(question, bytes) else json.dumps(question).encode()
         response, answer = self.send("POST", f"/api/{name}", body, Content_Type="application/json")
         assert response.status == code, answer
         return json.loads(answer)
 
-    def get_start(self) -> Any:  # noqa: ANN401 - JSON
+    def get_start(self) -> Any:
         """What the page shows first."""
         response, answer = self.send("GET", "/api/start")
         assert response.status == 200

@@ -44,7 +44,7 @@ def views(page: Page) -> list[str]:
 
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])
-def test_every_view_keeps_wcag(page: Page, served: Server, scheme: Any) -> None:  # noqa: ANN401 - a literal of playwright
+def test_every_view_keeps_wcag(page: Page, served: Server, scheme: Any) -> None:
     page.emulate_media(color_scheme=scheme)
     go(page, f"http://{served.host}/")
     for view in views(page):

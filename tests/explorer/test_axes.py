@@ -123,7 +123,7 @@ def test_axes_open_and_save_as_a_problem_file(served: Server) -> None:
         (lambda study: study["axis"][1]["segment"][1].update(law="x.json"), "x.json names a file"),
     ],
 )
-def test_axes_that_are_none_say_why(served: Server, change: Any, reason: str) -> None:  # noqa: ANN401 - a function
+def test_axes_that_are_none_say_why(served: Server, change: Any, reason: str) -> None:
     study = axes_view.example()
     change(study)
     for name in ("axes", "axes-clearances", "axes-together"):

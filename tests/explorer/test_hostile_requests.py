@@ -76,13 +76,13 @@ ODD: list[Any] = [
 ]  # fmt: skip
 
 
-def places(value: Any, path: tuple[Any, ...] = ()) -> list[tuple[Any, ...]]:  # noqa: ANN401 - JSON
+def places(value: Any, path: tuple[Any, ...] = ()) -> list[tuple[Any, ...]]:
     """The paths of all parts of a value."""
     inner = value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, list) else ()
     return [path, *(below for key, part in inner for below in places(part, (*path, key)))]
 
 
-def mutated(question: Any, random: Random) -> bytes:  # noqa: ANN401 - JSON
+def mutated(question: Any, random: Random) -> bytes:
     """A question with one to three parts replaced, copied, dropped or renamed, or with bytes that are none of JSON."""
     changed = {"whole": deepcopy(question)}
     for _ in range(random.randint(1, 3)):

@@ -26,7 +26,7 @@ ANGLES = np.arange(0.0, 361.0, 6.0)
 LIFT = 35.0 * catalogue["modified sine"].law(np.clip(ANGLES / 120.0, 0.0, 1.0))
 
 
-def text_of(heights: Any) -> str:  # noqa: ANN401 - an array
+def text_of(heights: Any) -> str:
     """A table of one rise and its dwell."""
     lines = [f"{angle:.0f};{height:.3f}" for angle, height in zip(ANGLES, heights, strict=True)]
     return "\n".join(["degree;mm", *lines]) + "\n"
@@ -112,7 +112,7 @@ def test_tables_of_cycles_and_of_controllers_are_opened_as_old_cams(turn: Path) 
         assert layout in old_cam_view.answer(read(state["old"]))["trust"]["advice"]
 
 
-def read(entries: dict[str, Any]) -> Any:  # noqa: ANN401 - a request
+def read(entries: dict[str, Any]) -> Any:
     return old_cam_view.OldCamRequest(study=old_cam_view.OldCamEntries(**entries))
 
 

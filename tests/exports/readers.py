@@ -18,7 +18,7 @@ Curve = Callable[[Array, int], Array]
 NUMBER = r"[-+]?\d+(?:\.\d+)?(?:[eE][-+]?\d+)?"
 
 
-def spline(x: Array, y: Array, conditions: Any) -> Curve:  # noqa: ANN401 - scipy's
+def spline(x: Array, y: Array, conditions: Any) -> Curve:
     curve = CubicSpline(x, y, bc_type=conditions)
     return lambda places, nu: np.asarray(curve(places, nu))
 

@@ -25,7 +25,7 @@ FUNCTIONS: dict[str, Callable[..., Any]] = {
 }
 
 
-def parsed(source: str) -> Any:  # noqa: ANN401 - blark's
+def parsed(source: str) -> Any:
     """What blark makes of a source; it raises where the grammar of IEC 61131-3 does not allow it."""
     from blark.parse import parse_source_code  # type: ignore[import-untyped] # ships no types
 

@@ -25,7 +25,7 @@ MECHANISM: dict[str, list[tuple[Any, ...]]] = {
 KINDS = {"cycloidal": "cycloidal", "harmonic": "simple harmonic"}
 
 
-def mechanism_cam(name: str) -> Any:  # noqa: ANN401 - theirs
+def mechanism_cam(name: str) -> Any:
     package = pytest.importorskip("mechanism")
     return package.Cam(motion=MECHANISM[name], degrees=True, omega=2.0 * np.pi, h=2e-4)
 

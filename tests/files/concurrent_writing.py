@@ -24,7 +24,7 @@ def _result(number: int, turn: int) -> str:
     return f"result {number} of round {turn} {writing.MARK}\n"
 
 
-def _writer(number: int, rounds: int, folder: str, barrier: Any, errors: Any) -> None:  # noqa: ANN401
+def _writer(number: int, rounds: int, folder: str, barrier: Any, errors: Any) -> None:
     for turn in range(rounds):
         try:
             barrier.wait(_PATIENCE)

@@ -19,7 +19,7 @@ _FUNCTIONS: dict[str, Any] = {
 }
 
 
-def by_python(text: str, values: dict[str, Any]) -> Any:  # noqa: ANN401 - numbers or arrays
+def by_python(text: str, values: dict[str, Any]) -> Any:
     """The value of a formula, with pairs x:y as tuples."""
     number = r"-?[\d.]+(?:e-?\d+)?"
     python = re.sub(rf"({number}):({number})", r"(\1, \2)", text).replace("^", "**")

@@ -45,7 +45,7 @@ def by_cvxpy(written: str) -> str:
         "Number": cp.Constant,
     }
 
-    def power(base: Any, exponent: int) -> Any:  # noqa: ANN401 - cvxpy's
+    def power(base: Any, exponent: int) -> Any:
         return cp.power(base, exponent)
 
     functions["power"] = power
@@ -128,7 +128,7 @@ OPTIMA: dict[str, Callable[[SimpleNamespace], Any]] = {
 }
 
 
-def _rms(motion: SimpleNamespace, of: Any) -> Any:  # noqa: ANN401 - cvxpy's
+def _rms(motion: SimpleNamespace, of: Any) -> Any:
     return cp.norm(cp.multiply(np.sqrt(motion.w), of))
 
 

@@ -131,7 +131,7 @@ def entries(mechanism: Mapping[str, Any] | None, drive: Mapping[str, Any] | None
     return {"job": "cycle", "title": "Driven", "period": "0.5 s", "axis": [axis]}
 
 
-def driven(mechanism: Mapping[str, Any] | None, drive: Mapping[str, Any] | None = None) -> Any:  # noqa: ANN401
+def driven(mechanism: Mapping[str, Any] | None, drive: Mapping[str, Any] | None = None) -> Any:
     """What drives the axis of such a file."""
     return read(entries(mechanism, drive), Path("driven.toml"))[1]["input"].drive
 

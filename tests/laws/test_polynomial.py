@@ -158,14 +158,14 @@ def test_a_flat_top_keeps_its_value() -> None:
 
 
 @pytest.mark.parametrize("bad", [[np.nan], [np.inf], ["1"], [None], [1j], [[1.0]], "12", 5, None, [1e200]])
-def test_numbers_that_are_not_real_and_finite_are_refused(bad: Any) -> None:  # noqa: ANN401
+def test_numbers_that_are_not_real_and_finite_are_refused(bad: Any) -> None:
     for make in (PolynomialLaw, PolynomialLaw.from_powers, PolynomialLaw.from_chebyshev):
         with pytest.raises(InputError, match=r"must (be|not exceed)"):
             make(bad)
 
 
 @pytest.mark.parametrize("bad", [np.nan, -np.inf, "1", None, 1j, [1.0], np.ones(2), 1e200])
-def test_start_values_that_are_not_real_and_finite_are_refused(bad: Any) -> None:  # noqa: ANN401
+def test_start_values_that_are_not_real_and_finite_are_refused(bad: Any) -> None:
     with pytest.raises(InputError, match="a0"):
         PolynomialLaw([1.0], a0=bad)
     with pytest.raises(InputError, match="b0"):
@@ -173,7 +173,7 @@ def test_start_values_that_are_not_real_and_finite_are_refused(bad: Any) -> None
 
 
 @pytest.mark.parametrize("order", [0, -1, 2.0, "2", None, True, [3]])
-def test_order_of_a_smoothstep_is_an_integer_from_1(order: Any) -> None:  # noqa: ANN401
+def test_order_of_a_smoothstep_is_an_integer_from_1(order: Any) -> None:
     with pytest.raises(InputError, match="order must be an integer of at least 1"):
         smoothstep(order)
 

@@ -192,7 +192,7 @@ def test_wrong_members_are_refused(keywords: dict[str, Any], message: str) -> No
 
 
 @pytest.mark.parametrize("family", ["V", "iii", -1, 2.5, None])
-def test_wrong_families_are_refused(family: Any) -> None:  # noqa: ANN401
+def test_wrong_families_are_refused(family: Any) -> None:
     for call in (lambda: savin(family, 0.0), lambda: alpha_range(family)):
         with pytest.raises(InputError, match="family"):
             call()

@@ -229,7 +229,7 @@ def test_numbers_that_are_written_otherwise_are_refused_with_the_remedy(text: ob
 
 
 @pytest.mark.parametrize("magnitude", [2j, 10**400, 10**6000, [1, 2], [5], float("nan"), float("inf")], ids=range(7))
-def test_quantities_of_pint_that_are_no_real_number_are_input_errors_at_every_door(magnitude: Any) -> None:  # noqa: ANN401
+def test_quantities_of_pint_that_are_no_real_number_are_input_errors_at_every_door(magnitude: Any) -> None:
     """Segments, limits, drives, loads, cams, exports, machines."""
     units: UnitRegistry[Any] = UnitRegistry()
     quantities: list[Any] = [units.Quantity(magnitude, unit) for unit in ("mm", "mm/s", "kg", "s", "Hz")]
@@ -269,10 +269,10 @@ def test_bare_numbers_of_problem_files_and_units_of_bare_numbers_are_refused_wit
 def machine_of(unit: UnitRegistry[Any] | None) -> list[Any]:
     """What takes bare numbers too: with units as text, as quantities of pint, or in SI."""
 
-    def given(text: str, si: float) -> Any:  # noqa: ANN401 - a text, a quantity or a number
+    def given(text: str, si: float) -> Any:
         return si if unit is None else text
 
-    def united(text: str, si: float) -> Any:  # noqa: ANN401
+    def united(text: str, si: float) -> Any:
         return si if unit is None else unit.Quantity(text)
 
     K = catalogue["K"].law
@@ -314,7 +314,7 @@ def test_machines_take_quantities_and_bare_numbers_alike() -> None:
         assert others == pytest.approx(numbers, rel=1e-14)
 
 
-def flat(value: Any) -> list[Any]:  # noqa: ANN401
+def flat(value: Any) -> list[Any]:
     """All numbers in a value and its fields."""
     if is_dataclass(value):
         return [part for entry in fields(value) for part in flat(getattr(value, entry.name))]

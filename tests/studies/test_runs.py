@@ -188,7 +188,7 @@ def test_a_first_point_that_makes_no_problem_is_refused(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("workers", [0.5, 2.0, 0, -1, True, "2"])
-def test_workers_are_whole(tmp_path: Path, workers: Any) -> None:  # noqa: ANN401
+def test_workers_are_whole(tmp_path: Path, workers: Any) -> None:
     with pytest.raises(InputError, match="workers must be an integer of at least 1, got"):
         run_study(SMALL, tmp_path / "out", workers=workers)
     assert not (tmp_path / "out").exists()

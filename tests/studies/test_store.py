@@ -311,7 +311,7 @@ def test_whoever_may_only_read_sees_rows_and_status(small: Study, tmp_path: Path
 def reading_only(folder: Path) -> Iterator[None]:
     """Refuses to open files of the folder for writing: permissions do not bind every user."""
 
-    def opened(file: Path, mode: str = "r", **kwargs: Any) -> Any:  # noqa: ANN401 - as Path.open has it
+    def opened(file: Path, mode: str = "r", **kwargs: Any) -> Any:
         if file.is_relative_to(folder) and set(mode) & set("wax+"):
             raise PermissionError(13, "Permission denied", str(file))
         return before(file, mode, **kwargs)

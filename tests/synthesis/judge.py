@@ -34,7 +34,7 @@ class Curve:
 
     pieces: tuple[Chebyshev, ...]
 
-    def __call__(self, k: Any) -> Any:  # noqa: ANN401 - a number or an array, as it comes
+    def __call__(self, k: Any) -> Any:
         """The value, at a break that of the piece that begins there."""
         places = np.asarray(k, dtype=float)
         begins = np.array([piece.domain[0] for piece in self.pieces])
@@ -188,7 +188,7 @@ class Judged:
     def signal(self, text: str) -> Callable[[Any], Any]:
         """A formula along the law, by Python's own grammar."""
 
-        def values(k: Any) -> Any:  # noqa: ANN401 - a number or an array, as it comes
+        def values(k: Any) -> Any:
             names = {name: self.derivatives[nu](k) for nu, name in enumerate("abcj")}
             return by_python(text, {**names, "k": k}) + 0.0 * np.asarray(k)
 

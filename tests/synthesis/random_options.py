@@ -313,7 +313,7 @@ def _part(numbers: Numbers, frame: Frame, judged: "Guess") -> Expression:
     return round(float(numbers.uniform(0.1, 1.0)), 2) * constant / float(f"{size:.3g}")
 
 
-def _objective(numbers: Numbers, frame: Frame, judged: "Guess") -> Any:  # noqa: ANN401 - a text or an expression
+def _objective(numbers: Numbers, frame: Frame, judged: "Guess") -> Any:
     part = partial(_part, numbers, frame, judged)
     kind = str(numbers.choice(["constant", "sum", "max", "sum of max", "max of max"], p=[0.5, 0.2, 0.15, 0.1, 0.05]))
     if kind == "constant":

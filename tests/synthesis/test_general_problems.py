@@ -277,7 +277,7 @@ def test_the_certificate_of_a_solution_speaks_of_its_own_problem(given: dict[str
 
 @pytest.mark.parametrize("B", [None, 1.5, at_most(1.8)], ids=repr)
 @pytest.mark.parametrize("symmetric", [True, False], ids=["symmetric", "unsymmetric"])
-def test_an_optimum_whose_jerk_is_constant_is_proven(B: Any, symmetric: bool) -> None:  # noqa: ANN401, FBT001
+def test_an_optimum_whose_jerk_is_constant_is_proven(B: Any, symmetric: bool) -> None:  # noqa: FBT001
     # b = 6k(1-k): every k is a contact
     solution = synthesize(Problem(B=B, order=2, minimise="J", symmetric=symmetric))
     judge(solution)

@@ -67,7 +67,7 @@ class Dropped:
 DROPPED = Dropped()
 
 
-def places(data: Any, path: Path = ()) -> Iterator[Path]:  # noqa: ANN401 - JSON
+def places(data: Any, path: Path = ()) -> Iterator[Path]:
     """Every value, every object and every list, whatever it says."""
     if path:
         yield path
@@ -245,7 +245,7 @@ def certificate(data: object, read: Callable[[Data], Any], best: float, *, verif
     """A lower bound that stands alone; `best` is the least objective of its problem."""
     form, most = plain(data), best * (1.0 + CLOSE)
 
-    def wrong(stored: Data, proof: Any) -> list[str]:  # noqa: ANN401
+    def wrong(stored: Data, proof: Any) -> list[str]:
         above = same_problem(stored["problem"], form["problem"]) and proof.bound > most
         return [f"bound {proof.bound!r} above {best!r}"] if above else []
 
@@ -379,7 +379,7 @@ def study() -> Format:
         kept = {file.name: file.read_bytes() for file in File(out).iterdir()}
     data: Data = json.loads(kept["study.json"])
 
-    def read(stored: Data) -> Any:  # noqa: ANN401
+    def read(stored: Data) -> Any:
         with TemporaryDirectory() as place:
             for name, content in kept.items():
                 (File(place) / name).write_bytes(content)
@@ -466,7 +466,7 @@ def formats() -> dict[str, Callable[[], Format]]:
     }
 
 
-def _given(proof: Any) -> object:  # noqa: ANN401 - a certificate that is there
+def _given(proof: Any) -> object:
     assert proof is not None
     return proof.to_dict()
 

@@ -30,7 +30,7 @@ def data_of(problem: Problem, bound: str = "quick") -> Data:
     return data
 
 
-def places(data: Any, path: Path = ()) -> Iterator[Path]:  # noqa: ANN401 - JSON
+def places(data: Any, path: Path = ()) -> Iterator[Path]:
     """Every value that is no object and no list, and every object and list too."""
     if path:
         yield path
@@ -43,7 +43,7 @@ def places(data: Any, path: Path = ()) -> Iterator[Path]:  # noqa: ANN401 - JSON
             yield from places(value, (*path, i))
 
 
-def value_at(data: Any, path: Sequence[str | int]) -> Any:  # noqa: ANN401 - JSON
+def value_at(data: Any, path: Sequence[str | int]) -> Any:
     for key in path:
         data = data[key]
     return data

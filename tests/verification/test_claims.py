@@ -94,7 +94,7 @@ CONTAINERS = [row_text, front_text, table_text]
 
 
 @pytest.mark.parametrize("text", CONTAINERS, ids=lambda one: one.__name__)
-def test_rows_fronts_and_tables_are_proven(text: Any) -> None:  # noqa: ANN401
+def test_rows_fronts_and_tables_are_proven(text: Any) -> None:
     verifications = verify_all(json.loads(text()))
     assert [str(claim) for one in verifications.values() for claim in one.claims if not claim.proven] == []
 
@@ -126,7 +126,7 @@ def claimed(data: Data) -> Iterator[Path]:
             yield path
 
 
-def weaker(path: Path, old: Any, new: Any) -> bool:  # noqa: ANN401 - JSON
+def weaker(path: Path, old: Any, new: Any) -> bool:
     """Whether what is said now follows from what was said, or is nothing."""
     name = path[-1]
     if new is None:

@@ -14,7 +14,7 @@ REST = Problem(order=4)
 MIXED = Problem(order=4, B=1.8, minimise="C/4 + rms_c/3.4641")
 
 
-def written(problem: Problem, over: Any, between: tuple[float, float], gap: float = 1e-3) -> dict[str, Any]:  # noqa: ANN401
+def written(problem: Problem, over: Any, between: tuple[float, float], gap: float = 1e-3) -> dict[str, Any]:
     data: dict[str, Any] = json.loads(json.dumps(proven_front(problem, over, between=between, gap=gap).to_dict()))
     return data
 
@@ -32,7 +32,7 @@ def written(problem: Problem, over: Any, between: tuple[float, float], gap: floa
         ]
     ),
 )
-def test_a_front_is_proven_between_its_laws(problem: Problem, over: Any, between: tuple[float, float]) -> None:  # noqa: ANN401
+def test_a_front_is_proven_between_its_laws(problem: Problem, over: Any, between: tuple[float, float]) -> None:
     data = written(problem, over, between)
     verification = verify(data)
     assert verification.proven

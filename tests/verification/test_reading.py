@@ -182,7 +182,7 @@ def test_own_constants_are_refused_even_if_they_look_like_known_ones() -> None:
     class Half(PeakConstant):
         """A peak of which half is told."""
 
-        def value(self, law: Any) -> float:  # noqa: ANN401
+        def value(self, law: Any) -> float:
             return 0.5 * super().value(law)
 
     half: Functional = Half("half", 2.0, convex=True, nu=2)

@@ -277,7 +277,7 @@ def _of_type(like: float, value: float) -> float:
     return int(value) if isinstance(like, int) and value == int(value) else value
 
 
-def _tampered(data: Any) -> Iterator[Any]:  # noqa: ANN401 - JSON
+def _tampered(data: Any) -> Iterator[Any]:
     """A file with one number after the other raised, lowered, and exchanged for the next one."""
     paths = [path for path in numbers(data) if path[-1] != "format"]
     for path, other in zip(paths, [*paths[1:], paths[0]], strict=True):

@@ -40,13 +40,13 @@ def top(law: MotionLaw) -> float:
     return 0.5 * (middle.first + middle.last)
 
 
-def law_of(given: Any) -> Any:  # noqa: ANN401 - whatever the caller gave, a law or not
+def law_of(given: Any) -> Any:
     """The law of a catalogue entry or of a solution; any other value is returned unchanged."""
     law = getattr(given, "law", None)
     return law if isinstance(law, MotionLaw) and not isinstance(given, MotionLaw) else given
 
 
-def check_law(name: str, law: Any) -> None:  # noqa: ANN401 - whatever the caller gave
+def check_law(name: str, law: Any) -> None:
     """Refuse what is no law from rest to rest over a stroke of 1."""
     if not isinstance(law, MotionLaw):
         raise InputError(f"{name} must be a MotionLaw, or what has one in `law`, got {shortened(law)}")

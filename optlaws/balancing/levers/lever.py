@@ -185,16 +185,16 @@ class TorsionLever:
         """Period of small swings, 2 pi / sqrt(n), in units of sqrt(I / c1)."""
         return 2.0 * pi / sqrt(self.n)
 
-    def moment(self, chi: Any) -> Array:  # noqa: ANN401 - whatever numpy takes for an array
+    def moment(self, chi: Any) -> Array:
         """Moment M_R of the bars on the driven link against its deviation chi, exact, eq. (2), in units of c1."""
         return self._moment(np.asarray(chi, dtype=np.float64))[0]
 
-    def taylor_moment(self, chi: Any) -> Array:  # noqa: ANN401 - whatever numpy takes for an array
+    def taylor_moment(self, chi: Any) -> Array:
         """The moment to the third power of chi, eq. (4), in units of c1."""
         chi = np.asarray(chi, dtype=np.float64)
         return np.asarray(chi * (self.n + chi * (self.q / 2.0 + chi * (self.p / 6.0))))
 
-    def potential(self, chi: Any) -> Array:  # noqa: ANN401 - whatever numpy takes for an array
+    def potential(self, chi: Any) -> Array:
         """Energy stored in the bars less the energy at rest, in units of c1: the moment's integral from 0 to chi."""
         chi = np.asarray(chi, dtype=np.float64)
         rocker = self.linkage.rocker(chi)

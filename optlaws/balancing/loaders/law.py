@@ -69,7 +69,7 @@ class LoaderLaw(MotionLaw, kind="loader"):
         return 1.0 / swing
 
     @kept_property
-    def _tops(self) -> Any:  # noqa: ANN401
+    def _tops(self) -> Any:
         return tops(self.executive)
 
     @kept_property

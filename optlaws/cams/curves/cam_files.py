@@ -226,7 +226,7 @@ def _document(release: str, options: Cutting, draw: Callable[[Modelspace], None]
     return f"999\n{options.line}; {MARK}\n{stream.getvalue()}"
 
 
-def _ezdxf() -> Any:  # noqa: ANN401 - a module
+def _ezdxf() -> Any:
     try:
         import ezdxf
     except ImportError:
@@ -235,7 +235,7 @@ def _ezdxf() -> Any:  # noqa: ANN401 - a module
 
 
 @contextmanager
-def _without_date(ezdxf: Any) -> Iterator[None]:  # noqa: ANN401 - a module
+def _without_date(ezdxf: Any) -> Iterator[None]:
     with _lock:
         # it warns of the units of release 12 even where there are none
         logger = getLogger("ezdxf")

@@ -151,7 +151,7 @@ class CamMotion:
         """The least and the greatest derivative by the angle."""
         return self._extremes(1)
 
-    def __call__(self, angle: Any, nu: int = 0) -> Any:  # noqa: ANN401 - a number for a number, an array for arrays
+    def __call__(self, angle: Any, nu: int = 0) -> Any:
         """The derivative of order nu by the angle in rad; at a break that just after it."""
         nu = derivative(nu)
         return number_or_array(self.jet(real_times(angle), nu).derivative(nu))
@@ -231,7 +231,7 @@ class CamMotion:
         return replace(self, stretches=turned)
 
 
-def as_motion(given: Any, axis: str) -> CamMotion:  # noqa: ANN401 - it is checked here
+def as_motion(given: Any, axis: str) -> CamMotion:
     """A cycle or a motion by angle as a `CamMotion`, which must be a length or an angle as the follower requires."""
     if isinstance(given, Cycle):
         motion = CamMotion.of_cycle(given)

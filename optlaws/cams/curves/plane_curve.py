@@ -79,7 +79,7 @@ class PiecewiseCurve(CurveByJets):
         """The places where its pieces meet."""
         return tuple(self.knots.tolist())
 
-    def jets(self, places: Array | Interval, order: int) -> Any:  # noqa: ANN401 - as many as there are coordinates
+    def jets(self, places: Array | Interval, order: int) -> Any:
         """The Taylor terms of each coordinate; intervals must lie between two knots."""
         return _of_pieces((self.knots[:-1], self.knots[1:], self.powers), self.piece(places), places, order)
 
@@ -107,7 +107,7 @@ class CurveAtEachPlace(CurveByJets):
         """The places where pieces of any of them meet."""
         return tuple(sorted({place for curve in self.curves for place in curve.breaks}))
 
-    def jets(self, places: Array | Interval, order: int) -> Any:  # noqa: ANN401 - as many as there are coordinates
+    def jets(self, places: Array | Interval, order: int) -> Any:
         """The Taylor terms that each place has on its own curve."""
         counts = [curve.powers.shape[1] for curve in self.curves]
         pieces = np.zeros(len(self.each), dtype=np.intp)
@@ -134,7 +134,7 @@ def _of_pieces(
     ]
 
 
-def _term(powers: Array, t: Any, half: Array, nu: int) -> Any:  # noqa: ANN401 - arrays or intervals
+def _term(powers: Array, t: Any, half: Array, nu: int) -> Any:
     total = t * 0.0
     for k in range(len(powers) - 1, nu - 1, -1):
         total = total * t + comb(k, nu) * powers[k]
@@ -150,10 +150,10 @@ class CurveByAngle(ABC):
         """Angles between which it is smooth, both ends included, rad."""
 
     @abstractmethod
-    def jets(self, angle: Any, order: int, *, before: bool = False) -> tuple[Jet, ...]:  # noqa: ANN401 - also intervals
+    def jets(self, angle: Any, order: int, *, before: bool = False) -> tuple[Jet, ...]:
         """The coordinates with their derivatives up to an order."""
 
-    def __call__(self, angle: Any, nu: int = 0, *, before: bool = False) -> Array:  # noqa: ANN401 - checked here
+    def __call__(self, angle: Any, nu: int = 0, *, before: bool = False) -> Array:
         """Points, or derivatives of order nu by the angle, m.
 
         Parameters
@@ -215,17 +215,17 @@ class PlaneCurve(CurveByAngle):
         """The first and the last angle, rad."""
         return self.breaks[0], self.breaks[-1]
 
-    def normal(self, angle: Any, *, before: bool = False) -> Array:  # noqa: ANN401 - as for points
+    def normal(self, angle: Any, *, before: bool = False) -> Array:
         """The unit normal away from the cam, shape of `angle` and two more."""
         x, y = self.normal_jets(real_times(angle), 0, before=before)
         return np.stack([x.terms[0], y.terms[0]], axis=-1)
 
-    def tangent(self, angle: Any, *, before: bool = False) -> Array:  # noqa: ANN401 - as for points
+    def tangent(self, angle: Any, *, before: bool = False) -> Array:
         """The unit tangent, in the direction in which the angle grows."""
         x, y = self.normal_jets(real_times(angle), 0, before=before)
         return self.turning * np.stack([y.terms[0], -x.terms[0]], axis=-1)
 
-    def curvature(self, angle: Any, *, before: bool = False) -> Any:  # noqa: ANN401 - as for points
+    def curvature(self, angle: Any, *, before: bool = False) -> Any:
         """The curvature, 1/m: above 0 where the curve bulges outward, below where it is hollow.
 
         It is infinite at a cusp, and negative beyond one that ends in a loop.
@@ -239,7 +239,7 @@ class PlaneCurve(CurveByAngle):
         with np.errstate(divide="ignore", invalid="ignore"):
             return number_or_array(turns / along)
 
-    def radius_of_curvature(self, angle: Any, *, before: bool = False) -> Any:  # noqa: ANN401 - as for points
+    def radius_of_curvature(self, angle: Any, *, before: bool = False) -> Any:
         """The radius of curvature, m, with the sign of the curvature; infinite where the curve is straight."""
         with np.errstate(divide="ignore"):
             return number_or_array(1.0 / np.asarray(self.curvature(angle, before=before)))

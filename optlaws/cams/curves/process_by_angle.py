@@ -131,7 +131,7 @@ def read_process_by_angle(given: Mapping[str, Any] | None, motion: CamMotion, ra
 
 
 def _runs(
-    given: Any,  # noqa: ANN401 - it is checked here
+    given: Any,
     dimensions: tuple[str, str],
     name: str,
     variable_name: str,

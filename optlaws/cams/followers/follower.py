@@ -79,12 +79,12 @@ class CamFollower(ABC):
         return self
 
 
-def positive(value: Any, name: str) -> float:  # noqa: ANN401 - it is checked here
+def positive(value: Any, name: str) -> float:
     """A length above 0, in metres."""
     return positive_quantity(value, "length", name)
 
 
-def roller_radius(value: Any, place: Place) -> float:  # noqa: ANN401 - it is checked here
+def roller_radius(value: Any, place: Place) -> float:
     """The radius of a roller whose centre rests on a prime circle where it is lowest, in metres."""
     radius = positive(value, "roller: radius")
     if radius >= place.radius:
@@ -95,7 +95,7 @@ def roller_radius(value: Any, place: Place) -> float:  # noqa: ANN401 - it is ch
     return radius
 
 
-def stated_prime_radius(prime_radius: Any, base_radius: Any, follower: CamFollower) -> Any:  # noqa: ANN401 - checked later
+def stated_prime_radius(prime_radius: Any, base_radius: Any, follower: CamFollower) -> Any:
     """The prime radius from the entries of a file; earlier files call it `base_radius`, as under a flat face.
 
     Raises

@@ -170,7 +170,7 @@ def _motion(law: str, options: MotionOptions, points: TableOptions) -> Motion:
     return of_cycle
 
 
-def _cycle(file: Path, axis: str | None) -> Any:  # noqa: ANN401 - a Cycle, which the help must not import
+def _cycle(file: Path, axis: str | None) -> Any:
     from optlaws.files.packaged import problem_of_job
     from optlaws.jobs.cycle_entries import read
 

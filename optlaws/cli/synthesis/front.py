@@ -157,7 +157,7 @@ def _table(front: optlaws.Front | optlaws.ProvenFront, points: int) -> tuple[tup
 
 
 def _show(front: optlaws.Front | optlaws.ProvenFront, headings: tuple[str, ...], lines: Rows) -> None:
-    def text(cell: Any, heading: str) -> str:  # noqa: ANN401 - a number, text or nothing
+    def text(cell: Any, heading: str) -> str:
         if cell is None or isinstance(cell, str):
             return cell or ""
         return format(cell, ".0e" if heading == "gap" else ".7g")

@@ -121,7 +121,7 @@ class Advice:
         rows += [Row("why", sentence) for sentence in chosen.sentences]
         return Summary([*rows, Row("rule", chosen.rule)])
 
-    def plot(self, ax: Any = None, **style: Any) -> list[Any]:  # noqa: ANN401 - matplotlib's
+    def plot(self, ax: Any = None, **style: Any) -> list[Any]:
         """Draw the minimised measure over the second: the front, all laws, the recommended one; returns the artists.
 
         `ax` are axes of matplotlib, new ones unless given; `style` is what `Axes.plot` takes, for the front.
@@ -130,7 +130,7 @@ class Advice:
 
         return draw_advice(self, ax, **style)
 
-    def to_pandas(self) -> Any:  # noqa: ANN401 - pandas is imported here alone
+    def to_pandas(self) -> Any:
         """The rows as a data frame with the laws' names as index; needs the extra `optlaws[studies]`."""
         pd = needed("pandas", "to_pandas")
         return pd.DataFrame(self.rows, columns=list(self.headings)).set_index("law")

@@ -185,7 +185,7 @@ class AdvisedCycle:
             raise InputError("the cycle has no move whose law could be another: laws are compared from rest to rest")
         return numbers
 
-    def _segments(self, changed: Any) -> list[CycleSegment]:  # noqa: ANN401 - a function of a segment
+    def _segments(self, changed: Any) -> list[CycleSegment]:
         return [changed(each) if i in self._compared else each for i, each in enumerate(self.cycle.segments)]
 
     def _known(self, segments: Sequence[CycleSegment]) -> Cycle:
@@ -199,7 +199,7 @@ class AdvisedCycle:
     def _standing(self) -> Cycle:
         return self.cycle.unchecked() if self.usual is None else self._known(self.cycle.segments)
 
-    def _advised(self, name: str, kind: Any, cycle: Cycle, proof: ProvenLeast | None = None) -> AdvisedLaw:  # noqa: ANN401
+    def _advised(self, name: str, kind: Any, cycle: Cycle, proof: ProvenLeast | None = None) -> AdvisedLaw:
         values = {measure.name: self._value(cycle, measure.name) for measure in self.measures}
         limits = list(limits_taken(cycle, self.cycle))
         if self.most < inf:

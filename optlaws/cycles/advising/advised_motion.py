@@ -141,7 +141,7 @@ def advice_from(candidates: Candidates, points: int) -> Advice:
     )
 
 
-def _checked(laws: Any) -> list[str]:  # noqa: ANN401 - it is checked here
+def _checked(laws: Any) -> list[str]:
     if isinstance(laws, str) or not isinstance(laws, Sequence) or not all(isinstance(law, str) for law in laws):
         raise InputError(f"laws must be names such as ['modified sine', 'cycloidal'], got {shortened(laws)}")
     if len(laws) > _MOST_LAWS:
@@ -150,11 +150,11 @@ def _checked(laws: Any) -> list[str]:  # noqa: ANN401 - it is checked here
 
 
 def _cycle(
-    motion: Any,  # noqa: ANN401 - it is checked here
+    motion: Any,
     minimise: str | None,
     limits: Mapping[str, Any] | None,
     follower: Mapping[str, Any] | None,
-    drive: Any,  # noqa: ANN401
+    drive: Any,
     degree: int | None,
 ) -> AdvisedCycle:
     entries = dict(table(limits or {}, "limits", '{"velocity": "616 mm/s"}'))

@@ -56,7 +56,7 @@ def duration_ranges(segments: Sequence[CycleSegment]) -> tuple[DurationRange, ..
     return tuple(ranges)
 
 
-def _range(duration: Any) -> DurationRange:  # noqa: ANN401 - the cycle has checked it
+def _range(duration: Any) -> DurationRange:
     if duration is None:
         return DurationRange(Extent(0.0, 0.0), Extent(inf, 0.0))
     ends = duration if isinstance(duration, list | tuple) else (duration, duration)
@@ -64,7 +64,7 @@ def _range(duration: Any) -> DurationRange:  # noqa: ANN401 - the cycle has chec
     return DurationRange(least, most)
 
 
-def _extent(value: Any) -> Extent:  # noqa: ANN401
+def _extent(value: Any) -> Extent:
     kind, number = either(value, ("angle", "time"), "duration")
     return Extent(number / TURN, 0.0) if kind == "angle" else Extent(0.0, number)
 

@@ -252,6 +252,6 @@ def _spell_of_dwell(stretch: TimedSegment, where: str) -> tuple[Spell, Spell | N
     return ((0.0, 0.0) if text is None else _spell(text, f"{where}: duration")), None
 
 
-def _spell(text: Any, where: str) -> Spell:  # noqa: ANN401 - a quantity
+def _spell(text: Any, where: str) -> Spell:
     kind, value = either(text, ("angle", "time"), where)
     return (0.0, value / (2.0 * np.pi)) if kind == "angle" else (value, 0.0)

@@ -82,7 +82,7 @@ class Clearance(Interlock):
             raise InputError("clearance: pairs have their units in them: leave `units` out")
 
     @property
-    def given(self) -> Any:  # noqa: ANN401 - pairs or a formula
+    def given(self) -> Any:
         """The bound as it was given."""
         return self.most if self.least is None else self.least
 
@@ -195,7 +195,7 @@ def bound_of(rule: Clearance, kind: str, over: str) -> PositionBound:
     return TableBound(tuple(places), tuple(values))
 
 
-def _is_pair(value: Any) -> bool:  # noqa: ANN401 - whatever is given
+def _is_pair(value: Any) -> bool:
     return isinstance(value, tuple) and len(value) == 2
 
 

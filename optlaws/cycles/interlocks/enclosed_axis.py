@@ -42,7 +42,7 @@ class ClockedMotion(Protocol):
     def pieces(self) -> tuple[Piece, ...]:
         """The laws in their places."""
 
-    def __call__(self, time: Any, nu: int = 0) -> Any:  # noqa: ANN401 - numbers or arrays
+    def __call__(self, time: Any, nu: int = 0) -> Any:
         """The position at a time, or a derivative."""
 
 

@@ -142,7 +142,7 @@ class Interlock(JsonText, ABC):
         return {"kind": self.kind, **entries}
 
     @classmethod
-    def from_dict(cls, data: Any) -> Self:  # noqa: ANN401 - it is checked here
+    def from_dict(cls, data: Any) -> Self:
         """The interlock that `to_dict` wrote."""
         given = dict(data) if isinstance(data, Mapping) else {}
         if given.pop("kind", None) != cls.kind or not cls.kind:
@@ -164,7 +164,7 @@ class Interlock(JsonText, ABC):
             raise InputError(f"interlock {self.label}: it is of two axes, and both are {self.axes[0]}")
         return cycles[self.axes[0]], cycles[self.axes[1]]
 
-    def _position(self, value: Any, cycle: ClockedMotion, axis: str, *, rest: bool = False) -> float:  # noqa: ANN401
+    def _position(self, value: Any, cycle: ClockedMotion, axis: str, *, rest: bool = False) -> float:
         """A position within the stroke of an axis, in SI units; positions at rest are refused where not allowed."""
         position = quantity(value, cycle.axis, f"interlock {self.label}: position of {axis}")
         joints = joint_positions(cycle)
@@ -193,7 +193,7 @@ class Interlock(JsonText, ABC):
         return LeastClearance(self, clearance, bound, unit, time, 360.0 * time / period, margin, status)
 
 
-def either_position(value: Any, name: str) -> tuple[str, float]:  # noqa: ANN401 - it is checked here
+def either_position(value: Any, name: str) -> tuple[str, float]:
     """A length or an angle: which, and the value in SI units."""
     return either(value, ("length", "angle"), name)
 
@@ -206,13 +206,13 @@ def joint_positions(cycle: ClockedMotion) -> list[float]:
     return positions
 
 
-def _is_name(value: Any) -> bool:  # noqa: ANN401 - whatever is given
+def _is_name(value: Any) -> bool:
     return isinstance(value, str) and bool(value)
 
 
-def _plain(value: Any) -> Any:  # noqa: ANN401 - whatever is given
+def _plain(value: Any) -> Any:
     return tuple(map(_plain, value)) if isinstance(value, list | tuple) else written(value)
 
 
-def _lists(value: Any) -> Any:  # noqa: ANN401 - whatever is stored
+def _lists(value: Any) -> Any:
     return [_lists(part) for part in value] if isinstance(value, tuple) else value

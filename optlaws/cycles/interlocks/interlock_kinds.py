@@ -17,7 +17,7 @@ from optlaws.suggest import unknown_key
 KINDS: dict[str, type[Interlock]] = {kind.kind: kind for kind in (After, Clearance, Forbidden, Synchronous)}
 
 
-def read_interlock(data: Any) -> Interlock:  # noqa: ANN401 - it is checked here
+def read_interlock(data: Any) -> Interlock:
     """An interlock from the plain data that its `to_dict` gives.
 
     >>> read_interlock({"kind": "after", "axis": "table", "position": "5 deg", "of": "die", "above": "31 mm"}).words
@@ -29,7 +29,7 @@ def read_interlock(data: Any) -> Interlock:  # noqa: ANN401 - it is checked here
     return KINDS[kind].from_dict(data)
 
 
-def checked(given: Any, cycles: Mapping[str, Any]) -> tuple[Interlock, ...]:  # noqa: ANN401 - it is checked here
+def checked(given: Any, cycles: Mapping[str, Any]) -> tuple[Interlock, ...]:
     """Interlocks of a machine, as values or plain data, each fit for its axes."""
     if not isinstance(given, list | tuple):
         raise InputError(f"interlocks are a list such as [After('table', '5 deg', of='die', above='31 mm')], got "

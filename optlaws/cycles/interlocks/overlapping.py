@@ -30,9 +30,7 @@ _BROKEN_INSTANT = 1e-11  # of a period: by so much an instant may come too early
 _OVERLAP_GAP = 1e-9  # of the objective: by so much a least period is longer than the one of its program
 _LP_FEASIBILITY = 1e-10  # of a period: by so much the solver of programs of instants may break a row
 _BROKEN_PLACE = 3e-10  # of a period: the same between the places that programs know
-_INSTANT_MARGIN = (
-    1e-9  # of a period: instants are chosen so much apart from where they touch, which pays for the others
-)
+_INSTANT_MARGIN = 1e-9  # of a period: instants are so much apart from where they touch, which pays for the others
 _PLACE_WIDTH = 1e-9  # of a segment: how near a place comes to where instants are broken most
 _TIGHT = 1e-7  # of a period: what leaves no more binds
 

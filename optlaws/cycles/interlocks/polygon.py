@@ -85,7 +85,7 @@ class SimplePolygon:
         around = [*self.corners[first:], *self.corners[: first + 1]]
         return _chain(around, meets=True)
 
-    def square(self, x: Any, y: Any) -> Any:  # noqa: ANN401 - jets or numbers
+    def square(self, x: Any, y: Any) -> Any:
         """The square of the distance of a point from the edge."""
         return reduce(_lesser, [_square(start, stop, x, y) for start, stop in self.sides])
 
@@ -121,7 +121,7 @@ def _beyond(start: Corner, stop: Corner) -> Depth:
     return lambda x, y: (x + (-start[0])) * (up / size) + (y + (-start[1])) * (-across / size)
 
 
-def _square(start: Corner, stop: Corner, x: Any, y: Any) -> Any:  # noqa: ANN401 - jets or numbers
+def _square(start: Corner, stop: Corner, x: Any, y: Any) -> Any:
     """The square of the distance of a point from a side."""
     across, up = (stop[0] - start[0], stop[1] - start[1])
     size = hypot(across, up)
@@ -132,11 +132,11 @@ def _square(start: Corner, stop: Corner, x: Any, y: Any) -> Any:  # noqa: ANN401
     return off * off + over * over
 
 
-def _greater(first: Any, second: Any) -> Any:  # noqa: ANN401 - jets or numbers
+def _greater(first: Any, second: Any) -> Any:
     return first.maximum(second) if isinstance(first, Jet) else np.maximum(first, second)
 
 
-def _lesser(first: Any, second: Any) -> Any:  # noqa: ANN401 - jets or numbers
+def _lesser(first: Any, second: Any) -> Any:
     return -_greater(-first, -second)
 
 

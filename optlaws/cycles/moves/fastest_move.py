@@ -231,7 +231,7 @@ class FastestMove(LawExport, JsonText):
         master: Quantity | None = None,
         start: Quantity | None = None,
         **options: Unpack[ExportOptions],
-    ) -> Any:  # noqa: ANN401 - an export
+    ) -> Any:
         """The move in the format of a controller, with its stroke and its least time unless others are given.
 
         Raises

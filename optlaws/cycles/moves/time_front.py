@@ -218,7 +218,7 @@ class TimeFront(JsonText):
 
         return to_csv(self.headings, self.rows, about=f"least {self.minimise} over the time of a move", digits=12)
 
-    def plot(self, ax: Any = None, **style: Any) -> list[Any]:  # noqa: ANN401 - matplotlib's
+    def plot(self, ax: Any = None, **style: Any) -> list[Any]:
         """Draw the front with its proven lower bound into matplotlib's axes, new ones by default; returns the artists.
 
         Examples

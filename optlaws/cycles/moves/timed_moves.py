@@ -161,9 +161,9 @@ def _timed(problem: Problem, stroke: Quantity, limits: Mapping[str, Any], machin
 
 
 def _move(
-    problem: Any,  # noqa: ANN401 - all are checked here
-    stroke: Any,  # noqa: ANN401
-    limits: Any,  # noqa: ANN401
+    problem: Any,
+    stroke: Any,
+    limits: Any,
     ends: tuple[Any, Any],
     torque: MotorTorque | None = None,
 ) -> tuple[TimedMove, str]:
@@ -190,7 +190,7 @@ class _Read(NamedTuple):
     forward: bool  #: whether the move must never turn back
 
 
-def _read_limits(given: Any, angular: str) -> _Read:  # noqa: ANN401 - it is checked here
+def _read_limits(given: Any, angular: str) -> _Read:
     """Limits of the move in SI units."""
     entries = table(given, "limits", _EXAMPLE)
     _check_names(entries)
@@ -228,7 +228,7 @@ def _check_names(entries: Mapping[str, Any]) -> None:
             raise InputError(unknown_key(name, (*_NAMES, *TORQUES, RESIDUAL), "limit"))
 
 
-def _pair(value: Any, dimension: str, where: str) -> tuple[float, float]:  # noqa: ANN401
+def _pair(value: Any, dimension: str, where: str) -> tuple[float, float]:
     """The least and the greatest value of a pair."""
     if len(value) != 2:
         raise InputError(f"{where} must be one quantity or two, the least and the greatest, got {shortened(value)}")

@@ -101,7 +101,7 @@ class TransitionCam(JsonText):
             return Piece(0.0, self.duration, self.rest, stroke, law)
         return Piece(0.0, self.duration, position, stroke, mirrored_law(law))
 
-    def __call__(self, time: Any, nu: int = 0) -> Any:  # noqa: ANN401 - a number for a number, an array for arrays
+    def __call__(self, time: Any, nu: int = 0) -> Any:
         """Position (nu 0), velocity, acceleration, jerk at a time in seconds since it began, in SI units.
 
         Raises
@@ -157,7 +157,7 @@ class TransitionCam(JsonText):
     @keywords_of(ExportOptions)
     def export(
         self, to: str, *, master: Quantity | None = "360 deg", unit: str | None = None, **options: Unpack[ExportOptions]
-    ) -> Any:  # noqa: ANN401 - made a layer above
+    ) -> Any:
         """The cam in the format of a controller, as `Cycle.export`; its master begins at 0.
 
         Raises
@@ -176,7 +176,7 @@ class TransitionCam(JsonText):
 
         return export_cycle(self, to, {"master": master, "unit": unit}, **options)
 
-    def plot(self, ax: Any = None, *, cycle: Any = None, **style: Any) -> list[Any]:  # noqa: ANN401 - matplotlib's
+    def plot(self, ax: Any = None, *, cycle: Any = None, **style: Any) -> list[Any]:
         """Draw position, velocity, acceleration and jerk over the master; return the artists.
 
         `ax` are four axes of matplotlib, new ones unless given; the `cycle` is drawn beside if it is given; `style` is

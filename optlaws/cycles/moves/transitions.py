@@ -55,10 +55,10 @@ def transition_cam(
     pieces: Sequence[Piece],
     objective: CycleObjective,
     *,
-    at: Any,  # noqa: ANN401 - all are checked here
-    rest: Any,  # noqa: ANN401
-    over: Any,  # noqa: ANN401
-    order: Any,  # noqa: ANN401
+    at: Any,
+    rest: Any,
+    over: Any,
+    order: Any,
 ) -> TransitionCam:
     """The cam from rest into a cycle, or out of it to rest, in a given time or the least within its limits."""
     meeting = _meeting(kind, programme, pieces, at)
@@ -83,7 +83,7 @@ def transition_cam(
     return _soonest(meeting, programme, of_motion, still)
 
 
-def _meeting(kind: TransitionKind, programme: Programme, pieces: Sequence[Piece], at: Any) -> Meeting:  # noqa: ANN401
+def _meeting(kind: TransitionKind, programme: Programme, pieces: Sequence[Piece], at: Any) -> Meeting:
     """The state of the cycle at a time or angle: after a joint for a run-in, before it for a run-out."""
     time, period = time_of(at, programme.period, "at"), programme.period
     if not 0.0 <= time <= period:
@@ -169,7 +169,7 @@ def _cam(
     programme: Programme,
     rest: float,
     duration: float,
-    solution: Any,  # noqa: ANN401 - a Solution
+    solution: Any,
     least: FastestMove | None = None,
 ) -> TransitionCam:
     return TransitionCam(

@@ -153,7 +153,7 @@ class OldTable:
             raise InputError("gains need two tables with the same moves, one computed from the other")
         return tuple(gain(new, was) for new, was in pairs)
 
-    def plot(self, ax: Any = None, *, new: OldTable | None = None, **style: Any) -> list[Any]:  # noqa: ANN401 - matplotlib's
+    def plot(self, ax: Any = None, *, new: OldTable | None = None, **style: Any) -> list[Any]:
         """Draw the points and the laws over the master: positions, velocity, acceleration, jerk; return the artists.
 
         Parameters
@@ -182,7 +182,7 @@ class OldTable:
 
         return draw_old_table(self, ax, new, **style)
 
-    def at(self, places: Any) -> Array:  # noqa: ANN401 - numbers of any kind
+    def at(self, places: Any) -> Array:
         """The positions of its laws at places of the master, an array of the same shape, in units of the table.
 
         Examples

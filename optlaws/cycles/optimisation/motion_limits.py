@@ -70,7 +70,7 @@ def read_limits(entries: Mapping[str, Any], axis: str, where: str) -> Limits:
     return limits
 
 
-def _both(name: str, value: Any, axis: str, place: str) -> Limits:  # noqa: ANN401 - it is checked here
+def _both(name: str, value: Any, axis: str, place: str) -> Limits:
     """The least and the greatest value of a derivative."""
     nu = LIMITS[name]
     if nu not in _TWO_SIDED:

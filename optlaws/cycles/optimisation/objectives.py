@@ -76,7 +76,7 @@ def kind_of(minimise: str) -> tuple[int, bool]:
     return OBJECTIVES.get(minimise, (LOADED, minimise.startswith("rms ")))
 
 
-def check_objective(minimise: Any, load: Load | None) -> None:  # noqa: ANN401 - it is checked here
+def check_objective(minimise: Any, load: Load | None) -> None:
     """Refuse objectives that cannot be minimised."""
     if not isinstance(minimise, str) or (minimise not in OBJECTIVES and load_output(minimise, load) is None):
         raise InputError(f"minimise: {unknown_key(minimise, (*OBJECTIVES, 'load acceleration'), 'objective')}")

@@ -386,7 +386,7 @@ def _unit(span: LawSpan, stroke: float, nu: int) -> float:
     return abs(factor(stroke, span.duration, nu))
 
 
-def _objective(span: LawSpan, objective: CycleObjective, stroke: float) -> Any:  # noqa: ANN401 - a name or a constant
+def _objective(span: LawSpan, objective: CycleObjective, stroke: float) -> Any:
     nu, mean = kind_of(objective.minimise)
     if nu > 0:
         return {2: "rms_c", 3: "rms_j", 4: "rms_snap"}[nu] if mean else _PEAKS[nu]

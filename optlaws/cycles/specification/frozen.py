@@ -43,7 +43,7 @@ class FrozenTable(dict[str, Any]):
 _DEEPEST = 20
 
 
-def frozen(value: Any, depth: int = 0) -> Any:  # noqa: ANN401 - whatever is given
+def frozen(value: Any, depth: int = 0) -> Any:
     """A value with its tables frozen and its lists as tuples, as far down as entries go; other values unchanged.
 
     >>> frozen({"acceleration": ["-8 m/s^2", "12 m/s^2"], "motor": True})

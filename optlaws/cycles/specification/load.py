@@ -54,13 +54,13 @@ class Load:
             at_breaks += [(piece.start + k * piece.duration, size * jump) for k, jump in jumps(piece.law)]
         return RepeatedMotion(self.machine, tuple(drives_of_pieces), tuple(at_breaks))
 
-    def limit(self, value: Any, output: str, name: str) -> float:  # noqa: ANN401 - it is checked here
+    def limit(self, value: Any, output: str, name: str) -> float:
         """A limit of an output in SI units: with its unit where that is known, else a number."""
         known = self.dimensions.get(output)
         return positive(value, name) if known is None else positive_quantity(value, known, name)
 
 
-def read_load(given: Any, axis: str) -> Load:  # noqa: ANN401 - it is checked here
+def read_load(given: Any, axis: str) -> Load:
     """A load from its entries, or a machine in seconds and SI units."""
     if isinstance(given, Machine):
         return Load(given, {})

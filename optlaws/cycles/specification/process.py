@@ -45,7 +45,7 @@ class ProcessForce:
         return tuple(table_places(self.load, "t"))
 
 
-def is_process(given: Any) -> bool:  # noqa: ANN401 - whatever a person gave
+def is_process(given: Any) -> bool:
     """Whether a load of a cycle is a process force, and nothing elastic."""
     return isinstance(given, Mapping) and bool(FORCES.keys() & given.keys()) and "period" not in given
 
@@ -107,7 +107,7 @@ def process_entries(
     return kinds[0], over, interpolation
 
 
-def _position(mechanism: Mechanism, on: Any, kind: str) -> Formula:  # noqa: ANN401 - it is checked here
+def _position(mechanism: Mechanism, on: Any, kind: str) -> Formula:
     """The position on which a force acts, as a formula of the input's."""
     if on is None:
         if DIMENSIONS[mechanism.axis]["load"] != kind:

@@ -60,7 +60,7 @@ class Programme:
     start: float
 
 
-def period_of(speed: Any, period: Any) -> float:  # noqa: ANN401 - it is checked here
+def period_of(speed: Any, period: Any) -> float:
     """Duration of a cycle in seconds, from the master's speed or given."""
     if (speed is None) == (period is None):
         raise InputError('a cycle has either a speed such as "200 rpm" or a period such as "0.3 s"')
@@ -83,7 +83,7 @@ def axis_of(segments: Sequence[CycleSegment]) -> str:
     return "length"
 
 
-def programme(segments: Sequence[CycleSegment], period: float, start: Any, advance: Any) -> Programme:  # noqa: ANN401
+def programme(segments: Sequence[CycleSegment], period: float, start: Any, advance: Any) -> Programme:
     """A cycle as numbers."""
     axis = axis_of(segments)
     first = 0.0 if start is None else quantity(start, axis, "start")
@@ -101,7 +101,7 @@ def programme(segments: Sequence[CycleSegment], period: float, start: Any, advan
     return Programme(period, axis, tuple(stretches), first)
 
 
-def time_of(value: Any, period: float, name: str) -> float:  # noqa: ANN401 - it is checked here
+def time_of(value: Any, period: float, name: str) -> float:
     """A time, or an angle of the master as a time."""
     kind, number = either(value, ("angle", "time"), name)
     return number / TURN * period if kind == "angle" else number

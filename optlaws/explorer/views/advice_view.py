@@ -158,12 +158,12 @@ def _entries(cycle: Cycle, law: AdvisedLaw, *, vibrates: bool) -> dict[str, Any]
     return {"laws": none}
 
 
-def _is_compared(before: Any, segment: Any) -> bool:  # noqa: ANN401 - segments
+def _is_compared(before: Any, segment: Any) -> bool:
     """Whether a segment's law is compared: it is sought, or the user changed it."""
     return isinstance(segment, Move) and (segment.law == OPTIMAL or segment != before)
 
 
-def _plain(limits: Any) -> dict[str, Any]:  # noqa: ANN401 - a mapping of texts, pairs and switches
+def _plain(limits: Any) -> dict[str, Any]:
     return {name: list(value) if isinstance(value, tuple) else value for name, value in limits.items()}
 
 

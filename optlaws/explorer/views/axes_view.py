@@ -103,7 +103,7 @@ def _positions(axes: Axes) -> tuple[Array, list[Array]]:
     return refined(times, [curve(times) for curve in curves], curves, np.empty(0))
 
 
-def _position_of(cycle: Cycle) -> Any:  # noqa: ANN401 - a function of times
+def _position_of(cycle: Cycle) -> Any:
     size = UNITS[cycle.axis][0][1]
     return lambda times: size * np.asarray(cycle(times))
 

@@ -77,7 +77,7 @@ def _view(findings: Findings) -> dict[str, Any]:
     }
 
 
-def drawing(cam: DiscCam, cutter: Any = None) -> dict[str, Any]:  # noqa: ANN401 - a radius, or none
+def drawing(cam: DiscCam, cutter: Any = None) -> dict[str, Any]:
     """The curves of a cam in mm, and its follower while the cam turns, degree by degree."""
     angles = np.linspace(0.0, 2.0 * np.pi, _STEPS + 1)
     curves = {"profile": cam.profile, "pitch": cam.pitch_curve}
@@ -168,7 +168,7 @@ def _steepest(spec: CamProblemFile) -> float | None:
     return None if spec.pressure_angle is None else quantity(spec.pressure_angle, "angle", "pressure_angle")
 
 
-def panel(name: str, unit: str, turns: Any, values: Array, peaks: list[dict[str, Any]]) -> dict[str, Any]:  # noqa: ANN401
+def panel(name: str, unit: str, turns: Any, values: Array, peaks: list[dict[str, Any]]) -> dict[str, Any]:
     """A curve over the turn in degrees, with its marks."""
     return {"name": name, "unit": unit, "at": turns, "values": drawn(values), "limits": [], "peaks": peaks}
 

@@ -118,7 +118,7 @@ def _span(problem: Problem, x: str) -> tuple[float, float] | None:
     return ends if ends[0] < ends[1] else None
 
 
-def along(problem: Problem, x: str, values: Any) -> SolutionArray:  # noqa: ANN401 - an array
+def along(problem: Problem, x: str, values: Any) -> SolutionArray:
     """The laws of a problem whose constant x takes many values: B is fixed, the others are bounded from above."""
     entries = {name: getattr(problem, name) for name in problem.__dataclass_fields__}
     entries[x] = values if x == "B" else map_arrays(at_most, values)

@@ -92,7 +92,7 @@ _SPECTRUM = re.compile(r"spectrum\s*=\s*(['\"])(.*?)\1")
 _PAIRS = re.compile(r"\s*\{?\s*[-+.\deE]+\s*:")
 
 
-def without_files(entries: Any) -> None:  # noqa: ANN401 - of JSON
+def without_files(entries: Any) -> None:
     """Refuse formulas that name a file, such as measured spectra: the page reads no files.
 
     Examples

@@ -111,7 +111,7 @@ def header(motion: PiecewiseMotion, name: str = "motion", labels: Labels | None 
     return "\n".join(parts)
 
 
-def c_name(name: Any) -> str:  # noqa: ANN401 - it is checked here
+def c_name(name: Any) -> str:
     """The name of a function in C and C++, short enough for every compiler with what is added to it."""
     if isinstance(name, str) and _NAME.fullmatch(name) and name not in C_KEYWORDS and "__" not in name:
         return name

@@ -95,7 +95,7 @@ class FrontExport:
         values = {"stroke": stroke, "duration": duration, "velocity": velocity}
         return in_time(self.table, *(finite(value, name) for name, value in values.items()))
 
-    def motion(self, move: RunTimeMove, times: Any) -> Array:  # noqa: ANN401 - a number or an array
+    def motion(self, move: RunTimeMove, times: Any) -> Array:
         """Position, velocity, acceleration and jerk of a move at times since it began, shape (4, ...)."""
         return motion_at(self.table, move, times)
 

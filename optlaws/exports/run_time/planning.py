@@ -135,7 +135,7 @@ def in_time(table: FrontTable, stroke: float, duration: float, velocity: float) 
     return _move(table, _Choice(MoveStatus.PROVEN, low, _share(table, low, z), z), stroke, duration)
 
 
-def motion_at(table: FrontTable, move: RunTimeMove, times: Any) -> Array:  # noqa: ANN401 - a number or an array
+def motion_at(table: FrontTable, move: RunTimeMove, times: Any) -> Array:
     """Position, velocity, acceleration and jerk of a move at times, shape (4, ...); at rest before it and after it.
 
     Examples

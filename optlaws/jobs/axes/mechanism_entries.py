@@ -31,21 +31,21 @@ _BY_TIME = ("velocity", "start_velocity", "end_velocity")
 
 def _cam(
     *,
-    prime_radius: Any,  # noqa: ANN401 - checked where they are used, as all entries below
-    follower: Any,  # noqa: ANN401
-    segment: Any,  # noqa: ANN401
-    moved: Any,  # noqa: ANN401
-    turning: Any = "counterclockwise",  # noqa: ANN401
-    inertia: Any = 0.0,  # noqa: ANN401
+    prime_radius: Any,
+    follower: Any,
+    segment: Any,
+    moved: Any,
+    turning: Any = "counterclockwise",
+    inertia: Any = 0.0,
     loads: Loads = NO_LOADS,
-    over: Any = None,  # noqa: ANN401
+    over: Any = None,
 ) -> Mechanism:
     """The mechanism of a cam and its follower, whose motion over the cam's angle consists of segments."""
     cam = _disc(prime_radius, follower, segment, turning)
     return cam_mechanism(cam, moved, inertia=inertia, loads=loads, over=over)
 
 
-def _disc(prime_radius: Any, follower: Any, segment: Any, turning: Any) -> DiscCam:  # noqa: ANN401
+def _disc(prime_radius: Any, follower: Any, segment: Any, turning: Any) -> DiscCam:
     if not isinstance(follower, Mapping):
         raise InputError(f"follower must be a table with its kind, got {shortened(follower)}")
     return DiscCam(_motion(segment), prime_radius, read_follower(follower), turning=turning)
@@ -71,7 +71,7 @@ def cam_of(entries: Mapping[str, Any]) -> DiscCam:
         return _disc(entries.get("prime_radius"), entries.get("follower"), entries.get("segment"), turning)
 
 
-def _motion(segments: Any) -> Cycle:  # noqa: ANN401 - it is checked here
+def _motion(segments: Any) -> Cycle:
     """The follower's motion over a turn of its cam, of segments whose durations are angles."""
     if not isinstance(segments, list) or not segments:
         raise InputError(f"segment must be a list of tables such as {{ kind = 'dwell' }}, got {shortened(segments)}")
@@ -103,7 +103,7 @@ MAKERS: dict[str, Callable[..., Mechanism]] = {
 }
 
 
-def mechanism_of(entries: Any) -> Mechanism:  # noqa: ANN401 - it is checked here
+def mechanism_of(entries: Any) -> Mechanism:
     """The mechanism that a table of a problem file describes.
 
     Parameters
@@ -162,7 +162,7 @@ def _check_names(given: Mapping[str, Any], kind: str) -> None:
         raise InputError(f"a {kind} needs {', '.join(missing)} too")
 
 
-def _bodies(given: Any) -> Any:  # noqa: ANN401 - what is no table the linkage refuses
+def _bodies(given: Any) -> Any:
     """Bodies as a linkage takes them: tables of mass, centre and inertia become values."""
     if not isinstance(given, Mapping):
         return given
@@ -174,13 +174,13 @@ def _bodies(given: Any) -> Any:  # noqa: ANN401 - what is no table the linkage r
     }
 
 
-def _lengths(given: Any) -> Any:  # noqa: ANN401
+def _lengths(given: Any) -> Any:
     if not isinstance(given, Mapping):
         raise InputError(f"lengths must be a table such as {{ crank = '60 mm' }}, got {shortened(given)}")
     return given
 
 
-def _value(kind: Callable[..., Any], names: Sequence[str], where: str, given: Any) -> Any:  # noqa: ANN401
+def _value(kind: Callable[..., Any], names: Sequence[str], where: str, given: Any) -> Any:
     """A value of a kind from its table."""
     with located(where):
         if not isinstance(given, Mapping):

@@ -203,7 +203,7 @@ def _published(row: Mapping[str, Any]) -> Published:
     return Published(row["by"], tuple((name, text) for name, text in row.items() if name != "by"))
 
 
-def _in_tuples(value: Any) -> Any:  # noqa: ANN401 - plain data
+def _in_tuples(value: Any) -> Any:
     return tuple(map(_in_tuples, value)) if isinstance(value, list | tuple) else value
 
 
@@ -224,7 +224,7 @@ def continuity_with_rest(law: MotionLaw) -> int:
     return inside
 
 
-def _built(builder: str, numbers: Any) -> MotionLaw:  # noqa: ANN401 - whatever the data file holds
+def _built(builder: str, numbers: Any) -> MotionLaw:
     if builder == "smoothstep":
         return smoothstep(numbers)
     if builder == "code":

@@ -218,7 +218,7 @@ _FOLLOWS_NOISE = 1.1
 _RETURNED = 0.05
 
 
-def law_through(k: Many, a: Many, tolerance: Any = None, *, rest: bool = True) -> PiecewiseLaw:  # noqa: ANN401
+def law_through(k: Many, a: Many, tolerance: Any = None, *, rest: bool = True) -> PiecewiseLaw:
     """The law of a table: of pieces of degree 5, through its points or within a tolerance of them.
 
     Without a tolerance the pieces join at the points. With one they are even, as few as keep every point within it by

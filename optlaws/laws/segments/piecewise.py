@@ -84,7 +84,7 @@ class PiecewiseLaw(MotionLaw, kind="piecewise"):
         steps = (float(segment.derivative(whole_segment, length, 0)[0]) for segment, length in self._lengths)
         return tuple(accumulate(steps, initial=self.a0))
 
-    def _pieces(self, k: Array, values: Any) -> Array:  # noqa: ANN401
+    def _pieces(self, k: Array, values: Any) -> Array:
         result = np.empty(k.shape)
         places = np.searchsorted(self.breaks[1:-1], k, side="right")
         for i, (segment, length) in enumerate(self._lengths):
@@ -100,7 +100,7 @@ class PiecewiseLaw(MotionLaw, kind="piecewise"):
             values += np.array(self._starts)[np.searchsorted(self.breaks[1:-1], k, side="right")]
         return values
 
-    def _gathered(self, candidates: Any, values: Any) -> tuple[Array, Array]:  # noqa: ANN401
+    def _gathered(self, candidates: Any, values: Any) -> tuple[Array, Array]:
         """Candidate times with the values that their own segment has there, so that breaks appear twice."""
         places, heights = [], []
         for (segment, length), (start, end) in zip(self._lengths, pairwise(self.breaks), strict=True):

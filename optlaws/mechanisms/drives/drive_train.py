@@ -166,7 +166,7 @@ class Drive(JsonText):
         }
 
     @classmethod
-    def from_dict(cls, data: Any) -> Drive:  # noqa: ANN401 - it is checked here
+    def from_dict(cls, data: Any) -> Drive:
         """The drive that `to_dict` described.
 
         Raises
@@ -188,13 +188,13 @@ class Drive(JsonText):
 
     def torque(
         self,
-        position: Any,  # noqa: ANN401 - numbers or arrays, as all here
-        velocity: Any,  # noqa: ANN401
-        acceleration: Any,  # noqa: ANN401
-        process: Any = 0.0,  # noqa: ANN401
+        position: Any,
+        velocity: Any,
+        acceleration: Any,
+        process: Any = 0.0,
         *,
-        direction: Any = None,  # noqa: ANN401
-    ) -> Any:  # noqa: ANN401
+        direction: Any = None,
+    ) -> Any:
         """The torque at the motor, N m, from position, velocity and acceleration of the mechanism's input, SI units.
 
         A process adds to the load at that input. Unless the `direction` is given, 1, -1 or 0, it moves the way of its
@@ -409,7 +409,7 @@ class Drive(JsonText):
         start: NumberOrQuantity,
         stroke: NumberOrQuantity,
         duration: NumberOrQuantity,
-        ax: Any = None,  # noqa: ANN401 - matplotlib's
+        ax: Any = None,
         **style: Any,
     ) -> list[Any]:
         """Draw torque over speed at the motor during a move, with the motor's curves; return the artists of matplotlib.

@@ -118,11 +118,11 @@ class Motor(JsonText):
         for key, value in fields.items():
             object.__setattr__(self, key, value)
 
-    def peak_at(self, speed: Any) -> Array:  # noqa: ANN401 - a number or an array
+    def peak_at(self, speed: Any) -> Array:
         """The greatest torque at speeds in rad/s, N m; 0 beyond the greatest speed."""
         return np.minimum(self._along(self.curve, speed), self.peak_torque)
 
-    def continuous_at(self, speed: Any) -> Array:  # noqa: ANN401 - a number or an array
+    def continuous_at(self, speed: Any) -> Array:
         """The torque that the motor bears for ever at speeds in rad/s, N m."""
         return np.minimum(self._along(self.continuous, speed), self.rated_torque)
 
@@ -151,7 +151,7 @@ class Motor(JsonText):
                 lines.append((first[1] + fall * first[0], fall))
         return tuple(lines)
 
-    def _along(self, curve: Curve, speed: Any) -> Array:  # noqa: ANN401
+    def _along(self, curve: Curve, speed: Any) -> Array:
         size = np.abs(np.asarray(speed, dtype=np.float64))
         values = np.interp(size, *np.transpose(curve)) if curve else np.full(size.shape, inf)
         last = min(self.greatest_speed, curve[-1][0] if curve else inf)
@@ -171,7 +171,7 @@ class Motor(JsonText):
         }
 
     @classmethod
-    def from_dict(cls, data: Any) -> Motor:  # noqa: ANN401 - it is checked here
+    def from_dict(cls, data: Any) -> Motor:
         """The motor that `to_dict` described, or an entry of a catalogue.
 
         Raises
@@ -231,18 +231,18 @@ def _slope(first: tuple[float, float], second: tuple[float, float]) -> float:
     return (second[1] - first[1]) / (second[0] - first[0])
 
 
-def _entry(value: Any, name: str) -> float:  # noqa: ANN401
+def _entry(value: Any, name: str) -> float:
     return not_negative(si_number(value, (ENTRIES[name],), name), name)
 
 
-def _limit(value: Any, name: str) -> float:  # noqa: ANN401
+def _limit(value: Any, name: str) -> float:
     number = _entry(value, name)
     if number == 0.0:
         raise InputError(f"{name} must be above 0, got {shortened(value)}")
     return number
 
 
-def _curve(pairs: Any, name: str) -> Curve:  # noqa: ANN401 - it is checked here
+def _curve(pairs: Any, name: str) -> Curve:
     if not isinstance(pairs, list | tuple) or any(
         not isinstance(pair, list | tuple) or len(pair) != 2 for pair in pairs
     ):

@@ -175,7 +175,7 @@ class BestRatio:
     peak_torques: Array
     peak_speeds: Array
 
-    def plot(self, ax: Any = None, **style: Any) -> list[Any]:  # noqa: ANN401 - matplotlib's
+    def plot(self, ax: Any = None, **style: Any) -> list[Any]:
         """Draw the root mean square and the peak of the torque over the ratio, with the best one marked."""
         from optlaws.plots.motors import draw_best_ratio
 
@@ -233,20 +233,20 @@ class _ByRatio:
         )
         self.holding = (1.0 - motion.duration / period) * direct.holding_torque**2
 
-    def torques(self, ratio: Any) -> Array:  # noqa: ANN401 - a number, or an array of them
+    def torques(self, ratio: Any) -> Array:
         """The torque at all places, a row for each ratio."""
         i = np.asarray(ratio, dtype=np.float64)[..., None]
         return i * self.turning + self.dry + self.load / i
 
-    def rms(self, ratio: Any) -> Array:  # noqa: ANN401
+    def rms(self, ratio: Any) -> Array:
         """The root mean square over the period."""
         return np.asarray(np.sqrt(self.torques(ratio) ** 2 @ self.weights + self.holding / np.asarray(ratio) ** 2))
 
-    def peak(self, ratio: Any) -> Array:  # noqa: ANN401
+    def peak(self, ratio: Any) -> Array:
         """The greatest magnitude of values."""
         return np.asarray(np.abs(self.torques(ratio)).max(axis=-1))
 
-    def use(self, ratio: Any, motor: Motor) -> Array:  # noqa: ANN401
+    def use(self, ratio: Any, motor: Motor) -> Array:
         """The greatest share of the motor's peak torque, at its speed."""
         speeds = np.asarray(ratio, dtype=np.float64)[..., None] * self.speed
         return np.asarray(share_used(np.abs(self.torques(ratio)), motor.peak_at(speeds)).max(axis=-1))

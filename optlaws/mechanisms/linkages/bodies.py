@@ -183,14 +183,14 @@ class Moving:
         return multiplied([constant, Exponentiation(velocity, Number(2.0))])
 
 
-def formula_from(value: Any) -> Formula:  # noqa: ANN401 - traced, a formula or a number
+def formula_from(value: Any) -> Formula:
     """The formula of what was computed with traced numbers."""
     if isinstance(value, Traced):
         return value.formula
     return value if isinstance(value, Formula) else number(float(value))
 
 
-def bodies_of(given: Any, pivoted: Sequence[str], coupled: Sequence[str], sliding: Sequence[str]) -> dict[str, Body]:  # noqa: ANN401
+def bodies_of(given: Any, pivoted: Sequence[str], coupled: Sequence[str], sliding: Sequence[str]) -> dict[str, Body]:
     """The bodies of a linkage by the names of its links; those that are not given have no mass.
 
     Links on a pivot may be given as a moment of inertia about it, those that slide as a mass.
@@ -207,7 +207,7 @@ def bodies_of(given: Any, pivoted: Sequence[str], coupled: Sequence[str], slidin
     return bodies
 
 
-def _body(value: Any, name: str, dimension: str, is_coupled: bool) -> Body:  # noqa: ANN401, FBT001
+def _body(value: Any, name: str, dimension: str, is_coupled: bool) -> Body:  # noqa: FBT001
     if isinstance(value, Body):
         return value
     if is_coupled:
@@ -228,7 +228,7 @@ def weight_load(mass: float, gravity: tuple[float, float], velocity: tuple[Any, 
     ]
 
 
-def length(value: Any, name: str) -> float:  # noqa: ANN401 - it is checked here
+def length(value: Any, name: str) -> float:
     """A length above 0 in metres, from a number or a quantity."""
     metres = finite(si_number(value, ("length",), name), name)
     if metres <= 0.0:
@@ -236,7 +236,7 @@ def length(value: Any, name: str) -> float:  # noqa: ANN401 - it is checked here
     return metres
 
 
-def ends_of(over: Any) -> tuple[float, float]:  # noqa: ANN401 - it is checked here
+def ends_of(over: Any) -> tuple[float, float]:
     """The ends of a range of the input's angle, rad."""
     if not isinstance(over, list | tuple) or len(over) != 2:
         raise InputError(f"over must be two angles such as ('0 deg', '360 deg'), got {shortened(over)}")

@@ -29,7 +29,7 @@ _WITH_UNIT = re.compile(r"\s*[+-]?[\d./]*\d(?:[eE][+-]?\d+)?+\s*[^\W\d_]")
 
 
 def formula_of(
-    given: Any,  # noqa: ANN401 - it is checked here
+    given: Any,
     dimensions: tuple[str, str],
     name: str,
     *,
@@ -129,6 +129,6 @@ def table_numbers(pairs: list[Any], dimensions: tuple[str, str], name: str) -> l
     ]
 
 
-def _number(value: Any, dimension: str, name: str) -> float:  # noqa: ANN401
+def _number(value: Any, dimension: str, name: str) -> float:
     plain = real(value)
     return quantity(value, dimension, name) if plain is None else finite(plain, name)

@@ -152,7 +152,7 @@ class FourBarKinematics:
         return None
 
     @staticmethod
-    def values(part: Traced, x: Any) -> Any:  # noqa: ANN401 - an array for an array
+    def values(part: Traced, x: Any) -> Any:
         """Values of a part of the four-bar at angles of the crank."""
         return evaluate(part.formula, {"x": x}, NUMPY) + 0.0 * x
 

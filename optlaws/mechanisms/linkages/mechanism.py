@@ -83,7 +83,7 @@ class LinkGeometry(JsonText):
         }
 
     @classmethod
-    def from_dict(cls, data: Any) -> LinkGeometry:  # noqa: ANN401 - it is checked here
+    def from_dict(cls, data: Any) -> LinkGeometry:
         """The links that `to_dict` described."""
         try:
             driven = tuple((str(name), read(text, ("x",))) for name, text in data["driven"].items())
@@ -215,7 +215,7 @@ class Mechanism(JsonText):
         """The inertia, its derivative and the load, which have much in common."""
         return Together((self.inertia_formula, _derived(self.inertia_formula, 1), self.load_formula))
 
-    def _values(self, formula: Formula, x: Any) -> Array:  # noqa: ANN401 - a number or an array
+    def _values(self, formula: Formula, x: Any) -> Array:
         return np.broadcast_to(np.asarray(evaluate(formula, {"x": x}, NUMPY), dtype=np.float64), np.shape(x))
 
     @kept_property
@@ -231,7 +231,7 @@ class Mechanism(JsonText):
         """Whether its range has ends."""
         return bool(np.isfinite(self.over[1] - self.over[0]))
 
-    def position(self, x: Any) -> Any:  # noqa: ANN401 - a number, a quantity or an array
+    def position(self, x: Any) -> Any:
         """A position of the input in rad or m, from a number or a quantity, which must be in the range.
 
         Raises
@@ -248,7 +248,7 @@ class Mechanism(JsonText):
             raise InputError(f"the {self.name} is defined from {reached}, got {self._shown(float(beyond))}")
         return at
 
-    def inertia(self, x: Any, nu: int = 0) -> Any:  # noqa: ANN401 - a number for a number, an array for arrays
+    def inertia(self, x: Any, nu: int = 0) -> Any:
         """The inertia at the input, kg m² or kg, or a derivative of it by x.
 
         Parameters
@@ -272,11 +272,11 @@ class Mechanism(JsonText):
             return float(np.max(self.inertia(np.array([low, high]))))
         return _greatest(self.inertia_formula, low, high)
 
-    def load(self, x: Any, nu: int = 0) -> Any:  # noqa: ANN401 - as for the inertia
+    def load(self, x: Any, nu: int = 0) -> Any:
         """The load at the input, N m or N, above 0 where it resists motion to greater x, or a derivative of it by x."""
         return self._given(self.load_formula, x, nu)
 
-    def driven_position(self, name: str, x: Any, nu: int = 0) -> Any:  # noqa: ANN401 - as for the inertia
+    def driven_position(self, name: str, x: Any, nu: int = 0) -> Any:
         """The position of a driven link, m or rad, or a derivative of it by x.
 
         Raises
@@ -289,11 +289,11 @@ class Mechanism(JsonText):
             raise InputError(unknown_key(name, driven, "driven link"))
         return self._given(driven[name], x, nu)
 
-    def _given(self, formula: Formula, x: Any, nu: int) -> Any:  # noqa: ANN401
+    def _given(self, formula: Formula, x: Any, nu: int) -> Any:
         values = self._values(_derived(formula, derivative(nu)), self.position(x))
         return values if np.ndim(values) else float(values)
 
-    def torque(self, position: Any, velocity: Any, acceleration: Any, direction: Any = None) -> Any:  # noqa: ANN401 - numbers or arrays
+    def torque(self, position: Any, velocity: Any, acceleration: Any, direction: Any = None) -> Any:
         """The torque, N m, or force, N, that moves the input: J x'' + J' x'²/2 + friction + load, all in SI units.
 
         Parameters
@@ -443,7 +443,7 @@ class Mechanism(JsonText):
         ends = f"{self._shown(self.over[0])} to {self._shown(self.over[1])}" if self.has_end else "everywhere"
         return f"Mechanism({self.name!r}, {ends})"
 
-    def plot(self, ax: Any = None, **style: Any) -> list[Any]:  # noqa: ANN401 - matplotlib's
+    def plot(self, ax: Any = None, **style: Any) -> list[Any]:
         """Draw the mechanism in several positions beside its inertia, load and the slope of its inertia over x.
 
         `ax` is four pairs of axes, or one for the mechanism alone; a new figure unless given. `style` is what
@@ -474,7 +474,7 @@ class Mechanism(JsonText):
         }
 
     @classmethod
-    def from_dict(cls, data: Any) -> Self:  # noqa: ANN401 - it is checked here
+    def from_dict(cls, data: Any) -> Self:
         """The mechanism that `to_dict` described.
 
         Raises
@@ -515,7 +515,7 @@ def _range(formulas: Mapping[str, Formula], ends: tuple[float, float] | None, ax
     return ends
 
 
-def _axis_and_ends(over: Any, axis: Any) -> tuple[InputAxis, tuple[float, float] | None]:  # noqa: ANN401
+def _axis_and_ends(over: Any, axis: Any) -> tuple[InputAxis, tuple[float, float] | None]:
     """The kind of the input's position, and the ends of its range if there are any."""
     if axis is not None and axis not in tuple(DIMENSIONS):
         raise InputError(unknown_key(axis, DIMENSIONS, "axis"))
@@ -533,7 +533,7 @@ def _axis_and_ends(over: Any, axis: Any) -> tuple[InputAxis, tuple[float, float]
     return (kinds.pop() if kinds else "angle"), (low, high)
 
 
-def _end(value: Any, axis: Any) -> tuple[Any, float]:  # noqa: ANN401
+def _end(value: Any, axis: Any) -> tuple[Any, float]:
     if isinstance(value, str) or hasattr(value, "units"):
         return either(value, (axis,) if axis else ("angle", "length"), "over")
     return None, finite(value, "over")

@@ -79,7 +79,7 @@ def mechanism_of_motion(
     return Mechanism(added(inertia), added(load), over=over, name=name, linkage=LinkGeometry(tuple(positions.items())))
 
 
-def _weight(value: Any, name: str) -> tuple[str, float]:  # noqa: ANN401 - it is checked here
+def _weight(value: Any, name: str) -> tuple[str, float]:
     """Whether a link slides or turns, and its mass or moment of inertia."""
     if not isinstance(value, str) and not hasattr(value, "units"):
         raise InputError(
@@ -196,7 +196,7 @@ def screw(
     return _in_proportion(length(lead, "lead") / TURN, "screw", mass, (inertia, loads, over))
 
 
-def _in_proportion(ratio: float, name: str, mass: Any, others: tuple[Any, Loads, Any]) -> Mechanism:  # noqa: ANN401
+def _in_proportion(ratio: float, name: str, mass: Any, others: tuple[Any, Loads, Any]) -> Mechanism:
     inertia, loads, over = others
     weight = positive(si_number(mass, ("mass",), "mass"), "mass")
     turning = not_negative(si_number(inertia, ("moment of inertia",), "inertia"), "inertia")

@@ -116,7 +116,7 @@ class MoveLimit(JsonText):
         return {"dimension": self.dimension, "unit": self.unit, **parts}
 
     @classmethod
-    def from_dict(cls, data: Any) -> MoveLimit:  # noqa: ANN401 - it is checked here
+    def from_dict(cls, data: Any) -> MoveLimit:
         """The limit that `to_dict` described, its plane, its unit and its bound computed again.
 
         Raises
@@ -130,7 +130,7 @@ class MoveLimit(JsonText):
         return limit
 
     @classmethod
-    def stated(cls, data: Any) -> tuple[MoveLimit, str]:  # noqa: ANN401 - it is checked here
+    def stated(cls, data: Any) -> tuple[MoveLimit, str]:
         """The limit of a file, and what of the file is not that of its move; the certificate is not checked.
 
         Raises
@@ -209,7 +209,7 @@ class LimitedMove(JsonText):
         return {self._kind: self.driven.to_dict(), **{name: getattr(self, name) for name in _MOVE_ENTRIES}}
 
     @classmethod
-    def from_dict(cls, data: Any) -> LimitedMove:  # noqa: ANN401 - it is checked here
+    def from_dict(cls, data: Any) -> LimitedMove:
         """The move that `to_dict` described.
 
         Raises
@@ -360,7 +360,7 @@ class MoveCosts(NamedTuple):
     heat: float = 0.0
 
     @classmethod
-    def read(cls, recovered: Any, heat: Any) -> MoveCosts:  # noqa: ANN401 - they are checked here
+    def read(cls, recovered: Any, heat: Any) -> MoveCosts:
         """The costs of a move's energy, from the share of regeneration and the heat as numbers.
 
         Raises

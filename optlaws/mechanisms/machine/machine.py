@@ -145,7 +145,7 @@ class Machine(StateSpace):
     @classmethod
     def from_system(
         cls,
-        system: Any,  # noqa: ANN401 - of any package
+        system: Any,
         *,
         inputs: str = "a",
         outputs: Sequence[str] = (),
@@ -390,7 +390,7 @@ class Machine(StateSpace):
         return mode_residual(of=self, mode=mode, spread=spread, damping=damping, output=output)
 
 
-def _matrices(system: Any) -> tuple[Any, Any, Any, Any]:  # noqa: ANN401 - of any package
+def _matrices(system: Any) -> tuple[Any, Any, Any, Any]:
     """A, B, C and D of a system, continuous in time: state space, transfer function, or zeros, poles and gain."""
     step = getattr(system, "dt", None)
     if step is not None and step != 0:
@@ -408,7 +408,7 @@ def _matrices(system: Any) -> tuple[Any, Any, Any, Any]:  # noqa: ANN401 - of an
     return A, B, C, D
 
 
-def _state_space(system: Any) -> Any:  # noqa: ANN401
+def _state_space(system: Any) -> Any:
     if type(system).__module__.partition(".")[0] == "control":
         import control
 

@@ -89,7 +89,7 @@ class MachineModel(ABC):
         states, rows = np.vstack([velocities, self.accelerations]), np.array([self.outputs[name] for name in outputs])
         return states[:, : 2 * size], states[:, 2 * size :], rows[:, : 2 * size], rows[:, 2 * size :]
 
-    def named(self, outputs: Any) -> dict[str, str]:  # noqa: ANN401 - whatever users give
+    def named(self, outputs: Any) -> dict[str, str]:
         """The user's output names with the model's names; all outputs unless some are chosen."""
         if outputs is None:
             return {name: name for name in self.outputs}
@@ -184,9 +184,9 @@ _MOTIONS = ("position", "velocity", "acceleration")
 
 
 def assembly(
-    masses: Any,  # noqa: ANN401 - whatever users give
-    links: Any,  # noqa: ANN401
-    drive: Any,  # noqa: ANN401
+    masses: Any,
+    links: Any,
+    drive: Any,
 ) -> Assembly:
     """Masses, links and a drive, checked.
 
@@ -238,19 +238,19 @@ def _check_joined(masses: Mapping[str, float], links: Sequence[Link], driven: st
         raise InputError(f"the mass {alone[0]!r} is linked to nothing that the drive moves: link it, or leave it out")
 
 
-def _many(values: Any) -> list[Any]:  # noqa: ANN401
+def _many(values: Any) -> list[Any]:
     if isinstance(values, str) or not isinstance(values, Iterable):
         raise InputError(f"expected a list, got {shortened(values)}")
     return list(values)
 
 
-def _link(values: Any) -> Link:  # noqa: ANN401
+def _link(values: Any) -> Link:
     parts = _many(values)
     if not 3 <= len(parts) <= 4:
         raise InputError(f"a link is two masses, a stiffness and perhaps a damping, got {shortened(values)}")
     return Link(*parts)
 
 
-def _check_name(name: Any) -> None:  # noqa: ANN401
+def _check_name(name: Any) -> None:
     if not isinstance(name, str) or not name.strip():
         raise InputError(f"a mass's name must be a text, got {shortened(name)}")

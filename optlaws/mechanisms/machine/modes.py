@@ -123,7 +123,7 @@ class ModalModel(MachineModel):
         return rows_by_name | {"deflection": bent} | alone
 
 
-def modal_model(modes: Any) -> ModalModel:  # noqa: ANN401 - whatever users give
+def modal_model(modes: Any) -> ModalModel:
     """Vibrations from frequencies in Hz, damping ratios and participations, checked."""
     example = "such as [(8.5, 0.02)] or [(8.5, 0.02, 0.9), (31.0, 0.01, 0.1)]"
     if not isinstance(modes, list | tuple) or not modes:
@@ -133,7 +133,7 @@ def modal_model(modes: Any) -> ModalModel:  # noqa: ANN401 - whatever users give
     return ModalModel(tuple(_vibration(i, given, example) for i, given in enumerate(modes, 1)))
 
 
-def _vibration(number: int, given: Any, example: str) -> tuple[float, float, float]:  # noqa: ANN401
+def _vibration(number: int, given: Any, example: str) -> tuple[float, float, float]:
     if not isinstance(given, list | tuple) or not 2 <= len(given) <= 3:
         raise InputError(
             f"mode {number} must be a frequency in Hz, a damping ratio and perhaps a participation, {example}, "
@@ -150,7 +150,7 @@ def _vibration(number: int, given: Any, example: str) -> tuple[float, float, flo
     return 2.0 * pi * frequency, ratio, share
 
 
-def _hertz(value: Any, name: str) -> float:  # noqa: ANN401
+def _hertz(value: Any, name: str) -> float:
     """A frequency in Hz; an angular velocity, such as "53 rad/s", is the phase's rate."""
     if isinstance(value, str) or hasattr(value, "units"):
         dimension, number = either(value, ("frequency", "angular velocity"), name)

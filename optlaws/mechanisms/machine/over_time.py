@@ -60,7 +60,7 @@ class OutputCurve(Curve):
     def _breaks(self) -> tuple[float, ...]:
         return (*self.starts.tolist(), self.interval[1])
 
-    def _plot(self, ax: Any, style: dict[str, Any]) -> list[Any]:  # noqa: ANN401 - matplotlib's
+    def _plot(self, ax: Any, style: dict[str, Any]) -> list[Any]:
         from optlaws.plots.machine import draw_output
 
         return draw_output(self, ax, **style)
@@ -90,7 +90,7 @@ class OutputCurve(Curve):
         low, high = self.extrema(0)
         return f"OutputCurve({self.name!r}, from {low.value:g} to {high.value:g})"
 
-    def _times(self, k: Any) -> Array:  # noqa: ANN401 - whatever users give
+    def _times(self, k: Any) -> Array:
         places, (low, high) = real_times(k), self.interval
         rounding = _END_ROUNDING * max(abs(low), abs(high))
         if places.size and not (low - rounding <= places.min() and places.max() <= high + rounding):
@@ -172,7 +172,7 @@ class MachineMotion(ABC):
         """Root mean square of an output."""
         return self[output].rms(0)
 
-    def to_pandas(self, count: int = 201) -> Any:  # noqa: ANN401 - pandas is imported where it is asked for
+    def to_pandas(self, count: int = 201) -> Any:
         """Samples of all outputs as a data frame over `count` equally spaced times; needs the extra `optlaws[studies]`.
 
         Examples

@@ -53,7 +53,7 @@ class MachineSpectrum:
     output: str
     parameter: str = "parameter"
 
-    def plot(self, ax: Any = None, **style: Any) -> list[Any]:  # noqa: ANN401 - matplotlib's
+    def plot(self, ax: Any = None, **style: Any) -> list[Any]:
         """Draw the output's peak and what is left in it of each mode, over the parameter; return the lines.
 
         `ax` are axes of matplotlib, new ones unless given; `style` is what it takes for lines.
@@ -70,7 +70,7 @@ class MachineSpectrum:
 
         return draw_machine_spectrum(self, ax, **style)
 
-    def to_pandas(self) -> Any:  # noqa: ANN401 - pandas is imported where it is asked for
+    def to_pandas(self) -> Any:
         """A table: peaks of all outputs, frequencies and what is left of the modes, a row for each value.
 
         Examples
@@ -90,7 +90,7 @@ class MachineSpectrum:
 
 def machine_spectrum(
     make: Callable[[float], Machine],
-    values: Any,  # noqa: ANN401 - numbers of any kind
+    values: Any,
     law: MotionLaw,
     *,
     dwell: float = 0.0,

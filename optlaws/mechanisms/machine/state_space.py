@@ -189,7 +189,7 @@ class StateSpace(JsonText):
         return f"{type(self).__name__}(states={len(self.A)}, inputs={self.inputs!r}, outputs=[{names}])"
 
 
-def _check_inputs(inputs: Any) -> None:  # noqa: ANN401 - whatever users give
+def _check_inputs(inputs: Any) -> None:
     known = isinstance(inputs, str) and inputs != "" and set(inputs) <= set(SYMBOLS)
     if not known or len(set(inputs)) < len(inputs):
         raise InputError(
@@ -205,7 +205,7 @@ def _spread(matrix: Array, inputs: str) -> Array:
 
 
 def _matrix(
-    value: Any,  # noqa: ANN401 - whatever users have as a matrix
+    value: Any,
     name: str,
     shape: tuple[int | None, int] | None = None,
     says: str = "",
@@ -222,11 +222,11 @@ def _matrix(
     return times + 0.0
 
 
-def _nothing(value: Any) -> bool:  # noqa: ANN401
+def _nothing(value: Any) -> bool:
     return isinstance(value, Sequence) and not isinstance(value, str) and not len(value)
 
 
-def _scaled(value: Any, name: str, factor: Any) -> Any:  # noqa: ANN401
+def _scaled(value: Any, name: str, factor: Any) -> Any:
     """A matrix times numbers, where it is one; what is none is refused elsewhere."""
     if _nothing(value):
         return value
@@ -234,7 +234,7 @@ def _scaled(value: Any, name: str, factor: Any) -> Any:  # noqa: ANN401
     return matrix * factor if np.ndim(factor) == 0 or matrix.shape[1] == len(factor) else matrix
 
 
-def _listed(names: Any) -> tuple[Any, ...]:  # noqa: ANN401 - they are checked later
+def _listed(names: Any) -> tuple[Any, ...]:
     if isinstance(names, str):
         return (names,)
     if not isinstance(names, Iterable):
@@ -242,7 +242,7 @@ def _listed(names: Any) -> tuple[Any, ...]:  # noqa: ANN401 - they are checked l
     return tuple(names)
 
 
-def _names(names: Any, count: int) -> tuple[str, ...]:  # noqa: ANN401
+def _names(names: Any, count: int) -> tuple[str, ...]:
     given = _listed(names)
     if not given:
         return tuple(f"output {i}" for i in range(1, count + 1))

@@ -35,7 +35,7 @@ def title_of(machine: StateSpace, what: str, output: str, *words: str) -> str:
     return ", ".join([f"{what} {output!r} of a machine of {states}", *words])
 
 
-def machine_of(given: Any) -> StateSpace:  # noqa: ANN401 - a machine, or what text calls one
+def machine_of(given: Any) -> StateSpace:
     """The machine that is given, or that a text describes."""
     if isinstance(given, StateSpace):
         return given

@@ -140,7 +140,7 @@ class ProblemArray:
     def __iter__(self) -> Iterator[Any]:
         return (self[i] for i in range(len(self)))
 
-    def __getitem__(self, index: Any) -> Any:  # noqa: ANN401 - what numpy takes
+    def __getitem__(self, index: Any) -> Any:
         """A problem by its indices; an array of problems where the index selects several.
 
         Raises
@@ -170,7 +170,7 @@ class ProblemArray:
             return self._first.at_velocity(float(self.velocities[place]))
         at = np.unravel_index(place, self._shape)
 
-        def there(array: NDArray[Any]) -> Any:  # noqa: ANN401
+        def there(array: NDArray[Any]) -> Any:
             return _plain(np.broadcast_to(array, self._shape)[at])
 
         return Problem(**{name: _mapped(value, there) for name, value in self._entries.items()})
@@ -247,7 +247,7 @@ def map_arrays(function: Callable[..., Any], *arrays: Any) -> NDArray[Any]:
     return results
 
 
-def _with_arrays(value: Any, name: str) -> Any:  # noqa: ANN401
+def _with_arrays(value: Any, name: str) -> Any:
     """The value with arrays in place of array-like parts; a pair stays a pair."""
     if isinstance(value, Mapping):
         return {key: _with_arrays(entry, f"{name}[{key!r}]") for key, entry in value.items()}
@@ -266,7 +266,7 @@ def _with_arrays(value: Any, name: str) -> Any:  # noqa: ANN401
     return value
 
 
-def _arrays(value: Any) -> Iterator[NDArray[Any]]:  # noqa: ANN401
+def _arrays(value: Any) -> Iterator[NDArray[Any]]:
     if isinstance(value, np.ndarray):
         yield value
     elif isinstance(value, Mapping):
@@ -277,7 +277,7 @@ def _arrays(value: Any) -> Iterator[NDArray[Any]]:  # noqa: ANN401
             yield from _arrays(entry)
 
 
-def _mapped(value: Any, change: Callable[[NDArray[Any]], Any]) -> Any:  # noqa: ANN401
+def _mapped(value: Any, change: Callable[[NDArray[Any]], Any]) -> Any:
     """The value with each array in it changed."""
     if isinstance(value, np.ndarray):
         return change(value)
@@ -288,11 +288,11 @@ def _mapped(value: Any, change: Callable[[NDArray[Any]], Any]) -> Any:  # noqa: 
     return value
 
 
-def _plain(value: Any) -> Any:  # noqa: ANN401
+def _plain(value: Any) -> Any:
     return value.item() if isinstance(value, np.generic) else value
 
 
-def _frozen(value: Any) -> Any:  # noqa: ANN401
+def _frozen(value: Any) -> Any:
     """The value with copies of its arrays that nobody can write to."""
 
     def copied(array: NDArray[Any]) -> NDArray[Any]:
@@ -303,5 +303,5 @@ def _frozen(value: Any) -> Any:  # noqa: ANN401
     return _mapped(value, copied)
 
 
-def _shown(value: Any) -> str:  # noqa: ANN401
+def _shown(value: Any) -> str:
     return shortened(_mapped(value, lambda array: f"array of shape {array.shape}"))

@@ -554,7 +554,7 @@ def _polynomials(u: Array, count: int) -> Array:
     return polynomials[:count]
 
 
-def _same(first: Any, other: Any) -> bool:  # noqa: ANN401 - what fields of families have
+def _same(first: Any, other: Any) -> bool:
     if first is other:
         return True
     if isinstance(first, ConstraintFamily):

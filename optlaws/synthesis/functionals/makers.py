@@ -34,7 +34,7 @@ FormulaKind = Literal["peak", "rms", "integral", "value"]
 _SIDES = {"both": (1.0, -1.0), "high": (1.0,), "low": (-1.0,)}
 
 
-def peak(formula: Any, *, side: PeakSide = "both", start: float = 0.0, stop: float = 1.0) -> Functional:  # noqa: ANN401
+def peak(formula: Any, *, side: PeakSide = "both", start: float = 0.0, stop: float = 1.0) -> Functional:
     """The peak of a formula of the motion, over the whole of the interval or a part of it.
 
     Parameters
@@ -67,7 +67,7 @@ def peak(formula: Any, *, side: PeakSide = "both", start: float = 0.0, stop: flo
     return _checked(replace(peak, convex=convex), formula)
 
 
-def rms(formula: Any, *, start: float = 0.0, stop: float = 1.0) -> Functional:  # noqa: ANN401
+def rms(formula: Any, *, start: float = 0.0, stop: float = 1.0) -> Functional:
     """The root mean square of a formula of the motion, over the whole of the interval or a part of it.
 
     Parameters
@@ -89,7 +89,7 @@ def rms(formula: Any, *, start: float = 0.0, stop: float = 1.0) -> Functional:  
     return _checked(replace(rms, convex=convex), formula)
 
 
-def integral(formula: Any, *, start: float = 0.0, stop: float = 1.0) -> Functional:  # noqa: ANN401
+def integral(formula: Any, *, start: float = 0.0, stop: float = 1.0) -> Functional:
     """The integral of a formula of the motion, over the whole of the interval or a part of it.
 
     Parameters
@@ -109,7 +109,7 @@ def integral(formula: Any, *, start: float = 0.0, stop: float = 1.0) -> Function
     return _checked(integral, formula)
 
 
-def value(formula: Any, *, at: float) -> Functional:  # noqa: ANN401
+def value(formula: Any, *, at: float) -> Functional:
     """The value of a formula of the motion at one k.
 
     Parameters
@@ -209,7 +209,7 @@ def drive_torque(*, inertia: str = "1", friction: str = "0", load: str = "0") ->
     return str(added([multiplied([mass, Name("c")]), turning, multiplied([drag, Name("b")]), force]))
 
 
-def _motion(formula: Any, start: float, stop: float) -> MotionFormula:  # noqa: ANN401 - it is checked here
+def _motion(formula: Any, start: float, stop: float) -> MotionFormula:
     """The formula of a text or a tree, which must depend on the law."""
     if isinstance(formula, Formula):
         motion, text = checked(MotionFormula(formula, start, stop), str(formula)), str(formula)
@@ -223,7 +223,7 @@ def _motion(formula: Any, start: float, stop: float) -> MotionFormula:  # noqa: 
     return motion
 
 
-def _checked(constant: OfFormula, formula: Any) -> OfFormula:  # noqa: ANN401 - what was given
+def _checked(constant: OfFormula, formula: Any) -> OfFormula:
     """The constant, if it can be minimised and bounded."""
     why = refusal(constant)
     if why is not None:

@@ -107,7 +107,7 @@ class FollowerResidual(JsonText):
         return asdict(self)
 
     @classmethod
-    def from_dict(cls, data: Any) -> FollowerResidual:  # noqa: ANN401 - it is checked here
+    def from_dict(cls, data: Any) -> FollowerResidual:
         """The limit that `to_dict` described.
 
         Raises

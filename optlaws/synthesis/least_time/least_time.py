@@ -188,7 +188,7 @@ class LeastTime(JsonText):
         read._check(entries["limit"])
         return read
 
-    def _check(self, limit: Any) -> None:  # noqa: ANN401 - it is checked here
+    def _check(self, limit: Any) -> None:
         """Refuse what does not follow from the move."""
         wrong = self.contradiction
         if wrong:

@@ -83,7 +83,7 @@ class LossyGear(JsonText):
         return {name: getattr(self, name) for name in _GEAR_KEYS}
 
     @classmethod
-    def from_dict(cls, data: Any) -> LossyGear:  # noqa: ANN401 - it is checked here
+    def from_dict(cls, data: Any) -> LossyGear:
         """The gear that `to_dict` described.
 
         Raises
@@ -281,7 +281,7 @@ class MotorTorque(JsonText):
         return {name: getattr(self, name) for name in _KEYS} | further
 
     @classmethod
-    def from_dict(cls, data: Any) -> MotorTorque:  # noqa: ANN401 - it is checked here
+    def from_dict(cls, data: Any) -> MotorTorque:
         """The torque that `to_dict` described.
 
         Raises

@@ -114,7 +114,7 @@ class MoveLimits(JsonText):
         return {name: value for name, value in asdict(self).items() if value is not None}
 
     @classmethod
-    def from_dict(cls, data: Any) -> MoveLimits:  # noqa: ANN401 - it is checked here
+    def from_dict(cls, data: Any) -> MoveLimits:
         """The limits that `to_dict` described.
 
         Raises
@@ -403,7 +403,7 @@ def control_point(shortest: float, longest: float, i: int, degree: int) -> Power
     return tuple(coefficient(nu) for nu in range(1, degree + 1))
 
 
-def _checked(problem: Any, *, even: bool) -> Problem:  # noqa: ANN401 - it is checked here
+def _checked(problem: Any, *, even: bool) -> Problem:
     """The problem that gives the space of laws; where limits or ends differ, its laws need not be symmetric."""
     if not isinstance(problem, Problem):
         raise InputError(f"the least time is sought of a Problem, got {type(problem).__name__}")

@@ -134,7 +134,7 @@ class MoveObjective(JsonText):
         return {"name": self.name, "way": self.way, "regeneration": self.regeneration, **plain}
 
     @classmethod
-    def from_dict(cls, data: Any) -> MoveObjective:  # noqa: ANN401 - it is checked here
+    def from_dict(cls, data: Any) -> MoveObjective:
         """The objective that `to_dict` described.
 
         Raises

@@ -83,7 +83,7 @@ class TimeProof(JsonText):
         return {"shortest": self.shortest, "longest": self.longest, "certificate": self.certificate.to_dict()}
 
     @classmethod
-    def from_dict(cls, data: Any) -> TimeProof:  # noqa: ANN401 - it is checked here
+    def from_dict(cls, data: Any) -> TimeProof:
         """The proof that `to_dict` described.
 
         Raises

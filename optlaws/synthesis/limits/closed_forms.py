@@ -318,7 +318,7 @@ def best_velocity(constant: str, order: int) -> float:
     return 2.0 if constant == "C" or (constant == "J" and order > 2) else 1.5
 
 
-def peak_velocity(B: Any) -> None:  # noqa: ANN401
+def peak_velocity(B: Any) -> None:
     """Refuse a B that no law can have.
 
     Raises

@@ -121,7 +121,7 @@ class DriveLimit(JsonText):
         """Whether the limit belongs to a problem's objective within its bounds."""
         return plane_of(problem) == (self.plane, self.minimise, self.unit)
 
-    def velocity(self, a: Any) -> Array:  # noqa: ANN401 - numbers of any shape
+    def velocity(self, a: Any) -> Array:
         """The velocity of the best motion at positions, dimensionless.
 
         Examples
@@ -174,7 +174,7 @@ class DriveLimit(JsonText):
         }
 
     @classmethod
-    def from_dict(cls, data: Any) -> DriveLimit:  # noqa: ANN401 - it is checked here
+    def from_dict(cls, data: Any) -> DriveLimit:
         """The limit that `to_dict` described, its bound computed again.
 
         Raises
@@ -188,7 +188,7 @@ class DriveLimit(JsonText):
         return limit
 
     @classmethod
-    def stated(cls, data: Any) -> DriveLimit:  # noqa: ANN401 - it is checked here
+    def stated(cls, data: Any) -> DriveLimit:
         """The limit as its data states it, whether or not its certificate and its motion have its numbers.
 
         Raises

@@ -31,13 +31,13 @@ def formula_jet(formula: Formula, name: str, at: Jet) -> Jet:
     [1.0, 2.0]
     """
 
-    def as_jet(value: Any) -> Jet:  # noqa: ANN401 - a jet or a number
+    def as_jet(value: Any) -> Jet:
         return value if isinstance(value, Jet) else _constant(value, at)
 
     def on_jets(function: Callable[..., Jet]) -> Callable[..., Jet]:
         return lambda *arguments: function(*map(as_jet, arguments))
 
-    def power(base: Any, exponent: Any) -> Any:  # noqa: ANN401 - jets or numbers
+    def power(base: Any, exponent: Any) -> Any:
         return _power(as_jet(base), exponent)
 
     functions = {known: on_jets(function) for known, function in _FUNCTIONS.items()}

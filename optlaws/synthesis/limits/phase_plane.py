@@ -63,7 +63,7 @@ class TorqueLimit:
         return [self.torque.to_data(), *numbers]
 
     @classmethod
-    def from_data(cls, data: Any) -> TorqueLimit:  # noqa: ANN401 - it is checked here
+    def from_data(cls, data: Any) -> TorqueLimit:
         """The limit that `to_data` described."""
         if not isinstance(data, list | tuple) or len(data) not in {3, 5}:
             raise InputError(f"a limit is a torque, a value at rest, a fall, and a window, got {shortened(data)}")
@@ -279,7 +279,7 @@ class PhasePlane(JsonText):
         }
 
     @classmethod
-    def from_dict(cls, data: Any) -> PhasePlane:  # noqa: ANN401 - it is checked here
+    def from_dict(cls, data: Any) -> PhasePlane:
         """The plane that `to_dict` described."""
         keys = {"squared", "maxima", "peak", "limits", "B", "C", "heat"}
         if not isinstance(data, Mapping) or set(data) - {"velocities", "holding"} != keys:

@@ -269,7 +269,7 @@ def greater_power(arguments: Sequence[Formula]) -> tuple[AnyTorque, AnyTorque] |
     return (geared, geared.scaled(shares[0][0])) if all(same) and shares[0][0] == shares[1][0] else None
 
 
-def torque_from(data: Any) -> AnyTorque:  # noqa: ANN401 - it is checked here
+def torque_from(data: Any) -> AnyTorque:
     """The torque that `to_data` described.
 
     Raises
@@ -287,7 +287,7 @@ def torque_from(data: Any) -> AnyTorque:  # noqa: ANN401 - it is checked here
     return _plain(data)
 
 
-def _plain(texts: Any) -> PhaseTorque:  # noqa: ANN401
+def _plain(texts: Any) -> PhaseTorque:
     if not isinstance(texts, list | tuple) or len(texts) != len(_KEYS):
         raise InputError(f"a torque is the texts of its factors of c, b², b and 1, got {shortened(texts)}")
     return PhaseTorque(*(read(text, ("a",)) for text in texts))

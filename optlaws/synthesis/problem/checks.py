@@ -19,7 +19,7 @@ NO_ORDER = (
 )
 
 
-def constant(value: Any, name: str) -> float | Range | None:  # noqa: ANN401 - it is checked here
+def constant(value: Any, name: str) -> float | Range | None:
     """A constant's entry as a number, a range or None."""
     if name == "B" and value is not None and not isinstance(value, Range | tuple | list) and not _velocity(value):
         raise InputError(f"B must be a finite number above 1 (the mean velocity is 1), got {shortened(value)}")
@@ -33,7 +33,7 @@ def constant(value: Any, name: str) -> float | Range | None:  # noqa: ANN401 - i
     return limits.high if limits.fixed else limits
 
 
-def constant_of_bounds(value: Any, limits: Range, name: str) -> float | Range | None:  # noqa: ANN401
+def constant_of_bounds(value: Any, limits: Range, name: str) -> float | Range | None:
     """The bound that `bounds` give of a constant with an entry of its own, if that entry is free."""
     plain = limits.high if limits.fixed else limits
     if value is not None:
@@ -41,14 +41,14 @@ def constant_of_bounds(value: Any, limits: Range, name: str) -> float | Range | 
     return constant(plain, name)
 
 
-def listed(values: Any, name: str) -> tuple[Any, ...]:  # noqa: ANN401 - it is checked here
+def listed(values: Any, name: str) -> tuple[Any, ...]:
     """The entries of a list."""
     if not isinstance(values, list | tuple):
         raise InputError(f"{name} must be a list, got {shortened(values)}")
     return tuple(values)
 
 
-def windows(given: Any) -> tuple[Window, ...]:  # noqa: ANN401 - they are checked here
+def windows(given: Any) -> tuple[Window, ...]:
     """A single window or several, as a tuple."""
     several = tuple(given) if isinstance(given, list | tuple) else (given,)
     for window in several:
@@ -57,7 +57,7 @@ def windows(given: Any) -> tuple[Window, ...]:  # noqa: ANN401 - they are checke
     return several
 
 
-def inflexion(k: Any) -> float | None:  # noqa: ANN401 - it is checked here
+def inflexion(k: Any) -> float | None:
     """The k of the inflexion."""
     if k is None:
         return None
@@ -67,12 +67,12 @@ def inflexion(k: Any) -> float | None:  # noqa: ANN401 - it is checked here
     return number
 
 
-def _velocity(value: Any) -> bool:  # noqa: ANN401 - it is checked here
+def _velocity(value: Any) -> bool:
     number = real(value)
     return number is not None and 1.0 < number <= MOST_VELOCITY
 
 
-def boundary(given: Any) -> BoundaryConditions | None:  # noqa: ANN401 - it is checked here
+def boundary(given: Any) -> BoundaryConditions | None:
     """End conditions, or None for rest to rest."""
     if given is not None and not isinstance(given, BoundaryConditions):
         raise InputError(f"boundary must be BoundaryConditions(start, end), got {shortened(given)}")
@@ -102,12 +102,12 @@ def is_open(given: object) -> bool:
     return isinstance(given, AsItFits)
 
 
-def symmetric(given: Any) -> Any:  # noqa: ANN401 - it is checked here
+def symmetric(given: Any) -> Any:
     """True, False, or the value for an open symmetry."""
     return given if is_open(given) else switch(given, "symmetric")
 
 
-def order(given: Any) -> int:  # noqa: ANN401 - it is checked here
+def order(given: Any) -> int:
     """The order l, where it is given."""
     return given if isinstance(given, NotGiven) else whole(given, "order", least=1, most=MOST_ORDER)
 
@@ -124,21 +124,21 @@ def order_with(given: int, ends: BoundaryConditions | None) -> int:
     return ends.order
 
 
-def chosen_basis(given: Any) -> Basis:  # noqa: ANN401 - it is checked here
+def chosen_basis(given: Any) -> Basis:
     """The entry `basis`, a basis of Z."""
     if not isinstance(given, Basis):
         raise InputError(f"basis must be a Basis such as Powers(9) or Chebyshev(9), got {shortened(given)}")
     return given
 
 
-def switch(given: Any, name: str) -> bool:  # noqa: ANN401 - it is checked here
+def switch(given: Any, name: str) -> bool:
     """An entry that is True or False."""
     if not isinstance(given, bool):
         raise InputError(f"{name} must be True or False, got {shortened(given)}")
     return given
 
 
-def objective(minimise: Any) -> str | Expression:  # noqa: ANN401 - it is checked here
+def objective(minimise: Any) -> str | Expression:
     """The objective as text if every constant of it has a name, else as an expression."""
     if isinstance(minimise, str):
         terms = expression(minimise)

@@ -149,7 +149,7 @@ def _no_weight(value: object, where: str = "") -> InputError:
     return InputError(f"{demand} {MAGNITUDE_LIMIT:g}, got {shortened(value)}{where}")
 
 
-def _pairs(terms: Any) -> list[tuple[float, Term]]:  # noqa: ANN401 - it is checked here
+def _pairs(terms: Any) -> list[tuple[float, Term]]:
     pairs = list(terms) if isinstance(terms, list | tuple) else [terms]
     if not pairs or not all(isinstance(pair, tuple) and len(pair) == 2 for pair in pairs):
         raise InputError(f"an objective needs pairs of a weight and a constant, at least one, got {shortened(terms)}")

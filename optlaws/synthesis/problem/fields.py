@@ -51,7 +51,7 @@ class Entry:
     default: Any  #: its value unless given; None where nothing is asked, or where there is none to give
 
 
-def _entry(name: str, kind: Kind, about: str, heading: str | None = None, *, default: Any = None) -> Entry:  # noqa: ANN401
+def _entry(name: str, kind: Kind, about: str, heading: str | None = None, *, default: Any = None) -> Entry:
     return Entry(name, kind, about, heading if heading is not None else name, default)
 
 
@@ -82,11 +82,11 @@ def _single(
 ) -> Field:
     """A field that is one entry: `read` takes the entry to the field, `plain` takes it back, None to leave it out."""
 
-    def joined(**entries: Any) -> Any:  # noqa: ANN401 - it is checked by `check`
+    def joined(**entries: Any) -> Any:
         value = entries[entry.name]
         return value if read is None else read(value)
 
-    def written(value: Any) -> dict[str, Any]:  # noqa: ANN401
+    def written(value: Any) -> dict[str, Any]:
         shown = value if plain is None else plain(value)
         return {} if shown is None else {entry.name: shown}
 
@@ -98,7 +98,7 @@ def _constant(name: str, about: str) -> Field:
     return _single(entry, partial(checks.constant, name=name), near=_limited_alike, plain=_plain_range, optional=True)
 
 
-def _limited_alike(first: Any, second: Any) -> bool:  # noqa: ANN401
+def _limited_alike(first: Any, second: Any) -> bool:
     """Numbers, ranges bounded on the same side, or nothing."""
     if isinstance(first, Range) and isinstance(second, Range):
         return isfinite(first.high) == isfinite(second.high)
@@ -109,11 +109,11 @@ def _bounded_alike(first: Mapping[Any, Range], second: Mapping[Any, Range]) -> b
     return list(first) == list(second) and all(map(_limited_alike, first.values(), second.values()))
 
 
-def _plain_range(limits: Any) -> Any:  # noqa: ANN401 - a number, a range or None
+def _plain_range(limits: Any) -> Any:
     return [limits.low, bounded(limits.high)] if isinstance(limits, Range) else limits
 
 
-def _joined_basis(**entries: Any) -> Any:  # noqa: ANN401
+def _joined_basis(**entries: Any) -> Any:
     name, degree = (entries.pop(entry, ENTRIES[entry].default) for entry in ("basis", "degree"))
     return basis(name, degree, **entries)
 
@@ -124,7 +124,7 @@ def _plain_ends(boundary: BoundaryConditions | None) -> dict[str, Any]:
     return {"start": [float(v) for v in boundary.start], "end": [float(v) for v in boundary.end]}
 
 
-def _read_windows(windows: Any) -> tuple[Window, ...]:  # noqa: ANN401
+def _read_windows(windows: Any) -> tuple[Window, ...]:
     given = checks.listed(windows, "windows")
     return tuple(read_window(window) if isinstance(window, str) else Window.from_dict(window) for window in given)
 

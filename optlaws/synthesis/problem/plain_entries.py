@@ -38,7 +38,7 @@ def read_entries(data: Mapping[str, Any]) -> dict[str, Any]:
     return {name: _read(value) for name, value in data.items()}
 
 
-def _plain(value: Any) -> Any:  # noqa: ANN401
+def _plain(value: Any) -> Any:
     if isinstance(value, np.ndarray):
         return _plain_array(value)
     if isinstance(value, Range):
@@ -64,7 +64,7 @@ def _plain_array(values: NDArray[Any]) -> dict[str, Any]:
     return {"array": flat, "shape": shape, "type": str(values.dtype)}
 
 
-def _plain_object(value: Any) -> Any:  # noqa: ANN401
+def _plain_object(value: Any) -> Any:
     """An object at one place of an array, each read back as it was written."""
     if isinstance(value, Range):
         return {"range": [value.low, bounded(value.high)]}
@@ -77,7 +77,7 @@ def _plain_object(value: Any) -> Any:  # noqa: ANN401
     return _plain(value)
 
 
-def _read_object(value: Any) -> Any:  # noqa: ANN401
+def _read_object(value: Any) -> Any:
     if not isinstance(value, dict):
         return _read(value)
     if "range" in value:
@@ -96,7 +96,7 @@ def _name(key: object) -> str:
     return key
 
 
-def _read(value: Any) -> Any:  # noqa: ANN401
+def _read(value: Any) -> Any:
     if isinstance(value, list):
         return tuple(map(_read, value))
     if not isinstance(value, dict):

@@ -45,7 +45,7 @@ class Range:
         return self.low == self.high
 
 
-def _bound(value: Any) -> float:  # noqa: ANN401 - it is checked here
+def _bound(value: Any) -> float:
     number = real(value)
     if number is None or number < 0.0:
         raise InputError(f"bounds must be numbers of at least 0, got {shortened(value)}")
@@ -100,7 +100,7 @@ def at_least(low: float) -> Range:
     return Range(low, inf)
 
 
-def as_range(value: Any, name: str) -> Range | None:  # noqa: ANN401 - it is checked here
+def as_range(value: Any, name: str) -> Range | None:
     """A number, a Range, a pair [low, high] or None as a Range or None; errors call it `name`.
 
     >>> as_range(2, "B")
@@ -119,7 +119,7 @@ def as_range(value: Any, name: str) -> Range | None:  # noqa: ANN401 - it is che
     return _named_range(number, number, name)
 
 
-def _named_range(low: Any, high: Any, name: str) -> Range:  # noqa: ANN401 - they are checked here
+def _named_range(low: Any, high: Any, name: str) -> Range:
     try:
         return Range(low, high)
     except InputError as error:
@@ -133,7 +133,7 @@ class Bounds(Mapping[Functional, Range]):
     {'rms_c': at_most(4)}
     """
 
-    def __init__(self, given: Any = ()) -> None:  # noqa: ANN401 - it is checked here
+    def __init__(self, given: Any = ()) -> None:
         if not isinstance(given, Mapping) and given != ():
             raise InputError(f"bounds must be a dict such as {{'rms_c': at_most(5)}}, got {shortened(given)}")
         self._ranges: dict[Functional, Range] = {}
@@ -166,7 +166,7 @@ class Bounds(Mapping[Functional, Range]):
         return "{" + ", ".join(f"{known[constant]}: {value!r}" for constant, value in self._ranges.items()) + "}"
 
 
-def _constant(key: Any) -> Functional:  # noqa: ANN401 - it is checked here
+def _constant(key: Any) -> Functional:
     if isinstance(key, Functional):
         return key
     if not isinstance(key, str):

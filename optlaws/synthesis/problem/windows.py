@@ -229,7 +229,7 @@ def read_window(text: str) -> Window:
     return Window(parts["quantity"], low, high, start, stop)
 
 
-def _number(value: Any, name: str) -> float:  # noqa: ANN401 - it is checked here
+def _number(value: Any, name: str) -> float:
     number = real(value)
     if number is None:
         raise InputError(f"{name} of a window must be a number, got {shortened(value)}")

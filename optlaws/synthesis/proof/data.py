@@ -110,7 +110,7 @@ def stated_certificate(data: object) -> StatedLeaf | StatedBoxes | StatedPlaces:
     return stated(data, StatedLeaf, "certificate")
 
 
-def as_json(data: object) -> Any:  # noqa: ANN401 - JSON
+def as_json(data: object) -> Any:
     """The data as its JSON text would be read: lists, not tuples, and floats of Python, not of numpy.
 
     Raises

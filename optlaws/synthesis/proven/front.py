@@ -369,13 +369,13 @@ class ProvenFront(JsonText):
             f"{len(self)} certified laws)"
         )
 
-    def plot(self, ax: Any = None, **style: Any) -> list[Any]:  # noqa: ANN401 - matplotlib's
+    def plot(self, ax: Any = None, **style: Any) -> list[Any]:
         """Draw the continuous front into matplotlib's axes, new ones by default; returns the artists."""
         from optlaws.plots.front import draw_proven_front
 
         return draw_proven_front(self, ax, **style)
 
-    def export(self, to: str, gap: float = 1e-3, *, name: str = "Front", points: int | None = None) -> Any:  # noqa: ANN401
+    def export(self, to: str, gap: float = 1e-3, *, name: str = "Front", points: int | None = None) -> Any:
         """The front as functions of a controller, which chooses a law for stroke, time and limits while it runs.
 
         The front is one of "at_most.B" and C: between neighbouring laws of the table the weighted mean keeps every

@@ -118,15 +118,15 @@ class LawSpace(ABC):
         return self.linear(name, slack, bound, signs, self.domain, **given)
 
     @abstractmethod
-    def combined(self, nu: int, weights: tuple[float, ...]) -> Any:  # noqa: ANN401 - as `given` takes it
+    def combined(self, nu: int, weights: tuple[float, ...]) -> Any:
         """Series of w0 a^(nu) + w1 a^(nu+1) + ..., the base law's as the last column."""
 
     @abstractmethod
-    def given(self, series: Any, size: int, *, jumps: bool = False) -> dict[str, Any]:  # noqa: ANN401 - of pieces or of the whole
+    def given(self, series: Any, size: int, *, jumps: bool = False) -> dict[str, Any]:
         """Columns of families over `size` variables for series of a function, which may jump at edges."""
 
     @abstractmethod
-    def turned(self, series: Any) -> Any:  # noqa: ANN401 - of pieces or of the whole
+    def turned(self, series: Any) -> Any:
         """The series of the same functions of -u."""
 
     def backward(self, slack: Array, bound: float) -> LinearFamily:

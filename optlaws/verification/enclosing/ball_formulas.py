@@ -16,12 +16,12 @@ from optlaws.formulas.tree import Formula, Table
 from optlaws.verification.enclosing.balls import ball, rational
 
 
-def _tanh(x: Any) -> Any:  # noqa: ANN401 - a ball or a series
+def _tanh(x: Any) -> Any:
     grown = (x + x).exp()
     return (grown - 1) / (grown + 1)
 
 
-def _power(base: Any, exponent: Any) -> Any:  # noqa: ANN401 - balls or series
+def _power(base: Any, exponent: Any) -> Any:
     """The power of a ball; a whole exponent means repeated multiplication, so that the base may be negative."""
     plain = _plain(exponent)
     if plain.is_integer():
@@ -34,21 +34,21 @@ def _power(base: Any, exponent: Any) -> Any:  # noqa: ANN401 - balls or series
     return (base.log() * exponent).exp()
 
 
-def _sqrt(x: Any) -> Any:  # noqa: ANN401 - a ball or a series
+def _sqrt(x: Any) -> Any:
     """The square root; where its argument may be 0 and is not below, a value without a slope."""
     if _may_vanish(_plain(x)):
         return _kinked(x, [arb(0).union(_plain(x).upper().sqrt())])
     return x.sqrt()
 
 
-def _abs(x: Any) -> Any:  # noqa: ANN401 - a ball or a series
+def _abs(x: Any) -> Any:
     plain = _plain(x)
     if plain >= 0 or plain <= 0:
         return x if plain >= 0 else -x
     return _kinked(x, [abs(plain), *[term.union(-term) for term in _coefficients(x)[1:2]]])
 
 
-def _max(x: Any, y: Any) -> Any:  # noqa: ANN401 - balls or series
+def _max(x: Any, y: Any) -> Any:
     first, other = _plain(x), _plain(y)
     if first >= other or first <= other:
         # one of them is a number perhaps, where the other is a series
@@ -61,23 +61,23 @@ def _may_vanish(x: arb) -> bool:
     return not x > 0 and not x < 0
 
 
-def _plain(x: Any) -> arb:  # noqa: ANN401 - a ball or a series
+def _plain(x: Any) -> arb:
     """The value of a series, without its higher terms."""
     return x[0] if isinstance(x, arb_series) else x
 
 
-def _coefficients(x: Any) -> list[arb]:  # noqa: ANN401 - a ball or a series
+def _coefficients(x: Any) -> list[arb]:
     return [x[i] for i in range(ctx.cap)] if isinstance(x, arb_series) else [x]
 
 
-def _kinked(like: Any, known: list[arb]) -> Any:  # noqa: ANN401 - a ball or a series
+def _kinked(like: Any, known: list[arb]) -> Any:
     """A value with the slopes that are known; a series has no others."""
     if not isinstance(like, arb_series):
         return known[0]
     return arb_series([*known, *[arb.nan()] * (ctx.cap - len(known))])
 
 
-def _on_pieces(table: Table, at: Any) -> Any:  # noqa: ANN401 - a ball or a series
+def _on_pieces(table: Table, at: Any) -> Any:
     """The values of all pieces that the ball may be on, and of a series those slopes that they bound together."""
     places, plain = [ball(place) for place in table.places], _plain(at)
     values = []

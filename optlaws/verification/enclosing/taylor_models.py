@@ -94,7 +94,7 @@ def cells(
             left += [(low, middle), (middle, high)]
 
 
-def _taylor(about: Any, around: Any, terms: int) -> Taylor:  # noqa: ANN401 - series
+def _taylor(about: Any, around: Any, terms: int) -> Taylor:
     smooth = next((i for i in range(terms, 0, -1) if around[i].is_finite()), 0)
     centre = [about[i] for i in range(smooth)]
     if smooth and all(value.is_finite() for value in centre):

@@ -170,7 +170,7 @@ def roots(polynomial: fmpq_poly) -> list[tuple[acb, int]]:
     return [(acb(root), int(multiplicity)) for root, multiplicity in plain.complex_roots()]
 
 
-def quotient(kind: Any, above: Sequence[Any], below: Sequence[Any], count: int) -> list[Any]:  # noqa: ANN401 - python-flint's
+def quotient(kind: Any, above: Sequence[Any], below: Sequence[Any], count: int) -> list[Any]:
     """The first coefficients of a quotient of two series of a kind, the second of which does not vanish at 0."""
     with series_length(count):
         series = kind(above) / kind(below)

@@ -60,7 +60,7 @@ def powers(B: float, order: int, count: int) -> tuple[np.ndarray, np.ndarray]:
     return base, np.linalg.svd(rows)[2][2:].T
 
 
-def on_grid(h: Any, k: np.ndarray, order: int) -> tuple[Any, Any]:  # noqa: ANN401 - numbers or CasADi's symbols
+def on_grid(h: Any, k: np.ndarray, order: int) -> tuple[Any, Any]:
     """b and c at places k, from the powers."""
     t = 1 - 2 * k
     w = (1 - t * t) ** (order - 1)
@@ -208,7 +208,7 @@ def test_power_of_the_loader_by_mpmath() -> None:
             if n > 1:
                 b[n - 1] -= one / (4 * (n - 1))
 
-        def at(series: list[Any], k: Any) -> Any:  # noqa: ANN401 - mpmath's numbers
+        def at(series: list[Any], k: Any) -> Any:
             return mp.fsum(one * mp.chebyt(i, 2 * k - 1) for i, one in enumerate(series))
 
         b[0] -= at(b, mp.mpf(0))

@@ -155,7 +155,7 @@ def test_a_spring_under_a_process_holds_at_every_speed_and_no_lesser_does() -> N
         ({"force": "3 N", "interpolation": []}, "interpolation"),
     ],
 )
-def test_wrong_processes_say_why(process: Any, says: str) -> None:  # noqa: ANN401 - whatever a person gave
+def test_wrong_processes_say_why(process: Any, says: str) -> None:
     with pytest.raises(InputError, match=says):
         CamForces(cam_of("translating roller"), "60 rpm", MOVED, process=process)
 

@@ -40,11 +40,11 @@ CUP = [("80 mm", "-5 mm"), ("220 mm", "-5 mm"), ("220 mm", "60 mm"), ("150 mm", 
 TIMES = np.linspace(0.0, 1.2, 24_001)
 
 
-def least(rule: Any, axes: Axes = PAIR) -> Any:  # noqa: ANN401 - an interlock, a least clearance
+def least(rule: Any, axes: Axes = PAIR) -> Any:
     return Axes(dict(axes), interlocks=[rule]).clearances[0]
 
 
-def distances(corners: Any) -> tuple[Any, Any]:  # noqa: ANN401 - rows of numbers
+def distances(corners: Any) -> tuple[Any, Any]:
     """Distances of the sampled path from a polygon, and whether it is within, by other means than the library's."""
     points = np.array([[float(text.split()[0]) / 1e3 for text in corner] for corner in corners])
     path = np.column_stack([PAIR["x"](TIMES), PAIR["z"](TIMES)])
@@ -57,7 +57,7 @@ def distances(corners: Any) -> tuple[Any, Any]:  # noqa: ANN401 - rows of number
 
 @pytest.mark.sample(4)
 @pytest.mark.parametrize("corners", [BOX, BOX[::-1], CUP, DEEP])
-def test_a_path_keeps_away_from_a_polygon_as_far_as_samples_say(corners: Any) -> None:  # noqa: ANN401 - rows of texts
+def test_a_path_keeps_away_from_a_polygon_as_far_as_samples_say(corners: Any) -> None:
     known, (far, within) = least(Forbidden("x", "z", corners)), distances(corners)
     if within.any():
         assert known.status == "broken"
@@ -202,7 +202,7 @@ AFTER = {"axis": "x", "position": "100 mm", "of": "z", "above": "30 mm"}
         (lambda: Axes(dict(PAIR), interlocks=3), "interlocks are a list"),  # type: ignore[arg-type]
     ],
 )  # fmt: skip
-def test_what_is_wrong_is_refused(make: Any, says: str) -> None:  # noqa: ANN401 - a function
+def test_what_is_wrong_is_refused(make: Any, says: str) -> None:
     with pytest.raises(InputError, match=says):
         make()
 
@@ -217,7 +217,7 @@ def test_what_is_wrong_is_refused(make: Any, says: str) -> None:  # noqa: ANN401
         Synchronous("x", "z", during=("0.1 s", "0.2 s"), within="1 mm/s", ratio=0.5),
     ],
 )
-def test_interlocks_are_stored_with_their_axes(rule: Any) -> None:  # noqa: ANN401 - an interlock
+def test_interlocks_are_stored_with_their_axes(rule: Any) -> None:
     assert type(rule).from_json(rule.to_json()) == rule
     machine = Axes({"x": Cycle(X, period="1.2 s"), "z": Cycle(Z, period="1.2 s")}, interlocks=[rule.to_dict()])
     again = Axes.from_json(machine.to_json())

@@ -215,6 +215,6 @@ def contradicting() -> Axes:
         (lambda: Axes(dict(die_and_table()), interlocks=[SYNCHRONOUS]).fastest(), InputError, "only After, Clearance"),
     ],
 )  # fmt: skip
-def test_what_cannot_overlap_is_named(make: Any, error: type[Exception], says: str) -> None:  # noqa: ANN401
+def test_what_cannot_overlap_is_named(make: Any, error: type[Exception], says: str) -> None:
     with pytest.raises(error, match=says):
         make()

@@ -205,7 +205,7 @@ def test_the_acceleration_of_given_laws_with_limits_is_that_of_their_cycle() -> 
 
 @pytest.mark.parametrize("law", ["optimal", "cycloidal"])
 @pytest.mark.parametrize("drive", [{"mass": "2 kg", "gravity": "19.6 N"}, Mechanism("2 kg", "19.6 N", axis="length")])
-def test_the_fastest_moves_keep_what_their_drive_may_take(law: str, drive: Any) -> None:  # noqa: ANN401
+def test_the_fastest_moves_keep_what_their_drive_may_take(law: str, drive: Any) -> None:
     move = {"segments": [Rise("100 mm", "0.4 s", law=law), Dwell("0.1 s"), Return(None, "0.4 s", law=law), Dwell()]}
     alone: Any = {"lift": move | {"drive": drive, "limits": {"force": "50 N"}}}
     best = Axes(alone, period="1.5 s").fastest()

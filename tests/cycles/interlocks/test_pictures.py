@@ -78,7 +78,7 @@ def test_clearances_are_drawn_over_the_master() -> None:
         (lambda: Axes(dict(PAIR)).plot(what="plane"), "axes without interlocks have no picture of the plane"),
     ],
 )
-def test_pictures_that_are_none_are_refused(make: Any, says: str) -> None:  # noqa: ANN401 - a function
+def test_pictures_that_are_none_are_refused(make: Any, says: str) -> None:
     with pytest.raises(InputError, match=says):
         make()
 

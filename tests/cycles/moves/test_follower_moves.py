@@ -28,10 +28,10 @@ SPREAD = {"frequency": ("15.865 Hz", "17.535 Hz"), "damping": 0.02}
 DEGREE_15 = Problem(order=3, basis=Chebyshev(15))
 
 
-def left(law: Any, circular: float, damping: float) -> float:  # noqa: ANN401 - a law
+def left(law: Any, circular: float, damping: float) -> float:
     """The residual acceleration after a law in the time 1, by integration of the follower's equation."""
 
-    def slope(k: float, state: Any) -> list[float]:  # noqa: ANN401
+    def slope(k: float, state: Any) -> list[float]:
         off, speed = state[0] - float(law(min(k, 1.0))), state[1] - float(law(min(k, 1.0), 1))
         return [state[1], -2.0 * damping * circular * speed - circular**2 * off]
 
@@ -111,7 +111,7 @@ def least_share(duration: float, terms: int, hertz: tuple[float, ...], most: flo
     odd = [np.eye(terms)[i] for i in range(1, terms, 2)]
     places = np.linspace(-1.0, 1.0, 61)
 
-    def columns(function: Any) -> Any:  # noqa: ANN401 - of each odd Chebyshev polynomial of c
+    def columns(function: Any) -> Any:
         return np.array([function(np.polynomial.Chebyshev(each)) for each in odd]).T
 
     rows = []

@@ -30,7 +30,7 @@ def cycle(**given: Any) -> Cycle:
                        limits={"force": "140 N"}), r"at its end, at 35 mm and 90 deg of the master"),
     ],
 )  # fmt: skip
-def test_a_force_that_every_law_takes_at_a_joint_is_told_when_the_cycle_is_made(make: Any, says: str) -> None:  # noqa: ANN401
+def test_a_force_that_every_law_takes_at_a_joint_is_told_when_the_cycle_is_made(make: Any, says: str) -> None:
     with pytest.raises(InfeasibleProblem, match=says):
         make()
 

@@ -33,7 +33,7 @@ WRITTEN: dict[str, tuple[str, Any, dict[str, Any]]] = {
 }
 
 
-def outcome(motion: str, drive: Any, **entries: Any) -> tuple[Any, ...]:  # noqa: ANN401 - either way of saying it
+def outcome(motion: str, drive: Any, **entries: Any) -> tuple[Any, ...]:
     """Status, objective, bound and efforts; of a refusal what it says."""
     try:
         cycle = Cycle(MOTIONS[motion], **{**TIMES[motion], **entries}, drive=drive)
@@ -89,7 +89,7 @@ def test_limits_of_one_drive_in_two_words_are_one(
 @pytest.mark.sample(2)
 @pytest.mark.parametrize("name", ["rubbed weight", "spring"])
 def test_the_fastest_cycle_is_one(name: str) -> None:
-    def fastest(drive: Any) -> Any:  # noqa: ANN401 - either way of saying it
+    def fastest(drive: Any) -> Any:
         return Cycle(CAM, speed="60 rpm", drive=drive, limits={"force": "120 N"}).fastest()
 
     first, second = fastest(ENTRIES[name]), fastest(mechanism(name))

@@ -59,7 +59,7 @@ def test_no_law_of_the_whole_cycle_is_better_than_the_decoupled_ones() -> None:
     ]
     bends = [shape.deriv(2)(k) for shape in powers]
 
-    def cost(x: Any) -> float:  # noqa: ANN401 - an array
+    def cost(x: Any) -> float:
         both = (base + np.tensordot(half, bends, 1) for half in (x[:4], x[4:]))
         squares = [np.trapezoid(one**2, k) for one in both]
         return float((0.035 / 0.1**2) ** 2 * 0.1 * squares[0] + (0.035 / 0.2**2) ** 2 * 0.2 * squares[1]) / 0.3

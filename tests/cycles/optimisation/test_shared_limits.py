@@ -31,7 +31,7 @@ MOVES = (Rise("90 deg", "0.2 s"), Dwell("0.3 s"), Return(duration="0.3 s"), Dwel
 WAYS = (Free("90 deg", "0.2 s"), Free("30 deg", "0.2 s"), Free("-120 deg"))
 
 
-def cycle(segments: Any = MOVES, **others: Any) -> Cycle:  # noqa: ANN401 - whatever a cycle takes
+def cycle(segments: Any = MOVES, **others: Any) -> Cycle:
     given: dict[str, Any] = {"period": "1 s", "drive": MOTOR, "degree": 7} | others
     return Cycle(list(segments), **given)
 

@@ -173,7 +173,7 @@ def test_search_ranks(text: str, first: list[str]) -> None:
         (3, "the name of a law is text, got 3"),
     ],
 )
-def test_unknown_names_are_refused_like_keys(name: Any, message: str) -> None:  # noqa: ANN401
+def test_unknown_names_are_refused_like_keys(name: Any, message: str) -> None:
     for error in (InputError, KeyError):
         with pytest.raises(error) as raised:
             catalogue[name]

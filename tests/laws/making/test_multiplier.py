@@ -50,7 +50,7 @@ MULTIPLIERS: dict[str, Any] = {
 }
 
 
-def stroke(law: MotionLaw, y: Any) -> float:  # noqa: ANN401
+def stroke(law: MotionLaw, y: Any) -> float:
     """The stroke of c y from rest, by quadrature piece by piece."""
     breaks = law.breaks if isinstance(law, PiecewiseLaw) else (0.0, 1.0)
     total = 0.0
@@ -66,7 +66,7 @@ def stroke(law: MotionLaw, y: Any) -> float:  # noqa: ANN401
 @pytest.mark.sample(2)
 @pytest.mark.parametrize("law", LAWS.values(), ids=LAWS.keys())
 @pytest.mark.parametrize(("y", "values"), MULTIPLIERS.values(), ids=MULTIPLIERS.keys())
-def test_acceleration_is_the_product_and_the_stroke_stays(law: MotionLaw, y: Any, values: Any) -> None:  # noqa: ANN401
+def test_acceleration_is_the_product_and_the_stroke_stays(law: MotionLaw, y: Any, values: Any) -> None:
     product = multiplied_law(law, y)
     scale = (1.0 - law.b(0.0)) / stroke(law, values)
     assert product.c(K) == pytest.approx(scale * law.c(K) * values(K), abs=5e-13 * product.peak(2).value)
@@ -140,7 +140,7 @@ def test_area_wanders_to_where_y_is_large() -> None:
         (3, "y must be a sequence"),
     ],
 )
-def test_wrong_multipliers_are_refused(y: Any, message: str) -> None:  # noqa: ANN401
+def test_wrong_multipliers_are_refused(y: Any, message: str) -> None:
     for law in (smoothstep(3), scca(0.25, 0.5, 0.25)):
         with pytest.raises(InputError, match=message):
             multiplied_law(law, y)

@@ -145,6 +145,6 @@ def test_other_smooth_laws_become_polynomials() -> None:
 
 
 @pytest.mark.parametrize("b0", [None, "1", float("nan")])
-def test_wrong_velocities_are_refused(b0: Any) -> None:  # noqa: ANN401
+def test_wrong_velocities_are_refused(b0: Any) -> None:
     with pytest.raises(InputError, match="b0"):
         with_end_velocity(smoothstep(3), b0)

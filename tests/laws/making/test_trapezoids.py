@@ -136,6 +136,6 @@ def test_codes_have_one_form() -> None:
         (lambda: coded("K"), "mmnn, mmnn"),
     ],
 )
-def test_wrong_shapes_are_refused(make: Any, message: str) -> None:  # noqa: ANN401
+def test_wrong_shapes_are_refused(make: Any, message: str) -> None:
     with pytest.raises(InputError, match=message):
         make()

@@ -224,13 +224,13 @@ def test_a_new_kind_of_segment_is_one_class() -> None:
 @pytest.mark.parametrize(
     "breaks", [[0], [], [0, 0.5], [0.1, 1], [0, 0.5, 0.5, 1], [0, 0.7, 0.3, 1], [0, nan, 1], ["0", 1], None]
 )
-def test_wrong_breaks_are_refused(breaks: Any) -> None:  # noqa: ANN401
+def test_wrong_breaks_are_refused(breaks: Any) -> None:
     with pytest.raises(InputError, match="breaks"):
         PiecewiseLaw(breaks, [PolynomialSegment(())] * 2)
 
 
 @pytest.mark.parametrize("segments", [[], [PolynomialSegment(())], [1, 2], None, [PolynomialSegment] * 2])
-def test_wrong_segments_are_refused(segments: Any) -> None:  # noqa: ANN401
+def test_wrong_segments_are_refused(segments: Any) -> None:
     with pytest.raises(InputError, match="segments must be 2 segments"):
         PiecewiseLaw([0, 0.5, 1], segments)
 
@@ -254,7 +254,7 @@ def test_wrong_segments_are_refused(segments: Any) -> None:  # noqa: ANN401
         (lambda: PiecewiseLaw([0, 1], [PowerSegment(1, 1)], nan), "a0"),
     ],
 )
-def test_wrong_contents_are_refused(make: Any, message: str) -> None:  # noqa: ANN401
+def test_wrong_contents_are_refused(make: Any, message: str) -> None:
     with pytest.raises(InputError, match=message):
         make()
 

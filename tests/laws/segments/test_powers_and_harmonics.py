@@ -124,6 +124,6 @@ def test_roots_of_sums_of_powers_are_all_found(roots: list[float], stretch: floa
         (lambda: HarmonicSegment((), (), ()), "as many amplitudes"),
     ],
 )
-def test_wrong_contents_are_refused(make: Any, message: str) -> None:  # noqa: ANN401
+def test_wrong_contents_are_refused(make: Any, message: str) -> None:
     with pytest.raises(InputError, match=message):
         make()

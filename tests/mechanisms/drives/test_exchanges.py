@@ -36,7 +36,7 @@ ENTRIES: dict[str, Any] = {"order": 3, "symmetric": False, "monotone": True}
 K = np.linspace(0.0, 1.0, 20001)
 
 
-def torque(law: Any, drive: Drive = LIFT) -> Any:  # noqa: ANN401 - N m at places k, written out by hand
+def torque(law: Any, drive: Drive = LIFT) -> Any:
     v, w = 10.0 / 0.3 * law(K, 1), 10.0 / 0.09 * law(K, 2)
     load = 8.0 * 0.03**2 * w + 0.02 * v + 8.0 * 9.80665 * 0.03
     return 3e-4 * drive.ratio * w + load / drive.ratio
@@ -93,7 +93,7 @@ def test_gear_ratios_are_an_array() -> None:
 
 @pytest.mark.long
 def test_lengths_of_a_crank_and_ratios_are_a_study(tmp_path: Path) -> None:
-    def moved(crank: str) -> Any:  # noqa: ANN401
+    def moved(crank: str) -> Any:
         press = slider_crank(crank, "0.4 m", bodies={"crank": "0.02 kg m^2", "slider": "5 kg"})
         return press.dimensionless("0 deg", "180 deg", "0.3 s")
 

@@ -139,7 +139,7 @@ LAWS = [
 
 
 @pytest.mark.parametrize("law", LAWS, ids=repr)
-def test_no_known_law_beats_a_limit(law: Any) -> None:  # noqa: ANN401
+def test_no_known_law_beats_a_limit(law: Any) -> None:
     constants = law.constants
     B = constants.B.value
     assert law.b(0.5) == pytest.approx(B, rel=1e-9)
@@ -183,7 +183,7 @@ def test_what_may_go_back_is_no_worse_and_better_where_it_does() -> None:
 
 @pytest.mark.parametrize("B", [1.0, 0.5, -2.0, nan, inf, "2", True, [2.0], 2j])
 @pytest.mark.parametrize("constant", ["C", "D", "J", "RMS"])
-def test_a_peak_velocity_that_makes_no_sense_is_refused(constant: str, B: Any) -> None:  # noqa: ANN401
+def test_a_peak_velocity_that_makes_no_sense_is_refused(constant: str, B: Any) -> None:
     with pytest.raises(InputError, match="B must be a finite number above 1"):
         limit(constant, B)
     with pytest.raises(InputError, match="B must be a finite number above 1"):

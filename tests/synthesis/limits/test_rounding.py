@@ -30,7 +30,7 @@ NEAR = [1.0 + 2.0**-40, 1.1, 1.5 - 2e-9, 1.5, 1.5 + 2.0**-52, 1.5 + 1e-7, 2.0, 2
 VELOCITIES = [*NEAR, *(1.0 + GENERATOR.exponential(1.0, 40)).tolist()]
 
 
-def _root(cubic: Any, low: Any, high: Any) -> mpmath.mpf:  # noqa: ANN401
+def _root(cubic: Any, low: Any, high: Any) -> mpmath.mpf:
     """By halving; the cubic changes its sign once between the two."""
     low, high = mpmath.mpf(low), mpmath.mpf(high)
     rising = cubic(high) > 0

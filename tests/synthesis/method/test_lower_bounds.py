@@ -30,7 +30,7 @@ pytestmark = pytest.mark.filterwarnings("ignore::optlaws.errors.NotNormalised")
 @pytest.mark.sample(3)
 @pytest.mark.parametrize("order", [2, 3, 4])
 @pytest.mark.parametrize("B", [None, 1.8, at_least(1.5)], ids=repr)
-def test_the_least_c_of_at_least_6_is_6(order: int, B: Any) -> None:  # noqa: ANN401
+def test_the_least_c_of_at_least_6_is_6(order: int, B: Any) -> None:
     solution = synthesize(Problem(B=B, C=at_least(6), order=order))
     judge(solution)
     assert solution.status.value == "optimal"
@@ -89,7 +89,7 @@ def test_a_power_given_exactly_is_reached_by_unsymmetric_laws(minimise: str, val
 @pytest.mark.sample(4)
 @pytest.mark.parametrize("basis", [Bernstein(9), Pieces(8, 6, 4)], ids=repr)
 @pytest.mark.parametrize("name", ["C", "J"])
-def test_in_other_bases_too(basis: Any, name: str) -> None:  # noqa: ANN401
+def test_in_other_bases_too(basis: Any, name: str) -> None:
     free = synthesize(Problem(B=1.7, order=3, minimise="rms_c", basis=basis))
     own = Judged(free.law).constant(name)
     solution = synthesize(replace(free.problem, bounds={name: at_least(1.1 * own)}))

@@ -103,10 +103,10 @@ def test_constants_of_ones_own_are_bounded_too() -> None:
     class Snap(Functional):
         """Peak of the fourth derivative."""
 
-        def value(self, law: Any) -> float:  # noqa: ANN401
+        def value(self, law: Any) -> float:
             return float(law.peak(4).value)
 
-        def families(self, space: Any, slack: Any, bound: float) -> Any:  # noqa: ANN401
+        def families(self, space: Any, slack: Any, bound: float) -> Any:
             return (space.derivative(4, self.name, slack, bound),)
 
     own_snap = Snap("own_snap", np.nan, convex=True)
@@ -160,7 +160,7 @@ def test_b_c_d_and_j_have_entries_of_their_own() -> None:
         ({"rms_c": -1}, "at least 0"),
     ],
 )
-def test_bounds_that_make_no_sense_are_refused(bounds: Any, text: str) -> None:  # noqa: ANN401
+def test_bounds_that_make_no_sense_are_refused(bounds: Any, text: str) -> None:
     with pytest.raises(InputError, match=text):
         problem(bounds=bounds)
 

@@ -163,7 +163,7 @@ def test_a_problem_from_wrong_data_is_refused(data: dict[str, Any], message: str
 
 
 @pytest.mark.parametrize("wrong", [None, 1.641, {"B": 1.641, "order": 4}, "Problem(B=1.641, order=4)", Problem])
-def test_what_is_no_problem_is_refused(wrong: Any) -> None:  # noqa: ANN401
+def test_what_is_no_problem_is_refused(wrong: Any) -> None:
     with pytest.raises(InputError, match="synthesize takes a Problem"):
         synthesize(wrong)
     with pytest.raises(InputError, match="synthesize takes a Problem"):
@@ -171,7 +171,7 @@ def test_what_is_no_problem_is_refused(wrong: Any) -> None:  # noqa: ANN401
 
 
 @pytest.mark.parametrize("wrong", [1.641, {}, "a solution", problem()])
-def test_a_start_that_is_no_solution_is_refused(wrong: Any) -> None:  # noqa: ANN401
+def test_a_start_that_is_no_solution_is_refused(wrong: Any) -> None:
     with pytest.raises(InputError, match="start"):
         synthesize(problem(), start=wrong)
 

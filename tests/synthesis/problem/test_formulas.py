@@ -78,7 +78,7 @@ def test_convex_ones_are_proven_and_verified(text: str) -> None:
         assert verify(json.loads(json.dumps(solution.to_dict()))).proven
 
 
-def _last(z: Any) -> float:  # noqa: ANN401 - what scipy gives
+def _last(z: Any) -> float:
     return float(z[-1])
 
 
@@ -93,7 +93,7 @@ def gridded(text: str, degree: int, count: int) -> float:
     columns["a"][k > 0.5, -1] += 1.0
     middle = space.row(1, 0.5)
 
-    def values(z: Any) -> Any:  # noqa: ANN401 - coordinates, then the bound
+    def values(z: Any) -> Any:
         point = np.append(z[:-1], 1.0)
         return constant.motion.values({"k": k, **{name: rows @ point for name, rows in columns.items()}})
 
@@ -303,7 +303,7 @@ def test_a_function_writes_its_formula_down() -> None:
         (lambda c: c > 0, "an operation that formulas do not have"),
     ],
 )
-def test_a_function_that_writes_no_formula_is_refused(function: Any, message: str) -> None:  # noqa: ANN401
+def test_a_function_that_writes_no_formula_is_refused(function: Any, message: str) -> None:
     with pytest.raises(InputError, match=message):
         functional(function)
 

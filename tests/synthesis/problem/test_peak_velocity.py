@@ -42,7 +42,7 @@ ENDS = [
 @pytest.mark.sample(12)
 @pytest.mark.parametrize("minimise", ["C", "rms_c", "J", "max(C_plus, C_minus/2)"])
 @pytest.mark.parametrize("ends", ENDS, ids=str)
-def test_b_is_greatest_at_the_inflexion_whatever_its_sign(ends: Any, minimise: str) -> None:  # noqa: ANN401
+def test_b_is_greatest_at_the_inflexion_whatever_its_sign(ends: Any, minimise: str) -> None:
     for inflexion in (0.36, 0.7):
         problem = Problem(
             boundary=BoundaryConditions(*ends),
@@ -148,7 +148,7 @@ RANGES = [None, at_most(1.7), at_least(1.75), between(1.3, 1.8), 1.65]
 @pytest.mark.sample(12)
 @pytest.mark.parametrize("B", RANGES, ids=repr)
 @pytest.mark.parametrize("given", [{}, {"monotone": True}, {"symmetric": False}], ids=str)
-def test_no_law_that_keeps_the_conditions_is_better_than_what_is_proven(B: Any, given: dict[str, Any]) -> None:  # noqa: ANN401
+def test_no_law_that_keeps_the_conditions_is_better_than_what_is_proven(B: Any, given: dict[str, Any]) -> None:
     problem = Problem(**{"B": B, "order": 3, "basis": Chebyshev(7), **given})
     best = synthesize(problem)
     # optima of other objectives keep the conditions, and so do their means, for these are convex
@@ -162,7 +162,7 @@ def test_no_law_that_keeps_the_conditions_is_better_than_what_is_proven(B: Any, 
         assert law.peak(2).value >= best.lower_bound
 
 
-def _mean(laws: list[Any], weights: Any) -> PolynomialLaw:  # noqa: ANN401
+def _mean(laws: list[Any], weights: Any) -> PolynomialLaw:
     """The law from rest whose c is the weighted mean."""
     series = np.zeros(max(len(law.acceleration) for law in laws))
     for law, weight in zip(laws, weights, strict=True):

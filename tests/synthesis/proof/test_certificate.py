@@ -418,7 +418,7 @@ def test_data_that_is_no_certificate_is_refused(change: Callable[[dict[str, Any]
 
 
 @pytest.mark.parametrize("data", [None, 3, "certificate", [], {}])
-def test_what_is_no_table_is_no_certificate(data: Any) -> None:  # noqa: ANN401
+def test_what_is_no_table_is_no_certificate(data: Any) -> None:
     with pytest.raises(InputError, match="not a certificate"):
         Certificate.from_dict(data)
 
@@ -494,7 +494,7 @@ HUGE = 10**400
 JUNK = [HUGE, -HUGE, "a", None, [], {}, [[1.0]], {"k": 1.0}, float("nan"), float("inf"), True]
 
 
-def _places(data: Any, path: tuple[Any, ...] = ()) -> Iterator[tuple[Any, ...]]:  # noqa: ANN401 - JSON
+def _places(data: Any, path: tuple[Any, ...] = ()) -> Iterator[tuple[Any, ...]]:
     for key, value in data.items() if isinstance(data, dict) else enumerate(data) if isinstance(data, list) else ():
         yield (*path, key)
         yield from _places(value, (*path, key))

@@ -288,7 +288,7 @@ def test_what_constants_are_at_least_where_the_velocity_changes(minimise: str, l
         lambda _: Leaf(claim=float("nan")),
     ],
 )
-def test_what_is_neither_a_leaf_nor_a_tree_with_a_claim_is_refused(made: Any) -> None:  # noqa: ANN401
+def test_what_is_neither_a_leaf_nor_a_tree_with_a_claim_is_refused(made: Any) -> None:
     with pytest.raises(InputError):
         made(small())
 

@@ -143,7 +143,7 @@ def narrowest(certificate: Certificate) -> int:
         ),
     ],
 )
-def test_a_leaf_that_says_too_little_is_refused(certificate: Certificate, change: Any) -> None:  # noqa: ANN401
+def test_a_leaf_that_says_too_little_is_refused(certificate: Certificate, change: Any) -> None:
     i = leaves_of(certificate)[narrowest(certificate)]
     tree = (*certificate.tree[:i], change(certificate.tree[i]), *certificate.tree[i + 1 :])
     assert not replace(certificate, tree=tree).proven
@@ -171,7 +171,7 @@ def test_what_is_asked_of_another_problem_is_not_proven(certificate: Certificate
 
 
 @pytest.mark.parametrize("nu_and_k", [(B, 0.3), (J, 0.0), (J, 0.11)], ids=repr)
-def test_values_and_peaks_of_laws_below_the_claim_are_within_the_bounds(nu_and_k: Any) -> None:  # noqa: ANN401
+def test_values_and_peaks_of_laws_below_the_claim_are_within_the_bounds(nu_and_k: Any) -> None:
     peak, k = nu_and_k
     problem = Problem(order=3, basis=Chebyshev(7), minimise="rms_c", bounds={peak: at_least(2.0)})
     best = synthesize(Problem(order=3, basis=Chebyshev(7), minimise="rms_c"))

@@ -125,7 +125,7 @@ def test_unless_given_a_front_lies_where_it_pays() -> None:
         ("a problem", {}, "proven_front takes a Problem, got str"),
     ],
 )
-def test_what_is_not_convex_or_no_range_is_said(problem: Any, options: dict[str, Any], message: str) -> None:  # noqa: ANN401
+def test_what_is_not_convex_or_no_range_is_said(problem: Any, options: dict[str, Any], message: str) -> None:
     with pytest.raises(InputError, match=message):
         proven_front(problem, **{"between": (1.5, 1.7), "gap": 1e-3, **options})
 

@@ -37,7 +37,7 @@ FORMULAS = (
 HEIGHT = [0, 0, 0, 10, -15, 6]
 
 
-def _derivatives(k: Any) -> dict[str, Any]:  # noqa: ANN401 - mpmath has no types
+def _derivatives(k: Any) -> dict[str, Any]:
     found, coefficients = {}, list(HEIGHT)
     for name in "abcj":
         found[name] = horner(coefficients, k)
@@ -45,12 +45,12 @@ def _derivatives(k: Any) -> dict[str, Any]:  # noqa: ANN401 - mpmath has no type
     return found
 
 
-def _table(table: Table, at: Any) -> Any:  # noqa: ANN401 - mpmath has no types
+def _table(table: Table, at: Any) -> Any:
     row = max((i for i, x in enumerate(table.places[:-1]) if at >= x), default=0)
     return horner([mp.mpf(value) for value in pieces(table)[row].tolist()], at - table.places[row])
 
 
-def along(formula: Formula, k: Any) -> Any:  # noqa: ANN401 - mpmath has no types
+def along(formula: Formula, k: Any) -> Any:
     """The value of a formula along smoothstep(3)."""
     return evaluate(formula, {**_derivatives(k), "k": k}, replace(MPMATH, table=_table))
 

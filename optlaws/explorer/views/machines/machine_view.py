@@ -361,7 +361,7 @@ def _end_velocities(shown: Cycle, start: float, duration: float) -> list[float]:
     return [first, last]
 
 
-def _limit(drive: Mechanism | Drive, name: Any, move: tuple[float, float, float]) -> float | None:  # noqa: ANN401
+def _limit(drive: Mechanism | Drive, name: Any, move: tuple[float, float, float]) -> float | None:
     """The infimum of a move; None where it is unknown, or the motor is too weak for any law."""
     try:
         least = drive.limit(name, *move).value

@@ -138,7 +138,7 @@ def optimum_on_points(program: Program, points: list[Points], near: Array | None
 
 def conic_optimum(
     curvature: Array, cost: Array, rows: Array, right: Array, cones: list[Any], *, tolerance: float
-) -> Any:  # noqa: ANN401 - Clarabel's, imported late
+) -> Any:
     """The least x . curvature . x / 2 + cost . x with right - rows . x in cones, by Clarabel; None if it fails."""
     import clarabel
     from scipy import sparse

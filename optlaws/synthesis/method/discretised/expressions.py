@@ -31,7 +31,7 @@ def _product_numbers(family: ProductFamily, points: Points) -> list[Array]:
     return [first * points.s[:, None], second, family.slack[None]]
 
 
-def _product(point: Any, symbols: list[Any], _: Hashable) -> Any:  # noqa: ANN401 - casadi's, imported late
+def _product(point: Any, symbols: list[Any], _: Hashable) -> Any:
     return (symbols[0] @ point) * (symbols[1] @ point)
 
 
@@ -40,7 +40,7 @@ def _cone_numbers(family: ConeFamily, points: Points) -> list[Array]:
     return [columns.real, columns.imag, np.tile(right, (len(points.u), 1)), np.zeros((1, len(family.slack)))]
 
 
-def _cone(point: Any, symbols: list[Any], _: Hashable) -> Any:  # noqa: ANN401
+def _cone(point: Any, symbols: list[Any], _: Hashable) -> Any:
     # |p| <= r as |p|²/r <= r: convex as well, and smooth where p vanishes
     real, imaginary, right = (symbol @ point for symbol in symbols)
     return (real**2 + imaginary**2) / right - right
@@ -50,7 +50,7 @@ def _norm_numbers(family: NormFamily, _: Points) -> list[Array]:
     return [family.matrix, family.slack[None]]
 
 
-def _norm(point: Any, symbols: list[Any], _: Hashable) -> Any:  # noqa: ANN401
+def _norm(point: Any, symbols: list[Any], _: Hashable) -> Any:
     import casadi as ca
 
     return ca.sqrt(ca.sumsqr(symbols[0] @ point) + _SMOOTH_NORM)
@@ -70,13 +70,13 @@ def _energy_detail(family: EnergyFamily) -> Hashable:
     return len(family.factors), family.degree, family.divided
 
 
-def _energy(point: Any, symbols: list[Any], detail: Any) -> Any:  # noqa: ANN401
+def _energy(point: Any, symbols: list[Any], detail: Any) -> Any:
     import casadi as ca
 
     *parts, below, above = symbols
     factors, degree, divided = detail
 
-    def root(first: Any, second: Any) -> Any:  # noqa: ANN401
+    def root(first: Any, second: Any) -> Any:
         top = second @ point
         return ca.sqrt(ca.fmax((first @ point) * top, LEAST_ENERGY * top**2))
 
@@ -87,14 +87,14 @@ def _energy(point: Any, symbols: list[Any], detail: Any) -> Any:  # noqa: ANN401
     return product / root(*parts[factors:]) if divided else product
 
 
-def _formula_numbers(family: Any, points: Points) -> list[Array]:  # noqa: ANN401 - at places or integrated
+def _formula_numbers(family: Any, points: Points) -> list[Array]:
     """The columns of each name, the places, and their signs or weights."""
     if isinstance(family, IntegralFamily):
         return [*family.columns, family.places[:, None], family.weights[:, None], family.slack[None]]
     return [*family.columns(points.u)[:, 0], family.k(points.u)[:, None], points.s[:, None], family.slack[None]]
 
 
-def _formula_detail(family: Any) -> Hashable:  # noqa: ANN401
+def _formula_detail(family: Any) -> Hashable:
     """The formula, its names, whether it is summed over its places, and whether the root of that is meant."""
     if not isinstance(family, IntegralFamily):
         return family.formula, family.names, False, False
@@ -102,7 +102,7 @@ def _formula_detail(family: Any) -> Hashable:  # noqa: ANN401
     return formula, family.names, True, family.root
 
 
-def _formula(point: Any, symbols: list[Any], detail: Any) -> Any:  # noqa: ANN401
+def _formula(point: Any, symbols: list[Any], detail: Any) -> Any:
     import casadi as ca
 
     *columns, k, weights = symbols
@@ -172,7 +172,7 @@ class RowShape:
 
         return [ca.MX.sym("numbers", *size) for size in self.sizes]
 
-    def expression(self, x: Any, symbols: list[Any]) -> Any:  # noqa: ANN401 - casadi's
+    def expression(self, x: Any, symbols: list[Any]) -> Any:
         """The rows with their right sides subtracted."""
         import casadi as ca
 

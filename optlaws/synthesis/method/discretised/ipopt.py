@@ -177,7 +177,7 @@ def _solved(shape: _Shapes, **numbers: Array) -> _Result:
     return answer
 
 
-def _solver(shape: _Shapes) -> Any:  # noqa: ANN401 - a casadi Function, imported late
+def _solver(shape: _Shapes) -> Any:
     """The solver of a shape; recent solvers are cached up to a limit of rows. The caller must hold the lock."""
     solver = _solvers.pop(shape, None)
     if solver is None:
@@ -191,7 +191,7 @@ def _solver(shape: _Shapes) -> Any:  # noqa: ANN401 - a casadi Function, importe
     return solver
 
 
-def _build(shapes: _Shapes) -> Any:  # noqa: ANN401 - a casadi Function, imported late
+def _build(shapes: _Shapes) -> Any:
     import casadi as ca
 
     size, linear = shapes.size, shapes.linear

@@ -202,7 +202,7 @@ def by_family(values: Array, points: list[Points]) -> list[Array]:
     return np.split(values, np.cumsum([len(grid.u) for grid in points])[:-1])
 
 
-def _answer(table: LinearTable, points: list[Points], x: Array, optimum: Any) -> Answer:  # noqa: ANN401 - scipy's OptimizeResult
+def _answer(table: LinearTable, points: list[Points], x: Array, optimum: Any) -> Answer:
     weights = np.maximum(-optimum.ineqlin.marginals, 0.0) / table.length
     equations = -np.asarray(optimum.eqlin.marginals, dtype=np.float64) / table.equation_length
     status = str(optimum.message)

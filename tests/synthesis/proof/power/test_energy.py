@@ -58,7 +58,7 @@ def _pairs() -> np.ndarray:
     return np.column_stack([np.arange(CELLS), np.arange(1, CELLS + 1)]).ravel()
 
 
-def _wide(block: Any, n: int, size: int) -> Any:  # noqa: ANN401 - a sparse array
+def _wide(block: Any, n: int, size: int) -> Any:
     parts = block.tocsc()
     return bmat([[parts[:, :n], csr_array((CELLS, size - n - 1)), parts[:, n:]]])
 
