@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
+from heapq import heappop, heappush
 from itertools import pairwise
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -14,8 +15,7 @@ from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.laws.catalogue.reading import points_of
 from optlaws.motion.quantities import TURN, positive_quantity
-from optlaws.numbers import Quantity, numbers, whole
-from optlaws.tolerances import SAME_FREQUENCY
+from optlaws.numbers import Array, Quantity, numbers, whole
 
 #: points of a weight: each interval between two is a constraint of its own
 MOST_POINTS = 65
@@ -122,16 +122,16 @@ def parts_of(spectrum: Spectrum) -> tuple[WeightPart, ...]:
 
 
 def above(frequency: Any, amplitude: Any, points: int = _FROM_FILE) -> Spectrum:
-    """A spectrum of fewer points that is nowhere below the original.
+    """A spectrum of fewer points that is nowhere below the original, and as little above it as these points allow.
 
-    At each point stands the greatest amplitude of the two intervals beside it: what is linear between is above all.
+    The points stand where the original bends most; a linear program finds the least amplitudes there.
 
     Parameters
     ----------
     frequency, amplitude
         Shapes (n,), the frequencies increasing.
     points
-        How many, evenly spaced.
+        How many.
 
     Raises
     ------
@@ -141,7 +141,7 @@ def above(frequency: Any, amplitude: Any, points: int = _FROM_FILE) -> Spectrum:
     Examples
     --------
     >>> above([1, 2, 3, 4, 5], [0, 0, 1, 0, 0], 3)
-    ((1.0, 1.0), (3.0, 1.0), (5.0, 1.0))
+    ((1.0, 0.0), (3.0, 1.0), (5.0, 0.0))
     """
     count = whole(points, "points", least=2, most=MOST_POINTS)
     nu, sizes = _columns(list(zip(np.ravel(frequency).tolist(), np.ravel(amplitude).tolist(), strict=True)))
@@ -149,12 +149,59 @@ def above(frequency: Any, amplitude: Any, points: int = _FROM_FILE) -> Spectrum:
         raise InputError(f"a spectrum has two frequencies at least, increasing, got {shortened(nu.tolist())}")
     if len(nu) <= count:
         return tuple(zip(nu.tolist(), sizes.tolist(), strict=True))
-    places = np.linspace(nu[0], nu[-1], count)
-    known = np.unique(np.concatenate([nu, places]))
-    values = np.interp(known, nu, sizes)
-    step = places[1] - places[0]
-    tops = [values[np.abs(known - place) <= step * (1.0 + SAME_FREQUENCY)].max() for place in places]
-    return tuple(zip(places.tolist(), map(float, tops), strict=True))
+    places = _bends(nu, sizes, count)
+    return tuple(zip(nu[places].tolist(), _least_above(nu, sizes, places).tolist(), strict=True))
+
+
+def excess(measured: Sequence[tuple[float, float]], covered: Spectrum) -> float:
+    """By which share of its greatest amplitude a spectrum that covers a measured one is above it at most.
+
+    >>> excess([(1.0, 0.0), (2.0, 0.0), (3.0, 1.0)], ((1.0, 0.0), (3.0, 1.0)))
+    0.5
+    """
+    nu, sizes = np.array(measured).T
+    return float((np.interp(nu, *np.array(covered).T) - sizes).max() / sizes.max())
+
+
+def _bends(frequencies: Array, sizes: Array, count: int) -> Array:
+    """The indices of so many points, the ends among them: each where the original is furthest from the lines."""
+
+    def furthest(first: int, last: int) -> tuple[float, int, int, int]:
+        inner = slice(first + 1, last)
+        line = np.interp(frequencies[inner], frequencies[[first, last]], sizes[[first, last]])
+        off = np.abs(sizes[inner] - line)
+        at = int(np.argmax(off)) if last - first > 1 else 0
+        return (-float(off[at]) if last - first > 1 else 0.0), first, first + 1 + at, last
+
+    chosen, spans = {0, len(frequencies) - 1}, [furthest(0, len(frequencies) - 1)]
+    while len(chosen) < count and spans[0][0] < 0.0:
+        _, first, middle, last = heappop(spans)
+        chosen.add(middle)
+        for part in ((first, middle), (middle, last)):
+            heappush(spans, furthest(*part))
+    return np.array(sorted(chosen))
+
+
+def _least_above(frequencies: Array, sizes: Array, places: Array) -> Array:
+    """The amplitudes of least sum at some of the points whose lines are nowhere below the original."""
+    from scipy.optimize import linprog
+    from scipy.sparse import csr_array
+
+    beside = np.clip(np.searchsorted(places, np.arange(len(frequencies)), side="right") - 1, 0, len(places) - 2)
+    share = (frequencies - frequencies[places[beside]]) / (
+        frequencies[places[beside + 1]] - frequencies[places[beside]]
+    )
+    rows = np.arange(len(frequencies))
+    parts = np.concatenate([1.0 - share, share]), (np.tile(rows, 2), np.concatenate([beside, beside + 1]))
+    rows_of_lines: Any = -csr_array(parts)
+    top = float(sizes.max())
+    if top == 0.0:
+        return np.zeros(len(places))
+    solved = linprog(np.ones(len(places)), A_ub=rows_of_lines, b_ub=-sizes / top, bounds=(0.0, None))
+    values = np.full(len(places), top) if solved.x is None else top * solved.x
+    # what the program leaves open for its tolerance
+    short = float((sizes - ((1.0 - share) * values[beside] + share * values[beside + 1])).max())
+    return np.asarray(values + max(short, 0.0))
 
 
 def read_spectrum(

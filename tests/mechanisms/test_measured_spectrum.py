@@ -131,3 +131,20 @@ def test_damaged_lines_are_refused_with_their_file(line: int, tmp_path: Path) ->
         return
     with pytest.raises(InputError, match=rf"shaker\.csv, line {line + 1}: a point is two numbers"):
         read_spectrum(file)
+
+
+@pytest.mark.parametrize("points", [9, 33, 65])
+@pytest.mark.parametrize("size", [1e-12, 1.0, 1e9])
+def test_few_points_are_above_and_near_what_was_measured(points: int, size: float) -> None:
+    nu = np.linspace(5.0, 54.5, 400)
+    sizes = size / (1.0 + ((nu - 20.0) / 3.0) ** 2)
+    covered = above(nu, sizes, points)
+    assert len(covered) == points
+    over = np.interp(nu, *np.array(covered).T) - sizes
+    assert over.min() >= -1e-12 * size
+    assert over.max() <= 10.0 * size / points**2
+    law = synthesize(Problem(order=4, B=1.7)).law
+    dense = np.linspace(5.0, 54.5, 200_001)
+    known = (dense**2 * np.abs(residual_phasor(law, dense)) * np.interp(dense, nu, sizes)).max()
+    found = residual_vibration(spectrum=covered).value(law)
+    assert known * (1.0 - 1e-9) <= found <= known * (1.0 + 12.0 / points**2)

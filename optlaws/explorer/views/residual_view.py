@@ -12,7 +12,7 @@ from optlaws import residual_vibration, response_spectrum
 from optlaws.errors import InputError, OptlawsError
 from optlaws.explorer.views.law_view import digits, drawn
 from optlaws.explorer.views.requests import MOST_LAWS, LawRequest, Question, law_of
-from optlaws.mechanisms.measured_spectrum import MOST_POINTS, Spectrum, above, spectrum_of, weight_of
+from optlaws.mechanisms.measured_spectrum import MOST_POINTS, Spectrum, above, excess, spectrum_of, weight_of
 from optlaws.mechanisms.residual import Residual
 from optlaws.numbers import Array
 
@@ -111,10 +111,12 @@ def spectrum(request: SpectrumRequest) -> dict[str, Any]:
         raise InputError("the frequencies of a spectrum increase from line to line: sort the file by its first column")
     covered = spectrum_of(above(measured[:, 0], measured[:, 1]))
     weight = weight_of(covered, request.duration)
+    over = excess(request.pairs, covered)
+    stands = "" if len(covered) == len(measured) else f", by {len(covered)} at most {100.0 * over:.2g} % higher"
     return {
         "raw": [list(pair) for pair in covered],
         "pairs": [list(pair) for pair in weight],
-        "text": f"{len(measured)} points, nu {digits(weight[0][0], 4)} to {digits(weight[-1][0], 4)}",
+        "text": f"{len(measured)} points{stands}, nu {digits(weight[0][0], 4)} to {digits(weight[-1][0], 4)}",
     }
 
 
