@@ -67,6 +67,7 @@ from optlaws.mechanisms.linkages.entries import TableKind as TableKind
 from optlaws.mechanisms.linkages.four_bar import FourBarBranch as FourBarBranch
 from optlaws.mechanisms.linkages.mechanism import InputAxis as InputAxis
 from optlaws.mechanisms.linkages.mechanism import LinkGeometry as LinkGeometry
+from optlaws.mechanisms.linkages.move_limit import LimitedMove as LimitedMove
 from optlaws.mechanisms.machine.output_constants import OutputPeak as OutputPeak
 from optlaws.mechanisms.machine.output_constants import OutputRms as OutputRms
 from optlaws.mechanisms.machine.over_time import MachineCycle as MachineCycle
@@ -175,6 +176,7 @@ __all__ = [
     "LeastPrimeCircle",
     "LeastTime",
     "LimitTaken",
+    "LimitedMove",
     "LinkGeometry",
     "LoadPlace",
     "MachineAnswer",

@@ -1,5 +1,6 @@
 """Energy and heat over cycles: against quadrature of Lagrange's equations, closed forms and other laws."""
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -172,3 +173,25 @@ def test_a_limit_of_the_energy_is_shared() -> None:
     assert kept.lower_bound is not None
     assert free.objective < kept.objective
     assert free.objective * (1 - 1e-9) <= kept.lower_bound <= kept.objective
+
+
+@pytest.mark.parametrize("regeneration", [0.0, 0.5, 1.0])
+@pytest.mark.parametrize(
+    ("gravity", "dry", "size"), [(19.6, 5.0, 1.0), (-30.0, 2.0, 1.0), (19.6, 0.0, 1e-9), (0.0, 3.0, 1e6)]
+)
+def test_an_energy_is_at_least_the_work_of_its_load(
+    gravity: float, dry: float, size: float, regeneration: float
+) -> None:
+    """Of the work of the load no more than a share comes back, whatever the law: standard laws are above it too."""
+    drive: Any = {"mass": f"{2.0 * size!r} kg", "gravity": f"{gravity * size!r} N", "dry": f"{dry * size!r} N"}
+    drive |= {"regeneration": regeneration}
+    limits = {"acceleration": "60 m/s^2"}
+    moves: list[Any] = [Rise("35 mm", "120 deg"), Dwell("90 deg"), Return("35 mm", "100 deg"), Dwell()]
+    best = Cycle(moves, speed="200 rpm", minimise="energy", drive=drive, limits=limits, degree=5)
+    works = [size * 0.035 * (way * gravity + dry) for way in (1.0, -1.0)]
+    assert best.lower_bound is not None
+    assert best.lower_bound >= sum(max(work, regeneration * work) for work in works) * (1.0 - 1e-9) - 1e-12 * size
+    assert best.lower_bound <= best.objective + 1e-9 * size
+    for law in ("cycloidal", "modified sine", "simple harmonic"):
+        usual = [replace(move, law=law) if isinstance(move, Rise | Return) else move for move in moves]
+        assert best.lower_bound <= Cycle(usual, speed="200 rpm", drive=drive).effort.energy + 1e-9 * size

@@ -103,7 +103,9 @@ def _of_linear(span: LawSpan, drive: CycleDrive, stroke: float) -> SpanSum:
     """The energy of a linear drive."""
     force, unit = driven_formula(span, drive, stroke, FORCE)
     power = f"({force})*b" if stroke > 0.0 else f"(-({force}))*b"
-    return SpanSum(_without_recovered(power, drive.regeneration), unit * abs(stroke))
+    return SpanSum(
+        _without_recovered(power, drive.regeneration), unit * abs(stroke), least=_least_energy(span, drive, stroke)
+    )
 
 
 def _energy(span: LawSpan, drive: CycleDrive, stroke: float) -> SpanSum:
@@ -112,7 +114,15 @@ def _energy(span: LawSpan, drive: CycleDrive, stroke: float) -> SpanSum:
     branches = moved.branches if drive.loses else ()
     beneath = tuple(_without_recovered(f"({branch})*b", drive.regeneration) for branch in branches)
     energy = moved.energy if branches else _without_recovered(moved.power, drive.regeneration)
-    return SpanSum(energy, moved.energy_unit, beneath=beneath)
+    return SpanSum(energy, moved.energy_unit, beneath=beneath, least=_least_energy(span, drive, stroke))
+
+
+def _least_energy(span: LawSpan, drive: CycleDrive, stroke: float) -> float:
+    """What the energy of a span is at least, J: the work along its stroke, of which no more than a share comes back."""
+    if drive.process is not None:
+        return -inf
+    work = _work(span, drive, stroke)
+    return max(work, drive.regeneration * work)
 
 
 def _without_recovered(power: str, regeneration: float) -> str:
@@ -135,16 +145,19 @@ def _heat(span: LawSpan, drive: CycleDrive, stroke: float) -> SpanSum:
     if drive.process is not None or drive.loses or drive.mechanism.viscous or source.train.viscous:
         return SpanSum(moved.heat, moved.energy_unit, beneath=beneath, least=0.0)
     formula = f"{squared[0]} + {burnt!r}*max({moved.power}, 0)"
-    return SpanSum(formula, moved.energy_unit, -burnt * _work(span, drive, source, stroke), least=0.0)
+    return SpanSum(formula, moved.energy_unit, -burnt * _work(span, drive, stroke), least=0.0)
 
 
-def _work(span: LawSpan, drive: CycleDrive, source: Drive, stroke: float) -> float:
-    """The work of a motor along a span's stroke without viscous friction, J: whatever the law."""
+def _work(span: LawSpan, drive: CycleDrive, stroke: float) -> float:
+    """The work along a span's stroke without viscous friction, J: whatever the law."""
     mechanism, ends = drive.mechanism, (span.origin, span.origin + stroke)
+    ratio, inertia, coulomb = 1.0, 0.0, 0.0
+    if isinstance(drive.source, Drive):
+        ratio, inertia, coulomb = drive.source.ratio, drive.source.train.inertia, drive.source.train.coulomb
     load = SmoothParts.between(*sorted(ends)).integral(mechanism.load) * (1.0 if stroke > 0.0 else -1.0)
     kinetic = [
-        0.5 * (mechanism.inertia(x) + source.ratio**2 * source.train.inertia) * state.velocity**2
+        0.5 * (mechanism.inertia(x) + ratio**2 * inertia) * state.velocity**2
         for x, state in zip(ends, (span.first, span.last), strict=True)
     ]
-    rubbed = (mechanism.coulomb + source.ratio * source.train.coulomb) * abs(stroke)
+    rubbed = (mechanism.coulomb + ratio * coulomb) * abs(stroke)
     return float(load + rubbed + kinetic[1] - kinetic[0])
