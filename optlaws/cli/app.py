@@ -16,6 +16,7 @@ from cyclopts import App, CycloptsError, Parameter
 from optlaws.echo import cut
 from optlaws.errors import InfeasibleProblem, InputError, OptlawsError
 
+PARTLY_CHECKED = 3
 NOT_PROVEN, BAD_INPUT, INFEASIBLE, SOLVER_FAILURE, INTERRUPTED = 1, 2, 3, 4, 130
 
 #: the files of the commands by their names, imported when one runs
@@ -77,6 +78,16 @@ class NotProven(OptlawsError):  # noqa: N818
     """
 
 
+class PartlyChecked(OptlawsError):  # noqa: N818
+    """Nothing of a file is false, and some of it was only computed again in doubles; the message names that.
+
+    Examples
+    --------
+    >>> issubclass(PartlyChecked, OptlawsError)
+    True
+    """
+
+
 def exit_code(arguments: Sequence[str]) -> int:
     """Run the command and return its exit code; an error is one clear text on stderr."""
     given = [argument for argument in arguments if argument != FORCE]
@@ -93,8 +104,8 @@ def exit_code(arguments: Sequence[str]) -> int:
         text, code = cut(str(error)), BAD_INPUT
     except InfeasibleProblem as error:
         text, code = f"infeasible: {error}", INFEASIBLE
-    except NotProven as error:
-        text, code = str(error), NOT_PROVEN
+    except (NotProven, PartlyChecked) as error:
+        text, code = str(error), PARTLY_CHECKED if isinstance(error, PartlyChecked) else NOT_PROVEN
     except OptlawsError as error:
         text, code = str(error), SOLVER_FAILURE
     except BrokenPipeError:

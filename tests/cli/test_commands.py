@@ -13,7 +13,7 @@ import pytest
 import optlaws
 from optlaws import BoundaryConditions, MotionLaw, Problem, Solution, SolverFailure, law_from_z
 from tests.documents import ROOT
-from tests.internals.cli import COMMANDS, RETIRED
+from tests.internals.cli import COMMANDS, RETIRED, exit_code
 from tests.internals.cli import app_of_cli as app
 from tests.jobs.examples import SOLUTIONS, SOLUTIONS_PRINTED
 
@@ -467,3 +467,12 @@ def test_a_front_is_written_as_functions_of_a_controller(capsys: Capture, tmp_pa
     assert (code, results["format"], results["gap"] <= 1e-2) == (0, "iec-st", True)
     assert "FUNCTION_BLOCK lift" in file.read_text("utf-8")
     assert "say --to c99 or --to iec-st" in refused(capsys, *of_front, "--output", str(file))
+
+
+def test_verify_says_in_its_exit_code_what_is_partly_checked(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = tmp_path / "jerk.json"
+    file.write_text(optlaws.synthesize(optlaws.Problem(order=4, minimise="J")).to_json(), encoding="utf8")
+    assert exit_code(["verify", str(file)]) == 3
+    assert "not checked" in capsys.readouterr().err

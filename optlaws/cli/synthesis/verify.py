@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from optlaws.cli.app import NotProven
+from optlaws.cli.app import NotProven, PartlyChecked
 from optlaws.cli.options import AsJson
 from optlaws.cli.show import print_json
 from optlaws.errors import InputError
@@ -19,7 +19,8 @@ def verify(*files: Path, as_json: AsJson = False) -> None:
 
     No picture is drawn: a verdict has no curve, and `optlaws law FILE --plot` draws the law of a solution.
 
-    Ends with 0 if every claim of every file is proven, 1 if one is false or not proven, 2 if a file cannot be checked.
+    Ends with 0 if every claim of every file is proven, 1 if one is false or not proven, 2 if a file cannot be checked,
+    3 if nothing is false and something was only computed again in doubles.
 
     Parameters
     ----------
@@ -52,6 +53,9 @@ def verify(*files: Path, as_json: AsJson = False) -> None:
     ]
     if failed:
         raise NotProven("\n".join(failed))
+    partly = [f"{name}: {claim}" for name, verification in verifications.items() for claim in verification.unchecked]
+    if partly:
+        raise PartlyChecked("\n".join(partly))
 
 
 def _line(name: str, word: str, verification: Verification) -> str:
