@@ -476,3 +476,25 @@ def test_verify_says_in_its_exit_code_what_is_partly_checked(
     file.write_text(optlaws.synthesize(optlaws.Problem(order=4, minimise="J")).to_json(), encoding="utf8")
     assert exit_code(["verify", str(file)]) == 3
     assert "not checked" in capsys.readouterr().err
+
+
+RESULTS = sorted((ROOT / "results").glob("*/*.json"))
+
+
+@pytest.mark.sample(6)
+@pytest.mark.parametrize("file", RESULTS, ids=lambda file: f"{file.parent.name}/{file.stem}")
+def test_our_own_results_are_proven_or_said_not_to_be_checked(file: Path, capsys: Capture) -> None:
+    assert exit_code(["verify", str(file)]) in {0, 3}
+    out, err = capsys.readouterr()
+    assert "not proven" not in out
+    assert (err == "") or "not checked" in err
+
+
+def test_what_nobody_wrote_and_what_lost_its_proof_is_refused(tmp_path: Path, capsys: Capture) -> None:
+    file = tmp_path / "stripped.json"
+    stored = optlaws.synthesize(Problem(order=4, B=1.7)).to_dict()
+    del stored["certificate"]
+    for data in ({"a": 1}, {"about": "made by optlaws", **stored}):
+        file.write_text(json.dumps(data), "utf-8")
+        assert exit_code(["verify", str(file)]) == 2
+        capsys.readouterr()
