@@ -51,6 +51,7 @@ __getattr__, __dir__, __all__ = face(
         "optlaws.mechanisms.drives.motor_motion": "Train",
         "optlaws.mechanisms.linkages.bodies": "DrivenLink LoadPlace",
         "optlaws.mechanisms.linkages.entries": "TableKind",
+        "optlaws.mechanisms.linkages.linear_force": "LinearForce",
         "optlaws.mechanisms.linkages.move_limit": "LimitedMove",
         "optlaws.mechanisms.linkages.four_bar": "FourBarBranch",
         "optlaws.mechanisms.linkages.mechanism": "InputAxis LinkGeometry",

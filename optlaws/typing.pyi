@@ -65,6 +65,7 @@ from optlaws.mechanisms.linkages.bodies import LoadPlace as LoadPlace
 from optlaws.mechanisms.linkages.dimensionless import DimensionlessMechanism as DimensionlessMechanism
 from optlaws.mechanisms.linkages.entries import TableKind as TableKind
 from optlaws.mechanisms.linkages.four_bar import FourBarBranch as FourBarBranch
+from optlaws.mechanisms.linkages.linear_force import LinearForce as LinearForce
 from optlaws.mechanisms.linkages.mechanism import InputAxis as InputAxis
 from optlaws.mechanisms.linkages.mechanism import LinkGeometry as LinkGeometry
 from optlaws.mechanisms.linkages.move_limit import LimitedMove as LimitedMove
@@ -177,6 +178,7 @@ __all__ = [
     "LeastTime",
     "LimitTaken",
     "LimitedMove",
+    "LinearForce",
     "LinkGeometry",
     "LoadPlace",
     "MachineAnswer",

@@ -82,7 +82,7 @@ class MoveLimit(JsonText):
 
     @kept_property
     def _scale(self) -> tuple[float, str]:
-        return self.move.phase_move().scales.of(self.minimise)
+        return _phase_move(self.move).scales.of(self.minimise)
 
     @property
     def minimise(self) -> DriveObjective:
@@ -152,7 +152,7 @@ class MoveLimit(JsonText):
 
     def is_of_its_move(self) -> bool:
         """Whether the limit without dimensions is that of the move, or the proof that the move is impossible."""
-        of_move, form = self.move.phase_move().plane(self.move.minimise)
+        of_move, form = _phase_move(self.move).plane(self.move.minimise)
         same_unit = self.minimise == "time" or self.drive_limit.unit == form.size
         same_kind = self.minimise in {"time", "peak torque", self.move.minimise}
         return same_unit and same_kind and self.drive_limit.plane in planes_of_proof(of_move, self.drive_limit)
@@ -194,19 +194,9 @@ class LimitedMove(JsonText):
 
     _json_name = "a move with its limits"
 
-    @property
-    def _kind(self) -> str:
-        return next(kind for kind, (_, name, _) in _DRIVEN.items() if type(self.driven).__name__ == name)
-
-    def phase_move(self) -> PhaseMove:
-        """The move without dimensions."""
-        module, _, name = _DRIVEN[self._kind]
-        move: PhaseMove = getattr(imported(module), name)(self)
-        return move
-
     def to_dict(self) -> dict[str, Any]:
         """The move and what it moves as plain data."""
-        return {self._kind: self.driven.to_dict(), **{name: getattr(self, name) for name in _MOVE_ENTRIES}}
+        return {_kind_of(self.driven): self.driven.to_dict(), **{name: getattr(self, name) for name in _MOVE_ENTRIES}}
 
     @classmethod
     def from_dict(cls, data: Any) -> LimitedMove:
@@ -419,7 +409,7 @@ def move_limit(move: LimitedMove) -> MoveLimit:
     minimise = move.minimise
     if minimise not in get_args(DriveObjective):
         raise InputError(unknown_key(minimise, get_args(DriveObjective), "minimise"))
-    parts = move.phase_move()
+    parts = _phase_move(move)
     scales, bounds, costs = parts.scales, parts.bounds, parts.costs
     if costs.heat and minimise != "energy":
         raise InputError("heat is a part of the energy that is minimised: take minimise='energy'")
@@ -500,3 +490,15 @@ def _infeasible(
         f"no motion keeps the limits in {scales.duration:.{_DIGITS}g} s, which is proven: {', '.join(reached)}",
         proof=MoveLimit(error.proof, move),
     )
+
+
+def _phase_move(move: LimitedMove) -> PhaseMove:
+    """The move without dimensions."""
+    module, _, name = _DRIVEN[_kind_of(move.driven)]
+    moved: PhaseMove = getattr(imported(module), name)(move)
+    return moved
+
+
+def _kind_of(driven: MovedSource) -> str:
+    """Whether a mechanism or a drive moves."""
+    return next(kind for kind, (_, name, _) in _DRIVEN.items() if type(driven).__name__ == name)
