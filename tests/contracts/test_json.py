@@ -81,6 +81,7 @@ def values(jumping: Solution) -> dict[str, Any]:
     rack = optlaws.rack("20 mm", "5 kg", loads=optlaws.Loads({"0 mm": "0 N", "20 mm": "-3 N"}))
     crank = optlaws.Cycle(turns, period="0.2 s", drive=rack, minimise="rms torque")
     motor = optlaws.Drive(rack, optlaws.Motor("3e-4 kg m^2"), ratio=3.0, efficiency=0.9)
+    moved = optlaws.Mechanism("0.8 kg m^2").limit("rms torque", "0 deg", "45 deg", "0.25 s")
     fastest = optlaws.fastest(Problem(order=3), stroke="100 mm", limits={"jerk": "300 m/s^3"})
     return {
         "Solution": jumping,
@@ -134,7 +135,8 @@ def values(jumping: Solution) -> dict[str, Any]:
         "Motor": optlaws.Motor("3e-4 kg m^2"),
         "DriveLimit": optlaws.drive_limit("c + 0.5*a", "rms torque", C=9.0),
         "PhasePlane": optlaws.drive_limit("c + 0.5*a", B=1.8).plane,
-        "MoveLimit": optlaws.Mechanism("0.8 kg m^2").limit("rms torque", "0 deg", "45 deg", "0.25 s"),
+        "MoveLimit": moved,
+        "LimitedMove": moved.move,
         "DriveSheet": optlaws.Drive(optlaws.rack("20 mm", "5 kg"), optlaws.Motor(0.0)).sheet("0050", 0.0, 1.0, 1.0),
         "Effort": optlaws.Cycle(
             [optlaws.Rise("1 rad", "1 s", law="0050")],
