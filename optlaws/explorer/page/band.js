@@ -51,7 +51,7 @@ export class Band {
       name: "in it ≤", title: "Greatest residual acceleration in the band", low: 0, high: 5, step: 0.01, off: true,
       changed: (value) => this.#limit(value), rested: () => study.rest(),
     });
-    this.#field.addEventListener("change", () => this.#field.files.length && this.read(this.#field.files[0]));
+    this.#field.addEventListener("change", () => this.#field.files.length && this.read(this.#field.files[0]).catch((error) => this.#say(error.message)));
     const choose = html("button", { type: "button", text: "spectrum …", title: "Weigh the band by a measured spectrum: frequency and amplitude in a file, which can be dropped here", onclick: () => {
       this.#field.value = "";
       this.#field.click();
