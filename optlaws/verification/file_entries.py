@@ -26,6 +26,18 @@ Data = Mapping[str, Any]
 _NO_CLAIM = ("failed", "invalid", "not found")
 NO_FILE = "not a file of solutions or certificates"
 
+#: keys that only entries and their proofs have
+_OF_PROOFS = {
+    "certificate",
+    "power_certificate",
+    "peak_certificate",
+    "contacts",
+    "steps",
+    "potential",
+    "proof",
+    "proofs",
+}
+
 
 class SolutionFile(msgspec.Struct, forbid_unknown_fields=True):
     """The output of `Solution.to_dict`, and of commands; its claims are checked elsewhere."""
@@ -150,6 +162,34 @@ def entries(data: Data) -> dict[str, FileEntry]:
     optlaws.errors.InputError: ...rows[1].limit claims something without a certificate: 4.0
     """
     return dict(_walk(data, "", Around()))
+
+
+def holds_proof(data: object) -> bool:
+    """Whether a solution, a limit or a part of a proof stands anywhere in data, however deep.
+
+    >>> holds_proof({"moves": [{"solution": {"certificate": {}}}]}), holds_proof({"moves": [{"limit": 4.0}]})
+    (True, False)
+    """
+    if isinstance(data, Mapping):
+        solved = is_entry(data) and not {"law", "constants"} <= data.keys()
+        return solved or bool(_OF_PROOFS & data.keys()) or any(map(holds_proof, data.values()))
+    return isinstance(data, list) and any(map(holds_proof, data))
+
+
+def laws_within(data: object, path: str = "") -> Iterator[tuple[str, Data]]:
+    """Laws with their constants, however deep and whatever stands beside them, by place.
+
+    >>> dict(laws_within({"cams": [{"law": {}, "constants": {}, "radius": 0.1}]}))
+    {'cams[0]': {'law': {}, 'constants': {}}}
+    """
+    if isinstance(data, Mapping):
+        if {"law", "constants"} <= data.keys():
+            yield path, {name: data[name] for name in ("law", "constants")}
+        for name, value in data.items():
+            yield from laws_within(value, f"{path}.{name}" if path else name)
+    elif isinstance(data, list):
+        for i, value in enumerate(data):
+            yield from laws_within(value, f"{path}[{i}]")
 
 
 def is_entry(data: Data) -> bool:

@@ -498,3 +498,31 @@ def test_what_nobody_wrote_and_what_lost_its_proof_is_refused(tmp_path: Path, ca
         file.write_text(json.dumps(data), "utf-8")
         assert exit_code(["verify", str(file)]) == 2
         capsys.readouterr()
+
+
+@pytest.mark.parametrize("file", ["cam_rocker/cam.json", "fronts/fronts.json", "loader_optimal/laws.json"])
+def test_a_false_solution_inside_results_without_proofs_is_not_passed_over(
+    file: str, tmp_path: Path, capsys: Capture
+) -> None:
+    stored = optlaws.synthesize(Problem(order=4, B=1.7)).to_dict()
+    false = {**stored, "lower_bound": 1.1 * stored["objective"]}
+    halved = {name: value for name, value in false.items() if name != "law"}
+    for planted in (false, halved):
+        data = json.loads((ROOT / "results" / file).read_text("utf-8"))
+        data["deep"] = [{"in": planted}]
+        changed = tmp_path / "changed.json"
+        changed.write_text(json.dumps(data), "utf-8")
+        assert exit_code(["verify", str(changed)]) in {1, 2}
+        capsys.readouterr()
+
+
+def test_false_constants_inside_results_without_proofs_are_found(tmp_path: Path, capsys: Capture) -> None:
+    law = optlaws.smoothstep(2)
+    constants: dict[str, Any] = law.constants.to_dict()
+    constants["C"]["value"] *= 1.1
+    data = json.loads((ROOT / "results/cam_rocker/cam.json").read_text("utf-8"))
+    data["deep"] = [{"radius": 0.1, "law": law.to_dict(), "constants": constants}]
+    changed = tmp_path / "changed.json"
+    changed.write_text(json.dumps(data), "utf-8")
+    assert exit_code(["verify", str(changed)]) == 1
+    assert "deep[0]" in capsys.readouterr().err

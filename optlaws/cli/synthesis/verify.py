@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from optlaws.cli.app import NotProven, PartlyChecked
 from optlaws.cli.options import AsJson
@@ -57,11 +58,11 @@ def verify(*files: Path, as_json: AsJson = False) -> None:
 
 
 def _verified(file: Path) -> dict[str, Verification]:
-    """The verifications of a file; of results that optlaws wrote without proofs that nothing of them is checked."""
+    """The verifications of a file; of results that optlaws wrote without proofs, of their laws alone."""
     from optlaws.files import reading
     from optlaws.files.writing import MARK
-    from optlaws.verification import Verification, verify_all
-    from optlaws.verification.result import Claim
+    from optlaws.verification import verify_all
+    from optlaws.verification.file_entries import holds_proof, laws_within
 
     try:
         return dict(verify_all(file))
@@ -70,13 +71,30 @@ def _verified(file: Path) -> dict[str, Verification]:
         written = (
             isinstance(about, dict)
             and MARK in str(about.get("about"))
-            and not {"certificate", "problem"} & about.keys()
+            and "problem" not in about
+            and not holds_proof(about)
         )
         if not written:
             raise
         why = "results without proofs, which the file of --output, the explorer and to_dict() of a solution have"
-        claim = Claim("the file", proven=False, detail=why, checked=False)
-        return {"": Verification(problem=None, bound=None, unchecked=(claim,))}
+        return {**{place: _law(law) for place, law in laws_within(about)}, "": _unchecked("the file", why)}
+
+
+def _law(data: Mapping[str, Any]) -> Verification:
+    from optlaws import verification
+
+    try:
+        return verification.verify(data)
+    except InputError as error:
+        return _unchecked("the law", str(error))
+
+
+def _unchecked(name: str, why: str) -> Verification:
+    from optlaws.verification import Verification
+    from optlaws.verification.result import Claim
+
+    claim = Claim(name, proven=False, detail=why, checked=False)
+    return Verification(problem=None, bound=None, unchecked=(claim,))
 
 
 def _line(name: str, word: str, verification: Verification) -> str:
