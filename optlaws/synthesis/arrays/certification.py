@@ -18,7 +18,8 @@ from optlaws.synthesis.families.family import BatchFamily, LinearFamily, Nonline
 from optlaws.synthesis.program.writer import Model
 
 _CERTIFIED_EXCESS = 1e-11  # of a right side, or 1: by so much a row of a certified law may be broken
-_FIRST_CERTIFIED_GAP = 9e-11  # of an objective: a bound that leaves more is reckoned more sharply
+_SHARP_GAP = 5e-12  # of an objective: a bound that leaves more is computed more sharply, at a law solved to the end
+_CURVED_GAP = 9e-11  # of an objective: what the bound of a proven law of curved rows may leave
 _GREAT_MULTIPLIERS = 1e-9  # of an objective: what rounding may leave of it where multipliers are great
 _CERTIFIED_PULL = 1e-12  # of the greatest multiplier: by so much one may be below 0, for which the bound counts it as 0
 _SMALL_OBJECTIVE = 1e-6  # of an objective's scale: one that is less is measured by that
@@ -49,13 +50,13 @@ class Certification:
     @property
     def sound(self) -> NDArray[np.bool_]:
         """A mask of states that are proven optimal, or locally optimal if the problem is not convex."""
-        meets = self.gap <= (_GREAT_MULTIPLIERS if self.affine else _FIRST_CERTIFIED_GAP)
+        meets = self.gap <= (_GREAT_MULTIPLIERS if self.affine else _CURVED_GAP)
         return np.asarray(meets & (self.excess <= _CERTIFIED_EXCESS) & (self.pull <= _CERTIFIED_PULL) & self.best)
 
     @property
     def sharp(self) -> NDArray[np.bool_]:
         """A mask of states whose gap is so small that Newton's method cannot reduce it."""
-        return np.asarray(self.sound & (self.gap <= _FIRST_CERTIFIED_GAP))
+        return np.asarray(self.sound & (self.gap <= _SHARP_GAP))
 
     @property
     def gap(self) -> Array:
@@ -67,7 +68,7 @@ class Certification:
     def blurred(self) -> NDArray[np.intp]:
         """Laws that nothing but rounding may keep from being proven optimal."""
         wide = (
-            (self.gap > _FIRST_CERTIFIED_GAP)
+            (self.gap > _SHARP_GAP)
             & (self.gap < _WIDE_GAP)
             & (self.excess <= _CERTIFIED_EXCESS)
             & (self.pull <= _CERTIFIED_PULL)

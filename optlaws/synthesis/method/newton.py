@@ -40,7 +40,10 @@ def newton(program: Program, start: ActiveSet, *, deficient: bool = False) -> Ac
     `deficient` says that they are known to have no unique solution.
     """
     if deficient:
-        return _iterated(program, start, deficient=True)
+        optimum = _iterated(program, start, deficient=True)
+        # of a contact that is there twice the multipliers of both are open: it is one
+        once = None if optimum is None else optimum.merged(SAME_PLACE)
+        return optimum if once is None or once is optimum else newton(program, once) or optimum
     near = _iterated(program, start, enough=_NEWTON_NEAR)
     if near is None:
         return None
