@@ -6,18 +6,23 @@ is quadratic, and fewer contacts than variables are no difficulty (the curvature
 
 What is near the optimum is rounded to few digits, and the last steps begin there: from whatever guess an optimum was
 met, its last digit is the same.
+
+Of an integral with kinks the places of these are unknowns too, each a root of what the formulas beside it differ by: as
+a function of the law alone the integral bends without bound where two kinks are about to vanish, as a function of both
+it is smooth there.
 """
 
 from __future__ import annotations
 
 from contextlib import suppress
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from optlaws.numbers import Array, power_of_two
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.family import Program
+from optlaws.synthesis.families.kinked import FreeKinks, KinkedIntegralFamily, SmoothStretch
 from optlaws.tolerances import AT_END, DEPENDENT_ROWS, SAME_PLACE
 
 _NEWTON_CONVERGED = 1e-13  # of a law: a step of Newton's method that is the last
@@ -28,10 +33,39 @@ _NEWTON_FULFILLED = 1e-9  # of a right side: by so much the equations of Newton'
 _NEWTON_STILL = 1e-6  # of a law: a step that is longer wanders
 
 _STEPS = 14
+_STEPS_WITH_KINKS = 40
+#: of a stretch between two kinks, what a step leaves of it
+_STRETCH_LEFT = 0.2
 _FAR = 1.05
 _WILD = 1e6
 #: of a state that is rounded, of 1 or of the greatest number
 _DIGITS = 2.0**20
+
+
+@dataclass(frozen=True, eq=False)
+class _Kinked:
+    """An integral with kinks that binds, over stretches whose ends Newton's method moves."""
+
+    family: KinkedIntegralFamily
+    stretches: list[SmoothStretch]
+
+    @property
+    def kinks(self) -> Array:
+        return self.family.kinks_of(self.stretches)
+
+    @property
+    def lengths(self) -> Array:
+        return np.array([stretch.high - stretch.low for stretch in self.stretches])
+
+    def at(self, x: Array) -> FreeKinks:
+        return self.family.free_kinks(x, self.stretches)
+
+    def moved(self, step: Array) -> _Kinked:
+        return replace(self, stretches=self.family.with_kinks(self.stretches, self.kinks + step))
+
+
+#: the integrals with kinks that bind, by the numbers of their families
+_Integrals = dict[int, _Kinked]
 
 
 def newton(program: Program, start: ActiveSet, *, deficient: bool = False) -> ActiveSet | None:
@@ -40,44 +74,82 @@ def newton(program: Program, start: ActiveSet, *, deficient: bool = False) -> Ac
     `deficient` says that they are known to have no unique solution.
     """
     if deficient:
-        optimum = _iterated(program, start, deficient=True)
+        optimum, _ = _iterated(program, start, {}, deficient=True)
         # of a contact that is there twice the multipliers of both are open: it is one
         once = None if optimum is None else optimum.merged(SAME_PLACE)
         return optimum if once is None or once is optimum else newton(program, once) or optimum
-    near = _iterated(program, start, enough=_NEWTON_NEAR)
+    integrals = _integrals(program, start)
+    near, integrals = _iterated(program, start, integrals, enough=_NEWTON_NEAR)
     if near is None:
         return None
-    optimum = _iterated(program, _rounded(program, near))
-    if optimum is not None and _distance(near, optimum) <= _NEWTON_SAME:
-        return optimum
-    return _iterated(program, near)
+    optimum, moved = _iterated(program, _rounded(program, near), integrals)
+    if optimum is None or _distance(near, optimum) > _NEWTON_SAME:
+        optimum, moved = _iterated(program, near, integrals)
+    return optimum if optimum is not None and _have_all_kinks(optimum.x, moved) else None
 
 
-def _iterated(program: Program, start: ActiveSet, *, enough: float = 0.0, deficient: bool = False) -> ActiveSet | None:
-    """The end of Newton's method: its fixed point, or a state after which a step changes less than needed."""
+def _integrals(program: Program, state: ActiveSet) -> _Integrals:
+    """The integrals with kinks that bind at a law, over its stretches."""
+    families = [(i, program.families[i]) for i in sorted(set(state.family.tolist()))]
+    kinked = [(i, family) for i, family in families if isinstance(family, KinkedIntegralFamily)]
+    return {i: _Kinked(family, family.split(state.x).stretches) for i, family in kinked}
+
+
+def _have_all_kinks(x: Array, integrals: _Integrals) -> bool:
+    """Whether the kinks that Newton's method followed are all that the law has."""
+    for one in integrals.values():
+        value = float(one.family.value(x, np.ones(1))[0])
+        if abs(one.at(x).value - value) > _NEWTON_FULFILLED * max(1.0, abs(value)):
+            return False
+    return True
+
+
+def _iterated(
+    program: Program,
+    start: ActiveSet,
+    integrals: _Integrals,
+    *,
+    enough: float = 0.0,
+    deficient: bool = False,
+) -> tuple[ActiveSet | None, _Integrals]:
+    """The end of Newton's method, its fixed point or a state after which a step changes less than needed; the kinks."""
     state = start
     previous = np.inf
-    for _ in range(_STEPS):
-        system, defect = _conditions(program, state)
+    for _ in range(_STEPS_WITH_KINKS if integrals else _STEPS):
+        system, defect = _conditions(program, state, integrals)
         step = _step(system, defect, deficient=deficient)
         if not np.isfinite(step).all():
-            return None
-        before, state = state, _moved(state, step)
+            return None, integrals
+        share, integrals = _with_moved_kinks(integrals, step)
+        before, state = state, _moved(state, share * step)
         scale = max(1.0, float(np.abs(state.x).max()))
         steps, defects = np.abs(step), np.abs(defect)
         if float(steps.max()) < enough * scale:
-            return state
+            return state, integrals
         size = float(steps[: program.size].max()) / scale
         # x may stand still where the conditions do not hold: in a deficient system, or where the optimum is flat
         off = max(float(defects[: program.size].max()), float(defects[program.size :].max(initial=0.0)) / scale)
         if off < _NEWTON_FULFILLED and (size < _NEWTON_CONVERGED or (size < _NEWTON_STALLED and size > previous / 4)):
             wandering = float(steps.max()) > _NEWTON_STILL
             if not wandering or off < _NEWTON_STALLED:
-                return before if wandering else state
+                return (before if wandering else state), integrals
         if np.any(np.abs(state.u) > _FAR):
-            return None
+            return None, integrals
         previous = size
-    return None
+    return None, integrals
+
+
+def _with_moved_kinks(integrals: _Integrals, step: Array) -> tuple[float, _Integrals]:
+    """The kinks after a share of a step, such that none comes too near to another, and that share."""
+    counts = [len(one.kinks) for one in integrals.values()]
+    parts = np.split(step[len(step) - sum(counts) :], np.cumsum(counts)[:-1])
+    share = 1.0
+    for one, part in zip(integrals.values(), parts, strict=False):
+        room = (1.0 - _STRETCH_LEFT) * one.lengths
+        shorter = one.lengths - one.moved(part).lengths
+        much = shorter > np.maximum(room, 0.0)
+        share = min([share, *(room[much] / shorter[much]).tolist()])
+    return share, {i: one.moved(share * part) for (i, one), part in zip(integrals.items(), parts, strict=False)}
 
 
 def _rounded(program: Program, state: ActiveSet) -> ActiveSet:
@@ -113,18 +185,32 @@ def _distance(first: ActiveSet, last: ActiveSet) -> float:
     return float(np.abs(first.x - last.x).max() / max(1.0, np.abs(first.x).max()))
 
 
-def _conditions(program: Program, state: ActiveSet) -> tuple[Array, Array]:
-    """The optimality conditions' defect and its derivative."""
+def _conditions(program: Program, state: ActiveSet, integrals: _Integrals) -> tuple[Array, Array]:
+    """The optimality conditions' defect and its derivative; those of kinks come last."""
     n, p = program.size, len(state.u)
     value, slope, curvature = np.empty((3, p))
     rows, slopes = np.empty((2, p, n))
     free = state.free
     m = int(free.sum())
     last = n + m + p
-    system = np.zeros((last + len(program.right),) * 2)
+    begin = last + len(program.right)
+    system = np.zeros((begin + sum(len(one.kinks) for one in integrals.values()),) * 2)
+    defect = np.empty(len(system))
     for i in sorted(set(state.family.tolist())):
         contacts, family = state.family == i, program.families[i]
         u, s = state.u[contacts], state.s[contacts]
+        if i in integrals:
+            own = integrals[i].at(state.x)
+            value[contacts], slope[contacts], curvature[contacts] = s * own.value - family.right_side(state.x), 0.0, 0.0
+            rows[contacts], slopes[contacts] = s[:, None] * own.slope - family.slack, 0.0
+            weight = float(state.multipliers[contacts] @ s)
+            system[:n, :n] += weight * own.bend
+            here = slice(begin, begin + len(own.rise))
+            system[:n, here] = weight * own.share * own.across.T
+            system[n + m + np.flatnonzero(contacts), here] = s[:, None] * own.share * own.rise
+            system[here, :n], system[here, here], defect[here] = own.across, np.diag(own.along), own.rise
+            begin = here.stop
+            continue
         jet = family.jet(state.x, u, s)
         value[contacts], slope[contacts], curvature[contacts] = jet.value, jet.slope, jet.curvature
         rows[contacts], slopes[contacts] = jet.gradient, jet.slope_gradient
@@ -133,20 +219,20 @@ def _conditions(program: Program, state: ActiveSet) -> tuple[Array, Array]:
             system[:n, :n] += bent
 
     turning, moved = slopes[free], np.arange(n, n + m)
+    end = last + len(program.right)
     system[:n, n : n + m] = (turning * state.multipliers[free, None]).T
     system[:n, n + m : last] = rows.T
-    system[:n, last:] = program.equalities.T
-    system[last:, :n] = program.equalities
+    system[:n, last:end] = program.equalities.T
+    system[last:end, :n] = program.equalities
     system[n : n + m, :n] = turning
     system[moved, moved] = curvature[free]
     system[n + m : last, :n] = rows
     system[n + m + np.flatnonzero(free), moved] = slope[free]
 
-    defect = np.empty(len(system))
     defect[:n] = program.objective + rows.T @ state.multipliers + program.equalities.T @ state.equality_multipliers
     defect[n : n + m] = slope[free]
     defect[n + m : last] = value
-    defect[last:] = program.equalities @ state.x - program.right
+    defect[last:end] = program.equalities @ state.x - program.right
     return system, defect
 
 
@@ -170,5 +256,5 @@ def _moved(state: ActiveSet, step: Array) -> ActiveSet:
         x=state.x + step[:n],
         u=u,
         multipliers=state.multipliers + step[n + m : n + m + p],
-        equality_multipliers=state.equality_multipliers + step[n + m + p :],
+        equality_multipliers=state.equality_multipliers + step[n + m + p : n + m + p + len(state.equality_multipliers)],
     )

@@ -32,6 +32,8 @@ from optlaws.verification.exact.space import ExactSpace
 
 #: binary places of an integral that count: more than a float has
 _BITS = 80
+#: where on a stretch the formulas are compared, as shares of it
+_WITHIN = (0.4, 0.5, 0.75)
 
 
 def extremes_of(motion: MotionFormula, pieces: Sequence[PolynomialPiece]) -> Extremes:
@@ -198,10 +200,11 @@ def straight_integral(space: ExactSpace, motion: MotionFormula, point: Sequence[
     law = np.array(point[: laws.terms])
     columns = [arb(0)] * (space.terms + 1)
     for stretch in family.split(law).stretches:
-        middle = np.array([(stretch.low + stretch.high) / 2.0])
-        values = zip(family.names, family.columns_at(middle) @ np.append(law, 1.0), strict=True)
-        names = {**dict(values), "k": middle}
-        heights = [float(branch.values(names).item()) for branch in straight]
+        # at one of them formulas may be equal: in its middle a symmetric law touches what is a kink elsewhere
+        places = stretch.low + (stretch.high - stretch.low) * np.array(_WITHIN)
+        values = zip(family.names, family.columns_at(places) @ np.append(law, 1.0), strict=True)
+        names = {**dict(values), "k": places}
+        heights = [float(np.sum(branch.values(names))) for branch in straight]
         greatest = straight[heights.index(max(heights))]
         for ends, _ in _within(space, greatest, [Fraction(stretch.low), Fraction(stretch.high)]):
             several = _weighted(space, greatest, fmpq_poly([1]), ends)

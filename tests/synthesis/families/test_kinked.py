@@ -42,3 +42,36 @@ def test_tangents_are_nowhere_above(text: str) -> None:
         assert row is not None
         assert row @ np.append(x, 1.0) == pytest.approx(family.value(x, ones)[0], rel=1e-10)
         assert row @ np.append(other, 1.0) <= family.value(other, ones)[0] * (1.0 + 1e-10)
+
+
+@pytest.mark.parametrize("text", ["integral(abs(c - 2*a))", "rms(max(c, 0))"])
+def test_derivatives_by_the_law_and_its_kinks_are_differences(text: str) -> None:
+    family = family_of(text, symmetric=False)
+    x = np.random.default_rng(5).normal(size=len(family.slack))
+    # of a neighbour, so that the formulas beside a kink differ there
+    stretches = family.split(x + 1e-3).stretches
+    kinks, step = family.kinks_of(stretches), 1e-5
+    at = family.free_kinks(x, stretches)
+    assert len(kinks)
+    for i, way in enumerate(step * np.eye(len(x))):
+        ahead, back = (family.free_kinks(x + sign * way, stretches) for sign in (1.0, -1.0))
+        assert (ahead.value - back.value) / (2.0 * step) == pytest.approx(at.slope[i], rel=1e-6, abs=1e-7)
+        assert (ahead.slope - back.slope) / (2.0 * step) == pytest.approx(at.bend[i], rel=1e-4, abs=1e-5)
+        assert (ahead.rise - back.rise) / (2.0 * step) == pytest.approx(at.across[:, i], rel=1e-5, abs=1e-7)
+    for i, way in enumerate(step * np.eye(len(kinks))):
+        ahead, back = (family.free_kinks(x, family.with_kinks(stretches, kinks + s * way)) for s in (1.0, -1.0))
+        assert (ahead.value - back.value) / (2.0 * step) == pytest.approx(at.share * at.rise[i], rel=1e-4, abs=1e-7)
+        assert ((ahead.rise - back.rise) / (2.0 * step))[i] == pytest.approx(at.along[i], rel=1e-4, abs=1e-7)
+
+
+def test_a_formula_that_touches_0_in_the_middle_has_its_sign_beside() -> None:
+    """The jerk of these symmetric laws rises to 0 at k = 1/2, where rounding gives it any sign."""
+    family = family_of("integral(abs(j))", symmetric=True)
+    middle = family.columns_at(np.array([0.5]))[0, 0]
+    places = (np.arange(20000) + 0.5) / 20000
+    for seed in range(20):
+        x = np.random.default_rng(seed).normal(size=len(family.slack)) * 0.1
+        x -= middle[:-1] * (middle @ np.append(x, 1.0)) / (middle[:-1] @ middle[:-1])
+        plain = np.abs(family.columns_at(places)[0] @ np.append(x, 1.0)).mean()
+        # the objective is in units of its scale, 1/32 of a jerk
+        assert family.value(x, np.ones(1))[0] == pytest.approx(plain / 32.0, rel=1e-6)

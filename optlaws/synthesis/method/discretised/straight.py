@@ -6,6 +6,7 @@ program itself, but for the rule.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
@@ -20,8 +21,9 @@ from optlaws.numbers import Array
 from optlaws.numerics.chebyshev import gauss
 from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, Points, Program
 from optlaws.synthesis.families.kinked import KinkedIntegralFamily
+from optlaws.synthesis.method.discretised.ipopt import Answer
 
-_CELL, _PER_VARIABLE, _FEWEST = 6, 10, 160
+_CELL, _PER_VARIABLE = 6, 10
 _OPTIMAL = 0
 
 
@@ -32,6 +34,7 @@ class _LinearRows:
     matrix: Array
     local: Any
     most: Array
+    weigh: Callable[[Array], Array]  #: multipliers of the family's own points from those of these rows
 
 
 class _Epigraph:
@@ -71,8 +74,8 @@ class _Epigraph:
         return formula
 
 
-def straight_step(program: Program, points: list[Points], x: Array, reach: float) -> Array | None:
-    """The step from x to the optimum of a program that is linear except for kinks of maxima.
+def straight_optimum(program: Program, points: list[Points], x: Array, *, reach: float, places: int) -> Answer | None:
+    """The optimum near x of a program that is linear except for kinks of maxima, these between places.
 
     None where the program is another, or has no optimum.
 
@@ -83,14 +86,16 @@ def straight_step(program: Program, points: list[Points], x: Array, reach: float
     x
         Where the step begins.
     reach
-        How far each variable may go.
+        How far each variable may go from x.
+    places
+        How many of each integral are looked at, at the least.
     """
     from scipy import sparse
     from scipy.optimize import linprog
 
     if not any(isinstance(family, KinkedIntegralFamily) for family in program.families):
         return None
-    grid = [_rows(family, points) for family, points in zip(program.families, points, strict=True)]
+    grid = [_rows(family, points, places) for family, points in zip(program.families, points, strict=True)]
     rows = [part for part in grid if part is not None]
     if len(rows) < len(grid):
         return None
@@ -107,30 +112,43 @@ def straight_step(program: Program, points: list[Points], x: Array, reach: float
         bounds=[(-reach, reach)] * program.size + [(None, None)] * len(others),
         method="highs",
     )
-    return np.asarray(optimum.x[: program.size]) if optimum.status == _OPTIMAL else None
+    if optimum.status != _OPTIMAL:
+        return None
+    ends = np.cumsum([len(part.most) for part in rows])[:-1]
+    weights = [part.weigh(own) for part, own in zip(rows, np.split(-optimum.ineqlin.marginals, ends), strict=True)]
+    equations = -optimum.eqlin.marginals if len(program.right) else np.zeros(0)
+    there = x + optimum.x[: program.size]
+    return Answer(there, [*weights, equations], success=True, status="a linear program", iterations=int(optimum.nit))
 
 
-def _rows(family: ConstraintFamily, points: Points) -> _LinearRows | None:
+def _rows(family: ConstraintFamily, points: Points, places: int) -> _LinearRows | None:
     """Linear rows of a family; None if it is not linear apart from kinks."""
     from scipy import sparse
 
     if isinstance(family, KinkedIntegralFamily):
-        return _rows_of_integral(family)
+        return _rows_of_integral(family, places)
     if not isinstance(family, LinearFamily):
         return None
     matrix, most = family.rows(points.u, points.s)
     length = np.linalg.norm(matrix, axis=1)
     used = np.isfinite(most) & (length > 0.0)
-    return _LinearRows(matrix[used] / length[used, None], sparse.csr_matrix((used.sum(), 0)), most[used] / length[used])
+
+    def weigh(multipliers: Array) -> Array:
+        weights = np.zeros(len(used))
+        weights[used] = multipliers / length[used]
+        return weights
+
+    local = sparse.csr_matrix((used.sum(), 0))
+    return _LinearRows(matrix[used] / length[used, None], local, most[used] / length[used], weigh)
 
 
-def _rows_of_integral(family: KinkedIntegralFamily) -> _LinearRows | None:
+def _rows_of_integral(family: KinkedIntegralFamily, places: int) -> _LinearRows | None:
     """The rows of its local variables and the integral's row; None unless it is convex and piecewise affine."""
     from scipy import sparse
 
     if not family.convex or family.root:
         return None
-    k, weights = _rule(family)
+    k, weights = _rule(family, places)
     epigraph, columns = _Epigraph(family.formula, family.names, k), family.columns_at(k)
     names, matrices, shares = (*family.names, *epigraph.local), [], []
     for formula in (*epigraph.negative, epigraph.whole):
@@ -146,17 +164,17 @@ def _rows_of_integral(family: KinkedIntegralFamily) -> _LinearRows | None:
     matrices[-1], shares[-1] = weights[None] @ matrices[-1], sparse.csr_matrix(weights[None] @ shares[-1])
     matrices[-1][0] -= np.append(family.slack, family.bound)
     rows = np.vstack(matrices)
-    return _LinearRows(rows[:, :-1], sparse.vstack(shares), -rows[:, -1])
+    return _LinearRows(rows[:, :-1], sparse.vstack(shares), -rows[:, -1], lambda multipliers: multipliers[-1:])
 
 
 def _at(formula: Formula, k: Array) -> Array:
     return np.broadcast_to(MotionFormula(formula).values({"k": k}), k.shape)
 
 
-def _rule(family: KinkedIntegralFamily) -> tuple[Array, Array]:
+def _rule(family: KinkedIntegralFamily, places: int) -> tuple[Array, Array]:
     """Places and weights, enough to see where kinks are."""
     x, share = gauss(_CELL)
-    cells = -(-max(_FEWEST, _PER_VARIABLE * len(family.slack)) // (_CELL * (len(family.edges) - 1)))
+    cells = -(-max(places, _PER_VARIABLE * len(family.slack)) // (_CELL * (len(family.edges) - 1)))
     edges = np.concatenate(
         [
             *(np.linspace(a, b, cells + 1)[:-1] for a, b in zip(family.edges, family.edges[1:], strict=False)),

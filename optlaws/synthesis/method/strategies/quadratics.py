@@ -15,7 +15,7 @@ from optlaws.synthesis.families.kinked import KinkedIntegralFamily
 from optlaws.synthesis.method.discretised.grids import with_extrema
 from optlaws.synthesis.method.discretised.ipopt import Answer
 from optlaws.synthesis.method.discretised.quadratic_steps import stepwise_on_points
-from optlaws.synthesis.method.discretised.straight import straight_step
+from optlaws.synthesis.method.discretised.straight import straight_optimum
 from optlaws.synthesis.method.strategies.identified import as_answered, optimum_near
 from optlaws.synthesis.method.strategies.strategy import Strategy
 from optlaws.tolerances import EXCESS, STEP_SETTLED
@@ -25,6 +25,8 @@ _STEP_SHOWS_CONTACTS = 1e-4  # the same: after one that is less Newton's method 
 
 #: how far a linear program may go, in times the greatest variable: beyond what laws of the field have
 _REACH = 1e4
+#: places of an integral in the first linear program, and in further ones where that does not show the kinks
+_PLACES = (160, 640)
 _ROUNDS = 14
 #: the radius of kinks that are made smooth, as a share of the integral
 _RADIUS = 0.2
@@ -71,10 +73,9 @@ class ByQuadratics(Strategy[list[Points], ActiveSet]):
         if self.count == 0 and not self.straight:
             self._smoothed(points)
         if self.count == 0 and self.straight:
-            step = straight_step(self.program, points, self.x, _REACH * max(1.0, float(np.abs(self.x).max())))
-            if step is not None:
-                self.x = self.x + step
-                points = with_extrema(self.program, points, self.x)
+            optimum, points = self._straightened(points)
+            if optimum is not None:
+                return optimum, None
         self.count += 1
         self._stepped(points, _STEP_SHOWS_CONTACTS)
         optimum = self._shown(points)
@@ -90,6 +91,20 @@ class ByQuadratics(Strategy[list[Points], ActiveSet]):
             # an optimum may be so flat that no exact active set shows
             return as_answered(points, answer), None
         return (None, None) if known else (None, onward)
+
+    def _straightened(self, points: list[Points]) -> tuple[ActiveSet | None, list[Points]]:
+        """The optimum that linear programs show, each with more places; or the points with the extrema of the last."""
+        reach = _REACH * max(1.0, float(np.abs(self.x).max()))
+        for places in _PLACES:
+            self.answer = straight_optimum(self.program, points, self.x, reach=reach, places=places)
+            if self.answer is None:
+                break
+            self.x, self.iterations = self.answer.x, self.iterations + self.answer.iterations
+            optimum = self._shown(points)
+            if optimum is not None:
+                return optimum, points
+            points = with_extrema(self.program, points, self.x)
+        return None, points
 
     def _smoothed(self, points: list[Points]) -> None:
         """Some steps with integrals of smooth formulas, whose kinks are not in the way yet."""
