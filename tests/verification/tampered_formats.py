@@ -9,8 +9,8 @@ import math
 import sys
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
-from functools import cache
+from dataclasses import dataclass, replace
+from functools import cache, partial
 from pathlib import Path as File
 from tempfile import TemporaryDirectory
 from typing import Any
@@ -23,11 +23,13 @@ from optlaws import (
     Certificate,
     Chebyshev,
     Cycle,
+    DriveLimit,
     Dwell,
     Free,
     InfeasibleProblem,
     Machine,
     MotionLaw,
+    MoveLimit,
     OptlawsError,
     Pieces,
     Problem,
@@ -38,6 +40,7 @@ from optlaws import (
     SolutionArray,
     at_least,
     catalogue,
+    drive_limit,
     open_study,
     pareto_front,
     proven_front,
@@ -48,7 +51,10 @@ from optlaws import (
 )
 from optlaws.typing import Bound
 from optlaws.verification import Verification, verify_all
+from tests.internals.mechanisms import move_limit
 from tests.internals.studies import Serial
+from tests.internals.synthesis import LONG, limit_of_plane
+from tests.mechanisms.drives.test_move_limit_files import MADE
 from tests.verification.tampering import Data, Path, changed, overstated, value_at, wrong_constants
 
 #: by how much a number may be off that rounding explains
@@ -282,6 +288,63 @@ def no_law(problem: Problem) -> Format:
     return Format(plain(proof.to_dict()), Certificate.from_dict, wrong, wrong_proven=wrong_proven)
 
 
+def move_limit_file(limit: MoveLimit) -> Format:
+    """A limit of a move: of another move it is that of the other move, computed from the file."""
+
+    def wrong(_: Data, stored: MoveLimit) -> list[str]:
+        genuine = limit if stored.move == limit.move else anew(stored)
+        if genuine is None or genuine.minimise != stored.minimise:
+            return ["no limit is known of its move"]
+        high = stored.value > genuine.attained + CLOSE * abs(genuine.attained)
+        low = stored.attained < genuine.value - CLOSE * abs(genuine.value)
+        return [*(["value"] if high else []), *(["attained"] if low else [])]
+
+    def wrong_proven(stored: Data, _: dict[str, Verification]) -> list[str]:
+        read = MoveLimit.stated(stored)[0]
+        names = ("unit", "dimension")
+        return [*wrong(stored, read), *(name for name in names if not close(stored[name], getattr(read, name)))]
+
+    return Format(plain(limit.to_dict()), MoveLimit.from_dict, wrong, wrong_proven=wrong_proven)
+
+
+def anew(limit: MoveLimit) -> MoveLimit | None:
+    """The limit of what a limit states of its move, computed again, or None."""
+    move = limit.move
+    if limit.minimise == "time":
+        # a proof that the time given is too short
+        move = replace(move, minimise="time", duration=None, recovered=0.0, heat=0.0)
+    elif limit.minimise != move.minimise:
+        # a proof that the load is beyond the torque however long the time is
+        free = {name: bound for name, bound in move.limits.items() if name not in {"torque", "force"}}
+        slow = (1.0 if move.duration is None else move.duration) * LONG
+        move = replace(move, minimise=limit.minimise, duration=slow, limits=free, recovered=0.0, heat=0.0)
+    try:
+        return move_limit(move)
+    except OptlawsError:
+        return None
+
+
+def drive_limit_file(limit: DriveLimit) -> Format:
+    """A limit without dimensions: of another plane it is that of the other plane."""
+
+    def wrong(_: Data, stored: DriveLimit) -> list[str]:
+        same = (stored.plane, stored.minimise, stored.unit) == (limit.plane, limit.minimise, limit.unit)
+        try:
+            genuine = limit if same else limit_of_plane(stored.plane, stored.minimise, stored.unit)
+        except OptlawsError:
+            return ["no limit is known of its plane"]
+        # of the least time it is the plane that is in the unit
+        unit = stored.unit if stored.minimise == "time" and not same else 1.0
+        high = stored.value > unit * (genuine.attained + CLOSE * abs(genuine.attained))
+        low = stored.attained < unit * (genuine.value - CLOSE * abs(genuine.value))
+        return [*(["value"] if high else []), *(["attained"] if low else [])]
+
+    def wrong_proven(stored: Data, _: dict[str, Verification]) -> list[str]:
+        return wrong(stored, DriveLimit.stated(stored))
+
+    return Format(plain(limit.to_dict()), DriveLimit.from_dict, wrong, wrong_proven=wrong_proven)
+
+
 def front() -> Format:
     data = plain(
         pareto_front(Problem(order=2, basis=Chebyshev(3)), over=("B", "C"), points=2, between=(1.5, 1.6)).to_dict()
@@ -393,6 +456,10 @@ def _moved(cycle: Cycle) -> float:
     return float(cycle(0.05))
 
 
+#: what takes long to be verified
+SLOW = {"least time of a drive", *(f"move limit, {name}" for name in MADE if name != "rms torque of a press")}
+
+
 @cache
 def formats() -> dict[str, Callable[[], Format]]:
     """Each format with a small file of it, made when it is asked for."""
@@ -463,7 +530,14 @@ def formats() -> dict[str, Callable[[], Format]]:
             machine.to_dict(), lambda stored: Machine.from_dict(stored).response(smoothstep(3)).peak("x")
         ),
         "study": study,
+        "limit of a drive": lambda: drive_limit_file(drive_limit("(1 + 0.6*a)*c + 0.3*b^2 + 3*a", "rms torque", B=2.2)),
+        "least time of a drive": lambda: drive_limit_file(drive_limit("c + 2", "time", P=7.0)),
+        **{f"move limit, {name}": partial(_limit_of_move, name) for name in MADE},
     }
+
+
+def _limit_of_move(name: str) -> Format:
+    return move_limit_file(MADE[name]())
 
 
 def _given(proof: Any) -> object:

@@ -6,13 +6,25 @@ from hypothesis import strategies as st
 
 from optlaws.verification import verify_all
 from tests.sampling import examples
-from tests.verification.tampered_formats import Format, changes, changes_by_kind, formats, outcome, places, tampered
+from tests.verification.tampered_formats import (
+    SLOW,
+    Format,
+    changes,
+    changes_by_kind,
+    formats,
+    outcome,
+    places,
+    tampered,
+)
 from tests.verification.tampering import value_at
 
 pytest.importorskip("flint")
 
 
-@pytest.fixture(scope="module", params=formats())
+NAMES = [pytest.param(name, marks=[pytest.mark.long] if name in SLOW else []) for name in formats()]
+
+
+@pytest.fixture(scope="module", params=NAMES)
 def form(request: pytest.FixtureRequest) -> Format:
     return formats()[request.param]()
 

@@ -320,8 +320,8 @@ class Drive(JsonText):
         dimensions = DIMENSIONS[self.mechanism.axis]
         bounds = MoveBounds.read(limits, dimensions).plain(dimensions["load"])
         time = None if duration is None else way.duration
-        costs = MoveCosts.read(self.regeneration, heat)
-        return move_limit(LimitedMove(self, minimise, way.start, way.stroke, time, bounds, *costs))
+        heat = MoveCosts.read(self.regeneration, heat).heat
+        return move_limit(LimitedMove(self, minimise, way.start, way.stroke, time, bounds, heat=heat))
 
     def sheet(
         self,

@@ -32,12 +32,13 @@ from optlaws.synthesis.limits.phase_torque import ACCELERATION, AnyTorque
 from optlaws.tolerances import CLOSURE, STATED_BOUND
 
 _ENTRIES = ("dimension", "unit", "move", "drive_limit")
-_MOVE_ENTRIES = ("minimise", "start", "stroke", "duration", "limits", "recovered", "heat")
+_MOVE_ENTRIES = ("minimise", "start", "stroke", "duration", "limits")
 #: what a move moves, by the entry that describes it
 _DRIVEN = {
     "mechanism": ("optlaws.mechanisms.linkages.mechanism", "Mechanism", "phase_move_of"),
     "drive": ("optlaws.mechanisms.drives.drive_train", "Drive", "phase_move_of"),
 }
+_NUMBERS = {"start", "stroke", "recovered", "heat"}
 _DIGITS = 6
 _PART = 3
 
@@ -180,7 +181,12 @@ class LimitedMove(JsonText):
     limits
         As `MoveBounds.read` takes them, by position.
     recovered, heat
-        What of an energy counts, beside what the drive recovers.
+        What of an energy counts; of other quantities, and what a drive recovers by itself, 0.
+
+    Raises
+    ------
+    InputError
+        If `minimise` is unknown, something counts of an energy that is not minimised, or the drive itself has it.
     """
 
     driven: MovedSource
@@ -194,9 +200,22 @@ class LimitedMove(JsonText):
 
     _json_name = "a move with its limits"
 
+    def __post_init__(self) -> None:
+        if self.minimise not in get_args(DriveObjective):
+            raise InputError(unknown_key(self.minimise, get_args(DriveObjective), "minimise"))
+        for name in ("recovered", "heat"):
+            if getattr(self, name) and name not in _costs_of(self.minimise, _kind_of(self.driven)):
+                raise InputError(
+                    f"{name} is a part of the energy that is minimised: take minimise='energy'"
+                    if self.minimise != "energy"
+                    else f"{name} of a drive is its regeneration: give it to the drive"
+                )
+
     def to_dict(self) -> dict[str, Any]:
         """The move and what it moves as plain data."""
-        return {_kind_of(self.driven): self.driven.to_dict(), **{name: getattr(self, name) for name in _MOVE_ENTRIES}}
+        kind = _kind_of(self.driven)
+        names = (*_MOVE_ENTRIES, *_costs_of(self.minimise, kind))
+        return {kind: self.driven.to_dict(), **{name: getattr(self, name) for name in names}}
 
     @classmethod
     def from_dict(cls, data: Any) -> LimitedMove:
@@ -211,15 +230,16 @@ class LimitedMove(JsonText):
         kinds = [kind for kind in _DRIVEN if kind in data]
         if len(kinds) != 1:
             raise InputError(f"{cls._json_name} has a mechanism or a drive, got {shortened(data)}")
-        for name in data:
-            if name not in {*_MOVE_ENTRIES, *kinds}:
-                raise InputError(unknown_key(name, (*_MOVE_ENTRIES, *kinds), f"entry of {cls._json_name}"))
         if known["minimise"] not in get_args(DriveObjective):
             raise InputError(unknown_key(known["minimise"], get_args(DriveObjective), "minimise"))
+        costs = entries_of(data, _costs_of(known["minimise"], kinds[0]), cls._json_name)
+        for name in data:
+            if name not in {*known, *costs, *kinds}:
+                raise InputError(unknown_key(name, (*known, *costs, *kinds), f"entry of {cls._json_name}"))
         if not isinstance(known["limits"], Mapping):
             raise InputError(f"limits must be an object, got {shortened(known['limits'])}")
         module, name, _ = _DRIVEN[kinds[0]]
-        numbers = {name: finite(known[name], name) for name in ("start", "stroke", "recovered", "heat")}
+        numbers = {name: finite(value, name) for name, value in (known | costs).items() if name in _NUMBERS}
         duration = None if known["duration"] is None else positive(known["duration"], "duration")
         driven = getattr(imported(module), name).from_dict(data[kinds[0]])
         return cls(driven, known["minimise"], duration=duration, limits=dict(known["limits"]), **numbers)
@@ -407,12 +427,8 @@ def move_limit(move: LimitedMove) -> MoveLimit:
         If no motion keeps the bounds; the error states what is reachable.
     """
     minimise = move.minimise
-    if minimise not in get_args(DriveObjective):
-        raise InputError(unknown_key(minimise, get_args(DriveObjective), "minimise"))
     parts = _phase_move(move)
-    scales, bounds, costs = parts.scales, parts.bounds, parts.costs
-    if costs.heat and minimise != "energy":
-        raise InputError("heat is a part of the energy that is minimised: take minimise='energy'")
+    scales, bounds = parts.scales, parts.bounds
     if minimise != "time" and (least := bounds.least_share(scales.velocity)) >= 1.0:
         takes, given = f"{least * scales.duration:.{_DIGITS}g} s", f"{scales.duration:.{_DIGITS}g} s"
         speed = f" of {bounds.velocity:.{_DIGITS}g} {scales.of_velocity}" if bounds.velocity < inf else ""
@@ -497,6 +513,13 @@ def _phase_move(move: LimitedMove) -> PhaseMove:
     module, _, name = _DRIVEN[_kind_of(move.driven)]
     moved: PhaseMove = getattr(imported(module), name)(move)
     return moved
+
+
+def _costs_of(minimise: str, kind: str) -> tuple[str, ...]:
+    """What is given of an energy beside the move of a mechanism, or of a drive, which says what it recovers."""
+    if minimise != "energy":
+        return ()
+    return ("recovered", "heat") if kind == "mechanism" else ("heat",)
 
 
 def _kind_of(driven: MovedSource) -> str:

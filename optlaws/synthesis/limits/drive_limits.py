@@ -218,10 +218,10 @@ class DriveLimit(JsonText):
 
     def contradiction(self) -> str:
         """What is stated that the certificate or the motion does not have; empty where all of it agrees."""
-        if self.value > self.bound + STATED_BOUND * abs(self.bound):
+        if self.value > self.bound and not _near(self.value, self.bound):
             return f"the value {self.value!r} is above what its certificate proves, {self.bound!r}"
         known = _attained(self)
-        if self.attained != known and abs(self.attained - known) > STATED_BOUND * abs(known):
+        if not _near(self.attained, known):
             return f"attained is {self.attained!r}, and its motion has {known!r}"
         return ""
 
@@ -429,7 +429,8 @@ def _limit(standing: Standing, minimise: DriveObjective, unit: float, motion: Ph
     best = None
     for potential, weight, price, is_last in _certificates(standing, motion):
         edges, rows = tuple(potential.edges.tolist()), tuple(map(tuple, potential.coefficients.tolist()))
-        parts = (rows, s, b, standing.level, price, near)
+        level = standing.level if plane.kind == "mean" or price else 0.0
+        parts = (rows, s, b, level, price, near)
         limit = DriveLimit(minimise, 0.0, attained, plane, unit, weight, edges, *parts)
         limit = replace(limit, value=_bound(limit))
         if best is None or limit.value > best.value:
@@ -470,6 +471,11 @@ def _attained(limit: DriveLimit) -> float:
     return _put_right(limit, _in_units(value_of(limit.plane, limit.s, limit.b), limit.minimise, limit.unit, inf))
 
 
+def _near(stated: float, known: float) -> bool:
+    """Whether a stated number is a known one but for rounding; only itself is near an infinite one."""
+    return stated == known or (abs(known) < inf and abs(stated - known) <= STATED_BOUND * abs(known))
+
+
 def _put_right(limit: DriveLimit, value: float) -> float:
     """The value of a motion, without what integration is off below the bound."""
     return limit.value if 0.0 < limit.value - value <= INTEGRATION * abs(value) else value
@@ -495,8 +501,15 @@ def _check(limit: DriveLimit) -> None:
         raise InputError("s and b must be as many places within (0, 1) with velocities above 0")
     if any(low >= high for low, high in pairwise(limit.s)):
         raise InputError(f"s must ascend, got {shortened(limit.s)}")
-    if limit.plane.kind == "time" and limit.weight != 1.0:
+    plane = limit.plane
+    if plane.kind != {"peak torque": "peak", "time": "time"}.get(limit.minimise, "mean"):
+        raise InputError(f"the plane is none in which the {limit.minimise} is minimised")
+    if plane.kind == "time" and limit.weight != 1.0:
         raise InputError(f"the weight of the time that is minimised is 1, got {limit.weight!r}")
+    counts = {"level": plane.squared is not None or limit.price, "price": plane.peak, "near": plane.peak}
+    for name, used in counts.items():
+        if not used and getattr(limit, name) != 0.0:
+            raise InputError(f"{name} is no part of this certificate: it must be 0, got {getattr(limit, name)!r}")
 
 
 def limit_beside(problem: Problem) -> DriveLimit | None:

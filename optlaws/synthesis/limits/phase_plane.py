@@ -7,7 +7,7 @@ time are convex in w. What is minimised over the plane is what no law from rest 
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from math import inf, nextafter, sqrt
 from typing import Any, Literal, TypeAlias
@@ -21,7 +21,7 @@ from optlaws.formulas.arithmetic import NUMPY, evaluate
 from optlaws.formulas.reading import read
 from optlaws.formulas.tree import Formula, Number
 from optlaws.kept import kept_property
-from optlaws.numbers import Array, bounded, positive
+from optlaws.numbers import Array, bounded, finite, numbers, positive
 from optlaws.synthesis.limits.phase_torque import ACCELERATION, AnyTorque, GearTorque, PhaseTorque, torque_from
 from optlaws.tolerances import VALUE_ROUNDING, WINDOW_EDGE
 
@@ -67,7 +67,7 @@ class TorqueLimit:
         """The limit that `to_data` described."""
         if not isinstance(data, list | tuple) or len(data) not in {3, 5}:
             raise InputError(f"a limit is a torque, a value at rest, a fall, and a window, got {shortened(data)}")
-        at_rest, fall, *window = (float(value) for value in data[1:])
+        at_rest, fall, *window = (finite(value, "a limit") for value in data[1:])
         return cls(torque_from(data[0]), at_rest, fall, 0, *window)
 
 
@@ -287,9 +287,21 @@ class PhasePlane(JsonText):
                 "a phase plane has the keys squared, maxima, peak, limits, B, C, heat, velocities and holding"
             )
         squared, peak = (None if data[key] is None else torque_from(data[key]) for key in ("squared", "peak"))
-        maxima = tuple((torque_from(first), torque_from(second)) for first, second in data["maxima"])
-        limits = tuple(map(TorqueLimit.from_data, data["limits"]))
-        velocities = tuple(VelocityLimit(*map(float, limit)) for limit in data.get("velocities", []))
-        B, C = (inf if data[key] is None else float(data[key]) for key in ("B", "C"))
+        maxima = tuple((torque_from(first), torque_from(second)) for first, second in _rows(data, "maxima", 2))
+        limits = tuple(map(TorqueLimit.from_data, _rows(data, "limits")))
+        several = (numbers(row, "velocities") for row in _rows(data, "velocities", 3))
+        velocities = tuple(VelocityLimit(start, stop, most) for start, stop, most in several)
+        B, C = (inf if data[key] is None else positive(data[key], key) for key in ("B", "C"))
         holding = None if data.get("holding") is None else read(data["holding"], ("a",))
         return cls(squared, maxima, peak, limits, B, C, positive(data["heat"], "heat"), velocities, holding)
+
+
+def _rows(data: Mapping[str, Any], name: str, count: int | None = None) -> Sequence[Any]:
+    """The rows of an entry of a plane, each of so many values."""
+    rows = data.get(name, [])
+    many = f" of {count}" if count else ""
+    if not isinstance(rows, list | tuple) or any(
+        not isinstance(row, list | tuple) or len(row) != (count or len(row)) for row in rows
+    ):
+        raise InputError(f"{name} of a phase plane must be rows{many}, got {shortened(rows)}")
+    return rows

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from copy import deepcopy
+from dataclasses import replace
 from functools import cache
 from typing import Any
 
@@ -22,24 +24,29 @@ def proof_of(drive: Drive | Mechanism, *move: Any, **options: Any) -> MoveLimit:
     return caught.value.proof
 
 
+TABLE = Mechanism("0.8 kg m^2")
+DRIVE = Drive(TABLE, MOTOR, ratio=20, efficiency=0.85)
+PRESS = slider_crank("0.1 m", "0.4 m", bodies={"crank": "0.02 kg m^2", "slider": "5 kg"})
+WINDOW: dict[str, Any] = {"velocity": [("10 deg", "20 deg", "4 rad/s")]}
+LIFTING = Mechanism("0.8 kg m^2", load="5 N m")
+HEATED: dict[str, Any] = {"limits": {"torque": "60 N m"}, "recovered": 0.5, "heat": 0.1}
+
+MADE: dict[str, Callable[[], MoveLimit]] = {
+    "peak torque of a drive": lambda: DRIVE.limit("peak torque", *MOVE),
+    "energy of a drive": lambda: DRIVE.limit("energy", *MOVE, limits={"acceleration": "80 rad/s^2"}),
+    "time of a drive": lambda: DRIVE.limit("time", *MOVE[:2]),
+    "rms torque within a window": lambda: TABLE.limit("rms torque", *MOVE, limits=WINDOW),
+    "rms torque of a press": lambda: PRESS.limit("rms torque", "0 deg", "180 deg", "0.3 s"),
+    "energy with heat": lambda: TABLE.limit("energy", *MOVE, **HEATED),
+    "peak force of a slide": lambda: rack("20 mm", "5 kg").limit("peak torque", "0 rad", "1 rad", "0.5 s"),
+    "proof that the time is short": lambda: proof_of(TABLE, "rms torque", *MOVE, limits={"torque": "30 N m"}),
+    "proof that the load is beyond": lambda: proof_of(LIFTING, "time", *MOVE[:2], limits={"torque": "4 N m"}),
+}
+
+
 @cache
 def limits() -> dict[str, MoveLimit]:
-    table = Mechanism("0.8 kg m^2")
-    drive = Drive(table, MOTOR, ratio=20, efficiency=0.85)
-    press = slider_crank("0.1 m", "0.4 m", bodies={"crank": "0.02 kg m^2", "slider": "5 kg"})
-    window = [("10 deg", "20 deg", "4 rad/s")]
-    lifting = Mechanism("0.8 kg m^2", load="5 N m")
-    return {
-        "peak torque of a drive": drive.limit("peak torque", *MOVE),
-        "energy of a drive": drive.limit("energy", *MOVE, limits={"acceleration": "80 rad/s^2"}),
-        "time of a drive": drive.limit("time", *MOVE[:2]),
-        "rms torque within a window": table.limit("rms torque", *MOVE, limits={"velocity": window}),
-        "rms torque of a press": press.limit("rms torque", "0 deg", "180 deg", "0.3 s"),
-        "energy with heat": table.limit("energy", *MOVE, limits={"torque": "60 N m"}, recovered=0.5, heat=0.1),
-        "peak force of a slide": rack("20 mm", "5 kg").limit("peak torque", "0 rad", "1 rad", "0.5 s"),
-        "proof that the time is short": proof_of(table, "rms torque", *MOVE, limits={"torque": "30 N m"}),
-        "proof that the load is beyond": proof_of(lifting, "time", *MOVE[:2], limits={"torque": "4 N m"}),
-    }
+    return {name: make() for name, make in MADE.items()}
 
 
 def changed(data: dict[str, Any], path: tuple[Any, ...], value: object) -> dict[str, Any]:
@@ -88,3 +95,31 @@ def test_each_statement_of_a_file_is_that_of_its_move() -> None:
 def test_a_limit_of_another_drive_is_not_proven() -> None:
     one, other = (limits()[name].to_dict() for name in ("peak torque of a drive", "energy of a drive"))
     assert not verify({**one, "move": other["move"]}).proven
+
+
+def test_what_a_limit_does_not_use_is_not_in_its_file() -> None:
+    for name, limit in limits().items():
+        data = limit.to_dict()
+        beside = {"heat", "recovered"} & data["move"].keys()
+        of_drive = "drive" in data["move"]
+        assert beside == (set() if data["move"]["minimise"] != "energy" else {"heat"} if of_drive else beside), name
+        for key in {"heat", "recovered"} - beside:
+            with pytest.raises(InputError, match=key):
+                verify(changed(data, ("move", key), 0.1))
+    with pytest.raises(InputError, match="recovered is a part of the energy that is minimised"):
+        TABLE.limit("rms torque", *MOVE, recovered=0.5)
+    with pytest.raises(InputError, match="recovered of a drive is its regeneration"):
+        replace(limits()["energy of a drive"].move, recovered=0.5)
+
+
+@pytest.mark.parametrize("name", ["peak torque of a drive", "energy with heat", "time of a drive"])
+def test_no_number_stands_beside_a_certificate_that_proves_nothing(name: str) -> None:
+    data = limits()[name].to_dict()
+    for key in ("level", "price", "near"):
+        for value in (1e-3, 7.0):
+            wrong = changed(data, ("drive_limit", key), data["drive_limit"][key] + value)
+            assert noticed(wrong) or (verify(wrong).bound or 0.0) <= limits()[name].attained, (name, key)
+    pieces = len(data["drive_limit"]["edges"]) - 1
+    broken = changed(data, ("drive_limit", "potential"), [[0.0] * 5] * pieces)
+    assert noticed(broken), name
+    assert noticed(changed(broken, ("drive_limit", "attained"), None)), name
