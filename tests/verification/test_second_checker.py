@@ -20,6 +20,7 @@ from optlaws import (
     InfeasibleProblem,
     InputError,
     Machine,
+    Mechanism,
     OptlawsError,
     Pieces,
     Problem,
@@ -27,6 +28,7 @@ from optlaws import (
     Window,
     at_least,
     at_most,
+    drive_limit,
     synthesize,
     via,
 )
@@ -364,6 +366,73 @@ def test_a_bound_above_the_objective_is_false_at_sight(name: str, tmp_path: Path
         assert answer.returncode == 1
         wrong = [claim["path"] for claim in json.loads(answer.stdout) if claim["verdict"] == "not proven"]
         assert wrong == [f"the file: {name.replace('_', ' ')}"]
+
+
+@pytest.mark.parametrize("share", [0.05, 0.5, 0.95])
+def test_a_bound_above_its_certificate_and_below_the_objective_is_not_proven(share: float, tmp_path: Path) -> None:
+    data = synthesize(POWER).to_dict()
+    low, high = data["lower_bound"], data["objective"]
+    assert high > low * 1.001
+    assert ended(data, tmp_path).returncode != 1
+    data["lower_bound"] = low + share * (high - low)
+    answer = ended(data, tmp_path)
+    wrong = [claim for claim in json.loads(answer.stdout) if claim["verdict"] == "not proven"]
+    assert [claim["path"] for claim in wrong] == ["the file: lower bound"]
+    assert "is proven" in wrong[0]["detail"]
+    assert answer.returncode == 1
+    assert not verify(data).proven
+    # a limit in the phase plane may prove more than this program knows
+    beside = data | {
+        "drive_limit": drive_limit("0.1*c", C=9.0).to_dict(),
+    }
+    assert ended(beside, tmp_path).returncode == 3
+
+
+def of_drives() -> dict[str, Any]:
+    table = Mechanism("0.8 kg m^2")
+    return {
+        "limit of a drive": drive_limit("c + 0.5*a", "rms torque", C=9.0).to_dict(),
+        "limit of a move": table.limit("peak torque", "0 deg", "45 deg", "0.25 s").to_dict(),
+        "least time of a move": table.limit("time", "0 deg", "45 deg", limits={"torque": "50 N m"}).to_dict(),
+    }
+
+
+def test_limits_of_drives_are_not_checked_and_false_where_they_contradict_themselves(tmp_path: Path) -> None:
+    for name, data in of_drives().items():
+        assert ended(data, tmp_path).returncode == 3, name
+        limit = ("drive_limit",) if "drive_limit" in data else ()
+        wrong: list[tuple[tuple[str, ...], Any]] = [((*limit, "minimise"), "banana")]
+        wrong += [((*limit, "value"), value_at(data, (*limit, "attained")) * factor) for factor in (1.0 + 1e-6, 10.0)]
+        wrong += [(("dimension",), "banana"), (("unit",), -1.0)] if limit else []
+        for path, value in wrong:
+            assert ended(changed(data, path, value), tmp_path).returncode == 1, (name, path)
+        leaves = [path for path in places(data) if not isinstance(value_at(data, path), dict | list)]
+        altered = [changed(data, path, 7.0) for path in leaves[:: max(1, len(leaves) // 60)]]
+        verdicts: dict[str, set[str]] = {}
+        for result in checked(altered, tmp_path):
+            verdicts.setdefault(result["path"].split("]")[0], set()).add(result["verdict"])
+        assert len(verdicts) == len(altered)
+        assert all(found - {"proven"} for found in verdicts.values()), name
+
+
+def test_what_stands_beside_a_proof_is_not_passed_over(tmp_path: Path) -> None:
+    solution = _solution().to_dict()
+    beside: list[Any] = [
+        {"table": [solution, {"limit": 4.0}]},
+        {"table": [solution, 4.0]},
+        {"best": solution, "least": 4.0},
+        {"best": solution, "least": [{"limit": [4.0]}]},
+        solution | {"value": 4.0},
+        solution | {"constants": solution["constants"] | {"snap_x": 4.0}},
+        {"B": 1.859, "best": solution, "least": {"limit": 4.0}},
+    ]
+    assert ended([solution, solution], tmp_path).returncode == 0
+    for data in [*beside, {"limit": 4.0}, [4.0], {"about": "nothing"}]:
+        assert ended(data, tmp_path).returncode == 3, data
+    for wrong in ({"B": 1.8, "best": solution}, solution | {"status": "local"}, solution | {"status": "best"}):
+        assert ended(wrong, tmp_path).returncode == 1
+    unbounded = changed(solution, ("constants", "J", "value"), None)
+    assert ended(unbounded, tmp_path).returncode == 1
 
 
 def test_the_exit_code_says_what_is_only_partly_checked(tmp_path: Path) -> None:

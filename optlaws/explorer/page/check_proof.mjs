@@ -17,6 +17,7 @@ for (const file of plain) {
     ended.add(2);
     continue;
   }
+  if (!results.length) results.push({ path: "the file", verdict: "not checked", detail: "nothing in it is a certificate, a solution or a law with its constants" });
   if (results.some(({ verdict }) => verdict === "not proven")) ended.add(1);
   if (results.some(({ verdict }) => verdict === "not checked")) ended.add(3);
   if (asJson) {

@@ -5,7 +5,7 @@
 import { ONE, Rational, Unknown, ZERO, exact, greatest, least, quotientRounded, solvedWhole, sum, whole, wholeNumbers } from "./proof_numbers.mjs";
 import { MEANS, PEAKS, ROOT, Rows, neverNegative, rangeOf } from "./proof_rows.mjs";
 import { boxesHold } from "./proof_boxes.mjs";
-import { lawChecked, solutionChecked } from "./proof_solution.mjs";
+import { lawChecked, sameData, solutionChecked } from "./proof_solution.mjs";
 import { endVelocities, stroke } from "./proof_laws.mjs";
 
 /* A stated bound is a double: by how much of itself it may be above the proven one. */
@@ -286,26 +286,119 @@ function withPresentNames(data) {
   return text.includes("jounce") ? JSON.parse(text.replaceAll("jounce", "snap")) : data;
 }
 
-/* Everything in a file that this program can check, each with its verdict. */
+/* Everything in a file that this program can check, each with its verdict, and what it does not know of the file. */
 export function fileChecked(data) {
   return partsChecked(withPresentNames(data), "");
 }
 
+function isEmpty(value) {
+  return value === null || (typeof value === "object" && !Object.keys(value).length);
+}
+
+function namesIn(value) {
+  return value !== null && typeof value === "object" && !Array.isArray(value) ? Object.keys(value) : ["it"];
+}
+
+/* What is said to people, of the search and of programs: nothing is claimed by it. */
+const SILENT = ["about", "format", "iterations", "seconds", "starts", "versions", "state"];
+/* The other entries of a solution, of a law with its constants, and of a row of a table. */
+const OF_SOLUTION = [
+  "problem", "law", "constants", "z", "objective", "lower_bound", "gap", "limit", "status", "certificate", "power_certificate",
+  "peak_certificate", "drive_limit",
+];
+const OF_LAW = ["law", "constants"];
+const OF_ROW = ["asked", "status", "B"];
+
+/* What is checked of data; nothing where this program knows nothing of it. */
 function partsChecked(data, path) {
-  if (Array.isArray(data)) return data.flatMap((entry, i) => partsChecked(entry, `${path}[${i}]`));
-  if (data === null || typeof data !== "object") return [];
-  checkFormat(data, path || "the file");
-  if (isCertificate(data)) return [{ path: path || "the file", ...checked(data) }];
-  const inner = Object.entries(data).flatMap(([key, entry]) => partsChecked(entry, path ? `${path}.${key}` : key));
-  const where = path || "the file";
-  if (!data.law || !data.certificate || !data.problem) {
-    const alone = data.law && data.constants ? lawChecked(data, where) : [];
-    const stated = data.lower_bound ?? null;
-    if (stated !== null) alone.push({ path: `${where}: lower bound`, verdict: "not checked", detail: `${stated} is stated, and no certificate stands beside it` });
-    return [...inner, ...alone];
+  if (Array.isArray(data)) {
+    const each = data.map((entry, i) => partsChecked(entry, `${path}[${i}]`));
+    if (!each.some((results) => results.length)) return [];
+    return each.flatMap((results, i) => (results.length || isEmpty(data[i]) ? results : [unknownRow(`${path}[${i}]`, namesIn(data[i]))]));
   }
+  if (data === null || typeof data !== "object") return [];
+  const where = path || "the file";
+  checkFormat(data, where);
+  if (isCertificate(data)) return [{ path: where, ...checked(data) }];
+  if (isDriveLimit(data)) return driveLimitChecked(data, where);
+  if (isMoveLimit(data)) return moveLimitChecked(data, where);
+  if (data.law) checkFormat(data.law, path ? `${path}.law` : "law");
+  const inside = (key) => partsChecked(data[key], path ? `${path}.${key}` : key);
+  if (data.law && data.certificate && data.problem) return [...wholeSolutionChecked(data, path, inside), ...othersChecked(data, where, OF_SOLUTION, inside)];
+  if (data.law && data.constants) return [...lawChecked(data, where), ...othersChecked(data, where, OF_LAW, inside)];
+  const inner = othersChecked(data, where, data.asked || data.solution || "B" in data ? OF_ROW : [], inside);
+  return inner.length ? [...inner, ...rowChecked(data, where, inner)] : [];
+}
+
+/* The entries that a kind of object does not have, checked by themselves, and which of them this program does not know. */
+function othersChecked(data, where, known, inside) {
+  const results = [];
+  const unknown = [];
+  for (const [key, value] of Object.entries(data)) {
+    if (isEmpty(value) || SILENT.includes(key) || known.includes(key)) continue;
+    const inner = inside(key);
+    if (inner.length) results.push(...inner);
+    else unknown.push(key);
+  }
+  return unknown.length && (results.length || known.length) ? [...results, unknownRow(where, unknown)] : results;
+}
+
+function unknownRow(where, names) {
+  return { path: where, verdict: "not checked", detail: `this program does not know what is stated by ${names.join(", ")}` };
+}
+
+function wholeSolutionChecked(data, path, inside) {
   const same = JSON.stringify(data.problem);
+  const proofs = ["certificate", "power_certificate", "peak_certificate", "drive_limit"].filter((key) => data[key]);
+  const inner = proofs.flatMap(inside);
   const of = (key) => (data[key] && JSON.stringify(data[key].problem) === same ? [`${path ? `${path}.` : ""}${key}`] : []);
-  const proofs = ["certificate", "power_certificate"].flatMap(of);
-  return [...inner, ...solutionChecked(data, where, inner.filter((result) => proofs.includes(result.path)))];
+  const places = ["certificate", "power_certificate"].flatMap(of);
+  return [...inner, ...solutionChecked(data, path || "the file", inner.filter((result) => places.includes(result.path)))];
+}
+
+/* What a row of a table states of the solution or the proof in it. */
+function rowChecked(data, where, inner) {
+  const { asked = null, status = null, B = null, solution = null, proof = null } = data;
+  const results = [];
+  const state = (name, verdict, detail) => results.push({ path: `${where}: ${name}`, verdict, detail });
+  const problem = (solution ?? proof)?.problem ?? null;
+  if (asked !== null) state("problem", problem && sameData(asked, problem) ? "proven" : "not checked", "it is to be that of what stands in the row");
+  if (B !== null) {
+    const within = Object.values(data).map((entry) => entry?.problem).find((entry) => entry) ?? problem;
+    const known = within && typeof within.B === "number";
+    state("B", !known ? "not checked" : Number(B) === within.B ? "proven" : "not proven", `${B} is stated`);
+  }
+  if (status === null) return results;
+  if (solution) state("status", status === solution.status ? "proven" : "not proven", `${status} is stated, ${solution.status} in the solution`);
+  else if (!proof || status !== "infeasible") state("status", status === "infeasible" || !proof ? "not checked" : "not proven", `${status} is stated`);
+  else if (proof.program === "violation") state("status", inner.every(({ verdict }) => verdict === "proven") ? "proven" : "not proven", "no law is stated");
+  else state("status", "not checked", "no law is stated, by a bound of another constant");
+  return results;
+}
+
+const LIMITS = { "peak torque": ["N m", "N"], "rms torque": ["N m", "N"], energy: ["J"], time: ["s"] };
+
+function isDriveLimit(data) {
+  return "plane" in data && "potential" in data;
+}
+
+function isMoveLimit(data) {
+  return "drive_limit" in data && "unit" in data && "dimension" in data;
+}
+
+/* The limit of a drive: its certificate is in the phase plane, and what contradicts itself is false. */
+function driveLimitChecked({ minimise, value = null, attained = null }, where) {
+  if (!(minimise in LIMITS)) return [{ path: where, verdict: "not proven", detail: `nothing is known of the ${minimise} as what is least` }];
+  if (value !== null && attained !== null && attained < value - 1e-9 * Math.abs(value)) {
+    return [{ path: where, verdict: "not proven", detail: `${value} is stated as a bound, and ${attained} is attained` }];
+  }
+  return [{ path: where, verdict: "not checked", detail: "this program does not know limits in the phase plane" }];
+}
+
+function moveLimitChecked(data, where) {
+  const { unit, dimension, drive_limit: limit } = data;
+  const known = LIMITS[limit?.minimise] ?? [];
+  const detail = !known.includes(dimension) ? `${dimension} is no unit of the ${limit?.minimise}` : !(unit > 0) ? `the unit is ${unit}` : "";
+  if (detail) return [{ path: where, verdict: "not proven", detail }];
+  return [...driveLimitChecked(limit, `${where}: drive_limit`), unknownRow(where, ["unit, dimension, move"])];
 }

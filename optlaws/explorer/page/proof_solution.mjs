@@ -1,6 +1,6 @@
 /* What a file states of a law beside its proofs, held against the law and against what the proofs prove. */
 
-import { ONE, Unknown, ZERO, exact, greatest, sum, whole } from "./proof_numbers.mjs";
+import { HALF, ONE, Unknown, ZERO, exact, greatest, sum, whole } from "./proof_numbers.mjs";
 import { MEANS, PEAKS, parsed } from "./proof_rows.mjs";
 import { ends, lawOfZ } from "./proof_laws.mjs";
 import { limitOf } from "./proof_limits.mjs";
@@ -40,7 +40,7 @@ export function solutionChecked(data, path, proven) {
       if (data.objective !== undefined) claim("objective", near(data.objective, objective), `${data.objective} is stated, ${objective[1].toNumber()} is that of the law`);
     });
     for (const key of ["certificate", "power_certificate", "peak_certificate"]) {
-      if (data[key]) claim(`problem of the ${key.replace("_", " ")}`, sorted(data[key].problem) === sorted(problem), "it is to be that of the file");
+      if (data[key]) claim(`problem of the ${key.replace("_", " ")}`, sameData(data[key].problem, problem), "it is to be that of the file");
     }
     if (data.z) tried("Z", () => claim("Z", fitsZ(motion, problem, data.z), "its law is to be that of the file"));
     const misses = missesOf(motion, ends(problem)).filter(({ by, size }) => ROUNDING.times(size).below(by));
@@ -55,23 +55,28 @@ export function solutionChecked(data, path, proven) {
   tried("lower bound", () => {
     const limit = limitOf(problem, parsed(problem.minimise));
     const agrees = (stated, bound) => bound !== null && !bound.plus(STATED.times(bound.magnitude())).below(exact(stated));
+    const aboveIt = (stated) => highest.plus(STATED.times(highest.magnitude())).below(exact(stated));
     const bounds = [...proven.map(({ bound }) => bound), limit].filter((bound) => bound);
     const certificates = ["certificate", "power_certificate", "peak_certificate"].filter((key) => data[key]);
     const limitKnown = (data.limit ?? null) === null || agrees(data.limit, limit);
+    const ofDrive = data.drive_limit?.value ?? null;
+    if (ofDrive !== null && highest && aboveIt(ofDrive)) claim("drive limit", false, `${ofDrive} is stated, above the objective of the law, ${highest.toNumber()}`);
     const allKnown = !data.drive_limit && limitKnown && proven.filter(({ bound }) => bound).length === certificates.length;
     const best = bounds.length ? bounds.reduce(greatest) : null;
     for (const [name, stated, bound] of [["limit", data.limit ?? null, limit], ["lower bound", data.lower_bound ?? null, best]]) {
       if (stated === null) continue;
       if (agrees(stated, bound)) claim(name, true, `${stated} is stated, ${bound.toNumber()} is proven`);
-      else if (highest && highest.plus(STATED.times(highest.magnitude())).below(exact(stated))) claim(name, false, `${stated} is stated, above the objective of the law, ${highest.toNumber()}`);
+      else if (highest && aboveIt(stated)) claim(name, false, `${stated} is stated, above the objective of the law, ${highest.toNumber()}`);
       else if (allKnown && best && name === "lower bound") claim(name, false, `${stated} is stated, ${best.toNumber()} is proven`);
       else claims.push({ path: `${path}: ${name}`, verdict: "not checked", detail: `${stated} is stated, by no proof that this program knows` });
     }
     const gap = highest && best && highest.sign > 0 ? highest.minus(best).over(highest) : null;
     const room = (most) => gap && !most.plus(GAP).below(gap);
+    const nearly = (least) => least && !GAP.times(HALF).below(least);
     const shown = gap ? `it is at most ${gap.toNumber()}` : "the gap is not known";
     if ((data.gap ?? null) !== null) gapClaims(claim, claims, path, "gap", data.gap, room(exact(data.gap)), shown);
     if (data.status === "optimal") gapClaims(claim, claims, path, "status", data.status, room(ZERO), shown);
+    else if (data.status) claim("status", ["local", "inaccurate"].includes(data.status) && !nearly(gap), `${data.status} is stated, ${shown}`);
   });
   return claims;
 }
@@ -80,6 +85,11 @@ export function solutionChecked(data, path, proven) {
 function gapClaims(claim, claims, path, name, stated, holds, shown) {
   if (holds) claim(name, true, `${stated} is stated, ${shown}`);
   else claims.push({ path: `${path}: ${name}`, verdict: "not checked", detail: `${stated} is stated, ${shown} by what this program knows` });
+}
+
+/* Whether plain data are the same, in whatever order their keys are. */
+export function sameData(one, other) {
+  return sorted(one) === sorted(other);
 }
 
 /* Plain data as a text in which keys are in order. */
@@ -99,10 +109,13 @@ function fitsZ(motion, problem, z) {
 function constantsChecked(data, path, motion) {
   return Object.entries(data.constants ?? {}).flatMap(([name, entry]) => {
     const { value: stated, k = null } = typeof entry === "object" && entry !== null ? entry : { value: entry };
-    if (stated === null || !(name in PEAKS || name in MEANS || name === "D")) return [];
+    const place = `${path}: ${name}`;
+    if (!(name in PEAKS || name in MEANS || name === "D")) return [{ path: place, verdict: "not checked", detail: "this program does not know this constant" }];
+    // a derivative of pieces may jump
+    if (stated === null) return [{ path: place, verdict: motion.length > 1 ? "not checked" : "not proven", detail: "it is stated to have no bound" }];
     const reached = k === null || reachedAt(motion, name, exact(k), exact(stated));
     const detail = reached ? `${stated} is stated` : `${stated} is stated, but not reached at k = ${k}`;
-    return [{ path: `${path}: ${name}`, verdict: reached && near(stated, enclosed(motion, name)) ? "proven" : "not proven", detail }];
+    return [{ path: place, verdict: reached && near(stated, enclosed(motion, name)) ? "proven" : "not proven", detail }];
   });
 }
 
