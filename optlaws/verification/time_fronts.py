@@ -56,10 +56,12 @@ def _point(least: LeastTime, objective: MoveObjective, row: Mapping[str, Any], k
     with meant():
         same = known.problem == objective.problem(move, duration)
     yield Claim("the problem", same, f"its limits {'are' if same else 'are not'} those of the move in this time")
-    unit = Fraction(objective.in_time(duration, move.stroke).bound)
+    of_law = objective.in_time(duration, move.stroke)
+    unit = Fraction(of_law.bound)
     low, high = (None, None) if known.objective is None else (Fraction(side) / unit for side in known.objective)
     value = Fraction(number(row, "value"))
-    little = Fraction(STORED_VALUE) * abs(value)
+    # a value near 0, such as a residual that vanishes, is compared with its scale
+    little = Fraction(STORED_VALUE) * max(abs(value), Fraction(of_law.constant.scale) / unit)
     near = low is not None and high is not None and low - little <= value <= high + little
     yield Claim(f"the {objective.name}", near, f"{float(value)!r} stated, {_shown(high)} at most")
     stated, bound = real(row["lower_bound"]), None if known.bound is None else Fraction(known.bound) / unit

@@ -127,6 +127,11 @@ def _at_motor(name: str, move: TimedMove, drive: Drive | None, start: NumberOrQu
     torque = move.torque if drive is None else motor_torque(drive, start, move.stroke, {"rms torque": "1 N m"})
     if torque is None or (drive is None and name == "energy"):
         raise InputError(f"minimise: the {name} is that of a motor: give its drive")
+    if name == "torque" and torque.gear is not None:
+        raise InputError(
+            "minimise: the least peak torque behind a gear that loses power is not known: minimise the rms torque or "
+            "the energy, or leave out the efficiency"
+        )
     if not (move.at_rest and move.problem.monotone):
         raise InputError(
             f"minimise: the {name} at a motor is that of laws from rest to rest which never turn back: limit the "

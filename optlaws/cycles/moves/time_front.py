@@ -268,10 +268,12 @@ class TimeFront(JsonText):
             solutions,
         )
         for i, (row, point) in enumerate(zip(rows, front, strict=True)):
+            least = front.objective.in_time(point.duration, front.fastest.stroke)
+            size = max(abs(point.value), least.constant.scale / least.bound)
             for name in ("value", "lower_bound"):
                 known = getattr(point, name)
                 stated = -inf if row[name] is None and name == "lower_bound" else real(row[name])
-                if stated is None or (stated != known and abs(stated - known) > STORED_VALUE * abs(point.value)):
+                if stated is None or (stated != known and abs(stated - known) > STORED_VALUE * size):
                     raise InputError(f"points[{i}]: {name} is {shortened(row[name])}, but its law gives {known!r}")
         return front
 

@@ -9,7 +9,7 @@ from optlaws.errors import InputError
 from optlaws.numbers import MOST_ORDER, MOST_VELOCITY, real, whole
 from optlaws.synthesis.problem.expression import Expression, Term, leaves
 from optlaws.synthesis.problem.named_constants import expression, is_named
-from optlaws.synthesis.problem.ranges import Range, as_range
+from optlaws.synthesis.problem.ranges import Range, as_range, beyond
 from optlaws.synthesis.problem.windows import Window
 from optlaws.synthesis.spaces.bases import Basis
 from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
@@ -27,9 +27,9 @@ def constant(value: Any, name: str) -> float | Range | None:
     if limits is None:
         return None
     if name == "B" and limits.high <= 1.0:
-        raise InputError(f"B must be able to exceed 1 (the mean velocity is 1), got {shortened(value)}")
+        raise InputError(beyond(name, "1 (the mean velocity is 1)", limits))
     if limits.high <= 0.0:
-        raise InputError(f"{name} must be able to exceed 0, got {shortened(value)}")
+        raise InputError(beyond(name, "0", limits))
     return limits.high if limits.fixed else limits
 
 

@@ -126,6 +126,15 @@ def _named_range(low: Any, high: Any, name: str) -> Range:
         raise InputError(f"{name}: {error}") from None
 
 
+def beyond(name: str, least: str, limits: Range) -> str:
+    """The text of an error: a range ends where a constant begins.
+
+    >>> beyond("residual", "0", at_most(0.0))
+    'residual must be able to exceed 0, got 0.0 at most: give a greater bound, or minimise it'
+    """
+    return f"{name} must be able to exceed {least}, got {limits.high!r} at most: give a greater bound, or minimise it"
+
+
 class Bounds(Mapping[Functional, Range]):
     """Ranges of constants by constant; frozen and hashable. Known constants may be given by name.
 
@@ -143,7 +152,7 @@ class Bounds(Mapping[Functional, Range]):
                 raise InputError(f"bounds name {shortened(constant.title)} twice")
             limits = as_range(value, constant.title)
             if limits is not None and limits.high <= 0.0:
-                raise InputError(f"{constant.title} must be able to exceed 0, got {shortened(value)}")
+                raise InputError(beyond(constant.title, "0", limits))
             if limits is not None and limits != Range():
                 self._ranges[constant] = limits
 
