@@ -38,6 +38,8 @@ _TYPES = {".html": "text/html", ".css": "text/css", ".js": _SCRIPT, ".mjs": _SCR
 _MEMBERS = ("I(0)", "II(6)", "III(7.2)", "IV(10)")
 _IMPORT = re.compile(r'^import [^;]*?"(\.[^"]+)";$', re.MULTILINE)
 _BAD, _TOO_LONG, _LEFT = 400, 413, 499
+#: a browser looks for the icon whenever the address changes, and so with every drag: it may keep the one it has
+_ICON, _KEPT = "icon.svg", {"Cache-Control": "max-age=3600"}
 
 
 def application(start: dict[str, Any], workers: Workers | None = None) -> Starlette:
@@ -95,7 +97,8 @@ def loaded_first(files_of_page: dict[str, bytes]) -> list[str]:
 
 def _file(name: str) -> Callable[[Request], Response]:
     kind = _TYPES[f".{name.rpartition('.')[2]}"]
-    return lambda _: Response(page()[name], media_type=kind)
+    headers = _KEPT if name == _ICON else None
+    return lambda _: Response(page()[name], media_type=kind, headers=headers)
 
 
 def _asking(name: str, workers: Workers) -> Callable[[Request], Any]:
@@ -162,7 +165,9 @@ class Guard:
 
         async def sent(message: Message) -> None:
             if message["type"] == "http.response.start":
-                MutableHeaders(scope=message).update(HEADERS)
+                headers = MutableHeaders(scope=message)
+                for name, value in HEADERS.items():
+                    headers.setdefault(name, value)
             await send(message)
 
         await (self.app if not why else PlainTextResponse(f"{why}\n", status_code=403))(scope, receive, sent)

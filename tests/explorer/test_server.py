@@ -51,6 +51,12 @@ def test_every_answer_forbids_what_the_page_does_not_need(served: Server) -> Non
         assert response.headers["X-Content-Type-Options"] == "nosniff"
 
 
+def test_a_browser_keeps_the_icon_and_nothing_else(served: Server) -> None:
+    for path in ("/", "/main.js", "/style.css", "/api/start", "/nothing"):
+        assert served.send("GET", path)[0].headers["Cache-Control"] == "no-store"
+    assert served.send("GET", "/icon.svg")[0].headers["Cache-Control"] == "max-age=3600"
+
+
 def test_the_page_is_whole_and_names_nothing_beyond_it(served: Server) -> None:
     for name, content in page().items():
         response, answer = served.send("GET", f"/{name}" if name != "index.html" else "/")
