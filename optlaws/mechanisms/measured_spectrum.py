@@ -18,9 +18,7 @@ from optlaws.motion.quantities import TURN, positive_quantity
 from optlaws.numbers import Array, Quantity, numbers, whole
 
 #: points of a weight: each interval between two is a constraint of its own
-MOST_POINTS = 65
-#: points that stand for a file with more of them
-_FROM_FILE = 33
+MOST_POINTS = 20_000
 _PAIR = re.compile(r"\s*([^\s:,]+)\s*:\s*([^\s:,]+)\s*")
 
 
@@ -77,7 +75,8 @@ def spectrum_of(given: Any, frequency: tuple[float, float] | None = None) -> Spe
         raise InputError(f"amplitudes of a spectrum are at least 0, and one is above, got {shortened(sizes.tolist())}")
     if len(nu) > MOST_POINTS:
         raise InputError(
-            f"a spectrum has {MOST_POINTS} points at most, got {len(nu)}: `read_spectrum` covers more by fewer"
+            f"a spectrum has {MOST_POINTS} points at most, got {len(nu)}: `read_spectrum` with points=1000 covers them "
+            "by fewer"
         )
     if frequency is None:
         return tuple(zip(nu.tolist(), sizes.tolist(), strict=True))
@@ -121,7 +120,7 @@ def parts_of(spectrum: Spectrum) -> tuple[WeightPart, ...]:
     return tuple(WeightPart(a[0], b[0], a[1], b[1]) for a, b in pairs if a[1] or b[1])
 
 
-def above(frequency: Any, amplitude: Any, points: int = _FROM_FILE) -> Spectrum:
+def above(frequency: Any, amplitude: Any, points: int) -> Spectrum:
     """A spectrum of fewer points that is nowhere below the original, and as little above it as these points allow.
 
     The points stand where the original bends most; a linear program finds the least amplitudes there.
@@ -151,16 +150,6 @@ def above(frequency: Any, amplitude: Any, points: int = _FROM_FILE) -> Spectrum:
         return tuple(zip(nu.tolist(), sizes.tolist(), strict=True))
     places = _bends(nu, sizes, count)
     return tuple(zip(nu[places].tolist(), _least_above(nu, sizes, places).tolist(), strict=True))
-
-
-def excess(measured: Sequence[tuple[float, float]], covered: Spectrum) -> float:
-    """By which share of its greatest amplitude a spectrum that covers a measured one is above it at most.
-
-    >>> excess([(1.0, 0.0), (2.0, 0.0), (3.0, 1.0)], ((1.0, 0.0), (3.0, 1.0)))
-    0.5
-    """
-    nu, sizes = np.array(measured).T
-    return float((np.interp(nu, *np.array(covered).T) - sizes).max() / sizes.max())
 
 
 def _bends(frequencies: Array, sizes: Array, count: int) -> Array:
@@ -208,7 +197,7 @@ def read_spectrum(
     file: str | Path,
     *,
     duration: Quantity | None = None,
-    points: int = _FROM_FILE,
+    points: int | None = None,
     columns: Sequence[int | str] | None = None,
 ) -> tuple[tuple[float, float], ...]:
     r"""A measured spectrum from a file: frequencies nu and amplitudes, as weight of `residual_vibration`.
@@ -221,7 +210,8 @@ def read_spectrum(
         Of the motion, such as "0.1 s", where frequencies are in Hz: nu is 2 pi times frequency and duration. Without it
         they are nu, in radians in the motion.
     points
-        A file with more is replaced by a spectrum of so many that is nowhere below it.
+        All of the file's unless given: else a file with more is replaced by a spectrum of so many that is nowhere below
+        it.
     columns
         Which are meant, by headings or numbers from 1, of a file with more than two.
 
@@ -245,7 +235,10 @@ def read_spectrum(
     """
     table = points_of(Path(file), columns)
     try:
-        return spectrum_of(above(_in_motion(duration) * np.array(table.places), np.array(table.heights), points))
+        nu = _in_motion(duration) * np.array(table.places)
+        if points is None:
+            return spectrum_of(zip(nu.tolist(), table.heights, strict=True))
+        return spectrum_of(above(nu, np.array(table.heights), points))
     except InputError as error:
         raise InputError(f"{file}: {error}") from None
 

@@ -2,31 +2,49 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from math import ceil, nan
+from functools import lru_cache
+from hashlib import sha256
+from math import ceil, inf, nan
 from typing import Any
 
 import numpy as np
 from numpy.polynomial import legendre
+from numpy.typing import NDArray
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError
+from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.mechanisms.cam_constants import check_order
 from optlaws.mechanisms.measured_spectrum import Spectrum, WeightPart, parts_of, spectrum_of, weight_of
-from optlaws.mechanisms.transforms import legendre_from_chebyshev, moments, velocity_transform
-from optlaws.numbers import Array, Complex, circular_frequency, not_negative, numbers, positive, whole
-from optlaws.numerics.chebyshev import from_values, nodes
+from optlaws.mechanisms.transforms import legendre_from_chebyshev, moments, velocity_transform, velocity_transform_of
+from optlaws.numbers import Array, Complex, circular_frequency, not_negative, numbers, positive, power_of_two, whole
+from optlaws.numerics.chebyshev import basis_values, from_values, nodes
 from optlaws.numerics.peaks import Peak
 from optlaws.synthesis.families.cone import ConeFamily, stationary_places
 from optlaws.synthesis.functionals.curved_rows import columns_of
 from optlaws.synthesis.problem.constants import MAKERS, Functional
 from optlaws.synthesis.spaces.space import LawSpace
+from optlaws.tolerances import NEGLIGIBLE_TERM
 
 _WIDEST = 1000.0
-_SPARE = 40
+#: terms beside those of an exponential, for the weight and the powers of the frequency
+_SPARE = 12
+#: points of Gauss's rule beside those that the degree and the frequency need
+_GAUSS_SPARE = 40
 _MOST_POLYDYNE = 4
+#: a spectrum of more points is too long for messages and for the names of rows
+_NAMED_POINTS = 65
+#: frequencies that are computed together
+_TOGETHER = 8192
+#: digits that tell long spectra from each other
+_DIGITS = 16
+_BOUND_ROUNDING = 1e-12  # of a bound of a magnitude: what rounding may take from it
+
+#: integrals of exp(w (1 - k)) b(k) for roots w, of one law or a column for each
+Transform = Callable[[Complex], Complex]
 
 
 def residual_phasor(law: MotionLaw, frequency: Any, damping: float = 0.0) -> Complex:
@@ -148,9 +166,13 @@ class Residual(Functional):
     design_damping: float = 0.0
     spectrum: Spectrum | None = None
 
-    #: as of the law's acceleration, and in units of a bound where there is one
-    scale = 1.0
+    #: in units of a bound where there is one, else of its scale
     normalised = True
+
+    @kept_property
+    def scale(self) -> float:
+        """As of the law's acceleration, times the greatest weight; a power of 2."""
+        return power_of_two(max(size for _, size in self.spectrum)) if self.spectrum else 1.0
 
     def value(self, law: MotionLaw) -> float:
         """The greatest over the whole interval."""
@@ -158,11 +180,54 @@ class Residual(Functional):
 
     def peak(self, law: MotionLaw) -> Peak:
         """The greatest over the whole interval; its `k` is the frequency at which it is."""
-        return max((self._peak_of(law, part) for part in self.parts), key=lambda peak: peak.value)
+        transform, parts = velocity_transform_of(law), self.parts
+        bounds = self._bounds(transform, parts) if len(parts) > 1 else np.array([inf])
+        best = Peak(-inf, nan)
+        for i in np.argsort(-bounds, kind="stable"):
+            # an interval whose bound is below what another one attains has no greater value
+            if bounds[i] < best.value:
+                break
+            best = max(best, self._peak_of(transform, parts[i]), key=lambda peak: peak.value)
+        return best
 
-    def _peak_of(self, law: MotionLaw, part: WeightPart) -> Peak:
-        value, place = greatest_modulus(lambda u: self._phasors(law, part, _frequencies(part, u)), _nodes(part))
+    def _peak_of(self, transform: Transform, part: WeightPart) -> Peak:
+        def weighed(u: Array) -> Complex:
+            frequencies = _frequencies(part, u)
+            return np.asarray(part.at(frequencies) * self._amplitudes(transform, frequencies))
+
+        value, place = greatest_modulus(weighed, _nodes(part))
         return Peak(value, float(_frequencies(part, np.array([place]))[0]))
+
+    def _bounds(self, transform: Transform, parts: Sequence[WeightPart]) -> Array:
+        """What the magnitude is at most on each interval: the sum of the terms of its square."""
+        bounds = np.empty(len(parts))
+        for some, series in self._series_of(transform, parts):
+            places = nodes(2 * series.shape[1])
+            values = series[:, :, 0] @ basis_values(places, series.shape[1]).T
+            squares = from_values(np.ascontiguousarray((values.real**2 + values.imag**2).T))
+            bounds[some] = np.sqrt(np.abs(squares).sum(axis=0)) * (1.0 + _BOUND_ROUNDING)
+        return bounds
+
+    def _series_of(
+        self, transform: Transform, parts: Sequence[WeightPart]
+    ) -> Iterator[tuple[NDArray[np.intp], Complex]]:
+        """Chebyshev series of the weighed amplitudes on intervals, those alike together: their numbers, and the series.
+
+        The series' shape is (intervals, terms, columns).
+        """
+        counts = np.array([len(_nodes(part)) for part in parts])
+        for count in np.unique(counts):
+            alike = np.flatnonzero(counts == count)
+            for some in np.array_split(alike, ceil(len(alike) * count / _TOGETHER)):
+                low, high, first, last = np.array([parts[i] for i in some]).T[:, :, None]
+                share = 0.5 * (1.0 + _nodes(parts[some[0]]))
+                frequencies = ((1.0 - share) * low + share * high).ravel()
+                weights = ((1.0 - share) * first + share * last).ravel()
+                amplitudes = self._amplitudes(transform, frequencies).reshape(len(frequencies), -1)
+                values = (weights[:, None] * amplitudes).reshape(len(some), count, -1)
+                flat: Complex = np.ascontiguousarray(values.transpose(1, 0, 2)).reshape(count, -1)
+                series: Complex = from_values(flat)
+                yield some, series.reshape(count, len(some), -1).transpose(1, 0, 2)
 
     @property
     def parts(self) -> tuple[WeightPart, ...]:
@@ -174,7 +239,17 @@ class Residual(Functional):
     @property
     def part_names(self) -> tuple[str, ...]:
         """Names of the parts in certificates."""
-        return (self.name, *(f"{self.name}, part {i + 1}" for i in range(1, len(self.parts))))
+        short = self.name
+        if self.spectrum is not None and len(self.spectrum) > _NAMED_POINTS:
+            short = f"residual(spectrum={sha256(self.name.encode()).hexdigest()[:_DIGITS]})"
+        return (self.name, *(f"{short}, part {i + 1}" for i in range(1, len(self.parts))))
+
+    @property
+    def title(self) -> str:
+        """A few words for it where the name has a long spectrum in it."""
+        if self.spectrum is None or len(self.spectrum) <= _NAMED_POINTS:
+            return self.name
+        return f"residual weighed by a spectrum of {len(self.spectrum)} points, nu from {self.low:g} to {self.high:g}"
 
     def families(self, space: LawSpace, slack: Array, bound: float) -> tuple[ConeFamily, ...]:
         """A cone for each frequency; a bound is scaled to 1, so that residuals are measured by it."""
@@ -182,32 +257,31 @@ class Residual(Functional):
             check_order(self.name, space, _MOST_POLYDYNE)
         elif space.start_velocity != 0.0 or space.velocity_change != 0.0 or space.boundary.order < 2:
             raise InputError(f"{self.name} needs laws from rest to rest, of order 2 at least")
-        unit = bound or 1.0
+        unit = bound or self.scale
         return tuple(
             ConeFamily(
                 name,
-                slack,
+                slack / self.scale,
                 bound / unit,
                 domain=domain_of(_nodes(part)),
-                series=self._series(space, part, slack) / unit,
+                series=widened(columns, len(slack)) / unit,
             )
-            for name, part in zip(self.part_names, self.parts, strict=True)
+            for name, part, columns in zip(self.part_names, self.parts, self._columns(space), strict=True)
         )
 
-    def _series(self, space: LawSpace, part: WeightPart, slack: Array) -> Complex:
-        return widened(self._columns(space, part), len(slack))
+    def where(self, k: float, part: int = 0) -> str:
+        """The frequency of a place in a part."""
+        return f"frequency = {self.frequency(k, part):.5g}"
 
-    def where(self, k: float) -> str:
-        """The frequency of a place in the first part."""
-        return f"frequency = {self.frequency(k):.5g}"
+    def frequency(self, place: float, part: int = 0) -> float:
+        """The frequency that a certificate's contact of a part refers to by a number k from 0 to 1."""
+        return float(_frequencies(self.parts[part], np.array([2.0 * place - 1.0]))[0])
 
-    def frequency(self, place: float) -> float:
-        """The frequency that a certificate's contact of the first part refers to by a number k from 0 to 1."""
-        return float(_frequencies(self.parts[0], np.array([2.0 * place - 1.0]))[0])
-
-    def _phasors(self, law: MotionLaw, part: WeightPart, frequencies: Array) -> Complex:
-        phasors = residual_phasor(law, frequencies, self.damping)
-        return np.asarray(part.at(frequencies) * frequencies**2 * self._detuning(frequencies) * phasors)
+    def _amplitudes(self, transform: Transform, frequencies: Array) -> Complex:
+        """nu² times the complex amplitudes, a row for each frequency."""
+        _, w, damped = roots(frequencies, self.damping)
+        scale = -1j * frequencies**2 * w.conj() / damped * self._detuning(frequencies)
+        return np.asarray((scale * transform(w).T).T)
 
     def _detuning(self, frequencies: Array) -> Complex:
         """The share that a polydyne cam leaves of the residual of its mass law cut directly on a cam."""
@@ -219,15 +293,18 @@ class Residual(Functional):
         ratio = frequencies / self.design
         return np.asarray(1.0 - ratio**2 + 2.0 * (n0 - n) * w / self.design**2)
 
-    def _columns(self, space: LawSpace, part: WeightPart) -> Complex:
-        """Chebyshev series in u of nu² times the complex amplitude: free functions, then the base law."""
-        return cached_columns(space, ("residual", self.name, part), lambda: self._computed(space, part))
+    def _columns(self, space: LawSpace) -> list[Complex]:
+        """Chebyshev series of each part: of the amplitudes of the free functions, then of the base law."""
+        parts = self.parts
+        counts = [len(_nodes(part)) for part in parts]
+        together = cached_columns(space, ("residual", self.name), lambda: self._computed(space, parts))
+        return np.split(together, np.cumsum(counts[:-1]))
 
-    def _computed(self, space: LawSpace, part: WeightPart) -> Complex:
-        frequencies = _frequencies(part, _nodes(part))
-        _, w, damped = roots(frequencies, self.damping)
-        scale = -1j * part.at(frequencies) * frequencies**2 * w.conj() / damped * self._detuning(frequencies)
-        return np.ascontiguousarray(from_values(scale[:, None] * velocity_transforms(space, w, part.high)))
+    def _computed(self, space: LawSpace, parts: Sequence[WeightPart]) -> Complex:
+        series: dict[int, Complex] = {}
+        for some, columns in self._series_of(lambda w: velocity_transforms(space, w, float(np.abs(w).max())), parts):
+            series |= zip(some.tolist(), columns, strict=True)
+        return np.concatenate([series[i] for i in range(len(parts))])
 
 
 def _frequencies(part: WeightPart, u: Array) -> Array:
@@ -238,7 +315,7 @@ def _frequencies(part: WeightPart, u: Array) -> Array:
 def _nodes(part: WeightPart) -> Array:
     """Chebyshev nodes, enough for functions of exponential type 1 in nu; a single place where there is no more."""
     length = part.high - part.low
-    return nodes(ceil(0.75 * length) + _SPARE) if length else np.ones(1)
+    return nodes(terms_of_exponential(0.5 * length) + _SPARE) if length else np.ones(1)
 
 
 def residual_vibration(
@@ -332,6 +409,22 @@ def residual_vibration(
     )
 
 
+@lru_cache(maxsize=256)
+def terms_of_exponential(half: float) -> int:
+    """The number of coefficients of exp(w t) that count, w over a line of twice that length, 0 <= t <= 1.
+
+    Where |exp(w t)| is at most 1 on the line the coefficient n is at most 2 (half / 2)^n / n!.
+
+    >>> terms_of_exponential(0.01), terms_of_exponential(10.0)
+    (7, 37)
+    """
+    n, size = 0, 2.0
+    while size > NEGLIGIBLE_TERM or n < half:
+        n += 1
+        size *= 0.5 * half / n
+    return n + 1
+
+
 def greatest_modulus(amplitude: Callable[[Array], Complex], nodes: Array) -> tuple[float, float]:
     """The greatest magnitude of an analytic amplitude from -1 to 1, by nodes that resolve it, and its place.
 
@@ -379,7 +472,7 @@ def _gauss_rule(space: LawSpace, highest: float) -> tuple[Array, Array]:
     """Gauss points on every piece of the law, enough for a vibration of the highest frequency, and weights."""
     breaks = np.array(getattr(space, "breaks", (0.0, 1.0)))
     degree = len(space.derivative(1, "b", np.zeros(space.terms)).series)
-    x, weights = legendre.leggauss(degree + ceil(0.5 * highest) + _SPARE)
+    x, weights = legendre.leggauss(degree + ceil(0.5 * highest) + _GAUSS_SPARE)
     lengths = np.diff(breaks)
     k = breaks[:-1, None] + lengths[:, None] * (1.0 + x) / 2.0
     return k.ravel(), (lengths[:, None] * weights / 2.0).ravel()

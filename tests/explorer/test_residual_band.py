@@ -25,14 +25,12 @@ def test_peaks_and_the_greatest_in_a_band_are_the_library_s(served: Server, tmp_
     law = synthesize(Problem(order=4, B=1.7)).law
     (tmp_path / "shaker.csv").write_text(SHAKER, "utf-8")
     measured = read_spectrum(tmp_path / "shaker.csv", duration="0.1 s")
-    covered = served.ask("spectrum", {"pairs": PAIRS, "duration": "0.1 s"})
-    assert covered["pairs"] == [list(pair) for pair in measured]
-    assert covered["raw"] == PAIRS
+    weighed = {"spectrum": PAIRS, "duration": "0.1 s"}
     for asked, constant in (
         ({"band": [18.0, 22.0]}, residual_vibration(frequency=(18, 22), damping=0.02)),
-        ({"spectrum": covered["pairs"]}, residual_vibration(spectrum=measured, damping=0.02)),
+        (weighed, residual_vibration(spectrum=measured, damping=0.02)),
         (
-            {"spectrum": covered["pairs"], "band": [18.0, 22.0]},
+            {**weighed, "band": [18.0, 22.0]},
             residual_vibration(spectrum=measured, frequency=(18, 22), damping=0.02),
         ),
     ):
@@ -43,13 +41,18 @@ def test_peaks_and_the_greatest_in_a_band_are_the_library_s(served: Server, tmp_
     assert answer["laws"][0]["peaks"] == pytest.approx(curves.peak_acceleration.tolist(), abs=1e-5)
 
 
-def test_a_spectrum_of_many_lines_is_covered_by_few(served: Server) -> None:
-    nu = np.linspace(5.0, 60.0, 2000)
-    sizes = 1.0 / (1.0 + (nu - 20.0) ** 2)
-    covered = np.array(served.ask("spectrum", {"pairs": np.column_stack([nu, sizes]).tolist()})["pairs"])
-    assert len(covered) == 33
-    assert (np.interp(nu, *covered.T) >= sizes * (1.0 - 1e-12)).all()
-    assert (np.interp(nu, *covered.T) - sizes).max() < 0.02
+def test_a_spectrum_of_many_lines_counts_whole(served: Server) -> None:
+    nu = np.linspace(5.0, 60.0, 800)
+    sizes = np.exp(0.3 * np.random.default_rng(1).normal(size=800)) / (1.0 + (nu - 20.0) ** 2)
+    pairs = np.column_stack([nu, sizes.round(4)])
+    assert served.ask("spectrum", {"pairs": pairs.tolist()})["text"] == "800 points, nu 5 to 60"
+    (left,) = served.ask("residual", {"laws": [OPTIMAL], "spectrum": pairs.tolist()})["laws"]
+    law = synthesize(Problem(order=4, B=1.7)).law
+    assert left["band"]["value"] == residual_vibration(spectrum=pairs).value(law)
+    formula = f"residual(spectrum='{{{', '.join(f'{at:.5g}: {size:g}' for at, size in pairs)}}}')"
+    bound = {"problem": OPTIMAL["problem"] | {"bounds": {formula: [0, 0.5 * left["band"]["value"]]}}}
+    (view,) = served.ask("laws", {"laws": [bound]})["laws"]
+    assert "optimal" in str(view["trust"])
     falling = served.ask("spectrum", {"pairs": [[2.0, 1.0], [1.0, 1.0]]})
     assert "increase from line to line" in falling["error"]
 

@@ -38,7 +38,7 @@ from optlaws.synthesis.limits.of_problem import known_limit
 from optlaws.synthesis.limits.phase_plane import TorqueLimit, VelocityLimit
 from optlaws.synthesis.limits.phase_plane_program import optimum
 from optlaws.synthesis.limits.rounding import not_above, root_rounded_down, rounded_down, rounded_up
-from optlaws.synthesis.method import exchange, starts
+from optlaws.synthesis.method import exchange, few_families, starts
 from optlaws.synthesis.method.discretised import ipopt
 from optlaws.synthesis.method.discretised.expressions import KINDS, RowShape
 from optlaws.synthesis.method.discretised.grids import first_points

@@ -1,5 +1,6 @@
 """Residuals weighed by a measured spectrum: greatest values, proofs over the whole band, files."""
 
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -7,6 +8,7 @@ import pytest
 
 from optlaws import (
     Chebyshev,
+    InfeasibleProblem,
     InputError,
     Problem,
     at_most,
@@ -18,6 +20,7 @@ from optlaws import (
 )
 from optlaws.verification import verify
 from tests.internals.mechanisms import above
+from tests.internals.synthesis import few_families
 
 SPECTRUM = ((16.0, 0.2), (18.0, 1.0), (19.0, 0.4), (22.0, 0.9), (24.0, 0.0), (26.0, 0.0), (27.0, 0.3))
 
@@ -82,6 +85,9 @@ def test_a_spectrum_is_read_from_a_file_and_covered_by_fewer_points(tmp_path: Pa
     sizes = 1.0 / np.abs(1.0 - (hertz / 33.0) ** 2 + 0.08j * hertz / 33.0)
     rows = "\n".join(f"{f:.2f};{a:.6f}".replace(".", ",") for f, a in zip(hertz, sizes, strict=True))
     file.write_text(f"frequency Hz;amplitude\n{rows}\n")
+    assert np.array(read_spectrum(file, duration="100 ms")) == pytest.approx(
+        np.column_stack([0.2 * np.pi * hertz, np.round(sizes, 6)])
+    )
     nu, amplitude = np.array(read_spectrum(file, duration="100 ms", points=25)).T
     assert len(nu) == 25
     assert nu[[0, -1]] == pytest.approx(0.2 * np.pi * hertz[[0, -1]])
@@ -102,7 +108,7 @@ def test_a_spectrum_is_read_from_a_file_and_covered_by_fewer_points(tmp_path: Pa
         ([(18, 1.0, 2.0), (20, 1.0)], "pairs"),
         (7, "pairs"),
         ("{18: one, 20: 1}", "as text"),
-        ([(x, 1.0) for x in range(1, 80)], "65 points at most"),
+        ([(x, 1.0) for x in range(1, 20_002)], "20000 points at most"),
         ("{gone.csv}", "cannot read gone.csv"),
         ([(18, float("nan")), (20, 1.0)], "amplitude"),
     ],
@@ -148,3 +154,88 @@ def test_few_points_are_above_and_near_what_was_measured(points: int, size: floa
     known = (dense**2 * np.abs(residual_phasor(law, dense)) * np.interp(dense, nu, sizes)).max()
     found = residual_vibration(spectrum=covered).value(law)
     assert known * (1.0 - 1e-9) <= found <= known * (1.0 + 12.0 / points**2)
+
+
+def measured(seed: int, points: int, size: float = 1.0, *, noise: float = 0.1) -> np.ndarray:
+    """Six resonances and noise, at places that are not even, as pairs of a frequency and an amplitude."""
+    numbers = np.random.default_rng(seed)
+    nu = 5.0 + 55.0 * np.sort(numbers.uniform(size=points)) ** numbers.uniform(0.7, 1.5)
+    sizes = np.full(points, 0.01)
+    for centre, width, height in zip(
+        numbers.uniform(6, 58, 6), numbers.uniform(0.3, 2, 6), numbers.uniform(0.3, 1, 6), strict=True
+    ):
+        sizes += height / (1.0 + ((nu - centre) / width) ** 2)
+    return np.column_stack([nu, size * sizes * np.exp(noise * numbers.normal(size=points))])
+
+
+def residual_by_quadrature(c: Callable[[np.ndarray], np.ndarray], nu: np.ndarray, damping: float) -> np.ndarray:
+    """The envelope that a law from rest to rest leaves, as an acceleration, by Gauss's rule in each tenth of k."""
+    x, weights = np.polynomial.legendre.leggauss(24)
+    k = (np.arange(10)[:, None] + 0.5 * (1.0 + x)).ravel() / 10.0
+    root = -damping + 1j * np.sqrt(1.0 - damping**2)
+    waves = np.exp(root * nu[:, None] * (1.0 - k))
+    moved = np.abs(waves @ (np.tile(weights / 20.0, 10) * c(k)))
+    return np.asarray(nu * moved / np.sqrt(1.0 - damping**2))
+
+
+@pytest.mark.parametrize(("points", "size"), [(60, 1e-9), (300, 1e9), (1000, 1e-3), (2000, 1.0), (5000, 1e6)])
+@pytest.mark.parametrize("damping", [0.0, 0.03])
+def test_the_greatest_is_that_of_the_whole_table(points: int, size: float, damping: float) -> None:
+    law = synthesize(Problem(order=4, B=1.7)).law
+    for seed in range(1 + 1000 // points):
+        pairs = measured(seed, points, size)
+        peak = residual_vibration(spectrum=pairs, damping=damping).peak(law)
+        shares = np.linspace(0.0, 1.0, max(4, 4000 // points))
+        dense = (pairs[:-1, :1] + shares * np.diff(pairs[:, :1], axis=0)).ravel()
+        amplitudes = residual_by_quadrature(lambda k: law(k, 2), dense, damping)
+        known = (np.interp(dense, *pairs.T) * amplitudes).max()
+        assert known * (1.0 - 1e-12) <= peak.value <= known * (1.0 + 1e-3)
+        there = np.array([peak.k])
+        at_peak = np.interp(there, *pairs.T) * residual_by_quadrature(lambda k: law(k, 2), there, damping)
+        assert peak.value == pytest.approx(float(at_peak[0]), rel=1e-11)
+
+
+@pytest.mark.parametrize("minimise", [True, False])
+def test_of_many_rows_those_that_bind_give_the_optimum_of_all(
+    monkeypatch: pytest.MonkeyPatch, *, minimise: bool
+) -> None:
+    for seed, size in ((0, 1.0), (1, 1e-9), (2, 1e9)):
+        limit = residual_vibration(spectrum=measured(seed, 120, size), damping=0.02)
+        if minimise:
+            problem = Problem(order=3, basis=Chebyshev(7), minimise=limit, B=at_most(2), C=at_most(7))
+        else:
+            problem = Problem(order=3, basis=Chebyshev(7), bounds={limit: at_most(0.5 * limit.value(smoothstep(4)))})
+        found = synthesize(problem)
+        assert found.status.value == "optimal"
+        assert found.gap <= 1e-9
+        with monkeypatch.context() as patch:
+            patch.setattr(few_families, "_MANY", 10_000)
+            assert synthesize(problem).objective == pytest.approx(found.objective, rel=1e-9)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize(("points", "size"), [(100, 1e9), (700, 1e-9), (2000, 1.0)])
+def test_an_optimum_of_a_whole_table_is_proven_from_its_file(points: int, size: float) -> None:
+    pairs = measured(points, points, size)
+    limit = residual_vibration(spectrum=pairs, damping=0.02)
+    most = 0.5 * limit.value(smoothstep(4))
+    solution = synthesize(Problem(order=3, basis=Chebyshev(9), bounds={limit: at_most(most)}, symmetric=False))
+    dense = np.interp(np.arange(0, points - 1, 0.05), np.arange(points), pairs[:, 0])
+    weighed_by_table = np.interp(dense, *pairs.T) * residual_by_quadrature(lambda k: solution.law(k, 2), dense, 0.02)
+    assert 0.999 * most <= weighed_by_table.max() <= most * (1.0 + 1e-9)
+    data = solution.to_dict()
+    assert "\nproven      optimal: the proven gap" in str(verify(data))
+    name = data["problem"]["bounds"].popitem()[0]
+    data["problem"]["bounds"] = {name: [None, 0.99 * most]}
+    assert "\nnot proven" in str(verify(data))
+
+
+def test_a_long_spectrum_does_not_fill_a_message() -> None:
+    limit = residual_vibration(spectrum=measured(0, 500), damping=0.02)
+    with pytest.raises(InfeasibleProblem) as refused:
+        synthesize(Problem(order=3, basis=Chebyshev(5), bounds={limit: at_most(1e-3)}))
+    assert "has residual weighed by a spectrum of 500 points, nu from 5.11115 to 59.8826 <= 0.001. A" in str(
+        refused.value
+    )
+    assert len(refused.value.args[0] + refused.value.tried) < 500
+    assert "at frequency = " in refused.value.tried

@@ -34,7 +34,7 @@ export class Band {
   #duration;
   #field = html("input", { type: "file", accept: ".csv,.txt,.tsv,.dat,.tab", hidden: true, "aria-label": "File of a measured spectrum" });
   #spectrum = html("div", { class: "spectrum", translate: "no" });
-  #covers;
+  #asked;
   #last = null;
   #name = "";
   #answer = null;
@@ -57,8 +57,8 @@ export class Band {
       this.#field.click();
     } });
     this.#duration = html("input", { type: "text", class: "short", maxlength: 40, "aria-label": "Duration of the motion, for frequencies in Hz" });
-    this.#duration.addEventListener("change", () => this.#cover(this.#study.state.spectrum.raw, plain(this.#duration.value.trim())));
-    this.#covers = new Latest("api/spectrum", (answer, { duration }) => this.#covered(answer, duration), (error) => this.#say(error.message));
+    this.#duration.addEventListener("change", () => this.#take(this.#study.state.spectrum.raw, plain(this.#duration.value.trim())));
+    this.#asked = new Latest("api/spectrum", ({ seconds }, question) => this.#taken(question, seconds), (error) => this.#say(error.message));
     this.elements = [html("div", { class: "band" }, this.#toggle, choose, this.#field, this.#spectrum), this.#bound.element];
   }
 
@@ -71,7 +71,7 @@ export class Band {
   }
 
   question({ band, spectrum }) {
-    return { ...(band && { band }), ...(spectrum && { spectrum: spectrum.pairs }) };
+    return { ...(band && { band }), ...(spectrum && { spectrum: spectrum.raw, ...(spectrum.duration && { duration: spectrum.duration }) }) };
   }
 
   show(state) {
@@ -120,17 +120,17 @@ export class Band {
     const { pairs, hertz } = measured(await file.text());
     if (pairs.length < 2) throw new Error(`${file.name} has no lines of a frequency and an amplitude`);
     this.#name = file.name.slice(-60);
-    this.#cover(pairs, hertz ? this.#study.state.controller?.time || TIME : null);
+    this.#take(pairs, hertz ? this.#study.state.controller?.time || TIME : null);
     return true;
   }
 
-  #cover(pairs, duration) {
-    this.#covers.ask({ pairs: pairs.slice(0, 20_000), ...(duration && { duration }) });
+  #take(pairs, duration) {
+    this.#asked.ask({ pairs, ...(duration && { duration }) });
   }
 
-  #covered({ raw, pairs }, duration) {
+  #taken({ pairs, duration }, seconds) {
     this.change("spectrum", (state) => {
-      state.spectrum = { name: this.#name || state.spectrum?.name, raw, pairs, ...(duration && { duration }) };
+      state.spectrum = { name: this.#name || state.spectrum?.name, raw: pairs, ...(duration && { duration, seconds }) };
     });
   }
 
@@ -153,11 +153,15 @@ function boundOf(law) {
   return name === undefined ? null : law.problem.bounds[name][1];
 }
 
+/** The duration of the motion by what an older document has: frequencies in Hz, and in radians in the motion. */
+const secondsOf = ({ raw, pairs }) => pairs[0][0] / raw[0][0] / (2 * Math.PI);
+
 /** Give laws the bound in the band as it stands: a value for one of them, else what each has; null takes it away. */
 function bind(state, value, only) {
   const { band, spectrum, damping } = state;
   const within = [
-    ...(spectrum ? [`spectrum='{${spectrum.pairs.map(([nu, size]) => `${nu}: ${size}`).join(", ")}}'`] : []),
+    ...(spectrum ? [`spectrum='{${spectrum.raw.map(([at, size]) => `${at}: ${size}`).join(", ")}}'`] : []),
+    ...(spectrum?.duration ? [`duration=${spectrum.seconds ?? secondsOf(spectrum)}`] : []),
     ...(band ? [`frequency=(${band.join(", ")})`] : []),
     ...(damping ? [`damping=${damping}`] : []),
   ].join(", ");

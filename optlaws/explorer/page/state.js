@@ -21,7 +21,7 @@ export const FIRST = {
 
 /** What a link may hold, and whether the page can show it; the server says what else is wrong with it. */
 const pair = (value) => Array.isArray(value) && value.length === 2 && value.every(Number.isFinite);
-const spectrum = (value) => object(value) && [value.raw, value.pairs].every((pairs) => Array.isArray(pairs) && pairs.length > 1 && pairs.every(pair));
+const spectrum = (value) => object(value) && Array.isArray(value.raw) && value.raw.length > 1 && value.raw.every(pair);
 const WHOLE = { controller: object, band: pair, spectrum, ...Object.fromEntries(Object.entries(VIEWS).filter(([, { whole }]) => whole).map(([name, { whole }]) => [name, whole])) };
 const KNOWN = ["name", "notes", "view", "active", "picture", "machinePicture", "move", "time", "axis", "plane", "frequency", "damping", ...Object.keys(WHOLE)];
 

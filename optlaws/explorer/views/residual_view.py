@@ -12,24 +12,26 @@ from optlaws import residual_vibration, response_spectrum
 from optlaws.errors import InputError, OptlawsError
 from optlaws.explorer.views.law_view import digits, drawn
 from optlaws.explorer.views.requests import MOST_LAWS, LawRequest, Question, law_of
-from optlaws.mechanisms.measured_spectrum import MOST_POINTS, Spectrum, above, excess, spectrum_of, weight_of
+from optlaws.mechanisms.measured_spectrum import MOST_POINTS, Spectrum, weight_of
 from optlaws.mechanisms.residual import Residual
+from optlaws.motion.quantities import positive_quantity
 from optlaws.numbers import Array
 
 _COUNT = 241
 #: beyond this the envelope of the vibration, which the residual is, says nothing of what little is left to see
 MOST_DAMPING = 0.5
 _LOW = 2.0
-_MEASURED = 20_000
 
 Frequency = Annotated[float, msgspec.Meta(gt=0.0, le=1000.0)]
-Pair = tuple[float, float]
+Pairs = Annotated[list[tuple[float, float]], msgspec.Meta(min_length=2, max_length=MOST_POINTS)]
+Duration = Annotated[str, msgspec.Meta(max_length=60)]
 
 
 class ResidualRequest(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     """Laws, and the follower that they drive: the highest displayed frequency, the selected one, the damping.
 
-    A band is of frequencies nu over which the greatest residual is computed, a spectrum pairs of nu and an amplitude.
+    A band is of frequencies nu over which the greatest residual is computed, a spectrum pairs of a frequency and an
+    amplitude: nu, or Hz where the duration of the motion is given.
     """
 
     laws: Annotated[list[LawRequest], msgspec.Meta(min_length=1, max_length=MOST_LAWS)]
@@ -37,20 +39,21 @@ class ResidualRequest(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     most: Annotated[float, msgspec.Meta(ge=10.0, le=1000.0)] = 80.0
     damping: Annotated[float, msgspec.Meta(ge=0.0, le=MOST_DAMPING)] = 0.0
     band: tuple[Frequency, Frequency] | None = None
-    spectrum: Annotated[list[Pair], msgspec.Meta(min_length=2, max_length=MOST_POINTS)] | None = None
+    spectrum: Pairs | None = None
+    duration: Duration | None = None
 
 
 class SpectrumRequest(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     """A measured spectrum, pairs of a frequency and an amplitude: in Hz where the duration of the motion is given."""
 
-    pairs: Annotated[list[Pair], msgspec.Meta(min_length=2, max_length=_MEASURED)]
-    duration: Annotated[str, msgspec.Meta(max_length=60)] | None = None
+    pairs: Pairs
+    duration: Duration | None = None
 
 
 def residuals(request: ResidualRequest) -> dict[str, Any]:
     """Residual and peak acceleration of each law over frequencies, in units of a'', at one frequency, in a band."""
     frequencies = np.linspace(_LOW, request.most, _COUNT)
-    weight = None if request.spectrum is None else spectrum_of(request.spectrum)
+    weight = None if request.spectrum is None else weight_of(request.spectrum, request.duration)
     constant = _constant(request, weight)
     return {
         "frequencies": drawn(frequencies),
@@ -99,24 +102,20 @@ def _spectrum(
 
 
 def spectrum(request: SpectrumRequest) -> dict[str, Any]:
-    """A measured spectrum simplified to few points, nowhere below the original, as measured and over nu.
+    """What a measured spectrum is over nu, in words, and the duration of the motion in seconds where one is given.
 
     Examples
     --------
-    >>> spectrum(SpectrumRequest(pairs=[(30.0, 0.2), (32.0, 1.0)], duration="0.1 s"))["pairs"][0]
-    [18.84955592153876, 0.2]
+    >>> spectrum(SpectrumRequest(pairs=[(30.0, 0.2), (32.0, 1.0)], duration="0.1 s"))
+    {'text': '2 points, nu 18.85 to 20.11', 'seconds': 0.1}
     """
-    measured = np.array(request.pairs)
-    if (np.diff(measured[:, 0]) <= 0.0).any():
+    frequencies = np.array(request.pairs)[:, 0]
+    if (np.diff(frequencies) <= 0.0).any():
         raise InputError("the frequencies of a spectrum increase from line to line: sort the file by its first column")
-    covered = spectrum_of(above(measured[:, 0], measured[:, 1]))
-    weight = weight_of(covered, request.duration)
-    over = excess(request.pairs, covered)
-    stands = "" if len(covered) == len(measured) else f", by {len(covered)} at most {100.0 * over:.2g} % higher"
+    weight = weight_of(request.pairs, request.duration)
     return {
-        "raw": [list(pair) for pair in covered],
-        "pairs": [list(pair) for pair in weight],
-        "text": f"{len(measured)} points{stands}, nu {digits(weight[0][0], 4)} to {digits(weight[-1][0], 4)}",
+        "text": f"{len(weight)} points, nu {digits(weight[0][0], 4)} to {digits(weight[-1][0], 4)}",
+        "seconds": None if request.duration is None else positive_quantity(request.duration, "time", "duration"),
     }
 
 

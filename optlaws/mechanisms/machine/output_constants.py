@@ -100,7 +100,7 @@ class OutputConstant(Functional):
         """The time that places are shares of."""
         return self.within[1]
 
-    def where(self, k: float) -> str:
+    def where(self, k: float, part: int = 0) -> str:  # noqa: ARG002 - it has one
         """The time of a place."""
         return f"time {k * self.duration:.4g}"
 

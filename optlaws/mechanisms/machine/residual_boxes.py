@@ -9,7 +9,6 @@ ratios its magnitude is greatest on the edges, each of which is a second-order c
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from functools import lru_cache
 from math import asin, ceil, nan
 
 import numpy as np
@@ -25,6 +24,7 @@ from optlaws.mechanisms.residual import (
     cached_columns,
     domain_of,
     greatest_modulus,
+    terms_of_exponential,
     velocity_transforms,
     widened,
 )
@@ -68,7 +68,7 @@ class BoxEdge:
         ends = self.roots(np.array([-1.0, 1.0]))
         length = float(abs(ends[1] - ends[0]))
         straight = self.first[1] == self.last[1]
-        return chebyshev.nodes(_terms_of_exponential(0.5 * length) if straight else ceil(0.75 * length) + _SPARE)
+        return chebyshev.nodes(terms_of_exponential(0.5 * length) if straight else ceil(0.75 * length) + _SPARE)
 
 
 @dataclass(frozen=True, repr=False)
@@ -134,10 +134,9 @@ class ModeResidual(Functional):
         """A cone for each place of each edge, in units of the bound, or of the base law's residual."""
         check_rest(self.name, space)
         families = []
-        for i, edge in enumerate(self.edges):
+        for i, (name, edge) in enumerate(zip(self.part_names, self.edges, strict=True)):
             unit = self.unit(space, i, bound, sought=bool(slack.any()))
             series = widened(self._columns(space, i), len(slack)) / unit
-            name = f"{self.name}, edge {i + 1}" if i else self.name
             domain = domain_of(edge.nodes)
             families.append(ConeFamily(name, slack / unit, bound / unit, domain=domain, series=series))
         return tuple(families)
@@ -146,9 +145,14 @@ class ModeResidual(Functional):
         """The unit of the rows of an edge: the bound, or the base law's residual if there is no bound."""
         return bound or (float(np.abs(self._columns(space, edge)[:, -1]).max()) if sought else 0.0) or 1.0
 
-    def where(self, k: float) -> str:
-        """The frequency of a place on the first edge."""
-        return f"frequency = {abs(self.edges[0].roots(np.array([2.0 * k - 1.0]))[0]):.5g}"
+    @property
+    def part_names(self) -> tuple[str, ...]:
+        """Names of the edges in certificates."""
+        return (self.name, *(f"{self.name}, edge {i + 1}" for i in range(1, len(self.edges))))
+
+    def where(self, k: float, part: int = 0) -> str:
+        """The frequency of a place on an edge."""
+        return f"frequency = {abs(self.edges[part].roots(np.array([2.0 * k - 1.0]))[0]):.5g}"
 
     def _columns(self, space: LawSpace, edge: int) -> Complex:
         """Chebyshev series of the complex amplitude: free functions, then the base law."""
@@ -161,19 +165,6 @@ class ModeResidual(Functional):
         counted = np.flatnonzero(np.abs(series).max(axis=1) > NEGLIGIBLE_TERM * np.abs(series).max())
         # an output may not see the mode at all
         return np.ascontiguousarray(series[: counted[-1] + 1 if len(counted) else 1])
-
-
-@lru_cache(maxsize=256)
-def _terms_of_exponential(half: float) -> int:
-    """The number of coefficients of exp(w t) that count, w over a line of twice that length, 0 <= t <= 1.
-
-    Where |exp(w t)| is at most 1 on the line the coefficient n is at most 2 (half / 2)^n / n!.
-    """
-    n, size = 0, 2.0
-    while size > NEGLIGIBLE_TERM or n < half:
-        n += 1
-        size *= 0.5 * half / n
-    return n + 1
 
 
 def mode_residual(

@@ -17,6 +17,7 @@ from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.family import LinearFamily, Points, Program
 from optlaws.synthesis.method.discretised.grids import first_points
 from optlaws.synthesis.method.equations import contradiction, independent
+from optlaws.synthesis.method.few_families import binding_few
 from optlaws.synthesis.method.guesses import initial_guess, of_variables, sizes_only, vanishing
 from optlaws.synthesis.method.strategies.contacts import polished
 from optlaws.synthesis.method.strategies.strategy import cutting_plane_loop
@@ -70,8 +71,31 @@ def solve(
     `holds` may decide from x alone, and more quickly than the families do, whether every constraint holds. With no
     `rounds` of interior points quadratic programs lead on from a start, which they do not leave for a worse law.
     With `vertices` a linear program is solved by them alone: where contacts lie close together interior points may end
-    near an optimum without showing it.
+    near an optimum without showing it. Of very many families those that bind are found by exchange: a law that none of
+    the others excludes is the optimum of all.
     """
+    few = binding_few(program)
+    if few is None:
+        return _in_units(program, warm, start, holds, rounds, vertices=vertices)
+    while True:
+        outcome = _in_units(few.program, few.inward(warm), start, None, rounds, vertices=vertices)
+        warm = None if outcome.optimum is None else few.outward(outcome.optimum)
+        more = None if warm is None else few.joined_beyond(warm.x)
+        if more is None:
+            return outcome.mapped(few.outward)
+        few = more
+
+
+def _in_units(
+    program: Program,
+    warm: ActiveSet | None,
+    start: Array | None,
+    holds: Callable[[Array], bool] | None,
+    rounds: int,
+    *,
+    vertices: bool,
+) -> Outcome:
+    """The solution of a program in units in which its numbers are near 1."""
     units = units_of(program)
     if units is None:
         return _in_own_units(program, warm, start, holds, rounds, vertices=vertices)

@@ -159,7 +159,12 @@ class Functional(Term, ABC):
         """
         return f"{'convex' if self.convex else 'not known to be convex'}: {self.why}"
 
-    def where(self, k: float) -> str:
+    @property
+    def part_names(self) -> tuple[str, ...]:
+        """Names of its rows in certificates: one, unless it is the greatest of several parts."""
+        return (self.name,)
+
+    def where(self, k: float, part: int = 0) -> str:  # noqa: ARG002 - most have one
         """The place of a certificate's contact in words."""
         return f"k = {k:.4g}"
 

@@ -19,7 +19,7 @@ from optlaws.synthesis.method.equations import contradiction
 from optlaws.synthesis.method.exchange import DEPTH, Outcome, grounded, solve
 from optlaws.synthesis.method.strategies.identified import as_answered
 from optlaws.synthesis.method.strategies.strategy import Strategy, cutting_plane_loop
-from optlaws.synthesis.problem.constants import C
+from optlaws.synthesis.problem.constants import C, Functional
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import Model, extreme_velocity, least_violation, model_of
 from optlaws.synthesis.proof.certificate import OBJECTIVE, VIOLATION, Certificate
@@ -107,9 +107,10 @@ def falls_for_ever(problem: Problem) -> bool:
 
 
 def _contradiction(proof: Certificate) -> str:
-    where = {constant.name: constant.where for constant in proof.problem.constants}
+    parts = _parts(proof.problem)
     acting = [contact for contact in proof.contacts if contact.multiplier > 0.0]
-    words = [where.get(contact.constraint, C.where)(contact.k).partition(" = ") for contact in acting]
+    placed = [(*parts.get(contact.constraint, (C, 0)), contact.k) for contact in acting]
+    words = [constant.where(k, part).partition(" = ") for constant, part, k in placed]
     symbols = dict.fromkeys(symbol for symbol, _, _ in words)
     places = ", ".join(f"{shown} = {', '.join(at for symbol, _, at in words if symbol == shown)}" for shown in symbols)
     return f"the constraints contradict each other at {places} (error.proof is the certificate)"
@@ -208,7 +209,14 @@ def _shape(problem: Problem) -> str:
     return f"Z of degree {basis.degree}" if isinstance(basis, PolynomialBasis) else repr(basis)
 
 
+def _parts(problem: Problem) -> dict[str, tuple[Functional, int]]:
+    """Constants and their parts by the names of their rows."""
+    return {name: (constant, i) for constant in problem.constants for i, name in enumerate(constant.part_names)}
+
+
 def _named(problem: Problem, constraint: str) -> str:
+    parts = _parts(problem)
+    constraint = parts[constraint][0].name if constraint in parts else constraint
     number = names.window_number(constraint)
     if number is not None:
         return repr(problem.windows[number - 1])

@@ -78,7 +78,7 @@ def residual_parts(
 ) -> tuple[dict[str, Maker], dict[Corner, tuple[Corner, float]]]:
     """A cone for each part of the frequencies by its name, and the start of a part at its predecessor's end."""
     exact, names = ExactResidual(constant), constant.part_names
-    unit = arb(limit.high or 1.0)
+    unit = arb(limit.high or constant.scale)
     makers = {name: cone(partial(exact.rows, drives, i), limit, unit) for i, name in enumerate(names)}
     corners: dict[Corner, tuple[Corner, float]] = {}
     for i, (before, part) in enumerate(zip(exact.parts, exact.parts[1:], strict=False)):
@@ -97,7 +97,7 @@ def mode_edges(
     exact = ExactModeResidual(constant)
     count, sought = len(exact.edges), bool(limit.constants)
     units = [constant.unit(solved, i, float(limit.high), sought=sought) for i in range(count)]
-    named = [f"{constant.name}, edge {i + 1}" if i else constant.name for i in range(count)]
+    named = constant.part_names
     makers = {
         name: cone(partial(exact.rows, drives, i), limit, ball(unit))
         for i, (name, unit) in enumerate(zip(named, units, strict=True))

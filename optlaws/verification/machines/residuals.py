@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from bisect import bisect_right
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import partial, reduce
-from itertools import accumulate
+from itertools import accumulate, takewhile
 from operator import mul
 from typing import Any, Protocol, TypeVar, runtime_checkable
 
-from flint import acb, acb_series, arb, arb_poly
+from flint import acb, acb_poly, acb_series, arb, arb_poly
 
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
@@ -46,18 +47,23 @@ def greatest_modulus(functions: Sequence[Callable[[Any], Any]], low: Fraction, h
     if low == high:
         sizes: list[arb] = [abs(function(acb(ball(low)))) for function in functions]
         return reduce(arb.max, sizes)
-    parts = [part for function in functions for part in _parts(function, low, high)]
-    off = reduce(arb.max, (radius for _, radius in parts))
-    size = root(greatest_magnitude([(square, arb(0)) for square, _ in parts]))
-    return (size + arb(0, off)).max(arb(0))
+    several = [taylor for function in functions for _, taylor in _stretches(function, low, high)]
+    return _greatest((_squared(centre), rest) for centre, rest in several)
 
 
-def _parts(
+def _greatest(parts: Iterable[tuple[arb_poly, arb]]) -> arb:
+    """A ball that holds the greatest magnitude, from polynomials of its square and the errors of the magnitude."""
+    squares, errors = zip(*parts, strict=True)
+    size = root(greatest_magnitude([(square, arb(0)) for square in squares]))
+    return (size + arb(0, reduce(arb.max, errors))).max(arb(0))
+
+
+def _stretches(
     function: Callable[[acb_series], acb_series], low: Fraction, high: Fraction
-) -> Iterator[tuple[arb_poly, arb]]:
-    """Polynomials of the squared magnitude on short stretches, and their errors."""
+) -> Iterator[tuple[tuple[Fraction, Fraction], Taylor]]:
+    """Short stretches with polynomials of a function there, and their errors."""
     several = cells(lambda nu: [function(nu)], acb_series, (low, high), 2 * _SHORTEST, _next_to_nothing)
-    yield from ((_squared(centre), rest) for _, [(centre, rest)] in several)
+    yield from ((ends, taylor) for ends, [taylor] in several)
 
 
 def _next_to_nothing(parts: Sequence[Taylor], _: Fraction) -> bool:
@@ -84,6 +90,10 @@ class ResidualConstant(Protocol):
     damping: float
     design: float | None
     design_damping: float
+
+    @property
+    def scale(self) -> float:
+        """The unit of the certificate's rows where there is no bound: any number above 0 will do."""
 
     @property
     def parts(self) -> tuple[tuple[float, float, float, float], ...]:
@@ -127,15 +137,24 @@ class ExactResidual:
     def peak(self, pieces: Sequence[PolynomialPiece]) -> arb:
         """A ball that holds the greatest magnitude over all frequencies, at the precision at work."""
         drives = of_pieces(pieces)
+        low, high = self.parts[0][0], self.parts[-1][1]
+        if low == high:
+            return abs(self.rows(drives, 0, Fraction(0))[0])
+        # the amplitude is smooth over the whole interval, the weight in each part
+        several = _stretches(lambda frequency: self.amplitudes(frequency, drives)[0], low, high)
+        return _greatest(weighed for ends, taylor in several for weighed in self._weighed(ends, taylor))
 
-        def weighed(part: tuple[Fraction, ...], frequency: Number) -> Number:
-            low, high, first, last = part
-            slope = (last - first) / (high - low) if high > low else Fraction(0)
-            weight = acb(ball(first)) + (frequency - acb(ball(low))) * acb(ball(slope))
-            return weight * self.amplitudes(frequency, drives)[0]
-
-        tops = [greatest_modulus([partial(weighed, part)], part[0], part[1]) for part in self.parts]
-        return reduce(arb.max, tops)
+    def _weighed(self, ends: tuple[Fraction, Fraction], taylor: Taylor) -> Iterator[tuple[arb_poly, arb]]:
+        """The squared magnitude, weighed, on each part of a stretch with a polynomial of the amplitude, and errors."""
+        (low, high), (centre, rest) = ends, taylor
+        first_of_all = bisect_right(self.parts, low, key=lambda part: part[1])
+        for start, stop, first, last in takewhile(lambda part: part[0] < high, self.parts[first_of_all:]):
+            begin, end = max(low, start), min(high, stop)
+            left, right = (2 * (place - low) / (high - low) - 1 for place in (begin, end))
+            inner = acb_poly([acb(ball((left + right) / 2)), acb(ball((right - left) / 2))])
+            a, b = (first + (place - start) / (stop - start) * (last - first) for place in (begin, end))
+            polynomial = acb_poly(centre)(inner) * acb_poly([acb(ball((a + b) / 2)), acb(ball((b - a) / 2))])
+            yield _squared(polynomial.coeffs()), rest * ball(max(a, b))
 
 
 Corner = tuple[arb, arb]
@@ -144,6 +163,10 @@ Corner = tuple[arb, arb]
 @runtime_checkable
 class ModeConstant(MachineConstant, Protocol):
     """Parts of the residual of a mode (optlaws.mechanisms defines it)."""
+
+    @property
+    def part_names(self) -> tuple[str, ...]:
+        """Names of the edges in certificates."""
 
     @property
     def mode(self) -> int:
