@@ -70,7 +70,7 @@ from optlaws.synthesis.program.evaluation import evaluate, shortfalls
 from optlaws.synthesis.program.writer import Model, extreme_velocity, least_violation, model_of, relaxed
 from optlaws.synthesis.proof import make
 from optlaws.synthesis.proof.certificate import RELAXED, VIOLATION, _model, weighted_rows
-from optlaws.synthesis.proof.duality import _weighted, lines_of, row_of, sum_of_rows
+from optlaws.synthesis.proof.duality import _weighted, by_bends, lines_of, row_of, sum_of_rows
 from optlaws.synthesis.proof.farkas import farkas_margin
 from optlaws.synthesis.proof.infeasible import failure
 from optlaws.synthesis.proof.nodes import PlaceRange
@@ -80,7 +80,7 @@ from optlaws.synthesis.proof.power.formula_underestimators import FormulaRows, a
 from optlaws.synthesis.proof.power.rows import Anchors, PowerRows, rows_of, velocity_brackets
 from optlaws.synthesis.proof.power.search import _points, searched
 from optlaws.synthesis.proof.power.shared_energy import secant_over_inverse, secant_over_root
-from optlaws.synthesis.proof.sublevel_bounds import greatest_values, least_values, means, spread
+from optlaws.synthesis.proof.sublevel_bounds import greatest_values, least_values, means, means_by, spread
 from optlaws.synthesis.search import LawSearch, attempt, from_symmetric
 from optlaws.synthesis.solve import _neighbours
 from optlaws.synthesis.solve_many import _together, solved

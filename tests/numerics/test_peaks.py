@@ -107,6 +107,14 @@ def test_a_tie_is_relative_to_the_size() -> None:
     assert peak(k, np.array([-1000.0 + 5e-7, 0.0, 1000.0])) == Peak(1000.0, 1.0)
 
 
+def test_beside_an_infinite_value_ties_are_of_the_finite_ones() -> None:
+    k = np.array([0.2, 0.5, 0.8])
+    # 5e-11 apart: a tie beside 1, none beside 1e-3
+    for size, place in ((1.0, 0.2), (1e-3, 0.5)):
+        assert extremes(k, np.array([5e-11 - size, -size, np.inf])) == (Peak(-size, place), Peak(np.inf, 0.8))
+    assert peak(k, np.array([1.0, -np.inf, np.inf])) == Peak(np.inf, 0.5)
+
+
 def test_extremes_of_nothing_are_plain_zeros() -> None:
     lowest, top = extremes(np.array([0.0, 1.0]), np.zeros(2))
     assert (str(lowest.value), str(top.value)) == ("0.0", "0.0")

@@ -17,6 +17,7 @@ from optlaws import (
     at_least,
     at_most,
     between,
+    catalogue,
     law_from_z,
     smoothstep,
     snap,
@@ -81,6 +82,11 @@ def test_the_objective_is_the_sum_of_its_terms(minimise: str, value: float) -> N
         ({"windows": via("j", -10.0, at=0.3)}, 2.0),
         ({"windows": via("j", -13.0, at=0.3)}, 1.0),
         ({"windows": Window("a", high=0.4, stop=0.5), "C": at_most(5.0)}, 0.2),
+        # of a formula in units of its scale, which is 8 here: 2c is between -12 and 12
+        ({"windows": Window("2*c", high=8.0)}, 0.5),
+        ({"windows": Window("2*c", low=-8.0)}, 0.5),
+        ({"windows": Window("2*c", low=-10.0, high=11.0)}, 0.25),
+        ({"windows": Window("2*c", low=-11.0, high=10.0)}, 0.25),
         ({"symmetric": False, "inflexion": 0.25}, 0.25),
         ({"symmetric": False, "inflexion": 0.5}, 0.0),
         ({"symmetric": False, "inflexion": 0.25, "B": at_least(2.25)}, 0.5),
@@ -91,6 +97,13 @@ def test_the_objective_is_the_sum_of_its_terms(minimise: str, value: float) -> N
 )
 def test_the_excess_is_the_greatest_of_all_that_is_broken(asked: dict[str, Any], excess: float) -> None:
     assert evaluate(cubic(**asked), CUBIC).excess == pytest.approx(excess, rel=1e-12, abs=1e-15)
+
+
+def test_a_law_is_sound_up_to_rounding_and_where_its_objective_is_a_number() -> None:
+    assert evaluate(cubic(C=at_most(6.0)), CUBIC).sound
+    assert evaluate(cubic(C=at_most(6.0 * (1.0 - 1e-12))), CUBIC).sound
+    assert not evaluate(cubic(C=at_most(6.0 * (1.0 - 1e-4))), CUBIC).sound
+    assert not evaluate(cubic(minimise="J"), catalogue["constant acceleration"].law).sound
 
 
 @pytest.mark.parametrize(

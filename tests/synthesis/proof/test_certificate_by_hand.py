@@ -10,6 +10,7 @@ from math import inf, sqrt
 from typing import Any
 
 import pytest
+from scipy.optimize import brentq
 
 from optlaws import (
     BoundaryConditions,
@@ -31,6 +32,7 @@ from tests.internals.synthesis import (
     greatest_values,
     least_values,
     means,
+    means_by,
     spread,
 )
 
@@ -136,6 +138,15 @@ def test_an_rms_in_a_direction() -> None:
         assert bound(problem, contact) == pytest.approx(share * sqrt(12.0), rel=1e-12)
 
 
+@pytest.mark.parametrize("c", [4.0, 5.0, C_BASE])
+def test_a_formula_is_nowhere_below_its_tangent(c: float) -> None:
+    problem = small(minimise="peak(c^2 + 2)")
+    contact = Contact("peak(c^2 + 2)", 1.0, at(-GAUSS), 1.0, (c,))
+    assert bound(problem, contact) == pytest.approx(2.0 + 2.0 * c * C_BASE - c * c, rel=1e-12)
+    # a direction of another length is none of the formula's parts
+    assert bound(problem, replace(contact, direction=(c, c))) == 0.0
+
+
 # --- what constants can be in a law that contradicts a claim ---
 
 
@@ -227,9 +238,12 @@ def test_the_mean_size_of_derivatives(problem: Problem, greatest: dict[str, floa
 
 
 def test_a_power_bounds_the_mean_velocity_only_from_rest() -> None:
-    moving = Problem(boundary=BoundaryConditions((0, 0.5), (1, 0)), symmetric=False, basis=Chebyshev(1))
     free = Problem(order=1, basis=Chebyshev(1))
-    for problem in (moving, free):
+    moving = [
+        Problem(boundary=BoundaryConditions((0, speed), (1, 0)), symmetric=False, basis=Chebyshev(1))
+        for speed in (0.5, -0.5)
+    ]
+    for problem in (*moving, free):
         certificate = Certificate.of_leaf(problem, (), ())
         assert 1 not in dict(means(certificate.problem, _model(certificate).space, {"D": 9.0}))
 
@@ -266,6 +280,43 @@ def test_what_constants_are_at_least_where_the_velocity_changes(minimise: str, l
     assert least_values(slowing, space) == pytest.approx(least)
 
 
+def test_where_the_order_leaves_the_velocity_free_it_may_change_by_either_sign() -> None:
+    for minimise, least in (
+        ("C_plus", {"C_plus": -inf}),
+        ("C_minus", {"C_minus": -inf}),
+        ("max(C_plus, C_minus)", {"C_plus": -inf, "C_minus": -inf, "max(C_plus, C_minus)": 0.0}),
+        ("C", {"C": 0.0}),
+    ):
+        problem = Problem(order=1, symmetric=False, basis=Chebyshev(1), minimise=minimise)
+        assert least_values(problem, _model(Certificate.of_leaf(problem, (), ())).space) == least
+
+
+def test_means_that_grow_with_a_constant() -> None:
+    model = _model(Certificate.of_leaf(small(), (), ()))
+    ((of_c, _, growth),) = means_by(model, "C")
+    assert growth == 1.0
+    ((of_b, _, growth),) = means_by(model, "B")
+    assert growth == 2.0
+    # where the constant is 0 the mean of c is, and that of b is the stroke, which the base law has too
+    assert of_c.max() == pytest.approx(2.0, rel=1e-14)
+    assert of_b.max() == pytest.approx(2.0, rel=1e-14)
+    # the root of a power does not grow in proportion
+    assert means_by(model, "D") == []
+
+
+@pytest.mark.parametrize("multiplier", [0.9, 0.99])
+@pytest.mark.parametrize(("share", "pays"), [(0.6, True), (0.99, True), (0.9985, True), (0.9995, False), (1.5, False)])
+def test_what_a_sum_leaves_of_a_constant_pays_for_the_law_it_bounds(
+    multiplier: float, share: float, *, pays: bool
+) -> None:
+    # a velocity may be anything below 0, so that no claim says what C is; 3.5 is the moment with P3, as above
+    problem = small(minimise="C + value(b, at=0.5)")
+    left = share * (1.0 - multiplier) / 3.5
+    x = brentq(lambda x: multiplier * 2.0 * p3(x) + 1.0 / 8.0 - left, -1.0, -0.7)
+    proven = bound(problem, c_at(x, multiplier), Contact("value(b, at=0.5)", 1.0, 0.5, 1.0))
+    assert proven == (pytest.approx(-6.0 * x * multiplier + 1.5, rel=1e-12) if pays else -inf)
+
+
 # --- what is no tree ---
 
 
@@ -291,6 +342,11 @@ def test_what_constants_are_at_least_where_the_velocity_changes(minimise: str, l
 def test_what_is_neither_a_leaf_nor_a_tree_with_a_claim_is_refused(made: Any) -> None:
     with pytest.raises(InputError):
         made(small())
+
+
+def test_an_infinite_claim_says_that_there_is_no_law() -> None:
+    proof = Certificate(small(C=at_most(4.0)), float("inf"), (Leaf((c_at(-GAUSS, 1.0),)),))
+    assert (proof.program, proof.bound, proof.proven, proof.proves_infeasible) == ("violation", -inf, True, True)
 
 
 def test_a_claim_is_what_the_kind_of_proof_says() -> None:

@@ -4,13 +4,15 @@ The laws are those of tests/synthesis/proof/test_certificate_by_hand.py: a base 
 with c = 2 P3(x), x = 2k - 1.
 """
 
+from dataclasses import replace
 from fractions import Fraction
 from math import inf, nextafter, sqrt
 from typing import Any
 
 import pytest
+from scipy.optimize import brentq
 
-from optlaws import BoundaryConditions, Certificate, Chebyshev, Contact, Problem, at_least, at_most
+from optlaws import BoundaryConditions, Certificate, Chebyshev, Contact, Problem, at_least, at_most, synthesize
 from optlaws.verification import exact_bound
 from tests.internals.synthesis import RELAXED, VIOLATION, expression
 from tests.internals.verification import (
@@ -101,6 +103,44 @@ def test_a_contradiction_is_measured() -> None:
     assert value > 0
     feasible = exact_bound(Certificate.of_leaf(small(C=at_most(4.7)), (contact,), (), VIOLATION))
     assert feasible is None or feasible <= 0
+
+
+@pytest.mark.parametrize("times", [8, 64])
+def test_a_charge_is_in_units_of_the_objective(times: int) -> None:
+    def charged(times: int) -> tuple[float, float]:
+        minimise = f"peak({times}*c)"
+        contact = Contact(minimise, 1.0, (1.0 - 0.776) / 2.0, 1.0)
+        proof = prove(Certificate.of_leaf(small(minimise=minimise), (contact,), ()))
+        return float(proof.value or 0), proof.charge
+
+    value, charge = charged(1)
+    assert charge > 0.1
+    assert charged(times) == pytest.approx((times * value, times * charge), rel=1e-9)
+
+
+@pytest.mark.parametrize("multiplier", [0.9, 0.99])
+@pytest.mark.parametrize("share", [0.3, 0.6, 1.01, 1.5, 3.0])
+def test_what_a_sum_leaves_of_a_constant_pays_for_the_law_it_bounds(multiplier: float, share: float) -> None:
+    # a velocity may be anything below 0, so that no claim says what C is; the moment of the free function is 2/7
+    left = share * (1.0 - multiplier) / 3.5
+    x = brentq(lambda x: multiplier * (5.0 * x**3 - 3.0 * x) + 1.0 / 8.0 - left, -1.0, -0.7)
+    contacts = (c_at(x, multiplier), Contact("value(b, at=0.5)", 1.0, 0.5, 1.0))
+    value = exact_bound(Certificate.of_leaf(small(minimise="C + value(b, at=0.5)"), contacts, ()))
+    if share > 1.0:
+        assert value is None
+    else:
+        assert float(value or 0) == pytest.approx(-6.0 * x * multiplier + 1.5, rel=1e-12)
+
+
+def test_a_tree_that_holds_proves_its_claim_by_rows() -> None:
+    tree = synthesize(Problem(B=1.641, order=4, minimise="D"), bound="tight").power_certificate
+    assert tree is not None
+    proof = prove(tree)
+    assert proof.value == Fraction(tree.claim or 0)
+    assert (proof.charge, proof.correction, proof.negative, proof.unknown) == (0.0, 0.0, 0, 0)
+    assert proof.by_rows
+    assert not prove(Certificate.of_leaf(small(), (), ())).by_rows
+    assert prove(replace(tree, claim=2.0 * (tree.claim or 0))).value is None
 
 
 # --- what constants can be ---
