@@ -47,6 +47,21 @@ def test_what_cannot_be_resolved_is_said_by_name() -> None:
         chebyshev.interpolated(lambda x: np.where(x > 0.5, np.inf, x), "c of it")
 
 
+def test_values_that_are_rounded_give_a_short_series_where_that_is_allowed() -> None:
+    def rounded(x: Array) -> Array:
+        return np.exp(x) + 1e-11 * np.sin(1e6 * x)
+
+    with pytest.raises(InputError, match="must be smooth"):
+        chebyshev.interpolated(rounded, "c of it")
+    series = chebyshev.interpolated(rounded, "c of it", blur=1e-9)
+    assert len(series) < 17
+    x = np.linspace(-1.0, 1.0, 101)
+    assert np.abs(np.polynomial.chebyshev.chebval(x, series) - np.exp(x)).max() < 1e-10
+    # the values are rounded more than is allowed
+    with pytest.raises(InputError, match="must be smooth"):
+        chebyshev.interpolated(rounded, "c of it", blur=1e-13)
+
+
 def test_every_root_on_every_panel() -> None:
     zeros = jn_zeros(0, 30)
     roots = equal(0.0, 95.0, 12).roots(j0, lambda t: -j1(t))
