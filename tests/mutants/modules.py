@@ -28,7 +28,7 @@ TESTS: dict[str, tuple[str, ...]] = {
     ),
     "optlaws.numerics.chebyshev": NUMERICS,
     "optlaws.numerics.exact": ("tests/laws/test_polynomial.py", *LAWS),
-    "optlaws.numerics.roots": ("tests/laws/test_savin.py", *LAWS),
+    "optlaws.numerics.roots": ("tests/numerics", "tests/laws/test_savin.py"),
     "optlaws.numerics.panels": NUMERICS,
     "optlaws.laws.curve": LAWS,
     "optlaws.laws.law": LAWS,
