@@ -13,13 +13,13 @@ from optlaws.cycles.interlocks.interlock_kinds import checked
 from optlaws.cycles.specification.programme import is_optimal, period_of
 from optlaws.cycles.specification.segments import CycleSegment, Dwell
 from optlaws.echo import shortened
-from optlaws.errors import InputError, located
+from optlaws.errors import InfeasibleProblem, InputError, located
 from optlaws.extras import needed
-from optlaws.files.reading import JsonText
+from optlaws.files.reading import JsonText, all_entries_of
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.laws.exporting import AxesExportOptions
-from optlaws.numbers import Quantity
+from optlaws.numbers import Quantity, positive
 from optlaws.suggest import keywords_of, unknown_key
 from optlaws.synthesis.status import Status
 from optlaws.tolerances import CLOSURE, CYCLE_OPTIMALITY
@@ -28,6 +28,7 @@ from optlaws.tolerances import CLOSURE, CYCLE_OPTIMALITY
 AxesPicture: TypeAlias = Literal["motion", "timing", "plane", "clearance"]
 
 FORMAT = "optlaws axes 1"
+_GOALS = ("period", "acceleration")
 
 
 @dataclass(frozen=True, repr=False, eq=False)
@@ -208,7 +209,8 @@ class Axes(JsonText, Mapping[str, Cycle]):
             name: _retimed(cycle, best.durations[name], best.laws[name], best.period) for name, cycle in self.items()
         }
         value = best.period if goal == "period" else 1.0 / best.pace**2
-        return Overlap(Axes(cycles, interlocks=self.rules), goal, value, best.bound, best.binding, self)
+        axes = Axes(cycles, interlocks=self.rules)
+        return Overlap(axes, goal, value, best.bound, best.binding, self, tuple(longer))
 
     @kept_property
     def clearances(self) -> tuple[LeastClearance, ...]:
@@ -414,7 +416,7 @@ class Axes(JsonText, Mapping[str, Cycle]):
 
 
 @dataclass(frozen=True, eq=False)
-class Overlap:
+class Overlap(JsonText):
     """Axes with the best overlap of the search, and the bound that no other overlap passes.
 
     Attributes
@@ -433,6 +435,8 @@ class Overlap:
         What leaves no room where the objective is least: limits of moves, dwells and interlocks, by their names.
     given
         The machine as it was.
+    of
+        The axes whose moves may take other times.
     """
 
     axes: Axes
@@ -441,6 +445,9 @@ class Overlap:
     lower_bound: float
     binding: tuple[str, ...]
     given: Axes
+    of: tuple[str, ...]
+
+    _json_name = "axes that overlap"
 
     @property
     def status(self) -> Status:
@@ -463,6 +470,85 @@ class Overlap:
         """The objective before over the objective after: the gain in speed, or the reduction of the acceleration."""
         return (self.given.duration if self.goal == "period" else 1.0) / self.objective
 
+    def to_dict(self) -> dict[str, Any]:
+        """Both machines with what was sought and found, plain and JSON-able, which `optlaws verify` checks.
+
+        Examples
+        --------
+        >>> from optlaws import Dwell, Return, Rise
+        >>> moves = [Rise("0.1 m", "0.2 s", law="cycloidal"), Dwell("0.4 s", least="0 s"), Return("0.1 m", "0.2 s")]
+        >>> best = Axes({"slide": [*moves, Dwell()]}, period="1 s").fastest()
+        >>> Overlap.from_json(best.to_json()).objective == best.objective, round(best.objective, 6)
+        (True, 0.4)
+        """
+        found = {name: getattr(self, name) for name in ("goal", "objective", "lower_bound")}
+        listed = {"of": list(self.of), "binding": list(self.binding)}
+        return found | listed | {"axes": _stored(self.axes), "given": _stored(self.given)}
+
+    @classmethod
+    def from_dict(cls, data: Any) -> Overlap:
+        """The overlap that `to_dict` wrote; its objective is computed again from its axes.
+
+        Raises
+        ------
+        InputError
+            If an entry is missing, unknown or wrong, or states what the axes do not have.
+        """
+        overlap = cls.stated(data)
+        if wrong := overlap.contradiction():
+            raise InputError(f"{cls._json_name}: {wrong}")
+        return overlap
+
+    @classmethod
+    def stated(cls, data: Any) -> Overlap:
+        """The overlap as its data states it.
+
+        Raises
+        ------
+        InputError
+            If an entry is missing, unknown or wrong.
+        """
+        names = ("goal", "objective", "lower_bound", "of", "binding", "axes", "given")
+        read = all_entries_of(data, names, cls._json_name)
+        if read["goal"] not in _GOALS:
+            raise InputError(unknown_key(read["goal"], _GOALS, "goal"))
+        for name in ("of", "binding"):
+            if not isinstance(read[name], list) or not all(isinstance(each, str) for each in read[name]):
+                raise InputError(f"{name} must be a list of names, got {shortened(read[name])}")
+        axes, given = (Axes.from_dict(read[name]) for name in ("axes", "given"))
+        for name in read["of"]:
+            given[name]
+        objective, bound = (positive(read[name], name) for name in ("objective", "lower_bound"))
+        return cls(axes, read["goal"], objective, bound, tuple(read["binding"]), given, tuple(read["of"]))
+
+    def contradiction(self) -> str:
+        """What is stated that the axes do not have; empty where all of it agrees."""
+        if tuple(self.axes) != tuple(self.given) or self.axes.rules != self.given.rules:
+            return "its axes and interlocks are not those of the given machine"
+        for name, cycle in self.axes.items():
+            if _in_times_of(self.given[name], cycle).to_dict() != cycle.to_dict():
+                return f"axis {name} makes other moves than the given one"
+        try:
+            known = self._reached()
+        except InfeasibleProblem as error:
+            return str(error)
+        if abs(self.objective - known) > CYCLE_OPTIMALITY * known:
+            return f"its objective is {self.objective!r}, and its axes have {known!r}"
+        if self.lower_bound > self.objective * (1.0 + CYCLE_OPTIMALITY):
+            return f"its lower bound {self.lower_bound!r} is above its objective {self.objective!r}"
+        return ""
+
+    def _reached(self) -> float:
+        """The objective of the axes, whose laws keep their limits."""
+        now = {name: cycle.peak(2) for name, cycle in self.axes.items()}
+        if self.goal == "period":
+            return self.axes.duration
+        return max(now[name] / self.given[name].unchecked().peak(2) for name in self.of)
+
+    def again(self) -> Overlap:
+        """The overlap of the given machine, sought once more."""
+        return self.given._overlap(self.goal, self.of)  # noqa: SLF001 - of the same room
+
     def __repr__(self) -> str:
         what = f"period={self.objective:.6g} s" if self.goal == "period" else f"acceleration={self.objective:.6g}"
         return f"Overlap({what}, {self.gain:.4g} times better, status={self.status.value!r}, bound by {self.binding})"
@@ -479,6 +565,28 @@ def _retimed(cycle: Cycle, durations: Sequence[float], laws: Sequence[MotionLaw 
         segments.append(replace(segment, duration=f"{duration!r} s", **sought))  # type: ignore[type-var]
     minimise = "acceleration" if cycle.load is not None else cycle.minimise
     return replace(cycle, segments=segments, speed=None, period=f"{period!r} s", minimise=minimise)
+
+
+def _in_times_of(cycle: Cycle, other: Cycle) -> Cycle:
+    """A cycle with the durations of another one of the same moves, whose dwells of no time are left out."""
+    segments, left = list[CycleSegment](), list(other.segments)
+    for segment in cycle.segments:
+        if left and isinstance(segment, Dwell) and replace(segment, duration=left[0].duration) != left[0]:
+            continue
+        if left:
+            timed = left.pop(0)
+            sought: dict[str, Any] = {"law": getattr(timed, "law", None)} if is_optimal(segment) else {}
+            segments.append(replace(segment, duration=timed.duration, **sought))  # type: ignore[type-var]
+    minimise = "acceleration" if cycle.load is not None else cycle.minimise
+    return replace(cycle, segments=segments, speed=None, period=other.period, minimise=minimise)
+
+
+def _stored(axes: Axes) -> dict[str, Any]:
+    """The axes as plain data, without names of formats of specifications."""
+    plain = axes.to_dict()
+    cycles = {name: {key: value for key, value in cycle.items() if key != "format"} for name, cycle in
+              plain["axes"].items()}  # fmt: skip
+    return {"axes": cycles, **({"interlocks": plain["interlocks"]} if axes.rules else {})}
 
 
 def _entries(given: Any) -> dict[str, Any]:

@@ -41,10 +41,12 @@ from optlaws.verification.file_entries import (
     is_entry,
     is_least_time,
     is_move_limit,
+    is_overlap,
     is_proven_front,
     is_time_front,
 )
 from optlaws.verification.least_times import least_time
+from optlaws.verification.overlaps import overlap_of_axes
 from optlaws.verification.proven_fronts import proven_front
 from optlaws.verification.reading import built, number, read
 from optlaws.verification.result import Claim, Verification
@@ -359,6 +361,7 @@ _KINDS: tuple[tuple[Callable[[Mapping[str, Any]], bool], Callable[[Mapping[str, 
     (is_move_limit, _limit_of_drive),
     (is_least_time, _least_time),
     (is_time_front, _time_front),
+    (is_overlap, overlap_of_axes),
     (lambda data: "certificate" in data, _solution),
     (lambda data: "law" in data, _law_alone),
     (lambda _: True, _certificate),

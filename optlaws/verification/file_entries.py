@@ -197,7 +197,7 @@ def is_entry(data: Data) -> bool:
     solution = {"problem", "law", "certificate"} <= data.keys()
     certificate = {"problem", "contacts"} <= data.keys() or {"problem", "steps"} <= data.keys()
     of_drive = is_drive_limit(data) or is_move_limit(data)
-    several = is_proven_front(data) or is_least_time(data) or is_time_front(data) or of_drive
+    several = is_proven_front(data) or is_least_time(data) or is_time_front(data) or is_overlap(data) or of_drive
     return solution or certificate or several or {"law", "constants"} <= data.keys()
 
 
@@ -229,6 +229,11 @@ def is_least_time(data: Data) -> bool:
 def is_time_front(data: Data) -> bool:
     """Whether this is a front over the time of a move."""
     return {"minimise", "fastest", "points"} <= data.keys()
+
+
+def is_overlap(data: Data) -> bool:
+    """Whether this is a machine whose moves overlap, beside the machine that was given."""
+    return {"goal", "axes", "given"} <= data.keys()
 
 
 def check_keys(data: Data) -> None:

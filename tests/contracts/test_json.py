@@ -136,6 +136,7 @@ def values(jumping: Solution) -> dict[str, Any]:
         "DriveLimit": optlaws.drive_limit("c + 0.5*a", "rms torque", C=9.0),
         "PhasePlane": optlaws.drive_limit("c + 0.5*a", B=1.8).plane,
         "MoveLimit": moved,
+        "Overlap": optlaws.Axes({"slide": slide}).fastest(),
         "LimitedMove": moved.move,
         "DriveSheet": optlaws.Drive(optlaws.rack("20 mm", "5 kg"), optlaws.Motor(0.0)).sheet("0050", 0.0, 1.0, 1.0),
         "Effort": optlaws.Cycle(

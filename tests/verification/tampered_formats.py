@@ -22,9 +22,11 @@ from optlaws import (
     BSplines,
     Certificate,
     Chebyshev,
+    Clearance,
     Cycle,
     DriveLimit,
     Dwell,
+    FastestMove,
     Free,
     InfeasibleProblem,
     Machine,
@@ -38,9 +40,11 @@ from optlaws import (
     Return,
     Rise,
     SolutionArray,
+    TimeFront,
     at_least,
     catalogue,
     drive_limit,
+    fastest,
     open_study,
     pareto_front,
     proven_front,
@@ -48,12 +52,13 @@ from optlaws import (
     smoothstep,
     synthesize,
     synthesize_array,
+    time_front,
 )
-from optlaws.typing import Bound
+from optlaws.typing import Bound, Overlap
 from optlaws.verification import Verification, verify_all
 from tests.internals.mechanisms import move_limit
 from tests.internals.studies import Serial
-from tests.internals.synthesis import LONG, limit_of_plane
+from tests.internals.synthesis import LONG, least_time, limit_of_plane
 from tests.mechanisms.drives.test_move_limit_files import MADE
 from tests.verification.tampering import Data, Path, changed, overstated, value_at, wrong_constants
 
@@ -345,6 +350,111 @@ def drive_limit_file(limit: DriveLimit) -> Format:
     return Format(plain(limit.to_dict()), DriveLimit.from_dict, wrong, wrong_proven=wrong_proven)
 
 
+def overlap_file(true: Overlap) -> Format:
+    """Axes that overlap: of another machine they are those of the other one, sought again from the file."""
+
+    def wrong(stored: Data, read: Overlap) -> list[str]:
+        same = (stored["given"], stored["goal"], stored["of"]) == tuple(form[name] for name in ("given", "goal", "of"))
+        genuine = true if same else read.again()
+        reached = read.axes.duration if read.goal == "period" else read.objective
+        faults = {
+            "objective": not close(read.objective, reached) or read.objective < genuine.lower_bound * (1.0 - CLOSE),
+            "lower bound": read.lower_bound > genuine.objective * (1.0 + CLOSE),
+            "interlock": bool(read.axes.broken),
+        }
+        return [name for name, found in faults.items() if found]
+
+    def wrong_verified(stored: Data, verifications: dict[str, Verification]) -> list[str]:
+        read = Overlap.from_dict(stored)
+        (one,) = verifications.values()
+        binding = [] if read.binding == read.again().binding else ["binding"]
+        return [*wrong(stored, read), *binding, *([] if len(one.unchecked) > 1 else ["nothing is left unchecked"])]
+
+    form = plain(true.to_dict())
+    return Format(form, wrong_proven=wrong_verified)
+
+
+def drawn_axes(goal: str) -> Overlap:
+    """Two axes with an interlock, whose period or whose acceleration is least."""
+    law: Any = {"law": "cycloidal"}
+    rest = {"least": "0 s"}
+    slide = [Rise("0.1 m", "0.2 s", **law), Dwell("0.4 s", **rest), Return("0.1 m", "0.2 s", **law), Dwell()]
+    tool = [
+        Dwell("0.2 s", **rest),
+        Rise("50 mm", "0.1 s", **law),
+        Dwell("0.1 s"),
+        Return("50 mm", "0.1 s", **law),
+        Dwell(),
+    ]
+    rule = Clearance("tool", over="slide", most=[("90 mm", "5 mm"), ("95 mm", "50 mm")])
+    limits = {"acceleration": "20 m/s^2"} if goal == "period" else {}
+    given = Axes({"slide": {"segments": slide, "limits": limits}, "tool": tool}, period="1 s", interlocks=[rule])
+    return given.fastest() if goal == "period" else given.gentlest("tool")
+
+
+def least_time_file(move: FastestMove) -> Format:
+    """A least time: of another move it is that of the other move."""
+    data = plain(move.to_dict())
+
+    def wrong(_: Data, read: FastestMove) -> list[str]:
+        genuine = (move.least if read.least.move == move.least.move else least_time(read.least.move)).duration
+        low = read.duration < genuine * (1.0 - 1e-6)
+        high = read.none_below > genuine * (1.0 + CLOSE)
+        return [*(["duration"] if low else []), *(["none below"] if high else [])]
+
+    def wrong_proven(stored: Data, _: dict[str, Verification]) -> list[str]:
+        read = FastestMove.from_dict({"unit": "m", **stored})
+        return [*wrong(stored, read), *overstated_row(stored["solution"], read.least.solution.to_dict())]
+
+    return Format(data, FastestMove.from_dict, wrong, wrong_proven=wrong_proven)
+
+
+def time_front_file(true: TimeFront) -> Format:
+    """A front over the time of a move: each value is that of its law, and no bound is above it."""
+
+    def wrong(_: Data, read: TimeFront) -> list[str]:
+        values = [point.value for point in read]
+        return [f"at {point.duration}" for point, value in zip(read, values, strict=True) if point.lower_bound > value]
+
+    def wrong_proven(stored: Data, _: dict[str, Verification]) -> list[str]:
+        faults = []
+        for row, genuine in zip(stored["points"], form["points"], strict=False):
+            same = same_problem(row["solution"]["problem"], genuine["solution"]["problem"])
+            if same and not close(row["duration"], genuine["duration"]):
+                faults.append("duration")
+            off = abs(row["value"] / genuine["value"] - 1.0) > CLOSE
+            high = (row["lower_bound"] or -math.inf) > genuine["value"] * (1.0 + CLOSE)
+            faults += [*(["value"] if same and off else []), *(["lower bound"] if same and high else [])]
+        return faults
+
+    form = plain(true.to_dict())
+    return Format(form, TimeFront.from_dict, wrong, wrong_proven=wrong_proven)
+
+
+def claims_file(data: Data) -> Format:
+    """Problems each with a proof that it has no law, as results of jobs keep them; or a law with its proof."""
+    form = plain(data)
+
+    def wrong_proven(stored: Data, _: dict[str, Verification]) -> list[str]:
+        faults = []
+        for name, row in stored.items():
+            genuine: Any = form.get(name)
+            if genuine is None or not isinstance(row, dict):
+                continue
+            if "objective" in genuine and row.get("objective") is not None:
+                faults += overstated_row(row, genuine)
+            asked = row.get("asked") or genuine.get("asked")
+            if row.get("status") == "infeasible" and not same_problem(asked, genuine["asked"]):
+                try:
+                    synthesize(Problem.from_dict(asked))
+                except OptlawsError:
+                    continue
+                faults.append(name)
+        return faults
+
+    return Format(form, wrong_proven=wrong_proven)
+
+
 def front() -> Format:
     data = plain(
         pareto_front(Problem(order=2, basis=Chebyshev(3)), over=("B", "C"), points=2, between=(1.5, 1.6)).to_dict()
@@ -480,6 +590,8 @@ def formats() -> dict[str, Callable[[], Format]]:
         load={"period": "20 ms", "damping": 0.05, "mass": "2 kg"},
     )
     axes = Axes({"table": [Rise("45 deg", "400 ms"), Dwell(), Return(to="0 deg", duration="0.3 s")]}, period="2 s")
+    quick = fastest(Problem(order=2, basis=Chebyshev(3)), stroke="100 mm", limits={"acceleration": "8 m/s^2"})
+    limited = Cycle([Rise("35 mm", "180 deg"), Return()], speed="60 rpm", limits={"acceleration": "20 m/s^2"}, degree=3)
     in_array = {"order": 3, "basis": Chebyshev(3)}
     return {
         "solution": lambda: solution(plain_problem),
@@ -532,6 +644,12 @@ def formats() -> dict[str, Callable[[], Format]]:
         "study": study,
         "limit of a drive": lambda: drive_limit_file(drive_limit("(1 + 0.6*a)*c + 0.3*b^2 + 3*a", "rms torque", B=2.2)),
         "least time of a drive": lambda: drive_limit_file(drive_limit("c + 2", "time", P=7.0)),
+        "overlap of least period": lambda: overlap_file(drawn_axes("period")),
+        "overlap of least acceleration": lambda: overlap_file(drawn_axes("acceleration")),
+        "least time": lambda: least_time_file(quick),
+        "front over the time": lambda: time_front_file(time_front(quick, "rms acceleration", points=2)),
+        "greatest speed": lambda: claims_file(limited.fastest().claims()),
+        "run-in": lambda: claims_file(limited.run_in("90 deg", over="120 deg").claims()),
         **{f"move limit, {name}": partial(_limit_of_move, name) for name in MADE},
     }
 
