@@ -98,7 +98,7 @@ SAME_FREQUENCY = 1e-9  # of a root's size: vibrations that differ by no more hav
 TAYLOR_REST = 2.0**-80  # of a function: what a Taylor polynomial may leave of it
 
 # --- limits in the phase plane --------------------------------------------------------------------------------------
-INTEGRATION = 1e-6  # of a time or a value: what integrating a motion at nodes may be off
+INTEGRATION = 1e-9  # of a time or a value: what integrating a motion in cells may be off
 PHASE_GAP = 1e-5  # of a limit in the phase plane: a potential that leaves no more needs no more fall
 WINDOW_EDGE = 1e-9  # of the stroke: so far within a window the places of a conic program begin that are bounded
 

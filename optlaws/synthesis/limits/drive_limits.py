@@ -7,7 +7,7 @@ from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from itertools import pairwise
-from math import inf, nextafter, sqrt
+from math import inf, isinf, nextafter, sqrt
 from typing import Any, Literal, TypeAlias, get_args
 
 import numpy as np
@@ -29,7 +29,7 @@ from optlaws.synthesis.limits.phase_plane_bound import Guess, Potential, even_pr
 from optlaws.synthesis.limits.phase_plane_program import PhaseOptimum, optimum
 from optlaws.synthesis.limits.phase_torque import AnyTorque, PhaseTorque, greater_power, torque_of
 from optlaws.synthesis.problem.problem import Problem
-from optlaws.tolerances import INTEGRATION, PHASE_GAP, STATED_BOUND
+from optlaws.tolerances import INTEGRATION, STATED_BOUND
 
 _PHASE_WEIGHT = 1e-9  # of what is minimised: the price of the time where the torque at rest alone bounds it
 _MOST_PHASE_GAP = 1e-2  # of a limit in the phase plane: what leaves less is not mended by more fall
@@ -44,10 +44,8 @@ _KEYS = ("minimise", "value", "attained", "plane", "unit", *_CERTIFICATE)
 _STEEPER = (0.0, 1e-8, 1e-6, 1e-4)
 #: of the level about which a torque is squared, where that of the load proves little
 _SHARES = (0.5, 0.0)
-#: how often a program is solved on finer elements where its gap is not small
-_FINER = 6
-#: how many times as many elements there are where a gap is large, as where an inertia varies much
-_MORE_ELEMENTS = 4
+#: where a gap is not small: how often a program is solved, from how many times as many elements, up to which gap
+_FINER = ((3, 4, inf), (4, 4, 1e-4), (6, 1, 1e-4))
 #: positions at which a mean of the load is looked for that is above a bound
 _LOOKS = 512
 #: times the time that is given within which a load beyond a torque is proven not to be moved
@@ -262,7 +260,7 @@ def drive_limit(
     Examples
     --------
     >>> limit = drive_limit("(1 + 0.6*a^2)*c + 0.6*a*b^2 + 3*a", "rms torque", B=2.2)
-    >>> round(limit.value, 5), limit.gap < 1e-5
+    >>> round(limit.value, 5), limit.gap < 1e-6
     (3.40484, True)
     """
     if minimise not in get_args(DriveObjective):
@@ -399,14 +397,19 @@ def _refuse(plane: PhasePlane) -> None:
 
 def _finer(standing: Standing, minimise: DriveObjective, unit: float) -> DriveLimit:
     """The limit or, where its gap is not small, a limit on finer elements if it proves more."""
-    limit = _limit(standing, minimise, unit, optimum(standing))
-    if limit.gap <= PHASE_GAP:
-        return limit
-    more = _MORE_ELEMENTS if limit.gap > _MOST_PHASE_GAP else 1
-    try:
-        other = _limit(standing, minimise, unit, optimum(standing, _FINER, more))
-    except SolverFailure:
-        return limit
+    best = _limit(standing, minimise, unit, optimum(standing))
+    for rounds, more, most in _FINER:
+        if _SMALL_PHASE_GAP < best.gap <= most:
+            with suppress(SolverFailure):
+                other = _limit(standing, minimise, unit, optimum(standing, rounds, more))
+                best = max(best, other, key=_proves) if isinf(min(best.gap, other.gap)) else _nearer(best, other)
+    return best
+
+
+def _nearer(limit: DriveLimit, other: DriveLimit) -> DriveLimit:
+    """Of two limits the one that proves more or, where both prove as much, the one whose motion is nearer."""
+    if abs(limit.value - other.value) <= _SMALL_PHASE_GAP * abs(limit.value):
+        return min(limit, other, key=lambda each: each.gap)
     return max(limit, other, key=_proves)
 
 
@@ -423,8 +426,8 @@ def _least_time(plane: PhasePlane) -> DriveLimit:
 def _limit(standing: Standing, minimise: DriveObjective, unit: float, motion: PhaseOptimum) -> DriveLimit:
     """The limit by the computed potential or, where that proves little, by others."""
     plane = standing.plane
-    s, b = tuple(motion.s.tolist()), tuple(motion.b.tolist())
-    attained = _in_units(value_of(plane, s, b), minimise, unit, inf)
+    s, b = tuple(motion.s.tolist()), tuple(motion.velocities.tolist())
+    attained = _in_units(value_of(plane, tuple(motion.edges.tolist()), s, b), minimise, unit, inf)
     near = max(motion.objective, 0.0) if plane.kind == "peak" else 0.0
     best = None
     for potential, weight, price, is_last in _certificates(standing, motion):
@@ -468,7 +471,9 @@ def _bound(limit: DriveLimit) -> float:
 
 def _attained(limit: DriveLimit) -> float:
     """The value of the motion of a limit."""
-    return _put_right(limit, _in_units(value_of(limit.plane, limit.s, limit.b), limit.minimise, limit.unit, inf))
+    return _put_right(
+        limit, _in_units(value_of(limit.plane, limit.edges, limit.s, limit.b), limit.minimise, limit.unit, inf)
+    )
 
 
 def _near(stated: float, known: float) -> bool:

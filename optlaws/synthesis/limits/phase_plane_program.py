@@ -21,6 +21,7 @@ from numpy.typing import NDArray
 from optlaws.errors import SolverFailure
 from optlaws.numbers import Array
 from optlaws.numerics.chebyshev import gauss
+from optlaws.synthesis.limits.motions.elements import Elements
 from optlaws.synthesis.limits.motions.standing import Standing
 from optlaws.synthesis.limits.phase_plane import PhasePlane, TorqueLimit, VelocityLimit
 from optlaws.synthesis.limits.phase_torque import AnyTorque, GearTorque, PhaseTorque
@@ -73,6 +74,12 @@ class PhaseOptimum:
     objective: float
     driven: tuple[tuple[float, ...], tuple[bool, ...]]
     beyond: bool
+
+    @property
+    def velocities(self) -> Array:
+        """The velocities at the places that the accelerations there make; those of the places where they make none."""
+        w, _ = Elements(self.edges).squares(self.c)
+        return np.asarray(np.sqrt(w) if np.all(w > 0.0) else self.b)
 
 
 def optimum(standing: Standing, rounds: int = _ROUNDS, more: int = 1) -> PhaseOptimum:

@@ -117,7 +117,7 @@ def test_energy_and_heat_together_are_above_their_limits_alone() -> None:
     for formula in (power, heat, f"{power} + {heat}"):
         limit = limit_beside(Problem(**BASE, **WITHIN, minimise=integral(formula)))
         assert limit is not None
-        assert limit.gap < 2e-3
+        assert limit.gap < 1e-6
         values.append(limit.value)
     assert values[0] + values[1] < values[2] < 1.1 * (values[0] + values[1])
 

@@ -1,15 +1,17 @@
-"""The value of a motion in a phase plane, by integration on fine nodes; nothing of it is taken from a solver.
+"""The value of a motion in a phase plane, by integration; nothing of it is taken from a solver.
 
 A velocity over the position is a cap. From both ends the motion is integrated as fast as all bounds allow and as the
 cap allows; the lower of both is a motion that keeps them. It is as long as it should be where the cap is scaled or,
 where a peak is minimised or the time, where the peak or nothing is chosen so.
+
+Integrals are taken by Gauss's rule in cells of one arc, that ascends, follows the cap or brakes; where arcs meet within
+a cell it is divided into parts of constant acceleration.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from itertools import pairwise
 from math import exp, inf, isfinite, sqrt
 from typing import NamedTuple
 
@@ -19,91 +21,129 @@ from numpy.typing import NDArray
 from optlaws.formulas.arithmetic import NUMPY, evaluate
 from optlaws.kept import kept_property
 from optlaws.numbers import Array
+from optlaws.numerics.chebyshev import gauss
+from optlaws.synthesis.limits.motions.elements import Elements
 from optlaws.synthesis.limits.phase_plane import PhasePlane, TorqueLimit, VelocityLimit
-from optlaws.synthesis.limits.phase_torque import ACCELERATION, AnyTorque
-from optlaws.tolerances import INTEGRATION, SMALLEST_SIZE, WINDOW_EDGE
+from optlaws.synthesis.limits.phase_torque import AnyTorque
+from optlaws.tolerances import INTEGRATION
 
-_BOUND_KEPT = 1e-6  # of a bound: a motion integrated at nodes that is beyond it by so little keeps it
+_BOUND_KEPT = 1e-7  # of a bound: a motion that is beyond it by so little keeps it
+_AT_CAP = 1e-13  # of a cap: a motion that is nearer to it is at it
+_SHORTEST = 1e-12  # of the move: nodes that are nearer are one
 
-_NODES, _STEPS, _WIDEST = 1200, 40, 60.0
+_CELLS, _STEPS, _WIDEST = 320, 40, 60.0
+_PLACES, _PARTS = 4, 32
+_X, _SHARES = gauss(_PLACES)
+#: where in a cell a motion is known: at its start, at the places of Gauss's rule, its end, and its middle
+_PLACES_OF_CELL = np.concatenate([[0.0], 0.5 * (_X + 1.0), [1.0, 0.5]])
+_INNER = slice(1, 1 + _PLACES)
+_START, _END, _MIDDLE = 0, _PLACES + 1, _PLACES + 2
+#: values in the middles of the parts of a cell, and at their ends, by those at its places
+_IN_PARTS, _OF_PARTS = (
+    np.vander(x, _PLACES + 2) @ np.linalg.inv(np.vander(_PLACES_OF_CELL[:_MIDDLE], _PLACES + 2))
+    for x in ((np.arange(_PARTS) + 0.5) / _PARTS, np.arange(_PARTS + 1) / _PARTS)
+)
 
 
 class _Motion(NamedTuple):
-    """A motion at nodes: squared velocities, and accelerations; without these they are constant in cells."""
+    """A motion: squared velocities and accelerations in cells of one arc, and squared velocities in all others."""
 
     w: Array
-    c: Array | None
+    c: Array
+    mixed: NDArray[np.intp]  #: cells in which arcs meet
+    parts: Array  #: the squared velocities at the ends of their parts
+
+
+class _Arcs(NamedTuple):
+    """A motion from one end: its squared velocities without the cap, and its accelerations, at the places of cells."""
+
+    w: Array
+    c: Array
+    in_parts: Callable[[NDArray[np.intp]], Array]  #: the squared velocities at the ends of parts of cells
 
 
 @dataclass(frozen=True)
-class MotionNodes:
-    """Nodes of s at which motions of a phase plane are integrated.
+class MotionCells:
+    """Cells of s over which motions of a phase plane are integrated.
 
     Attributes
     ----------
     plane
         With what is minimised, and the bounds.
+    edges
+        The ends of elements in which the acceleration of the cap is a polynomial.
     s, b
-        Places within (0, 1), and velocities there: the cap, but for a factor.
+        The places of the elements within (0, 1), and velocities there: the cap, but for a factor.
     """
 
     plane: PhasePlane
+    edges: tuple[float, ...]
     s: tuple[float, ...]
     b: tuple[float, ...]
 
     @kept_property
-    def nodes(self) -> Array:
-        """The nodes from 0 to 1: even ones, given places, and where windows begin and end."""
-        ends = np.array([end for limit in self.plane.windows for end in (limit.start, limit.stop)])
-        ends = 2.0 / np.pi * np.arcsin(np.sqrt(ends))
-        return np.unique(np.concatenate([np.linspace(0.0, 1.0, _NODES + 1), self.s, ends]))
+    def elements(self) -> Elements:
+        """The elements over which the cap is given."""
+        return Elements(np.array(self.edges))
+
+    @kept_property
+    def ends(self) -> Array:
+        """The ends of cells: even ones, ends of elements, and where torques or bounds are not smooth."""
+        places = [end for limit in self.plane.windows for end in (limit.start, limit.stop)]
+        places = 2.0 / np.pi * np.arcsin(np.sqrt(np.array([*places, *self.plane.kinks])))
+        ends = np.unique(np.concatenate([np.linspace(0.0, 1.0, _CELLS + 1), self.edges, places]))
+        return np.append(ends[:-1][np.diff(ends) > _SHORTEST], 1.0)
+
+    @kept_property
+    def lengths(self) -> Array:
+        """The lengths of cells."""
+        return np.asarray(np.diff(self.ends))
+
+    @kept_property
+    def places(self) -> Array:
+        """The places of all cells, one row a cell."""
+        return np.asarray(self.ends[:-1, None] + self.lengths[:, None] * _PLACES_OF_CELL)
 
     @kept_property
     def a(self) -> Array:
-        """The positions of the nodes."""
-        return np.asarray(np.sin(0.5 * np.pi * self.nodes) ** 2)
+        """The positions at the places of cells."""
+        return np.asarray(np.sin(0.5 * np.pi * self.places) ** 2)
 
     @kept_property
     def rate(self) -> Array:
         """The derivative of the position by s."""
-        return np.asarray(0.5 * np.pi * np.sin(np.pi * self.nodes) * (self.nodes < 1.0))
+        return np.asarray(0.5 * np.pi * np.sin(np.pi * self.places))
+
+    @kept_property
+    def shares(self) -> Array:
+        """The weights of integrals over the position, at the Gauss places of cells."""
+        return np.asarray(self.rate[:, _INNER] * 0.5 * self.lengths[:, None] * _SHARES)
 
     def within(self, bound: TorqueLimit | VelocityLimit) -> NDArray[np.bool_]:
-        """The nodes in the window of a bound, its ends among them."""
-        return np.asarray((self.a >= bound.start - WINDOW_EDGE) & (self.a <= bound.stop + WINDOW_EDGE))
+        """The cells in the window of a bound."""
+        middle = self.a[:, _MIDDLE]
+        return np.asarray((middle > bound.start) & (middle < bound.stop))
 
     @kept_property
     def greatest(self) -> Array:
-        """The greatest squared velocity at nodes."""
+        """The greatest squared velocity in cells."""
         most = np.full(len(self.a), self.plane.B)
         for limit in self.plane.velocities:
             most = np.where(self.within(limit), np.minimum(most, limit.B), most)
         return np.asarray(most**2)
 
     @kept_property
-    def cap(self) -> Array:
-        """The squared velocity of the given places."""
-        from scipy.interpolate import PchipInterpolator
-
-        if self.plane.squared is None:  # a motion that is fast and even, with corners
-            shape = PchipInterpolator([0.0, *self.s, 1.0], [0.0, *self.b, 0.0])
-            cap = np.maximum(shape(self.nodes), SMALLEST_SIZE) ** 2
-        else:  # a smooth one
-            places = np.array(self.s)
-            shape = PchipInterpolator(places, np.array(self.b) / np.sin(np.pi * places), extrapolate=True)
-            cap = (np.maximum(shape(self.nodes), SMALLEST_SIZE) * np.sin(np.pi * self.nodes)) ** 2
-        cap[[0, -1]] = 0.0
-        return np.asarray(cap)
-
-    def torque(self, torque: AnyTorque, w: Array, c: Array) -> Array:
-        """A torque at nodes."""
-        several = []
-        for inertia, square, drag, load in self.factors(torque):
-            several.append(inertia * c + square * w + drag * np.sqrt(w) + load)
-        return np.asarray(np.max(several, axis=0))
+    def cap(self) -> tuple[Array, Array]:
+        """The squared velocities and accelerations of the elements' motion, at the places of cells."""
+        motion = self.elements.accelerations(np.array(self.b) ** 2)
+        piece = np.searchsorted(self.elements.edges, self.places[:, _MIDDLE], side="right") - 1
+        w, c = self.elements.at(piece, self.places, motion)
+        w = np.maximum(w, 0.0)
+        w[0, _START], w[-1, _END] = 0.0, 0.0
+        return w, c
 
     def factors(self, torque: AnyTorque) -> list[tuple[Array, Array, Array, Array]]:
-        """The factors of a torque's forms at nodes."""
+        """The factors of a torque's forms at the places of cells."""
         if torque not in self._factors:
             self._factors[torque] = [branch.values(self.a) for branch in torque.branches]
         return self._factors[torque]
@@ -122,120 +162,169 @@ class MotionNodes:
         bounds
             Of torques and the acceleration.
         """
-        capped = isfinite(scale)
-        cap = np.minimum(self.greatest, self.cap * scale) if capped else self.greatest
+        most = np.broadcast_to(self.greatest[:, None], self.a.shape)
+        w, c = (self.cap[0] * scale, self.cap[1] * scale) if isfinite(scale) else (most, np.zeros_like(most))
+        cap, c = np.minimum(w, most), np.where(w < most, c, 0.0)
+        nothing = np.zeros(0, dtype=np.intp)
         if not bounds:
-            return _Motion(cap, None) if np.isfinite(cap).all() else None
-        if all(bound == TorqueLimit(ACCELERATION, bound.at_rest) for bound in bounds):
-            return self._by_acceleration(cap, min(bound.at_rest for bound in bounds))
-        sides = _Sides(self, bounds)
-        forward, back = sides.forward(cap), sides.backward(cap)
+            return _Motion(cap, c, nothing, np.zeros((0, _PARTS + 1))) if np.isfinite(cap).all() else None
+        sides = _Sides(self, bounds, cap, c)
+        forward, back = sides.arcs(ahead=True), sides.arcs(ahead=False)
         if forward is None or back is None:
             return None
-        modes = np.array([cap, forward, back])
-        mode, here = np.argmin(modes, axis=0), np.arange(len(cap))
-        c = None if capped else np.array([np.zeros_like(cap), sides.fastest, sides.slowest])[mode, here]
-        return _Motion(modes[mode, here], c)
-
-    def _by_acceleration(self, cap: Array, most: float) -> _Motion:
-        """The fastest motion below a cap within an acceleration: from any node before, and to any after."""
-        rise, left = 2.0 * most * self.a, 2.0 * most * np.cos(0.5 * np.pi * self.nodes) ** 2
-        cap = cap.copy()
-        cap[[0, -1]] = 0.0
-        forward = np.minimum.accumulate(cap - rise) + rise
-        back = np.minimum.accumulate((cap - left)[::-1])[::-1] + left
-        return _Motion(np.minimum(forward, back), None)
+        several = np.array([cap, forward.w, back.w])
+        lowest = several.min(axis=0)
+        alone = (several <= lowest * (1.0 + _AT_CAP)).all(axis=2)
+        alone[0] &= sides.fits.all(axis=0)
+        arc, here = np.argmax(alone, axis=0), np.arange(len(cap))
+        w, c = (np.array(values)[arc, here] for values in ((cap, forward.w, back.w), (c, forward.c, back.c)))
+        mixed = np.flatnonzero(~alone.any(axis=0))
+        free = np.isinf(cap[mixed]).any(axis=1, keepdims=True)
+        capped = np.where(free, inf, np.where(free, 0.0, cap[mixed, :_MIDDLE]) @ _OF_PARTS.T)
+        parts = np.minimum(np.minimum(forward.in_parts(mixed), back.in_parts(mixed)), capped)
+        first, last = (lowest[mixed, place, None] for place in (_START, _END))
+        # where the cap winds too much about the motion, that has one acceleration
+        fits = np.asarray(sides.fits.all(axis=0))
+        winds = ~fits[mixed] & (several[0] <= lowest).any(axis=1)[mixed]
+        ways = np.cumsum(self._ways(mixed), axis=1)
+        parts = np.where(winds[:, None], np.append(first, first + (last - first) * ways / ways[:, -1:], axis=1), parts)
+        parts[:, :1], parts[:, -1:] = first, last
+        return _Motion(w, c, mixed, np.maximum(parts, 0.0))
 
     def keeps(self, motion: _Motion) -> bool:
-        """Whether a motion keeps the bounds at all nodes, and its acceleration those in the middle of cells."""
-        w, more = motion.w, 1.0 + _BOUND_KEPT
-        if np.any(w > self.greatest * more) or not np.all(w[1:-1] > 0.0):
+        """Whether a motion keeps the bounds at all places of cells, and in the middles of their parts."""
+        more = 1.0 + _BOUND_KEPT
+        whole = self._whole(motion)
+        if np.any(motion.w[whole] > self.greatest[whole, None] * more) or not np.all(motion.w[whole, _INNER] > 0.0):
+            return False
+        if np.any(motion.parts > self.greatest[motion.mixed, None] * more) or not np.all(motion.parts[:, 1:-1] > 0.0):
             return False
         for bound in self.plane.bounds:
             within = self.within(bound)
-            most = (bound.at_rest - bound.fall * np.sqrt(w)) * more
-            if motion.c is not None:
-                size = np.abs(self.torque(bound.torque, w, motion.c))
-            else:
-                size, within = np.abs(self.middle(bound.torque, motion)), within[1:] & within[:-1]
-                most = 0.5 * (most[1:] + most[:-1])
-            if np.any(within & (size > most)):
+            b = np.sqrt(motion.w)
+            size = np.abs(self.torque(bound.torque, motion))
+            beyond = size > (bound.at_rest - bound.fall * b) * more
+            if np.any(beyond[whole & within]):
+                return False
+            size, b = np.abs(self.torque_in_parts(bound.torque, motion)), np.sqrt(self._middles(motion))
+            if np.any((size > (bound.at_rest - bound.fall * b) * more)[within[motion.mixed]]):
                 return False
         return True
 
-    def middle(self, torque: AnyTorque, motion: _Motion) -> Array:
-        """A torque in the middles of cells of a motion whose acceleration is constant in each."""
-        w, c = 0.5 * (motion.w[1:] + motion.w[:-1]), self.accelerations(motion)
-        several = []
-        for form in self.factors(torque):
-            inertia, square, drag, load = (0.5 * (factor[1:] + factor[:-1]) for factor in form)
-            several.append(inertia * c + square * w + drag * np.sqrt(w) + load)
-        return np.asarray(np.max(several, axis=0))
+    def _whole(self, motion: _Motion) -> NDArray[np.bool_]:
+        """The cells of one arc."""
+        whole = np.ones(len(self.a), dtype=bool)
+        whole[motion.mixed] = False
+        return whole
 
-    def accelerations(self, motion: _Motion) -> Array:
-        """The accelerations in cells, where each has one."""
-        return np.asarray(0.5 * np.diff(motion.w) / np.diff(self.a))
+    def torque(self, torque: AnyTorque, motion: _Motion) -> Array:
+        """A torque at the places of cells, of those of one arc."""
+        return _greatest(self.factors(torque), motion.w, motion.c)
 
-    def times(self, motion: _Motion) -> Array:
-        """The times of cells in which the acceleration is constant."""
-        b = np.sqrt(motion.w)
-        return np.asarray(2.0 * np.diff(self.a) / (b[1:] + b[:-1]))
+    def torque_in_parts(self, torque: AnyTorque, motion: _Motion) -> Array:
+        """A torque in the middles of parts of the other cells."""
+        forms = [
+            tuple(factor[motion.mixed][:, :_MIDDLE] @ _IN_PARTS.T for factor in form) for form in self.factors(torque)
+        ]
+        with np.errstate(all="ignore"):
+            c = 0.5 * np.diff(motion.parts, axis=1) / self._ways(motion.mixed)
+        return _greatest(forms, self._middles(motion), c)
+
+    def _middles(self, motion: _Motion) -> Array:
+        return np.asarray(0.5 * (motion.parts[:, 1:] + motion.parts[:, :-1]))
+
+    def _ways(self, cells: NDArray[np.intp]) -> Array:
+        """The lengths of parts of cells over the position."""
+        s = self.ends[cells, None] + self.lengths[cells, None] * np.arange(_PARTS + 1) / _PARTS
+        half = 0.25 * np.pi * (s[:, 1:] - s[:, :-1])
+        return np.asarray(np.sin(0.5 * np.pi * (s[:, 1:] + s[:, :-1])) * np.sin(2.0 * half))
+
+    def _pace(self, motion: _Motion) -> tuple[Array, Array]:
+        """The times of the places of cells of one arc, and of parts of the others."""
+        whole = self._whole(motion)
+        b = np.sqrt(motion.parts)
+        times = self.shares[whole] / np.sqrt(motion.w[whole, _INNER])
+        return times, np.asarray(2.0 * self._ways(motion.mixed) / (b[:, 1:] + b[:, :-1]))
 
     def time(self, motion: _Motion) -> float:
         """The time of a motion."""
-        return float(np.sum(self.times(motion)))
+        return float(sum(np.sum(times) for times in self._pace(motion)))
 
     def square(self, torque: AnyTorque, motion: _Motion) -> float:
         """The integral of a squared torque over the time."""
-        return float(np.sum(self.over_cells(torque, motion, lambda *values: values[0] ** 2) * self.times(motion)))
+        times, in_parts = self._pace(motion)
+        at_places = self.torque(torque, motion)[self._whole(motion), _INNER]
+        return float(np.sum(at_places**2 * times) + np.sum(self.torque_in_parts(torque, motion) ** 2 * in_parts))
 
-    def over_cells(
-        self, torque: AnyTorque, motion: _Motion, of: Callable[..., Array], other: AnyTorque | None = None
-    ) -> Array:
-        """The means in cells of a function of one torque or two, by Simpson's rule."""
-        torques = [torque] if other is None else [torque, other]
-        c = self.accelerations(motion)
-        ends = [[self._at_end(each, motion, c, end) for each in torques] for end in (slice(None, -1), slice(1, None))]
-        middles = [self.middle(each, motion) for each in torques]
-        return np.asarray((of(*ends[0]) + 4.0 * of(*middles) + of(*ends[1])) / 6.0)
+    def work_of_greater(self, first: AnyTorque, second: AnyTorque, motion: _Motion) -> float:
+        """The integral over the position of the greater of two torques."""
+        whole = self._whole(motion)
+        at_places = np.maximum(self.torque(first, motion), self.torque(second, motion))[whole, _INNER]
+        parts = np.maximum(self.torque_in_parts(first, motion), self.torque_in_parts(second, motion))
+        return float(np.sum(at_places * self.shares[whole]) + np.sum(parts * self._ways(motion.mixed)))
 
-    def _at_end(self, torque: AnyTorque, motion: _Motion, c: Array, end: slice) -> Array:
-        w = motion.w[end]
-        several = []
-        for form in self.factors(torque):
-            inertia, square, drag, load = (factor[end] for factor in form)
-            several.append(inertia * c + square * w + drag * np.sqrt(w) + load)
-        return np.asarray(np.max(several, axis=0))
+    def peak(self, torque: AnyTorque, motion: _Motion) -> float:
+        """The greatest magnitude of a torque."""
+        several = [self.torque(torque, motion)[self._whole(motion)], self.torque_in_parts(torque, motion)]
+        return max(float(np.max(np.abs(values), initial=0.0)) for values in several)
+
+
+def _greatest(forms: Sequence[tuple[Array, ...]], w: Array, c: Array) -> Array:
+    """The greatest of several forms of a torque."""
+    b = np.sqrt(w)
+    return np.asarray(
+        np.max([inertia * c + square * w + drag * b + load for inertia, square, drag, load in forms], axis=0)
+    )
 
 
 class _Sides:
-    """The greatest and the least acceleration at nodes within bounds, and motions by them from both ends."""
+    """The greatest and the least acceleration within bounds, and motions by them from both ends, below a cap."""
 
-    def __init__(self, nodes: MotionNodes, bounds: tuple[TorqueLimit, ...]) -> None:
-        self.nodes, self.steps, self.rate = nodes, np.diff(nodes.nodes).tolist(), nodes.rate.tolist()
-        self.bounds = []
+    def __init__(self, cells: MotionCells, bounds: tuple[TorqueLimit, ...], cap: Array, c: Array) -> None:
+        self.cells, self.cap, self.steps = cells, cap, cells.lengths.tolist()
+        self.at = [cells.rate[:, place].tolist() for place in (_START, _MIDDLE, _END)]
+        self.forms: list[list[tuple[Array, ...]]] = []
         for bound in bounds:
-            within = nodes.within(bound)
-            most = np.where(within, bound.at_rest, inf)
-            forms = [np.stack([most, np.full_like(most, bound.fall), *form]).T for form in nodes.factors(bound.torque)]
-            self.bounds.append([form.tolist() for form in forms])
-        count = len(nodes.a)
-        self.fastest, self.slowest = np.zeros(count), np.zeros(count)
+            most = np.where(cells.within(bound), bound.at_rest, inf)[:, None] + np.zeros_like(cap)
+            fall = np.full_like(cap, bound.fall)
+            self.forms.append([(most, fall, *form) for form in cells.factors(bound.torque)])
+        with np.errstate(all="ignore"):
+            fits = (c <= self._limit(cap, ahead=True)), (c >= self._limit(cap, ahead=False))
+        #: cells in which the cap does not ascend too fast, and does not brake too hard
+        self.fits: NDArray[np.bool_] = np.array([(fit | (cap == 0.0)).all(axis=1) for fit in fits])
+        self.rows = [
+            [[np.stack([factor[:, place] for factor in form]).T.tolist() for form in forms] for forms in self.forms]
+            for place in (_START, _MIDDLE, _END)
+        ]
 
-    def _greatest(self, i: int, w: float) -> float:
-        """The greatest acceleration at a node."""
+    def _limit(self, w: Array, *, ahead: bool) -> Array:
+        """The greatest acceleration at the places of cells, or the least."""
+        b, limit = np.sqrt(w), np.full_like(w, inf)
+        for forms in self.forms:
+            several = []
+            for most, fall, inertia, square, drag, load in forms:
+                with np.errstate(all="ignore"):
+                    free = drag * b + square * w + load
+                    by = (most - fall * b - free) / inertia if ahead else (fall * b - most - free) / inertia
+                several.append(np.where(inertia > 0.0, by, inf if ahead else -inf))
+            either = np.min(several, axis=0)
+            limit = np.minimum(limit, either if ahead else -either)
+        return np.asarray(limit if ahead else -limit)
+
+    def _greatest(self, place: int, i: int, w: float) -> float:
+        """The greatest acceleration at a place of a cell."""
         b, greatest = sqrt(w), inf
-        for forms in self.bounds:
+        for forms in self.rows[place]:
             for form in forms:
                 most, fall, inertia, square, drag, load = form[i]
                 if inertia > 0.0:
                     greatest = min(greatest, (most - load - (fall + drag) * b - square * w) / inertia)
         return greatest
 
-    def _least(self, i: int, w: float) -> float:
-        """The least acceleration at a node; behind a gear with losses one of both forms may brake."""
+    def _least(self, place: int, i: int, w: float) -> float:
+        """The least acceleration; behind a gear with losses one of both forms may brake."""
         b, least = sqrt(w), -inf
-        for forms in self.bounds:
+        for forms in self.rows[place]:
             either = inf
             for form in forms:
                 most, fall, inertia, square, drag, load = form[i]
@@ -244,105 +333,140 @@ class _Sides:
             least = max(least, either)
         return least
 
-    def forward(self, cap: Array) -> Array | None:
-        """The squared velocities of the fastest motion from the first node; None where it stops."""
-        known = self._integrated(cap.tolist(), range(len(cap)), self._greatest, 1.0, self.fastest)
-        return None if known is None else np.array(known)
+    def arcs(self, *, ahead: bool) -> _Arcs | None:
+        """The fastest motion from the first end, or the fastest that comes to rest at the last; None where it stops."""
+        count, known = len(self.steps), self._integrated(ahead=ahead)
+        if known is None:
+            return None
+        # squared velocities and their derivatives by s, at the starts and at the ends of cells
+        w0, w1, c0, c1 = np.array(known).T
+        h = self.cells.lengths
+        d0, d1 = 2.0 * h * c0 * self.cells.rate[:, _START], 2.0 * h * c1 * self.cells.rate[:, _END]
 
-    def backward(self, cap: Array) -> Array | None:
-        """Those of the fastest motion that comes to rest at the last node."""
-        places = range(len(cap) - 1, -1, -1)
-        known = self._integrated(cap.tolist(), places, self._least, -1.0, self.slowest)
-        return None if known is None else np.array(known[::-1])
+        def hermite(cells: NDArray[np.intp], x: Array) -> Array:
+            rise = (w1 - w0)[cells, None]
+            by_slopes = (d0[cells, None] - rise) * (1.0 - x) + (rise - d1[cells, None]) * x
+            return np.asarray(w0[cells, None] + rise * x + x * (1.0 - x) * by_slopes)
 
-    def _integrated(
-        self, cap: list[float], places: range, bound: Callable[[int, float], float], way: float, bounds_at: Array
-    ) -> list[float] | None:
-        """Squared velocities by Heun's method at nodes one after another, and the accelerations by bounds there."""
-        w, values = 0.0, [0.0]
-        c = bound(places[0], 0.0)
-        bounds_at[places[0]] = c
-        for i, j in pairwise(places):
-            step = 2.0 * way * self.steps[min(i, j)]
-            first = step * c * self.rate[i]
-            ahead = bound(j, min(max(w + first, 0.0), cap[j]))
-            w += 0.5 * (first + step * ahead * self.rate[j])
-            if not w > 0.0 and 0 < j < len(cap) - 1:
+        w = hermite(np.arange(count), _PLACES_OF_CELL)
+        with np.errstate(all="ignore"):
+            c = self._limit(np.where(np.isfinite(w), np.maximum(w, 0.0), 0.0), ahead=ahead)
+        w = np.where(np.isnan(w), inf, w)
+
+        def in_parts(cells: NDArray[np.intp]) -> Array:
+            several = hermite(cells, np.arange(_PARTS + 1) / _PARTS)
+            return np.where(np.isnan(several), inf, several)
+
+        return _Arcs(w, c, in_parts)
+
+    def _integrated(self, *, ahead: bool) -> list[tuple[float, float, float, float]] | None:
+        """Squared velocities and accelerations at both ends of cells, by Runge and Kutta's method of order 4.
+
+        They are not numbers in cells where the motion follows the cap.
+        """
+        limit, way = (self._greatest, 1.0) if ahead else (self._least, -1.0)
+        cap = self.cap if ahead else self.cap[::-1]
+        begin, end = (_START, _END) if ahead else (_END, _START)
+        follows, caps = (cap[:, begin] * (1.0 - _AT_CAP)).tolist(), cap[:, end].copy()
+        caps[:-1] = np.minimum(caps[:-1], cap[1:, begin])
+        most, fits = caps.tolist(), (self.fits[0] if ahead else self.fits[1][::-1]).tolist()
+        first, middle, last = (0, 1, 2) if ahead else (2, 1, 0)
+        rates = [self.at[place] for place in (first, middle, last)]
+        w, known, count = 0.0, list[tuple[float, float, float, float]](), len(most)
+        not_known = (inf * 0.0,) * 4
+        for k in range(count):
+            i = k if ahead else count - 1 - k
+            if fits[k] and w >= follows[k]:
+                known.append(not_known)
+                w = most[k]
+                continue
+            step = 2.0 * way * self.steps[i]
+            c = limit(first, i, w)
+            rises = [step * c * rates[0][i]]
+            for share, place, rate in ((0.5, middle, rates[1]), (0.5, middle, rates[1]), (1.0, last, rates[2])):
+                rises.append(step * limit(place, i, max(w + share * rises[-1], 0.0)) * rate[i])
+            more = w + (rises[0] + 2.0 * (rises[1] + rises[2]) + rises[3]) / 6.0
+            if not more > 0.0 and k + 1 < count:
                 return None
-            w = min(max(w, 0.0), cap[j])
-            c = bound(j, w)
-            bounds_at[j] = c
-            values.append(w)
-        return values
+            more = max(more, 0.0)
+            beyond = limit(last, i, more)
+            known.append((w, more, c, beyond) if ahead else (more, w, beyond, c))
+            w = min(more, most[k])
+        return known if ahead else known[::-1]
 
 
-def value_of(plane: PhasePlane, s: tuple[float, ...], b: tuple[float, ...]) -> float:
+def value_of(plane: PhasePlane, edges: tuple[float, ...], s: tuple[float, ...], b: tuple[float, ...]) -> float:
     """What is minimised, of a motion in the time 1 that keeps all bounds; infinite where none is found.
 
     Parameters
     ----------
     plane
         With what is minimised, and the bounds.
+    edges
+        The ends of elements.
     s, b
-        Places within (0, 1), and velocities near those of the motion.
+        The places of the elements, and velocities near those of the motion.
     """
-    nodes = MotionNodes(plane, s, b)
+    cells = MotionCells(plane, edges, s, b)
     with np.errstate(all="ignore"):
         if plane.kind == "time":
-            motion = nodes.motion(inf, plane.bounds)
-            return nodes.time(motion) if motion is not None and nodes.keeps(motion) else inf
-        return _of_peak(nodes) if plane.peak is not None else _of_mean(nodes)
+            motion = cells.motion(inf, plane.bounds)
+            return cells.time(motion) if motion is not None and cells.keeps(motion) else inf
+        if plane.peak is not None:
+            return _of_peak(cells)
+        if len(s) != len(cells.elements.s) or not np.allclose(s, cells.elements.s, rtol=0.0, atol=_SHORTEST):
+            return inf
+        return _of_mean(cells)
 
 
-def _of_mean(nodes: MotionNodes) -> float:
+def _of_mean(cells: MotionCells) -> float:
     """The least mean of motions by the scaled cap: in the whole time, and at rest for some of it."""
-    plane = nodes.plane
+    plane = cells.plane
 
     def excess(by: float) -> float:
-        motion = nodes.motion(exp(2.0 * by), plane.bounds)
-        return inf if motion is None else nodes.time(motion) - 1.0
+        motion = cells.motion(exp(2.0 * by), plane.bounds)
+        return inf if motion is None else cells.time(motion) - 1.0
 
-    known = [nodes.motion(exp(2.0 * by), plane.bounds) for by in (0.0, *_root(excess))]
-    return min((_mean(nodes, motion) for motion in known if motion is not None), default=inf)
+    known = [cells.motion(exp(2.0 * by), plane.bounds) for by in (0.0, *_root(excess))]
+    return min((_mean(cells, motion) for motion in known if motion is not None), default=inf)
 
 
-def _mean(nodes: MotionNodes, motion: _Motion) -> float:
+def _mean(cells: MotionCells, motion: _Motion) -> float:
     """The mean of a motion that rests for what is left of the time; infinite where it breaks a bound."""
-    plane = nodes.plane
-    rest = 1.0 - nodes.time(motion)
-    if rest < -INTEGRATION or not nodes.keeps(motion):
+    plane = cells.plane
+    rest = 1.0 - cells.time(motion)
+    if rest < -INTEGRATION or not cells.keeps(motion):
         return inf
     total = 0.0
     if plane.squared is not None:
         hold = min(abs(torque) for torque in _holding(plane))
-        total += plane.heat * (nodes.square(plane.squared, motion) + max(rest, 0.0) * hold**2)
+        total += plane.heat * (cells.square(plane.squared, motion) + max(rest, 0.0) * hold**2)
     for first, second in plane.maxima:
-        total += float(np.sum(nodes.over_cells(first, motion, np.maximum, second) * np.diff(nodes.a)))
+        total += cells.work_of_greater(first, second, motion)
     return total
 
 
-def _of_peak(nodes: MotionNodes) -> float:
+def _of_peak(cells: MotionCells) -> float:
     """The least peak of a motion in the whole time, or with a rest in it."""
-    plane = nodes.plane
+    plane = cells.plane
     assert plane.peak is not None  # noqa: S101 - it is minimised
     torque = plane.peak
     size = torque.size
 
     def motion(by: float) -> _Motion | None:
-        return nodes.motion(inf, (*plane.bounds, TorqueLimit(torque, size * exp(by))))
+        return cells.motion(inf, (*plane.bounds, TorqueLimit(torque, size * exp(by))))
 
     def excess(by: float) -> float:
         known = motion(by)
-        return inf if known is None else nodes.time(known) - 1.0
+        return inf if known is None else cells.time(known) - 1.0
 
     best = inf
     for by in _root(excess):
         known = motion(by)
-        if known is None or not nodes.keeps(known):
+        if known is None or not cells.keeps(known):
             continue
-        assert known.c is not None  # noqa: S101 - without a cap there are accelerations
-        peak = float(np.max(np.abs(nodes.torque(torque, known.w, known.c))))
-        rest = 1.0 - nodes.time(known)
+        peak = cells.peak(torque, known)
+        rest = 1.0 - cells.time(known)
         if rest > INTEGRATION:
             peak = max(peak, min(abs(torque) for torque in _holding(plane)))
         best = min(best, peak) if rest >= -INTEGRATION else best
