@@ -24,6 +24,7 @@ from optlaws.suggest import unknown_key
 from optlaws.synthesis.functionals.kinds import FormulaIntegral, FormulaPeak, FormulaRms, OfFormula
 from optlaws.synthesis.limits.motions.integrated import value_of
 from optlaws.synthesis.limits.motions.standing import Standing, standing_level, standing_sign
+from optlaws.synthesis.limits.motions.work import least_energy
 from optlaws.synthesis.limits.phase_plane import PhasePlane, TorqueLimit
 from optlaws.synthesis.limits.phase_plane_bound import Guess, Potential, even_price, proven_bound
 from optlaws.synthesis.limits.phase_plane_program import PhaseOptimum, optimum
@@ -408,7 +409,7 @@ def _finer(standing: Standing, minimise: DriveObjective, unit: float) -> DriveLi
 
 def _nearer(limit: DriveLimit, other: DriveLimit) -> DriveLimit:
     """Of two limits the one that proves more or, where both prove as much, the one whose motion is nearer."""
-    if abs(limit.value - other.value) <= _SMALL_PHASE_GAP * abs(limit.value):
+    if abs(limit.value - other.value) <= 10.0 * _SMALL_PHASE_GAP * abs(limit.value):
         return min(limit, other, key=lambda each: each.gap)
     return max(limit, other, key=_proves)
 
@@ -426,7 +427,8 @@ def _least_time(plane: PhasePlane) -> DriveLimit:
 def _limit(standing: Standing, minimise: DriveObjective, unit: float, motion: PhaseOptimum) -> DriveLimit:
     """The limit by the computed potential or, where that proves little, by others."""
     plane = standing.plane
-    s, b = tuple(motion.s.tolist()), tuple(motion.velocities.tolist())
+    a = np.sin(0.5 * np.pi * motion.s) ** 2
+    s, b = tuple(motion.s.tolist()), tuple(np.minimum(motion.velocities, plane.velocity_bound(a, a)).tolist())
     attained = _in_units(value_of(plane, tuple(motion.edges.tolist()), s, b), minimise, unit, inf)
     near = max(motion.objective, 0.0) if plane.kind == "peak" else 0.0
     best = None
@@ -464,9 +466,7 @@ def _bound(limit: DriveLimit) -> float:
     peak = limit.near if limit.minimise == "peak torque" else inf
     guess = Guess(np.array(limit.s), np.array(limit.b), peak)
     bound = proven_bound(Standing(limit.plane, limit.level, limit.price), potential, limit.weight, guess)
-    if limit.plane.at_least_nothing:
-        bound = max(bound, 0.0)
-    return _in_units(bound, limit.minimise, limit.unit, 0.0)
+    return _in_units(max(bound, least_energy(limit.plane)), limit.minimise, limit.unit, 0.0)
 
 
 def _attained(limit: DriveLimit) -> float:

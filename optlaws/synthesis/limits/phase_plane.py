@@ -19,7 +19,7 @@ from optlaws.errors import InputError
 from optlaws.files.reading import JsonText
 from optlaws.formulas.arithmetic import NUMPY, evaluate
 from optlaws.formulas.reading import read
-from optlaws.formulas.tree import Formula, Number
+from optlaws.formulas.tree import Formula
 from optlaws.kept import kept_property
 from optlaws.numbers import Array, bounded, finite, numbers, positive
 from optlaws.synthesis.limits.phase_torque import ACCELERATION, AnyTorque, GearTorque, PhaseTorque, torque_from
@@ -153,11 +153,6 @@ class PhasePlane(JsonText):
         if self.peak is not None:
             return "peak"
         return "mean" if self.squared is not None or self.maxima else "time"
-
-    @property
-    def at_least_nothing(self) -> bool:
-        """Whether what is minimised is at least 0 by itself: no energy of which a part comes back."""
-        return all(second == PhaseTorque(Number(0.0)) for _, second in self.maxima)
 
     @property
     def torques(self) -> tuple[AnyTorque, ...]:

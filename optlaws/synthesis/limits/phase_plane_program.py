@@ -11,7 +11,8 @@ in which the last motion was. So the resulting motion satisfies the bounds, but 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from contextlib import suppress
+from dataclasses import dataclass, replace
 from math import inf
 from typing import Any, TypeAlias
 
@@ -122,6 +123,10 @@ def optimum(standing: Standing, rounds: int = _ROUNDS, more: int = 1) -> PhaseOp
             if plane.gear_load is None:
                 raise
             break
+    if solved.beyond and not strict:  # the prices are right, but the motion is not
+        with suppress(SolverFailure):
+            other = _Program(standing, solved.edges, pace, solved.driven, strict=True).solved()
+            solved = replace(solved, b=other.b, c=other.c)
     return solved
 
 

@@ -178,3 +178,23 @@ def test_the_same_move_in_other_units_has_the_same_limit() -> None:
         slow = Mechanism("0.8 kg m^2", load=f"x*{3.0 * unit**2!r}").limit("rms torque", 0.0, pi / 4, 0.25 / unit)
         assert slow.value == pytest.approx(plain * unit**2, rel=2e-6)
     assert inf > plain
+
+
+@pytest.mark.parametrize("regeneration", [0.0, 0.5, 1.0])
+@pytest.mark.parametrize(("way", "size"), [(1.0, 1.0), (-1.0, 1.0), (-1.0, 1e-9), (1.0, 1e9)])
+def test_an_energy_is_at_least_the_work_of_the_load(regeneration: float, way: float, size: float) -> None:
+    """Of a weight that is lifted or lowered: the work, of which no more than a share comes back; all of it exactly."""
+    weight, rubs = 2.3536 * size, 0.2 * size
+    lift = Mechanism(f"{0.01 * size!r} kg m^2", f"{weight!r} N m", coulomb=rubs)
+    drive = Drive(lift, Motor(1e-3 * size), ratio=2.5, regeneration=regeneration)
+    move, limits = ("0 rad", way * 10.0, "0.3 s"), {"acceleration": "2000 rad/s^2"}
+    limit, work = drive.limit("energy", *move, limits=limits), 10.0 * (way * weight + rubs)
+    least = max(work, regeneration * work)
+    assert limit.value >= least - 1e-9 * abs(work)
+    assert limit.value <= limit.attained
+    assert MoveLimit.from_json(limit.to_json()) == limit
+    if regeneration == 1.0:  # whatever the law
+        assert limit.value == pytest.approx(work, rel=1e-9)
+        assert limit.attained == pytest.approx(work, rel=1e-9)
+    for law in ("cycloidal", "simple harmonic"):
+        assert limit.value <= drive.sheet(law, *move).energy + 1e-9 * abs(work)

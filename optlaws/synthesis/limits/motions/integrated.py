@@ -164,7 +164,8 @@ class MotionCells:
         """
         most = np.broadcast_to(self.greatest[:, None], self.a.shape)
         w, c = (self.cap[0] * scale, self.cap[1] * scale) if isfinite(scale) else (most, np.zeros_like(most))
-        cap, c = np.minimum(w, most), np.where(w < most, c, 0.0)
+        below = w < most * (1.0 - INTEGRATION)
+        cap, c = np.where(below, w, most), np.where(below, c, 0.0)
         nothing = np.zeros(0, dtype=np.intp)
         if not bounds:
             return _Motion(cap, c, nothing, np.zeros((0, _PARTS + 1))) if np.isfinite(cap).all() else None
@@ -175,17 +176,18 @@ class MotionCells:
         several = np.array([cap, forward.w, back.w])
         lowest = several.min(axis=0)
         alone = (several <= lowest * (1.0 + _AT_CAP)).all(axis=2)
-        alone[0] &= sides.fits.all(axis=0)
+        fits, bends = np.asarray(sides.fits.all(axis=0)), below.any(axis=1) & ~below.all(axis=1)
+        alone[0] &= fits & ~bends
         arc, here = np.argmax(alone, axis=0), np.arange(len(cap))
         w, c = (np.array(values)[arc, here] for values in ((cap, forward.w, back.w), (c, forward.c, back.c)))
         mixed = np.flatnonzero(~alone.any(axis=0))
-        free = np.isinf(cap[mixed]).any(axis=1, keepdims=True)
-        capped = np.where(free, inf, np.where(free, 0.0, cap[mixed, :_MIDDLE]) @ _OF_PARTS.T)
+        capped = self.greatest[mixed, None]
+        if isfinite(scale):
+            capped = np.minimum(capped, scale * (self.cap[0][mixed, :_MIDDLE] @ _OF_PARTS.T))
         parts = np.minimum(np.minimum(forward.in_parts(mixed), back.in_parts(mixed)), capped)
         first, last = (lowest[mixed, place, None] for place in (_START, _END))
         # where the cap winds too much about the motion, that has one acceleration
-        fits = np.asarray(sides.fits.all(axis=0))
-        winds = ~fits[mixed] & (several[0] <= lowest).any(axis=1)[mixed]
+        winds = (~fits | bends)[mixed] & (several[0] <= lowest).any(axis=1)[mixed]
         ways = np.cumsum(self._ways(mixed), axis=1)
         parts = np.where(winds[:, None], np.append(first, first + (last - first) * ways / ways[:, -1:], axis=1), parts)
         parts[:, :1], parts[:, -1:] = first, last
