@@ -14,7 +14,7 @@ from optlaws import Problem, fastest, time_front
 from optlaws.verification import verify
 from tests.explorer.talk import Server
 from tests.explorer.test_page import go, saves, settle
-from tests.internals.explorer import fastest_view, start
+from tests.internals.explorer import fastest_view, law_view, start
 
 if TYPE_CHECKING:
     from playwright.sync_api import Page
@@ -59,6 +59,12 @@ def test_the_curve_is_drawn_once_by_the_limit_of_which_most_is_taken(served: Ser
         assert drawn == dict(zip(whole["at"], whole["values"], strict=True))
     motor = {row["name"]: row for row in answer["rows"]}
     assert motor["torque"]["use"] == "92.23"
+    assert {share["name"]: share["text"] for share in answer["shares"]} == {
+        name: motor[name]["use"] for name in answer["names"]
+    }
+    # the curve goes through its greatest value
+    torque = [abs(value) for value in answer["panels"][4]["series"][0]["values"]]
+    assert law_view.digits(max(torque), 5) == law_view.digits(float(motor["torque"]["text"]), 5)
     assert answer["trust"]["facts"][0].startswith(f"least rms torque in this time {motor['rms torque']['text'][:6]}")
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import tomllib
 from copy import deepcopy
-from math import hypot
+from math import hypot, pi
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -49,6 +49,28 @@ def test_the_sheet_and_the_curves_are_those_of_the_library(served: Server, file:
         # the greatest torque lies on its curve
         assert max(map(abs, torque["values"])) == pytest.approx(cycle.effort.peak_force, abs=1e-6)
     assert answer["trust"]["word"] == ("local" if file == "cycle_geared_table" else "proven optimal")
+    # what is said to be greatest is not the greatest of the drawn places
+    efforts = [cycle.effort for cycle in cycles]
+    powers = [
+        law_view.digits(number, 6)
+        for number in (
+            -max(effort.braking_power for effort in efforts),
+            max(effort.motoring_power for effort in efforts),
+        )
+    ]
+    assert answer["panels"][1]["ends"] == powers
+    if answer["over_speed"] is not None:
+        assert answer["over_speed"]["greatest"] == {
+            "torque": law_view.digits(max(effort.peak_force for effort in efforts), 6),
+            "speed": law_view.digits(max(cycle.sheet.peak_speed for cycle in cycles) * 30.0 / pi, 6),
+        }
+
+
+def test_greatest_values_are_said_as_the_library_has_them(page: Page, served: Server) -> None:
+    greatest = served.ask("machine", {"study": study("cycle_geared_table"), "axis": 1})["over_speed"]["greatest"]
+    go(page, served.link(machine=study("cycle_geared_table"), view="machine", axis=1))
+    words = page.locator("[aria-label^='Torque over speed']").first.get_attribute("aria-label") or ""
+    assert f"greatest torque is {greatest['torque']} N m, the greatest speed {greatest['speed']} rpm" in words
 
 
 def test_what_no_law_beats_is_proven_by_the_drive(served: Server) -> None:

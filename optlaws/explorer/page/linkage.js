@@ -67,9 +67,9 @@ export class Linkage {
   }
 
   #told() {
-    const { name, input, axis, kind } = this.#shown;
+    const { name, ends, axis, kind } = this.#shown;
     const scale = kind === "table" || kind === "screw" ? "as a sketch" : "to scale";
-    return `The ${name}, drawn ${scale}; its input goes from ${Math.min(...input)} to ${Math.max(...input)} ${axis === "angle" ? "deg" : "mm"}`;
+    return `The ${name}, drawn ${scale}; its input goes from ${ends[0]} to ${ends[1]} ${axis === "angle" ? "deg" : "mm"}`;
   }
 
   /** The least and greatest x and y of all that moves, in mm; the size of a table is of no meaning. */

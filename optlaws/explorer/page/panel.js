@@ -150,7 +150,10 @@ function told(panel, across) {
   const series = seriesOf(panel);
   const peaks = (panel.peaks ?? []).map((peak) => `${peak.text} at ${label(peak.at)}`);
   const values = peaks.length ? [] : series.flatMap((one) => one.values).filter((value) => value !== null);
-  const range = values.length ? [`from ${label(Math.min(...values))} to ${label(Math.max(...values))}`] : [];
+  // what is drawn is no value: between two of its places the curve may be higher
+  const about = (value) => label(Number(value.toPrecision(2)));
+  const drawn = values.length ? [`drawn from about ${about(Math.min(...values))} to about ${about(Math.max(...values))}`] : [];
+  const range = panel.ends ? [`from ${panel.ends[0]} to ${panel.ends[1]}`] : drawn;
   const limits = [...new Set((panel.limits ?? []).map((limit) => edges(limit).filter(Number.isFinite).map(label).join(" to ")))].filter(Boolean);
   const words = [...peaks, ...range, ...(limits.length ? [`within ${limits.join("; ")}`] : [])];
   if (!series.length) return `${titled(panel)}: nothing to draw`;

@@ -89,6 +89,7 @@ function panelInUnits(panel) {
     series: panel.series?.map((one) => ({ ...one, values: one.values.map(times) })),
     limits: panel.limits?.map((limit) => ({ ...limit, value: times(limit.value), ...("least" in limit && { least: times(limit.least) }) })),
     peaks: panel.peaks?.map((peak) => ({ ...peak, value: peak.value * factor, text: inUnit(peak.text, factor) })),
+    ends: panel.ends?.map((end) => inUnit(end, factor)),
   };
 }
 

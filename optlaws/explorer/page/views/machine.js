@@ -247,7 +247,7 @@ export class View {
   #overSpeed() {
     const { over_speed: known, active } = this.#answer;
     if (!known) return null;
-    const { courses, motor } = known;
+    const { courses, greatest, motor } = known;
     const speeds = courses.flatMap((course) => course.speeds);
     const torques = courses.flatMap((course) => course.torques);
     const most = 1.18 * Math.max(1e-9, ...torques.map(Math.abs), motor.rated_torque ?? 0, ...(motor.curves.peak ?? []).map(([, torque]) => torque));
@@ -263,7 +263,7 @@ export class View {
       x: { name: "speed of the motor, rpm", range: [back ? -fastest : 0, fastest] },
       y: { name: "torque, N m", range: [-most, most] },
       lines, handles: this.#motorHandles(motor, most, fastest),
-      told: `Torque over speed at the motor; the greatest torque is ${word(Math.max(...torques.map(Math.abs)))} N m, the greatest speed ${word(Math.max(...speeds.map(Math.abs)))} rpm`,
+      told: `Torque over speed at the motor; the greatest torque is ${greatest.torque} N m, the greatest speed ${greatest.speed} rpm`,
     };
   }
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache, partial
 from itertools import groupby
@@ -165,6 +165,10 @@ def _view_of_move(sought: _Sought, time: float | None) -> dict[str, Any]:
     k, columns = curves.sampled
     times = _MILLI * shown.duration * k
     shares = curves.shares(k)
+    used = {
+        limit.name: limit.constant.value(shown.law) / limit.bound
+        for limit in least.least.move.limits_in(shown.duration)
+    }
     last = _MILLI * shown.duration
     panels = [
         _panel(QUANTITIES[nu], *UNITS[axis][nu], (times, columns[nu], shares), [(0.0, last, *_limits(sought, nu))])
@@ -180,7 +184,7 @@ def _view_of_move(sought: _Sought, time: float | None) -> dict[str, Any]:
         "panels": panels,
         "segments": _stretches(times, shares),
         "names": list(shares),
-        "shares": _greatest_shares(shares),
+        "shares": _greatest_shares({name: used[name] for name in shares}),
         "rows": list(_rows(sought, shown)),
         "time": shown.duration,
         "least": _least(least.duration, least.none_below, least.limit),
@@ -224,8 +228,18 @@ class _Curves:
         """Places, and position, velocity, acceleration and jerk there, through their extremes."""
         k = np.unique(np.concatenate([np.linspace(0.0, 1.0, _STEPS), np.array(self._law.breaks)]))
         functions = [partial(self.values, nu=nu) for nu in range(4)]
-        extremes = np.array([extreme.k for nu in (1, 2, 3) for extreme in self._law.extrema(nu)])
+        extremes = np.array([*(extreme.k for nu in (1, 2, 3) for extreme in self._law.extrema(nu)), *self._of_motor])
         return refined(k, [function(k) for function in functions], functions, extremes)
+
+    @property
+    def _of_motor(self) -> tuple[float, ...]:
+        """The places at which most of the motor is used."""
+        drive = self._sought.drive
+        if drive is None:
+            return ()
+        given, time = self._sought.given["start"], f"{self._time!r} s"
+        sheet = drive.sheet(self._law, given, _stroke(self._sought.move), time)
+        return sheet.peak_torque_at, sheet.curve_use_at
 
     def torque(self, k: Array) -> Array:
         """The torque at the motor."""
@@ -345,11 +359,8 @@ def _stretches(times: Array, shares: dict[str, Array]) -> list[dict[str, Any]]:
     return stretches
 
 
-def _greatest_shares(shares: dict[str, Array]) -> list[dict[str, Any]]:
-    return [
-        {"name": name, "text": digits(100.0 * float(values.max()), 4), "full": bool(values.max() >= _FULL)}
-        for name, values in shares.items()
-    ]
+def _greatest_shares(used: Mapping[str, float]) -> list[dict[str, Any]]:
+    return [{"name": name, "text": digits(100.0 * share, 4), "full": share >= _FULL} for name, share in used.items()]
 
 
 def _rows(sought: _Sought, shown: _InTime) -> Iterator[dict[str, Any]]:
@@ -470,7 +481,7 @@ def _view_of_cycle(request: FastestRequest) -> dict[str, Any]:
         ],
         "segments": _stretches(milliseconds, shares),
         "names": list(shares),
-        "shares": _greatest_shares(shares),
+        "shares": _greatest_shares(_greatest_of_cycle(shown, edges)),
         "rows": [_row(row.name, row.value, row.unit, None) for row in (*peak_rows(shown), *drive_rows(shown))],
         "time": shown.duration,
         "least": _least(quickest.period, quickest.lower_bound, None),
@@ -505,6 +516,21 @@ def _shares_of_cycle(
         if share.any():
             taken[QUANTITIES[nu]] = share
     return taken
+
+
+def _greatest_of_cycle(shown: Cycle, edges: Sequence[dict[int, tuple[float, float]]]) -> dict[str, float]:
+    """The greatest share of the limits of each derivative over all segments that have one."""
+    used: dict[str, float] = {}
+    for nu in (1, 2, 3):
+        shares = [
+            max(value / limits[nu][1], value / limits[nu][0])
+            for peak, limits in zip(shown.peaks, edges, strict=True)
+            if nu in limits
+            for value, _ in peak.extremes[nu]
+        ]
+        if any(shares):
+            used[QUANTITIES[nu]] = max(shares)
+    return used
 
 
 def _trust_of_cycle(quickest: FastestCycle, shown: Cycle) -> dict[str, Any]:

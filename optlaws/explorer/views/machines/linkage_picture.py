@@ -10,7 +10,7 @@ import numpy as np
 
 from optlaws import Cycle, Mechanism
 from optlaws.explorer.views.cam_view import drawing
-from optlaws.explorer.views.law_view import drawn
+from optlaws.explorer.views.law_view import digits, drawn
 from optlaws.formulas.arithmetic import NUMPY, evaluate
 from optlaws.formulas.tree import Formula
 from optlaws.jobs.axes.mechanism_entries import cam_of
@@ -32,7 +32,12 @@ def picture(cycle: Cycle, mechanism: Mechanism, entries: Mapping[str, Any]) -> d
     times = np.linspace(0.0, cycle.duration, FRAMES)
     x = np.asarray(cycle(times))
     _, factor, _, _ = INPUTS[mechanism.axis]
-    shown: dict[str, Any] = {"name": mechanism.name, "input": drawn(factor * x, 4), "axis": mechanism.axis}
+    shown: dict[str, Any] = {
+        "name": mechanism.name,
+        "input": drawn(factor * x, 4),
+        "ends": [digits(factor * end, 6) for end in _used(cycle)],
+        "axis": mechanism.axis,
+    }
     if mechanism.linkage.chains:
         return shown | {"kind": "links"} | _links(mechanism, x)
     if mechanism.name == "cam":
@@ -63,11 +68,16 @@ def _placed(point: tuple[Formula, Formula], x: Array) -> list[list[float | None]
     return [drawn(row, _DECIMALS) for row in _MILLI * places.T]
 
 
+def _used(cycle: Cycle) -> tuple[float, float]:
+    """The least and the greatest position of the input."""
+    used = [value for peak in cycle.peaks for value, _ in peak.extremes[0]]
+    return min(used), max(used)
+
+
 def over_input(cycle: Cycle, mechanism: Mechanism) -> dict[str, Any]:
     """Panels of inertia and load over the input, with the part of it that the cycle uses."""
     unit, factor, inertia, load = INPUTS[mechanism.axis]
-    used = [extreme[0] for peak in cycle.peaks for extreme in peak.extremes[0]]
-    low, high = min(used), max(used)
+    low, high = _used(cycle)
     ends = mechanism.over if mechanism.has_end else (low, high)
     x = np.linspace(*ends, _SAMPLES)
     at = drawn(factor * x, 4)

@@ -194,18 +194,35 @@ def _panels(shown: Cycle, cycles: Coloured) -> Iterator[dict[str, Any]]:
     value = float(shown.force(peak))
     mark = {"at": round(_MILLI * peak, 4), "value": value, "text": digits(value, 6)}
     yield _panel(force_name(shown), force_unit(shown), torques, [mark])
-    yield _panel("power", "W", [_of_drive(each, each[1].power) for each in cycles])
-    rpm = _RPM * shown.drive.ratio if isinstance(shown.drive, Drive) else 1.0
+    efforts = [cycle.effort for _, cycle in cycles]
+    powers = max(effort.braking_power for effort in efforts), max(effort.motoring_power for effort in efforts)
+    yield _panel("power", "W", [_of_drive(each, each[1].power) for each in cycles], ends=(-powers[0], powers[1]))
     name, unit, factor = (
-        ("speed of the motor", "rpm", rpm) if driven else ("velocity of the input", *UNITS[shown.axis][1])
+        ("speed of the motor", "rpm", _speed_of_drive(shown))
+        if driven
+        else ("velocity of the input", *UNITS[shown.axis][1])
     )
-    yield _panel(name, unit, [_of_motion(each, 1, factor) for each in cycles])
+    yield _panel(name, unit, [_of_motion(each, 1, factor) for each in cycles], ends=_ends(cycles, 1, factor))
     unit, factor = UNITS[shown.axis][0]
-    yield _panel("position of the input", unit, [_of_motion(each, 0, factor) for each in cycles])
+    positions = [_of_motion(each, 0, factor) for each in cycles]
+    yield _panel("position of the input", unit, positions, ends=_ends(cycles, 0, factor))
 
 
-def _panel(name: str, unit: str, series: list[dict[str, Any]], peaks: Sequence[Any] = ()) -> dict[str, Any]:
-    return {"name": name, "unit": unit, "series": series, "limits": [], "peaks": list(peaks)}
+def _ends(cycles: Coloured, nu: int, factor: float) -> tuple[float, float]:
+    """The least and the greatest value of a derivative in several cycles."""
+    values = [factor * value for _, cycle in cycles for peak in cycle.peaks for value, _ in peak.extremes[nu]]
+    return min(values), max(values)
+
+
+def _panel(
+    name: str,
+    unit: str,
+    series: list[dict[str, Any]],
+    peaks: Sequence[Any] = (),
+    ends: tuple[float, float] | None = None,
+) -> dict[str, Any]:
+    shown = {"name": name, "unit": unit, "series": series, "limits": [], "peaks": list(peaks)}
+    return shown if ends is None else shown | {"ends": [digits(end, 6) for end in ends]}
 
 
 def _of_motion(coloured: tuple[int, Cycle], nu: int, factor: float) -> dict[str, Any]:
@@ -252,10 +269,16 @@ def _over_speed(shown: Cycle, cycles: Coloured) -> dict[str, Any] | None:
     for law, cycle in cycles:
         _, speeds = samples(cycle, 1, 4 * _EACH)
         _, torques = samples_of_drive(cycle, cycle.force, 4 * _EACH)
-        speeds = _RPM * cycle.drive.ratio * speeds if isinstance(cycle.drive, Drive) else speeds
-        courses.append({"law": law, "speeds": drawn(speeds, 3), "torques": drawn(torques, 5)})
-    fastest = max(abs(speed) for course in courses for speed in course["speeds"] if speed is not None)
-    return {"courses": courses, "motor": _motor(shown.drive.motor, fastest)}
+        courses.append({"law": law, "speeds": drawn(_speed_of_drive(cycle) * speeds, 3), "torques": drawn(torques, 5)})
+    fastest = max(_speed_of_drive(cycle) * max(peak.peak(1) for peak in cycle.peaks) for _, cycle in cycles)
+    torque = max(cycle.effort.peak_force for _, cycle in cycles)
+    greatest = {"torque": digits(torque, 6), "speed": digits(fastest, 6)}
+    return {"courses": courses, "greatest": greatest, "motor": _motor(shown.drive.motor, fastest)}
+
+
+def _speed_of_drive(cycle: Cycle) -> float:
+    """The motor's speed in rpm by the velocity of the input."""
+    return _RPM * cycle.drive.ratio if isinstance(cycle.drive, Drive) else 1.0
 
 
 def _motor(motor: Motor, fastest: float) -> dict[str, Any]:
