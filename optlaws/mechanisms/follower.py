@@ -12,6 +12,7 @@ from optlaws.errors import InputError
 from optlaws.laws import MotionLaw, Peak
 from optlaws.laws.law import motion_law
 from optlaws.mechanisms.response import CycleResponse, Response
+from optlaws.motion.quantities import check_scale
 from optlaws.numbers import circular_frequency, not_negative, numbers, positive
 
 _SHOWN = 240
@@ -87,7 +88,9 @@ class Follower:
         """
         m, kappa = positive(mass, "mass"), positive(stiffness, "stiffness")
         h = not_negative(damping, "damping")
-        return cls(positive(duration, "duration") * sqrt(kappa / m), h / (2.0 * sqrt(kappa * m)))
+        time = positive(duration, "duration")
+        check_scale(time, "s", "duration", duration)
+        return cls(time * sqrt(kappa / m), h / (2.0 * sqrt(kappa * m)))
 
     @classmethod
     def from_speed(

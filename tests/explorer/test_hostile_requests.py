@@ -1,6 +1,7 @@
 """Mutated questions of every kind: each has an answer that is none of the server's faults, and soon."""
 
 import json
+import re
 from copy import deepcopy
 from random import Random
 from typing import Any
@@ -126,6 +127,31 @@ def test_every_question_has_mutations() -> None:
 def test_no_mutated_question_is_a_fault_of_the_server(served: Server, count: int) -> None:
     faults = [asked for asked in answers(served, count, seed=29) if asked[0] not in {200, 422}]
     assert not faults, faults[:5]
+
+
+def test_no_duration_is_a_fault_of_the_server(served: Server) -> None:
+    time = re.compile(r"[\d.]+ m?s")
+    counted = 0
+    for name, question in ((name, question) for name, several in SEEDS.items() for question in several):
+        timed = [path for path in places(question) if path and time.fullmatch(str(part_of(question, path)))]
+        for path, given in (
+            (path, given) for path in timed for given in ("1e-300 s", "1e300 s", "0 s", "-1 s", "nan s")
+        ):
+            changed = deepcopy(question)
+            part_of(changed, path[:-1])[path[-1]] = given
+            response, answer = served.send(
+                "POST", f"/api/{name}?patience=1", json.dumps(changed).encode(), Content_Type="application/json"
+            )
+            assert response.status in {200, 422}, (name, path, given, answer)
+            counted += 1
+    assert counted > 50
+
+
+def part_of(value: Any, path: tuple[Any, ...]) -> Any:
+    """A part of a value by its path."""
+    for key in path:
+        value = value[key]
+    return value
 
 
 def test_text_that_is_none_is_refused(served: Server) -> None:
