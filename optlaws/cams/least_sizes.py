@@ -23,12 +23,14 @@ from optlaws.errors import InfeasibleProblem, InputError
 from optlaws.motion.quantities import quantity
 from optlaws.numbers import Quantity
 from optlaws.numerics.interval import Interval, exact
+from optlaws.numerics.peaks import is_kept
 from optlaws.numerics.roots import bisect, bracketed_root, holds_throughout
 from optlaws.numerics.taylor import Jet
 from optlaws.tolerances import ROUNDOFF, SIZE_BRACKET
 
 _SIZE_MARGIN = 1e-10  # of a radius: by how much more than needed it grows at last
 _SIZE_NUDGE = 1e-9  # of a radius: a step to where a limit is proven to be kept
+_SAME_ANGLE = 32.0 * ROUNDOFF  # of a limit: an angle that is the limit itself, but for its tangent's rounding
 _SMALLEST_BASE = 1e-6  # of the greatest length of a mechanism: the smallest prime circle that is looked at
 
 Kind = TypeVar("Kind", bound=FollowerContact)
@@ -251,7 +253,7 @@ class _Sizes:
             least, greatest = contact.pressure_angles(self.motion)
             most = float(np.arctan(self.limits[PRESSURE]))
             for side, sign in ((greatest, 1.0), (-least, -1.0)):
-                if (side.high if proven else side.low) > most:
+                if not is_kept(side.high if proven else side.low, most, _SAME_ANGLE):
                     broken.append(self._seen(PRESSURE, side.angle, sign, radius))
         if CURVATURE in self.limits:
             margin, least_radius = contact.least_convex_radius(self.motion), self.limits[CURVATURE]

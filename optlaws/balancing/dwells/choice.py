@@ -20,6 +20,7 @@ from optlaws.echo import shortened
 from optlaws.errors import InfeasibleProblem, InputError
 from optlaws.motion.quantities import si_number
 from optlaws.numbers import real
+from optlaws.numerics.peaks import is_kept
 from optlaws.suggest import keywords_of
 
 SHORT, LONG = pi / 4.0, 5.0 * pi / 9.0
@@ -198,7 +199,7 @@ def _reason(mechanism: DwellMechanism, most_torque: float, most_size: float) -> 
     faults = [
         f"{name} = {value:.3g} exceeds {limit:g}"
         for name, value, limit in (("a", mechanism.a, most_size), ("b", mechanism.b, most_torque))
-        if value > limit
+        if not is_kept(value, limit)
     ]
     if faults:
         return f"no: {' and '.join(faults)}"

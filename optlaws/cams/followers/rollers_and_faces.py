@@ -24,7 +24,9 @@ from optlaws.errors import InputError
 from optlaws.motion.piece import Piece
 from optlaws.numbers import Array
 from optlaws.numerics.interval import Interval
+from optlaws.numerics.peaks import is_kept
 from optlaws.numerics.taylor import Jet, Pair, Term
+from optlaws.tolerances import CAM_FEASIBILITY
 
 _NO_CROSSING = 1e-3  # the support of a profile, whose sign is all that counts
 
@@ -241,7 +243,7 @@ class SlidingFace(FaceContact):
     def pressure_limits(self, piece: Piece, limit: float, angle: float, *, below: bool) -> list[LinearLimit]:
         """No limits: either every law keeps a greatest pressure angle, or none does, which is refused."""
         del piece, angle, below
-        if abs(tan(self.angle)) > limit:
+        if not is_kept(abs(tan(self.angle)), limit, CAM_FEASIBILITY):
             raise InputError(
                 f"pressure_angle: it is that of the face, {degrees(abs(self.angle)):.6g} deg, whatever the law: give a"
                 f" limit above {degrees(atan(limit)):.6g} deg, or a face that is less inclined"

@@ -55,6 +55,14 @@ def test_reasons_are_given() -> None:
     assert (unequal.chosen, unequal.by_rule) == ("II", "II")
 
 
+def test_a_limit_that_is_reached_is_kept() -> None:
+    data: dict[str, Any] = {"rise": deg(120), "clutch_angle": deg(10), "dwell": deg(60), "law": K, **GIVEN}
+    reached = dwell_mechanism("III", **data)
+    for share, kept in ((1.0 - 1e-12, True), (1.0, True), (1.0 - 1e-6, False)):
+        comparison = compare_dwell_mechanisms(most_torque=share * reached.b, most_size=share * reached.a, **data)
+        assert comparison.reasons["III"].startswith("yes" if kept else "no")
+
+
 def test_wrong_data_are_refused() -> None:
     with pytest.raises(InputError, match="most_torque must be positive"):
         compared(60, most_torque=0.0)
