@@ -61,7 +61,7 @@ def summed(lines: list[Line]) -> list[Fraction]:
 @pytest.mark.parametrize("places", [[0.1 * i for i in range(1, 8)], [0.05, 0.1, 0.15, 0.3, 0.45, 0.5, 0.55, 0.7, 0.9]])
 def test_equations_of_bends_have_the_sum_of_those_of_positions(places: list[float]) -> None:
     # neither at rest nor at 0 at the start, and positions off the line between them
-    windows = [via("a", 0.3 + 0.3 * k * k, at=k) for k in places]
+    windows = tuple(via("a", 0.3 + 0.3 * k * k, at=k) for k in places)
     ends = BoundaryConditions((0.25, 0.5, 0), (1, 0, 0))
     problem = Problem(
         boundary=ends, symmetric=False, basis=Pieces(breaks=tuple(np.linspace(0, 1, 11))), minimise="J", windows=windows
@@ -82,7 +82,7 @@ def test_equations_of_bends_have_the_sum_of_those_of_positions(places: list[floa
 
 
 def test_few_positions_stay_as_they_are() -> None:
-    windows = [via("a", k, at=k) for k in (0.1, 0.2, 0.3, 0.4, 0.5, 0.6)]  # with the end one less than is changed
+    windows = tuple(via("a", k, at=k) for k in (0.1, 0.2, 0.3, 0.4, 0.5, 0.6))  # with the end one less than is changed
     problem = Problem(order=2, symmetric=False, basis=Pieces(breaks=(0.0, 0.3, 0.5, 0.8, 1.0)), windows=windows)
     model = model_of(problem)
     lines = [(1.0, row, 0.0) for row in model.program.equalities]
