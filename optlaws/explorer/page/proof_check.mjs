@@ -324,14 +324,15 @@ function partsChecked(data, path) {
   if (isMoveLimit(data)) return moveLimitChecked(data, where);
   if (data.law) checkFormat(data.law, path ? `${path}.law` : "law");
   const inside = (key) => partsChecked(data[key], path ? `${path}.${key}` : key);
-  if (data.law && data.certificate && data.problem) return [...wholeSolutionChecked(data, path, inside), ...othersChecked(data, where, OF_SOLUTION, inside)];
-  if (data.law && data.constants) return [...lawChecked(data, where), ...othersChecked(data, where, OF_LAW, inside)];
-  const inner = othersChecked(data, where, data.asked || data.solution || "B" in data ? OF_ROW : [], inside);
-  return inner.length ? [...inner, ...rowChecked(data, where, inner)] : [];
+  if (data.law && data.certificate && data.problem) return [...wholeSolutionChecked(data, path, inside), ...othersChecked(data, where, OF_SOLUTION, inside, true)];
+  if (data.law && data.constants) return [...lawChecked(data, where), ...othersChecked(data, where, OF_LAW, inside, true)];
+  const isRow = "asked" in data || "solution" in data || "B" in data;
+  const inner = othersChecked(data, where, isRow ? OF_ROW : [], inside);
+  return isRow && inner.length ? [...inner, ...rowChecked(data, where, inner)] : inner;
 }
 
 /* The entries that a kind of object does not have, checked by themselves, and which of them this program does not know. */
-function othersChecked(data, where, known, inside) {
+function othersChecked(data, where, known, inside, isKnown = false) {
   const results = [];
   const unknown = [];
   for (const [key, value] of Object.entries(data)) {
@@ -340,7 +341,7 @@ function othersChecked(data, where, known, inside) {
     if (inner.length) results.push(...inner);
     else unknown.push(key);
   }
-  return unknown.length && (results.length || known.length) ? [...results, unknownRow(where, unknown)] : results;
+  return unknown.length && (results.length || isKnown) ? [...results, unknownRow(where, unknown)] : results;
 }
 
 function unknownRow(where, names) {
@@ -371,7 +372,7 @@ function rowChecked(data, where, inner) {
   if (status === null) return results;
   if (solution) state("status", status === solution.status ? "proven" : "not proven", `${status} is stated, ${solution.status} in the solution`);
   else if (!proof || status !== "infeasible") state("status", status === "infeasible" || !proof ? "not checked" : "not proven", `${status} is stated`);
-  else if (proof.program === "violation") state("status", inner.every(({ verdict }) => verdict === "proven") ? "proven" : "not proven", "no law is stated");
+  else if (proof.program === "violation") state("status", inner.find(({ path }) => path === `${where}.proof`)?.verdict ?? "not checked", "no law is stated");
   else state("status", "not checked", "no law is stated, by a bound of another constant");
   return results;
 }
