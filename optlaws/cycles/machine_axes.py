@@ -481,9 +481,9 @@ class Overlap(JsonText):
         >>> Overlap.from_json(best.to_json()).objective == best.objective, round(best.objective, 6)
         (True, 0.4)
         """
-        found = {name: getattr(self, name) for name in ("goal", "objective", "lower_bound")}
+        results = {name: getattr(self, name) for name in ("goal", "objective", "lower_bound")}
         listed = {"of": list(self.of), "binding": list(self.binding)}
-        return found | listed | {"axes": _stored(self.axes), "given": _stored(self.given)}
+        return results | listed | {"axes": _stored(self.axes), "given": _stored(self.given)}
 
     @classmethod
     def from_dict(cls, data: Any) -> Overlap:

@@ -1,7 +1,7 @@
 """Internals of `optlaws.cli` that tests look at by themselves."""
 
 from optlaws.cli import app as app_of_cli
-from optlaws.cli.app import BAD_INPUT, COMMANDS, RETIRED, NotProven, exit_code
+from optlaws.cli.app import BAD_INPUT, COMMANDS, RETIRED, NotProven, PartlyChecked, exit_code
 from optlaws.cli.app import app as app_of_app
 from optlaws.cli.problem_options import options_of
 from optlaws.cli.show import show

@@ -1,0 +1,40 @@
+"""Axes whose moves overlap, in files: each number is computed again, and what is computed in doubles is named so."""
+
+import json
+from pathlib import Path
+
+import pytest
+
+from optlaws.typing import Overlap
+from optlaws.verification import verify
+from tests.internals.cli import PartlyChecked
+from tests.internals.cli import verify as command
+from tests.verification.tampered_formats import drawn_axes
+from tests.verification.tampering import changed
+
+pytest.importorskip("flint")
+
+
+@pytest.mark.parametrize("goal", ["period", "acceleration"])
+def test_an_overlap_is_read_again_and_partly_checked(goal: str, tmp_path: Path) -> None:
+    best = drawn_axes(goal)
+    again = Overlap.from_json(best.to_json())
+    assert again.to_dict() == best.to_dict()
+    assert (again.status, again.gap, again.gain) == (best.status, best.gap, best.gain)
+    verification = verify(best.to_dict())
+    assert [claim.name.split()[0] for claim in verification.claims] == ["interlock"]
+    assert verification.proven
+    assert [claim.name for claim in verification.unchecked] == [f"the {goal}", "no other instants"]
+    file = tmp_path / "overlap.json"
+    file.write_text(best.to_json(), "utf-8")
+    with pytest.raises(PartlyChecked, match="no other instants"):
+        command(file)
+
+
+def test_false_numbers_of_an_overlap_are_not_proven() -> None:
+    data = json.loads(drawn_axes("period").to_json())
+    for name, factor in (("objective", 0.999), ("objective", 1.001), ("lower_bound", 1.0 + 1e-8), ("lower_bound", 1.1)):
+        assert not verify(changed(data, (name,), data[name] * factor)).proven, (name, factor)
+    assert not verify(changed(data, ("binding",), ["nothing"])).proven
+    assert not verify(changed(data, ("given", "interlocks"), [])).proven
+    assert not verify(changed(data, ("goal",), "acceleration")).proven
