@@ -43,7 +43,7 @@ MAY_IMPORT = {
     "laws": KNOWN | {"formulas"},
     "synthesis": KNOWN | {"formulas", "laws"},
     "mechanisms": KNOWN | {"formulas", "laws", "synthesis", "motion"},
-    "verification": KNOWN | {"formulas", "laws", "synthesis"},
+    "verification": KNOWN | {"formulas", "laws", "synthesis", "mechanisms"},
     "motion": KNOWN | {"laws"},
     "cycles": KNOWN | {"formulas", "laws", "synthesis", "mechanisms", "motion"},
     "exports": KNOWN | {"laws", "mechanisms", "motion"},

@@ -13,7 +13,7 @@ from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.files.reading import entries_of, of_known_format
 from optlaws.laws import MotionLaw
-from optlaws.lazy import imported
+from optlaws.mechanisms.linkages.move_limit import MoveLimit
 from optlaws.numbers import listed
 from optlaws.suggest import unknown_key
 from optlaws.synthesis.limits.drive_limits import DriveLimit
@@ -140,8 +140,7 @@ def _limit_of_drive(data: Mapping[str, Any]) -> Verification:
     if is_drive_limit(data):
         limit = built(DriveLimit.stated, data, "the drive's limit")
     else:
-        kind = imported("optlaws.mechanisms.linkages.move_limit").MoveLimit
-        moved, wrong = built(kind.stated, data, "the limit of a move")
+        moved, wrong = built(MoveLimit.stated, data, "the limit of a move")
         limit, unit = moved.drive_limit, Fraction(moved.unit)
         detail = wrong or f"{moved.unit!r} {moved.dimension}, computed again from the drive and the move"
         claims.append(Claim("the move and its unit", not wrong, detail))
