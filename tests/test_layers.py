@@ -61,7 +61,7 @@ MAY_IMPORT = {
 }
 
 #: registries that a room above fills with kinds of its own; the tables of optlaws/__init__.py say which
-KINDS = {"basis", "constant", "export format", "law", "plain constant", "segment"}
+KINDS = {"basis", "constant", "export format", "law", "plain constant", "segment", "what moves"}
 
 #: what several folders have one of their own of
 SEVERAL = {

@@ -18,9 +18,11 @@ from optlaws.mechanisms.drives.motor_motion import MotorMotion, Train
 from optlaws.mechanisms.drives.sheet import BestRatio, DriveSheet, best_ratio, drive_sheet
 from optlaws.mechanisms.linkages.mechanism import DIMENSIONS, Mechanism, duration_of
 from optlaws.mechanisms.linkages.move_limit import (
+    MOVED,
     LimitedMove,
     MoveBounds,
     MoveCosts,
+    MovedKind,
     MoveLimit,
     MoveScales,
     PhaseMove,
@@ -459,3 +461,6 @@ def phase_move_of(move: LimitedMove) -> PhaseMove:
     bounds = MoveBounds.read(move.limits, DIMENSIONS[drive.mechanism.axis]).over(way.start, way.stroke)
     bounds = bounds.within(drive.motor.greatest_speed / drive.ratio, [(top, fall * drive.ratio) for top, fall in lines])
     return PhaseMove(moved.torque, scales, bounds, MoveCosts.read(drive.regeneration, move.heat), way.holding)
+
+
+MOVED["drive"] = MovedKind(Drive, phase_move_of)

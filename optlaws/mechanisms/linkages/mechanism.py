@@ -24,6 +24,17 @@ from optlaws.kept import kept_property
 from optlaws.mechanisms.linkages.dimensionless import DimensionlessMechanism, InputFriction, dimensionless
 from optlaws.mechanisms.linkages.entries import formula_of
 from optlaws.mechanisms.linkages.linear_force import LinearForce, line_of
+from optlaws.mechanisms.linkages.move_limit import (
+    MOVED,
+    LimitedMove,
+    MoveBounds,
+    MoveCosts,
+    MovedKind,
+    MoveLimit,
+    MoveScales,
+    PhaseMove,
+    move_limit,
+)
 from optlaws.motion.quantities import check_scale, either, in_small_units, si_number
 from optlaws.numbers import Array, NumberOrQuantity, derivative, finite, not_negative, positive, real_times
 from optlaws.numerics.branch_and_bound import extremes
@@ -33,7 +44,6 @@ from optlaws.suggest import unknown_key
 from optlaws.tolerances import CLOSURE, OPERATIONS_ROUNDING, VALUE_ROUNDING
 
 if TYPE_CHECKING:
-    from optlaws.mechanisms.linkages.move_limit import LimitedMove, MoveLimit, PhaseMove
     from optlaws.synthesis.limits.drive_limits import DriveObjective
 
 InputAxis = Literal["angle", "length"]
@@ -403,8 +413,6 @@ class Mechanism(JsonText):
         >>> print(table.limit("time", "0 deg", "45 deg", limits={"torque": "50 N m", "velocity": "6 rad/s"}))
         time at least 0.2269 s
         """
-        from optlaws.mechanisms.linkages.move_limit import LimitedMove, MoveBounds, MoveCosts, move_limit
-
         moved = self.dimensionless(start, stroke, duration_of(minimise, duration))
         bounds = MoveBounds.read(limits, DIMENSIONS[self.axis]).plain(DIMENSIONS[self.axis]["load"])
         time = None if duration is None else moved.duration
@@ -541,8 +549,6 @@ def _end(value: Any, axis: Any) -> tuple[Any, float]:
 
 def phase_move_of(move: LimitedMove) -> PhaseMove:
     """A move of a mechanism without dimensions."""
-    from optlaws.mechanisms.linkages.move_limit import MoveBounds, MoveCosts, MoveScales, PhaseMove
-
     mechanism = move.driven
     assert isinstance(mechanism, Mechanism)  # noqa: S101 - it is a mechanism's
     moved = mechanism.dimensionless(move.start, move.stroke, duration_of(move.minimise, move.duration))
@@ -550,6 +556,9 @@ def phase_move_of(move: LimitedMove) -> PhaseMove:
     scales = MoveScales(moved.unit, moved.energy_unit, velocity, moved.duration, dimension)
     bounds = MoveBounds.read(move.limits, DIMENSIONS[mechanism.axis]).over(moved.start, moved.stroke)
     return PhaseMove(moved.torque, scales, bounds, MoveCosts.read(move.recovered, move.heat), moved.holding)
+
+
+MOVED["mechanism"] = MovedKind(Mechanism, phase_move_of)
 
 
 def duration_of(minimise: str, duration: NumberOrQuantity | None) -> NumberOrQuantity:

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import pairwise
 from math import fsum, inf, nextafter
-from typing import Any, NamedTuple, Protocol, get_args
+from typing import Any, NamedTuple, Protocol, Self, get_args
 
 from optlaws.echo import shortened
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
@@ -14,7 +14,7 @@ from optlaws.files.reading import JsonText, entries_of
 from optlaws.formulas.reading import read
 from optlaws.formulas.slopes import scaled
 from optlaws.kept import kept_property
-from optlaws.lazy import imported
+from optlaws.lazy import Registry
 from optlaws.motion.quantities import si_number
 from optlaws.numbers import finite, not_negative, positive
 from optlaws.suggest import unknown_key
@@ -33,11 +33,6 @@ from optlaws.tolerances import CLOSURE, STATED_BOUND
 
 _ENTRIES = ("dimension", "unit", "move", "drive_limit")
 _MOVE_ENTRIES = ("minimise", "start", "stroke", "duration", "limits")
-#: what a move moves, by the entry that describes it
-_DRIVEN = {
-    "mechanism": ("optlaws.mechanisms.linkages.mechanism", "Mechanism", "phase_move_of"),
-    "drive": ("optlaws.mechanisms.drives.drive_train", "Drive", "phase_move_of"),
-}
 _NUMBERS = {"start", "stroke", "recovered", "heat"}
 _DIGITS = 6
 _PART = 3
@@ -165,6 +160,10 @@ class MovedSource(Protocol):
     def to_dict(self) -> dict[str, Any]:
         """Its numbers as plain data."""
 
+    @classmethod
+    def from_dict(cls, data: Any) -> Self:
+        """That which `to_dict` described."""
+
 
 @dataclass(frozen=True)
 class LimitedMove(JsonText):
@@ -227,7 +226,7 @@ class LimitedMove(JsonText):
             If an entry is missing, unknown or wrong.
         """
         known = entries_of(data, _MOVE_ENTRIES, cls._json_name)
-        kinds = [kind for kind in _DRIVEN if kind in data]
+        kinds = [kind for kind in MOVED if kind in data]
         if len(kinds) != 1:
             raise InputError(f"{cls._json_name} has a mechanism or a drive, got {shortened(data)}")
         if known["minimise"] not in get_args(DriveObjective):
@@ -238,10 +237,9 @@ class LimitedMove(JsonText):
                 raise InputError(unknown_key(name, (*known, *costs, *kinds), f"entry of {cls._json_name}"))
         if not isinstance(known["limits"], Mapping):
             raise InputError(f"limits must be an object, got {shortened(known['limits'])}")
-        module, name, _ = _DRIVEN[kinds[0]]
         numbers = {name: finite(value, name) for name, value in (known | costs).items() if name in _NUMBERS}
         duration = None if known["duration"] is None else positive(known["duration"], "duration")
-        driven = getattr(imported(module), name).from_dict(data[kinds[0]])
+        driven = MOVED[kinds[0]].source.from_dict(data[kinds[0]])
         return cls(driven, known["minimise"], duration=duration, limits=dict(known["limits"]), **numbers)
 
 
@@ -416,6 +414,17 @@ class PhaseMove(NamedTuple):
         return plane, form
 
 
+class MovedKind(NamedTuple):
+    """What a move moves: a class of it, and the move of such a one without dimensions."""
+
+    source: type[MovedSource]
+    phase_move: Callable[[LimitedMove], PhaseMove]
+
+
+#: what a move moves, by the entry that describes it
+MOVED: Registry[MovedKind] = Registry("what moves")
+
+
 def move_limit(move: LimitedMove) -> MoveLimit:
     """The limit of a move of a mechanism or a drive over one stroke.
 
@@ -510,9 +519,7 @@ def _infeasible(
 
 def _phase_move(move: LimitedMove) -> PhaseMove:
     """The move without dimensions."""
-    module, _, name = _DRIVEN[_kind_of(move.driven)]
-    moved: PhaseMove = getattr(imported(module), name)(move)
-    return moved
+    return MOVED[_kind_of(move.driven)].phase_move(move)
 
 
 def _costs_of(minimise: str, kind: str) -> tuple[str, ...]:
@@ -524,4 +531,4 @@ def _costs_of(minimise: str, kind: str) -> tuple[str, ...]:
 
 def _kind_of(driven: MovedSource) -> str:
     """Whether a mechanism or a drive moves."""
-    return next(kind for kind, (_, name, _) in _DRIVEN.items() if type(driven).__name__ == name)
+    return next(kind for kind, moved in MOVED.items() if isinstance(driven, moved.source))
