@@ -257,7 +257,9 @@ class KinkedIntegralFamily(IntegralFamily):
         lows = [stretches[0].low]
         lows += [next(left) if self.movable_kink(right.low) else right.low for right in stretches[1:]]
         ends = [*lows, stretches[-1].high]
-        return [replace(one, low=low, high=high) for one, (low, high) in zip(stretches, pairwise(ends), strict=True)]
+        return [
+            replace(stretch, low=low, high=high) for stretch, (low, high) in zip(stretches, pairwise(ends), strict=True)
+        ]
 
     def value(self, x: Array, u: Array) -> Array:
         """Values of f at the places."""

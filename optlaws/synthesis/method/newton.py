@@ -97,9 +97,9 @@ def _integrals(program: Program, state: ActiveSet) -> _Integrals:
 
 def _have_all_kinks(x: Array, integrals: _Integrals) -> bool:
     """Whether the kinks that Newton's method followed are all that the law has."""
-    for one in integrals.values():
-        value = float(one.family.value(x, np.ones(1))[0])
-        if abs(one.at(x).value - value) > _NEWTON_FULFILLED * max(1.0, abs(value)):
+    for integral in integrals.values():
+        value = float(integral.family.value(x, np.ones(1))[0])
+        if abs(integral.at(x).value - value) > _NEWTON_FULFILLED * max(1.0, abs(value)):
             return False
     return True
 
@@ -141,15 +141,17 @@ def _iterated(
 
 def _with_moved_kinks(integrals: _Integrals, step: Array) -> tuple[float, _Integrals]:
     """The kinks after a share of a step, such that none comes too near to another, and that share."""
-    counts = [len(one.kinks) for one in integrals.values()]
+    counts = [len(integral.kinks) for integral in integrals.values()]
     parts = np.split(step[len(step) - sum(counts) :], np.cumsum(counts)[:-1])
     share = 1.0
-    for one, part in zip(integrals.values(), parts, strict=False):
-        room = (1.0 - _STRETCH_LEFT) * one.lengths
-        shorter = one.lengths - one.moved(part).lengths
+    for integral, part in zip(integrals.values(), parts, strict=False):
+        room = (1.0 - _STRETCH_LEFT) * integral.lengths
+        shorter = integral.lengths - integral.moved(part).lengths
         much = shorter > np.maximum(room, 0.0)
         share = min([share, *(room[much] / shorter[much]).tolist()])
-    return share, {i: one.moved(share * part) for (i, one), part in zip(integrals.items(), parts, strict=False)}
+    return share, {
+        i: integral.moved(share * part) for (i, integral), part in zip(integrals.items(), parts, strict=False)
+    }
 
 
 def _rounded(program: Program, state: ActiveSet) -> ActiveSet:
@@ -194,21 +196,25 @@ def _conditions(program: Program, state: ActiveSet, integrals: _Integrals) -> tu
     m = int(free.sum())
     last = n + m + p
     begin = last + len(program.right)
-    system = np.zeros((begin + sum(len(one.kinks) for one in integrals.values()),) * 2)
+    system = np.zeros((begin + sum(len(integral.kinks) for integral in integrals.values()),) * 2)
     defect = np.empty(len(system))
     for i in sorted(set(state.family.tolist())):
         contacts, family = state.family == i, program.families[i]
         u, s = state.u[contacts], state.s[contacts]
         if i in integrals:
-            own = integrals[i].at(state.x)
-            value[contacts], slope[contacts], curvature[contacts] = s * own.value - family.right_side(state.x), 0.0, 0.0
-            rows[contacts], slopes[contacts] = s[:, None] * own.slope - family.slack, 0.0
+            integral = integrals[i].at(state.x)
+            value[contacts], slope[contacts], curvature[contacts] = (
+                s * integral.value - family.right_side(state.x),
+                0.0,
+                0.0,
+            )
+            rows[contacts], slopes[contacts] = s[:, None] * integral.slope - family.slack, 0.0
             weight = float(state.multipliers[contacts] @ s)
-            system[:n, :n] += weight * own.bend
-            here = slice(begin, begin + len(own.rise))
-            system[:n, here] = weight * own.share * own.across.T
-            system[n + m + np.flatnonzero(contacts), here] = s[:, None] * own.share * own.rise
-            system[here, :n], system[here, here], defect[here] = own.across, np.diag(own.along), own.rise
+            system[:n, :n] += weight * integral.bend
+            here = slice(begin, begin + len(integral.rise))
+            system[:n, here] = weight * integral.share * integral.across.T
+            system[n + m + np.flatnonzero(contacts), here] = s[:, None] * integral.share * integral.rise
+            system[here, :n], system[here, here], defect[here] = integral.across, np.diag(integral.along), integral.rise
             begin = here.stop
             continue
         jet = family.jet(state.x, u, s)

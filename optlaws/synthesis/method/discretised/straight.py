@@ -115,7 +115,8 @@ def straight_optimum(program: Program, points: list[Points], x: Array, *, reach:
     if optimum.status != _OPTIMAL:
         return None
     ends = np.cumsum([len(part.most) for part in rows])[:-1]
-    weights = [part.weigh(own) for part, own in zip(rows, np.split(-optimum.ineqlin.marginals, ends), strict=True)]
+    marginals = np.split(-optimum.ineqlin.marginals, ends)
+    weights = [part.weigh(multipliers) for part, multipliers in zip(rows, marginals, strict=True)]
     equations = -optimum.eqlin.marginals if len(program.right) else np.zeros(0)
     there = x + optimum.x[: program.size]
     return Answer(there, [*weights, equations], success=True, status="a linear program", iterations=int(optimum.nit))
