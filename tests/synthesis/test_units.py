@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import replace
-from functools import cache
+from functools import cache, partial
 from typing import Any
 
 import numpy as np
@@ -11,6 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from optlaws import (
+    FUNCTIONALS,
     C,
     Certificate,
     Chebyshev,
@@ -31,6 +32,7 @@ from optlaws import (
     pareto_front,
     peak,
     proven_front,
+    residual_vibration,
     rms,
     sweep,
     synthesize,
@@ -39,9 +41,11 @@ from optlaws import (
 )
 from optlaws.synthesis import Term
 from optlaws.verification import verify
+from tests.internals.synthesis import MAKERS, PLAIN
 from tests.sampling import sampled
 
 UNITS = (3.7e-15, 1e12)
+SCALES = (1.1, 1.0001, 1e-12, 1e-6, 1e9)
 PLACES = np.linspace(0.0, 1.0, 41)
 
 
@@ -80,6 +84,18 @@ OBJECTIVES: dict[str, Callable[[float], Problem]] = {
     "residual": lambda u: asked(machine(u).residual(spread=0.1), J=at_most(80.0)),
     "residual that vanishes": lambda u: asked(machine(u).residual(), C=at_most(9.0)),
 }
+#: weights of all constants that have a name, those of cams by their frequency
+WEIGHED: dict[str, Callable[[float], Problem]] = {
+    **{name: partial(lambda constant, u: asked(u * constant, B=1.8), FUNCTIONALS[name]) for name in FUNCTIONALS},
+    **{
+        name: partial(lambda make, u: asked(u * make(frequency=30.0), B=1.8, order=5), MAKERS[name])
+        for name in MAKERS
+        if name.endswith("_cam")
+    },
+    **{name: partial(lambda name, u: asked(f"{u!r}*{name}", B=1.8, symmetric=True), name) for name in PLAIN},
+    "residual of a frequency": lambda u: asked(u * residual_vibration(frequency=(18, 22)), J=at_most(80.0)),
+    "residual of a mode": lambda u: asked(u * machine(1.0).residual(mode=1), J=at_most(80.0)),
+}
 CONDITIONS: dict[str, Callable[[float], Problem]] = {
     "bounded peak": lambda u: asked("J", B=1.8, bounds={peak(f"{u!r}*c"): at_most(4.9 * u)}),
     "fixed rms": lambda u: asked("C", bounds={rms(f"{u!r}*c"): between(3.6 * u, 3.6 * u)}),
@@ -113,8 +129,13 @@ def same(found: Solution, plain: Solution, unit: float) -> None:
 
 
 @cache
+def law_of(make: Callable[[float], Problem], unit: float) -> Solution:
+    return synthesize(make(unit))
+
+
+@cache
 def solved(make: Callable[[float], Problem], unit: float = 1.0) -> tuple[Solution, list[bool]]:
-    solution = synthesize(make(unit))
+    solution = law_of(make, unit)
     return solution, [claim.proven for claim in verify(solution.to_dict()).claims]
 
 
@@ -128,6 +149,19 @@ def check(make: Callable[[float], Problem], unit: float, scaled: float) -> None:
 @pytest.mark.parametrize("kind", sampled(OBJECTIVES, 3))
 def test_an_objective_in_another_unit_has_the_same_law(kind: str, unit: float) -> None:
     check(OBJECTIVES[kind], unit, unit)
+
+
+@pytest.mark.parametrize("scale", SCALES)
+@pytest.mark.parametrize("kind", sampled({**WEIGHED, **OBJECTIVES}, 12))
+def test_an_objective_times_a_number_has_the_same_law(kind: str, scale: float) -> None:
+    plain, found = (law_of({**WEIGHED, **OBJECTIVES}[kind], unit) for unit in (1.0, scale))
+    same(found, plain, scale)
+
+
+@pytest.mark.parametrize("scale", SCALES)
+@pytest.mark.parametrize("kind", sampled(CONDITIONS, 5))
+def test_a_condition_times_a_number_has_the_same_law(kind: str, scale: float) -> None:
+    same(law_of(CONDITIONS[kind], scale), law_of(CONDITIONS[kind], 1.0), 1.0)
 
 
 @pytest.mark.parametrize("unit", UNITS)
