@@ -8,6 +8,7 @@ from math import hypot, pi
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
 import pytest
 
 from optlaws import Cycle, Drive, InputError
@@ -64,6 +65,32 @@ def test_the_sheet_and_the_curves_are_those_of_the_library(served: Server, file:
             "torque": law_view.digits(max(effort.peak_force for effort in efforts), 6),
             "speed": law_view.digits(max(cycle.sheet.peak_speed for cycle in cycles) * 30.0 / pi, 6),
         }
+
+
+def test_a_smooth_table_of_forces_has_none_where_the_table_has_none(served: Server) -> None:
+    """The same in the file's cycles and in the picture: from rest to 280 deg the press moves as without its load."""
+    path = PROBLEMS / "cycle_crank_press.toml"
+    pressed, free = (tomllib.loads(path.read_text("utf-8")) for _ in range(2))
+    for given in (pressed, free):
+        for axis in given["axis"]:
+            axis.pop("minimise", None)
+            axis["segment"][0]["law"] = "modified sine"
+    for axis in pressed["axis"]:
+        axis["mechanism"]["loads"]["interpolation"] = "spline"
+    for axis in free["axis"]:
+        del axis["mechanism"]["loads"]
+    times = np.linspace(0.0, 0.3, 200)
+    loaded, plain = (list(dict(read_of_cycle_entries(given, path)[1]).values())[1] for given in (pressed, free))
+    assert np.degrees(loaded(times)).max() < 280.0
+    assert loaded.force(times) == pytest.approx(plain.force(times), abs=1e-9)
+    assert (
+        np.abs(loaded.force(0.5 * np.linspace(0.6, 1.0, 200)) - plain.force(0.5 * np.linspace(0.6, 1.0, 200))).max()
+        > 30.0
+    )
+    torque = served.ask("machine", {"study": pressed, "axis": 1})["panels"][0]["series"][1]
+    at, values = np.array(torque["at"]) * 1e-3, np.array(torque["values"])
+    here = at < 0.3
+    assert values[here] == pytest.approx(plain.force(at[here]), abs=2e-3)
 
 
 def test_greatest_values_are_said_as_the_library_has_them(page: Page, served: Server) -> None:

@@ -1,5 +1,6 @@
 """Tables that keep their shape: within their neighbours, monotone where these are, exact at places, smooth between."""
 
+from collections.abc import Callable
 from itertools import pairwise
 
 import numpy as np
@@ -14,7 +15,9 @@ from optlaws import (
     DiscCam,
     Drive,
     Dwell,
+    InputError,
     Loads,
+    Mechanism,
     Motor,
     Return,
     Rise,
@@ -167,3 +170,32 @@ def test_limits_of_a_motor_behind_a_lossy_gear_take_lines() -> None:
     assert cycle.sheet.peak_torque >= torque * (1.0 - 1e-12)
     assert cycle.sheet.peak_torque == pytest.approx(torque, rel=1e-6)
     assert cycle.sheet.fits
+
+
+FLAT = "0:0, 1:0, 1.6:-2000, 2.1:-2000, 2.6:0, 6.3:0"
+
+
+@pytest.mark.parametrize(
+    "made",
+    [
+        lambda text: Mechanism("1 kg m^2", load=text),
+        lambda text: Mechanism(f"3000 + {text}"),
+        lambda text: Mechanism("1 kg m^2", load=f"2*{text} + sin(x)"),
+        lambda text: slider_crank("0.1 m", "0.4 m", bodies={"slider": "5 kg"}, loads=Loads(text, over="input")).load,
+    ],
+)
+def test_a_spline_that_swings_is_refused_wherever_a_formula_is_taken(made: Callable[[str], object]) -> None:
+    with pytest.raises(InputError, match=r"between 0 and 1 the spline is .* beyond the values beside it: monotone"):
+        made(f"spline(x, {FLAT})")
+    made(f"monotone(x, {FLAT})")
+
+
+@pytest.mark.parametrize("swing", [0.5, 0.05, 1e-3])
+def test_a_spline_may_swing_at_a_top_but_never_where_values_are_flat(swing: float) -> None:
+    waves = ", ".join(f"{x!r}:{float(np.cos(x))!r}" for x in np.linspace(0.0, 6.3, 30).tolist())
+    assert Mechanism("1 kg m^2", load=f"spline(x, {waves})").load("10 deg") == pytest.approx(
+        np.cos(np.radians(10)), abs=1e-4
+    )
+    # it falls by little after a flat, so that the spline swings there by less than at a top
+    with pytest.raises(InputError, match="the spline is"):
+        Mechanism("1 kg m^2", load=f"spline(x, 0:1, 1:1, 2:1, 3:{1.0 - swing}, 4:-9, 6.3:-9.5)")

@@ -91,7 +91,8 @@ class Loads:
     over
         "driven" where the force is over the position of the driven link, "input" where it is over the input's.
     interpolation
-        Of a table: straight "lines", or "spline".
+        Of a table: straight "lines", or "spline", a smooth curve that rises and falls as the values do and is nowhere
+        beyond its two neighbours.
     stiffness
         Of a spring between the driven link and the frame, such as "3 N/mm", or "5 N m/rad".
     free

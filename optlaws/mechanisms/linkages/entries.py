@@ -16,13 +16,14 @@ from optlaws.formulas.arithmetic import horner, pieces
 from optlaws.formulas.reading import read
 from optlaws.formulas.tree import Formula, Name, Table, TableJoin, number
 from optlaws.motion.quantities import quantity, si_number
-from optlaws.numbers import finite, real
+from optlaws.numbers import Array, finite, real
+from optlaws.tolerances import VALUE_ROUNDING
 
 TableKind = Literal["spline", "lines"]
 #: how tables of values are joined: a spline of values keeps their shape
 JOINED: dict[str, TableJoin] = {"spline": "monotone", "lines": "table"}
 _FEWEST = 2
-#: of the range of the values of a cubic spline: it may be so much beyond those beside it, as curves are at their tops
+#: of the range of the values of a cubic spline: so much it may be beyond a top of them
 _SWING = 0.02
 #: a number with a unit behind it; in formulas a number is followed by a sign
 _WITH_UNIT = re.compile(r"\s*[+-]?[\d./]*\d(?:[eE][+-]?\d+)?+\s*[^\W\d_]")
@@ -92,9 +93,12 @@ def _table(
 
 
 def _check_shape(table: Table, name: str) -> None:
-    """Refuse a cubic spline that swings beyond its values: between two of them it would be what nobody measured."""
+    """Refuse a cubic spline that leaves the range of two neighbours: there it would be what nobody measured.
+
+    Where the values have a top, or a bottom, a curve through them may be a little beyond.
+    """
     values, rows = np.array(table.values), pieces(replace(table, order=0))
-    room = _SWING * float(np.ptp(values))
+    room, nothing = _SWING * float(np.ptp(values)), VALUE_ROUNDING * float(np.abs(values).max())
     for i, (start, slope, bend, twist) in enumerate(rows.tolist()):
         length = table.places[i + 1] - table.places[i]
         turns = [
@@ -102,12 +106,24 @@ def _check_shape(table: Table, name: str) -> None:
         ]
         reached = [horner((start, slope, bend, twist), at) for at in turns]
         low, high = sorted((table.values[i], table.values[i + 1]))
-        worst = max((max(low - value, value - high) for value in reached), default=0.0)
-        if worst > room:
+        below, above = (max([0.0, *beyond]) for beyond in ([low - at for at in reached], [at - high for at in reached]))
+        worst = max(
+            below - (room if _has_top(-values, i) else nothing), above - (room if _has_top(values, i) else nothing)
+        )
+        if worst > 0.0:
             raise InputError(
-                f"{name}: between {table.places[i]:g} and {table.places[i + 1]:g} the spline is {worst:.3g} beyond the "
-                "values beside it: monotone(...) in its place never is, nor is a table of places and values"
+                f"{name}: between {table.places[i]:g} and {table.places[i + 1]:g} the spline is "
+                f"{max(below, above):.3g} beyond the values beside it: monotone(...) in its place never is, nor is a "
+                "table of places and values"
             )
+
+
+def _has_top(values: Array, i: int) -> bool:
+    """Whether a place and the next one are at a top: beyond the greater of the two, or both if equal, values fall."""
+    here, following, last = values[i], values[i + 1], len(values) - 1
+    left = here < following or (values[i - 1] < here if i else here > following)
+    right = following < here or (values[i + 2] < following if i + 2 <= last else following > here)
+    return bool(left and right)
 
 
 def table_numbers(pairs: list[Any], dimensions: tuple[str, str], name: str) -> list[tuple[float, float]]:
