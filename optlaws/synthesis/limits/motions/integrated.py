@@ -489,7 +489,7 @@ def _root(excess: Callable[[float], float]) -> tuple[float, ...]:
             return (high,)
     above, below = excess(low), excess(high)
     for _ in range(_STEPS):
-        if high - low <= INTEGRATION * 1e-3 or below == 0.0:
+        if high - low <= 0.1 * INTEGRATION or below == 0.0:
             break
         middle = 0.5 * (low + high)
         if isfinite(above):  # by the secant, and a little beyond it
