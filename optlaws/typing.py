@@ -44,7 +44,7 @@ __getattr__, __dir__, __all__ = face(
         "optlaws.laws.making.input_shaping": "Shaper",
         "optlaws.laws.making.multiplier": "Multiplier",
         "optlaws.laws.segments.segment": "Segment",
-        "optlaws.mechanisms.follower": "Change",
+        "optlaws.mechanisms.machine.follower": "Change",
         "optlaws.mechanisms.drives.drive_train": "DimensionlessDrive",
         "optlaws.mechanisms.drives.motor": "MotorLosses",
         "optlaws.mechanisms.drives.sheet": "BestRatio DriveSheet Margin",

@@ -59,7 +59,6 @@ from optlaws.mechanisms.drives.motor_motion import Train as Train
 from optlaws.mechanisms.drives.sheet import BestRatio as BestRatio
 from optlaws.mechanisms.drives.sheet import DriveSheet as DriveSheet
 from optlaws.mechanisms.drives.sheet import Margin as Margin
-from optlaws.mechanisms.follower import Change as Change
 from optlaws.mechanisms.linkages.bodies import DrivenLink as DrivenLink
 from optlaws.mechanisms.linkages.bodies import LoadPlace as LoadPlace
 from optlaws.mechanisms.linkages.dimensionless import DimensionlessMechanism as DimensionlessMechanism
@@ -69,6 +68,7 @@ from optlaws.mechanisms.linkages.linear_force import LinearForce as LinearForce
 from optlaws.mechanisms.linkages.mechanism import InputAxis as InputAxis
 from optlaws.mechanisms.linkages.mechanism import LinkGeometry as LinkGeometry
 from optlaws.mechanisms.linkages.move_limit import LimitedMove as LimitedMove
+from optlaws.mechanisms.machine.follower import Change as Change
 from optlaws.mechanisms.machine.output_constants import OutputPeak as OutputPeak
 from optlaws.mechanisms.machine.output_constants import OutputRms as OutputRms
 from optlaws.mechanisms.machine.over_time import MachineCycle as MachineCycle

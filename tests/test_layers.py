@@ -269,7 +269,7 @@ def write(root: Path, sources: dict[str, str]) -> Path:
             "import typing\nif typing.TYPE_CHECKING:\n    import optlaws.synthesis",
         ),
         ("laws/law.py", "from optlaws import MotionLaw"),
-        ("synthesis/solve.py", "import optlaws.mechanisms.follower"),
+        ("synthesis/solve.py", "import optlaws.mechanisms.machine.follower"),
         ("synthesis/solve.py", "from optlaws.plots import style"),
         ("synthesis/solution.py", "def plot():\n    from optlaws.plots import law"),
         ("synthesis/solution.py", "class S:\n    def repr(self):\n        from optlaws.plots import law"),

@@ -9,8 +9,8 @@ from typing import Any
 from optlaws.errors import InputError
 from optlaws.laws import MotionLaw
 from optlaws.laws.law import motion_law
-from optlaws.mechanisms.follower import Follower
-from optlaws.mechanisms.response import Response
+from optlaws.mechanisms.machine.follower import Follower
+from optlaws.mechanisms.machine.response import Response
 from optlaws.motion.piece import factor, unit_of
 from optlaws.motion.quantities import quantity, read_stroke
 from optlaws.numbers import Quantity, positive

@@ -6,8 +6,8 @@ __getattr__, __dir__, __all__ = face(
     __name__,
     {
         "optlaws.numbers": "deg",
-        "optlaws.mechanisms.response": "CycleResponse Response",
-        "optlaws.mechanisms.follower": "Deviation Follower off_design",
+        "optlaws.mechanisms.machine.response": "CycleResponse Response",
+        "optlaws.mechanisms.machine.follower": "Deviation Follower off_design",
         "optlaws.mechanisms.drives.drive_train": "Drive",
         "optlaws.mechanisms.drives.motor": "Motor read_motors",
         "optlaws.mechanisms.linkages.bodies": "Body Loads",

@@ -26,27 +26,6 @@ _VELOCITY_ABSORBED = 1e-15  # the same times half the length on which it is miss
 
 
 @dataclass(frozen=True, eq=False)
-class PolynomialMotion:
-    """A polynomial over a stretch of time by the Chebyshev series of itself and of its first two derivatives."""
-
-    length: float
-    series: tuple[Array, Array, Array]
-
-    def derivative(self, s: Array, nu: int) -> Array:
-        """Derivative of order `nu` at s."""
-        return chebyshev.value(self._series(nu), 2.0 * s / self.length - 1.0)
-
-    @kept_property
-    def _known(self) -> dict[int, Array]:
-        return dict(enumerate(self.series))
-
-    def _series(self, nu: int) -> Array:
-        if nu not in self._known:
-            self._known[nu] = chebyshev.derivative(self._series(nu - 1)) / self.length
-        return self._known[nu]
-
-
-@dataclass(frozen=True, eq=False)
 class Forcing:
     """Displacement of the base over one stretch of time, s = time - start in [0, length]: a polynomial and sines.
 
@@ -68,25 +47,32 @@ class Forcing:
     def derivative(self, s: Array, nu: int) -> Array:
         """Derivative of order `nu` of a at s."""
         if not self.sines:
-            return self._polynomial.derivative(s, nu)
+            return self._steady(s, nu)
         first, *others = (motion.derivative(s, 1.0, nu) for motion in self._swings)
         swing: Array = sum(others, first)
-        return swing if nu > 1 and not self.acceleration.any() else swing + self._polynomial.derivative(s, nu)
+        return swing if nu > 1 and not self.acceleration.any() else swing + self._steady(s, nu)
 
     @kept_property
     def _swings(self) -> tuple[SineSegment, ...]:
         return tuple(SineSegment(*sine) for sine in self.sines)
 
     @kept_property
-    def _polynomial(self) -> PolynomialMotion:
+    def series(self) -> tuple[Array, Array, Array]:
+        """Chebyshev series of a, b and c, without sines."""
         velocity = chebyshev.integral(self.length * self.acceleration, self.b0)
-        series = chebyshev.integral(self.length * velocity, self.a0), velocity, self.acceleration
-        return PolynomialMotion(self.length, series)
+        return chebyshev.integral(self.length * velocity, self.a0), velocity, self.acceleration
 
+    @kept_property
+    def _known(self) -> dict[int, Array]:
+        return dict(enumerate(self.series))
 
-def rest(start: float, length: float, a0: float) -> Forcing:
-    """The forcing of a cam that dwells."""
-    return Forcing(start, length, a0, 0.0, np.zeros(1))
+    def _of_order(self, nu: int) -> Array:
+        if nu not in self._known:
+            self._known[nu] = chebyshev.derivative(self._of_order(nu - 1)) / self.length
+        return self._known[nu]
+
+    def _steady(self, s: Array, nu: int) -> Array:
+        return chebyshev.value(self._of_order(nu), 2.0 * s / self.length - 1.0)
 
 
 COUNT = 41

@@ -53,8 +53,3 @@ def test_the_envelope_touches_the_motion(nu: float, damping: float, h0: float, s
     size = np.abs(one.motion(h0, v0, s, 0))
     assert (size <= envelope * (1 + 1e-9) + 1e-15).all()
     assert (size >= envelope * (1 - 1e-5) - 1e-15).any()
-
-
-def test_the_roots_order_the_motions() -> None:
-    assert Oscillator(4.0, 0.0).fastest == 4.0
-    assert Oscillator(4.0, 1.25).fastest == pytest.approx(8.0)

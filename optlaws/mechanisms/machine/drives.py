@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from itertools import pairwise
 from math import ceil
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -13,8 +14,9 @@ from optlaws.mechanisms.forcing import Forcing, forcings
 from optlaws.mechanisms.machine.dynamics import DriveStretch
 from optlaws.numbers import Array
 from optlaws.numerics import chebyshev
-from optlaws.synthesis.spaces.piecewise_families import PieceFamily
-from optlaws.synthesis.spaces.space import LawSpace
+
+if TYPE_CHECKING:
+    from optlaws.synthesis.spaces.space import LawSpace
 
 _RADIANS = 10.0
 _COUNT = 41
@@ -60,6 +62,8 @@ def backward(drives: Sequence[DriveStretch], start: float, length: float, level:
 
 def _terms(space: LawSpace) -> int:
     """Coefficients that every law of a space has at most, on each piece."""
+    from optlaws.synthesis.spaces.piecewise_families import PieceFamily
+
     velocity = space.derivative(1, "b", np.zeros(space.terms))
     return 2 + (velocity.pieces.series.shape[1] if isinstance(velocity, PieceFamily) else len(velocity.series))
 
@@ -78,10 +82,16 @@ def _values(space: LawSpace, nu: int, k: Array) -> Array:
 
 
 def _drives(forcing: Forcing) -> list[DriveStretch]:
-    fastest = max((sine.frequency for sine in forcing.sines), default=0.0)
+    if not forcing.sines:
+        # as it is: values at nodes would round all coefficients as much as the greatest, which shakes the machine
+        exact = np.zeros((len(forcing.acceleration) + 2, 3, 1))
+        for order, coefficients in enumerate(forcing.series):
+            exact[: len(coefficients), order, 0] = coefficients
+        return [DriveStretch(forcing.start, forcing.length, exact)]
+    fastest = max(sine.frequency for sine in forcing.sines)
     count = max(1, ceil(fastest * forcing.length / _RADIANS))
     length = forcing.length / count
-    terms = max(len(forcing.acceleration) + 2, _COUNT if forcing.sines else 0)
+    terms = max(len(forcing.acceleration) + 2, _COUNT)
     places = 0.5 * length * (chebyshev.nodes(terms) + 1.0)
     drives = []
     for i in range(count):

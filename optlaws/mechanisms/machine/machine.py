@@ -13,7 +13,7 @@ from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.laws.law import motion_law
-from optlaws.mechanisms.follower import Follower
+from optlaws.mechanisms.machine.follower import Follower
 from optlaws.mechanisms.machine.masses import Link, MachineModel, assembly
 from optlaws.mechanisms.machine.modes import Mode, modal_model, modes
 from optlaws.mechanisms.machine.over_time import MachineCycle, MachineResponse
@@ -178,8 +178,8 @@ class Machine(StateSpace):
     def from_follower(cls, follower: Follower) -> Self:
         """The elastic follower as a machine: outputs "position", "acceleration" and "deflection" of the mass.
 
-        The deflection is that of the spring, from the cam to the mass. `Follower` itself has closed forms of its own,
-        with some more digits of the little that smooth laws leave after the motion at high frequencies.
+        The deflection is that of the spring, from the cam to the mass. `Follower` computes the same motion from states
+        that damping keeps smaller.
 
         Parameters
         ----------

@@ -163,12 +163,13 @@ class OutputConstant(Functional):
     def _moved(self, space: LawSpace) -> list[Panel]:
         rise = drives.of_space(space)
         if self.steady:
-            return steady(self.machine, rise, _RADIANS)
+            return steady(self.machine.dynamics, rise, _RADIANS)
         low, high = rise[0].ends[0][0], rise[-1].ends[1][0]
         if self.cycle is not None:
             dwell, rest = self.cycle
             fall = drives.backward(rise, 1.0 + dwell, 1.0, high)
-            return steady(self.machine, around(rise, fall, (high, low), (dwell, 1.0, rest), drives.rest), _RADIANS)
+            course = around(rise, fall, (high, low), (dwell, 1.0, rest), drives.rest)
+            return steady(self.machine.dynamics, course, _RADIANS)
         if self.within[1] > 1.0 + SHORTEST_STRETCH:
             rise.append(drives.rest(1.0, self.within[1] - 1.0, high))
         initial = self.machine.settled(low)

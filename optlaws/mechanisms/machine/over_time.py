@@ -18,7 +18,7 @@ from optlaws.laws.curve import Curve, Sides
 from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.mechanisms.forcing import RiseReturnCycle
 from optlaws.mechanisms.machine import drives
-from optlaws.mechanisms.machine.dynamics import RADIANS, DriveStretch, Panel
+from optlaws.mechanisms.machine.dynamics import RADIANS, DriveStretch, Dynamics, Panel
 from optlaws.mechanisms.machine.state_space import StateSpace
 from optlaws.numbers import Array, Complex, real_times, whole
 from optlaws.numerics import chebyshev
@@ -27,8 +27,66 @@ from optlaws.tolerances import EPSILON, RESONANCE, SHORTEST_STRETCH
 _END_ROUNDING = 1e-14  # of a time: the end of a motion is a sum of lengths
 
 
+class PanelCurve(Curve):
+    """A curve by Chebyshev series on consecutive panels."""
+
+    @property
+    @abstractmethod
+    def _grid(self) -> tuple[Array, Array]:
+        """Starts and lengths of the panels."""
+
+    @property
+    @abstractmethod
+    def _series(self) -> dict[int, list[Array]]:
+        """The series of the derivatives that are known, by their orders, from 0 on; further ones are added."""
+
+    def _of_order(self, nu: int) -> list[Array]:
+        if nu not in self._series:
+            lower = self._of_order(nu - 1)
+            series = [
+                chebyshev.derivative(panel_series) / length
+                for panel_series, length in zip(lower, self._grid[1], strict=True)
+            ]
+            self._series[nu] = series
+        return self._series[nu]
+
+    def _derivative(self, k: Array, nu: int) -> Array:
+        starts, lengths = self._grid
+        places = np.clip(np.searchsorted(starts, k, side="right") - 1, 0, len(starts) - 1)
+        values, series = np.empty(np.shape(k)), self._of_order(nu)
+        for i in np.unique(places):
+            here = places == i
+            x = 2.0 * (k[here] - starts[i]) / lengths[i] - 1.0
+            values[here] = chebyshev.value(series[i], np.clip(x, -1.0, 1.0))
+        return values
+
+    def _before_panels(self, nu: int) -> Array:
+        """The derivative of order `nu` just before every panel but the first."""
+        return np.array([float(series.sum()) for series in self._of_order(nu)[:-1]])
+
+    def _sides(self, nu: int) -> Sides:
+        return self._candidates(self._of_order(nu), self._of_order(nu + 1))
+
+    def _power_sides(self) -> Sides:
+        products = [chebyshev.product(b, c) for b, c in zip(self._of_order(1), self._of_order(2), strict=True)]
+        return self._candidates(products, [chebyshev.derivative(product) for product in products])
+
+    def _candidates(self, series: list[Array], slopes: list[Array]) -> Sides:
+        places, values = [], []
+        for start, length, column, slope in zip(*self._grid, series, slopes, strict=True):
+            x = np.concatenate([[-1.0], np.sort(chebyshev.real_parts_of_roots(slope)), [1.0]])
+            places.append(start + 0.5 * length * (x + 1.0))
+            values.append(chebyshev.value(column, x))
+        return np.concatenate(places), np.concatenate(values)
+
+    def _mean_square(self, nu: int) -> float:
+        squares = [chebyshev.mean_product(series, series) for series in self._of_order(nu)]
+        lengths = self._grid[1]
+        return float(lengths @ np.array(squares)) / float(lengths.sum())
+
+
 @dataclass(frozen=True, eq=False, repr=False)
-class OutputCurve(Curve):
+class OutputCurve(PanelCurve):
     """An output of a machine over time, in its own units, with values, peaks, RMS and samples like a law.
 
     Its derivative of order 0 is the output itself: `curve(k)`, `curve.peak(0)`, `curve.extrema(0)`, `curve.rms(0)`.
@@ -97,54 +155,20 @@ class OutputCurve(Curve):
             raise InputError(f"k must be in {low:g} to {high:g}, of which the motion is known, got {shortened(k)}")
         return np.clip(places, low, high)
 
+    @property
+    def _grid(self) -> tuple[Array, Array]:
+        return self.starts, self.lengths
+
     @kept_property
     def _series(self) -> dict[int, list[Array]]:
         return {0: list(self.parts)}
 
-    def _of_order(self, nu: int) -> list[Array]:
-        if nu not in self._series:
-            lower = self._of_order(nu - 1)
-            series = [
-                chebyshev.derivative(panel_series) / length
-                for panel_series, length in zip(lower, self.lengths, strict=True)
-            ]
-            self._series[nu] = series
-        return self._series[nu]
-
-    def _derivative(self, k: Array, nu: int) -> Array:
-        places = np.clip(np.searchsorted(self.starts, k, side="right") - 1, 0, len(self.starts) - 1)
-        values, series = np.empty(np.shape(k)), self._of_order(nu)
-        for i in np.unique(places):
-            here = places == i
-            x = 2.0 * (k[here] - self.starts[i]) / self.lengths[i] - 1.0
-            values[here] = chebyshev.value(series[i], np.clip(x, -1.0, 1.0))
-        return values
-
     def _before_breaks(self, nu: int) -> Array:
-        return np.array([float(series.sum()) for series in self._of_order(nu)[:-1]])
+        return self._before_panels(nu)
 
     def _impulses(self, nu: int) -> Sides:
         places, values = self.impulses
         return (places, values) if nu == 0 else (places[:0], values[:0])
-
-    def _sides(self, nu: int) -> Sides:
-        return self._candidates(self._of_order(nu), self._of_order(nu + 1))
-
-    def _power_sides(self) -> Sides:
-        products = [chebyshev.product(b, c) for b, c in zip(self._of_order(1), self._of_order(2), strict=True)]
-        return self._candidates(products, [chebyshev.derivative(product) for product in products])
-
-    def _candidates(self, series: list[Array], slopes: list[Array]) -> Sides:
-        places, values = [], []
-        for start, length, column, slope in zip(self.starts, self.lengths, series, slopes, strict=True):
-            x = np.concatenate([[-1.0], np.sort(chebyshev.real_parts_of_roots(slope)), [1.0]])
-            places.append(start + 0.5 * length * (x + 1.0))
-            values.append(chebyshev.value(column, x))
-        return np.concatenate(places), np.concatenate(values)
-
-    def _mean_square(self, nu: int) -> float:
-        squares = [chebyshev.mean_product(series, series) for series in self._of_order(nu)]
-        return float(self.lengths @ np.array(squares)) / float(self.lengths.sum())
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -193,7 +217,7 @@ class MachineMotion(ABC):
         states, direct = self.machine.output_rows(output)
         panels = self._panels
         parts = tuple(trimmed(panel.output(states, direct)[:, 0]) for panel in panels)
-        starts, lengths = (np.array([getattr(panel, name) for panel in panels]) for name in ("start", "length"))
+        starts, lengths = grid(panels)
         jumps = self._velocity_jumps if direct[2] else []
         impulses = np.array([k for k, _ in jumps]), np.array([np.copysign(np.inf, direct[2] * b) for _, b in jumps])
         return OutputCurve(output, starts, lengths, parts, impulses)
@@ -300,7 +324,7 @@ class MachineCycle(RiseReturnCycle, MachineMotion):
 
     @kept_property
     def _panels(self) -> list[Panel]:
-        return steady(self.machine, self._course(drives.of_law, drives.rest))
+        return steady(self.machine.dynamics, self._course(drives.of_law, drives.rest))
 
     @property
     def _velocity_jumps(self) -> list[tuple[float, float]]:
@@ -331,7 +355,7 @@ class RepeatedMotion(MachineMotion):
 
     @kept_property
     def _panels(self) -> list[Panel]:
-        return steady(self.machine, self.drives)
+        return steady(self.machine.dynamics, self.drives)
 
     @property
     def _velocity_jumps(self) -> list[tuple[float, float]]:
@@ -342,10 +366,9 @@ class RepeatedMotion(MachineMotion):
         return f"RepeatedMotion({self.machine!r}, period={last.start + last.length - self.drives[0].start:g})"
 
 
-def steady(machine: StateSpace, cycle: Sequence[DriveStretch], radians: float = RADIANS) -> list[Panel]:
+def steady(dynamics: Dynamics, cycle: Sequence[DriveStretch], radians: float = RADIANS) -> list[Panel]:
     """The motion that comes back after a cycle, a column for each of the cycle's."""
-    dynamics, columns = machine.dynamics, cycle[0].series.shape[2]
-    size = len(dynamics.roots)
+    columns, size = cycle[0].series.shape[2], len(dynamics.roots)
     last = cycle[-1]
     period, before = last.start + last.length - cycle[0].start, last.ends[1][1]
     nothing = np.zeros((size, columns), dtype=np.complex128)
@@ -355,8 +378,8 @@ def steady(machine: StateSpace, cycle: Sequence[DriveStretch], radians: float = 
     returned = np.eye(size) - free
     if np.linalg.svd(returned, compute_uv=False)[-1] < RESONANCE:
         raise InputError(
-            f"the machine has no steady motion: a vibration without damping is in resonance with a cycle of {period:g} "
-            "durations of the rise, or a state drifts; give it damping or change the cycle"
+            f"there is no steady motion: a vibration without damping is in resonance with a cycle of {period:g} "
+            "durations of the rise, or a state drifts; give damping or change the cycle"
         )
     initial: Complex = np.linalg.solve(returned, forced).astype(np.complex128)
     return dynamics.moved(cycle, initial, radians=radians, before=before)[0]
@@ -365,6 +388,11 @@ def steady(machine: StateSpace, cycle: Sequence[DriveStretch], radians: float = 
 def jumps(law: MotionLaw) -> list[tuple[float, float]]:
     """The places and sizes of jumps of a law's velocity inside its interval."""
     return list(law.jumps(1)) if isinstance(law, PiecewiseLaw) else []
+
+
+def grid(panels: Sequence[Panel]) -> tuple[Array, Array]:
+    """Starts and lengths of panels."""
+    return np.array([panel.start for panel in panels]), np.array([panel.length for panel in panels])
 
 
 def trimmed(series: Array) -> Array:

@@ -11,7 +11,7 @@ from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.laws import MotionLaw, Peak
 from optlaws.laws.law import motion_law
-from optlaws.mechanisms.response import CycleResponse, Response
+from optlaws.mechanisms.machine.response import CycleResponse, Response
 from optlaws.motion.quantities import check_scale
 from optlaws.numbers import circular_frequency, not_negative, numbers, positive
 

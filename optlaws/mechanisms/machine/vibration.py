@@ -1,4 +1,4 @@
-"""Free vibration: h'' + 2 n h' + nu² h = 0, below, at and above critical damping by one formula."""
+"""A mass on a spring: its free vibration by one formula for all damping ratios, and its equation on a moving cam."""
 
 from __future__ import annotations
 
@@ -9,12 +9,15 @@ import numpy as np
 
 from optlaws.kept import kept_property
 from optlaws.laws import Peak
+from optlaws.mechanisms.machine.dynamics import Dynamics
 from optlaws.numbers import Array
+
+_STIFF = 8.0  # radians in the rise: slower vibrations are slower than most laws
 
 
 @dataclass(frozen=True)
 class Oscillator:
-    """The homogeneous equation of a follower: frequency nu in radians in the rise's duration, ratio zeta = n/nu.
+    """The equation of a follower: frequency nu in radians in the rise's duration, ratio zeta = n/nu.
 
     >>> Oscillator(5.0, 0.6).damped, Oscillator(5.0, 1.25).damped
     (4.0, 0.0)
@@ -36,11 +39,6 @@ class Oscillator:
     @kept_property
     def _spread(self) -> float:
         return self.frequency * sqrt(max(0.0, (self.damping - 1.0) * (1.0 + self.damping)))
-
-    @kept_property
-    def fastest(self) -> float:
-        """The largest magnitude of a root of the characteristic equation."""
-        return max(self.frequency, self.n + self._spread)
 
     def even_odd(self, s: Array) -> tuple[Array, Array]:
         """exp(-n s) cos(lambda s) and exp(-n s) sin(lambda s) / lambda, or what becomes of them past critical."""
@@ -87,3 +85,28 @@ class Oscillator:
             return v0 / pull
         ratio = self._spread * v0 / pull
         return atanh(ratio) / self._spread if ratio < 1.0 else 0.0
+
+    @kept_property
+    def lag(self) -> float:
+        """The time by which damping makes a stiff mass lag its cam, 2 n/nu²; 0 of a soft one, which hardly follows."""
+        return 2.0 * self.n / self.frequency**2 if self.frequency > _STIFF else 0.0
+
+    @kept_property
+    def on_cam(self) -> Dynamics:
+        """The motion on a cam, by the states a_m - (a - lag b) and a_m' - b.
+
+        They are as small as the acceleration of the mass, whatever the damping: displacements of cam and mass would
+        cancel nu² times their rounding, and a_m - a and b n times theirs.
+        """
+        left = 0.0 if self.lag else -2.0 * self.n
+        matrix = np.array([[0.0, 1.0], [-(self.frequency**2), -2.0 * self.n]])
+        return Dynamics(matrix, np.array([[0.0, 0.0, self.lag], [0.0, left, -1.0]]))
+
+    @property
+    def orders(self) -> Array:
+        """Rows that take the states on a cam, then a, b and c, to a_m and its derivatives up to the jerk."""
+        square, twice = self.frequency**2, 2.0 * self.n
+        left = 0.0 if self.lag else -twice
+        acceleration = np.array([-square, -twice, 0.0, left, 0.0])
+        jerk = np.array([0.0, -square, 0.0, 0.0, 0.0]) - twice * acceleration
+        return np.array([[1.0, 0.0, 1.0, -self.lag, 0.0], [0.0, 1.0, 0.0, 1.0, 0.0], acceleration, jerk])

@@ -13,16 +13,18 @@ from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw, Peak
-from optlaws.laws.curve import Curve, Sides
 from optlaws.laws.law import motion_law
-from optlaws.mechanisms.chain import MassChain
-from optlaws.mechanisms.forcing import Forcing, RiseReturnCycle, forcings, rest
-from optlaws.mechanisms.vibration import Oscillator
-from optlaws.numbers import Array, derivative, real_times
-from optlaws.tolerances import RESONANCE
+from optlaws.mechanisms.forcing import RiseReturnCycle
+from optlaws.mechanisms.machine import drives
+from optlaws.mechanisms.machine.dynamics import DriveStretch, Panel
+from optlaws.mechanisms.machine.over_time import PanelCurve, grid, steady, trimmed
+from optlaws.mechanisms.machine.vibration import Oscillator
+from optlaws.numbers import Array, Complex, derivative, real_times
+
+_RADIANS = 40.0  # of a vibration in a panel: roots of a few long series take less time than those of many short ones
 
 
-class MassMotion(Curve):
+class MassMotion(PanelCurve):
     """Displacement a_m of the mass with its derivatives, dimensionless like a law; k in durations of the rise.
 
     Examples
@@ -36,15 +38,38 @@ class MassMotion(Curve):
 
     @property
     @abstractmethod
-    def _motion(self) -> MassChain:
-        """The motion over the interval."""
+    def _oscillator(self) -> Oscillator:
+        """The equation of the mass."""
+
+    @property
+    @abstractmethod
+    def _cam(self) -> list[DriveStretch]:
+        """The motion of the cam over the interval."""
+
+    @property
+    @abstractmethod
+    def _panels(self) -> list[Panel]:
+        """The states of the mass on its cam."""
+
+    @kept_property
+    def _grid(self) -> tuple[Array, Array]:
+        return grid(self._panels)
+
+    @kept_property
+    def _series(self) -> dict[int, list[Array]]:
+        oscillator = self._oscillator
+        rows = [(row[:2] @ oscillator.on_cam.out_of, row[2:]) for row in oscillator.orders]
+        return {
+            nu: [trimmed(panel.output(states, direct)[:, 0]) for panel in self._panels]
+            for nu, (states, direct) in enumerate(rows)
+        }
 
     @property
     def _breaks(self) -> tuple[float, ...]:
-        return self._motion.breaks
+        return (*(stretch.start for stretch in self._cam), self.interval[1])
 
     def _before_breaks(self, nu: int) -> Array:
-        return self._motion.before_breaks(nu)
+        return self._before_panels(nu)[np.searchsorted(self._grid[0], self._breaks[1:-1]) - 1]
 
     def _repr_html_(self) -> str:
         from optlaws.laws.html import drawings
@@ -54,15 +79,6 @@ class MassMotion(Curve):
 
     def _times(self, k: Any) -> Array:
         return real_times(k)
-
-    def _sides(self, nu: int) -> Sides:
-        return self._motion.candidates(nu)
-
-    def _power_sides(self) -> Sides:
-        return self._motion.power_candidates()
-
-    def _mean_square(self, nu: int) -> float:
-        return self._motion.mean_square(nu)
 
 
 @dataclass(frozen=True, repr=False)
@@ -142,7 +158,7 @@ class Response(MassMotion):
     @property
     def final(self) -> tuple[float, float]:
         """Displacement and velocity of the mass at k = 1."""
-        return self._motion.end
+        return float(self.a(1.0)), float(self.b(1.0))
 
     def dwell_peak(self, nu: int) -> Peak:
         """Greatest magnitude from k = 1 on of the derivative of order `nu`, for nu = 0 of the deviation from rest.
@@ -163,21 +179,31 @@ class Response(MassMotion):
             f"peak acceleration={self.peak(2).value:g}, residual acceleration={self.residual_acceleration:g})"
         )
 
-    @property
+    @kept_property
     def _oscillator(self) -> Oscillator:
         return Oscillator(self.frequency, self.damping)
 
     @kept_property
-    def _motion(self) -> MassChain:
-        return MassChain(self._oscillator, forcings(self.law), self.initial)
+    def _cam(self) -> list[DriveStretch]:
+        return drives.of_law(self.law)
+
+    @kept_property
+    def _moved(self) -> tuple[list[Panel], Complex]:
+        dynamics = self._oscillator.on_cam
+        off = np.array([[self.initial[0] - float(self.law.a(0.0))], [self.initial[1]]])
+        return dynamics.moved(self._cam, dynamics.into @ off, radians=_RADIANS)
+
+    @property
+    def _panels(self) -> list[Panel]:
+        return self._moved[0]
 
     @kept_property
     def _off(self) -> tuple[float, float]:
         """Displacement and velocity at k = 1 relative to the dwell, where the cam stands still."""
-        last = self._motion.stretches[-1]
-        velocity = float(last.cam(np.array([last.length]), 1)[0])
-        off = self._motion.off_at_end
-        return off[0], off[1] + velocity
+        oscillator = self._oscillator
+        (end,) = (oscillator.on_cam.out_of @ self._moved[1]).real.T
+        velocity = float(self._cam[-1].ends[1][1, 0])
+        return float(end[0]) - oscillator.lag * velocity, float(end[1]) + velocity
 
     def _times(self, k: Any) -> Array:
         times = super()._times(k)
@@ -186,7 +212,7 @@ class Response(MassMotion):
         return times
 
     def _derivative(self, k: Array, nu: int) -> Array:
-        values = self._motion.derivative(np.minimum(k, 1.0), nu)
+        values = super()._derivative(np.minimum(k, 1.0), nu)
         after = k > 1.0
         if after.any():
             free = self._oscillator.motion(*self._off, k[after] - 1.0, nu)
@@ -228,7 +254,7 @@ class CycleResponse(RiseReturnCycle, MassMotion):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        self._initial  # noqa: B018 - a cycle in resonance is refused at once
+        self._panels  # noqa: B018 - a cycle in resonance is refused at once
 
     @property
     def interval(self) -> tuple[float, float]:
@@ -242,33 +268,16 @@ class CycleResponse(RiseReturnCycle, MassMotion):
         )
 
     @kept_property
-    def _forcings(self) -> list[Forcing]:
-        return self._course(forcings, rest)
+    def _oscillator(self) -> Oscillator:
+        return Oscillator(self.frequency, self.damping)
 
     @kept_property
-    def _initial(self) -> tuple[float, float]:
-        """The state at the start that recurs after one period."""
-        oscillator = Oscillator(self.frequency, self.damping)
-        low = float(self.rise.a(0.0))
-        forced = MassChain(oscillator, self._forcings, (low, 0.0)).end
-        end = np.array([self.period])
-        columns = [
-            [oscillator.motion(*unit, end, nu)[0] for nu in (0, 1)] for unit in ((1.0, 0.0), (0.0, self.frequency))
-        ]
-        matrix = np.eye(2) - np.array([columns[0], np.array(columns[1]) / self.frequency]).T
-        scaled = matrix * np.array([[1.0, self.frequency], [1.0 / self.frequency, 1.0]])
-        if np.linalg.svd(scaled, compute_uv=False)[-1] < RESONANCE:
-            raise InputError(
-                f"an undamped follower of frequency {self.frequency:g} is in resonance with a cycle of {self.period:g} "
-                "durations of the rise (frequency times period / 2 pi is whole): it has no steady motion; give it "
-                "damping or change the cycle"
-            )
-        start = np.linalg.solve(matrix, np.array([forced[0] - low, forced[1]]))
-        return low + float(start[0]), float(start[1])
+    def _cam(self) -> list[DriveStretch]:
+        return self._course(drives.of_law, drives.rest)
 
     @kept_property
-    def _motion(self) -> MassChain:
-        return MassChain(Oscillator(self.frequency, self.damping), self._forcings, self._initial)
+    def _panels(self) -> list[Panel]:
+        return steady(self._oscillator.on_cam, self._cam, _RADIANS)
 
     def _derivative(self, k: Array, nu: int) -> Array:
-        return self._motion.derivative(np.mod(k, self.period), nu)
+        return super()._derivative(np.mod(k, self.period), nu)
