@@ -39,9 +39,6 @@ from optlaws.cycles.moves.time_front import TimePoint as TimePoint
 from optlaws.cycles.moves.transition_cam import TransitionKind as TransitionKind
 from optlaws.cycles.old_tables.better_moves import MoveGain as MoveGain
 from optlaws.cycles.old_tables.stretches import Stretch as Stretch
-from optlaws.cycles.specification.cycle_sheet import CycleSheet as CycleSheet
-from optlaws.cycles.specification.effort import Effort as Effort
-from optlaws.cycles.specification.effort import SegmentEffort as SegmentEffort
 from optlaws.cycles.specification.segments import CycleSegment as CycleSegment
 from optlaws.exports.run_time.front_export import FrontExport as FrontExport
 from optlaws.exports.run_time.planning import MoveStatus as MoveStatus
@@ -54,9 +51,12 @@ from optlaws.laws.making.input_shaping import Shaper as Shaper
 from optlaws.laws.making.multiplier import Multiplier as Multiplier
 from optlaws.laws.segments.segment import Segment as Segment
 from optlaws.mechanisms.drives.drive_train import DimensionlessDrive as DimensionlessDrive
+from optlaws.mechanisms.drives.effort import Effort as Effort
+from optlaws.mechanisms.drives.effort import SegmentEffort as SegmentEffort
 from optlaws.mechanisms.drives.motor import MotorLosses as MotorLosses
-from optlaws.mechanisms.drives.motor_motion import Train as Train
+from optlaws.mechanisms.drives.motor import Train as Train
 from optlaws.mechanisms.drives.sheet import BestRatio as BestRatio
+from optlaws.mechanisms.drives.sheet import CycleSheet as CycleSheet
 from optlaws.mechanisms.drives.sheet import DriveSheet as DriveSheet
 from optlaws.mechanisms.drives.sheet import Margin as Margin
 from optlaws.mechanisms.linkages.bodies import DrivenLink as DrivenLink

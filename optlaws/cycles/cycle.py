@@ -37,7 +37,6 @@ from optlaws.cycles.optimisation.search_spaces import remark_on_degrees, search_
 from optlaws.cycles.optimisation.shared_limits import Best, best_of
 from optlaws.cycles.optimisation.sums import total
 from optlaws.cycles.specification.drive import CycleDrive, read_drive
-from optlaws.cycles.specification.effort import Effort, PieceEffort, SegmentEffort, effort
 from optlaws.cycles.specification.frozen import frozen
 from optlaws.cycles.specification.joints import LawSpan, Layout, layout
 from optlaws.cycles.specification.load import LOAD, Load, read_load
@@ -47,6 +46,7 @@ from optlaws.cycles.specification.segments import CycleSegment, Dwell
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.mechanisms.drives.drive_train import Drive
+from optlaws.mechanisms.drives.effort import Effort, PieceEffort, SegmentEffort, effort
 from optlaws.mechanisms.drives.motor import OF_TORQUE, Motor
 from optlaws.mechanisms.linkages.mechanism import Mechanism
 from optlaws.mechanisms.machine.over_time import RepeatedMotion
@@ -61,7 +61,7 @@ from optlaws.tolerances import CYCLE_OPTIMALITY
 if TYPE_CHECKING:
     from optlaws.cycles.fastest_cycle import FastestCycle
     from optlaws.cycles.moves.transition_cam import TransitionCam, TransitionKind
-    from optlaws.cycles.specification.cycle_sheet import CycleSheet
+    from optlaws.mechanisms.drives.sheet import CycleSheet
 
 
 _STRICTER = (
@@ -416,11 +416,12 @@ class Cycle(CycleInterchange):
         InputError
             If the drive is no `Drive` with a motor.
         """
-        from optlaws.cycles.specification.cycle_sheet import cycle_sheet
+        from optlaws.mechanisms.drives.sheet import sheet_of
 
-        if self._drive is None:
+        source = None if self._drive is None else self._drive.source
+        if not isinstance(source, Drive):
             raise InputError("the cycle has no motor: give one, as drive=Drive(mechanism, Motor(...), ratio=20)")
-        return cycle_sheet(self._drive, self._along, self.effort, self.duration)
+        return sheet_of(self._along, self.duration, source.mechanism, source.motor, source.train)
 
     @kept_property
     def efforts(self) -> tuple[SegmentEffort, ...]:

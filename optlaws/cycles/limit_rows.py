@@ -25,13 +25,13 @@ from optlaws.cycles.optimisation.motion_limits import (
 from optlaws.cycles.optimisation.motor_limits import MOTOR
 from optlaws.cycles.optimisation.objectives import read_energy, read_load_limits, read_mean_force
 from optlaws.cycles.specification.drive import CycleDrive
-from optlaws.cycles.specification.effort import PieceEffort
 from optlaws.cycles.specification.load import read_load
 from optlaws.cycles.specification.process import is_process
 from optlaws.cycles.specification.programme import TimedSegment, is_optimal
 from optlaws.cycles.specification.segments import Dwell, Free, Move
 from optlaws.errors import InfeasibleProblem
 from optlaws.mechanisms.drives.drive_train import Drive
+from optlaws.mechanisms.drives.effort import PieceEffort
 from optlaws.mechanisms.drives.sheet import share_used
 from optlaws.motion.piece import Piece, unit_of
 from optlaws.numerics.peaks import is_kept

@@ -78,7 +78,7 @@ class StoredLaw(JsonText, ABC):
 class PlainNumbers(JsonText):
     """Frozen dataclasses of numbers and texts as plain data, where what is infinite is None.
 
-    >>> from optlaws.cycles.specification.effort import Effort
+    >>> from optlaws.mechanisms.drives.effort import Effort
     >>> effort = Effort(1.0, 0.2, 0.5, 2.0, 0.0, 2.0, 2.0, 0.3, 0.3, 0.3)
     >>> Effort.from_json(effort.to_json()) == effort
     True

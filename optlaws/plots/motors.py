@@ -17,8 +17,8 @@ if TYPE_CHECKING:
 
     from optlaws.cycles.cycle import Cycle
     from optlaws.mechanisms.drives.drive_train import Drive
+    from optlaws.mechanisms.drives.effort import PieceEffort
     from optlaws.mechanisms.drives.motor import Motor
-    from optlaws.mechanisms.drives.motor_motion import MotorMotion
     from optlaws.mechanisms.drives.sheet import BestRatio
     from optlaws.numbers import Array
 
@@ -26,10 +26,12 @@ _RPM = 30.0 / np.pi
 _SAMPLES = 801
 
 
-def draw_move(motion: MotorMotion, motor: Motor, axes: Axes | None = None, **style: Any) -> list[Artist]:
+def draw_move(along: PieceEffort, motor: Motor, axes: Axes | None = None, **style: Any) -> list[Artist]:
     """Draw torque over speed at the motor during a move, within the motor's curves of peak and continuous torque."""
-    k = np.linspace(0.0, 1.0, _SAMPLES)
-    return draw_torque_over_speed((motion.speed(k), motion.torque(k)), motor, axes, **{"label": "move", **style})
+    times = np.linspace(along.piece.start, along.piece.stop, _SAMPLES)
+    way = np.sign(along.piece.stroke)
+    course = way * along.speed(times), way * along.force(times)
+    return draw_torque_over_speed(course, motor, axes, **{"label": "move", **style})
 
 
 def draw_motor_of_cycle(cycle: Cycle, drive: Drive, axes: Axes | None = None, **style: Any) -> list[Artist]:

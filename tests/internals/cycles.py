@@ -9,5 +9,5 @@ from optlaws.cycles.optimisation.motion_limits import FORCE, POWER
 from optlaws.cycles.optimisation.objectives import OBJECTIVES
 from optlaws.cycles.optimisation.search_spaces import halved
 from optlaws.cycles.specification.drive import read_drive
-from optlaws.cycles.specification.effort import size_of
+from optlaws.mechanisms.drives.effort import size_of
 from optlaws.synthesis.least_time.move_objective import RATES as OBJECTIVES_OF_MOVES

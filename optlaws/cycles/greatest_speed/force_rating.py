@@ -18,10 +18,10 @@ from optlaws.cycles.optimisation.motion_limits import FORCES
 from optlaws.cycles.optimisation.objectives import CycleObjective
 from optlaws.cycles.optimisation.optimal import solve
 from optlaws.cycles.specification.drive import CycleDrive
-from optlaws.cycles.specification.effort import PieceEffort
 from optlaws.cycles.specification.joints import LawSpan, Layout
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.kept import kept_property
+from optlaws.mechanisms.drives.effort import PieceEffort
 from optlaws.motion.piece import Piece
 from optlaws.synthesis.proof.certificate import Certificate
 from optlaws.synthesis.solution import Solution

@@ -19,9 +19,9 @@ from optlaws.cycles.optimisation.motion_limits import CURVE, FORCE, POWER
 from optlaws.cycles.optimisation.objectives import LOADED, SUMS, CycleObjective, kind_of, limits_of_stretch
 from optlaws.cycles.optimisation.sums import span_sum, total
 from optlaws.cycles.specification.drive import read_drive
-from optlaws.cycles.specification.effort import size_of
 from optlaws.cycles.specification.joints import LawSpan, Layout
 from optlaws.errors import InfeasibleProblem, SolverFailure
+from optlaws.mechanisms.drives.effort import size_of
 from optlaws.mechanisms.linkages.linear_force import LinearForce
 from optlaws.motion.piece import Piece, factor
 from optlaws.synthesis.functionals.makers import peak, rms

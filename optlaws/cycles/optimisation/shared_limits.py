@@ -27,10 +27,10 @@ from optlaws.cycles.optimisation.optimal import (
 )
 from optlaws.cycles.optimisation.sums import SpanSum, span_sum, total
 from optlaws.cycles.specification.drive import CycleDrive
-from optlaws.cycles.specification.effort import size_of
 from optlaws.cycles.specification.joints import LawSpan, Layout
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.kept import kept_property
+from optlaws.mechanisms.drives.effort import size_of
 from optlaws.motion.piece import Piece
 from optlaws.synthesis.functionals.makers import integral
 from optlaws.synthesis.solution import Solution

@@ -17,10 +17,10 @@ from optlaws.cycles.optimisation.drive_formulas import driven_formula, driven_me
 from optlaws.cycles.optimisation.motion_limits import FORCE
 from optlaws.cycles.optimisation.objectives import ENERGY, HEAT
 from optlaws.cycles.specification.drive import CycleDrive
-from optlaws.cycles.specification.effort import PieceEffort
 from optlaws.cycles.specification.joints import LawSpan
 from optlaws.errors import InputError
 from optlaws.mechanisms.drives.drive_train import DimensionlessDrive, Drive
+from optlaws.mechanisms.drives.effort import PieceEffort
 from optlaws.motion.piece import Piece, factor
 from optlaws.motion.smooth_parts import SmoothParts
 from optlaws.synthesis.functionals.makers import integral

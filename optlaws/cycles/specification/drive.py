@@ -12,11 +12,10 @@ import numpy as np
 from optlaws.cycles.specification.process import ProcessForce
 from optlaws.echo import shortened
 from optlaws.errors import InputError
-from optlaws.formulas.arithmetic import NUMPY, evaluate
-from optlaws.formulas.branches import corners
 from optlaws.formulas.slopes import added, multiplied
-from optlaws.formulas.tree import Formula, Name, Number, number
+from optlaws.formulas.tree import Name, Number, number
 from optlaws.mechanisms.drives.drive_train import DimensionlessDrive, Drive
+from optlaws.mechanisms.drives.effort import bends
 from optlaws.mechanisms.linkages.dimensionless import DimensionlessMechanism
 from optlaws.mechanisms.linkages.linear_force import LinearForce
 from optlaws.mechanisms.linkages.mechanism import Mechanism
@@ -101,16 +100,7 @@ class CycleDrive:
         They are where a table of straight lines bends, and where the power through a gear turns.
         """
         loads = [self.mechanism.load_formula, *([] if self.process is None else [self.process.load])]
-        bends: list[Callable[[Array], Array]] = [
-            partial(self._along_way, switch, piece) for load in loads for switch in corners(load, "xt")
-        ]
-        return [*bends, lambda times: self._before_gear(piece, times)] if self.loses else bends
-
-    @staticmethod
-    def _along_way(formula: Formula, piece: Piece, times: Array) -> Array:
-        """A formula of the position x and the time t at times in a piece."""
-        values = evaluate(formula, {"x": piece.values(times, 0), "t": times}, NUMPY)
-        return np.broadcast_to(np.asarray(values, dtype=np.float64), np.shape(times))
+        return [*bends(loads, piece), *([partial(self._before_gear, piece)] if self.loses else [])]
 
     def _before_gear(self, piece: Piece, times: Array) -> Array:
         """The torque at the mechanism's input."""

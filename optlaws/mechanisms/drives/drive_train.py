@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, fields, replace
 from typing import Any
 
@@ -12,10 +12,10 @@ from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.files.reading import JsonText, entries_of
 from optlaws.formulas.tree import Formula
-from optlaws.laws import MotionLaw
-from optlaws.mechanisms.drives.motor import Motor
-from optlaws.mechanisms.drives.motor_motion import MotorMotion, Train
-from optlaws.mechanisms.drives.sheet import BestRatio, DriveSheet, best_ratio, drive_sheet
+from optlaws.laws import MotionLaw, smoothstep
+from optlaws.mechanisms.drives.effort import PieceEffort, bends
+from optlaws.mechanisms.drives.motor import Motor, Train
+from optlaws.mechanisms.drives.sheet import BestRatio, DriveSheet, TorqueByRatio, best_ratio, sheet_of
 from optlaws.mechanisms.linkages.mechanism import DIMENSIONS, Mechanism, duration_of
 from optlaws.mechanisms.linkages.move_limit import (
     MOVED,
@@ -28,9 +28,9 @@ from optlaws.mechanisms.linkages.move_limit import (
     PhaseMove,
     move_limit,
 )
-from optlaws.motion.piece import named_law
+from optlaws.motion.piece import Piece, named_law
 from optlaws.motion.quantities import check_scale, si_number
-from optlaws.numbers import NumberOrQuantity, finite, not_negative, positive, real
+from optlaws.numbers import Array, NumberOrQuantity, finite, not_negative, positive, real
 from optlaws.suggest import unknown_key
 from optlaws.synthesis.limits.drive_limits import DriveObjective
 from optlaws.tolerances import CLOSURE
@@ -204,13 +204,20 @@ class Drive(JsonText):
         losses.
         """
         v, w = np.asarray(velocity, dtype=np.float64), np.asarray(acceleration, dtype=np.float64)
-        train, i = self.train, self.ratio
         way = np.where(v == 0.0, np.sign(w), np.sign(v)) if direction is None else np.asarray(direction)
-        load = np.asarray(self.mechanism.torque(position, v, w, way)) + process
-        inertial = i * (train.inertia * w + train.viscous * v) + train.coulomb * way
-        through = np.where(way == 0.0, load, train.through_gear(load * way) * way)
-        values = inertial + through / i
+        turning, dry, load = self.torques((position, v, w), way, process)
+        values = self.ratio * turning + dry + load / self.ratio
         return values if np.ndim(values) else float(values)
+
+    def torques(self, motion: tuple[Any, Array, Array], way: Array, process: Any = 0.0) -> tuple[Array, Array, Array]:
+        """P, Q and Y of the torque i P + Q + Y/i at the motor with a ratio i: inertia and viscous friction, dry, load.
+
+        The motion is position, velocity and acceleration of the mechanism's input, the way its direction.
+        """
+        train, (_, v, w) = self.train, motion
+        load = np.asarray(self.mechanism.torque(*motion, way)) + process
+        through = np.where(way == 0.0, load, train.through_gear(load * way) * way)
+        return train.inertia * w + train.viscous * v, train.coulomb * way, through
 
     def dimensionless(
         self,
@@ -369,8 +376,14 @@ class Drive(JsonText):
         inertia of load by motor          6.666666667
         RMS torque, used                  72.92589084  %
         """
-        motion, time = self._move(law, start, stroke, duration, period)
-        return drive_sheet(motion, self.motor, time, self.regeneration)
+        piece, time = self._move(law, start, stroke, duration, period)
+        along = [PieceEffort(MotorTorque(self), each) for each in _with_rest(piece, time)]
+        sheet = sheet_of(along, time, self.mechanism, self.motor, self.train)
+        places = {
+            name: float(piece.places(np.array(getattr(sheet, name)))) for name in ("peak_torque_at", "curve_use_at")
+        }
+        holding = float(np.sign(piece.stroke)) * self._load_after(piece) / self.ratio
+        return DriveSheet(**{**vars(sheet), **places, "holding_torque": holding})
 
     def best_ratio(
         self,
@@ -402,8 +415,12 @@ class Drive(JsonText):
         >>> round(best.ratio, 6), round((0.8 / 3e-4) ** 0.5, 6)
         (51.639778, 51.639778)
         """
-        motion, time = self._move(law, start, stroke, duration, period)
-        return best_ratio(motion, self.motor, time)
+        piece, time = self._move(law, start, stroke, duration, period)
+        times, weights = PieceEffort(MotorTorque(self.with_ratio(1.0)), piece).parts.places
+        x, v, w = (piece.values(times, nu) for nu in range(3))
+        turning, dry, load = self.torques((x, v, w), piece.direction(times))
+        holding = (1.0 - piece.duration / time) * self._load_after(piece) ** 2
+        return best_ratio(TorqueByRatio(turning, dry, load, v, weights / time, holding), self.motor)
 
     def plot(
         self,
@@ -427,8 +444,11 @@ class Drive(JsonText):
         """
         from optlaws.plots.motors import draw_move
 
-        motion, _ = self._move(law, start, stroke, duration, None)
-        return draw_move(motion, self.motor, ax, **style)
+        piece, _ = self._move(law, start, stroke, duration, None)
+        return draw_move(PieceEffort(MotorTorque(self), piece), self.motor, ax, **style)
+
+    def _load_after(self, piece: Piece) -> float:
+        return float(self.mechanism.load(np.clip(piece.offset + piece.stroke, *self.mechanism.over)))
 
     def _move(
         self,
@@ -437,16 +457,59 @@ class Drive(JsonText):
         stroke: NumberOrQuantity,
         duration: NumberOrQuantity,
         period: NumberOrQuantity | None,
-    ) -> tuple[MotorMotion, float]:
-        """The move seen from the motor, and the period."""
+    ) -> tuple[Piece, float]:
+        """The move, and the period."""
         moved = self.mechanism.dimensionless(start, stroke, duration)
         time = moved.duration if period is None else positive(si_number(period, ("time",), "period"), "period")
         if time < moved.duration * (1.0 - CLOSURE):
             raise InputError(f"period must be at least the duration of the move, {moved.duration:g} s, got {time:g} s")
-        by = named_law(law, "drive")
-        return MotorMotion(self.mechanism, self.train, self.ratio, by, moved.start, moved.stroke, moved.duration), max(
-            time, moved.duration
-        )
+        piece = Piece(0.0, moved.duration, moved.start, moved.stroke, named_law(law, "drive"))
+        return piece, max(time, moved.duration)
+
+
+def _with_rest(piece: Piece, period: float) -> list[Piece]:
+    """A move and the rest after it until the next one."""
+    rest = period - piece.duration
+    if rest <= CLOSURE * period:
+        return [piece]
+    return [piece, Piece(piece.stop, rest, piece.offset + piece.stroke, 0.0, smoothstep(1))]
+
+
+@dataclass(frozen=True)
+class MotorTorque:
+    """The torque at the motor of a drive along pieces of its mechanism's motion."""
+
+    source: Drive
+    breaks: tuple[float, ...] = ()
+
+    @property
+    def speed_ratio(self) -> float:
+        """The ratio of the gear."""
+        return self.source.ratio
+
+    @property
+    def regeneration(self) -> float:
+        """The share of the braking energy that is fed back."""
+        return self.source.regeneration
+
+    @property
+    def copper(self) -> float:
+        """The copper heat of the motor by its squared torque."""
+        return self.source.motor.constant**-2
+
+    def along(self, piece: Piece, times: Array) -> Array:
+        """The torque at times in a piece, above 0 towards greater positions."""
+        x, v, w = (piece.values(times, nu) for nu in range(3))
+        return np.asarray(self.source.torque(x, v, w, direction=piece.direction(times)))
+
+    def kinks(self, piece: Piece) -> list[Callable[[Array], Array]]:
+        """Functions of the time at whose zeros the torque has kinks: bends of the load, and where it turns."""
+
+        def load(times: Array) -> Array:
+            x, v, w = (piece.values(times, nu) for nu in range(3))
+            return np.asarray(self.source.mechanism.torque(x, v, w, piece.direction(times)))
+
+        return [*bends([self.source.mechanism.load_formula], piece), load]
 
 
 def phase_move_of(move: LimitedMove) -> PhaseMove:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from itertools import pairwise
 from math import inf
 from pathlib import Path
-from typing import Any, TypedDict, Unpack
+from typing import Any, NamedTuple, TypedDict, Unpack
 
 import numpy as np
 
@@ -256,3 +256,25 @@ def _curve(pairs: Any, name: str) -> Curve:
     if len(read) == 1 or any(speed >= following for (speed, _), (following, _) in pairwise(read)):
         raise InputError(f"{name} needs two speeds at least, which rise, got {shortened(pairs)}")
     return tuple(read)
+
+
+class Train(NamedTuple):
+    """The transmission between motor and mechanism, in SI units.
+
+    Attributes
+    ----------
+    inertia, viscous, coulomb
+        At the motor's shaft.
+    to_load, back
+        Efficiencies of the gear while power flows to the load and back.
+    """
+
+    inertia: float
+    viscous: float
+    coulomb: float
+    to_load: float
+    back: float
+
+    def through_gear(self, torque: Array) -> Array:
+        """The torque at the mechanism's input, in the direction of motion, as the gear's other side feels it."""
+        return np.maximum(torque / self.to_load, torque * self.back)

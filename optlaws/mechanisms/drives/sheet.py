@@ -1,21 +1,25 @@
-"""The sheet that sizes a drive for a move, and the ratio of the least root mean square torque."""
+"""The sheet that sizes a drive for a move or a cycle, and the ratio of the least root mean square torque."""
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from math import inf, isfinite, pi, sqrt
+from functools import partial
+from math import inf, isfinite, pi
 from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 
 from optlaws.errors import InfeasibleProblem
 from optlaws.laws.storage import PlainNumbers
-from optlaws.mechanisms.drives.motor import Motor
-from optlaws.mechanisms.drives.motor_motion import MotorMotion
+from optlaws.mechanisms.drives.effort import PieceEffort, effort
+from optlaws.mechanisms.drives.motor import Motor, Train
+from optlaws.mechanisms.linkages.mechanism import Mechanism
+from optlaws.motion.smooth_parts import Greatest
 from optlaws.numbers import Array
 from optlaws.numerics.peaks import is_kept
 from optlaws.shown.summary import Row, Summary
-from optlaws.tolerances import AGREEMENT
+from optlaws.tolerances import AGREEMENT, VALUE_ROUNDING
 
 _LIMIT_USED = 1e-6  # of a motor's limit: so much of it is left, as peaks are looked for at places alone
 
@@ -56,7 +60,7 @@ class DriveSheet(PlainNumbers):
     Attributes
     ----------
     peak_torque, peak_torque_at
-        The greatest magnitude, and the k at which it is.
+        The greatest magnitude, and the k at which it is: 1 where holding the load between moves takes most.
     rms_torque
         Over the period, holding included.
     holding_torque
@@ -151,6 +155,26 @@ class DriveSheet(PlainNumbers):
         return self.summary()._repr_html_()
 
 
+@dataclass(frozen=True)
+class CycleSheet(DriveSheet):
+    """The motor's duty in a cycle, in SI units: a `DriveSheet` of all its motions, with places as times.
+
+    Torques are above 0 towards greater positions; the holding torque is the greatest of all rests.
+
+    Examples
+    --------
+    >>> from optlaws import Cycle, Drive, Dwell, Mechanism, Motor, Rise
+    >>> drive = Drive(Mechanism("0.8 kg m^2"), Motor("3e-4 kg m^2", rated_torque="2 N m"), ratio=20)
+    >>> moves = [Rise("45 deg", "0.25 s", law="modified sine"), Dwell()]
+    >>> sheet = Cycle(moves, period="0.6 s", advance="45 deg", drive=drive).sheet
+    >>> round(sheet.rms_torque, 6), sheet.fits, {margin.name: round(margin.use, 6) for margin in sheet.margins}
+    (1.458518, True, {'RMS torque': 0.729259})
+    """
+
+    _of: ClassVar[str] = "cycle"
+    _at: ClassVar[str] = "s"
+
+
 @dataclass(frozen=True, eq=False)
 class BestRatio:
     """The ratio of the least root mean square torque at the motor, and the curve around it.
@@ -182,28 +206,50 @@ class BestRatio:
         return draw_best_ratio(self, ax, **style)
 
 
-def drive_sheet(motion: MotorMotion, motor: Motor, period: float, regeneration: float) -> DriveSheet:
-    """The sheet of a move that is repeated with a period, with the recovered share of the braking energy."""
-    peak = motion.parts.greatest(lambda k: np.abs(motion.torque(k)))
-    speed = motion.parts.greatest(lambda k: np.abs(motion.speed(k)))
-    given, taken = motion.parts.greatest(motion.power).value, motion.parts.greatest(lambda k: -motion.power(k)).value
-    driving = motion.duration * motion.parts.integral(lambda k: np.maximum(motion.power(k), 0.0))
-    braking = motion.duration * motion.parts.integral(lambda k: np.maximum(-motion.power(k), 0.0))
-    rms = _rms(motion, period)
-    mean_speed = motion.duration / period * motion.parts.integral(lambda k: np.abs(motion.speed(k)))
-    use = motion.parts.greatest(lambda k: share_used(np.abs(motion.torque(k)), motor.peak_at(motion.speed(k))))
+def sheet_of(
+    along: Sequence[PieceEffort], period: float, mechanism: Mechanism, motor: Motor, train: Train
+) -> CycleSheet:
+    """The sheet of a motor, from its torque along each piece of a motion that is repeated with a period."""
+    drive, total = along[0].drive, effort(along, period)
+    speed, use = _greatest(along, _speed), _greatest(along, partial(_use, motor))
+    mean_speed = sum(each.parts.integral(partial(_speed, each)) for each in along) / period
+    rests = [_holding(each) for each in along if not each.piece.stroke]
+    holding = max(rests, key=abs, default=0.0)
     rated = float(motor.continuous_at(mean_speed))
-    load = motion.mechanism.greatest_inertia(*motion.reach)
-    inertia = motion.train.inertia
-    return DriveSheet(
-        *(peak.value, peak.place, rms, motion.holding_torque, speed.value, mean_speed),
-        *(max(given, 0.0), max(taken, 0.0), driving, braking, driving - regeneration * braking),
-        *((1.0 - regeneration) * braking / period, (rms / motor.constant) ** 2),
-        load / motion.ratio**2 / inertia if inertia else inf,
+    reached = [value for each in along for value, _ in each.piece.extremes(0, each.piece.start, each.piece.stop)]
+    low, high = np.clip([min(reached), max(reached)], *mechanism.over).tolist()
+    inertia = mechanism.greatest_inertia(low, high) / drive.speed_ratio**2
+    rms = total.rms_force
+    return CycleSheet(
+        *(total.peak_force, total.peak_force_at, rms),
+        *(holding if abs(holding) > VALUE_ROUNDING * total.peak_force else 0.0, speed.value, mean_speed),
+        *(total.motoring_power, total.braking_power),
+        *(total.motoring_energy, total.braking_energy, total.energy),
+        *((1.0 - drive.regeneration) * total.braking_energy / period, rms**2 * drive.copper),
+        inertia / train.inertia if train.inertia else inf,
         *((use.value, use.place) if motor.curve else (0.0, 0.0)),
         float(share_used(np.array(rms), np.array(rated))),
         *(motor.peak_torque, rated, motor.greatest_speed),
     )
+
+
+def _greatest(along: Sequence[PieceEffort], function: Callable[[PieceEffort, Array], Array]) -> Greatest:
+    return max((each.parts.greatest(partial(function, each)) for each in along), key=lambda peak: peak.value)
+
+
+def _holding(along: PieceEffort) -> float:
+    """The torque of the greatest magnitude in a rest."""
+    place = along.peak_force.place
+    return float(along.force(np.array([place]))[0])
+
+
+def _speed(along: PieceEffort, times: Array) -> Array:
+    return np.abs(along.speed(times))
+
+
+def _use(motor: Motor, along: PieceEffort, times: Array) -> Array:
+    """The share of the motor's peak torque at its speed."""
+    return share_used(np.abs(along.force(times)), motor.peak_at(along.speed(times)))
 
 
 def share_used(torque: Array, limit: Array) -> Array:
@@ -212,26 +258,28 @@ def share_used(torque: Array, limit: Array) -> Array:
         return np.where(torque == 0.0, 0.0, torque / limit)
 
 
-def _rms(motion: MotorMotion, period: float) -> float:
-    """The root mean square of the torque over a period."""
-    square = motion.duration * motion.parts.integral(lambda k: motion.torque(k) ** 2)
-    return sqrt((square + (period - motion.duration) * motion.holding_torque**2) / period)
+@dataclass(frozen=True, eq=False)
+class TorqueByRatio:
+    """The torque of a motion at any ratio i: i P + Q + Y/i, P of inertia and viscous friction, Q dry friction, Y load.
 
+    Attributes
+    ----------
+    turning, dry, load
+        P, Q and Y at some places, N m.
+    speed
+        Of the mechanism's input there, rad/s.
+    weights
+        Of the places in a mean over the period.
+    holding
+        The share of the mean square of Y that is held between the moves.
+    """
 
-class _ByRatio:
-    """The torque of a move at any ratio i: i P + Q + Y/i, P of inertia and viscous friction, Q dry friction, Y load."""
-
-    def __init__(self, motion: MotorMotion, period: float) -> None:
-        direct = motion.with_ratio(1.0)
-        self.k, self.weights = direct.parts.places
-        self.weights = self.weights * (motion.duration / period)
-        self.speed = np.asarray(direct.speed(self.k))
-        self.dry = motion.train.coulomb * direct.direction(self.k)
-        self.turning, self.load = (
-            np.asarray(direct.motor_torque(self.k)) - self.dry,
-            np.asarray(direct.through_gear(self.k)),
-        )
-        self.holding = (1.0 - motion.duration / period) * direct.holding_torque**2
+    turning: Array
+    dry: Array
+    load: Array
+    speed: Array
+    weights: Array
+    holding: float
 
     def torques(self, ratio: Any) -> Array:
         """The torque at all places, a row for each ratio."""
@@ -272,13 +320,12 @@ class _ByRatio:
         return near * float(np.exp(optimum.x))
 
 
-def best_ratio(motion: MotorMotion, motor: Motor, period: float) -> BestRatio:
+def best_ratio(by_ratio: TorqueByRatio, motor: Motor) -> BestRatio:
     """The ratio of the least root mean square torque, and the curve around it.
 
     The mean square is convex in the logarithm of the ratio, as its powers are, whose factors are not below 0 but for
     those of dry friction.
     """
-    by_ratio = _ByRatio(motion, period)
     unlimited = by_ratio.unlimited
     ratios = unlimited * np.logspace(-_DECADES, _DECADES, _RATIOS)
     best = _within_limits(by_ratio, motor, unlimited)
@@ -287,7 +334,7 @@ def best_ratio(motion: MotorMotion, motor: Motor, period: float) -> BestRatio:
     return BestRatio(best, rms, unlimited, ratios, by_ratio.rms(ratios), by_ratio.peak(ratios), speeds)
 
 
-def _within_limits(by_ratio: _ByRatio, motor: Motor, unlimited: float) -> float:
+def _within_limits(by_ratio: TorqueByRatio, motor: Motor, unlimited: float) -> float:
     """The ratio nearest to the best one, in its logarithm, at which speed and peak torque are within the motor's."""
     from scipy.optimize import brentq
 

@@ -111,6 +111,20 @@ def test_the_load_is_held_between_moves() -> None:
     assert lift.sheet(smoothstep(3), 0.0, "-1 turn", "0.4 s").holding_torque == pytest.approx(-move.holding_torque)
 
 
+def test_holding_between_moves_may_take_the_greatest_torque() -> None:
+    """A gear that loses much helps to brake a load that sinks slowly, and does not help to hold it."""
+    limits = {"peak_torque": "0.5 N m", "curve": [("0 rpm", "0.5 N m"), ("3000 rpm", "0.5 N m")]}
+    motor = Motor("1e-6 kg m^2", **limits)  # type: ignore[arg-type]
+    lift = Drive(rack("20 mm", "12 kg", loads=Loads(gravity="180 deg")), motor, ratio=4, efficiency=(0.5, 0.5))
+    alone, held = (lift.sheet(smoothstep(3), 0.0, "-1 turn", "10 s", period=period) for period in ("10 s", "12 s"))
+    assert alone.peak_torque < 0.51 * held.peak_torque
+    assert held.peak_torque == pytest.approx(-held.holding_torque) == pytest.approx(-alone.holding_torque)
+    assert (held.peak_torque_at, held.curve_use_at) == (1.0, 1.0)
+    assert held.curve_use == pytest.approx(held.peak_torque / 0.5)
+    assert alone.fits
+    assert not held.fits
+
+
 def test_best_ratio_by_closed_form_and_by_search() -> None:
     law = smoothstep(3)
     found = Drive(Mechanism("0.8 kg m^2"), Motor("3e-4 kg m^2")).best_ratio(law, 0.0, "45 deg", "0.25 s")

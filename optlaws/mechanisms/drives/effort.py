@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from math import sqrt
+from typing import Protocol
 
 import numpy as np
 
-from optlaws.cycles.specification.drive import CycleDrive
+from optlaws.formulas.arithmetic import NUMPY, evaluate
+from optlaws.formulas.branches import corners
+from optlaws.formulas.tree import Formula
 from optlaws.kept import kept_property
 from optlaws.laws.storage import PlainNumbers
 from optlaws.motion.piece import Piece, factor
@@ -17,6 +21,42 @@ from optlaws.numbers import Array
 from optlaws.tolerances import VALUE_ROUNDING
 
 FORCE, POWER = -1, -3
+
+
+class TorqueAlong(Protocol):
+    """The torque or force of a drive along pieces of a motion, in SI units, above 0 towards greater positions."""
+
+    @property
+    def speed_ratio(self) -> float:
+        """The ratio of the speed at which it acts to that of the motion."""
+
+    @property
+    def regeneration(self) -> float:
+        """The share of the braking energy that is fed back."""
+
+    @property
+    def copper(self) -> float:
+        """The copper heat by the squared torque, W/(N m)²."""
+
+    @property
+    def breaks(self) -> tuple[float, ...]:
+        """Times at which it has kinks."""
+
+    def along(self, piece: Piece, times: Array) -> Array:
+        """The torque or force at times in a piece."""
+
+    def kinks(self, piece: Piece) -> list[Callable[[Array], Array]]:
+        """Functions of the time at whose zeros the torque has kinks."""
+
+
+def bends(loads: Iterable[Formula], piece: Piece) -> list[Callable[[Array], Array]]:
+    """Functions of the time at whose zeros loads over the position x and the time t have kinks."""
+    return [partial(_along_way, switch, piece) for load in loads for switch in corners(load, "xt")]
+
+
+def _along_way(formula: Formula, piece: Piece, times: Array) -> Array:
+    values = evaluate(formula, {"x": piece.values(times, 0), "t": times}, NUMPY)
+    return np.broadcast_to(np.asarray(values, dtype=np.float64), np.shape(times))
 
 
 @dataclass(frozen=True)
@@ -88,11 +128,11 @@ class SegmentEffort:
 class PieceEffort:
     """The drive's force, power and energy along a piece, or between two times in it, in SI units."""
 
-    drive: CycleDrive
+    drive: TorqueAlong
     piece: Piece
     ends: tuple[float, float] | None = None
 
-    def of_drive(self, drive: CycleDrive) -> PieceEffort:
+    def of_drive(self, drive: TorqueAlong) -> PieceEffort:
         """The same effort by a drive whose torque is the same, with what is known of it."""
         other = replace(self, drive=drive)
         vars(other).update({**vars(self), "drive": drive})
@@ -168,8 +208,9 @@ def effort(along: Sequence[PieceEffort], period: float) -> Effort:
     """The force and power of a drive over a cycle, from its values along each piece.
 
     >>> from optlaws import smoothstep
-    >>> from optlaws import Mechanism
-    >>> drive = CycleDrive(Mechanism("2 kg", axis="length"))
+    >>> from optlaws import Mechanism, Motor
+    >>> from optlaws.mechanisms.drives.drive_train import Drive, MotorTorque
+    >>> drive = MotorTorque(Drive(Mechanism("2 kg m^2"), Motor(0.0)))
     >>> rise = Piece(0.0, 1.0, 0.0, 1.0, smoothstep(2))
     >>> known = effort([PieceEffort(drive, rise)], 1.0)
     >>> round(known.peak_force, 9), round(known.motoring_energy, 9)
@@ -187,7 +228,7 @@ def effort(along: Sequence[PieceEffort], period: float) -> Effort:
     )
 
 
-def size_of(piece: Piece, nu: int, drive: CycleDrive | None, *, mean: bool = False) -> float:
+def size_of(piece: Piece, nu: int, drive: TorqueAlong | None, *, mean: bool = False) -> float:
     """The peak or RMS of a derivative, or of the force (-1) or power (-3) of a drive, in a piece, in SI units."""
     if nu > 0 or drive is None:
         if not piece.stroke:
