@@ -46,7 +46,6 @@ _load, __dir__, __all__ = face(
         "optlaws.cycles.moves.timed_moves": "fastest fastest_moves",
         "optlaws.cycles.moves.transition_cam": "TransitionCam",
         "optlaws.cycles.specification.segments": "ConstantVelocity Dwell Free Move Return Rise",
-        "optlaws.cycles.machine_follower": "MachineFollower machine_follower",
         "optlaws.errors": "InfeasibleProblem InputError NoisyTable NotNormalised OptlawsError SolverFailure",
         "optlaws.files.schemas": "json_schema",
         "optlaws.motion.polynomials": "PiecewiseMotion",
@@ -117,6 +116,9 @@ _load, __dir__, __all__ = face(
     removed={
         "best_breaks": "export(...) to a format of polynomials takes the fewest that are near enough, or points=6 that "
         "many",
+        "MachineFollower": "Follower.from_vibration('16.7 Hz', duration='0.1 s') is the follower of a machine",
+        "machine_follower": "Follower.from_vibration('16.7 Hz', duration='0.1 s') is the follower of a machine, and "
+        "its response(law).in_units('35 mm', duration='0.1 s') answers in units",
         "jerk_limited_move": "plan such moves by the motion functions of the controller, export a known one by "
         "fastest(...).export(...), or smooth ones for a controller by proven_front(...).export('c99')",
     },

@@ -55,8 +55,6 @@ from optlaws.cycles.interlocks.synchronous import Synchronous as Synchronous
 from optlaws.cycles.law_comparison import Comparison as Comparison
 from optlaws.cycles.law_comparison import compare_laws as compare_laws
 from optlaws.cycles.machine_axes import Axes as Axes
-from optlaws.cycles.machine_follower import MachineFollower as MachineFollower
-from optlaws.cycles.machine_follower import machine_follower as machine_follower
 from optlaws.cycles.moves.fastest_move import FastestMove as FastestMove
 from optlaws.cycles.moves.front_over_time import time_front as time_front
 from optlaws.cycles.moves.time_front import TimeFront as TimeFront
@@ -261,7 +259,6 @@ __all__ = [
     "Loader",
     "Loads",
     "Machine",
-    "MachineFollower",
     "MachineSpectrum",
     "Mechanism",
     "MotionLaw",
@@ -347,7 +344,6 @@ __all__ = [
     "least_spring",
     "limit",
     "limit_law",
-    "machine_follower",
     "machine_spectrum",
     "map_arrays",
     "mass_law",

@@ -28,7 +28,6 @@ __getattr__, __dir__, __all__ = face(
         "optlaws.cycles.interlocks.enclosed_axis": "Way",
         "optlaws.cycles.interlocks.interlock": "Interlock LeastClearance",
         "optlaws.cycles.machine_axes": "AxesPicture Overlap",
-        "optlaws.cycles.machine_follower": "MachineAnswer",
         "optlaws.cycles.moves.time_front": "TimePoint",
         "optlaws.cycles.old_tables.better_moves": "MoveGain",
         "optlaws.cycles.old_tables.stretches": "Stretch",
@@ -95,6 +94,7 @@ __getattr__, __dir__, __all__ = face(
         "optlaws.synthesis.spaces.splines": "PiecewiseBasis",
     },
     removed={
+        "MachineAnswer": "machine_follower has gone: Response.in_units answers in a dict",
         "BestBreaks": "best_breaks has gone: what export(...) returns says its pieces",
         "SegmentExport": "jerk_limited_move has gone: a FrontExport is of smooth moves",
         "SegmentTimes": "jerk_limited_move has gone: a FrontExport is of smooth moves",

@@ -34,7 +34,6 @@ from optlaws.cycles.interlocks.interlock import LeastClearance as LeastClearance
 from optlaws.cycles.limit_rows import LimitTaken as LimitTaken
 from optlaws.cycles.machine_axes import AxesPicture as AxesPicture
 from optlaws.cycles.machine_axes import Overlap as Overlap
-from optlaws.cycles.machine_follower import MachineAnswer as MachineAnswer
 from optlaws.cycles.moves.time_front import TimePoint as TimePoint
 from optlaws.cycles.moves.transition_cam import TransitionKind as TransitionKind
 from optlaws.cycles.old_tables.better_moves import MoveGain as MoveGain
@@ -181,7 +180,6 @@ __all__ = [
     "LinearForce",
     "LinkGeometry",
     "LoadPlace",
-    "MachineAnswer",
     "MachineCycle",
     "MachineResponse",
     "ManufacturedFormat",

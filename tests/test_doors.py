@@ -132,7 +132,14 @@ QUANTITIES = st.sampled_from(
 )
 #: what each names of its user's where it refuses
 MACHINES: dict[str, tuple[Callable[..., Any], str]] = {
-    "stroke": (lambda a, b: optlaws.machine_follower(stroke=a, natural_period=b, duration="0.1 s"), "stroke|natural_p"),
+    "stroke": (
+        lambda a, b: (
+            optlaws.Follower.from_vibration(b, duration="0.1 s")
+            .response(optlaws.smoothstep(4))
+            .in_units(a, duration="0.1 s")
+        ),
+        "stroke|vibration",
+    ),
     "cycle": (
         lambda a, b: optlaws.Cycle([optlaws.Rise(a, b), optlaws.Return(duration="0.1 s")], period="0.3 s"),
         "Rise|segment|period",

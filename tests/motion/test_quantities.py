@@ -14,6 +14,7 @@ from optlaws import (
     Cycle,
     DiscCam,
     Dwell,
+    Follower,
     Free,
     InputError,
     Link,
@@ -27,7 +28,6 @@ from optlaws import (
     deg,
     dwell_mechanism,
     inertial_loader,
-    machine_follower,
     smoothstep,
 )
 from tests.internals.files import reading
@@ -182,8 +182,7 @@ def test_turns_a_minute_are_a_speed_wherever_one_is_asked_for(text: str) -> None
     assert quantity(text, "angular velocity", "speed") == pytest.approx(200 * 2 * pi / 60, rel=1e-14)
     assert either(text, ("velocity", "angular velocity"), "velocity")[0] == "angular velocity"
     assert Cycle([Rise("35 mm", "120 deg"), Return()], speed=text).duration == pytest.approx(0.3, rel=1e-14)
-    follower = machine_follower(stroke="35 mm", natural_period="60 ms", speed=text, rise="120 deg")
-    assert follower.duration == pytest.approx(0.1, rel=1e-14)
+    assert Follower.from_vibration("0.1 s", speed=text, rise="120 deg").frequency == pytest.approx(2 * pi, rel=1e-14)
 
 
 def test_frequencies_that_may_count_radians_are_refused_as_speeds() -> None:
@@ -247,7 +246,7 @@ def test_quantities_of_pint_that_are_no_real_number_are_input_errors_at_every_do
         lambda: DiscCam(Cycle(moves, period="1 s"), prime_radius=length, follower=TranslatingRoller("12 mm")),
         lambda: DiscCam(Cycle(moves, period="1 s"), prime_radius="80 mm", follower=TranslatingRoller(length)),
         lambda: smoothstep(3).export("csv", stroke=length, duration="0.1 s"),
-        lambda: machine_follower(stroke=length, natural_period="60 ms", duration="0.1 s"),
+        lambda: Follower.from_vibration(time, duration="0.1 s"),
         lambda: Machine.from_modes([(frequency, 0.02)], duration=1.0),
         lambda: Machine.from_modes([(8.5, 0.02)], duration=time),
     ]

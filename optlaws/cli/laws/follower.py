@@ -21,6 +21,7 @@ from optlaws.cli.options import (
 )
 from optlaws.cli.show import print_json, show, table
 from optlaws.errors import InputError
+from optlaws.motion.quantities import quantity, read_stroke
 
 _POINTS = 2001
 
@@ -60,11 +61,9 @@ class FollowerOptions:
     damping: float = 0.0
 
     @property
-    def quantities(self) -> dict[str, str | None]:
-        """Options of the follower that are quantities with units, beside the stroke."""
-        return {
-            name: getattr(self, name) for name in ("natural_frequency", "natural_period", "speed", "rise", "duration")
-        }
+    def times(self) -> dict[str, str | None]:
+        """What says how long the rise takes."""
+        return {"duration": self.duration, "speed": self.speed, "rise": self.rise}
 
 
 _NO_FOLLOWER = FollowerOptions()
@@ -105,7 +104,7 @@ def follower(
     check_files(plot=plot)
     if plot is None and spectrum is not None:
         raise InputError("--spectrum LOW HIGH gives the range of frequencies for --plot FILE: name the file too")
-    mass, machine = _follower_and_machine(options)
+    mass = _follower(options)
     reference = read_law(law, alpha, by="--alpha")
     if design_frequency is None and design_damping is not None:
         raise InputError("--design-damping needs --design-frequency")
@@ -118,24 +117,24 @@ def follower(
     elif plot is not None and spectrum is not None:
         _draw(cam, reference, mass.damping, spectrum, plot)
     summary = _summary(mass, cam, reference, response)
-    if machine is not None:
-        summary["machine"] = machine.response(cam).results() | {"dynamic factor": summary["dynamic_factor"]}
+    if options.stroke is not None:
+        units = response.in_units(options.stroke, **options.times)
+        summary["machine"] = units | {"dynamic factor": summary["dynamic_factor"]}
     if as_json:
         print_json(summary)
     else:
         _show(summary)
 
 
-def _follower_and_machine(options: FollowerOptions) -> tuple[optlaws.Follower, optlaws.MachineFollower | None]:
-    """The follower, and the machine that it is of, where a stroke is given."""
-    frequency, stroke, damping = options.frequency, options.stroke, options.damping
-    united = any(quantity is not None for quantity in options.quantities.values())
+def _follower(options: FollowerOptions) -> optlaws.Follower:
+    frequency, natural, period = options.frequency, options.natural_frequency, options.natural_period
+    united = any(quantity is not None for quantity in (natural, period, *options.times.values()))
     if frequency is not None and not united:
-        if stroke is not None:
+        if options.stroke is not None:
             raise InputError(
                 "--stroke needs the time of the rise: give --natural-frequency with --speed and --rise, or --duration"
             )
-        return optlaws.Follower(frequency, damping), None
+        return optlaws.Follower(frequency, options.damping)
     if frequency is not None:
         raise InputError(
             "--natural-frequency, --natural-period, --speed, --rise and --duration are of a machine: give no "
@@ -146,8 +145,15 @@ def _follower_and_machine(options: FollowerOptions) -> tuple[optlaws.Follower, o
             "give either --frequency or, with units, --natural-frequency or --natural-period with --duration or with "
             "--speed and --rise"
         )
-    machine = optlaws.machine_follower(stroke=stroke or "1 m", damping=damping, **options.quantities)
-    return machine.follower, machine if stroke else None
+    if (natural is None) == (period is None):
+        raise InputError(
+            "give --natural-frequency, such as '16.7 Hz', or --natural-period, such as '60 ms', and not both"
+        )
+    if options.stroke is not None:
+        read_stroke(options.stroke)
+    name, dimension = ("--natural-frequency", "frequency") if natural else ("--natural-period", "time")
+    quantity(natural or period, dimension, name)
+    return optlaws.Follower.from_vibration(natural or period or "", **options.times, damping=options.damping)
 
 
 def _summary(

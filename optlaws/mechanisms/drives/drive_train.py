@@ -205,11 +205,11 @@ class Drive(JsonText):
         """
         v, w = np.asarray(velocity, dtype=np.float64), np.asarray(acceleration, dtype=np.float64)
         way = np.where(v == 0.0, np.sign(w), np.sign(v)) if direction is None else np.asarray(direction)
-        turning, dry, load = self.torques((position, v, w), way, process)
+        turning, dry, load = self._torques((position, v, w), way, process)
         values = self.ratio * turning + dry + load / self.ratio
         return values if np.ndim(values) else float(values)
 
-    def torques(self, motion: tuple[Any, Array, Array], way: Array, process: Any = 0.0) -> tuple[Array, Array, Array]:
+    def _torques(self, motion: tuple[Any, Array, Array], way: Array, process: Any = 0.0) -> tuple[Array, Array, Array]:
         """P, Q and Y of the torque i P + Q + Y/i at the motor with a ratio i: inertia and viscous friction, dry, load.
 
         The motion is position, velocity and acceleration of the mechanism's input, the way its direction.
@@ -418,7 +418,7 @@ class Drive(JsonText):
         piece, time = self._move(law, start, stroke, duration, period)
         times, weights = PieceEffort(MotorTorque(self.with_ratio(1.0)), piece).parts.places
         x, v, w = (piece.values(times, nu) for nu in range(3))
-        turning, dry, load = self.torques((x, v, w), piece.direction(times))
+        turning, dry, load = self._torques((x, v, w), piece.direction(times))
         holding = (1.0 - piece.duration / time) * self._load_after(piece) ** 2
         return best_ratio(TorqueByRatio(turning, dry, load, v, weights / time, holding), self.motor)
 

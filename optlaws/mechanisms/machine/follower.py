@@ -11,9 +11,9 @@ from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.laws import MotionLaw, Peak
 from optlaws.laws.law import motion_law
-from optlaws.mechanisms.machine.response import CycleResponse, Response
-from optlaws.motion.quantities import check_scale
-from optlaws.numbers import circular_frequency, not_negative, numbers, positive
+from optlaws.mechanisms.machine.response import CycleResponse, Response, duration_of_rise
+from optlaws.motion.quantities import check_scale, either
+from optlaws.numbers import Quantity, circular_frequency, not_negative, numbers, positive
 
 _SHOWN = 240
 
@@ -116,6 +116,42 @@ class Follower:
         """
         turn = positive(speed_rpm, "speed_rpm") * positive(natural_period, "natural_period")
         return cls(pi / 3.0 * positive(rise_angle_deg, "rise_angle_deg") / turn, damping)
+
+    @classmethod
+    def from_vibration(
+        cls,
+        vibration: Quantity,
+        *,
+        duration: Quantity | None = None,
+        speed: Quantity | None = None,
+        rise: Quantity | None = None,
+        damping: float = 0.0,
+    ) -> Follower:
+        """The follower of a machine, from quantities with their units; `Response.in_units` gives its answers in units.
+
+        Parameters
+        ----------
+        vibration
+            Frequency or period of the undamped free vibration of the mass on its cam: "16.7 Hz" or "60 ms".
+        duration
+            Duration of the rise, such as "0.1 s".
+        speed, rise
+            In place of it: speed of the cam, such as "105 rpm", and its angle during the rise, such as "120 deg".
+        damping
+            Ratio zeta.
+
+        Examples
+        --------
+        >>> Follower.from_vibration("16.7 Hz", speed="105 rpm", rise="120 deg", damping=0.05)
+        Follower(frequency=19.986513, damping=0.05)
+        >>> Follower.from_vibration("16.7", duration="0.1 s")
+        Traceback (most recent call last):
+        optlaws.errors.InputError: vibration must be a frequency such as '16.7 Hz' ... '16.7' without a unit: ...
+        """
+        dimension, number = either(vibration, ("frequency", "time"), "vibration")
+        known = positive(number, "vibration")
+        seconds = duration_of_rise(duration, speed, rise)
+        return cls(tau * seconds * (known if dimension == "frequency" else 1.0 / known), damping)
 
     def speed_rpm(self, *, rise_angle_deg: float, natural_period: float) -> float:
         """Speed of the cam, in revolutions per minute, at which a machine is this follower, as `from_speed` takes it.

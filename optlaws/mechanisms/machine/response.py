@@ -19,9 +19,21 @@ from optlaws.mechanisms.machine import drives
 from optlaws.mechanisms.machine.dynamics import DriveStretch, Panel
 from optlaws.mechanisms.machine.over_time import PanelCurve, grid, steady, trimmed
 from optlaws.mechanisms.machine.vibration import Oscillator
-from optlaws.numbers import Array, Complex, derivative, real_times
+from optlaws.motion.piece import factor, unit_of
+from optlaws.motion.quantities import quantity, read_stroke
+from optlaws.numbers import Array, Complex, Quantity, derivative, positive, real_times
 
 _RADIANS = 40.0  # of a vibration in a panel: roots of a few long series take less time than those of many short ones
+
+
+def duration_of_rise(duration: Quantity | None, speed: Quantity | None, rise: Quantity | None) -> float:
+    """The duration of a rise in s, from itself or from the speed of the cam and its angle during the rise."""
+    if duration is not None and speed is None and rise is None:
+        return positive(quantity(duration, "time", "duration"), "duration")
+    if duration is not None or speed is None or rise is None:
+        raise InputError("give duration, such as '0.1 s', or speed and rise, such as '105 rpm' and '120 deg'")
+    turning = positive(quantity(speed, "angular velocity", "speed"), "speed")
+    return positive(quantity(rise, "angle", "rise"), "rise") / turning
 
 
 class MassMotion(PanelCurve):
@@ -141,6 +153,52 @@ class Response(MassMotion):
             )
         highest = self.peak(2).value
         return (max(highest, self.dwell_peak(2).value) if dwell else highest) / C
+
+    def in_units(
+        self,
+        stroke: Quantity,
+        *,
+        duration: Quantity | None = None,
+        speed: Quantity | None = None,
+        rise: Quantity | None = None,
+    ) -> dict[str, float]:
+        """Peaks and vibration in m or rad and seconds, by names with their units.
+
+        Parameters
+        ----------
+        stroke
+            Stroke of the cam, such as "35 mm" or "20 deg".
+        duration
+            Duration of the rise, such as "0.1 s".
+        speed, rise
+            In place of it: speed of the cam, such as "105 rpm", and its angle during the rise, such as "120 deg".
+
+        Raises
+        ------
+        InputError
+            If a quantity is missing, given twice, out of range, or of another dimension.
+
+        Examples
+        --------
+        >>> from optlaws import Follower, catalogue
+        >>> times = {"speed": "105 rpm", "rise": "120 deg"}
+        >>> press = Follower.from_vibration("16.7 Hz", **times, damping=0.05)
+        >>> answers = press.response(catalogue["modified sine"]).in_units("35 mm", **times)
+        >>> answers["peak acceleration, m/s²"], answers["residual displacement, m"]
+        (9.070342, 0.000510)
+        """
+        axis, height = read_stroke(stroke)
+        time = duration_of_rise(duration, speed, rise)
+        sizes: dict[str, tuple[float, int]] = {
+            "peak velocity": (self.peak(1).value, 1),
+            "peak acceleration": (self.peak(2).value, 2),
+            "acceleration in the dwell": (self.dwell_peak(2).value, 2),
+            "residual displacement": (self.residual_displacement, 0),
+            "residual acceleration": (self.residual_acceleration, 2),
+        }
+        return {f"stroke, {unit_of(axis)}": height, "time, s": time, "dynamic factor": self.dynamic_factor()} | {
+            f"{name}, {unit_of(axis, nu)}": value * factor(height, time, nu) for name, (value, nu) in sizes.items()
+        }
 
     @property
     def residual_displacement(self) -> float:

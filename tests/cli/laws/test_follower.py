@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from optlaws import Follower, MotionLaw, catalogue, machine_follower, polydyne, savin, smoothstep
+from optlaws import Follower, MotionLaw, catalogue, polydyne, savin, smoothstep
 from tests.internals.cli import app_of_cli as app
 
 Capture = pytest.CaptureFixture[str]
@@ -136,10 +136,9 @@ def test_a_stroke_with_its_unit_gives_machine_units(capsys: Capture) -> None:
     code, out, _ = called(capsys, "modified sine", *MACHINE, "--stroke", "35mm", "--json")
     assert code == 0
     data = json.loads(out)
-    answer = machine_follower(natural_frequency="16.7 Hz", speed="105 rpm", rise="120 deg", stroke="35 mm").response(
-        catalogue["modified sine"].law
-    )
-    assert data["machine"] == answer.results()
+    times = {"speed": "105 rpm", "rise": "120 deg"}
+    response = Follower.from_vibration("16.7 Hz", **times).response(catalogue["modified sine"].law)
+    assert data["machine"] == response.in_units("35 mm", **times)
     code, out, _ = called(
         capsys,
         "modified sine",
@@ -164,6 +163,9 @@ def test_a_stroke_with_its_unit_gives_machine_units(capsys: Capture) -> None:
         (("--frequency", 20, "--stroke", "35mm"), "--stroke needs the time"),
         (("--natural-frequency", "16.7 Hz"), "give duration"),
         (("--natural-frequency", 16.7, "--time", "0.1 s"), "without a unit"),
+        (("--natural-frequency", "60 ms", "--time", "0.1 s"), "--natural-frequency must be a frequency"),
+        ((*MACHINE, "--natural-period", "60 ms"), "and not both"),
+        (("--speed", "105 rpm", "--rise", "120 deg"), "give --natural-frequency"),
     ],
 )
 def test_what_is_wrong_with_quantities_is_said(capsys: Capture, options: tuple[object, ...], why: str) -> None:
