@@ -322,8 +322,6 @@ def limit_of_plane(plane: PhasePlane, minimise: DriveObjective, unit: float = 1.
     except SolverFailure:
         _refuse(plane)
         raise
-    if best.attained == inf:
-        _refuse(plane)
     for share in _SHARES if level and plane.squared is not None else ():
         if best.gap <= _MOST_PHASE_GAP:
             break
@@ -399,6 +397,8 @@ def _refuse(plane: PhasePlane) -> None:
 def _finer(standing: Standing, minimise: DriveObjective, unit: float) -> DriveLimit:
     """The limit or, where its gap is not small, a limit on finer elements if it proves more."""
     best = _limit(standing, minimise, unit, optimum(standing))
+    if best.attained == inf and minimise != "time":
+        _refuse(standing.plane)
     for rounds, more, most in _FINER:
         if _SMALL_PHASE_GAP < best.gap <= most:
             with suppress(SolverFailure):
