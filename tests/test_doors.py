@@ -290,3 +290,95 @@ def test_values_of_the_command(capsys: pytest.CaptureFixture[str], value: str) -
         with a_door():
             assert exit_code(line) in {0, 2, 3}
         assert len(capsys.readouterr().err) < 5000
+
+
+#: texts of the packages that read words and files
+OF_READERS = re.compile(r"Expected `|`\$\.|Unused Tokens|requires an argument")
+CYCLE = """
+job = "cycle"
+title = "One axis"
+speed = "100 rpm"
+[[axis]]
+name = "slide"
+[[axis.segment]]
+kind = "rise"
+by = "10 mm"
+duration = "120 deg"
+[[axis.segment]]
+kind = "return"
+"""
+#: a cycle with an entry that is wrong
+CHANGED = {
+    "still.toml": ('"10 mm"', '"0 mm"'),
+    "stopped.toml": ('"100 rpm"', '"0 rpm"'),
+    "back.toml": ('"120 deg"', '"-120 deg"'),
+    "free.toml": ('name = "slide"', 'name = "slide"\ndegree = 0'),
+    "rows.toml": ('speed = "100 rpm"', 'speed = "100 rpm"\nrows = 1'),
+    "limit.toml": ('name = "slide"', 'name = "slide"\nlimits = { acceleration = "0 m/s^2" }'),
+    "drive.toml": ('name = "slide"', 'name = "slide"\ndrive = { mass = "-2 kg" }'),
+    "export.toml": ('name = "slide"', 'name = "slide"\n[[axis.export]]\nto = "csv"\npoints = 10000000'),
+}
+MOVE = "solve --order 3 --fastest --stroke 5mm"
+#: what a user may mistake, and what of it the answer names
+MISTAKES = {
+    "solve --order 3 --most C": "'C'",
+    "solve --order 3 --most C=0": "^C must",
+    "solve --order 3 --most C=-1": "^C: ",
+    "solve --order 3 --most-acceleration -1": "^C: ",
+    "solve --order 3 --least C=9 --most C=3": "^C: ",
+    "solve --order 3 --window b<=1.2@0.3..0.2": "window",
+    "solve --order 3 --unsymmetric --inflexion 1.4": "inflexion",
+    "solve --order 3 --basis pieces --breaks 0,0.5,0.3,1": "breaks",
+    "solve --order 3 --basis pieces --breaks 4 --degree 3 --continuity 7": "continuity",
+    "solve --order 3 --minimise 0*C": "weight",
+    "solve --order 3 --minimise residual(frequency=(3,2))": "frequency",
+    f"{MOVE} --limit jerk=0m/s^3": "jerk",
+    f"{MOVE} --limit jerk=3m/s^2": "jerk",
+    f"{MOVE} --limit velocity=1m/s --end-velocity 2m/s": "end_velocity",
+    "solve --order 3 --fastest --stroke -5mm --limit jerk=3m/s^3": "stroke",
+    "law nothing": "nothing",
+    "law cycloidal --at 2": "--at",
+    "compare cycloidal cycloidal": "cycloidal",
+    "compare cycloidal 345 --frequency 0": "frequency",
+    "follower cycloidal --natural-frequency 20Hz --time 1s --stroke -3mm": "stroke",
+    "front --order 3 --points 1": "points",
+    "front --order 3 --over B C": "nothing takes C",
+    "export cycloidal --to csv --stroke 0mm --time 0.1s": "stroke",
+    "export cycloidal --to csv --stroke 35mm --time -0.1s": "duration",
+    "export cycloidal --to csv --stroke 35mm --time 0.1s --points 2000000": "points",
+    "export still.toml --to csv": "still.toml.*by",
+    "cycle stopped.toml": "stopped.toml.*speed",
+    "cycle back.toml": "back.toml.*duration",
+    "cycle free.toml --out results": "free.toml.*degree",
+    "run rows.toml": "rows.toml: rows",
+    "run limit.toml": "limit.toml.*acceleration",
+    "run drive.toml --out results": "drive.toml.*mass",
+    "run export.toml --out results": "export.toml.*points",
+    "study wrong.toml": "wrong.toml.*vary",
+    "verify empty.json": "empty.json",
+    "verify none.json": "none.json",
+    "advise --stroke 0mm --duration 1s": "by",
+    "advise --stroke 35mm --duration 1s --mass -1kg": "mass",
+    "advise --stroke 35mm --duration 1s --law nope": "nope",
+    "advise --stroke 35mm --duration 1s --limit velocity=0m/s": "velocity",
+    "new cycle cycle.txt": "toml",
+    "explore nope --no-browser": "nope",
+}
+
+
+@pytest.mark.parametrize("line", MISTAKES)
+def test_a_mistake_is_named_and_leaves_nothing_behind(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], line: str
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    for name, (old, new) in CHANGED.items():
+        (tmp_path / name).write_text(CYCLE.replace(old, new), "utf-8")
+    (tmp_path / "empty.json").write_text("{}", "utf-8")
+    (tmp_path / "wrong.toml").write_text("[problem]\norder = 2\n[vary]\nB = []\n", "utf-8")
+    before = sorted(tmp_path.rglob("*"))
+    assert exit_code(line.split()) == 2
+    assert sorted(tmp_path.rglob("*")) == before
+    text = capsys.readouterr().err.removeprefix("optlaws: ")
+    assert re.search(MISTAKES[line], text), text
+    assert not INNER.search(text), text
+    assert not OF_READERS.search(text), text

@@ -11,7 +11,7 @@ from inspect import cleandoc
 from pathlib import Path
 from typing import Any
 
-from cyclopts import App, CycloptsError, Parameter
+from cyclopts import App, CycloptsError, Parameter, UnusedCliTokensError
 
 from optlaws.echo import cut
 from optlaws.errors import InfeasibleProblem, InputError, OptlawsError
@@ -101,7 +101,7 @@ def exit_code(arguments: Sequence[str]) -> int:
             with nullcontext() if listing else _files_of(given):
                 commands(given, exit_on_error=False, print_error=False, result_action="return_none")
     except (CycloptsError, InputError) as error:
-        text, code = cut(str(error)), BAD_INPUT
+        text, code = cut(_plain(error)), BAD_INPUT
     except InfeasibleProblem as error:
         text, code = f"infeasible: {error}", INFEASIBLE
     except (NotProven, PartlyChecked) as error:
@@ -120,6 +120,13 @@ def exit_code(arguments: Sequence[str]) -> int:
         return 0
     print(f"optlaws: {text}", file=sys.stderr)
     return code
+
+
+def _plain(error: CycloptsError | InputError) -> str:
+    """The text of an error, in words of the user's."""
+    if isinstance(error, UnusedCliTokensError) and error.unused_tokens:
+        return f"nothing takes {' '.join(error.unused_tokens)}: --help lists what the command takes"
+    return str(error)
 
 
 def _forced(arguments: Sequence[str]) -> AbstractContextManager[None]:

@@ -46,7 +46,9 @@ FollowerFrequency = Annotated[float, Parameter(converter=_follower_frequency)]
 Frequencies = Annotated[list[float], Parameter(converter=_law_frequencies)]
 Whole = Annotated[int, Parameter(converter=_whole)]
 #: how long a motion takes, which older scripts call its time
-Duration = Annotated[str | None, Parameter(name=("--duration", "--time"))]
+#: a quantity that may be below 0, which is the library's to take or to refuse
+Signed = Annotated[str | None, Parameter(allow_leading_hyphen=True)]
+Duration = Annotated[str | None, Parameter(name=("--duration", "--time"), allow_leading_hyphen=True)]
 AsJson = Annotated[bool, Parameter(name="--json")]
 #: where a command draws what it has found
 Plot = Annotated[Path | None, Parameter(name="--plot")]

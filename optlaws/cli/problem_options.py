@@ -13,9 +13,9 @@ from cyclopts import Parameter
 from optlaws.cli.options import Whole
 from optlaws.echo import shortened
 from optlaws.errors import InputError
-from optlaws.synthesis import Basis, BoundaryConditions, at_most
+from optlaws.synthesis import Basis, BoundaryConditions
 from optlaws.synthesis.problem.fields import ENTRIES, Entry, Kind
-from optlaws.synthesis.problem.ranges import read_bounds
+from optlaws.synthesis.problem.ranges import as_range, read_bounds
 from optlaws.synthesis.spaces.bases import read_breaks
 
 Command = Callable[..., None]
@@ -80,12 +80,16 @@ def _option(name: str, entry: str, about: str | None = None, read: Callable[[Any
     return Option(name, kind, about or known.about, read or plain, signed=known.kind in {Kind.NUMBERS, Kind.WINDOWS})
 
 
+def _at_most(name: str) -> Callable[[float], Any]:
+    return lambda high: as_range((None, high), name)
+
+
 #: entries whose options have names of their own, or mean less than files can say
 _OWN: dict[str, tuple[Option, ...]] = {
     "B": (_option("--peak-velocity", "B", "B, above 1 (dimensionless; the mean velocity is 1); free unless given."),),
-    "C": (_option("--most-acceleration", "C", "C at most this.", at_most),),
-    "D": (_option("--most-power", "D", "D at most this.", at_most),),
-    "J": (_option("--most-jerk", "J", "J at most this.", at_most),),
+    "C": (_option("--most-acceleration", "C", "C at most this.", _at_most("C")),),
+    "D": (_option("--most-power", "D", "D at most this.", _at_most("D")),),
+    "J": (_option("--most-jerk", "J", "J at most this.", _at_most("J")),),
     "symmetric": (_option("--unsymmetric", "symmetric", "Seek among unsymmetric laws too.", lambda given: not given),),
     "bounds": (
         Option("--most", list[str], "Any constant at most a value, such as rms_c=4; may be repeated."),

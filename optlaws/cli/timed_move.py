@@ -9,7 +9,7 @@ from typing import Annotated, Any
 from cyclopts import Parameter
 
 import optlaws
-from optlaws.cli.options import save, save_figure
+from optlaws.cli.options import Signed, save, save_figure
 from optlaws.cli.show import print_json, show, table
 from optlaws.echo import shortened
 from optlaws.errors import InputError
@@ -38,7 +38,7 @@ class MoveOptions:
     """
 
     fastest: Annotated[bool, Parameter(negative="")] = False
-    stroke: str | None = None
+    stroke: Signed = None
     limits: Annotated[list[str] | None, Parameter(name="--limit", allow_leading_hyphen=True)] = None
     start_velocity: Annotated[str | None, Parameter(allow_leading_hyphen=True)] = None
     end_velocity: Annotated[str | None, Parameter(allow_leading_hyphen=True)] = None

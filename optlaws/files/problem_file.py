@@ -28,6 +28,9 @@ def typed(data: Any, kind: type[Kind]) -> Kind:
         return msgspec.convert(data, kind)
 
 
+#: kinds of values as people call them
+_WORDS = {"int": "an integer", "float": "a number", "str": "a text", "array": "a list", "object": "a table"}
+
 #: an entry that many jobs have
 Text = Annotated[str, msgspec.Meta(min_length=1)]
 
@@ -40,7 +43,23 @@ def convert(data: Mapping[str, Any], spec: type[Spec], file: Path) -> Spec:
     try:
         return typed(data, spec)
     except msgspec.ValidationError as error:
-        raise InputError(f"{file}: {error}{_remedy(str(error))}") from None
+        raise InputError(f"{file}: {_by_entry(str(error))}{_remedy(str(error))}") from None
+
+
+def _by_entry(error: str) -> str:
+    """The error of a type, with the user's entry in front.
+
+    >>> _by_entry("Expected `int` >= 2 - at `$.rows`"), _by_entry("Expected `array` of length >= 1 - at `$.vary[...]`")
+    ('rows: expected an integer >= 2', 'an entry of vary: expected a list of length >= 1')
+    """
+    what, _, place = error.rpartition(" - at `")
+    if not place.startswith(("$.", "key in $.")):
+        return error
+    for name, word in _WORDS.items():
+        what = what.replace(f"`{name}`", word)
+    entry = place.rstrip("`").replace("$.", "").removesuffix("[...]")
+    inside = "an entry of " if place.rstrip("`").endswith("[...]") else ""
+    return f"{inside}{entry}: {what[:1].lower()}{what[1:]}"
 
 
 def _remedy(error: str) -> str:

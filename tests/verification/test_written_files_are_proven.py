@@ -63,7 +63,7 @@ def basis(numbers: Numbers) -> Entries:
 def objective(numbers: Numbers) -> str:
     nu, damping = float(numbers.uniform(8, 25)), of(numbers, 0.0, 0.0, 0.03)
     size = of(numbers, 1.0, 1e-9, 1e9)
-    formula: str = of(
+    text: str = of(
         numbers,
         *("C", "J", "D", "rms_c", "rms_j", "snap", "C_plus", "C_minus", "B"),
         f"{size!r}*C",
@@ -75,7 +75,7 @@ def objective(numbers: Numbers) -> str:
         f"rms({size!r}*c + {of(numbers, 0.0, 2.0) * size!r}*a)",
         f"peak({size!r}*c + {3 * size!r})",
     )
-    return formula
+    return text
 
 
 def solutions(numbers: Numbers) -> Entries:
@@ -311,7 +311,7 @@ def advise(numbers: Numbers) -> list[str]:
     stroke = scaled(quantity(numbers, 1, 100, "mm"), unit).replace(" ", "")
     words = ["advise", "--stroke", stroke, "--duration", "0.1s", "--degree", "5", "--points", str(of(numbers, 0, 3))]
     words += ["--minimise", of(numbers, "acceleration", "jerk", "rms acceleration")]
-    return words + list(of(numbers, [], ["--mass", "2kg"], ["--frequency", "30Hz", "--damping", "0"]))
+    return [*words, *of(numbers, [], ["--mass", "2kg"], ["--frequency", "30Hz", "--damping", "0"])]
 
 
 COMMANDS = {"solve": solve, "solve --fastest": solve_fastest, "advise": advise}

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import optlaws
-from optlaws.cli.options import AsJson, Duration, Frequencies, Plot, check_files, save_picture
+from optlaws.cli.options import AsJson, Duration, Frequencies, Plot, Signed, check_files, save_picture
 from optlaws.cli.show import number, print_json, show, table
 from optlaws.errors import InputError
 from optlaws.tolerances import VALUE_ROUNDING
@@ -15,7 +15,7 @@ _ONE, _INTERVAL = 1, 2
 
 def compare(
     *laws: str,
-    stroke: str | None = None,
+    stroke: Signed = None,
     duration: Duration = None,
     frequency: Frequencies | None = None,
     damping: float = 0.0,

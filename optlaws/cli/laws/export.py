@@ -14,6 +14,7 @@ from optlaws.cli.options import (
     AsJson,
     Duration,
     Plot,
+    Signed,
     TableOptions,
     Whole,
     check_files,
@@ -49,7 +50,7 @@ class MotionOptions:
         Which axis of a problem file with several.
     """
 
-    stroke: str | None = None
+    stroke: Signed = None
     duration: Duration = None
     master: str | None = None
     start: str | None = None

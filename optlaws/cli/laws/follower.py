@@ -14,6 +14,7 @@ from optlaws.cli.options import (
     Duration,
     FollowerFrequency,
     Plot,
+    Signed,
     check_files,
     read_law,
     save_figure,
@@ -57,7 +58,7 @@ class FollowerOptions:
     speed: str | None = None
     rise: str | None = None
     duration: Duration = None
-    stroke: str | None = None
+    stroke: Signed = None
     damping: float = 0.0
 
     @property

@@ -12,7 +12,7 @@ import optlaws
 from optlaws.cli.laws.catalogue import continuous
 from optlaws.cli.options import WHOLE_TABLE, AsJson, Plot, TableOptions, Whole, check_files, read_law, save_picture
 from optlaws.cli.show import constants_table, number, print_json, show, table
-from optlaws.errors import InputError
+from optlaws.errors import InputError, located
 
 
 @Parameter(name="*")
@@ -98,7 +98,8 @@ def law(
         alpha, peak_velocity = member.alpha, member.peak_velocity
         motion_law = read_law(name, alpha, peak_velocity, by="--alpha or --peak-velocity", points=points)
         about = _about(name, alpha, peak_velocity, motion_law)
-    values = [{"k": k, **{letter: getattr(motion_law, letter)(k) for letter in LETTERS}} for k in at or ()]
+    with located("--at"):
+        values = [{"k": k, **{letter: getattr(motion_law, letter)(k) for letter in LETTERS}} for k in at or ()]
     if csv is not None:
         writing.write(csv, table_of_values(motion_law, name or about["name"], SAMPLES if samples is None else samples))
     if plot is not None:

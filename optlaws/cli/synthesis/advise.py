@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 from cyclopts import Parameter
 
 import optlaws
-from optlaws.cli.options import AsJson, Duration, Whole, check_files, save, save_picture
+from optlaws.cli.options import AsJson, Duration, Signed, Whole, check_files, save, save_picture
 from optlaws.cli.show import busy, number, print_json, show, table
 from optlaws.cli.timed_move import read_limits
 from optlaws.errors import InputError
@@ -37,9 +37,9 @@ class SingleMoveOptions:
         What the move accelerates, such as 2kg, or "0.05 kg m^2" of an angle: forces, power and energy are listed.
     """
 
-    stroke: str | None = None
+    stroke: Signed = None
     duration: Duration = None
-    mass: str | None = None
+    mass: Signed = None
 
 
 @Parameter(name="*")

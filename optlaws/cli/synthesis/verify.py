@@ -66,7 +66,7 @@ def _verified(file: Path) -> dict[str, Verification]:
 
     try:
         return dict(verify_all(file))
-    except InputError:
+    except InputError as error:
         about = reading.json_file(file)
         written = (
             isinstance(about, dict)
@@ -75,7 +75,8 @@ def _verified(file: Path) -> dict[str, Verification]:
             and not holds_proof(about)
         )
         if not written:
-            raise
+            text = str(error)
+            raise InputError(text if str(file) in text else f"{file}: {text}") from None
         why = "results without proofs, which the file of --output, the explorer and to_dict() of a solution have"
         return {**{place: _law(law) for place, law in laws_within(about)}, "": _unchecked("the file", why)}
 

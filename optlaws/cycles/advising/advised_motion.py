@@ -16,7 +16,8 @@ from optlaws.cycles.moves.vibration_limits import read_follower
 from optlaws.cycles.specification.programme import axis_of
 from optlaws.cycles.specification.segments import Move, Return
 from optlaws.echo import shortened
-from optlaws.errors import InputError
+from optlaws.errors import InputError, located
+from optlaws.laws.catalogue.reading import read_law
 from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.mechanisms.linkages.mechanism import Mechanism
 from optlaws.motion.piece import unit_of
@@ -146,6 +147,9 @@ def _checked(laws: Any) -> list[str]:
         raise InputError(f"laws must be names such as ['modified sine', 'cycloidal'], got {shortened(laws)}")
     if len(laws) > _MOST_LAWS:
         raise InputError(f"laws: at most {_MOST_LAWS} are compared, got {len(laws)}")
+    with located("laws"):
+        for law in laws:
+            read_law(law)  # a name that is no law's is a mistake, no law that does not fit
     return list(laws)
 
 

@@ -209,4 +209,5 @@ def read_bounds(most: Sequence[str], least: Sequence[str] = ()) -> dict[str, Ran
                 raise InputError(f"{name!r} is bounded twice on one side")
             side[name] = number
     lows, highs = sides
-    return {name: Range(lows.get(name, 0.0), highs.get(name, inf)) for name in dict.fromkeys((*highs, *lows))}
+    names = dict.fromkeys((*highs, *lows))
+    return {name: _named_range(lows.get(name, 0.0), highs.get(name, inf), name) for name in names}
