@@ -18,7 +18,7 @@ from optlaws.tolerances import BESIDE_BREAK
 
 _FLAT_SLOPE = 1e-9  # of a series: a slope that is less is flat
 
-_MOST, _LEAST = 6000, 8  # nodes of a family, and of a piece: its extrema join them
+_MOST, _LEAST = 600, 8  # nodes of a family, and of a piece: its extrema join them
 _SHARING = 8  # points of a piece, in the mean, from which on no copy of its series is made for each
 
 
