@@ -11,7 +11,7 @@ import pytest
 from optlaws import Advice, Cycle, advise
 from tests.explorer.talk import OPTIMAL, Server
 from tests.explorer.test_page import go, settle
-from tests.internals.explorer import example, law_view, machine_view, start
+from tests.internals.explorer import CycleRequest, cycle_view, example, law_view, machine_view, start
 from tests.internals.jobs import read_of_cycle_entries
 
 if TYPE_CHECKING:
@@ -71,6 +71,15 @@ def test_a_machine_is_advised_by_its_torque(served: Server) -> None:
         [law_view.digits(law.values[measure.name], 5) for measure in advice.measures] for law in advice
     ]
     assert any(heading.startswith("rms torque") for heading in answer["headings"])
+
+
+@pytest.mark.long
+def test_starts_of_a_flat_optimum_agree_as_soon_as_they_are_known_to() -> None:
+    cycle = cycle_view.cycle(CycleRequest(study=machine_view.example(), axis=1))
+    for solution in advise(cycle, points=0)["least torque"].solutions:
+        least, *others = solution.starts
+        assert len(others) == 1
+        assert others[0] <= least * (1.0 + 1e-3)
 
 
 def test_what_cannot_be_advised_says_why(served: Server) -> None:

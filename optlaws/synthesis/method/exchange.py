@@ -37,7 +37,8 @@ DEPTH = 1e5  # beyond what laws of the field have
 class Outcome:
     """The result of a program's solution: the optimum (or None), IPOPT's iterations and message, the rounds.
 
-    Where there is no optimum `tried` are the answers to the program on points, whose laws may be of use.
+    Where there is no optimum `tried` are the answers to the program on points, whose laws may be of use. Where no exact
+    contacts show and the rows were moved inward instead, `moved_from` is the answer on points alone, which is less.
     """
 
     optimum: ActiveSet | None
@@ -45,6 +46,7 @@ class Outcome:
     rounds: int
     status: str
     tried: tuple[ActiveSet, ...] = ()
+    moved_from: ActiveSet | None = None
 
     @property
     def continued(self) -> bool:
@@ -53,8 +55,8 @@ class Outcome:
 
     def mapped(self, change: Callable[[ActiveSet], ActiveSet]) -> Outcome:
         """The same outcome for a program in other variables or equations."""
-        optimum = None if self.optimum is None else change(self.optimum)
-        return replace(self, optimum=optimum, tried=tuple(change(answer) for answer in self.tried))
+        optimum, before = (None if state is None else change(state) for state in (self.optimum, self.moved_from))
+        return replace(self, optimum=optimum, tried=tuple(change(answer) for answer in self.tried), moved_from=before)
 
 
 def solve(
@@ -196,7 +198,8 @@ def _by_interior_points(way: ByInteriorPoints, points: list[Points]) -> Outcome:
         optimum, _ = cutting_plane_loop(way, first_points(bounded))
         # the row that held the objective up is none of the program's
         optimum = None if optimum is None or (optimum.family == len(program.families)).any() else optimum
-    return Outcome(optimum, way.iterations, way.count, way.status, () if optimum is not None else tuple(tried))
+    left = () if optimum is not None else tuple(tried)
+    return Outcome(optimum, way.iterations, way.count, way.status, left, way.moved_from)
 
 
 def grounded(program: Program) -> Program:

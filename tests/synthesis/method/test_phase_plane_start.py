@@ -22,7 +22,7 @@ from optlaws import (
     slider_crank,
     synthesize,
 )
-from tests.internals.synthesis import attempt, evaluate, limit_beside, model_of, starts
+from tests.internals.synthesis import attempt, evaluate, limit_beside, model_of, search, starts
 
 LOADED = drive_torque(inertia="1 + 0.6*a^2", load="3*a")
 PRESS = slider_crank("0.1 m", "0.4 m", bodies={"crank": "0.02 kg m^2", "slider": "5 kg"})
@@ -142,3 +142,20 @@ def test_a_load_by_straight_lines_is_that_of_its_ramps(lines: str, ramps: str) -
     table, formula = least(lines), least(ramps)
     assert table.objective == pytest.approx(formula.objective, rel=1e-6)
     assert 0.0 < table.lower_bound <= table.objective * (1.0 + 1e-9)
+
+
+def test_starts_agree_as_exactly_as_their_laws_are_known() -> None:
+    """Where no exact contacts show an optimum lies between two values, and the laws of two starts may be of one."""
+
+    nothing: Any = None
+
+    def ended(objective: float, least: float) -> Any:
+        return search.Candidate(nothing, nothing, objective, least)
+
+    exact, between = ended(1.0, 1.0), ended(1.0005, 0.9995)
+    assert search._agree(exact, between)
+    assert search._agree(between, exact)
+    assert search._agree(exact, ended(1.0 + 1e-12, 1.0 + 1e-12))
+    assert not search._agree(exact, ended(1.0005, 1.0005))
+    assert not search._agree(between, ended(1.1, 1.05))
+    assert not search._agree(exact, None)

@@ -67,6 +67,8 @@ class ByInteriorPoints(Strategy[list[Points], ActiveSet]):
     tried
         All answers, with their multipliers on the points: the law of one may satisfy all rows although its variables
         do not, where these are the objective's, or the solver's last word is that it failed.
+    moved_from
+        The answer on the points that the last one was moved inward from: the optimum lies between the two.
     """
 
     program: Program
@@ -81,6 +83,7 @@ class ByInteriorPoints(Strategy[list[Points], ActiveSet]):
     status: str = ""
     sound: ActiveSet | None = None
     tried: list[ActiveSet] = field(default_factory=list)
+    moved_from: ActiveSet | None = None
 
     def __post_init__(self) -> None:
         if not self.program.curved:
@@ -118,6 +121,7 @@ class ByInteriorPoints(Strategy[list[Points], ActiveSet]):
         if self.count == self.rounds:
             flat = _only(self.program, LinearFamily, ConeFamily, KinkedIntegralFamily)
             inward = self._inward(points, answer) if self.sound is None and self.program.curved else None
+            self.moved_from = None if inward is None else self.tried[-1]
             return self.sound or inward or (as_answered(points, answer) if flat else None), None
         onward = with_extrema(self.program, points, answer.x)
         if self.count == _COARSE and self.program.curved:
