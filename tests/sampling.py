@@ -1,6 +1,6 @@
 """Which cases and examples run each time, and which where long tests are asked for (`make test-long`)."""
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from itertools import groupby
 from typing import Any
 
@@ -40,10 +40,16 @@ def _leave_of_one_test(cases: list[pytest.Function]) -> None:
     mark = cases[0].get_closest_marker("sample")
     assert mark is not None
     (each,) = mark.args
-    # parameters of one decorator count together; where several are crossed, cases are taken along diagonals
-    counted = {tuple(case.callspec.indices[name] for case in cases) for name in cases[0].callspec.indices}
+    # where several parameters are crossed, cases are taken along diagonals
+    counted = [_places(cases, names) for names in _together(cases[0])]
     taken = [sum(places) % each == 0 for places in zip(*counted, strict=True)]
-    kinds = [_kinds(case, None if len(counted) > 1 else mark.kwargs.get("kind", type)) for case in cases]
+    kind = mark.kwargs.get("kind", type)
+    kinds: list[set[tuple[Any, Any]]] = [
+        set(enumerate(places))
+        if len(counted) > 1
+        else {(name, kind(value)) for name, value in case.callspec.params.items()}
+        for case, places in zip(cases, zip(*counted, strict=True), strict=True)
+    ]
     seen = {one for own, is_taken in zip(kinds, taken, strict=True) if is_taken for one in own}
     for case, own, is_taken in zip(cases, kinds, taken, strict=True):
         if not is_taken and own <= seen:
@@ -51,7 +57,13 @@ def _leave_of_one_test(cases: list[pytest.Function]) -> None:
         seen |= own
 
 
-def _kinds(case: pytest.Function, kind: Callable[[Any], Any] | None) -> set[tuple[str, Any]]:
-    if kind is None:
-        return set(case.callspec.indices.items())
-    return {(name, kind(value)) for name, value in case.callspec.params.items()}
+def _together(case: pytest.Function) -> list[tuple[str, ...]]:
+    """The names of a case's parameters, those of one decorator together."""
+    named = [mark.args[0] for mark in case.iter_markers("parametrize")]
+    return [tuple(part.strip() for part in one.split(",")) if isinstance(one, str) else tuple(one) for one in named]
+
+
+def _places(cases: list[pytest.Function], names: tuple[str, ...]) -> list[int]:
+    """The place of each case's values among those of a decorator, which are the same objects in all cases."""
+    known: dict[tuple[int, ...], int] = {}
+    return [known.setdefault(tuple(id(case.callspec.params[name]) for name in names), len(known)) for case in cases]

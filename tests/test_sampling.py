@@ -9,16 +9,21 @@ from hypothesis import settings
 
 from tests import sampling
 
+A, B = [0.1, 0.2, 0.3, 0.4], ["w", "x", "y", "z"]
+
 
 class Case:
     """As much of a collected case as is asked for."""
 
-    def __init__(self, mark: pytest.Mark, indices: dict[str, int], params: dict[str, Any]) -> None:
-        self.mark, self.left = mark, False
-        self.callspec = SimpleNamespace(indices=indices, params=params)
+    def __init__(self, mark: pytest.Mark, params: dict[str, Any], decorators: list[Any]) -> None:
+        self.mark, self.decorators, self.left = mark, decorators, False
+        self.callspec = SimpleNamespace(params=params)
 
     def get_closest_marker(self, _name: str) -> pytest.Mark:
         return self.mark
+
+    def iter_markers(self, _name: str) -> list[pytest.Mark]:
+        return [pytest.mark.parametrize(names, []).mark for names in self.decorators]
 
     def add_marker(self, _mark: object) -> None:
         self.left = True
@@ -32,7 +37,7 @@ def stay(cases: list[Case]) -> list[Case]:
 def alone(each: int, values: list[Any], **arguments: Any) -> list[Any]:
     """What stays of the values of one parameter."""
     mark = pytest.mark.sample(each, **arguments).mark
-    return [one.callspec.params["a"] for one in stay([Case(mark, {"a": i}, {"a": v}) for i, v in enumerate(values)])]
+    return [one.callspec.params["a"] for one in stay([Case(mark, {"a": value}, ["a"]) for value in values])]
 
 
 def test_every_so_many_stay_and_the_first_of_each_kind() -> None:
@@ -45,17 +50,30 @@ def test_every_so_many_stay_and_the_first_of_each_kind() -> None:
 @pytest.mark.parametrize("each", [2, 3, 5])
 def test_of_crossed_parameters_every_value_stays(each: int) -> None:
     mark = pytest.mark.sample(each).mark
-    # a and b come from one decorator, c from another
-    cases = [Case(mark, {"a": i, "b": i, "c": j}, {}) for i, j in product(range(4), range(6))]
+    together = zip(A, B, strict=True)
+    cases = [Case(mark, {"a": a, "b": b, "c": c}, ["c", "a, b"]) for (a, b), c in product(together, range(6))]
     left = stay(cases)
     assert len(left) <= 24 // each + 5
     for name, count in (("a", 4), ("b", 4), ("c", 6)):
-        assert {case.callspec.indices[name] for case in left} == {*range(count)}
+        assert len({case.callspec.params[name] for case in left}) == count
     if each == 2:
         # along diagonals: no value of the one goes with a single value of the other
         assert all(
-            len({one.callspec.indices["c"] for one in left if one.callspec.indices["a"] == i}) == 3 for i in range(4)
+            len({one.callspec.params["c"] for one in left if one.callspec.params["a"] == value}) == 3 for value in A
         )
+
+
+@pytest.mark.sample(4)
+@pytest.mark.parametrize("flag", [False, True])
+@pytest.mark.parametrize(("a", "b"), list(zip(A, B, strict=True)))
+def test_cases_of_pytest_are_sampled(a: float, b: str, *, flag: bool, request: pytest.FixtureRequest) -> None:
+    """As pytest numbers them, which its versions do differently: of those left, each value is there."""
+    cases = [item for item in request.session.items if "test_cases_of_pytest_are_sampled" in item.nodeid]
+    if len(cases) == 1:
+        pytest.skip("a case was chosen by itself")
+    left = [case.callspec.params for case in cases if isinstance(case, pytest.Function)]
+    assert {"a": a, "b": b, "flag": flag} in [{name: case[name] for name in ("a", "b", "flag")} for case in left]
+    assert [{case[name] for case in left} for name in ("a", "b", "flag")] == [set(A), set(B), {False, True}]
 
 
 def test_a_share_of_the_examples_runs_each_time() -> None:

@@ -75,6 +75,7 @@ def refused(cycle: Cycle) -> InfeasibleProblem:
     return caught.value
 
 
+@pytest.mark.sample(4)
 @pytest.mark.parametrize("kind", ["velocity", "acceleration", "jerk", "force", "rms force", "power", "energy"])
 @pytest.mark.parametrize("law", LAWS)
 def test_a_slide_beyond_a_limit_is_refused_and_one_that_reaches_it_is_not(kind: str, law: str) -> None:
