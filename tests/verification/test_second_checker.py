@@ -190,6 +190,25 @@ def test_random_proofs_are_worth_the_same(count: int, seed: int, tmp_path: Path)
             assert result["bound"] == pytest.approx(value, rel=1e-9)
 
 
+@pytest.mark.filterwarnings("ignore::optlaws.errors.NotNormalised")
+def test_what_the_rounding_of_multipliers_hides_is_not_called_false(tmp_path: Path) -> None:
+    # smooth splines of many pieces: more coordinates than rows, and moments that take much of what is left
+    certificate = synthesize(Problem(order=6, basis=BSplines(16, 7), minimise="C + 1e-05*J")).certificate
+    value = exact_bound(certificate)
+    assert value is not None
+    data = certificate.to_dict()
+    (result,) = checked(data, tmp_path)
+    assert result["verdict"] == "proven"
+    charged = float(value) - result["bound"]
+    assert 0.0 < charged < 1e-9 * float(value)
+    beyond = result["bound"] * (1.0 + 1e-9)
+    (hidden,) = checked(data | {"bound": beyond + 0.5 * charged}, tmp_path)
+    assert hidden["verdict"] == "not checked"
+    assert ended(data | {"bound": beyond + 0.5 * charged}, tmp_path).returncode == 3
+    (false,) = checked(data | {"bound": float(value) * (1.0 + 1e-8)}, tmp_path)
+    assert false["verdict"] == "not proven"
+
+
 def _machine_problems(count: int, seed: int) -> Iterator[Problem]:
     rng = Random(seed)  # noqa: S311 - a sample
     for i in range(count):

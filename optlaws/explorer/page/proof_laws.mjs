@@ -144,7 +144,7 @@ export class Laws {
       const degree = Math.max(-1, ...local.slice(0, -1).map((function_) => function_.length - 1));
       for (let m = 0; m <= degree; m += 1) {
         const row = local.map((function_) => sum(function_.map((coefficient, j) => coefficient.times(legendreMoment(m, j)))).times(length));
-        if (row.slice(0, -1).some((entry) => entry.sign)) rows.push(row);
+        if (row.slice(0, -1).some((entry) => entry.sign)) rows.push(Object.assign(row, { piece: i }));
       }
     });
     return rows;
