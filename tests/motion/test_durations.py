@@ -60,8 +60,9 @@ DOORS: dict[str, Callable[[Any], object]] = {
     "limit of a drive": lambda time: DRIVE.limit("peak torque", *MOVE, time),
     "limit of a mechanism": lambda time: TABLE.limit("energy", *MOVE, time),
     "follower": lambda time: Follower.from_units(mass=2.0, stiffness=1e4, duration=time),
-    "follower of a machine": lambda time: Follower.from_vibration("10 Hz", duration=time),
-    "natural period": lambda time: Follower.from_vibration(time, duration="0.1 s"),
+    "follower of a vibration": lambda time: Follower.from_vibration("10 Hz", duration=time),
+    "period of a vibration": lambda time: Follower.from_vibration(time, duration="0.1 s"),
+    "follower in units": lambda time: Follower(20).response(LAW).in_units("35 mm", duration=time),
     "machine": lambda time: Machine.from_units(*SPRING, duration=time, outputs=["x"]).residual().value(LAW),
     "export": lambda time: LAW.export("csv", stroke="35 mm", duration=time),
     "pieces": lambda time: LAW.pieces("35 mm", time),
@@ -78,7 +79,7 @@ IMPOSSIBLE = ["1e-300 s", "1e-320 s", "1e300 s", "0 s", "-1 s", "nan s", "inf s"
 @pytest.mark.parametrize("door", DOORS)
 @pytest.mark.parametrize("time", [*IMPOSSIBLE, float("nan")])
 def test_an_impossible_duration_is_refused_by_its_name(door: str, time: Any) -> None:
-    with pytest.raises(InputError, match=r"duration|period|longest|^time"):
+    with pytest.raises(InputError, match=r"duration|period|longest|vibration|^time"):
         DOORS[door](time)
 
 

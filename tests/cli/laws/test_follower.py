@@ -136,9 +136,9 @@ def test_a_stroke_with_its_unit_gives_machine_units(capsys: Capture) -> None:
     code, out, _ = called(capsys, "modified sine", *MACHINE, "--stroke", "35mm", "--json")
     assert code == 0
     data = json.loads(out)
-    follower = Follower.from_vibration("16.7 Hz", speed="105 rpm", rise="120 deg")
-    response = follower.response(catalogue["modified sine"].law)
-    assert data["machine"] == response.in_units("35 mm", speed="105 rpm", rise="120 deg")
+    times: dict[str, Any] = {"speed": "105 rpm", "rise": "120 deg"}
+    response = Follower.from_vibration("16.7 Hz", **times).response(catalogue["modified sine"].law)
+    assert data["machine"] == response.in_units("35 mm", **times)
     code, out, _ = called(
         capsys,
         "modified sine",
