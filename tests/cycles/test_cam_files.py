@@ -152,6 +152,7 @@ ROWS = {
     [
         ("MOTIONFUNCTYPE_POLYNOM5", "3-4-5 polynomial"),
         ("MOTIONFUNCTYPE_MODSINUSLINIE", "modified sine"),
+        ("MC_MotionFunctionType.MOTIONFUNCTYPE_POLYNOM5_MM", "3-4-5 polynomial"),
         pytest.param("15", "3-4-5 polynomial", marks=pytest.mark.long),
         pytest.param("10", "simple harmonic", marks=pytest.mark.long),
         pytest.param("MOTIONFUNCTYPE_BESTEHORN", "cycloidal", marks=pytest.mark.long),

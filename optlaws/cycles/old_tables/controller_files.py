@@ -261,7 +261,7 @@ def _profile(layout: FieldLayout, record: _Record) -> str | None:
     if "type" not in record:
         return None
     text = record["type"].text
-    return (layout.profiles or {}).get(text, re.sub(r"^(?:.*\.|MOTIONFUNCTYPE_)", "", text)) or None
+    return (layout.profiles or {}).get(text, re.sub(r"^(?:.*\.)?(?:MOTIONFUNCTYPE_)?", "", text)) or None
 
 
 class _at:  # noqa: N801 - as contextlib's
