@@ -13,7 +13,7 @@ from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.files.reading import JsonText
 from optlaws.motion.piece import unit_of
-from optlaws.motion.quantities import TURN, either, in_small_units, quantity, written
+from optlaws.motion.quantities import TURN, in_small_units, quantity, written
 from optlaws.numbers import Array
 from optlaws.suggest import unknown_key
 from optlaws.tolerances import CYCLE_ROUNDING, INTERLOCK, SAME_TIME
@@ -191,11 +191,6 @@ class Interlock(JsonText, ABC):
         margin = 0.0 if margin is not None and abs(margin) <= SAME_TIME * period else margin
         status = "clear" if bound >= -slack else "broken" if clearance < -slack else "open"
         return LeastClearance(self, clearance, bound, unit, time, 360.0 * time / period, margin, status)
-
-
-def either_position(value: Any, name: str) -> tuple[str, float]:
-    """A length or an angle: which, and the value in SI units."""
-    return either(value, ("length", "angle"), name)
 
 
 def joint_positions(cycle: ClockedMotion) -> list[float]:
