@@ -61,4 +61,5 @@ def cut(text: str, most: int = LONGEST) -> str:
     ('01...', 'a\\ud800')
     """
     short = text if len(text) <= most else f"{text[: most - 3]}..."
-    return short.encode("utf-8", "backslashreplace").decode("utf-8")
+    plain = short.encode("utf-8", "backslashreplace").decode("utf-8")
+    return text if plain == text else plain  # a sentence stays one

@@ -7,6 +7,7 @@ from contextlib import contextmanager
 from copy import copy
 
 from optlaws.echo import cut
+from optlaws.sentences import sentence
 
 
 class OptlawsError(Exception):
@@ -30,7 +31,7 @@ class InputError(OptlawsError, ValueError):
     """
 
     def __init__(self, message: str = "") -> None:
-        super().__init__(cut(str(message)))
+        super().__init__(cut(message))
 
 
 @contextmanager
@@ -54,7 +55,7 @@ def located(where: str) -> Iterator[None]:
         yield
     except OptlawsError as error:
         placed = copy(error)  # the error itself may be stored, and raised again elsewhere
-        placed.args = (cut(f"{where}: {error.args[0]}"), *error.args[1:])
+        placed.args = (cut(sentence("{}: {}", where, error.args[0])), *error.args[1:])
         raise placed from None
 
 
@@ -143,7 +144,8 @@ class SolverFailure(OptlawsError, RuntimeError):  # noqa: N818
 def _readable(message: str, problem: object | None) -> str:
     """A message in which constants of the problem that have long texts are called by their titles."""
     titled = getattr(problem, "titled", None)
-    return str(titled(message)) if callable(titled) else message
+    text = str(titled(message)) if callable(titled) else message
+    return message if text == message else text  # a sentence stays one
 
 
 def _report(message: str, tried: str, problem: object | None) -> str:

@@ -20,6 +20,7 @@ BASE = {
     "lazy",
     "locks",
     "numbers",
+    "sentences",
     "shown",
     "suggest",
     "tolerances",
@@ -28,7 +29,7 @@ KNOWN = BASE | {"numerics"}
 CORE = KNOWN | {"formulas", "laws", "synthesis", "mechanisms", "motion", "cycles", "exports", "cams", "verification"}
 MAY_IMPORT = {
     "echo": set[str](),
-    "errors": {"echo"},
+    "errors": {"echo", "sentences"},
     "formulas": KNOWN,
     "extras": {"errors"},
     "files": {"echo", "errors", "locks", "suggest", "tolerances"},
@@ -36,6 +37,7 @@ MAY_IMPORT = {
     "lazy": {"locks"},
     "locks": set[str](),
     "numbers": {"echo", "errors"},
+    "sentences": set[str](),
     "shown": set[str](),
     "suggest": {"echo"},
     "tolerances": set[str](),

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from math import degrees
 from pathlib import Path
 from typing import Any, Literal, Unpack
 
@@ -19,10 +18,11 @@ from optlaws.cycles.cycle import Cycle
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
-from optlaws.motion.quantities import quantity
+from optlaws.motion.quantities import in_degrees, quantity
 from optlaws.numbers import Array, Quantity, derivative, number_or_array, real_times
 from optlaws.numerics.interval import Interval
 from optlaws.numerics.taylor import Pair, turned, variable
+from optlaws.sentences import sentence
 from optlaws.shown.summary import Summary
 from optlaws.suggest import keywords_of, unknown_key
 
@@ -280,10 +280,12 @@ def _check_smooth(motion: CamMotion) -> None:
     for stretch in motion.stretches:
         if not np.isfinite(stretch.extremes(2)).all():
             raise InputError(
-                f"motion: the acceleration of its law between {degrees(stretch.start):.6g} and "
-                f"{degrees(stretch.stop):.6g} deg of the cam has no bound, and the cam would have a corner: take a law "
-                "whose C is finite"
-            )
+                sentence(
+                    "motion: the acceleration of its law between {} and {} of the cam has no bound, and the cam would "
+                    "have a corner: take a law whose C is finite",
+                    in_degrees(stretch.start), in_degrees(stretch.stop),
+                )
+            )  # fmt: skip
     inner = np.array(motion.breaks[1:-1] if not motion.closed else motion.breaks)
     if not len(inner):
         return
@@ -293,8 +295,11 @@ def _check_smooth(motion: CamMotion) -> None:
         before[0], after[-1] = before[-1], after[0]
     jumps = np.abs(after - before)
     if jumps.max() > 1e-9 * max(abs(slope) for slope in motion.slopes):
-        place = degrees(inner[int(np.argmax(jumps))])
+        place = in_degrees(inner[int(np.argmax(jumps))])
         raise InputError(
-            f"motion: its velocity jumps at {place:.6g} deg of the cam, where the cam would have a corner: take laws"
-            " whose velocities meet"
+            sentence(
+                "motion: its velocity jumps at {} of the cam, where the cam would have a corner: take laws whose "
+                "velocities meet",
+                place,
+            )
         )

@@ -19,12 +19,13 @@ from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.mechanisms.linkages.linear_force import LinearForce
-from optlaws.motion.quantities import TURN, positive_quantity, quantity
+from optlaws.motion.quantities import TURN, in_degrees, positive_quantity, quantity
 from optlaws.numbers import Array, Quantity, finite, number_or_array, real_times
 from optlaws.numerics.branch_and_bound import Extremes, Function, extremes
 from optlaws.numerics.integral import integral
 from optlaws.numerics.interval import Interval, highest, middle
 from optlaws.numerics.taylor import Jet
+from optlaws.sentences import sentence
 from optlaws.suggest import unknown_key
 from optlaws.tolerances import FORCE_EXTREMES
 
@@ -313,10 +314,13 @@ class CamForces:
             lever = lever - self._friction.in_guide(unit) * self.direction(angle)
         sure = highest(lever.terms[0])
         if np.any(sure <= 0.0):
-            place = degrees(float(middle(angle).flat[int(np.argmin(sure))]))
+            place = in_degrees(float(middle(angle).flat[int(np.argmin(sure))]))
             raise InputError(
-                f"the follower jams in its guide at {place:.6g} deg of the cam: lessen the pressure angle, the "
-                "friction of the guide or its overhang, or make the guide longer"
+                sentence(
+                    "the follower jams in its guide at {} of the cam: lessen the pressure angle, the friction of the "
+                    "guide or its overhang, or make the guide longer",
+                    place,
+                )
             )
         return unit, lever
 

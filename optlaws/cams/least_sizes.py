@@ -8,7 +8,7 @@ every range of smaller prime circles one of them is proven to break its limit, w
 from __future__ import annotations
 
 from dataclasses import dataclass, fields, replace
-from math import degrees, tan
+from math import tan
 from typing import Any, TypeVar
 
 import numpy as np
@@ -20,12 +20,13 @@ from optlaws.cams.followers.follower import CamFollower, Place, shown
 from optlaws.cycles.cycle import Cycle
 from optlaws.echo import shortened
 from optlaws.errors import InfeasibleProblem, InputError
-from optlaws.motion.quantities import quantity
+from optlaws.motion.quantities import in_degrees, quantity
 from optlaws.numbers import Quantity
 from optlaws.numerics.interval import Interval, exact
 from optlaws.numerics.peaks import is_kept
 from optlaws.numerics.roots import bisect, bracketed_root, holds_throughout
 from optlaws.numerics.taylor import Jet
+from optlaws.sentences import joined, sentence
 from optlaws.tolerances import ROUNDOFF, SIZE_BRACKET
 
 _SIZE_MARGIN = 1e-10  # of a radius: by how much more than needed it grows at last
@@ -178,9 +179,12 @@ def greatest_roller(cam: DiscCam, *, radius_of_curvature: Quantity = "0 mm") -> 
     low, high = (1.0 / value - least for value in (greatest.high, greatest.low))
     if low <= 0.0:
         raise InputError(
-            f"radius_of_curvature: the pitch curve itself has {shown(1.0 / greatest.low)} at"
-            f" {degrees(greatest.angle):.6g} deg, so that no roller leaves {shown(least)}: make the prime circle larger"
-        )
+            sentence(
+                "radius_of_curvature: the pitch curve itself has {} at {}, so that no roller leaves {}: make the prime "
+                "circle larger",
+                shown(1.0 / greatest.low), in_degrees(greatest.angle), shown(least),
+            )
+        )  # fmt: skip
     slack = 8.0 * ROUNDOFF * (1.0 / greatest.low + abs(least))
     return GreatestRoller(low - slack, high + slack, greatest.angle)
 
@@ -204,10 +208,10 @@ def read_cam_limits(pressure_angle: Quantity | None, radius: Quantity | None) ->
 
 def _in_words(limits: dict[str, float]) -> str:
     texts = {
-        PRESSURE: lambda value: f"a pressure angle of {degrees(np.arctan(value)):.6g} deg",
-        CURVATURE: lambda value: f"a radius of curvature of {shown(value)}",
+        PRESSURE: lambda value: sentence("a pressure angle of {}", in_degrees(np.arctan(value))),
+        CURVATURE: lambda value: sentence("a radius of curvature of {}", shown(value)),
     }
-    return " and ".join(texts[name](value) for name, value in limits.items())
+    return joined(" and ", (texts[name](value) for name, value in limits.items()))
 
 
 @dataclass(frozen=True)
@@ -287,9 +291,12 @@ class _Sizes:
                 return bracketed_root(excess, last, size)
             last = size
         raise InfeasibleProblem(
-            f"no prime circle keeps {_in_words(self.limits)}: at {degrees(witness.angle):.6g} deg of the cam the "
-            f"{witness.limit} breaks it with every one up to {shown(last)}: give wider limits, or spread the motion"
-        )
+            sentence(
+                "no prime circle keeps {}: at {} of the cam the {} breaks it with every one up to {}: give wider "
+                "limits, or spread the motion",
+                _in_words(self.limits), in_degrees(witness.angle), witness.limit, shown(last),
+            )
+        )  # fmt: skip
 
     def breaks_between(self, low: float, high: float, witnesses: list[Witness]) -> bool:
         """Whether every prime circle in a range is proven to violate a limit at one of the witnesses' angles."""

@@ -16,6 +16,7 @@ from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.motion.quantities import TURN
+from optlaws.sentences import Amount, joined, sentence
 from optlaws.shown.summary import Row, Summary
 from optlaws.synthesis.proof.certificate import VIOLATION, Certificate
 from optlaws.synthesis.status import Status
@@ -256,7 +257,9 @@ def _raised_period(search: FastestSearch, name: str) -> float:
 def _least_duration(search: FastestSearch, span: TimedSpan) -> LeastDuration:
     axis = search.programme.axis
     limits = (
-        "motor's curve" if row.key == CURVE else f"{word_of(row.key, axis)} {amount(row.key, row.most, axis)}"
+        "motor's curve"
+        if row.key == CURVE
+        else sentence("{} {}", word_of(row.key, axis), amount(row.key, row.most, axis))
         for row in span.least.binding
     )
     return LeastDuration(
@@ -268,5 +271,5 @@ def _binding(search: FastestSearch, segments: Sequence[LeastDuration]) -> tuple[
     rating = search.rating
     if rating is not None and rating.binds:
         unit = "N" if search.programme.axis == "length" else "N m"
-        return (f"the whole cycle: {rating.name} {rating.most:.6g} {unit}",)
-    return tuple(f"{each.name}: {', '.join(each.limits)}" for each in segments if each.binding)
+        return (sentence("the whole cycle: {} {}", rating.name, Amount(rating.most, unit)),)
+    return tuple(sentence("{}: {}", each.name, joined(", ", each.limits)) for each in segments if each.binding)

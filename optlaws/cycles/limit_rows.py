@@ -35,6 +35,7 @@ from optlaws.mechanisms.drives.effort import PieceEffort
 from optlaws.mechanisms.drives.sheet import share_used
 from optlaws.motion.piece import Piece, unit_of
 from optlaws.numerics.peaks import is_kept
+from optlaws.sentences import Amount, joined, sentence
 from optlaws.shown.summary import Row
 
 #: a `Cycle`, which knows this module
@@ -80,8 +81,8 @@ class LimitTaken(NamedTuple):
         return is_kept(self.value, self.limit)
 
     def __str__(self) -> str:
-        text = f"{self.name}, {self.value_text or f'{self.value:.6g}'} of {self.text or f'{self.limit:.6g}'}"
-        return f"{self.where}: {text}" if self.where else text
+        value, limit = self.value_text or f"{self.value:.6g}", self.text or f"{self.limit:.6g}"
+        return sentence("{}{}, {} of {}", f"{self.where}: " if self.where else "", self.name, value, limit)
 
 
 class _Taken(NamedTuple):
@@ -143,33 +144,37 @@ def refuse_beyond(cycle: AnyCycle, of_cycle: Mapping[LimitKey, float]) -> None:
         of_whole = []
     proof = (*(each.taken for each in broken), *of_whole)
     if proof:
-        others = "" if len(proof) == 1 else f"; beyond a limit is also {'; '.join(map(str, proof[1:]))}"
+        others = "" if len(proof) == 1 else sentence("; beyond a limit is also {}", joined("; ", proof[1:]))
         reason = _reason(broken[0], cycle) if broken else _reason_of_whole(proof[0])
-        raise InfeasibleProblem(f"{reason}{others}", proof=proof)
+        raise InfeasibleProblem(sentence("{}{}", reason, others), proof=proof)
 
 
 def _reason(broken: _Taken, cycle: AnyCycle) -> str:
     """The limit that a given law breaks, and what helps."""
     key, taken, time, stretch = broken
     nu = key if isinstance(key, int) else key.nu
-    at = "" if time is None else f" at {360.0 * time / cycle.duration:.6g} deg of the master"
+    at = "" if time is None else sentence(" at {} of the master", Amount(360.0 * time / cycle.duration, "deg"))
     if not isfinite(taken.value):
-        return (
-            f"{taken.where}: its law jumps{at}, so that no time keeps the {taken.name} {taken.text}: take a smoother "
-            "law, or leave that limit out"
-        )
+        return sentence(
+            "{}: its law jumps{}, so that no time keeps the {} {}: take a smoother law, or leave that limit out",
+            taken.where, at, taken.name, taken.text,
+        )  # fmt: skip
     longer = f"{taken.share ** (1.0 / nu):.6g} times as much time" if nu > 0 else "more time"
     remedy = f"give it {longer}, a wider limit{', or another law' * isinstance(stretch.given, Move)}"
     if isinstance(stretch.given, Dwell):
         remedy = "allow more, or change the drive's spring, preload, gravity or friction"
-    return f"{taken.where}: it takes the {taken.name} {taken.value_text}{at}, but its limit is {taken.text}: {remedy}"
+    return sentence(
+        "{}: it takes the {} {}{}, but its limit is {}: {}",
+        taken.where, taken.name, taken.value_text, at, taken.text, remedy,
+    )  # fmt: skip
 
 
 def _reason_of_whole(broken: LimitTaken) -> str:
-    return (
-        f"limits: the {broken.name} over the cycle is {broken.value_text}, but its limit is {broken.text}: allow more, "
-        "give the cycle more time, or give its moves other laws"
-    )
+    return sentence(
+        "limits: the {} over the cycle is {}, but its limit is {}: allow more, give the cycle more time, or give its "
+        "moves other laws",
+        broken.name, broken.value_text, broken.text,
+    )  # fmt: skip
 
 
 def limit_rows(cycle: AnyCycle) -> list[Row]:
@@ -290,4 +295,4 @@ def _of_whole(cycle: AnyCycle, limited: AnyCycle) -> Iterator[LimitTaken]:
 
 
 def _of_cycle(name: str, value: float, limit: float, unit: str) -> LimitTaken:
-    return LimitTaken(name, "", value, limit, *(f"{size:.6g} {unit}".strip() for size in (limit, value)))
+    return LimitTaken(name, "", value, limit, *(Amount(size, unit) for size in (limit, value)))

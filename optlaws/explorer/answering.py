@@ -30,6 +30,7 @@ from optlaws.explorer.views.machines import fastest_view, machine_view
 from optlaws.explorer.views.requests import Question, read, ready
 from optlaws.jobs.cam_entries import CamProblemFile
 from optlaws.jobs.cycle_entries import CycleProblemFile
+from optlaws.sentences import parts_of
 
 #: by the last part of the path: what a question is read as, and what answers it; each view names its own
 QUESTIONS: dict[str, Question] = {
@@ -75,7 +76,7 @@ def answered(name: str, body: bytes) -> tuple[int, bytes]:
     except InputError as error:
         return UNREADABLE, message(str(error))
     try:
-        return OK, msgspec.json.encode(answer(question))
+        return OK, msgspec.json.encode(answer(question), enc_hook=parts_of)
     except OptlawsError as error:
         return OK, message(str(error.args[0]))
     except MemoryError:

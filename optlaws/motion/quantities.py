@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.numbers import finite, real
+from optlaws.sentences import Amount
 
 if TYPE_CHECKING:
     from pint import UnitRegistry
@@ -320,9 +321,16 @@ def written(value: Any) -> Any:
         return value
 
 
-def in_small_units(value: float, axis: str) -> str:
-    """A position in millimetres or degrees."""
-    return f"{value * 1e3:.9g} mm" if axis == "length" else f"{value * 360.0 / TURN:.9g} deg"
+def in_small_units(value: float, axis: str, per: str = "") -> Amount:
+    """A position in millimetres or degrees; `per` is "/s" of a velocity."""
+    if axis == "length":
+        return Amount(value * 1e3, f"mm{per}", 9)
+    return Amount(value * 360.0 / TURN, f"deg{per}", 9)
+
+
+def in_degrees(angle: float) -> Amount:
+    """An angle in degrees."""
+    return Amount(angle * 360.0 / TURN, "deg")
 
 
 class Given(NamedTuple):

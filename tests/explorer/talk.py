@@ -50,3 +50,13 @@ class Server:
         response, answer = self.send("GET", "/api/start")
         assert response.status == 200
         return json.loads(answer)["state"]
+
+
+def written(said: Any) -> str:
+    """What a server says as the page writes it where no unit is changed: a text, a quantity, or a list of both."""
+    if isinstance(said, list):
+        return "".join(map(written, said))
+    if isinstance(said, dict):
+        return f"{said['value']:.{said['digits']}g} {said['unit']}".replace("-", "−")
+    assert isinstance(said, str)
+    return said

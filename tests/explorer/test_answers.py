@@ -396,7 +396,7 @@ def test_every_peak_of_a_cycle_lies_on_its_curve() -> None:
 def test_a_cycle_within_its_limits_is_proven() -> None:
     view = cycle_view.answer(cycle_of())
     assert view["trust"]["word"] == "proven optimal"
-    assert [one["peaks"][0]["text"] for one in view["segments"]] == ["616", "0", "616", "0"]
+    assert [one["peaks"][0]["value"] for one in view["segments"]] == pytest.approx([616.0, 0.0, 616.0, 0.0])
     assert not any(peak["beyond"] for one in view["segments"] for peak in one["peaks"])
     assert [one["value"] for one in view["panels"][1]["limits"]] == [616.0] * 2  # a dwell has none
 

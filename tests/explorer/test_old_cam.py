@@ -11,7 +11,7 @@ import pytest
 from optlaws import Cycle, catalogue, read_cycle_table
 from optlaws.verification import verify
 from tests.documents import ROOT
-from tests.explorer.talk import OPTIMAL, Server
+from tests.explorer.talk import OPTIMAL, Server, written
 from tests.explorer.test_page import go
 from tests.internals.explorer import OpenRequest, old_cam_view, opened_file, start
 
@@ -46,8 +46,8 @@ def test_a_table_is_what_the_library_reads(served: Server, turn: Path) -> None:
     shown, table = served.ask("old", {"study": STUDY}), read_cycle_table(turn)
     rows = [[part.kind, f"{part.start:g}", f"{part.stop:g}"] for part in table.stretches]
     assert [row[:3] for row in shown["rows"]] == rows
-    assert shown["rows"][0][4] == table.law_in_words(table.stretches[0])
-    assert shown["trust"]["facts"][0] == f"laws keep within {table.room:.3g} mm of the points"
+    assert written(shown["rows"][0][4]) == table.law_in_words(table.stretches[0])
+    assert written(shown["trust"]["facts"][0]) == f"laws keep within {table.room:.3g} mm of the points"
     off = next(one for one in shown["panels"][1]["series"] if one["name"] == "points")
     assert off["values"] == pytest.approx(table.heights - table.at(table.places), abs=1e-7)
     for panel, nu in zip(shown["panels"][2:], (1, 2, 3), strict=True):
@@ -61,7 +61,7 @@ def test_a_table_is_what_the_library_reads(served: Server, turn: Path) -> None:
 @pytest.mark.long
 def test_a_noisy_table_says_its_noise_and_its_seam(served: Server) -> None:
     shown, table = served.ask("old?patience=9", {"study": {"text": REAL.read_text("utf-8")}}), read_cycle_table(REAL)
-    facts = " ".join(shown["trust"]["facts"])
+    facts = " ".join(map(written, shown["trust"]["facts"]))
     assert shown["trust"]["word"] == "off a point"
     assert f"{table.off[0]:.3g} mm off the point at {table.off[1]:.6g} turn" in facts
     assert f"scatter by {table.scatter:.2g} mm" in facts
@@ -76,7 +76,7 @@ def test_better_laws_are_the_library_s_and_so_are_their_files(served: Server, tu
     served.ask("old-move?patience=20", {"study": STUDY | {"within": 0.12}, "move": 0})
     moves = [served.ask("old-move?patience=20", {"study": study, "move": number}) for number in (0,)]
     for shown, gain, part in zip(moves, better.gains(table), better.moves, strict=True):
-        assert f"({100.0 * gain.share(2):+.1f} %)".replace("-", "−") in shown["cells"][1]
+        assert f"({100.0 * gain.share(2):+.1f} %)".replace("-", "−") in shown["gains"][1][2]
         assert max(map(abs, shown["curves"][1]["values"])) <= 0.1 * (1.0 + 1e-6)
         assert not isinstance(part.law, str)
         assert part.solution is not None
@@ -145,7 +145,7 @@ def test_a_dropped_table_is_shown_and_bettered_within_a_dragged_band(page: Page,
     wide = served.ask(
         "old-move?patience=20", {"study": {"file": "turn.csv", "text": STUDY["text"], "within": 0.2}, "move": 0}
     )
-    assert wide["cells"][1].split("(")[1] in page.locator("#old-gains").inner_text()
+    assert wide["gains"][1][2] in page.locator("#old-gains").inner_text()
     page.get_by_role("button", name="check this proof").click()
     # of windows of a formula `optlaws verify` alone knows the proof, and the page says so
     page.locator("#proof-verdict", has_text="partly checked old_cam.json").wait_for(timeout=30_000)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 from typing import TYPE_CHECKING
 
@@ -52,12 +53,29 @@ def test_numbers_are_shown_in_the_units_of_the_reader(page: Page, served: Server
     page.locator("#views [data-key=advice]").click()
     settle(page)
     assert "acceleration, in/s²" in " ".join(page.locator("#advice-table thead").inner_text().split())
-    advised = served.ask("advice", {"study": example()})["rows"][0]["cells"]
+    advised = served.ask("advice", {"study": example()})["rows"][0]["values"]
     cell = page.locator("#advice-table tbody tr >> nth=0 >> td >> nth=1").inner_text()
-    assert float(cell) == pytest.approx(1000.0 * float(advised[1]) / 25.4, rel=1e-4)
+    assert float(cell) == pytest.approx(1000.0 * advised[1] / 25.4, rel=1e-4)
     page.locator("#views [data-key=fastest]").click()
     settle(page)
     assert "velocity, in/s" in page.locator("#fastest-table").inner_text()
     page.locator("#views [data-key=old]").click()
     settle(page)
     assert "velocity, in/deg" in page.locator("#old-curves .title").all_text_contents()
+
+
+SHOWN = r"[−-]?\d+(?:\.\d+)? (?:mm(?:/s)?|m/s[²³]?|deg(?:/s)?|rpm)(?![\w/²³^·])"
+ALL_TEXTS = """() => [...document.querySelectorAll(".view:not([hidden]) > :not(aside)")].flatMap((root) => [
+  root.innerText, ...[...root.querySelectorAll("[aria-label], [title], [aria-valuetext]")].flatMap((one) =>
+    ["aria-label", "title", "aria-valuetext"].map((name) => one.getAttribute(name) ?? "")),
+  ...[...root.querySelectorAll("svg text, svg title")].map((one) => one.textContent),
+])"""
+
+
+@pytest.mark.parametrize("view", ["laws", "cycle", "axes", "cam", "machine", "fastest", "old", "advice"])
+def test_no_text_of_a_view_has_a_number_in_a_unit_that_the_reader_left(page: Page, served: Server, view: str) -> None:
+    units = json.dumps({"length": "in", "angle": "rad", "speed": "1/min"})
+    page.add_init_script(f"localStorage.setItem('optlaws-units', {units!r})")
+    go(page, served.link(view=view, laws=[OPTIMAL]))
+    settle(page)
+    assert [text for text in page.evaluate(ALL_TEXTS) if re.search(SHOWN, text)] == []

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from math import atan, degrees, inf, nextafter, tan
+from math import atan, inf, nextafter, tan
 from typing import Literal, TypeAlias
 
 from optlaws.cams.curves.motion_by_angle import CamMotion
+from optlaws.motion.quantities import in_degrees
 from optlaws.numerics.branch_and_bound import extremes
 from optlaws.numerics.peaks import is_kept
 from optlaws.numerics.taylor import Jet
+from optlaws.sentences import Amount, sentence
 from optlaws.tolerances import CAM_FEASIBILITY, EQUAL_EXTREMES, ROUNDOFF
 
 _CAM_EXTREMES = 1e-10  # pressure angles and radii of curvature
@@ -105,14 +107,14 @@ class Undercut:
 
     def __str__(self) -> str:
         if self.status == UNDERCUT:
-            return (
-                f"undercut at {degrees(self.margin.angle):.6g} deg: the radius of curvature of the profile would be "
-                f"{1e3 * self.margin.value:.6g} mm there: make the prime circle larger"
-                " or a roller smaller, or spread the motion over more of the turn"
-            )
+            return sentence(
+                "undercut at {}: the radius of curvature of the profile would be {} there: make the prime circle larger"
+                " or a roller smaller, or spread the motion over more of the turn",
+                in_degrees(self.margin.angle), Amount(1e3 * self.margin.value, "mm"),
+            )  # fmt: skip
         if self.status == UNDECIDED:
-            width = 1e3 * (self.margin.high - self.margin.low)
-            return f"undecided: the least radius of curvature is 0 to within {width:.3g} mm"
+            width = Amount(1e3 * (self.margin.high - self.margin.low), "mm", 3)
+            return sentence("undecided: the least radius of curvature is 0 to within {}", width)
         return "no undercut" + (", and the profile does not cross itself" if self.simple else ", locally")
 
 

@@ -19,6 +19,7 @@ from optlaws.motion.smooth_stretches import EnclosedStretch, jet_of_parts, smoot
 from optlaws.numbers import Array, Quantity, derivative, number_or_array, real_times
 from optlaws.numerics.interval import Interval, hull
 from optlaws.numerics.taylor import Jet
+from optlaws.sentences import sentence
 from optlaws.suggest import unknown_key
 from optlaws.tolerances import CLOSURE, ROUNDOFF, VALUE_ROUNDING
 
@@ -75,8 +76,11 @@ class CamMotion:
         size = max(abs(piece.stroke) for piece in pieces)
         if abs(moved) > CLOSURE * size:
             raise InputError(
-                f"motion: the cycle ends {in_small_units(moved, cycle.axis)} from where it starts, and a cam comes back"
-                " with every turn: end the cycle with a Return(), and give it no advance"
+                sentence(
+                    "motion: the cycle ends {} from where it starts, and a cam comes back with every turn: end the "
+                    "cycle with a Return(), and give it no advance",
+                    in_small_units(moved, cycle.axis),
+                )
             )
         return cls.of_pieces(pieces, cycle.duration, cycle.axis)
 

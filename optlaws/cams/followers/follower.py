@@ -15,6 +15,7 @@ from optlaws.cams.followers.contact import FollowerContact
 from optlaws.errors import InputError
 from optlaws.motion.quantities import positive_quantity, quantity
 from optlaws.numbers import Quantity
+from optlaws.sentences import Amount
 from optlaws.suggest import unknown_key
 
 
@@ -124,9 +125,9 @@ def stated_prime_radius(prime_radius: Any, base_radius: Any, follower: CamFollow
     )
 
 
-def shown(length: float) -> str:
+def shown(length: float) -> Amount:
     """A length in millimetres."""
-    return f"{1e3 * length:.9g} mm"
+    return Amount(1e3 * length, "mm", 9)
 
 
 def follower_kinds() -> dict[str, type[CamFollower]]:

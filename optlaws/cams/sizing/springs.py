@@ -17,12 +17,13 @@ from optlaws.echo import shortened
 from optlaws.errors import InfeasibleProblem, InputError
 from optlaws.kept import kept_property
 from optlaws.laws.storage import PlainNumbers
-from optlaws.motion.quantities import quantity
+from optlaws.motion.quantities import in_degrees, quantity
 from optlaws.numbers import Array, Quantity
 from optlaws.numerics.branch_and_bound import Extremes, Function, extremes_of_each
 from optlaws.numerics.integral import integral
 from optlaws.numerics.interval import Interval, chosen
 from optlaws.numerics.taylor import Jet, variable
+from optlaws.sentences import sentence
 from optlaws.suggest import unknown_key
 from optlaws.tolerances import BEFORE_BREAK, FORCE_EXTREMES, ROUNDOFF
 
@@ -381,9 +382,12 @@ def _refuse(task: _SpringTask, angles: Array, given: _KnownSpring) -> NoReturn:
     missing = task.least - np.asarray(task.without_spring(angles, 1.0).terms[0]) - (given.preload or 0.0)
     worst = int(np.argmax(np.where(task.displacement(angles) <= 0.0, missing, -np.inf)))
     raise InfeasibleProblem(
-        f"no stiffness keeps the follower on the cam: at {degrees(angles[worst]):.6g} deg of the cam, where the "
-        f"displacement is not above 0, {missing[worst]:.6g} N (or N m) are missing; give so much more preload"
-    )
+        sentence(
+            "no stiffness keeps the follower on the cam: at {} of the cam, where the displacement is not above 0, {} N "
+            "(or N m) are missing; give so much more preload",
+            in_degrees(angles[worst]), f"{missing[worst]:.6g}",
+        )
+    )  # fmt: skip
 
 
 def _strengthened(task: _SpringTask, given: _KnownSpring, best: tuple[float, float, float], force: Extremes) -> Spring:

@@ -9,6 +9,7 @@ from math import isfinite
 from optlaws.cycles.advising.advised_law import AdvisedLaw
 from optlaws.cycles.advising.candidates import Candidates, exceeded
 from optlaws.errors import InfeasibleProblem
+from optlaws.sentences import Amount, joined, sentence
 from optlaws.synthesis.status import Status
 from optlaws.tolerances import AGREEMENT, EQUALLY_GOOD
 
@@ -52,7 +53,7 @@ class Recommendation:
     sentences: tuple[str, str]
 
     def __str__(self) -> str:
-        return " ".join(self.sentences)
+        return joined(" ", self.sentences)
 
 
 def recommended(candidates: Candidates, front: Sequence[AdvisedLaw] = ()) -> Recommendation:
@@ -75,7 +76,9 @@ def recommended(candidates: Candidates, front: Sequence[AdvisedLaw] = ()) -> Rec
         name: value / usual.values[name] for name, value in law.values.items() if usual.values[name] > 0.0
     }  # fmt: skip
     gain = None if usual is None else 1.0 - changes.get(minimise, 1.0)
-    return Recommendation(law, usual, words.rule, gain, changes, (words.gain, f"{words.proof}; {words.costs}."))
+    return Recommendation(
+        law, usual, words.rule, gain, changes, (words.gain, sentence("{}; {}.", words.proof, words.costs))
+    )
 
 
 @dataclass(frozen=True)
@@ -106,18 +109,21 @@ class _Words:
         limits = ", and it keeps every limit" if law.limits else ""
         full = [taken for taken in law.limits if taken.text and taken.share >= 1.0 - _TELLING]
         if full:
-            limits += f" ({_listed([f'{taken.name} {taken.text}' for taken in full])} to the full)"
+            taken_to_full = _listed([sentence("{} {}", taken.name, taken.text) for taken in full])
+            limits = sentence("{} ({} to the full)", limits, taken_to_full)
         name = f'"{law.name}"' if law.kind == "optimal" else law.name
-        start = f"Take {name}: its {minimise} is {value}"
+        start = sentence("Take {}: its {} is {}", name, minimise, value)
         if usual is None:
-            return f"{start}{limits}."
+            return sentence("{}{}.", start, limits)
         if not usual.keeps_limits:
             standard = [each for each in self.candidates.laws.values() if each.kind != "optimal"]
-            return f"{start}{limits}; none of the {len(standard)} standard laws does: {_why_not(usual)}."
+            text = "{}{}; none of the {} standard laws does: {}."
+            return sentence(text, start, limits, len(standard), _why_not(usual))
         if law is usual:
-            return f"{start}{limits}, and no law that takes no more of anything is better{self._beyond}."
+            text = "{}{}, and no law that takes no more of anything is better{}."
+            return sentence(text, start, limits, self._beyond)
         share = 1.0 - law.values[minimise] / usual.values[minimise]
-        return f"{start}, {100.0 * share:.3g} % less than that of {usual.name}{limits}."
+        return sentence("{}, {} % less than that of {}{}.", start, f"{100.0 * share:.3g}", usual.name, limits)
 
     @property
     def _beyond(self) -> str:
@@ -146,12 +152,14 @@ class _Words:
         as_much = f" with no more {_listed(self.most, 'or')} than {usual.name}" if usual and self.most else ""
         above = value / bound - 1.0
         near = f" ({_percent(above / (1.0 + above))} less)" if above > _TELLING * EQUALLY_GOOD else ""
-        proven = f"none of the {known.proof.space}{as_much} has less than {self._with_unit(minimise, bound)}{near}"
+        least = sentence("{}{}", self._with_unit(minimise, bound), near)
+        proven = sentence("None of the {}{} has less than {}", known.proof.space, as_much, least)
         if known.proof.status is not Status.OPTIMAL:
-            proven = f"that none has less than {self._with_unit(minimise, bound)}{near}, is proven"
+            proven = sentence("That none has less than {}, is proven", least)
         if known.proof.limit:
-            proven += f", and none of any degree less than {self._with_unit(minimise, known.proof.limit)}"
-        return proven[0].upper() + proven[1:]
+            limit = self._with_unit(minimise, known.proof.limit)
+            proven = sentence("{}, and none of any degree less than {}", proven, limit)
+        return proven
 
     @property
     def _bettered(self) -> str:
@@ -164,7 +172,8 @@ class _Words:
         """The measures of which it takes more and less than the usual law."""
         usual = self.candidates.usual
         if usual is None or usual is self.law or not self.candidates.guarding:
-            return f"its {self.second} is {self._with_unit(self.second, self.law.values[self.second])}{self._exchange}"
+            value = self._with_unit(self.second, self.law.values[self.second])
+            return sentence("its {} is {}{}", self.second, value, self._exchange)
         changes = [*self._changes("more", 1.0), *self._changes("less", -1.0)]
         if not changes:
             return f"nothing else differs by 1 % from {usual.name}"
@@ -194,14 +203,14 @@ class _Words:
 
     def _with_unit(self, name: str, value: float) -> str:
         unit = next((measure.unit for measure in self.candidates.motion.measures if measure.name == name), "")
-        return f"{value:.5g} {unit}".strip() if isfinite(value) else "without bound"
+        return Amount(value, unit, 5) if isfinite(value) else "without bound"
 
 
 def _why_not(law: AdvisedLaw) -> str:
     taken = max(law.broken, key=lambda each: each.share)
     if not taken.text:
         return f"{law.name} is outside of the {taken.name}"
-    return f"{law.name} has {_percent(taken.share - 1.0)} more {taken.name} than {taken.text}"
+    return sentence("{} has {} more {} than {}", law.name, _percent(taken.share - 1.0), taken.name, taken.text)
 
 
 def _percent(share: float) -> str:
@@ -213,7 +222,7 @@ def _percent(share: float) -> str:
     return f"{100.0 * share:{'.0f' if share >= 1.0 else '.2g'}} %"
 
 
-def _listed(names: tuple[str, ...] | list[str], word: str = "and") -> str:
+def _listed(names: Sequence[str], word: str = "and") -> str:
     """Names in a sentence."""
     *first, last = names
-    return f"{', '.join(first)} {word} {last}" if first else last
+    return sentence("{} {} {}", joined(", ", first), word, last) if first else last

@@ -22,6 +22,7 @@ from optlaws.formulas.tree import Number
 from optlaws.laws import MotionLaw
 from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.motion.quantities import in_small_units
+from optlaws.sentences import sentence
 from optlaws.synthesis.problem.constants import Functional
 from optlaws.tolerances import AGREEMENT, DURATION_STEP, LEAST_SHARE, SAME_TIME
 
@@ -123,9 +124,12 @@ def driven_limits(
         if force > allowed_at_rest * (1.0 + AGREEMENT):
             taken, allowed = (in_units(FORCE, value, axis) for value in (force, allowed_at_rest))
             raise InfeasibleProblem(
-                f"{span.where}: at {in_small_units(position, axis)} the static load needs {taken}, so that no speed "
-                f"keeps {allowed}: allow more, or change the drive's spring, preload, gravity or friction"
-            )
+                sentence(
+                    "{}: at {} the static load needs {}, so that no speed keeps {}: allow more, or change the drive's "
+                    "spring, preload, gravity or friction",
+                    span.where, in_small_units(position, axis), taken, allowed,
+                )
+            )  # fmt: skip
     first = DrivenLimit(key, most, span, drive, stroke)
     return [replace(first, part=part) for part in range(len(first.driven(1.0).constants))]
 

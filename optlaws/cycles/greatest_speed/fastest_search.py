@@ -28,6 +28,7 @@ from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.motion.piece import Piece, factor
+from optlaws.sentences import sentence
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.proof.certificate import VIOLATION, Certificate
 from optlaws.synthesis.solution import Solution
@@ -294,9 +295,11 @@ class FastestSearch:
             row = next(row for row in rows if not isfinite(row.least_scale(piece.law)))
             limit = in_units(row.key, row.most, self.programme.axis)
             raise InfeasibleProblem(
-                f"{stretch.where}: its law jumps, so that no speed keeps {limit}: take a smoother law, or leave that "
-                "limit out"
-            )
+                sentence(
+                    "{}: its law jumps, so that no speed keeps {}: take a smoother law, or leave that limit out",
+                    stretch.where, limit,
+                )
+            )  # fmt: skip
         return TimedSpan((i,), stretch.where, piece.duration, least, span, given=True)
 
     def _of_span(self, span: LawSpan) -> TimedSpan:

@@ -15,6 +15,7 @@ from optlaws.files.reading import JsonText
 from optlaws.motion.piece import unit_of
 from optlaws.motion.quantities import TURN, in_small_units, quantity, written
 from optlaws.numbers import Array
+from optlaws.sentences import Amount, sentence
 from optlaws.suggest import unknown_key
 from optlaws.tolerances import CYCLE_ROUNDING, INTERLOCK, SAME_TIME
 
@@ -81,7 +82,8 @@ class LeastClearance:
         """The condition as text, in millimetres or degrees."""
         unit, small = SMALL_UNITS.get(self.unit, (self.unit, 1.0))
         early = "" if self.margin is None else f", {1e3 * self.margin:.6g} ms early"
-        return f"{round(small * self.clearance, 6) + 0.0:.6g} {unit} at {self.angle:.6g} deg{early}"
+        clearance = Amount(round(small * self.clearance, 6) + 0.0, unit)
+        return sentence("{} at {}{}", clearance, Amount(self.angle, "deg"), early)
 
 
 class Interlock(JsonText, ABC):
@@ -174,12 +176,14 @@ class Interlock(JsonText, ABC):
         far = not low - slack <= position <= high + slack
         free = [not isinstance(stretch.given, Move | Dwell) for stretch in cycle.programme.stretches]
         if far and not any(free):
-            ends = f"{in_small_units(low, cycle.axis)} to {in_small_units(high, cycle.axis)}"
-            raise InputError(f"interlock {self.label}: {axis} goes from {ends} and never passes {shown}")
+            ends = in_small_units(low, cycle.axis), in_small_units(high, cycle.axis)
+            text = "interlock {}: {} goes from {} to {} and never passes {}"
+            raise InputError(sentence(text, self.label, axis, *ends, shown))
         still = (joint for joint, before, after in zip(joints, [free[-1], *free], [*free, free[0]], strict=True)
                  if not before and not after)  # fmt: skip
         if not rest and any(abs(position - joint) <= slack for joint in still):
-            raise InputError(f"interlock {self.label}: {axis} rests at {shown}: name a position that it passes")
+            text = "interlock {}: {} rests at {}: name a position that it passes"
+            raise InputError(sentence(text, self.label, axis, shown))
         return position
 
     def _least(

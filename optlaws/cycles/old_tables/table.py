@@ -19,6 +19,7 @@ from optlaws.errors import InputError
 from optlaws.laws import MotionLaw
 from optlaws.laws.making.through_points import noise
 from optlaws.numbers import Array, Quantity, not_negative, numbers, positive
+from optlaws.sentences import Amount, sentence
 from optlaws.tolerances import AGREEMENT
 
 _NOISE_ROOM = 4.0  # of the standard deviation of a table's noise: points that are farther from a law speak against it
@@ -252,8 +253,9 @@ class OldTable:
     def law_in_words(self, part: Stretch) -> str:
         """The standard law of a move, or the nearest standard law, with the deviation of the points from it."""
         if isinstance(part.law, str):
-            return f"{part.law} (within {part.distance:.2g} {self.unit})"
-        return f"a law of its own; the nearest standard law is {part.nearest}, {part.distance:.2g} {self.unit} off"
+            return sentence("{} (within {})", part.law, Amount(part.distance, self.unit, 2))
+        distance = Amount(part.distance, self.unit, 2)
+        return sentence("a law of its own; the nearest standard law is {}, {} off", part.nearest, distance)
 
 
 def _places(pairs: Sequence[tuple[Stretch, Stretch]]) -> list[tuple[tuple[float, ...], tuple[float, ...]]]:

@@ -17,6 +17,7 @@ from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.mechanisms.drives.effort import size_of
 from optlaws.motion.piece import Piece
 from optlaws.motion.quantities import in_small_units
+from optlaws.sentences import Amount, sentence
 from optlaws.synthesis.solution import Solution
 from optlaws.tolerances import AGREEMENT
 
@@ -59,10 +60,13 @@ def check_limits_at_joints(layout: Layout, objective: CycleObjective, axis: str,
             if needed > most * (1.0 + AGREEMENT):
                 taken, allowed = (in_units(FORCE, force, axis) for force in (needed, most))
                 raise InfeasibleProblem(
-                    f"{edge.stretch.where}: at its {edge.name}, at {in_small_units(edge.position, axis)} and "
-                    f"{360.0 * edge.time / period:.6g} deg of the master, every law takes {taken}, but its limit is "
-                    f"{allowed}: allow more, or change the drive's spring, preload, gravity or friction"
-                )
+                    sentence(
+                        "{}: at its {}, at {} and {} of the master, every law takes {}, but its limit is {}: allow "
+                        "more, or change the drive's spring, preload, gravity or friction",
+                        edge.stretch.where, edge.name, in_small_units(edge.position, axis),
+                        Amount(360.0 * edge.time / period, "deg"), taken, allowed,
+                    )
+                )  # fmt: skip
 
 
 def _check_direction(span: LawSpan, objective: CycleObjective, axis: str) -> None:
@@ -110,10 +114,11 @@ def ties_broken(
         minimise="acceleration",
         limits={**objective.limits, nu: min(greatest, objective.limits.get(nu, greatest))},
     )
-    remark = (
-        f"the {objective.minimise} is greatest at {360.0 * time / period:.6g} deg of the master, where no law changes "
-        "it: of the laws that take no more elsewhere, those of least acceleration"
-    )
+    remark = sentence(
+        "the {} is greatest at {} of the master, where no law changes it: of the laws that take no more elsewhere, "
+        "those of least acceleration",
+        objective.minimise, Amount(360.0 * time / period, "deg"),
+    )  # fmt: skip
     return tuple(_calmer(span, calm, axis, law) for span, law in zip(layout.spans, laws, strict=True)), (remark,)
 
 

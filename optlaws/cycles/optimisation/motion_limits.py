@@ -13,6 +13,7 @@ from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.motion.piece import unit_of
 from optlaws.motion.quantities import in_small_units, positive_quantity, quantity, table
+from optlaws.sentences import Amount, sentence
 from optlaws.suggest import unknown_key
 
 FORCE, POWER, CURVE = -1, -3, -6
@@ -207,10 +208,10 @@ def in_units(key: LimitKey, value: float, axis: str) -> str:
     >>> in_units(1, 0.616, "length"), in_units(FORCE, 120.0, "length"), in_units(3, 900.0, "angle")
     ('the velocity 616 mm/s', 'the force 120 N', 'the jerk 900 rad/s^3')
     """
-    return f"the {name_of(key, axis)} {amount(key, value, axis)}"
+    return sentence("the {} {}", name_of(key, axis), amount(key, value, axis))
 
 
-def amount(key: LimitKey, value: float, axis: str) -> str:
+def amount(key: LimitKey, value: float, axis: str) -> Amount:
     """The value of a limit with its unit; of the least value of a derivative with its sign.
 
     >>> amount(OneSided(2, -1.0, "acceleration"), 8.0, "length"), amount(-3, 500.0, "length")
@@ -219,7 +220,7 @@ def amount(key: LimitKey, value: float, axis: str) -> str:
     nu = key if isinstance(key, int) else key.nu
     signed = value * key.sign if isinstance(key, OneSided) and key.name not in _ALONG else value
     if nu == 1:
-        return f"{in_small_units(signed, axis)}/s"
+        return in_small_units(signed, axis, "/s")
     if nu in {POWER, CURVE}:
-        return f"{signed:.6g}{' W' if nu == POWER else ''}"
-    return f"{signed:.6g} {('N' if axis == 'length' else 'N m') if nu == FORCE else f'{unit_of(axis)}/s^{nu}'}"
+        return Amount(signed, "W" if nu == POWER else "")
+    return Amount(signed, ("N" if axis == "length" else "N m") if nu == FORCE else f"{unit_of(axis)}/s^{nu}")

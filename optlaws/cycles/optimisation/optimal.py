@@ -43,6 +43,7 @@ from optlaws.cycles.specification.programme import is_optimal
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.motion.piece import Piece, factor
 from optlaws.motion.quantities import in_small_units
+from optlaws.sentences import sentence
 from optlaws.synthesis.functionals.makers import integral, peak
 from optlaws.synthesis.limits.drive_limits import limit_beside
 from optlaws.synthesis.problem.constants import FUNCTIONALS, Functional
@@ -148,11 +149,19 @@ def with_least_limit(
             proven = _whatever_degree(replace(problem, minimise=limited.objective), limited) if key in _DRIVEN else None
             beyond = ""
             if proven is not None and proven > limit.high:
-                beyond = "; no law that never turns back, of whatever degree, takes less than "
-                beyond += in_units(key, proven / limit.high * most, axis)
+                greater = in_units(key, proven / limit.high * most, axis)
+                beyond = sentence("; no law that never turns back, of whatever degree, takes less than {}", greater)
             return InfeasibleProblem(
-                f"{span.where}: no law keeps its limits in {span.duration:.9g} s: among {space} the least is {needed}, "
-                f"but its limit is {allowed}{beyond}: give it more time, a wider limit or a higher degree",
+                sentence(
+                    "{}: no law keeps its limits in {} s: among {} the least is {}, but its limit is {}{}: give it "
+                    "more time, a wider limit or a higher degree",
+                    span.where,
+                    f"{span.duration:.9g}",
+                    space,
+                    needed,
+                    allowed,
+                    beyond,
+                ),
                 problem=problem,
                 tried=error.tried,
                 proof=error.proof,
@@ -375,10 +384,13 @@ def _check_mean(span: LawSpan, objective: CycleObjective, axis: str) -> None:
         most, mean = greatest(limits, 1, _sign(stretch.displacement)), abs(stretch.displacement) / (stop - start)
         if mean >= most:
             raise InfeasibleProblem(
-                f"{stretch.where}: {in_small_units(abs(stretch.displacement), axis)} in {stop - start:.9g} s are "
-                f"{in_small_units(mean, axis)}/s on average, but its velocity is to be at most "
-                f"{in_small_units(most, axis)}/s: give it more time or a wider limit"
-            )
+                sentence(
+                    "{}: {} in {} s are {} on average, but its velocity is to be at most {}: give it more time or a "
+                    "wider limit",
+                    stretch.where, in_small_units(abs(stretch.displacement), axis), f"{stop - start:.9g}",
+                    in_small_units(mean, axis, "/s"), in_small_units(most, axis, "/s"),
+                )
+            )  # fmt: skip
 
 
 def _unit(span: LawSpan, stroke: float, nu: int) -> float:

@@ -14,6 +14,7 @@ from optlaws.errors import InputError
 from optlaws.laws import smoothstep
 from optlaws.motion.piece import Piece, named_law
 from optlaws.motion.quantities import in_small_units, quantity
+from optlaws.sentences import sentence
 from optlaws.tolerances import CLOSURE
 
 UNIFORM = smoothstep(1)
@@ -149,13 +150,16 @@ def _check_velocities(programme: Programme, before: int, after: int, ended: Stat
         return
     first, second = programme.stretches[before], programme.stretches[after]
     velocities = (ended.velocity, begun.velocity)
-    shown = [f"{in_small_units(v, programme.axis)}/s" for v in (*velocities, begun.velocity - ended.velocity)]
+    shown = [in_small_units(v, programme.axis, "/s") for v in (*velocities, begun.velocity - ended.velocity)]
     meant = second if not isinstance(second.given, Dwell | ConstantVelocity) else first
     raise InputError(
-        f"{first.where} ends with {shown[0]} and {second.where} starts with {shown[1]}, a jump of {shown[2]}: put a "
-        f"motion between them, or give {meant.where} law='optimal', which takes the velocities of its neighbours"
-        f"{_meeting(programme, (first, second), velocities)}"
-    )
+        sentence(
+            "{} ends with {} and {} starts with {}, a jump of {}: put a motion between them, or give {} law='optimal', "
+            "which takes the velocities of its neighbours{}",
+            first.where, shown[0], second.where, shown[1], shown[2], meant.where,
+            _meeting(programme, (first, second), velocities),
+        )
+    )  # fmt: skip
 
 
 def _meeting(
@@ -165,7 +169,7 @@ def _meeting(
     for stretch, velocity, other in zip(reversed(stretches), reversed(velocities), velocities, strict=True):
         if isinstance(stretch.given, Move) and not is_optimal(stretch.given) and velocity * other > 0.0:
             stroke = in_small_units(abs(stretch.displacement * other / velocity), programme.axis)
-            return f"; moving by {stroke} in the same time, {stretch.where} would meet its neighbour"
+            return sentence("; moving by {} in the same time, {} would meet its neighbour", stroke, stretch.where)
     return ""
 
 

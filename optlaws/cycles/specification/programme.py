@@ -20,6 +20,7 @@ from optlaws.cycles.specification.segments import (
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.motion.quantities import TURN, check_scale, either, in_small_units, positive_quantity, quantity
+from optlaws.sentences import Amount, sentence
 from optlaws.tolerances import CLOSURE, SAME_TIME
 
 #: dimensions of the derivatives of a position, for slides and for tables
@@ -117,10 +118,13 @@ def _durations(segments: Sequence[CycleSegment], period: float) -> list[tuple[fl
         total = low if low > period else high
         share = 360.0 * total / period
         raise InputError(
-            f"the durations sum to {share:.9g} deg ({total:.9g} s), not to 360 deg ({period:.9g} s): "
-            f"{'shorten' if total > period else 'lengthen'} segments by {abs(share - 360.0):.9g} deg in all, "
-            "or leave out the duration of one of them: it then has the rest of the time"
-        )
+            sentence(
+                "the durations sum to {} ({} s), not to {} ({} s): {} segments by {} in all, or leave out the duration "
+                "of one of them: it then has the rest of the time",
+                Amount(share, "deg", 9), f"{total:.9g}", Amount(360.0, "deg"), f"{period:.9g}",
+                "shorten" if total > period else "lengthen", Amount(abs(share - 360.0), "deg", 9),
+            )
+        )  # fmt: skip
     if len(free) == 1:
         left = period - (low - bounds[free[0]][0])
         if left <= CLOSURE * period:
@@ -187,10 +191,12 @@ def _check_closed(moved: float, forward: float, stretches: Sequence[TimedSegment
         return
     shown, due = (in_small_units(angle, axis) for angle in (moved, forward))
     raise InputError(
-        f"the positions do not close: the cycle ends {shown} from its start, not {due}: change a displacement by "
-        f"{in_small_units(forward - moved, axis)}, end with Return(duration=...), or give advance={shown!r} if each"
-        " cycle goes on from there"
-    )
+        sentence(
+            "the positions do not close: the cycle ends {} from its start, not {}: change a displacement by {}, end "
+            "with Return(duration=...), or give advance={} if each cycle goes on from there",
+            shown, due, in_small_units(forward - moved, axis), repr(str(shown)),
+        )
+    )  # fmt: skip
 
 
 def is_optimal(segment: CycleSegment) -> bool:

@@ -12,7 +12,7 @@ export function curvesOf(views, active) {
     name: `${name} ${letter}`,
     symbol: letter,
     series: drawn.map(({ view, law }) => ({ at: view.curves.k, values: view.curves[letter], law, name: view.title })),
-    peaks: (own?.peaks?.[letter] ?? []).map(({ k, value, text }) => ({ at: k, value, text })),
+    peaks: (own?.peaks?.[letter] ?? []).map(({ k, value }) => ({ at: k, value })),
     span: letter === "a" ? [0, 1] : null,
     note: letter === "j" && unbounded ? "without bound: c jumps" : "",
   }));

@@ -3,6 +3,7 @@
 import { ticks } from "./axes.js";
 import { Mechanism } from "./mechanism.js";
 import { html, path, sized, svg } from "./svg.js";
+import { number, written } from "./units.js";
 
 const ROOM = 26;
 const SCALE = 90; // pixels that the bar of the scale is at most long
@@ -69,7 +70,8 @@ export class Linkage {
   #told() {
     const { name, ends, axis, kind } = this.#shown;
     const scale = kind === "table" || kind === "screw" ? "as a sketch" : "to scale";
-    return `The ${name}, drawn ${scale}; its input goes from ${ends[0]} to ${ends[1]} ${axis === "angle" ? "deg" : "mm"}`;
+    const unit = axis === "angle" ? "deg" : "mm";
+    return `The ${name}, drawn ${scale}; its input goes from ${number(ends[0], unit)} to ${written({ value: ends[1], unit, digits: 6 })}`;
   }
 
   /** The least and greatest x and y of all that moves, in mm; the size of a table is of no meaning. */
@@ -88,7 +90,7 @@ export class Linkage {
   #bar(factor, width, height) {
     const length = ticks(0, SCALE / factor, 2).at(-1);
     const [x, y] = [width - 14, height - 12];
-    return [svg("path", { class: "scale-bar", d: `M${x - factor * length} ${y - 4}v4H${x}v-4` }), svg("text", { x: x - factor * length - 6, y: y + 1, "text-anchor": "end", text: `${length} mm` })];
+    return [svg("path", { class: "scale-bar", d: `M${x - factor * length} ${y - 4}v4H${x}v-4` }), svg("text", { x: x - factor * length - 6, y: y + 1, "text-anchor": "end", text: written({ value: length, unit: "mm", digits: 4 }) })];
   }
 
   #parts() {

@@ -3,7 +3,6 @@
 import { Details, begun, keep } from "./document.js";
 import { Exporting } from "./exporting.js";
 import { tabs } from "./fields.js";
-import { watchUnits } from "./units.js";
 import { during, observe } from "./latest.js";
 import { Opening } from "./opening.js";
 import { reporting } from "./report.js";
@@ -88,7 +87,6 @@ function rootOf(name) {
 async function begin() {
   const { view } = read(location.hash);
   if (Object.hasOwn(VIEWS, view)) VIEWS[view].load().catch(() => {}); // on its way while the start is
-  watchUnits();
   const start = await fetch("api/start").then((response) => response.json());
   const { state, examples, formats, names } = start;
   document.body.append(html("datalist", { id: "names" }, ...names.map((name) => html("option", { value: name }))));

@@ -3,12 +3,14 @@
 
 import { label } from "./axes.js";
 import { path, sized, svg } from "./svg.js";
+import { written } from "./units.js";
 
 const ROOM = 1.12;
 const LETTER = 6.4; // pixels of a letter
 const CIRCLES = { "prime circle": -50, "base circle": -130 }; // where each is named, degrees
 const LONGEST = 0.4; // of the cam's size, the arrow of the greatest force
 const LINE = 14;
+const sizeOf = (value) => written({ value, unit: "mm", digits: 6 });
 
 export class Mechanism {
   #root;
@@ -53,9 +55,9 @@ export class Mechanism {
     this.#cam.setAttribute("transform", `rotate(${this.#shown.turning * angle})`);
     this.#follower.replaceChildren(...this.#parts());
     this.#written.replaceChildren(...this.#dimensions(), ...this.#arrow());
-    const sizes = this.#shown.dimensions.map(({ name, text }) => `${name} ${text}`);
+    const sizes = this.#shown.dimensions.map(({ name, value }) => `${name} ${sizeOf(value)}`);
     const force = this.#forceHere;
-    this.#drawing.setAttribute("aria-label", `The cam and its follower at ${label(Math.round(angle))} deg: ${[...sizes, ...(force === null ? [] : [`contact force ${label(force)} N`])].join(", ")}`);
+    this.#drawing.setAttribute("aria-label", `The cam and its follower at ${written({ value: Math.round(angle), unit: "deg", digits: 6 })}: ${[...sizes, ...(force === null ? [] : [`contact force ${label(force)} N`])].join(", ")}`);
   }
 
   get #step() {
@@ -72,11 +74,11 @@ export class Mechanism {
     const { dimensions } = this.#shown;
     const [x, y] = this.#place([0, 0]);
     const [width] = this.#size();
-    const circles = dimensions.filter(({ name }) => name in CIRCLES).flatMap(({ name, value, text }) => {
+    const circles = dimensions.filter(({ name }) => name in CIRCLES).flatMap(({ name, value }) => {
       const way = (CIRCLES[name] * Math.PI) / 180;
       const at = this.#place([value * Math.cos(way), value * Math.sin(way)]);
       const end = at[0] > x ? "start" : "end";
-      const said = `${name} R ${text}`;
+      const said = `${name} R ${sizeOf(value)}`;
       const room = LETTER * said.length; // its text stays in the picture
       const far = [at[0] + (end === "start" ? 22 : -22), at[1] + 26];
       return [
@@ -85,7 +87,7 @@ export class Mechanism {
         svg("text", { x: end === "start" ? Math.min(far[0] + 4, width - room) : Math.max(far[0] - 4, room), y: far[1] + 4, "text-anchor": end, text: said }),
       ];
     });
-    const others = dimensions.filter(({ name }) => !(name in CIRCLES)).map(({ name, text }, i) => svg("text", { x: 4, y: 14 + LINE * i, text: `${name} ${text}` }));
+    const others = dimensions.filter(({ name }) => !(name in CIRCLES)).map(({ name, value }, i) => svg("text", { x: 4, y: 14 + LINE * i, text: `${name} ${sizeOf(value)}` }));
     return [...circles, ...others];
   }
 

@@ -3,6 +3,7 @@
 import { frame, label, scale, ticks } from "./axes.js";
 import { peakMarks } from "./peak_marks.js";
 import { path, svg } from "./svg.js";
+import { number } from "./units.js";
 
 export const BOX = { left: 64, right: 14, top: 20, bottom: 6 };
 export const FOOT = 34;
@@ -148,12 +149,12 @@ function between({ at, values }, place) {
 /** A picture in words: what it shows, its peaks with their places, and its limits. */
 function told(panel, across) {
   const series = seriesOf(panel);
-  const peaks = (panel.peaks ?? []).map((peak) => `${peak.text} at ${label(peak.at)}`);
+  const peaks = (panel.peaks ?? []).map((peak) => `${peak.text ?? number(peak.value)} at ${label(peak.at)}`);
   const values = peaks.length ? [] : series.flatMap((one) => one.values).filter((value) => value !== null);
   // what is drawn is no value: between two of its places the curve may be higher
   const about = (value) => label(Number(value.toPrecision(2)));
   const drawn = values.length ? [`drawn from about ${about(Math.min(...values))} to about ${about(Math.max(...values))}`] : [];
-  const range = panel.ends ? [`from ${panel.ends[0]} to ${panel.ends[1]}`] : drawn;
+  const range = panel.ends ? [`from ${panel.ends.map((end) => number(end)).join(" to ")}`] : drawn;
   const limits = [...new Set((panel.limits ?? []).map((limit) => edges(limit).filter(Number.isFinite).map(label).join(" to ")))].filter(Boolean);
   const words = [...peaks, ...range, ...(limits.length ? [`within ${limits.join("; ")}`] : [])];
   if (!series.length) return `${titled(panel)}: nothing to draw`;

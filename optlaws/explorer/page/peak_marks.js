@@ -1,6 +1,7 @@
 // Peaks on curves with their values: what is written never lies over another, nor outside its picture.
 
 import { svg } from "./svg.js";
+import { number } from "./units.js";
 
 const LETTER = 6.4;
 const HIGH = 12;
@@ -15,12 +16,13 @@ export function peakMarks(peaks, place, box, law) {
     const at = place(peak);
     if (at[0] < box.left - 0.5 || at[0] > box.right + 0.5 || circles.some(([x, y]) => Math.hypot(x - at[0], y - at[1]) < NEAR)) continue;
     circles.push(at);
-    const space = spaces(at, LETTER * peak.text.length, peak.value > 0).map((one) => within(one, box)).find((one) => one && !taken.some((other) => overlap(one, other)));
+    const text = peak.text ?? number(peak.value);
+    const space = spaces(at, LETTER * text.length, peak.value > 0).map((one) => within(one, box)).find((one) => one && !taken.some((other) => overlap(one, other)));
     const mark = svg("g", { class: `peak law-${law}` }, svg("circle", { cx: at[0].toFixed(1), cy: at[1].toFixed(1), r: 3 }));
     if (space) {
       taken.push(space);
-      mark.append(svg("text", { x: space.left.toFixed(1), y: (space.bottom - 2).toFixed(1), text: peak.text }));
-    } else mark.append(svg("title", { text: peak.text }));
+      mark.append(svg("text", { x: space.left.toFixed(1), y: (space.bottom - 2).toFixed(1), text }));
+    } else mark.append(svg("title", { text }));
     marks.push(mark);
   }
   return marks;

@@ -3,7 +3,7 @@
 import { frame, scale, ticks } from "./axes.js";
 import { html, path, renew, sized, svg } from "./svg.js";
 import { valueAt } from "./timing.js";
-import { shownUnit } from "./units.js";
+import { headed, shownUnit, written } from "./units.js";
 
 const BOX = { left: 66, right: 16, top: 12, bottom: 40 };
 
@@ -68,7 +68,7 @@ export class Positions {
     this.#svg.setAttribute("aria-label", this.#words());
     renew(
       this.#svg,
-      frame(box, scale(read[0], [box.left, box.right]), scale(read[1], [box.bottom, box.top]), { xs: ticks(...read[0], 6), ys: ticks(...read[1], 5), xname: `${axes[0]}, ${shown[0].unit}`, yname: `${axes[1]}, ${shown[1].unit}` }),
+      frame(box, scale(read[0], [box.left, box.right]), scale(read[1], [box.bottom, box.top]), { xs: ticks(...read[0], 6), ys: ticks(...read[1], 5), xname: headed(axes[0], units[0]), yname: headed(axes[1], units[1]) }),
       ...regions.map((region) => this.#region(region, x, y)),
       svg("path", { class: "line law-0 active", d: path(across.map((value, i) => [x(value), y(up[i])])) }),
       ...regions.filter(({ free }) => free).flatMap((region) => region.corners.map((corner, i) => this.#corner(region, i, corner, x, y))),
@@ -81,7 +81,7 @@ export class Positions {
 
   #words() {
     const { axes, regions } = this.#plane;
-    const told = regions.map(({ rule, name }) => (this.#nearest[rule] ? `${name}: ${this.#nearest[rule].status}, ${this.#nearest[rule].cells[0]} at ${this.#nearest[rule].cells[2]} degrees` : name));
+    const told = regions.map(({ rule, name }) => (this.#nearest[rule] ? `${name}: ${this.#nearest[rule].status}, ${written(this.#nearest[rule].cells[0])} at ${this.#nearest[rule].cells[2]} degrees` : name));
     return `The path in the plane of ${axes.join(" and ")}. ${told.join("; ")}`;
   }
 
@@ -97,7 +97,7 @@ export class Positions {
     if (!least) return null;
     const at = this.#place(least.at);
     const { corners, free } = regions.find((one) => one.rule === rule);
-    const text = `${least.name}: ${least.cells[0]}`;
+    const text = `${least.name}: ${written(least.cells[0])}`;
     const end = at[0] > (box.left + box.right) / 2;
     const line = free && least.status !== "broken" ? svg("path", { class: "shaft-of-arrow", d: path([at, nearest(corners.map(([across, up]) => [x(across), y(up)]), at)]) }) : null;
     return svg("g", { class: `interlock ${least.status}` }, line, svg("circle", { cx: at[0], cy: at[1], r: 4.5 }), svg("text", { class: "tip", x: at[0] + (end ? -9 : 9), y: at[1] - 8 < box.top + 12 ? at[1] + 18 : at[1] - 8, "text-anchor": end ? "end" : "start", text }));

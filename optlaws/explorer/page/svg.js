@@ -1,13 +1,15 @@
 // Elements of the page and of its pictures.
 
+import { written } from "./units.js";
+
 const SVG = "http://www.w3.org/2000/svg";
 
 function fill(element, attributes, children) {
   for (const [name, value] of Object.entries(attributes)) {
     if (value === undefined || value === null || value === false) continue;
     if (name.startsWith("on")) element.addEventListener(name.slice(2), value);
-    else if (name === "text") element.textContent = value;
-    else element.setAttribute(name, value === true ? "" : value);
+    else if (name === "text") element.textContent = written(value);
+    else element.setAttribute(name, value === true ? "" : written(value));
   }
   element.append(...children.filter((child) => child !== null && child !== undefined));
   return element;

@@ -4,7 +4,7 @@ import { html } from "./svg.js";
 
 const NAMES = ["B", "C", "D", "J", "rms_c"];
 
-/** `machine` are rows of the active law in the units of a machine: {name, cells} with a text for each constant. */
+/** `machine` are rows of the active law in the units of a machine: {name, cells} with a quantity for each constant. */
 export function showTable(root, views, active, machine = []) {
   const least = Object.fromEntries(NAMES.map((name) => [name, leastOf(views, name)]));
   const head = html("tr", {}, html("th", { scope: "col", text: "law" }), ...NAMES.map((name) => html("th", { scope: "col", class: "number", text: name === "rms_c" ? "rms c" : name })));

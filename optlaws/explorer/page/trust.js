@@ -2,6 +2,7 @@
 // proof" is an event of its own, which the page answers.
 
 import { html, renew } from "./svg.js";
+import { listed, written } from "./units.js";
 
 export function showTrust(root, view, ways, go) {
   root.classList.toggle("none", Boolean(view?.refused));
@@ -17,8 +18,8 @@ export function showTrust(root, view, ways, go) {
 
 function trust({ status, word, advice, gap, facts, proof }) {
   return [
-    html("p", {}, html("strong", { class: `word ${status}`, text: word }), ` ${advice} `, html("span", { class: "quiet", text: gap })),
-    html("p", { class: "facts", text: facts.join(" · ") }),
+    html("p", {}, html("strong", { class: `word ${status}`, text: word }), ` ${written(advice)} `, html("span", { class: "quiet", text: gap })),
+    html("p", { class: "facts", text: listed(facts) }),
     proof ? checking() : null,
   ].filter(Boolean);
 }
@@ -29,7 +30,7 @@ export function checking() {
 }
 
 function refusal({ word, reason, tried }, ways, go) {
-  const found = [html("p", { class: "reason", title: tried }, html("strong", { class: "word refused", text: word }), ` ${reason}`)];
+  const found = [html("p", { class: "reason", title: tried }, html("strong", { class: "word refused", text: word }), ` ${written(reason)}`)];
   if (ways === null) found.push(html("p", { class: "quiet", text: "looking for the nearest problem that has a law …" }));
   else if (ways.length) {
     const buttons = ways.map((way) => html("button", { type: "button", "data-entry": way.entry, "data-value": way.value, text: way.text, onclick: () => go(way) }));

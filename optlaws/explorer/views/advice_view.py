@@ -19,7 +19,7 @@ from optlaws.cycles.specification.segments import OPTIMAL, Move
 from optlaws.errors import OptlawsError
 from optlaws.explorer.views import cycle_view
 from optlaws.explorer.views.cycle_view import CycleRequest
-from optlaws.explorer.views.law_view import digits, drawn, refusal
+from optlaws.explorer.views.law_view import drawn, refusal
 from optlaws.explorer.views.picture_points import refined
 from optlaws.explorer.views.requests import Question
 from optlaws.motion.quantities import QUANTITIES
@@ -29,7 +29,6 @@ from optlaws.plots.cycle import UNITS, samples
 _POINTS = 6
 _EACH = 60
 _MILLI = 1e3
-_DIGITS = 5
 
 ShortText = Annotated[str, msgspec.Meta(max_length=40)]
 
@@ -113,9 +112,8 @@ def _copy(candidates: Candidates) -> Candidates:
 def _side_by_side(
     cycle: Cycle, candidates: Candidates, drawn_laws: Sequence[AdvisedLaw | None], front: Sequence[AdvisedLaw]
 ) -> dict[str, Any]:
-    headings = [measure.heading for measure in candidates.motion.measures]
     return {
-        "headings": [*headings, "limits", "proof"],
+        "measures": [{"name": measure.name, "unit": measure.unit} for measure in candidates.motion.measures],
         "rows": [_row(cycle, candidates, law) for law in candidates.laws.values()],
         "picture": _picture(candidates, front),
         "curves": _curves([law for law in drawn_laws if law is not None]),
@@ -127,7 +125,7 @@ def _row(cycle: Cycle, candidates: Candidates, law: AdvisedLaw) -> dict[str, Any
     return {
         "name": law.name,
         "kind": law.kind,
-        "cells": [digits(law.values[measure.name], _DIGITS) for measure in measures],
+        "values": [bounded(law.values[measure.name]) for measure in measures],
         "limits": limits_in_words(law),
         "proof": proof_in_words(law),
         "take": _entries(cycle, law, vibrates=any(measure.name.startswith("residual") for measure in measures)),

@@ -30,6 +30,7 @@ from optlaws.jobs.cycle_entries import CycleProblemFile, overlap_of
 from optlaws.numbers import Array
 from optlaws.plots.cycle import UNITS
 from optlaws.plots.interlocks import forbidden_region, passed_and_level, plane_axes
+from optlaws.sentences import Amount, joined, sentence
 
 _TURN = 360.0
 _PLACES = 241
@@ -262,8 +263,8 @@ def _clearance(least: LeastClearance) -> dict[str, Any]:
     }
 
 
-def _with_unit(value: float, unit: str) -> str:
-    return f"{digits(_read_of(value), 6)} {unit}"
+def _with_unit(value: float, unit: str) -> Amount:
+    return Amount(_read_of(value), unit)
 
 
 def _read_of(value: float) -> float:
@@ -272,9 +273,9 @@ def _read_of(value: float) -> float:
 
 
 def _trust(axes: Axes) -> dict[str, Any]:
-    facts = [f"{least.interlock.label}: {least.text}" for least in axes.clearances]
+    facts = [sentence("{}: {}", least.interlock.label, least.text) for least in axes.clearances]
     facts += [
-        f"{name}: least {cycle.minimise} for its times, {TITLES[cycle.status]}"
+        sentence("{}: least {} for its times, {}", name, cycle.minimise, TITLES[cycle.status])
         for name, cycle in axes.items()
         if cycle.solutions
     ]
@@ -284,11 +285,13 @@ def _trust(axes: Axes) -> dict[str, Any]:
     if not axes.rules:
         status, word, advice = "given", "no interlocks", "Nothing is asked of two axes at a time."
     limits = [
-        f"{name}: {broken['advice']}" for name, cycle in axes.items() if (broken := cycle_view.broken_limits(cycle))
+        sentence("{}: {}", name, broken["advice"])
+        for name, cycle in axes.items()
+        if (broken := cycle_view.broken_limits(cycle))
     ]
     if limits:
         status, word = "refused", "beyond a limit" if worst == "clear" else f"{word}, beyond a limit"
-    text = " ".join([f"{advice}{named}{'.' if named else ''}", *limits])
+    text = joined(" ", [f"{advice}{named}{'.' if named else ''}", *limits])
     proof = any(cycle.solutions for cycle in axes.values())
     return {"status": status, "word": word, "advice": text, "gap": "", "facts": facts, "proof": proof}
 

@@ -28,6 +28,7 @@ from optlaws.jobs.cam_findings import FORCE, STIFFNESS, Findings
 from optlaws.motion.quantities import quantity
 from optlaws.numbers import Array
 from optlaws.numerics.branch_and_bound import Extremes
+from optlaws.sentences import Amount, Sentence, joined, sentence
 from optlaws.tolerances import FORCE_ROUNDING
 
 _MILLI = 1e3
@@ -124,7 +125,7 @@ def _follower(cam: DiscCam) -> dict[str, Any]:
 
 
 def _dimensions(spec: CamProblemFile, cam: DiscCam) -> list[dict[str, Any]]:
-    """Circles of the drawing and lengths of the follower, mm, each with its text."""
+    """Circles of the drawing and lengths of the follower, mm."""
     prime = quantity(cam.prime_radius, "length", "prime_radius")
     lengths = {"prime circle": prime, "base circle": cam.base_radius} if cam.contact.roller else {"base circle": prime}
     lengths |= {"roller": cam.contact.roller} if cam.contact.roller else {}
@@ -136,10 +137,7 @@ def _dimensions(spec: CamProblemFile, cam: DiscCam) -> list[dict[str, Any]]:
         given = getattr(cam.follower, name, None)
         if given is not None and quantity(given, "length", name):
             lengths[name.replace("_", " ")] = quantity(given, "length", name)
-    return [
-        {"name": name, "value": _MILLI * length, "text": f"{digits(_MILLI * length, 6)} mm"}
-        for name, length in lengths.items()
-    ]
+    return [{"name": name, "value": _MILLI * length} for name, length in lengths.items()]
 
 
 def _panels(spec: CamProblemFile, cam: DiscCam, angles: Array) -> list[dict[str, Any]]:
@@ -177,7 +175,7 @@ def _mark(extreme: EnclosedExtreme, factor: float, signed_by: DiscCam | None = N
     value = extreme.value
     if signed_by is not None:
         value = float(np.copysign(value, signed_by.pressure_angle(extreme.angle)))
-    return {"at": round(degrees(extreme.angle), 4), "value": value * factor, "text": digits(value * factor, 6)}
+    return {"at": round(degrees(extreme.angle), 4), "value": value * factor}
 
 
 def _trust(cam: DiscCam) -> dict[str, Any]:
@@ -185,15 +183,15 @@ def _trust(cam: DiscCam) -> dict[str, Any]:
     extremes = cam.extremes
     word, status = _TITLES[extremes.undercut.status]
     facts = [
-        f"greatest pressure angle {_located(extremes.greatest_pressure_angle, degrees(1.0), 'deg')}",
-        f"least radius of curvature {_located(extremes.least_convex_radius, _MILLI, 'mm')}",
+        sentence("greatest pressure angle {}", _located(extremes.greatest_pressure_angle, degrees(1.0), "deg")),
+        sentence("least radius of curvature {}", _located(extremes.least_convex_radius, _MILLI, "mm")),
     ]
     if extremes.least_concave_radius is not None:
-        facts.append(
-            f"hollow with a radius of {_located(extremes.least_concave_radius, _MILLI, 'mm')}: a cutter must be smaller"
-        )
-    text = str(extremes.undercut)
-    return {"status": status, "word": word, "advice": f"{text[0].upper()}{text[1:]}.", "gap": "", "facts": facts}
+        hollow = _located(extremes.least_concave_radius, _MILLI, "mm")
+        facts.append(sentence("hollow with a radius of {}: a cutter must be smaller", hollow))
+    first, *rest = sentence("{}.", extremes.undercut).parts
+    advice = Sentence(first[0].upper() + first[1:], *rest)
+    return {"status": status, "word": word, "advice": advice, "gap": "", "facts": facts}
 
 
 def _broken_limits(spec: CamProblemFile, cam: DiscCam) -> dict[str, str]:
@@ -202,21 +200,23 @@ def _broken_limits(spec: CamProblemFile, cam: DiscCam) -> dict[str, str]:
     pressure, radius = extremes.greatest_pressure_angle.value, extremes.least_convex_radius.value
     steepest, least = _steepest(spec), spec.radius_of_curvature
     if steepest is not None and not extremes.keeps_pressure_angle(steepest):
-        broken.append(f"the pressure angle, {digits(degrees(pressure), 5)} deg of {spec.pressure_angle}")
+        taken = Amount(degrees(pressure), "deg", 5)
+        broken.append(sentence("the pressure angle, {} of {}", taken, spec.pressure_angle))
     if least is not None and not extremes.keeps_radius(quantity(least, "length", "radius_of_curvature")):
-        broken.append(f"the radius of curvature, {digits(_MILLI * radius, 5)} mm of {least}")
+        broken.append(sentence("the radius of curvature, {} of {}", Amount(_MILLI * radius, "mm", 5), least))
     if not broken or extremes.undercut.status == "undercut":
         return {}
-    return {"status": "refused", "word": "beyond a limit", "advice": f"Beyond what is allowed: {'; '.join(broken)}."}
+    advice = sentence("Beyond what is allowed: {}.", joined("; ", broken))
+    return {"status": "refused", "word": "beyond a limit", "advice": advice}
 
 
-def _located(extreme: EnclosedExtreme, factor: float, unit: str) -> str:
-    return f"{digits(extreme.value * factor)} {unit} at {_at(extreme.angle)} deg"
+def _located(extreme: EnclosedExtreme, factor: float, unit: str) -> Sentence:
+    return sentence("{} at {}", Amount(extreme.value * factor, unit, 7), _at(extreme.angle))
 
 
-def _at(angle: float) -> str:
+def _at(angle: float) -> Amount:
     """An angle in degrees, to a millionth."""
-    return digits(round(degrees(angle), 6) + 0.0, 5)
+    return Amount(round(degrees(angle), 6) + 0.0, "deg", 5)
 
 
 def sizes(request: CamRequest) -> dict[str, Any]:
@@ -232,7 +232,7 @@ def sizes(request: CamRequest) -> dict[str, Any]:
 
 
 @lru_cache(maxsize=32)
-def _least(question: str) -> tuple[str, ...]:
+def _least(question: str) -> tuple[Sentence, ...]:
     findings = _solved(question)
     spec, cam = findings.spec, findings.cam
     if spec.pressure_angle is None and spec.radius_of_curvature is None:
@@ -240,10 +240,10 @@ def _least(question: str) -> tuple[str, ...]:
     try:
         least = least_prime_circle(cam.motion, cam.follower, **spec.limits)
     except InfeasibleProblem as error:
-        return (str(error.args[0]),)
-    radius, base = (digits(_MILLI * length) for length in (least.radius, least.cam.base_radius))
-    inner = f" (base circle {base} mm)" if least.cam.contact.roller else ""
-    return (f"least prime circle that keeps these limits: {radius} mm{inner}, by the {least.limit}",)
+        return (sentence("{}", error.args[0]),)
+    radius, base = (Amount(_MILLI * length, "mm", 7) for length in (least.radius, least.cam.base_radius))
+    inner = sentence(" (base circle {})", base) if least.cam.contact.roller else ""
+    return (sentence("least prime circle that keeps these limits: {}{}, by the {}", radius, inner, least.limit),)
 
 
 def example() -> dict[str, Any]:
@@ -279,7 +279,7 @@ def loads(request: CamRequest) -> dict[str, Any]:
     try:
         return _loads(json.dumps(request.study, sort_keys=True))
     except OptlawsError as error:
-        return {"panels": [], "facts": [str(error.args[0])]}
+        return {"panels": [], "facts": [sentence("{}", error.args[0])]}
 
 
 @lru_cache(maxsize=32)
@@ -305,7 +305,7 @@ def _load_panel(force: Labelled[Extremes], values: Callable[[Array], Any]) -> di
     angles = np.linspace(0.0, 2.0 * np.pi, _STEPS + 1)
     ends = [(extremes.least, extremes.least_at), (extremes.most, extremes.most_at)]
     marks = [
-        {"at": round(degrees(at), 4), "value": value * factor, "text": digits(value * factor, 6)}
+        {"at": round(degrees(at), 4), "value": value * factor}
         for value, at in ends
         if abs(value) > FORCE_ROUNDING * extremes.peak
     ]
@@ -315,10 +315,10 @@ def _load_panel(force: Labelled[Extremes], values: Callable[[Array], Any]) -> di
 def _load_facts(forces: CamForces) -> list[str]:
     """Enclosed contact forces and torques over the whole turn, in words."""
     contact, torque = forces.contact, forces.torque
-    lifted = f"the follower lifts off at {_at(contact.least_at)} deg: " if forces.lifts_off else ""
+    lifted = sentence("the follower lifts off at {}: ", _at(contact.least_at)) if forces.lifts_off else ""
     turned = f"torque at the shaft {digits(torque.least, 6)} to {digits(torque.most, 6)} N m"
     facts = [
-        f"{lifted}contact force {digits(contact.least, 6)} to {digits(contact.most, 6)} N",
+        sentence("{}contact force {} to {} N", lifted, digits(contact.least, 6), digits(contact.most, 6)),
         f"{turned}, root mean square {digits(forces.rms_torque[1], 6)} N m",
     ]
     if forces.width is not None:
@@ -331,7 +331,7 @@ def _spring(findings: Findings) -> list[str]:
     try:
         spring = findings.spring
     except (InfeasibleProblem, InputError) as error:
-        return [f"no spring: {error.args[0]}"]
+        return [sentence("no spring: {}", error.args[0])]
     if spring is None:
         return []
     axis = findings.cam.displacement.axis

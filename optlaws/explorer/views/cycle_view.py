@@ -31,6 +31,7 @@ from optlaws.motion.quantities import QUANTITIES
 from optlaws.numbers import bounded
 from optlaws.numerics.peaks import is_kept
 from optlaws.plots.cycle import UNITS, samples
+from optlaws.sentences import Amount, Sentence, joined, sentence
 from optlaws.tolerances import BOUND_SLACK, CYCLE_ROUNDING
 
 _EACH = 100
@@ -157,10 +158,7 @@ def _peaks(shown: Cycle, nu: int) -> list[dict[str, Any]]:
     low = min((peak.extremes[nu][0] for peak in shown.peaks), key=lambda pair: pair[0])
     high = max((peak.extremes[nu][1] for peak in shown.peaks), key=lambda pair: pair[0])
     seen = [pair for pair in (low, high) if abs(pair[0]) > CYCLE_ROUNDING * shown.peak(nu)]
-    return [
-        {"at": _degrees(shown, time), "value": value * factor, "text": digits(value * factor, 6)}
-        for value, time in seen
-    ]
+    return [{"at": _degrees(shown, time), "value": value * factor} for value, time in seen]
 
 
 def _segments(shown: Cycle) -> Iterator[dict[str, Any]]:
@@ -168,7 +166,7 @@ def _segments(shown: Cycle) -> Iterator[dict[str, Any]]:
     for peak, limits, stretch in zip(shown.peaks, shown.limits_of_segments, shown.programme.stretches, strict=True):
         peaks = [
             {
-                "text": _plain(peak.peak(nu) * units[nu][1], shown.peak(nu) * units[nu][1]),
+                "value": _plain(peak.peak(nu) * units[nu][1], shown.peak(nu) * units[nu][1]),
                 "beyond": _beyond(peak, nu, limits.get(nu, (-inf, inf))),
             }
             for nu in (1, 2, 3)
@@ -189,8 +187,8 @@ def _beyond(peaks: SegmentPeaks, nu: int, limits: tuple[float, float]) -> bool:
     return not (is_kept(-least, -limits[0]) and is_kept(most, limits[1]))
 
 
-def _plain(value: float, size: float) -> str:
-    return digits(0.0 if abs(value) <= CYCLE_ROUNDING * size else value, 6)
+def _plain(value: float, size: float) -> float | None:
+    return 0.0 if abs(value) <= CYCLE_ROUNDING * size else bounded(value)
 
 
 def trust(shown: Cycle) -> dict[str, Any] | None:
@@ -199,12 +197,12 @@ def trust(shown: Cycle) -> dict[str, Any] | None:
         broken = broken_limits(shown)
         return {"gap": "", "facts": []} | broken if broken else None
     unit = objective_unit(shown)
-    facts = [f"least {shown.minimise} = {digits(shown.objective)} {unit}"]
+    facts = [sentence("least {} = {}", shown.minimise, Amount(shown.objective, unit, 7))]
     gap = ""
     if shown.lower_bound is not None:
-        facts.append(f"none below {digits(shown.lower_bound)} {unit}, of {shown.search_space}")
+        facts.append(sentence("none below {}, of {}", Amount(shown.lower_bound, unit, 7), shown.search_space))
         gap = gap_text(1.0 - shown.lower_bound / shown.objective)
-    facts += shown.remarks
+    facts += (sentence("{}", remark) for remark in shown.remarks)
     advice = {Status.OPTIMAL: f"The lower bound meets the objective: none is better of {shown.search_space}."}
     status = shown.status
     trust = {
@@ -225,21 +223,22 @@ def broken_limits(shown: Cycle) -> dict[str, str]:
         broken += _too_weak(shown)
     if not broken:
         return {}
-    return {"status": "refused", "word": "beyond a limit", "advice": f"Beyond what is allowed: {'; '.join(broken)}."}
+    advice = sentence("Beyond what is allowed: {}.", joined("; ", broken))
+    return {"status": "refused", "word": "beyond a limit", "advice": advice}
 
 
-def _too_weak(shown: Cycle) -> Iterator[str]:
+def _too_weak(shown: Cycle) -> Iterator[Sentence]:
     """The quantity of which a motor provides too little."""
     if isinstance(shown.drive, Drive):
         for margin in shown.sheet.margins:
             if not margin.is_kept:
-                yield f"the motor's {margin.name}, {digits(100.0 * margin.use, 4)} % of it"
+                yield sentence("the motor's {}, {} % of it", margin.name, digits(100.0 * margin.use, 4))
 
 
 def _facts(shown: Cycle) -> list[str]:
     """Effort of the drive, and jumps at the joints."""
     rows = [*drive_rows(shown), *joint_rows(shown)]
-    return [f"{row.name} {digits(row.value, 6)} {row.unit}" for row in rows]
+    return [sentence("{} {}", row.name, Amount(row.value, row.unit)) for row in rows]
 
 
 def _ways(spec: CycleProblemFile, axis: AxisEntries) -> Iterator[dict[str, Any]]:
@@ -255,8 +254,9 @@ def _ways(spec: CycleProblemFile, axis: AxisEntries) -> Iterator[dict[str, Any]]
         order, cycle = LIMITS[name], stored(spec, freed)
         # in the unit of its limit, of which so many make one of SI
         unit, factor = UNITS[cycle.axis][order] if order > 0 else (objective_unit(cycle), 1.0)
-        text = f"{least * factor * (1.0 + BOUND_SLACK):.6g} {unit}"
-        yield {"entry": name, "value": text, "text": f"raise the limit of {name} from {given} to {text}"}
+        raised = Amount(least * factor * (1.0 + BOUND_SLACK), unit)
+        text = sentence("raise the limit of {} from {} to {}", name, given, raised)
+        yield {"entry": name, "value": str(raised), "text": text}
 
 
 #: segments of what is shown at first, as a cycle and as a cam

@@ -37,6 +37,7 @@ from optlaws.explorer.views.requests import (
 )
 from optlaws.numbers import Array, bounded
 from optlaws.plots.cycle import UNITS as UNITS_OF_MOTION
+from optlaws.sentences import Amount
 from optlaws.synthesis.limits.of_problem import limited_laws
 from optlaws.synthesis.proof.infeasible import possible_velocities
 from optlaws.tolerances import BOUND_SLACK, NO_MARK
@@ -72,9 +73,9 @@ def view(question: bytes) -> dict[str, Any]:
 def refusal(error: OptlawsError, word: str = "not understood") -> dict[str, str]:
     """The reason why there is no law, in words that begin with the wrong input."""
     if not isinstance(error, InfeasibleProblem | SolverFailure):
-        return {"word": word, "reason": str(error), "tried": ""}
+        return {"word": word, "reason": error.args[0], "tried": ""}
     word = "no such law" if isinstance(error, InfeasibleProblem) else "no law found"
-    return {"word": word, "reason": str(error.args[0]), "tried": error.tried}
+    return {"word": word, "reason": error.args[0], "tried": error.tried}
 
 
 def _optimal(request: LawRequest) -> dict[str, Any]:
@@ -192,7 +193,7 @@ def _seen(extreme: Peak, pair: tuple[Peak, Peak]) -> bool:
 
 
 def _mark(peak: Peak) -> dict[str, Any]:
-    return {"k": peak.k, "value": peak.value, "text": digits(peak.value, 6)}
+    return {"k": peak.k, "value": peak.value}
 
 
 def trust(solution: Solution) -> dict[str, Any]:
@@ -303,16 +304,16 @@ def _way(entry: str, value: float, text: str) -> dict[str, Any]:
 
 
 _INERTIAS = {"length": ("mass", "1 kg", "m/s²", "N"), "angle": ("inertia", "1 kg m^2", "rad/s²", "N m")}
-Quantity = Annotated[str, msgspec.Meta(max_length=60)]
+Entry = Annotated[str, msgspec.Meta(max_length=60)]
 
 
 class MachineRequest(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     """A law with its stroke, its time and the mass, or the inertia, that it moves."""
 
     law: LawRequest
-    stroke: Quantity
-    time: Quantity
-    mass: Quantity = ""
+    stroke: Entry
+    time: Entry
+    mass: Entry = ""
 
 
 def in_machine_units(request: MachineRequest) -> dict[str, Any]:
@@ -344,8 +345,8 @@ def in_machine_units(request: MachineRequest) -> dict[str, Any]:
     return {"rows": rows}
 
 
-def _in(value: float, unit: str) -> str:
-    return f"{digits(value, 5)} {unit}"
+def _in(value: float, unit: str) -> Amount:
+    return Amount(value, unit, 5)
 
 
 QUESTIONS: dict[str, Question] = {

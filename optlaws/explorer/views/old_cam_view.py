@@ -22,8 +22,9 @@ from optlaws.explorer.views.law_view import digits, drawn, refusal
 from optlaws.explorer.views.requests import Question
 from optlaws.laws.catalogue.catalogue import catalogue
 from optlaws.motion.quantities import QUANTITIES
-from optlaws.numbers import Array
+from optlaws.numbers import Array, bounded
 from optlaws.plots.law import broken
+from optlaws.sentences import Amount, sentence
 from optlaws.tolerances import AGREEMENT, NO_MARK
 
 _EACH = 120  # samples in a move
@@ -138,7 +139,7 @@ def _within(old: OldTable, entries: OldCamEntries) -> float:
 def _words(old: OldTable, part: Stretch) -> list[str]:
     if part.law is None:
         return ["", ""]
-    return [f"{digits(part.stroke, 6)} {old.unit}", old.law_in_words(part)]
+    return [Amount(part.stroke, old.unit), old.law_in_words(part)]
 
 
 def _unit(old: OldTable, nu: int) -> str:
@@ -156,7 +157,7 @@ def _peak(part: Stretch, nu: int) -> Iterator[dict[str, Any]]:
     peak = max(law.extrema(nu), key=lambda extreme: abs(extreme.value))
     value = part.stroke / length**nu * peak.value
     if np.isfinite(value) and abs(value) > NO_MARK:
-        yield {"at": round(part.start + length * peak.k, 6), "value": value, "text": digits(value, 6)}
+        yield {"at": round(part.start + length * peak.k, 6), "value": value}
 
 
 def _curve(old: OldTable, nu: int) -> dict[str, Any]:
@@ -184,14 +185,15 @@ def _trust(old: OldTable) -> dict[str, Any]:
     """How near the laws are to the points, what noise these show, and whether the end meets the beginning."""
     off, place = old.off
     near = off <= old.room * (1.0 + AGREEMENT)
+    at = Amount(place, old.master)
     facts = [
-        f"laws keep within {digits(old.room, 3)} {old.unit} of the points"
+        sentence("laws keep within {} of the points", Amount(old.room, old.unit, 3))
         if near
-        else f"laws are {digits(off, 3)} {old.unit} off the point at {digits(place, 6)} {old.master}",
-        f"the points scatter by {digits(old.scatter, 2)} {old.unit} (standard deviation)"
+        else sentence("laws are {} off the point at {}", Amount(off, old.unit, 3), at),
+        sentence("the points scatter by {} (standard deviation)", Amount(old.scatter, old.unit, 2))
         if old.scatter
         else "no noise is seen beyond the last digit",
-        f"the last position is {digits(old.seam, 3)} {old.unit} from the first one"
+        sentence("the last position is {} from the first one", Amount(old.seam, old.unit, 3))
         if old.seam
         else "the end meets the beginning",
     ]
@@ -231,7 +233,7 @@ def _better(study: bytes, number: int) -> dict[str, Any]:
     while len(_LAST) > _MOST_MOVES:
         del _LAST[next(iter(_LAST))]
     if new.law is part.law:
-        return {"law": None, "curves": [], "cells": ["keeps its law: none of degree 15 so near has less acceleration"]}
+        return {"law": None, "curves": [], "kept": "keeps its law: none of degree 15 so near has less acceleration"}
     result = gain(new, part)
     assert isinstance(new.law, MotionLaw)  # noqa: S101 - a better law has no name
     places, heights = _of_part(new, 0)
@@ -240,13 +242,10 @@ def _better(study: bytes, number: int) -> dict[str, Any]:
         "law": None if new.solution is None else new.solution.to_dict(),
         "curves": [{"at": drawn(at, 6), "values": drawn(values, 8)} for at, values in curves],
         "peaks": [list(_peak(new, nu)) for nu in (1, 2, 3)],
-        "cells": [
-            *(
-                f"{digits(result.old[nu - 1], 4)} → {digits(result.new[nu - 1], 4)}{_share(result.share(nu))}"
-                for nu in (1, 2, 3)
-            ),
-            f"{digits(result.deviation, 3)} {old.unit}",
+        "gains": [
+            [bounded(result.old[nu - 1]), bounded(result.new[nu - 1]), _share(result.share(nu))] for nu in (1, 2, 3)
         ],
+        "off": Amount(result.deviation, old.unit, 3),
     }
 
 

@@ -7,7 +7,7 @@ import { Latest } from "../latest.js";
 import { Panels } from "../panels.js";
 import { html, renew } from "../svg.js";
 import { unanswered } from "../trust.js";
-import { inUnits, measured, plain } from "../units.js";
+import { headed, number, plain, shownUnit, written } from "../units.js";
 
 const SOURCES = { cycle: "the cycle", machine: "the machine" };
 const OBJECTIVES = ["", "acceleration", "jerk", "rms acceleration", "torque", "rms torque", "force", "rms force", "residual acceleration"];
@@ -143,7 +143,7 @@ export class View {
   #answered(answer, question, step) {
     if (!this.#isLast(question)) return;
     this.#step = answer.refused ? STEPS.length : step;
-    if (answer.refused && step === STEPS.length) this.#answer.remarks.push(`front: ${answer.refused.reason}`);
+    if (answer.refused && step === STEPS.length) this.#answer.remarks.push(["front: ", answer.refused.reason].flat());
     else this.#answer = answer;
     this.#draw();
     if (this.#step < STEPS.length) this.#advice.ask({ ...JSON.parse(this.#question), points: step === 1 ? 0 : POINTS }, navigator.userActivation?.hasBeenActive ? PATIENCE : null);
@@ -186,24 +186,23 @@ export class View {
     const row = rows.find(({ name }) => name === chosen);
     const take = row.take ? [html("button", { type: "button", class: "main-button", text: "Take this law", onclick: () => this.#take(row) })] : [];
     return [
-      html("p", { class: "advice" }, html("strong", { class: "word optimal", text: "advice" }), " ", sentences[0]),
+      html("p", { class: "advice" }, html("strong", { class: "word optimal", text: "advice" }), " ", written(sentences[0])),
       html("p", { text: sentences[1] }),
       html("p", { class: "quiet", translate: "no", text: `Rule: ${rule}.` }),
       ...take,
     ];
   }
 
-  #table({ headings, rows, chosen }) {
-    const columns = headings.map((name) => measured(name));
+  #table({ measures, rows, chosen }) {
     // beside so many quantities what a law keeps and proves stands under its name, or the table would be too wide
-    const beneath = rows[0].cells.length > MOST_BESIDE;
-    if (beneath) columns.splice(rows[0].cells.length);
-    const head = html("tr", {}, html("th", { scope: "col", text: "law" }), ...columns.map(({ title: text }) => html("th", { scope: "col", class: "number", text })));
+    const beneath = measures.length > MOST_BESIDE;
+    const columns = [...measures.map(({ name, unit }) => headed(name, unit)), ...(beneath ? [] : ["limits", "proof"])];
+    const head = html("tr", {}, html("th", { scope: "col", text: "law" }), ...columns.map((text) => html("th", { scope: "col", class: "number", text })));
     const lines = rows.map((row) => {
       const take = row.take ? html("button", { type: "button", class: "link", "data-key": `take ${row.name}`, "aria-label": `Take ${row.name}`, text: "take", onclick: () => this.#take(row) }) : "";
       const ends = [["limits", row.limits, row.limits && row.limits !== "kept" ? "number over" : "number"], ["proof", row.proof, "number"]];
       return html("tr", { class: row.name === chosen ? "active" : "", "aria-current": row.name === chosen ? "true" : null },
-        html("th", { scope: "row" }, html("span", { class: "row-name", text: row.name }), take, ...(beneath ? ends.filter(([, text]) => text).map(([key, text, name]) => html("span", { "data-ends": key, class: name.includes("over") ? "over" : "quiet", text })) : [])), ...row.cells.map((text, i) => html("td", { class: "number", text: columns[i].shown(text) })), ...(beneath ? [] : ends).map(([key, text, name]) => html("td", { "data-column": key, class: name, text })));
+        html("th", { scope: "row" }, html("span", { class: "row-name", text: row.name }), take, ...(beneath ? ends.filter(([, text]) => text).map(([key, text, name]) => html("span", { "data-ends": key, class: name.includes("over") ? "over" : "quiet", text })) : [])), ...row.values.map((value, i) => html("td", { class: "number", text: number(value, measures[i].unit, 5) })), ...(beneath ? [] : ends).map(([key, text, name]) => html("td", { "data-column": key, class: name, text })));
     });
     return html("table", { class: beneath ? "dense" : null, "aria-label": "Laws with what they take" }, html("thead", {}, head), html("tbody", {}, ...lines));
   }
@@ -228,25 +227,27 @@ export class View {
 }
 
 function refusal({ word: title, reason, tried }) {
-  return [html("p", { class: "reason", title: tried }, html("strong", { class: "word refused", text: title }), ` ${reason}`)];
+  return [html("p", { class: "reason", title: tried }, html("strong", { class: "word refused", text: title }), ` ${written(reason)}`)];
 }
 
 /** The laws, the front and what is proven, in the plane of two measures. */
-function pictured({ picture: { x, y, points, front, beside }, chosen }) {
-  const known = points.filter((point) => point.x !== null && point.y !== null);
+function pictured({ picture: { x, y, points, front: stairs, beside }, chosen }) {
+  const [across, up] = [x, y].map(({ unit }) => shownUnit(unit).factor);
+  const known = points.filter((point) => point.x !== null && point.y !== null).map((point) => ({ ...point, x: across * point.x, y: up * point.y }));
+  const front = stairs.map(([one, value, bound]) => [across * one, up * value, up * bound]);
   const xs = [...known.map((point) => point.x), ...front.map(([value]) => value)];
   const positive = xs.filter((value) => value > 0);
   const log = positive.length === xs.length && Math.max(...positive) > WIDE * Math.min(...positive);
   const range = log ? [Math.min(...positive) / 1.3, 1.6 * Math.max(...positive)] : spanOf(xs, { free: true, room: 0.12 });
-  const stairs = (at) => front.flatMap((point, i) => at(point, front[i + 1]));
+  const steps = (at) => front.flatMap((point, i) => at(point, front[i + 1]));
   const lines = front.length < 2 ? [] : [
-    { name: "front", title: "the front", points: stairs(([one, value], next) => (next ? [[one, value], [next[0], value]] : [[one, value]])) },
-    { name: "limit", title: `none below${beside ? `, with ${beside}` : ""}`, points: stairs(([one, , bound], next) => (next ? [[one, next[2]], [next[0], next[2]]] : [[one, bound]])) },
+    { name: "front", title: "the front", points: steps(([one, value], next) => (next ? [[one, value], [next[0], value]] : [[one, value]])) },
+    { name: "limit", title: `none below${beside ? `, with ${beside}` : ""}`, points: steps(([one, , bound], next) => (next ? [[one, next[2]], [next[0], next[2]]] : [[one, bound]])) },
   ];
   const best = known.find(({ name }) => name === chosen);
   return {
-    x: { name: `${x.name}, ${x.unit}`, range, log },
-    y: { name: `${y.name}, ${y.unit}`, range: spanOf([...known.map((point) => point.y), ...front.map(([, value]) => value)], { free: true, room: 0.1 }) },
+    x: { name: headed(x.name, x.unit), range, log },
+    y: { name: headed(y.name, y.unit), range: spanOf([...known.map((point) => point.y), ...front.map(([, value]) => value)], { free: true, room: 0.1 }) },
     lines,
     marks: [
       ...front.map(([one, value]) => ({ at: [one, value], name: "front-point", title: "a law of the front" })),
@@ -266,7 +267,7 @@ function placed(points, range, log) {
   for (const point of [...points].sort((one, other) => other.of - one.of || (one.kind === "optimal") - (other.kind === "optimal"))) {
     if (point.name.includes(",") && !point.of) continue;
     const text = point.of ? "to take" : point.name;
-    const long = LETTER * inUnits(text).length;
+    const long = LETTER * text.length;
     const end = along(point.x) > Math.min(0.66, 1 - long);
     const from = along(point.x) - (end ? long : 0);
     const box = { from, to: from + long, at: (point.y - low) / tall };

@@ -1,6 +1,5 @@
 // The view of several axes: their timing diagram with interlocks, the plane of two positions, clearances, a run.
 
-import { label } from "../axes.js";
 import { AxisNames } from "../axis_names.js";
 import { Cursor } from "../cursor.js";
 import { group } from "../fields.js";
@@ -13,6 +12,7 @@ import { Run } from "../run.js";
 import { html, renew } from "../svg.js";
 import { Timing, valueAt } from "../timing.js";
 import { showTrust, unanswered } from "../trust.js";
+import { listed, written } from "../units.js";
 
 const told = (value) => JSON.stringify(value);
 const GOALS = { "": "as they are given", acceleration: "least acceleration", period: "least period" };
@@ -133,8 +133,8 @@ export class View {
     this.#positions.turn(at);
     const angle = at ?? 0;
     const rows = this.#answer?.refused ? [] : this.#answer?.rows ?? [];
-    const places = rows.map(({ name, values, unit }) => `${name} ${label(Number(valueAt(this.#answer.at, values, angle).toPrecision(4)))} ${unit}`);
-    this.#parts.read.textContent = [`at ${label(Number(angle.toFixed(1)))} deg`, ...places].join(" · ");
+    const places = rows.map(({ name, values, unit }) => `${name} ${written({ value: valueAt(this.#answer.at, values, angle), unit, digits: 4 })}`);
+    this.#parts.read.textContent = [`at ${written({ value: Number(angle.toFixed(1)), unit: "deg", digits: 6 })}`, ...places].join(" · ");
   }
 
   #facts() {
@@ -189,7 +189,7 @@ export class View {
   }
 
   #put({ refused, facts, study: made }, { study }) {
-    if (refused) return this.#say([`${refused.word}: ${refused.reason}`], true);
+    if (refused) return this.#say([`${refused.word}: ${written(refused.reason)}`], true);
     if (made && told(study) === told(this.#study.state.axes)) {
       this.#study.change("together", (state) => (state.axes = made));
       this.#study.rest();
@@ -198,7 +198,7 @@ export class View {
   }
 
   #say(facts, none = false) {
-    this.#parts.facts?.replaceChildren(html("p", { class: none ? "reason" : "facts", text: facts.join(" · ") }));
+    this.#parts.facts?.replaceChildren(html("p", { class: none ? "reason" : "facts", text: listed(facts) }));
   }
 }
 
@@ -208,7 +208,7 @@ function withPeak(panel, { value, at, cells, status }) {
   const k = next < 0 ? panel.at.length : next;
   const there = panel.at[k - 1] === at;
   const put = (list, one) => (there ? list : [...list.slice(0, k), one, ...list.slice(k)]);
-  return { ...panel, at: put(panel.at, at), values: put(panel.values, value), peaks: [{ at, value, text: cells[0] }], beyond: status === "broken" };
+  return { ...panel, at: put(panel.at, at), values: put(panel.values, value), peaks: [{ at, value, text: written(cells[0]) }], beyond: status === "broken" };
 }
 
 function table(name, headings, rows) {

@@ -1,7 +1,7 @@
 // The view of a cam: mechanism and motion on the left, the cam that turns, pressure angle and curvature on the right.
 
 import { explained, group } from "../fields.js";
-import { plain } from "../units.js";
+import { listed, plain, written } from "../units.js";
 import { Latest } from "../latest.js";
 import { Mechanism } from "../mechanism.js";
 import { Panels } from "../panels.js";
@@ -89,13 +89,13 @@ export class View {
   /** What is known of the sizes stands below the words of trust; until it is, the space is kept. */
   #fact(facts) {
     element("cam-trust").querySelector(".sizes")?.remove();
-    element("cam-trust").append(html("p", { class: "facts sizes", text: facts?.join(" · ") ?? "…" }));
+    element("cam-trust").append(html("p", { class: "facts sizes", text: facts ? listed(facts) : "…" }));
   }
 
   /** What the cam bears stands below its geometry. */
   #bear({ panels, facts }) {
     element("cam-trust").querySelector(".loads")?.remove();
-    if (facts.length) element("cam-trust").querySelector(".sizes")?.before(html("p", { class: "facts loads", text: facts.join(" · ") }));
+    if (facts.length) element("cam-trust").querySelector(".sizes")?.before(html("p", { class: "facts loads", text: listed(facts) }));
     this.#mechanism.bear(panels.find(({ name }) => name === "contact force") ?? null);
     if (this.#answer && !this.#answer.refused) this.#motion.show({ ...this.#answer, panels: [...this.#answer.panels, ...panels] });
   }
@@ -168,7 +168,7 @@ export class View {
   #turn(at) {
     if (at === null) return;
     this.#mechanism.turn(at);
-    this.#read.textContent = [`at ${Math.round(at)} deg`, ...this.#motion.readings].join(" · ");
+    this.#read.textContent = [`at ${written({ value: Math.round(at), unit: "deg", digits: 6 })}`, ...this.#motion.readings].join(" · ");
   }
 }
 

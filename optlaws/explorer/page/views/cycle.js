@@ -7,7 +7,7 @@ import { Programme, join } from "../programme.js";
 import { Strip } from "../strip.js";
 import { html } from "../svg.js";
 import { showTrust, unanswered } from "../trust.js";
-import { inUnit, shownUnit } from "../units.js";
+import { headed, listed, number } from "../units.js";
 
 const element = (id) => document.getElementById(id);
 const HEADINGS = ["segment", "from, deg", "to, deg", "takes, ms", "moves", "velocity", "acceleration", "jerk"];
@@ -71,7 +71,7 @@ export class View {
     this.#answer = answer;
     this.#ways = ways;
     showTrust(element("cycle-trust"), answer, this.#ways, (way) => this.#back(way));
-    if (answer.facts) element("cycle-trust").append(html("p", { class: "facts", text: answer.facts.join(" · ") }));
+    if (answer.facts) element("cycle-trust").append(html("p", { class: "facts", text: listed(answer.facts) }));
     this.#motion.show(answer);
     element("segments").replaceChildren(...(answer.refused ? [] : [table(answer)]), this.#words);
   }
@@ -97,15 +97,15 @@ export class View {
 }
 
 function table({ segments, panels }) {
-  const units = panels.map(({ unit }) => shownUnit(unit));
-  const named = HEADINGS.map((name, i) => (i >= 4 ? `${name}, ${units[i - 4].unit}` : name));
+  const units = panels.map(({ unit }) => unit);
+  const named = HEADINGS.map((name, i) => (i >= 4 ? headed(name, units[i - 4]) : name));
   const head = html("tr", {}, ...named.map((name, i) => html("th", { scope: "col", class: i ? "number" : null, text: name })));
   const rows = segments.map(({ name, from, to, time, by, peaks }) =>
     html(
       "tr", {},
       html("th", { scope: "row", text: name }),
-      ...[from, to, time, inUnit(by, units[0].factor)].map((text) => html("td", { class: "number", text })),
-      ...peaks.map(({ text, beyond }, i) => ({ beyond, text: inUnit(text, units[i + 1].factor) })).map(({ text, beyond }) => html("td", { class: `number${beyond ? " over" : ""}`, title: beyond ? "beyond its limit" : null, text: beyond ? `${text} !` : text })),
+      ...[from, to, time, number(by, units[0])].map((text) => html("td", { class: "number", text })),
+      ...peaks.map(({ value, beyond }, i) => ({ beyond, text: number(value, units[i + 1]) })).map(({ text, beyond }) => html("td", { class: `number${beyond ? " over" : ""}`, title: beyond ? "beyond its limit" : null, text: beyond ? `${text} !` : text })),
     ),
   );
   return html("table", { "aria-label": "Segments with their peaks" }, html("thead", {}, head), html("tbody", {}, ...rows));

@@ -11,7 +11,7 @@ import { Programme } from "../programme.js";
 import { Strip } from "../strip.js";
 import { html, renew, svg } from "../svg.js";
 import { showTrust, unanswered } from "../trust.js";
-import { measured } from "../units.js";
+import { headed, number, shownUnit } from "../units.js";
 
 const told = (value) => JSON.stringify(value);
 const word = (value, digits = 5) => String(Number(value.toPrecision(digits))).replace("-", "−");
@@ -220,12 +220,13 @@ export class View {
   #picture() {
     const { least, time, rows, minimise } = this.#answer;
     const { points, name, unit, proven } = this.#front;
-    const known = points.filter(([, value]) => value !== null);
+    const { unit: shown, factor } = shownUnit(unit);
+    const known = points.filter(([, value]) => value !== null).map(([at, one, bound]) => [at, factor * one, bound === null ? null : factor * bound]);
     const values = known.map(([, value]) => value);
     const [from, to] = this.#reach();
     const first = least.limit === null ? from : Math.min(from, least.limit);
     const x = { name: "time, ms", range: [1000 * (first - 0.06 * (to - first)), 1000 * (to + 0.02 * (to - first))] };
-    const y = { name: `${name}, ${unit}`, range: spanOf([...values, 0]) };
+    const y = { name: headed(name, unit), range: spanOf([...values, 0]) };
     const top = y.range[1];
     const value = this.#valueAt(known, time);
     const lines = [
@@ -235,12 +236,13 @@ export class View {
       ...(least.limit === null ? [] : [{ name: "limit", title: "no law of any degree is faster", points: [[1000 * least.limit, y.range[0]], [1000 * least.limit, top]] }]),
     ];
     const labels = [{ at: [1000 * from, top], text: "proven least time", up: -4 }, ...(least.limit === null || from - least.limit < 0.09 * (to - first) ? [] : [{ at: [1000 * least.limit, top], text: "no law", up: -4 }])].map((one) => ({ ...one, at: [one.at[0] + 0.008 * (x.range[1] - x.range[0]), one.at[1]] }));
-    const here = rows.find((row) => row.name === minimise)?.text ?? word(value);
+    const row = rows.find((one) => one.name === minimise);
+    const here = row ? number(row.value, row.unit) : word(value);
     return {
       x, y, lines, labels,
-      marks: known.map(([at, one]) => ({ at: [1000 * at, one], name: "front-point", title: `${word(1000 * at)} ms: ${word(one)} ${unit}` })),
-      handles: [{ key: "time", at: [1000 * time, value], along: "x", low: 1000 * from, high: 1000 * LONGEST * to, step: 1000 * FINEST, label: "Time of the motion", text: `${word(1000 * time)} ms, ${name} ${here} ${unit}`, name: "law-0" }],
-      told: `${name} over the time: from ${word(values[0] ?? 0)} ${unit} in ${least.text} ms to ${word(values.at(-1) ?? 0)} ${unit} in ${word(1000 * to)} ms; now ${word(1000 * time)} ms`,
+      marks: known.map(([at, one]) => ({ at: [1000 * at, one], name: "front-point", title: `${word(1000 * at)} ms: ${word(one)} ${shown}` })),
+      handles: [{ key: "time", at: [1000 * time, value], along: "x", low: 1000 * from, high: 1000 * LONGEST * to, step: 1000 * FINEST, label: "Time of the motion", text: `${word(1000 * time)} ms, ${name} ${here} ${shown}`, name: "law-0" }],
+      told: `${name} over the time: from ${word(values[0] ?? 0)} ${shown} in ${least.text} ms to ${word(values.at(-1) ?? 0)} ${shown} in ${word(1000 * to)} ms; now ${word(1000 * time)} ms`,
     };
   }
 
@@ -284,6 +286,6 @@ function legend({ names, shares }) {
 
 function table({ rows }) {
   const head = html("tr", {}, ...["", "value", "of the limit"].map((text, i) => html("th", { scope: "col", class: i ? "number" : null, text })));
-  const body = rows.map((row) => ({ ...row, ...measured(row.name, row.unit) })).map(({ title, shown, text, use, full }) => html("tr", {}, html("th", { scope: "row", text: title }), html("td", { class: "number", text: shown(text) }), html("td", { class: `number${full ? " best" : ""}`, text: use === null ? "" : `${use} %${full ? " binds" : ""}` })));
+  const body = rows.map(({ name, unit, value, use, full }) => html("tr", {}, html("th", { scope: "row", text: headed(name, unit) }), html("td", { class: "number", text: number(value, unit) }), html("td", { class: `number${full ? " best" : ""}`, text: use === null ? "" : `${use} %${full ? " binds" : ""}` })));
   return html("table", { "aria-label": "What is taken of each limit" }, html("thead", {}, head), html("tbody", {}, ...body));
 }

@@ -11,7 +11,7 @@ import { Programme } from "../programme.js";
 import { Strip } from "../strip.js";
 import { html, renew } from "../svg.js";
 import { showTrust, unanswered } from "../trust.js";
-import { measured } from "../units.js";
+import { headed, number, written } from "../units.js";
 
 const told = (value) => JSON.stringify(value);
 const PICTURES = { speed: "torque over speed", ratio: "over the ratio", input: "J and T" };
@@ -260,10 +260,10 @@ export class View {
     ];
     if (motor.greatest_speed !== null) lines.push({ name: "motor-peak", points: [[motor.greatest_speed, -most], [motor.greatest_speed, most]] });
     return {
-      x: { name: "speed of the motor, rpm", range: [back ? -fastest : 0, fastest] },
+      x: { name: headed("speed of the motor", "rpm"), range: [back ? -fastest : 0, fastest] },
       y: { name: "torque, N m", range: [-most, most] },
       lines, handles: this.#motorHandles(motor, most, fastest),
-      told: `Torque over speed at the motor; the greatest torque is ${greatest.torque} N m, the greatest speed ${greatest.speed} rpm`,
+      told: `Torque over speed at the motor; the greatest torque is ${number(greatest.torque)} N m, the greatest speed ${written({ value: greatest.speed, unit: "rpm", digits: 6 })}`,
     };
   }
 
@@ -271,14 +271,14 @@ export class View {
     const handle = (key, at, along, label, unit) => {
       const size = 10 ** Math.floor(Math.log10(along === "x" ? fastest : most) - 2);
       const value = at[along === "x" ? 0 : 1];
-      return { key, at, along, label, low: size, high: 10 * (along === "x" ? fastest : most), step: size, text: `${word(value)} ${unit}`, name: "of-motor" };
+      return { key, at, along, label, low: size, high: 10 * (along === "x" ? fastest : most), step: size, text: written({ value, unit, digits: 4 }), name: "of-motor" };
     };
     const end = motor.greatest_speed ?? fastest;
     const found = [];
     if (motor.peak_torque !== null && !motor.corners.length) found.push(handle("peak_torque", [0.5 * end, motor.peak_torque], "y", "Peak torque of the motor", "N m"));
     if (motor.rated_torque !== null) found.push(handle("rated_torque", [0.25 * end, motor.rated_torque], "y", "Rated torque of the motor", "N m"));
     if (motor.greatest_speed !== null && !motor.corners.length) found.push(handle("greatest_speed", [motor.greatest_speed, 0], "x", "Greatest speed of the motor", "rpm"));
-    motor.corners.forEach((corner, i) => found.push(handle(`curve ${i}`, corner, "y", `Peak torque of the motor at ${word(corner[0])} rpm`, "N m")));
+    motor.corners.forEach((corner, i) => found.push(handle(`curve ${i}`, corner, "y", `Peak torque of the motor at ${written({ value: corner[0], unit: "rpm", digits: 4 })}`, "N m")));
     return found;
   }
 
@@ -352,7 +352,7 @@ export class View {
       const drawing = this.#answer?.drawing;
       if (!drawing) return;
       const input = drawing.input[Math.round(share * (drawing.input.length - 1))];
-      reading.textContent = `${Math.round(share * drawing.duration)} ms · ${word(input)} ${drawing.axis === "angle" ? "deg" : "mm"}`;
+      reading.textContent = `${Math.round(share * drawing.duration)} ms · ${written({ value: input, unit: drawing.axis === "angle" ? "deg" : "mm", digits: 4 })}`;
       dial.setAttribute("aria-valuetext", reading.textContent);
     };
     this.#still = () => at(Number(dial.value) / 1000);
@@ -431,9 +431,9 @@ function layout(root) {
 
 function table({ rows, active }, names) {
   const head = html("tr", {}, html("th", { scope: "col", text: "at the drive" }), ...names.slice(0, MOST).map((name, i) => html("th", { scope: "col", class: "number", title: name }, html("span", { class: `swatch law-${i}`, text: "ABCD"[i] }))));
-  const body = rows.map(({ name, unit, texts, over }) => ({ name, over, texts, ...measured(name, unit) })).map(({ name, title, shown, texts, over }) => html(
-    "tr", {}, html("th", { scope: "row", text: title, title: name }),
-    ...texts.map(shown).map((text, i) => html("td", { class: `number${over[i] ? " over" : ""}${i === active ? " active" : ""}`, title: over[i] ? "the motor is too weak" : null, text: text === null ? "—" : over[i] ? `${text} !` : text })),
+  const body = rows.map(({ name, unit, values, over }) => html(
+    "tr", {}, html("th", { scope: "row", text: headed(name, unit), title: name }),
+    ...values.map((value) => (value === null ? null : number(value, unit))).map((text, i) => html("td", { class: `number${over[i] ? " over" : ""}${i === active ? " active" : ""}`, title: over[i] ? "the motor is too weak" : null, text: text === null ? "—" : over[i] ? `${text} !` : text })),
   ));
   return html("table", { "aria-label": "What each law asks of the drive" }, html("thead", {}, head), html("tbody", {}, ...body));
 }

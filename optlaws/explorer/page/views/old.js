@@ -7,7 +7,7 @@ import { Panels } from "../panels.js";
 import { Strip } from "../strip.js";
 import { html, renew } from "../svg.js";
 import { checking, showTrust, unanswered } from "../trust.js";
-import { measured, plain } from "../units.js";
+import { headed, number, plain, written } from "../units.js";
 
 const told = (value) => JSON.stringify(value);
 const FIELDS = {
@@ -137,11 +137,10 @@ export class View {
     });
     this.#curves.show({ ...answer, panels: shown, active: 0 });
     this.#moves.replaceChildren(table("Moves of the table", MOVES, answer.rows), html("p", { class: "facts", text: ["A old law · B new law · C points", drawn].filter(Boolean).join(" · ") }));
-    const columns = ["velocity", "acceleration", "jerk"].map((name, i) => measured(name, `${unit}/${answer.symbol}${["", "²", "³"][i]}`));
-    const inColumns = (cells) => cells.map((text, i) => (cells.length > 1 && columns[i] ? text.replace(/^[^(]+/, (part) => part.replace(/[−-]?[\d.]+(?:e[−-]?\d+)?/g, columns[i].shown)) : text));
-    const rows = moves.map((part, i) => [answer.rows[part][0], answer.rows[part][1], ...(this.#found[i] ? inColumns(this.#found[i].cells ?? [this.#found[i].refused.reason]) : ["…"])]);
-    const headings = ["move", "from", ...columns.map(({ title }) => title), "off by"];
-    const words = `Laws of least acceleration within ${this.#tolerance} ${unit} of the old ones at every place; jerk at most a fifth above.`;
+    const units = panels.slice(2).map((panel) => panel.unit);
+    const rows = moves.map((part, i) => [answer.rows[part][0], answer.rows[part][1], ...gainsOf(this.#found[i], units)]);
+    const headings = ["move", "from", ...["velocity", "acceleration", "jerk"].map((name, i) => headed(name, units[i])), "off by"];
+    const words = `Laws of least acceleration within ${written({ value: this.#tolerance, unit, digits: 6 })} of the old ones at every place; jerk at most a fifth above.`;
     const button = html("button", { type: "button", text: "Find better laws", onclick: () => {
       this.#wanted = true;
       this.#draw();
@@ -197,6 +196,13 @@ export class View {
     });
     return html("label", { class: "entry" }, html("span", { class: "field-name", text: title }), field);
   }
+}
+
+/** What a better law gains, a cell for each derivative and one for how far it is off; or why there is none. */
+function gainsOf(found, units) {
+  if (!found) return ["…"];
+  if (!found.gains) return [found.kept ?? found.refused.reason];
+  return [...found.gains.map(([old, fresh, share], i) => `${number(old, units[i], 4)} → ${number(fresh, units[i], 4)}${share}`), found.off];
 }
 
 /** What a table is read by. */

@@ -29,6 +29,7 @@ from optlaws.motion.piece import factor, unit_of
 from optlaws.motion.quantities import QUANTITIES, si_number
 from optlaws.numbers import Array, bounded, whole
 from optlaws.plots.cycle import UNITS
+from optlaws.sentences import Amount, sentence
 from optlaws.studies.problem_entries import problem
 from optlaws.synthesis.least_time.follower_residual import RESIDUAL
 from optlaws.synthesis.least_time.motor_torque import CURVE_LIMIT
@@ -311,7 +312,7 @@ def _peaks(times: Array, values: Array) -> list[dict[str, Any]]:
     places = {int(np.argmin(values)), int(np.argmax(values))}
     size = float(np.abs(values).max())
     return [
-        {"at": round(float(times[i]), 4), "value": float(values[i]), "text": digits(float(values[i]), 6)}
+        {"at": round(float(times[i]), 4), "value": float(values[i])}
         for i in sorted(places)
         if abs(values[i]) > AGREEMENT * size
     ]
@@ -392,7 +393,7 @@ def _rows(sought: _Sought, shown: _InTime) -> Iterator[dict[str, Any]]:
 def _row(name: str, value: float, unit: str, share: float | None) -> dict[str, Any]:
     use = None if share is None else digits(100.0 * share, 4)
     full = share is not None and share >= _FULL
-    return {"name": name, "unit": unit, "text": digits(value, 6), "use": use, "full": full}
+    return {"name": name, "unit": unit, "value": bounded(value), "use": use, "full": full}
 
 
 def _trust_of_move(sought: _Sought, shown: _InTime) -> dict[str, Any]:
@@ -410,9 +411,10 @@ def _trust_of_move(sought: _Sought, shown: _InTime) -> dict[str, Any]:
         facts += least.notes
     else:
         status, gap = shown.solution.status, gap_text(shown.solution.gap)
-        facts.insert(0, f"least {sought.minimise} in this time {digits(shown.value or 0.0)} {shown.unit}")
+        value = Amount(shown.value or 0.0, shown.unit, 7)
+        facts.insert(0, sentence("least {} in this time {}", sought.minimise, value))
         if shown.lower_bound is not None:
-            facts.insert(1, f"none below {digits(shown.lower_bound)} {shown.unit}")
+            facts.insert(1, sentence("none below {}", Amount(shown.lower_bound, shown.unit, 7)))
         advice = status.advice
     verdict = {"status": status.value, "word": TITLES[status], "advice": advice, "gap": gap, "facts": facts}
     return verdict | {"proof": True}
@@ -534,10 +536,13 @@ def _greatest_of_cycle(shown: Cycle, edges: Sequence[dict[int, tuple[float, floa
 
 
 def _trust_of_cycle(quickest: FastestCycle, shown: Cycle) -> dict[str, Any]:
-    facts = [f"greatest speed {digits(quickest.rpm)} rpm", f"least period {digits(_MILLI * quickest.period)} ms"]
+    facts: list[str] = [
+        sentence("greatest speed {}", Amount(quickest.rpm, "rpm", 7)),
+        f"least period {digits(_MILLI * quickest.period)} ms",
+    ]
     if quickest.lower_bound is not None:
         facts.append(f"proven: none in {digits(_MILLI * quickest.lower_bound)} ms")
-    facts += [f"binds: {text}" for text in quickest.binding]
+    facts += [sentence("binds: {}", text) for text in quickest.binding]
     if shown is not quickest.cycle:
         known = cycle_view.trust(shown)
         if known is not None:

@@ -10,7 +10,7 @@ import numpy as np
 
 from optlaws import Cycle, Mechanism
 from optlaws.explorer.views.cam_view import drawing
-from optlaws.explorer.views.law_view import digits, drawn
+from optlaws.explorer.views.law_view import drawn
 from optlaws.formulas.arithmetic import NUMPY, evaluate
 from optlaws.formulas.tree import Formula
 from optlaws.jobs.axes.mechanism_entries import cam_of
@@ -35,7 +35,7 @@ def picture(cycle: Cycle, mechanism: Mechanism, entries: Mapping[str, Any]) -> d
     shown: dict[str, Any] = {
         "name": mechanism.name,
         "input": drawn(factor * x, 4),
-        "ends": [digits(factor * end, 6) for end in _used(cycle)],
+        "ends": [factor * end for end in _used(cycle)],
         "axis": mechanism.axis,
     }
     if mechanism.linkage.chains:

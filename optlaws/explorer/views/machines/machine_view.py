@@ -192,7 +192,7 @@ def _panels(shown: Cycle, cycles: Coloured) -> Iterator[dict[str, Any]]:
     peak = shown.effort.peak_force_at
     torques = [_of_drive(each, each[1].force) for each in cycles]
     value = float(shown.force(peak))
-    mark = {"at": round(_MILLI * peak, 4), "value": value, "text": digits(value, 6)}
+    mark = {"at": round(_MILLI * peak, 4), "value": value}
     yield _panel(force_name(shown), force_unit(shown), torques, [mark])
     efforts = [cycle.effort for _, cycle in cycles]
     powers = max(effort.braking_power for effort in efforts), max(effort.motoring_power for effort in efforts)
@@ -222,7 +222,7 @@ def _panel(
     ends: tuple[float, float] | None = None,
 ) -> dict[str, Any]:
     shown = {"name": name, "unit": unit, "series": series, "limits": [], "peaks": list(peaks)}
-    return shown if ends is None else shown | {"ends": [digits(end, 6) for end in ends]}
+    return shown if ends is None else shown | {"ends": list(ends)}
 
 
 def _of_motion(coloured: tuple[int, Cycle], nu: int, factor: float) -> dict[str, Any]:
@@ -253,7 +253,6 @@ def _rows(laws: Sequence[Cycle | OptlawsError]) -> list[dict[str, Any]]:
         {
             "name": name,
             "unit": next(row.unit for row in rows if row is not None),
-            "texts": [None if row is None else digits(row.value, 6) for row in rows],
             "values": [None if row is None else bounded(row.value) for row in rows],
             "over": [row is not None and row.note == "too weak" for row in rows],
         }
@@ -272,7 +271,7 @@ def _over_speed(shown: Cycle, cycles: Coloured) -> dict[str, Any] | None:
         courses.append({"law": law, "speeds": drawn(_speed_of_drive(cycle) * speeds, 3), "torques": drawn(torques, 5)})
     fastest = max(_speed_of_drive(cycle) * max(peak.peak(1) for peak in cycle.peaks) for _, cycle in cycles)
     torque = max(cycle.effort.peak_force for _, cycle in cycles)
-    greatest = {"torque": digits(torque, 6), "speed": digits(fastest, 6)}
+    greatest = {"torque": torque, "speed": fastest}
     return {"courses": courses, "greatest": greatest, "motor": _motor(shown.drive.motor, fastest)}
 
 
