@@ -11,7 +11,15 @@ from optlaws.results import Entries, Results
 from optlaws.suggest import unknown_key
 
 #: the job of a problem file is the function `run` of the module of its name
-JOBS = ("atlas", "cam", "cycle", "fastest", "force loaded", "fronts", "machine laws", "solutions")
+JOBS = ("cam", "cycle", "fastest", "machine laws", "solutions")
+#: jobs of earlier versions, and what does their work now
+RETIRED = {
+    "atlas": "leave the job out and take `optlaws study`; `optlaws run atlas` solves the one that comes with optlaws",
+    "force loaded": "minimise peak(drive_torque(...)) or rms(drive_torque(...)) by Python, as problems/force_loaded.py "
+    "does; `optlaws run force_loaded` computes its results",
+    "fronts": "take `optlaws front`, or pareto_front(...) by Python, as problems/fronts.py does; `optlaws run fronts` "
+    "computes its results",
+}
 #: in a room of its own
 _ROOMS = {"fastest": "moves.fastest"}
 #: the job of the problem files that come with optlaws and have a script beside them
@@ -52,6 +60,8 @@ def done(file: Path) -> Results:
         raise InputError(f"{file}: the entry job is missing; known jobs are {', '.join(JOBS)}")
     if name == SCRIPT:
         return _scripted(file)
+    if isinstance(name, str) and name in RETIRED:
+        raise InputError(f"{file}: there is no job {name!r} any more: {RETIRED[name]}")
     if not isinstance(name, str) or name not in JOBS:
         raise InputError(f"{file}: {unknown_key(name, JOBS, 'job')}")
     try:

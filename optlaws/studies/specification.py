@@ -65,7 +65,7 @@ class StudyFile(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     solves in turn (chosen by their number unless given), `imports` the modules that register constants or bases.
     """
 
-    job: Literal["atlas"] | None = None
+    job: Literal["script", "atlas"] | None = None
     title: Text = "study"
     problem: ProblemEntries
     vary: dict[str, Values | SteppedRange] = {}

@@ -16,7 +16,7 @@ from tests.jobs.examples import EXAMPLES
 from tests.sampling import sampled
 
 #: those whose own tests do them each time, and make check-results at full size
-SLOW = {"atlas", "fronts", "machine laws"}
+SLOW = {"machine laws"}
 WRONG = [(name, *change) for name, example in EXAMPLES.items() for change in example.wrong]
 WRONG_BESIDE = [(name, *change) for name, example in EXAMPLES.items() for change in example.wrong_beside]
 
@@ -51,7 +51,7 @@ def test_every_job_has_an_example() -> None:
 
 def test_a_job_is_imported_when_it_runs() -> None:
     seen = "[name for name in sys.modules if name.startswith(('optlaws.jobs.', 'matplotlib', 'numpy'))]"
-    program = f"import sys; from optlaws.jobs import job; print('atlas' in job.JOBS, len(job.JOBS), {seen})"
+    program = f"import sys; from optlaws.jobs import job; print('cycle' in job.JOBS, len(job.JOBS), {seen})"
     message = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True).stdout
     assert message == f"True {len(EXAMPLES)} ['optlaws.jobs.job']\n"
 
@@ -81,7 +81,7 @@ def test_a_job_writes_marked_files_and_the_same_again(tmp_path: Path, name: str)
 
 
 @pytest.mark.long
-@pytest.mark.parametrize("name", sampled(["force loaded", "cycle"]))
+@pytest.mark.parametrize("name", sampled(["solutions", "cycle"]))
 def test_what_another_machine_rounds_otherwise_changes_no_file(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str
 ) -> None:

@@ -11,7 +11,7 @@ import optlaws
 from optlaws import BSplines, InputError, Problem, SolverFailure, Window, via
 from optlaws.results import Results
 from tests.internals.cli import exit_code, options_of
-from tests.internals.jobs import fronts, solutions
+from tests.internals.jobs import solutions
 from tests.internals.studies import StudyPoints, read_study
 from tests.internals.studies import entries as entries_of_point
 from tests.internals.synthesis import ENTRIES, FIELDS, _neighbours, read_window
@@ -64,7 +64,7 @@ def caught(monkeypatch: pytest.MonkeyPatch) -> list[Problem]:
         asked.append(problem)
         raise SolverFailure("caught", problem=problem)
 
-    for module, name in ((solutions, "synthesize"), (fronts, "pareto_front"), (optlaws, "synthesize")):
+    for module, name in ((solutions, "synthesize"), (optlaws, "synthesize")):
         monkeypatch.setattr(module, name, catches)
     monkeypatch.setattr(optlaws, "pareto_front", catches)
     return asked
@@ -94,13 +94,6 @@ def in_a_sweep(base: Mapping[str, Any], one: Mapping[str, Any], asked: list[Prob
     solved({"problem": base, "sweep": [{name: [value] for name, value in one.items()}]}, asked, out)
 
 
-def in_a_front(base: Mapping[str, Any], one: Mapping[str, Any], asked: list[Problem], _: Path) -> None:
-    figure = {"name": "f", "title": "t", "over": ["B", "C"], "front": [{"label": "l", **one}]}
-    with pytest.raises(SolverFailure):
-        fronts.run(results_of({"job": "fronts", "title": "t", "problem": base, "figure": [figure]}))
-    assert asked
-
-
 def studied(data: Mapping[str, Any], asked: list[Problem]) -> None:
     study = read_study(data)
     inputs = StudyPoints.of(study).inputs(0)
@@ -115,7 +108,7 @@ def along_an_axis(base: Mapping[str, Any], one: Mapping[str, Any], asked: list[P
     studied({"problem": base, "vary": {name: [value] for name, value in one.items()}}, asked)
 
 
-DOORS = (from_a_dict, in_a_problem_file, in_a_sweep, in_a_front, in_a_study, along_an_axis)
+DOORS = (from_a_dict, in_a_problem_file, in_a_sweep, in_a_study, along_an_axis)
 REFUSED = {(along_an_axis, "bounds"): "bounds vary one by one: name the constant"}
 
 

@@ -1,8 +1,7 @@
 """Internals of `optlaws.jobs` that tests look at by themselves."""
 
 from optlaws.jobs import cycle as cycle_job
-from optlaws.jobs import fronts, job, solutions
-from optlaws.jobs.atlas import COLUMNS
+from optlaws.jobs import job, solutions
 from optlaws.jobs.axes.entry_sweep import sweep_table
 from optlaws.jobs.cam import answer
 from optlaws.jobs.cycle import table_of_motion

@@ -2,17 +2,6 @@
 
 from dataclasses import dataclass, field
 
-ATLAS = """
-job = "atlas"
-title = "A small atlas"
-[problem]
-basis = "chebyshev"
-[vary]
-minimise = ["C", "D"]
-order = [3, 4]
-degree = [5, 7]
-B = [1.5, 1.8]
-"""
 CYCLE = """
 job = "cycle"
 title = "Slide"
@@ -99,26 +88,6 @@ law = "cycloidal"
 kind = "return"
 law = "cycloidal"
 """
-FRONTS = """
-job = "fronts"
-title = "Small"
-points = 4
-[problem]
-order = 4
-degree = 3
-[[figure]]
-name = "one"
-title = "C at given B"
-over = ["B", "C"]
-between = [1.4, 1.9]
-catalogue = ["II", "smoothstep", "modified sine"]
-front = [{ label = "l = 4" }, { label = "l = 3", order = 3, points = 3 }]
-[[figure]]
-name = "two"
-title = "J at given C"
-over = ["C", "J"]
-front = [{ label = "B = 1.641", B = 1.641 }]
-"""
 SOLUTIONS = """
 job = "solutions"
 title = "Small"
@@ -165,21 +134,6 @@ output = "torque"
 laws = ["cycloidal, ZV", "ours"]
 """
 SOLUTIONS_PRINTED = "# comment\nB,C\n1.53,7.3617\n"
-FORCE_LOADED = """
-job = "force loaded"
-title = "One"
-catalogue = ["cycloidal"]
-[problem]
-order = 3
-degree = 5
-[[case]]
-name = "a spring"
-friction = "0.5"
-load = "3*a"
-[[case]]
-name = "a growing inertia"
-inertia = "1 + 0.5*a^2"
-"""
 
 
 @dataclass(frozen=True)
@@ -193,14 +147,6 @@ class Example:
 
 
 EXAMPLES = {
-    "atlas": Example(
-        ATLAS,
-        (
-            ("order = [3, 4]", "ordre = [3, 4]", "ordre.*order"),
-            ("order = [3, 4]\n", "", "an atlas varies minimise, order, degree, B"),
-            ("order = [3, 4]", "order = [0]", "order"),
-        ),
-    ),
     "cam": Example(
         CAM,
         (
@@ -275,23 +221,6 @@ EXAMPLES = {
             ('limits = { jerk = "300 m/s^3" }', "limits = {}", "move arm: limits must name one"),
         ),
     ),
-    "fronts": Example(
-        FRONTS,
-        (
-            ("order = 4", "ordre = 4", "ordre.*order"),
-            ('over = ["B", "C"]', 'over = ["B", "K"]', "over"),
-            ('over = ["B", "C"]', 'over = ["B"]', "over"),
-            ('over = ["B", "C"]', 'over = ["B", "B"]', "figure one, l = 4.*each once"),
-            ("between = [1.4, 1.9]", "between = [1.9, 1.4]", "figure one, l = 4.*between"),
-            ("between = [1.4, 1.9]", "between = [1.4]", "between"),
-            ('{ label = "l = 4" }', '{ lable = "l = 4" }', "lable.*label"),
-            ('{ label = "l = 4" }', '{ label = "l = 4", B = 1.6 }', "B is exchanged"),
-            ('name = "two"', 'name = "one"', "names must differ"),
-            ('name = "two"', 'name = "../two"', "name"),
-            ("points = 4", "points = 1", "points"),
-            ('["II", "smoothstep", ', '["V", ', "figure one, catalogue: no law is called 'V'"),
-        ),
-    ),
     "machine laws": Example(
         MACHINE_LAWS,
         (
@@ -306,16 +235,6 @@ EXAMPLES = {
             ('laws = ["cycloidal, ZV"', 'laws = ["cycloidal, EI"', "no law is called 'cycloidal, EI'"),
             ('["cycloidal"]', '["cycloidial"]', "cycloidial"),
             ("degree = 7", "degre = 7", "did you mean 'degree'"),
-        ),
-    ),
-    "force loaded": Example(
-        FORCE_LOADED,
-        (
-            ('load = "3*a"', 'load = "3*b"', "unknown name 'b'"),
-            ('inertia = "1 + 0.5*a^2"', 'inertia = "1 + "', "expected a number"),
-            ('name = "a growing inertia"', 'name = "a spring"', "names must differ"),
-            ("degree = 5", "degre = 5", "degre.*degree"),
-            ('"cycloidal"', '"cycloid of mine"', "cycloid of mine"),
         ),
     ),
     "solutions": Example(

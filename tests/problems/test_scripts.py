@@ -23,7 +23,9 @@ from tests.internals.jobs import job
 SCRIPTS = sorted((ROOT / "problems").rglob("*.py"))
 #: those that take more than some seconds; make check-results runs them too
 SLOW = {
+    "atlas",
     "dwell_types",
+    "fronts",
     "ledger",
     "lever_parametric",
     "loader_nomogram",
@@ -115,6 +117,9 @@ def test_a_script_is_run_by_its_name_or_by_its_own_file(
         ("mine.toml", 'job = "script"\ntitle = "Mine"\n', "by name: `optlaws run optimal_table`"),
         ("lever_tables.toml", 'job = "script"\ntitle = "Mine"\n', "by name: `optlaws run lever_tables`"),
         ("mine.toml", 'job = "lever tables"\ntitle = "Mine"\n', "unknown job 'lever tables'"),
+        ("mine.toml", 'job = "fronts"\ntitle = "Mine"\n', "no job 'fronts' any more: take `optlaws front`"),
+        ("mine.toml", 'job = "force loaded"\ntitle = "Mine"\n', "no job 'force loaded' any more: minimise peak"),
+        ("mine.toml", 'job = "atlas"\ntitle = "Mine"\n', "no job 'atlas' any more: .*`optlaws study`"),
     ],
 )
 def test_a_file_of_a_user_s_is_never_code(

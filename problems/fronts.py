@@ -1,84 +1,82 @@
-"""The job "fronts": exchanges between two constants, tabled and drawn beside known laws and limits."""
+"""Exchanges between two constants, tabled and drawn beside known laws and limits."""
 
 from __future__ import annotations
 
 import json
 from collections.abc import Callable, Sequence
 from dataclasses import replace
-from math import inf
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from math import ceil, inf, log10
+from typing import TYPE_CHECKING, Any
 
 import msgspec
 import numpy as np
 
-from optlaws.errors import InputError, located
-from optlaws.files import tables, writing
-from optlaws.files.problem_file import Text
-from optlaws.jobs.job import JobFile
-from optlaws.laws import MotionLaw, smoothstep
-from optlaws.laws.catalogue.catalogue import catalogue
-from optlaws.laws.savin import FAMILIES, alpha_range, savin
-from optlaws.plots.front import draw_front, draw_proven_front
-from optlaws.plots.style import (
-    GREEN,
-    GREY,
-    WARM,
-    empty_figure,
-    name_point,
-    plot_style,
-    shades,
+from optlaws import (
+    FUNCTIONALS,
+    Front,
+    MotionLaw,
+    Problem,
+    ProvenFront,
+    SavinFamily,
+    Solution,
+    Status,
+    catalogue,
+    limit,
+    pareto_front,
+    proven_front,
+    savin,
+    smoothstep,
 )
-from optlaws.results import Page, Results
-from optlaws.studies.problem_entries import Positive, ProblemEntries, gap, problem
-from optlaws.synthesis import FUNCTIONALS, Problem
-from optlaws.synthesis.limits.of_problem import known_limit
-from optlaws.synthesis.pareto import HEADINGS, Front, pareto_front
-from optlaws.synthesis.problem.fields import CONSTANTS
-from optlaws.synthesis.proven.front import ProvenFront
-from optlaws.synthesis.proven.refine import proven_front
+from optlaws.plots.style import GREEN, GREY, WARM, empty_figure, name_point, plot_style, shades
+from optlaws.results import MARK, Cell, Entries, Page, Results
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
 _DRAWN_GAP = 1e-4  # of an objective: a gap that no picture shows
-
-Points = Annotated[int, msgspec.Meta(ge=2, le=1000)]
-Pair = Annotated[list[Positive], msgspec.Meta(min_length=2, max_length=2)]
-Constant = Literal["B", "C", "D", "J"]
-
 _FEW = 5
+CONSTANTS = ("B", "C", "D", "J")
+HEADINGS = (*CONSTANTS, "lower bound", "gap", "limit", "status")
+FAMILIES = {name: SavinFamily.of(name) for name in ("I", "II", "III", "IV")}
 
 
-class FrontEntries(ProblemEntries, kw_only=True, forbid_unknown_fields=True):
-    """A front: the changes of its problem from the base problem, and its name in the legend."""
+class Curve(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+    """A front: its name in the legend, the changes of its problem from the base problem, and its points."""
 
-    label: Text
-    points: Points | None = None
-    between: Pair | None = None
+    label: str
+    points: int | None = None
+    between: tuple[float, float] | None = None
+    order: int | None = None
+    degree: int | None = None
+    B: float | None = None
+
+    def problem(self, base: dict[str, Any]) -> Problem:
+        """The problem of the front."""
+        own = {"order": self.order, "degree": self.degree, "B": self.B}
+        return Problem.from_dict(base | {name: value for name, value in own.items() if value is not None})
 
 
 class Picture(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     """A figure: the two constants of the fronts, its fronts, further marks, and the ranges of the axes."""
 
-    name: Annotated[str, msgspec.Meta(pattern="^[a-z0-9-]+$")]
-    title: Text
-    over: Annotated[list[Constant], msgspec.Meta(min_length=2, max_length=2)]
-    front: Annotated[list[FrontEntries], msgspec.Meta(min_length=1, max_length=5)]
-    between: Pair | None = None
-    points: Points | None = None
-    catalogue: list[Text] = []
-    limits: bool = True
-    x: Pair | None = None
-    y: Pair | None = None
+    name: str
+    title: str
+    over: tuple[str, str]
+    front: list[Curve]
+    between: tuple[float, float] | None = None
+    points: int | None = None
+    catalogue: list[str] = []
+    x: tuple[float, float] | None = None
+    y: tuple[float, float] | None = None
 
 
-class FrontsProblemFile(JobFile, kw_only=True, forbid_unknown_fields=True):
-    """The problem file of fronts between constants."""
+class Exchanges(Entries):
+    """The problem file: the base problem, the figures, and the points of a front."""
 
-    problem: ProblemEntries
-    figure: Annotated[list[Picture], msgspec.Meta(min_length=1)]
-    points: Points = 50
+    problem: dict[str, Any]
+    figure: list[Picture]
+    points: int
 
 
 Fronts = list[tuple[Picture, list[Front]]]
@@ -86,13 +84,11 @@ Fronts = list[tuple[Picture, list[Front]]]
 
 def run(results: Results) -> None:
     """Put the table, the page, the laws and the pictures of all fronts into results."""
-    spec = results.read(FrontsProblemFile)
-    names = [picture.name for picture in spec.figure]
-    if len(set(names)) != len(names):
-        raise InputError(f"figure: names must differ, got {', '.join(names)}")
-    for picture in spec.figure:
-        check_beside(picture)
+    spec = results.read(Exchanges)
     drawn: Fronts = [(picture, [_front(spec, picture, curve) for curve in picture.front]) for picture in spec.figure]
+    for front in (front for _, fronts in drawn for front in fronts):
+        assert (np.diff(front.values, axis=0) * [1.0, -1.0] > 0.0).all(), "each is an exchange"
+        assert all(point.limit is None or point.limit < point.objective for point in front)
     lines = [
         [picture.name, *line]
         for picture, fronts in drawn
@@ -106,19 +102,22 @@ def run(results: Results) -> None:
         results.picture(picture.name, draw(picture, fronts))
 
 
-def _front(spec: FrontsProblemFile, picture: Picture, curve: FrontEntries) -> Front:
-    where = f"figure {picture.name}, {curve.label}"
-    stated = problem(where, spec.problem.given(), curve.given())
-    between = curve.between or picture.between
+def _front(spec: Exchanges, picture: Picture, curve: Curve) -> Front:
     points = curve.points or picture.points or spec.points
-    pair = (between[0], between[1]) if between else None
-    with located(where):
-        return pareto_front(stated, tuple(picture.over), points=points, between=pair)
+    between = curve.between or picture.between
+    return pareto_front(curve.problem(spec.problem), picture.over, points=points, between=between)
 
 
-def _lines(curve: FrontEntries, front: Front) -> list[list[tables.Cell]]:
+def _gap(solution: Solution) -> str:
+    """The gap; where it is closed the power of ten above it, for what lies below differs between machines."""
+    if solution.status is Status.OPTIMAL:
+        return f"1e{ceil(log10(max(solution.gap, 1e-10)))}"
+    return f"{solution.gap:.3g}"
+
+
+def _lines(curve: Curve, front: Front) -> list[list[Cell]]:
     rows = front.rows_of(CONSTANTS)
-    return [[curve.label, *row[:5], gap(point), *row[6:]] for row, point in zip(rows, front, strict=True)]
+    return [[curve.label, *row[:5], _gap(point), *row[6:]] for row, point in zip(rows, front, strict=True)]
 
 
 def _fill(page: Page, drawn: Fronts) -> None:
@@ -149,7 +148,7 @@ def _json(about: str, drawn: Fronts) -> str:
                 for point, values in zip(front, front.values.tolist(), strict=True)
             )
             fronts.append(f'{head[:-1]}, "points": [\n{points}\n]}}')
-    top = json.dumps({"about": f"{about}; {writing.MARK}"})[:-1]
+    top = json.dumps({"about": f"{about}; {MARK}"})[:-1]
     return f'{top}, "fronts": [\n' + ",\n".join(fronts) + "\n]}\n"
 
 
@@ -160,23 +159,16 @@ _STROKES: dict[str, Any] = {"I": ":", "II": "-.", "III": "--", "IV": (0, (5, 1))
 _NEAR = 0.035  # of the axes: points nearer than this in both directions have their labels on different sides
 
 
-def check_beside(picture: Picture) -> None:
-    """Refuse names that are neither a family, nor "smoothstep", nor a law of the catalogue."""
-    for name in picture.catalogue:
-        if name not in FAMILIES and name != SMOOTHSTEPS:
-            with located(f"figure {picture.name}, catalogue"):
-                _ = catalogue[name]
-
-
 def draw_beside(axes: Axes, picture: Picture, x: Ends, y: Ends) -> None:
     """Draw the data named by the picture's entry `catalogue`, within the window x, y."""
     for family in (name for name in picture.catalogue if name in FAMILIES):
-        laws = [savin(family, float(alpha)) for alpha in np.linspace(*alpha_range(family), 61)]
+        low, high = FAMILIES[family].range
+        laws = [savin(family, float(alpha)) for alpha in np.linspace(float(low), float(high), 61)]
         points = np.array([_point(law, picture) for law in laws])
         if not any(_inside(point, x, y) for point in points.tolist()):
             continue
         style: dict[str, Any] = {"color": GREEN, "linestyle": _STROKES[family], "linewidth": 1.2, "zorder": 3}
-        axes.plot(*points.T, label=f"Savin's family {family} (l = {FAMILIES[family] + 2})", **style)
+        axes.plot(*points.T, label=f"Savin's family {family} (l = {FAMILIES[family].u + 2})", **style)
     if SMOOTHSTEPS in picture.catalogue:
         _smoothsteps(axes, picture, x, y)
     _laws(axes, picture, x, y)
@@ -233,9 +225,9 @@ def draw(picture: Picture, fronts: Sequence[Front]) -> Figure:
         for curve, front, shade in zip(picture.front, fronts, colours, strict=True):
             _draw_curve(axes, front, color=shade, label=curve.label)
         draw_beside(axes, picture, x, y)
-        if picture.limits and picture.over[0] == "B":
+        if picture.over[0] == "B":
             _limit_curves(axes, picture, fronts, x)
-        elif picture.limits:
+        else:
             _corners(axes, picture, fronts, colours)
         axes.set(xlim=x, ylim=y, title=picture.title)
         figure.legend(loc="outside right upper")
@@ -247,10 +239,10 @@ def _draw_curve(axes: Axes, front: Front, **style: Any) -> None:
     dots = {**style, "marker": "o", "markersize": 2.2, "zorder": 4}
     exact = _exact(front)
     if exact is None:
-        draw_front(front, axes, **dots)
+        front.plot(axes, **dots)
     else:
-        draw_proven_front(exact, axes, **style, zorder=4)
-        draw_front(front, axes, **{**dots, "label": "_nolegend_", "linestyle": "none"})
+        exact.plot(axes, **style, zorder=4)
+        front.plot(axes, **{**dots, "label": "_nolegend_", "linestyle": "none"})
 
 
 def _exact(front: Front) -> ProvenFront | None:
@@ -280,15 +272,15 @@ def _window(picture: Picture, fronts: Sequence[Front], axis: int) -> Ends:
 def _limit_curves(axes: Axes, picture: Picture, fronts: Sequence[Front], x: Ends) -> None:
     """The limit of all laws at each B, which fronts of different orders mostly share."""
     values = np.linspace(max(x[0], 1.0 + 1e-3), x[1], 200)
-    drawn: list[list[float | None]] = []
+    drawn: list[list[float]] = []
     for front in fronts:
         stated = front[0].problem
-        limits = [known_limit(replace(stated, B=float(B), minimise=picture.over[1])) for B in values]
-        if None in limits or limits in drawn:
+        limits = [limit(picture.over[1], float(B), order=stated.order) for B in values]
+        if limits in drawn:
             continue
         label = "limit of all laws" if not drawn else f"the same of order {stated.order}"
         stroke = ("-", "-.")[min(len(drawn), 1)]
-        axes.plot(values, np.array(limits, dtype=float), label=label, color=GREY, linewidth=1.2, linestyle=stroke)
+        axes.plot(values, np.array(limits), label=label, color=GREY, linewidth=1.2, linestyle=stroke)
         drawn.append(limits)
 
 
@@ -297,13 +289,13 @@ def _corners(axes: Axes, picture: Picture, fronts: Sequence[Front], colours: Seq
     for curve, front, shade in zip(picture.front, fronts, colours, strict=True):
         style: dict[str, Any] = {"color": shade, "linewidth": 1.1, "linestyle": (0, (1, 2)), "zorder": 2}
         stated = _freed(front[0].problem, picture.over[0])
-        limits = [known_limit(replace(stated, minimise=name)) for name in picture.over]
+        velocity = stated.B if isinstance(stated.B, float) else None
+        limits = [limit(name, velocity, order=stated.order) for name in picture.over]
         label = f"limit of each constant alone, {curve.label}"
         for line, value in zip((axes.axvline, axes.axhline), limits, strict=True):
-            if value is not None:
-                draw_line: Callable[..., Any] = line
-                draw_line(value, label=label, **style)
-                label = "_nolegend_"
+            draw_line: Callable[..., Any] = line
+            draw_line(value, label=label, **style)
+            label = "_nolegend_"
 
 
 def _freed(problem: Problem, name: str) -> Problem:

@@ -7,12 +7,10 @@ from pathlib import Path
 
 import pytest
 
-from optlaws import Chebyshev, InputError, Problem, synthesize
+from optlaws import Chebyshev, Problem, synthesize
 from tests.documents import ROOT
 from tests.internals.cli import exit_code
-from tests.internals.jobs import COLUMNS, run
 from tests.internals.studies import read_study
-from tests.jobs import examples
 
 ATLAS = ROOT / "results" / "atlas" / "atlas.csv"
 
@@ -55,19 +53,6 @@ def test_more_freedom_never_costs() -> None:
             compared += 1
             assert better <= value * (1.0 + 1e-7)
     assert compared > 1300
-
-
-def test_the_job_writes_table_and_figures(tmp_path: Path) -> None:
-    file = tmp_path / "atlas.toml"
-    file.write_text(examples.ATLAS)
-    written = run(file, tmp_path / "out")
-    assert sorted(one.name for one in written) == sorted(["atlas.csv", "atlas.md", "least-c.svg", "least-d.svg"])
-    lines = written[0].read_text("utf-8").splitlines()
-    assert tuple(lines[1].split(",")) == COLUMNS
-    assert len(lines) == 2 + 16
-    file.write_text(examples.ATLAS.replace("order = [3, 4]\n", "") + "order = [3, 4]\n")
-    with pytest.raises(InputError, match="an atlas varies minimise, order, degree, B"):
-        run(file, tmp_path / "out")
 
 
 def test_the_command_study_says_what_it_did(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

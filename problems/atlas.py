@@ -1,4 +1,4 @@
-"""The job "atlas": a study over objective, order, degree and B, as one table and drawn."""
+"""The atlas: a study over objective, order, degree and B, as one table and drawn."""
 
 from __future__ import annotations
 
@@ -9,13 +9,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optlaws.errors import InputError
-from optlaws.files import tables
+from optlaws import run_study
 from optlaws.plots.style import DISTINCT, GREY, empty_figure, plot_style
-from optlaws.results import Page, Results
-from optlaws.studies.run import run_study
-from optlaws.studies.specification import read_study
-from optlaws.studies.tables import StudyPoint
+from optlaws.results import Cell, Page, Results
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -29,24 +25,23 @@ _ROWS = 8
 
 def run(results: Results) -> None:
     """Put the table of all points, the page and the pictures into results."""
-    study = read_study(results.file)
-    if tuple(study.vary) != AXES or study.together or study.sample or results.entries.get("job") != "atlas":
-        raise InputError(f"{results.file}: an atlas varies {', '.join(AXES)}, in this order, and nothing else")
     with TemporaryDirectory() as folder:
         points = list(run_study(results.file, folder))
-    results.title = study.title
+    results.title = results.entries["title"]
+    proven = [point for point in points if point.law is not None and point.inputs["minimise"] != "D"]
+    assert {point.status for point in proven} == {"optimal"}
     results.table("atlas", COLUMNS, [_cells(point) for point in points])
     _fill(results.page("atlas"), points)
     for name, figure in draw(points).items():
         results.picture(name, figure)
 
 
-def _cells(point: StudyPoint) -> list[tables.Cell]:
-    inputs: list[tables.Cell] = [point.inputs[name] for name in AXES]
+def _cells(point: Any) -> list[Cell]:
+    inputs: list[Cell] = [point.inputs[name] for name in AXES]
     return [*inputs, point.status, point.lower_bound, *(point.constants.get(name) for name in CONSTANTS)]
 
 
-def _fill(page: Page, points: Sequence[StudyPoint]) -> None:
+def _fill(page: Page, points: Sequence[Any]) -> None:
     laws = sum(point.law is not None for point in points)
     summary = (
         f"{len(points)} points, of which {laws} have a law; all of them are in `atlas.csv`. Each order l asks for one "
@@ -59,7 +54,7 @@ def _fill(page: Page, points: Sequence[StudyPoint]) -> None:
         page.table(*_costs(points, constant))
 
 
-def _costs(points: Sequence[StudyPoint], constant: str) -> tuple[list[str], list[list[tables.Cell]]]:
+def _costs(points: Sequence[Any], constant: str) -> tuple[list[str], list[list[Cell]]]:
     """The least constant of each order by B, and the price of each order over the next lower one."""
     degree = max(point.inputs["degree"] for point in points)
     objectives = {
@@ -70,7 +65,7 @@ def _costs(points: Sequence[StudyPoint], constant: str) -> tuple[list[str], list
     velocities, orders = (sorted({key[i] for key in objectives}) for i in (0, 1))
     headings = ["B", *(f"l = {order}" for order in orders)]
     headings += [f"l = {order} over {below}, %" for below, order in pairwise(orders)]
-    rows: list[list[tables.Cell]] = []
+    rows: list[list[Cell]] = []
     for B in velocities[:: max(1, len(velocities) // _ROWS)]:
         values = [objectives[B, order] for order in orders]
         steps = [
@@ -86,7 +81,7 @@ _STROKES = ((0, (1, 1.2)), (0, (4, 1.5)), "-.", "-")
 _ROOM = 2.5
 
 
-def draw(points: Sequence[StudyPoint]) -> dict[str, Figure]:
+def draw(points: Sequence[Any]) -> dict[str, Figure]:
     """Figures of the atlas by their names."""
     return {
         f"least-{constant.lower()}": _draw_least(
@@ -96,7 +91,7 @@ def draw(points: Sequence[StudyPoint]) -> dict[str, Figure]:
     }
 
 
-def _draw_least(points: Sequence[StudyPoint], constant: str, word: str) -> Figure:
+def _draw_least(points: Sequence[Any], constant: str, word: str) -> Figure:
     """A panel for each degree of Z, in it a curve for each order."""
     degrees = sorted({point.inputs["degree"] for point in points})
     with plot_style():
@@ -111,7 +106,7 @@ def _draw_least(points: Sequence[StudyPoint], constant: str, word: str) -> Figur
         return figure
 
 
-def _curves(axes: Axes, points: Sequence[StudyPoint]) -> None:
+def _curves(axes: Axes, points: Sequence[Any]) -> None:
     orders = sorted({point.inputs["order"] for point in points})
     for order, colour, stroke in zip(orders, DISTINCT, cycle(_STROKES), strict=False):
         curve = [point for point in points if point.inputs["order"] == order]
@@ -123,11 +118,11 @@ def _curves(axes: Axes, points: Sequence[StudyPoint]) -> None:
         axes.plot(list(limits), list(limits.values()), color=GREY, linewidth=1.0, label="limit of all laws")
 
 
-def _limits(points: Sequence[StudyPoint]) -> dict[float, float]:
+def _limits(points: Sequence[Any]) -> dict[float, float]:
     return {point.inputs["B"]: point.limit for point in points if point.limit is not None}
 
 
-def _heights(points: Sequence[StudyPoint]) -> tuple[float, float]:
+def _heights(points: Sequence[Any]) -> tuple[float, float]:
     objectives = [point.objective for point in points if point.objective is not None]
     low = min([*_limits(points).values(), *objectives])
     return 0.95 * low, min(1.03 * max(objectives), _ROOM * float(np.median(objectives)))
