@@ -27,10 +27,10 @@ class Amount(str):
         return self.value, self.unit, self.digits
 
     def to_dict(self) -> Any:
-        """Its value, unit and digits; the text alone of what is not finite or has no unit."""
-        if not isfinite(self.value) or not self.unit:
-            return str(self)
-        return {"value": self.value, "unit": self.unit.translate(_POWERS), "digits": self.digits}
+        """Its value, None where it is not finite, its unit and digits; the text alone of what has no unit."""
+        value = self.value if isfinite(self.value) else None
+        unit = self.unit.translate(_POWERS)
+        return {"value": value, "unit": unit, "digits": self.digits} if unit else str(self)
 
 
 class Sentence(str):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+from math import pi
 from typing import TYPE_CHECKING
 
 import pytest
@@ -79,3 +80,28 @@ def test_no_text_of_a_view_has_a_number_in_a_unit_that_the_reader_left(page: Pag
     go(page, served.link(view=view, laws=[OPTIMAL]))
     settle(page)
     assert [text for text in page.evaluate(ALL_TEXTS) if re.search(SHOWN, text)] == []
+
+
+def test_numbers_are_written_to_their_digits_in_every_unit(page: Page, served: Server) -> None:
+    page.add_init_script(
+        """localStorage.setItem("optlaws-units", '{"length": "in", "angle": "rad", "speed": "1/min"}')"""
+    )
+    page.goto(f"http://{served.host}/")
+    script = "(all) => import('/units.js').then(({ number }) => all.map(([value, unit]) => number(value, unit, 6)))"
+    sizes = {
+        "": 1.0,
+        "N": 1.0,
+        "mm": 1 / 25.4,
+        "m/s²": 1 / 0.0254,
+        "deg": pi / 180,
+        "rpm": 1.0,
+        "mm/deg²": (180 / pi) ** 2 / 25.4,
+    }
+    values = [
+        sign * value * 10.0**power for sign in (1, -1) for value in (1.0, 6.1600000001) for power in range(-12, 13, 3)
+    ]
+    given = [(value, unit) for value in values for unit in sizes]
+    for (value, unit), text in zip(given, page.evaluate(script, given), strict=True):
+        assert float(text.replace("−", "-")) == pytest.approx(sizes[unit] * value, rel=5e-6)
+        assert len(re.sub(r"e.*|\D", "", text).strip("0")) <= 6
+    assert page.evaluate(script, [[None, "mm"], [0, "mm"]]) == ["∞", "0"]
