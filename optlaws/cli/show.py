@@ -27,7 +27,7 @@ def print_json(data: object) -> None:
 
 
 def _plain(value: Any) -> object:
-    return value.item()
+    return str(value) if isinstance(value, str) else value.item()
 
 
 def table(*headings: str, rows: Iterable[Iterable[str]] = ()) -> Table:

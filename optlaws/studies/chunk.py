@@ -124,7 +124,7 @@ def _of_error(error: Exception) -> dict[str, Any]:
     """The results of a point without a law."""
     if not isinstance(error, OptlawsError):
         return {"status": Status.ERROR, "error": cut(f"{type(error).__name__}: {error}")}
-    text = error.args[0] if isinstance(error, InfeasibleProblem | SolverFailure) else str(error)
+    text = str(error.args[0]) if isinstance(error, InfeasibleProblem | SolverFailure) else str(error)
     return {"status": Status.of(error), "error": cut(text)}
 
 
