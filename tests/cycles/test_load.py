@@ -1,4 +1,4 @@
-"""Elastic loads of whole cycles: steady motion against closed forms, least peaks, limits, and errors."""
+"""Elastic loads of whole cycles: steady motion against a follower, least peaks, limits, and errors."""
 
 from typing import Any
 
@@ -20,7 +20,7 @@ def cycle(law: str = "optimal", **others: Any) -> Cycle:
 
 
 @pytest.mark.parametrize("law", ["modified sine", "optimal"])
-def test_the_steady_motion_is_that_of_the_follower_with_closed_forms(law: str) -> None:
+def test_the_steady_motion_is_that_of_the_follower(law: str) -> None:
     driven = cycle(law)
     rise = driven.durations[0]
     follower = Follower(2 * np.pi * rise / 0.04, 0.05)

@@ -104,9 +104,47 @@ def integrated(case: Case, k: Sequence[float]) -> Array:
     return np.array(found)
 
 
+def exact_cycle(law: PolynomialLaw, nu: float, damping: float, pauses: tuple[float, float], k: float) -> list[float]:
+    """A_m and its first two derivatives at k of a steady cycle by (1.25): rise, dwell, fall by the same law, rest."""
+    import mpmath as mp  # type: ignore[import-untyped]
+
+    with mp.workdps(120):
+        frequency, n = mp.mpf(nu), mp.mpf(damping) * mp.mpf(nu)
+        matrix = mp.matrix([[0, 1], [-(frequency**2), -2 * n]])
+        q = [mp.mpf(one.numerator) / one.denominator for one in map(Fraction, law.exact_powers())]
+        low, high = q[0], mp.fsum(q)
+        fall = [low + high - q[0], *(-value for value in q[1:])]
+        parts = [(q, 1.0), ([high], pauses[0]), (fall, 1.0), ([low], pauses[1])]
+
+        def moved(state: mp.matrix, powers: list[mp.mpf], s: mp.mpf) -> mp.matrix:
+            Q = [*powers, mp.mpf(0), mp.mpf(0)]
+            for i in range(len(powers) - 1, -1, -1):
+                Q[i] -= (i + 1) * (2 * n * Q[i + 1] + (i + 2) * Q[i + 2]) / frequency**2
+            steady = mp.matrix([mp.fsum(value * s**i for i, value in enumerate(Q)),
+                                mp.fsum(i * Q[i] * s ** (i - 1) for i in range(1, len(Q)))])  # fmt: skip
+            return steady + mp.expm(matrix * s) * (state - mp.matrix([Q[0], Q[1]]))
+
+        def period(state: mp.matrix) -> mp.matrix:
+            for powers, length in parts:
+                state = moved(state, powers, mp.mpf(length))
+            return state
+
+        forced = period(mp.matrix([0, 0]))
+        columns = [period(mp.matrix(unit)) - forced for unit in ([1, 0], [0, 1])]
+        returned = mp.eye(2) - mp.matrix([[columns[0][i], columns[1][i]] for i in range(2)])
+        state, left = mp.lu_solve(returned, forced), mp.mpf(k)
+        for powers, length in parts:
+            if left <= length:
+                a, b = moved(state, powers, left)
+                cam = mp.fsum(value * left**i for i, value in enumerate(powers))
+                return [float(a), float(b), float(frequency**2 * (cam - a) - 2 * n * b)]
+            state, left = moved(state, powers, mp.mpf(length)), left - mp.mpf(length)
+        raise ValueError(k)
+
+
 def exact(law: PolynomialLaw, nu: float, damping: float, k: float) -> list[float]:
     """a_m and its first three derivatives at k, from rest, by (1.20) and (1.25) to 120 digits."""
-    import mpmath as mp  # type: ignore[import-untyped]
+    import mpmath as mp
 
     with mp.workdps(120):
         frequency, n = mp.mpf(nu), mp.mpf(damping) * mp.mpf(nu)

@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from optlaws import CycleResponse, Follower, InputError, PolynomialLaw, catalogue, polydyne, savin, smoothstep
-from tests.mechanisms.response_cases import random_case
+from tests.mechanisms.response_cases import exact_cycle, random_case
 from tests.sampling import examples
 
 SHORT = st.one_of(st.just(0.0), st.floats(0.01, 2.0))
@@ -59,6 +59,20 @@ def test_it_is_periodic_and_obeys_the_equation(seed: int, nu: float, damping: fl
     assert steady(k + steady.period) == pytest.approx(a, abs=1e-9 * size)
     assert steady(-1e-12) == pytest.approx(steady(0.0), abs=1e-9 * size)
     assert steady.peak(0).value >= np.abs(a).max() - 1e-12 * size
+
+
+@pytest.mark.parametrize(
+    ("nu", "damping"), [(0.5, 0.3), (20.0, 0.0), (20.0, 0.05), (200.0, 0.01), (60.0, 1.0), (90.0, 2.0)]
+)
+@pytest.mark.parametrize("law", [smoothstep(3), savin("IV", 11.0)], ids=["S3", "IV"])
+def test_a_cycle_to_a_dozen_digits(law: PolynomialLaw, nu: float, damping: float) -> None:
+    pauses = (0.375, 0.8125)
+    steady = Follower(nu, damping).cycle(law, dwell=pauses[0], rest=pauses[1])
+    for k in (0.0, 0.29, 1.2, 1.71, 2.9):
+        expected = exact_cycle(law, nu, damping, pauses, k)
+        for order, value in enumerate(expected):
+            size = max(1.0, law.constants.C.value * max(nu, 8.0) ** (order - 2))
+            assert steady(k, order) == pytest.approx(value, abs=2e-13 * size), (k, order)
 
 
 def test_a_cycle_of_a_polydyne_cam_at_rest_leaves_nothing() -> None:

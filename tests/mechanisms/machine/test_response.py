@@ -106,21 +106,20 @@ def test_a_stiff_vibration_that_dies_away_is_followed_while_it_lives(law: str) -
 @pytest.mark.sample(3)
 @pytest.mark.parametrize("seed", sampled(range(60), each=6))
 def test_a_follower_is_a_machine_to_rounding(seed: int) -> None:
-    # both ways are kept: docs/architecture.md says why
     rng = np.random.default_rng(seed)
     nu = 500.0 if seed % 4 == 0 else float(np.exp(rng.uniform(np.log(2.0), np.log(500.0))))
     own = Follower(nu, (0.0, float(rng.uniform(0.0, 0.3)), 1.0, float(rng.uniform(1.1, 3.0)))[seed % 3])
     law = (smoothstep(2 + seed % 5), *LAWS.values())[seed % 4]
-    machine, closed = Machine.from_follower(own), own.response(law)
+    machine, motion = Machine.from_follower(own), own.response(law)
     response, k = machine.response(law, dwell=0.5), np.linspace(0.0, 1.5, 91)
-    size = closed.peak(2).value
+    size = motion.peak(2).value
     phase = (1e-13 + 2e-14 * nu) * size  # what roundings of a root and of a time are worth
-    assert response["position"](k) == pytest.approx(closed.a(k), abs=4e-15)
-    assert response["acceleration"](k) == pytest.approx(closed(k, 2), abs=phase)
+    assert response["position"](k) == pytest.approx(motion.a(k), abs=4e-15)
+    assert response["acceleration"](k) == pytest.approx(motion(k, 2), abs=phase)
     assert response.rise_peak("acceleration").value == pytest.approx(size, rel=1e-11)
     if own.damping < 1.0:
         left = machine.residual(1, "acceleration").value(law)
-        assert left == pytest.approx(closed.residual_acceleration, abs=phase)
+        assert left == pytest.approx(motion.residual_acceleration, abs=phase)
 
 
 def test_peaks_are_above_every_point_and_reached() -> None:
