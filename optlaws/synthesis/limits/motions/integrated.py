@@ -5,7 +5,7 @@ cap allows; the lower of both is a motion that keeps them. It is as long as it s
 where a peak is minimised or the time, where the peak or nothing is chosen so.
 
 Integrals are taken by Gauss's rule in cells of one arc, that ascends, follows the cap or brakes; where arcs meet within
-a cell it is divided into parts of constant acceleration.
+a cell, or one of them changes from one bound to another, it is divided into parts of constant acceleration.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from math import exp, inf, isfinite, sqrt
-from typing import NamedTuple
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -39,10 +39,14 @@ _PLACES_OF_CELL = np.concatenate([[0.0], 0.5 * (_X + 1.0), [1.0, 0.5]])
 _INNER = slice(1, 1 + _PLACES)
 _START, _END, _MIDDLE = 0, _PLACES + 1, _PLACES + 2
 #: values in the middles of the parts of a cell, and at their ends, by those at its places
-_IN_PARTS, _OF_PARTS = (
-    np.vander(x, _PLACES + 2) @ np.linalg.inv(np.vander(_PLACES_OF_CELL[:_MIDDLE], _PLACES + 2))
-    for x in ((np.arange(_PARTS) + 0.5) / _PARTS, np.arange(_PARTS + 1) / _PARTS)
+_HALVES_OF_PARTS = np.vander(0.5 * np.arange(2 * _PARTS + 1) / _PARTS, _PLACES + 2) @ np.linalg.inv(
+    np.vander(_PLACES_OF_CELL[:_MIDDLE], _PLACES + 2)
 )
+_IN_PARTS, _OF_PARTS = _HALVES_OF_PARTS[1::2], _HALVES_OF_PARTS[::2]
+
+
+#: an acceleration by the factors of bounds at a place of a cell and the squared velocity, and the number of its bound
+_Limit: TypeAlias = Callable[[list[Any], int, float], tuple[float, int]]
 
 
 class _Motion(NamedTuple):
@@ -50,7 +54,7 @@ class _Motion(NamedTuple):
 
     w: Array
     c: Array
-    mixed: NDArray[np.intp]  #: cells in which arcs meet
+    mixed: NDArray[np.intp]  #: cells in which arcs meet, or bounds
     parts: Array  #: the squared velocities at the ends of their parts
 
 
@@ -59,6 +63,7 @@ class _Arcs(NamedTuple):
 
     w: Array
     c: Array
+    even: NDArray[np.bool_]  #: cells in which it follows one bound
     in_parts: Callable[[NDArray[np.intp]], Array]  #: the squared velocities at the ends of parts of cells
 
 
@@ -148,6 +153,14 @@ class MotionCells:
             self._factors[torque] = [branch.values(self.a) for branch in torque.branches]
         return self._factors[torque]
 
+    def in_halves_of_parts(self, torque: AnyTorque) -> dict[int, list[list[list[float]]]]:
+        """What `_Sides` finds of a torque's forms in cells."""
+        return self._in_halves.setdefault(torque, {})
+
+    @kept_property
+    def _in_halves(self) -> dict[AnyTorque, dict[int, list[list[list[float]]]]]:
+        return {}
+
     @kept_property
     def _factors(self) -> dict[AnyTorque, list[tuple[Array, Array, Array, Array]]]:
         return {}
@@ -176,6 +189,7 @@ class MotionCells:
         several = np.array([cap, forward.w, back.w])
         lowest = several.min(axis=0)
         alone = (several <= lowest * (1.0 + _AT_CAP)).all(axis=2)
+        alone[1:] &= [forward.even, back.even]
         fits, bends = np.asarray(sides.fits.all(axis=0)), below.any(axis=1) & ~below.all(axis=1)
         alone[0] &= fits & ~bends
         arc, here = np.argmax(alone, axis=0), np.arange(len(cap))
@@ -298,6 +312,15 @@ class _Sides:
             [[np.stack([factor[:, place] for factor in form]).T.tolist() for form in forms] for forms in self.forms]
             for place in (_START, _MIDDLE, _END)
         ]
+        self.falls = [bound.fall for bound in bounds]
+        #: the factors of forms at the ends and in the middles of the parts of cells, where they were asked for
+        self.in_halves = [cells.in_halves_of_parts(bound.torque) for bound in bounds]
+        self._near_rest = _steps_near_rest(len(self.steps)) if self._has_roots else [1] * len(self.steps)
+
+    @property
+    def _has_roots(self) -> bool:
+        """Whether accelerations depend on the velocity itself, which is no smooth function of its square at rest."""
+        return any(np.any(form[1]) or np.any(form[4]) for forms in self.forms for form in forms)
 
     def _limit(self, w: Array, *, ahead: bool) -> Array:
         """The greatest acceleration at the places of cells, or the least."""
@@ -313,31 +336,36 @@ class _Sides:
             limit = np.minimum(limit, either if ahead else -either)
         return np.asarray(limit if ahead else -limit)
 
-    def _greatest(self, place: int, i: int, w: float) -> float:
-        """The greatest acceleration at a place of a cell."""
-        b, greatest = sqrt(w), inf
-        for forms in self.rows[place]:
+    def _greatest(self, rows: list[Any], i: int, w: float) -> tuple[float, int]:
+        """The greatest acceleration at a place of a cell, and the number of the bound that it is of."""
+        b, greatest, by, number = sqrt(w), inf, -1, 0
+        for forms in rows:
             for form in forms:
                 most, fall, inertia, square, drag, load = form[i]
-                if inertia > 0.0:
-                    greatest = min(greatest, (most - load - (fall + drag) * b - square * w) / inertia)
-        return greatest
+                if inertia > 0.0 and (c := (most - load - (fall + drag) * b - square * w) / inertia) < greatest:
+                    greatest, by = c, number
+                number += 1
+        return greatest, by
 
-    def _least(self, place: int, i: int, w: float) -> float:
-        """The least acceleration; behind a gear with losses one of both forms may brake."""
-        b, least = sqrt(w), -inf
-        for forms in self.rows[place]:
-            either = inf
+    def _least(self, rows: list[Any], i: int, w: float) -> tuple[float, int]:
+        """The least acceleration, and its bound; behind a gear with losses one of both forms may brake."""
+        b, least, by, number = sqrt(w), -inf, -1, 0
+        for forms in rows:
+            either, form_of = inf, -1
             for form in forms:
                 most, fall, inertia, square, drag, load = form[i]
-                by_form = (fall * b - most - load - drag * b - square * w) / inertia if inertia > 0.0 else -inf
-                either = min(either, by_form)
-            least = max(least, either)
-        return least
+                c = (fall * b - most - load - drag * b - square * w) / inertia if inertia > 0.0 else -inf
+                if c < either:
+                    either, form_of = c, number
+                number += 1
+            if either > least:
+                least, by = either, form_of
+        return least, by
 
     def arcs(self, *, ahead: bool) -> _Arcs | None:
         """The fastest motion from the first end, or the fastest that comes to rest at the last; None where it stops."""
-        count, known = len(self.steps), self._integrated(ahead=ahead)
+        count, inner = len(self.steps), dict[int, tuple[list[float], bool]]()
+        known = self._integrated(inner, ahead=ahead)
         if known is None:
             return None
         # squared velocities and their derivatives by s, at the starts and at the ends of cells
@@ -345,11 +373,17 @@ class _Sides:
         h = self.cells.lengths
         d0, d1 = 2.0 * h * c0 * self.cells.rate[:, _START], 2.0 * h * c1 * self.cells.rate[:, _END]
 
+        bulges = np.zeros(count)
+        for cell, (several, _) in inner.items():  # by the value in the middle
+            bulges[cell] = 16.0 * several[len(several) // 2] - 8.0 * (w0 + w1)[cell] - 2.0 * (d0 - d1)[cell]
+
         def hermite(cells: NDArray[np.intp], x: Array) -> Array:
             rise = (w1 - w0)[cells, None]
             by_slopes = (d0[cells, None] - rise) * (1.0 - x) + (rise - d1[cells, None]) * x
-            return np.asarray(w0[cells, None] + rise * x + x * (1.0 - x) * by_slopes)
+            bulge = x * (1.0 - x) * bulges[cells, None]
+            return np.asarray(w0[cells, None] + rise * x + x * (1.0 - x) * (by_slopes + bulge))
 
+        uneven = [cell for cell, (_, changes) in inner.items() if changes]
         w = hermite(np.arange(count), _PLACES_OF_CELL)
         with np.errstate(all="ignore"):
             c = self._limit(np.where(np.isfinite(w), np.maximum(w, 0.0), 0.0), ahead=ahead)
@@ -357,14 +391,22 @@ class _Sides:
 
         def in_parts(cells: NDArray[np.intp]) -> Array:
             several = hermite(cells, np.arange(_PARTS + 1) / _PARTS)
+            for row, cell in enumerate(cells.tolist()):
+                if cell in uneven:
+                    several[row] = inner[cell][0]
             return np.where(np.isnan(several), inf, several)
 
-        return _Arcs(w, c, in_parts)
+        even = np.ones(count, dtype=bool)
+        even[uneven] = False
+        return _Arcs(w, c, even, in_parts)
 
-    def _integrated(self, *, ahead: bool) -> list[tuple[float, float, float, float]] | None:
+    def _integrated(
+        self, inner: dict[int, tuple[list[float], bool]], *, ahead: bool
+    ) -> list[tuple[float, float, float, float]] | None:
         """Squared velocities and accelerations at both ends of cells, by Runge and Kutta's method of order 4.
 
-        They are not numbers in cells where the motion follows the cap.
+        They are not numbers in cells where the motion follows the cap. The squared velocities at the ends of steps in
+        cells of several are `inner`, and whether the motion changes from one bound to another there.
         """
         limit, way = (self._greatest, 1.0) if ahead else (self._least, -1.0)
         cap = self.cap if ahead else self.cap[::-1]
@@ -382,19 +424,74 @@ class _Sides:
                 known.append(not_known)
                 w = most[k]
                 continue
-            step = 2.0 * way * self.steps[i]
-            c = limit(first, i, w)
-            rises = [step * c * rates[0][i]]
-            for share, place, rate in ((0.5, middle, rates[1]), (0.5, middle, rates[1]), (1.0, last, rates[2])):
-                rises.append(step * limit(place, i, max(w + share * rises[-1], 0.0)) * rate[i])
-            more = w + (rises[0] + 2.0 * (rises[1] + rises[2]) + rises[3]) / 6.0
+            rows = self.rows[first], self.rows[middle], self.rows[last]
+            more, c, several = _step(limit, rows, i, w, [2.0 * way * self.steps[i] * rate[i] for rate in rates])
+            if (steps := _PARTS if several else self._near_rest[k]) > 1:
+                in_parts = self._in_parts(limit, i, w, steps, ahead=ahead)
+                inner[i], more = (in_parts if ahead else in_parts[::-1], several), in_parts[-1]
             if not more > 0.0 and k + 1 < count:
                 return None
             more = max(more, 0.0)
-            beyond = limit(last, i, more)
+            beyond, _ = limit(self.rows[last], i, more)
             known.append((w, more, c, beyond) if ahead else (more, w, beyond, c))
             w = min(more, most[k])
         return known if ahead else known[::-1]
+
+    def _in_parts(self, limit: _Limit, i: int, w: float, steps: int, *, ahead: bool) -> list[float]:
+        """The squared velocities at the ends of steps in a cell, in the order in which it is integrated."""
+        places = range(0, 2 * _PARTS + 1, _PARTS // steps)
+        s = self.cells.ends[i] + self.cells.lengths[i] * np.array(places) / (2 * _PARTS)
+        slopes = (np.pi * np.sin(np.pi * s) * (1.0 if ahead else -1.0) * self.cells.lengths[i] / steps).tolist()
+        factors = [self._factors(number, i) for number in range(len(self.forms))]
+        rows = [[[[form[place]] for form in forms] for forms in factors] for place in places]
+        if not ahead:
+            rows, slopes = rows[::-1], slopes[::-1]
+        several = [w]
+        for step in range(0, 2 * steps, 2):
+            more, _, _ = _step(limit, rows[step : step + 3], 0, several[-1], slopes[step : step + 3])
+            several.append(max(more, 0.0))
+        return several
+
+    def _factors(self, number: int, i: int) -> list[list[list[float]]]:
+        """The factors of a bound's forms at the ends and in the middles of the parts of a cell."""
+        known = self.in_halves[number]
+        if i not in known:
+            known[i] = [
+                (_HALVES_OF_PARTS @ np.stack([factor[i, :_MIDDLE] for factor in form[2:]], axis=1)).tolist()
+                for form in self.forms[number]
+            ]
+        most = float(self.forms[number][0][0][i, 0])
+        return [[[most, self.falls[number], *factors] for factors in form] for form in known[i]]
+
+
+def _steps_near_rest(count: int) -> list[int]:
+    """How many steps a cell has, from one at rest on: each is short beside its distance from there."""
+    return [max(_PARTS >> cell.bit_length(), 1) for cell in range(count)]
+
+
+def _step(
+    limit: _Limit, rows: Sequence[list[Any]], i: int, w: float, slopes: Sequence[float]
+) -> tuple[float, float, bool]:
+    """A squared velocity a step on, the acceleration before it, and whether bounds change places in it.
+
+    Parameters
+    ----------
+    limit
+        The acceleration at a place, and the number of its bound.
+    rows
+        The factors of the bounds at the first place, in the middle and at the last place.
+    i, w
+        The cell, and the squared velocity at the first place.
+    slopes
+        Twice the derivatives of the position at these places, times the step.
+    """
+    c, by = limit(rows[0], i, w)
+    rises, several = [slopes[0] * c], False
+    for share, place in ((0.5, 1), (0.5, 1), (1.0, 2)):
+        rate, other = limit(rows[place], i, max(w + share * rises[-1], 0.0))
+        rises.append(slopes[place] * rate)
+        several |= other != by
+    return w + (rises[0] + 2.0 * (rises[1] + rises[2]) + rises[3]) / 6.0, c, several
 
 
 def value_of(plane: PhasePlane, edges: tuple[float, ...], s: tuple[float, ...], b: tuple[float, ...]) -> float:
