@@ -45,7 +45,6 @@ class PolarSpline(CurveByJets):
 
     @property
     def breaks(self) -> tuple[float, ...]:
-        """The angles of the radii."""
         return self._radius.breaks
 
     def jets(self, places: Array | Interval, order: int) -> Pair:

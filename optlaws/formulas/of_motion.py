@@ -85,7 +85,6 @@ class MotionFormula:
 
     @property
     def curvature(self) -> Curvature:
-        """The curvature of the formula in the law."""
         return self.verdict.curvature
 
     def branches(self, sign: float) -> list[Formula] | None:

@@ -125,7 +125,6 @@ class Number(Formula):
 
     @property
     def data(self) -> float:
-        """The value of the number."""
         return self.value
 
     def __str__(self) -> str:
@@ -141,7 +140,6 @@ class Name(Formula):
 
     @property
     def data(self) -> str:
-        """The data of a name: its text."""
         return self.name
 
     @kept_property
@@ -160,7 +158,6 @@ class OfOnePart(Formula):
 
     @property
     def parts(self) -> tuple[Formula, ...]:
-        """The single part of the formula."""
         return (self.of,)
 
 
@@ -183,7 +180,6 @@ class Sum(Formula):
 
     @property
     def parts(self) -> tuple[Formula, ...]:
-        """The terms of the sum."""
         return self.terms
 
     def __str__(self) -> str:
@@ -215,7 +211,6 @@ class Product(Formula):
 
     @property
     def parts(self) -> tuple[Formula, ...]:
-        """The factors of the product."""
         return self.factors
 
     def __str__(self) -> str:
@@ -252,12 +247,10 @@ class Call(Formula):
 
     @property
     def parts(self) -> tuple[Formula, ...]:
-        """The arguments of the function."""
         return self.arguments
 
     @property
     def data(self) -> str:
-        """The name of the function."""
         return self.function
 
     def __str__(self) -> str:

@@ -239,7 +239,6 @@ class StudyPoints:
 
     @property
     def chunks(self) -> int:
-        """How many chunks there are."""
         return ceil(len(self) / self.chunk)
 
     def of_chunk(self, number: int) -> dict[int, dict[str, Any]]:

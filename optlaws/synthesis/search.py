@@ -71,7 +71,6 @@ class LawSearch:
 
     @property
     def problem(self) -> Problem:
-        """The problem that is solved."""
         return self.model.problem
 
     def answer(self) -> Solution | None:

@@ -56,7 +56,6 @@ class Cutting:
 
     @property
     def metres(self) -> float:
-        """The tolerance in metres."""
         return positive_quantity(self.tolerance, "length", "tolerance")
 
     @property

@@ -84,7 +84,6 @@ class SwingingFace(FaceContact):
 
     @property
     def pivot(self) -> float:
-        """The distance of the pivot."""
         return self.distance
 
     def point(self, s: Jet) -> Pair:

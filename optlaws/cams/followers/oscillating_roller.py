@@ -95,7 +95,6 @@ class SwingingRoller(RollerContact):
 
     @property
     def pivot(self) -> float:
-        """The distance of the pivot."""
         return self.distance
 
     @property

@@ -42,7 +42,6 @@ class AxisTransition(NamedTuple):
 
     @property
     def title(self) -> str:
-        """Title on pages and pictures."""
         first, last = self.cam.master
         return f"{self.axis}, {self.cam.kind} from {first:.6g} to {last:.6g} deg"
 

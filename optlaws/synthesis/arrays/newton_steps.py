@@ -37,7 +37,6 @@ class Structure:
 
     @property
     def count(self) -> int:
-        """The number of contacts in the structure."""
         return len(self.family)
 
     @property

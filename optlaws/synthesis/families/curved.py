@@ -89,7 +89,6 @@ class CurvedFamily(FormulaFamily):
 
     @property
     def names(self) -> tuple[str, ...]:
-        """The names of its parts."""
         return tuple(name for name, _ in self.parts)
 
     @kept_property

@@ -84,7 +84,6 @@ class OfFormula(Functional):
 
     @property
     def affine(self) -> bool:
-        """Whether the formula is affine in the law."""
         return self.motion.affine is not None
 
     @kept_property

@@ -60,7 +60,6 @@ class StoredStructure:
 
     @property
     def count(self) -> int:
-        """The number of contacts."""
         return len(self.sign)
 
     def at(self, B: float) -> tuple[Array, Array]:

@@ -121,7 +121,6 @@ class PlaceRange(NamedTuple):
 
     @property
     def k(self) -> float:
-        """The middle of the range."""
         return (self.low + self.high) / 2.0
 
     @property

@@ -200,7 +200,6 @@ class _Refined:
 
     @property
     def _scale(self) -> float:
-        """The scale of the objective."""
         return self.number.problem.objective.scale
 
     @property

@@ -33,7 +33,6 @@ class DrivenStretch:
 
     @property
     def stop(self) -> Fraction:
-        """The time at which the stretch ends."""
         return self.start + self.length
 
     @property

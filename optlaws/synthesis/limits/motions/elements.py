@@ -36,7 +36,6 @@ class Elements:
 
     @kept_property
     def lengths(self) -> Array:
-        """The lengths of the elements."""
         return np.asarray(np.diff(self.edges))
 
     @kept_property

@@ -101,7 +101,6 @@ class MotionCells:
 
     @kept_property
     def lengths(self) -> Array:
-        """The lengths of cells."""
         return np.asarray(np.diff(self.ends))
 
     @kept_property

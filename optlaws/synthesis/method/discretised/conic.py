@@ -54,7 +54,6 @@ class _Block:
 
     @property
     def cones(self) -> list[Any]:
-        """The cones as Clarabel takes them."""
         import clarabel
 
         if self.linear:

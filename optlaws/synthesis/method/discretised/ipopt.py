@@ -51,7 +51,6 @@ class _Shapes:
 
     @property
     def rows(self) -> int:
-        """The rows of all kinds."""
         return self.linear + sum(shape.count for shape in self.curved)
 
 
