@@ -134,6 +134,11 @@ class MoveLimit(JsonText):
         InputError
             If the data is no such limit.
         """
+        if isinstance(data, Mapping) and "drive_limit" in data and "move" not in data:
+            raise InputError(
+                f"{cls._json_name} was written by a version of optlaws that did not store its mechanism and its move, "
+                "without which its unit cannot be checked: compute it again with this version and write a new file"
+            )
         known = entries_of(data, _ENTRIES, "the limit of a move")
         for name in data:
             if name not in _ENTRIES:

@@ -123,3 +123,14 @@ def test_no_number_stands_beside_a_certificate_that_proves_nothing(name: str) ->
     broken = changed(data, ("drive_limit", "potential"), [[0.0] * 5] * pieces)
     assert noticed(broken), name
     assert noticed(changed(broken, ("drive_limit", "attained"), None)), name
+
+
+def test_a_file_without_its_move_is_refused_with_a_remedy() -> None:
+    for name, limit in limits().items():
+        data = {key: value for key, value in limit.to_dict().items() if key != "move"}
+        for read in (verify, MoveLimit.from_dict):
+            with pytest.raises(
+                InputError, match=r"did not store its mechanism and its move.*compute it again"
+            ) as caught:
+                read(data)
+            assert len(str(caught.value)) < 300, name
