@@ -88,7 +88,7 @@ class LeastTimeFile(msgspec.Struct, forbid_unknown_fields=True):
     end_jerk: float = 0.0
     torque: dict[str, Any] | None = None
     residual: dict[str, Any] | None = None
-    unit: Literal["m", "rad"] | None = None
+    unit: Literal["m", "rad"] | msgspec.UnsetType = msgspec.UNSET
     about: str = ""
 
 
