@@ -104,7 +104,7 @@ class FastestCycle:
         Optimal where no law of the search space keeps the limits in a period that is shorter by a millionth, proven by
         `proofs` or, of laws that are given, by their closed form; else local.
     proofs
-        By the name and time of a motion: no law keeps its limits in that time.
+        By the name of a motion: no law keeps its limits in a millionth less time than the motion has.
 
     Examples
     --------
@@ -181,19 +181,16 @@ class FastestCycle:
         return Summary(rows)
 
     def claims(self) -> dict[str, Any]:
-        """The proofs as `optlaws verify` takes them: each problem with the certificate that it has no law."""
-        entries: dict[str, Any] = {
+        """The proofs as `optlaws verify` takes them: each problem with the certificate that it has no law.
+
+        The problems are without dimensions: neither the speed nor the period is in them.
+        """
+        return {
             name: {"asked": proof.problem.to_dict(), "status": "infeasible", "proof": proof.to_dict()}
             if proof.program == VIOLATION
             else proof.to_dict()
             for name, proof in self.proofs.items()
         }
-        about = (
-            f"greatest speed {self.rpm:.9g} rpm, least period {self.period:.9g} s; in a millionth less of their time "
-            "these motions have no law within the limits, or take more power, or their least mean squares sum to more "
-            "than the rating"
-        )
-        return {"about": about, **entries}
 
     def plot(self, ax: Any = None, **style: Any) -> list[Any]:
         """Draw the motion at the greatest speed over time, with the limits of each segment; return the artists.

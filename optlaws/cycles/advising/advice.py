@@ -157,7 +157,7 @@ class Advice:
         }
 
     def proofs(self) -> dict[str, Any]:
-        """The solutions of all optimal laws, by their names, and nothing else: a file of it `optlaws verify` checks.
+        """The solutions of all optimal laws by their names, and of the front in order: `optlaws verify` checks them.
 
         Examples
         --------
@@ -166,10 +166,11 @@ class Advice:
         'least acceleration'
         """
 
-        def of(laws: tuple[AdvisedLaw, ...]) -> dict[str, Any]:
-            return {law.name: [each.to_dict() for each in law.solutions] for law in laws if law.solutions}
+        def of(law: AdvisedLaw) -> list[dict[str, Any]]:
+            return [each.to_dict() for each in law.solutions]
 
-        return {"about": str(self), "laws": of(self.laws), "front": of(self.front[1:])}
+        laws = {law.name: of(law) for law in self.laws if law.solutions}
+        return {"laws": laws, "front": [of(law) for law in self.front[1:] if law.solutions]}
 
     def __repr__(self) -> str:
         chosen = self.recommendation

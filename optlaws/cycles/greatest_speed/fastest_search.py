@@ -33,7 +33,7 @@ from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.proof.certificate import VIOLATION, Certificate
 from optlaws.synthesis.solution import Solution
 from optlaws.synthesis.status import Status
-from optlaws.tolerances import BINDING_LIMIT, CLOSURE, FASTER, SAME_TIME
+from optlaws.tolerances import BINDING_LIMIT, CLOSURE, SAME_TIME
 
 #: so many times slower every limit of a derivative is kept
 _SLOW = 1e4
@@ -183,11 +183,11 @@ class FastestSearch:
 
     @property
     def proofs(self) -> dict[str, Certificate]:
-        """The certificates that the motions have no laws a little faster, by their names and times."""
+        """The certificates that the motions have no laws a little faster, by their names."""
         if self.rating is not None and self.rating.binds:
             return self.rating.proofs or {}
         return {
-            f"{span.where} in {span.needed * (1.0 - FASTER):.9g} s{_of_what(span.least.proof)}": span.least.proof
+            f"{span.where}{_of_what(span.least.proof)}": span.least.proof
             for span in self.binding
             if span.least.proof is not None
         }

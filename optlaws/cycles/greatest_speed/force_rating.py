@@ -109,7 +109,7 @@ class ForceRating:
             if solution is None:
                 return None
             square += span.duration * span_bound(span, piece, solution, self._of_force) ** 2
-            proofs[f"{span.where} in {span.duration:.9g} s, least {self.name}"] = solution.certificate
+            proofs[f"{span.where}, least {self.name}"] = solution.certificate
         return proofs if square > self.most**2 * period else None
 
     @property

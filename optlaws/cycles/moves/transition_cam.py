@@ -224,7 +224,7 @@ class TransitionCam(JsonText):
         return entries | {"best": None, "least": None} | origin
 
     def claims(self) -> dict[str, Any]:
-        """The law and its proof as `optlaws verify` takes them.
+        """The law and its proof as `optlaws verify` takes them; of a run-out it runs backwards in time.
 
         Examples
         --------
@@ -234,12 +234,8 @@ class TransitionCam(JsonText):
         >>> [checked.proven for checked in verify_all(cycle.run_in("90 deg", over="120 deg").claims()).values()]
         [True]
         """
-        first, last = self.master
-        known = "its best law" if self.least is None else f"least time {self.duration:.9g} s"
-        backwards = "" if self.kind == "run-in" else "; the law runs backwards in time"
-        about = f"{self.kind} from {first:.9g} to {last:.9g} deg of the master: {known}{backwards}"
         value = self.solution if self.least is None else self.least
-        return {"about": about, "law": value.to_dict()}
+        return {"law": value.to_dict()}
 
     @classmethod
     def from_dict(cls, data: Mapping[str, Any]) -> TransitionCam:
