@@ -10,6 +10,7 @@ from random import Random
 from typing import Any
 
 import pytest
+from flint import arb_mat, ctx
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -35,6 +36,7 @@ from optlaws import (
 from optlaws.verification import exact_bound, verify
 from tests.check_proofs import RESULTS, certificates, run
 from tests.documents import ROOT
+from tests.internals.verification import ExactRows
 from tests.verification.tampering import changed, data_of, numbers, places, value_at
 from tests.verification.test_tampered import FILES, PLAIN
 
@@ -462,3 +464,63 @@ def test_the_exit_code_says_what_is_only_partly_checked(tmp_path: Path) -> None:
     verdicts = {claim["verdict"] for claim in json.loads(answer.stdout)}
     assert answer.returncode == (3 if "not checked" in verdicts else 0)
     assert "not checked" in verdicts
+
+
+@pytest.mark.parametrize("weight", [1e-9, 1.0, 1e9])
+def test_an_objective_that_can_be_zero_is_compared_with_its_scale(weight: float, tmp_path: Path) -> None:
+    solution = synthesize(Problem(minimise=f"{weight!r}*snap", order=2, basis=Pieces(breaks=2, degree=7, continuity=3)))
+    data = solution.to_dict()
+    assert {claim["verdict"] for claim in checked(data, tmp_path)} == {"proven"}
+    false = checked({**data, "objective": 1e-6 * weight, "lower_bound": 1e-6 * weight}, tmp_path)
+    wrong = {claim["path"] for claim in false if claim["verdict"] == "not proven"}
+    assert wrong == {"the file: objective", "the file: lower bound"}
+
+
+def test_an_objective_in_small_units_is_no_other_within_them(tmp_path: Path) -> None:
+    data = synthesize(Problem(minimise="1e-9*C", order=3, basis=Chebyshev(5))).to_dict()
+    false = checked({**data, "objective": data["objective"] * 1.001}, tmp_path)
+    assert [claim["path"] for claim in false if claim["verdict"] == "not proven"] == ["the file: objective"]
+
+
+@pytest.mark.parametrize(
+    "window",
+    [Window("b", low=0.0, high=0.2, start=0.4, stop=0.6), Window("c", high=-1.0, start=0.1, stop=0.4)],
+)
+def test_a_contradiction_that_rounding_alone_hides_is_not_called_false(window: Window, tmp_path: Path) -> None:
+    with pytest.raises(InfeasibleProblem) as raised:
+        synthesize(Problem(order=4, basis=Chebyshev(1), windows=(window,)))
+    proof = raised.value.proof
+    assert isinstance(proof, Certificate)
+    value = exact_bound(proof)
+    assert value is not None
+    assert value > 0
+    data = proof.to_dict()
+    assert [claim["verdict"] for claim in checked(data, tmp_path)] == ["not checked"]
+    data["contacts"][0]["k"] += 0.01
+    assert [claim["verdict"] for claim in checked(data, tmp_path)] == ["not proven"]
+
+
+def test_of_the_power_over_pieces_no_more_is_proven_than_its_rows_permit(tmp_path: Path) -> None:
+    breaks = (0.0, 0.17, 0.5, 0.83, 1.0)
+    problems = [
+        Problem(order=2, basis=Pieces(breaks, 5, 3), minimise="D"),
+        Problem(order=2, basis=Pieces(breaks, 7, 4), minimise="D", J=at_most(70.0)),
+        Problem(order=2, basis=Pieces(breaks, 8, 4), minimise="D", symmetric=False),
+    ]
+    for problem in problems:
+        certificate = synthesize(problem).certificate
+        (result,) = checked(certificate.to_dict(), tmp_path)
+        assert result["verdict"] == "proven"
+        assert result["bound"] <= _least_of_rows(certificate) * (1.0 + 1e-15)
+
+
+def _least_of_rows(certificate: Certificate) -> float:
+    """The D of values that satisfy all rows with a multiplier, as equations, in 100 digits: no row proves more."""
+    with ctx.workdps(100):
+        rows = ExactRows(certificate)
+        acting = [rows.row(contact) for contact in certificate.contacts if contact.multiplier > 0.0]
+        vectors = [row.vector(rows.names) for row in (*acting, *rows.equations) if row is not None]
+        matrix = arb_mat([[entry.mid() for entry in vector[:-1]] for vector in vectors])
+        right = arb_mat(len(vectors), 1, [-vector[-1].mid() for vector in vectors])
+        least = matrix.transpose() * (matrix * matrix.transpose()).solve(right)
+        return float(least[rows.space.terms + rows.names.index("D"), 0].mid())

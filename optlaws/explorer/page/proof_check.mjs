@@ -3,7 +3,7 @@
    It shares no code with the library that writes the proofs: docs/reference/proof-format.md says what is computed. */
 
 import { ONE, Rational, Unknown, ZERO, exact, greatest, least, quotientRounded, solvedWhole, sum, whole, wholeNumbers } from "./proof_numbers.mjs";
-import { MEANS, PEAKS, ROOT, Rows, neverNegative, rangeOf } from "./proof_rows.mjs";
+import { MEANS, PEAKS, ROOT, Rows, neverNegative, parsed, rangeOf, scaleOf } from "./proof_rows.mjs";
 import { boxesHold } from "./proof_boxes.mjs";
 import { lawChecked, sameData, solutionChecked } from "./proof_solution.mjs";
 import { endVelocities, stroke } from "./proof_laws.mjs";
@@ -99,16 +99,18 @@ function boxesChecked(certificate) {
 }
 
 function leafChecked(certificate) {
-  const { bound, contradiction, charge } = provenBy(certificate);
-  if (contradiction) {
-    const proven = bound !== null && bound.sign > 0;
-    return { verdict: proven ? "proven" : "not proven", detail: proven ? "no law of the problem exists" : "the rows do not contradict each other", bound: null };
-  }
+  const { bound, contradiction, charge, unbounded } = provenBy(certificate);
   const stated = certificate.bound ?? null;
+  const room = STATED.times(greatest(bound?.magnitude() ?? ZERO, scaleOf(parsed(certificate.problem.minimise))));
+  const holds = bound !== null && (contradiction ? bound.sign > 0 : stated === null || !bound.plus(room).below(exact(stated)));
+  if (!holds && unbounded) {
+    return { verdict: "not checked", detail: "this program does not know how little the rounding of the multipliers takes: nothing bounds the laws", bound };
+  }
+  if (contradiction) {
+    return { verdict: holds ? "proven" : "not proven", detail: holds ? "no law of the problem exists" : "the rows do not contradict each other", bound: null };
+  }
   if (stated === null) return { verdict: "proven", detail: "no bound is stated", bound };
   if (bound === null) return { verdict: "not proven", detail: `${stated} is stated, and nothing is proven`, bound };
-  const room = STATED.times(bound.magnitude());
-  const holds = !bound.plus(room).below(exact(stated));
   const hidden = charge && !CHARGED.times(bound.magnitude()).below(charge) && !bound.plus(charge).plus(room).below(exact(stated));
   if (!holds && hidden) {
     const detail = `this program does not know how little the rounding of the multipliers takes: ${bound.toNumber()} is proven of ${stated}`;
@@ -127,27 +129,35 @@ export function provenBy(certificate) {
   const total = { z: nothing, off: nothing, names: new Map(rows.cost), constant: ZERO, offConstant: ZERO };
   const loose = new Map();
   const means = new Set();
+  const used = [];
+  const take = (multiplier, row) => {
+    used.push([multiplier.magnitude(), row]);
+    add(total, multiplier, row);
+  };
   for (const contact of contacts) {
     const multiplier = exact(contact.multiplier);
     const row = multiplier.sign > 0 ? rows.row(contact) : null;
     if (row?.rms) means.add(row.rms);
     else if (row?.loose) loose.set(row.loose, [...(loose.get(row.loose) ?? []), [multiplier, row]]);
-    else if (row) add(total, multiplier, row);
+    else if (row) take(multiplier, row);
   }
-  rows.equations.forEach((row, i) => { if (equations[i]) add(total, exact(equations[i]), row); });
+  rows.equations.forEach((row, i) => { if (equations[i]) take(exact(equations[i]), row); });
   // rows in a unit of the machine's: such that nothing is left of their variable
   for (const [name, group] of loose) {
     const factor = (total.names.get(name) ?? ZERO).over(sum(group.map(([multiplier]) => multiplier)));
-    if (factor.sign > 0) group.forEach(([multiplier, row]) => add(total, multiplier.times(factor), row));
+    if (factor.sign > 0) group.forEach(([multiplier, row]) => take(multiplier.times(factor), row));
   }
   for (const name of means) {
     const weight = total.names.get(name) ?? ZERO;
     const row = weight.sign > 0 ? rows.beside(name, total.z.map((slope) => slope.over(weight))) : null;
-    if (row) add(total, weight, row);
+    if (row) take(weight, row);
   }
   const claim = contradiction ? ZERO : greatest(total.constant, ZERO);
   const charge = chargeOf(rows, total, claim, contradiction);
-  if (charge === null) return { bound: contradiction ? ZERO : floorOf(rows), contradiction };
+  if (charge === null) {
+    const unbounded = total.constant.sign > 0 && isRounding(rows, total, used);
+    return { bound: contradiction ? ZERO : floorOf(rows), contradiction, unbounded };
+  }
   const value = total.constant.minus(charge);
   if (contradiction) return { bound: value, contradiction };
   return { bound: greatest(least(value, claim), floorOf(rows) ?? value), contradiction, charge };
@@ -161,6 +171,14 @@ function add(total, multiplier, row) {
   const size = multiplier.magnitude();
   total.off = total.off.map((entry, i) => entry.plus(size.times(row.off[i])));
   total.offConstant = total.offConstant.plus(size.times(row.offConstant));
+}
+
+/* Whether what is left of the sum is small beside the rows that are summed. */
+function isRounding(rows, total, used) {
+  const largest = (row) => [...row.z, ...Object.values(row.names), row.constant].map((entry) => entry.magnitude()).reduce(greatest);
+  const most = CHARGED.times(sum([...[...rows.cost.values()].map((cost) => cost.magnitude()), ...used.map(([size, row]) => size.times(largest(row)))]));
+  const named = [...total.names].filter(([name, slope]) => slope.sign < 0 || !neverNegative(rows.problem, name)).map(([, slope]) => slope);
+  return ![...total.z, ...named].some((slope) => most.below(slope.magnitude()));
 }
 
 /* What the objective is at least because none of its constants is negative; null where one may be. */

@@ -12,6 +12,9 @@ const MEANS = { rms_c: 2, rms_j: 3, rms_snap: 4 };
 const ORDERS = { a: 0, b: 1, c: 2, j: 3 };
 const ROOT = "root of D";
 const NEAR = exact(1e-9);
+/* The weights of an objective between which they are no part of its scale. */
+const LEAST_WEIGHT = 1e-3;
+const GREATEST_WEIGHT = 1e3;
 
 /* "0.5*C + max(B, 0.2*J)" as [[weight, term]]; a term has a name and, of a maximum, parts. */
 export function parsed(text) {
@@ -55,6 +58,18 @@ export function parsed(text) {
 /* The names of the constants in an objective. */
 export function leavesOf(terms) {
   return terms.flatMap(([, term]) => (term.parts ? term.parts.flatMap(leavesOf) : [term.name]));
+}
+
+/* The size of an objective in smooth laws, a power of 2, with which numbers near 0 are compared; 0 where it is not known. */
+export function scaleOf(terms) {
+  const sizes = terms.map(([, { name, parts }]) => {
+    if (parts) return parts.map(scaleOf).reduce(greatest);
+    return name in PEAKS || name in MEANS || name === "D" ? ONE : ZERO;
+  });
+  const unit = sizes.reduce(greatest);
+  if (sizes.some((size) => size.sign === 0)) return ZERO;
+  const share = terms.map(([weight], i) => weight.times(sizes[i].over(unit)).toNumber()).reduce((one, other) => Math.max(one, other));
+  return share > LEAST_WEIGHT && share < GREATEST_WEIGHT ? unit : unit.times(exact(2 ** Math.floor(Math.log2(share))));
 }
 
 function maximaOf(terms) {

@@ -1,7 +1,7 @@
 /* What a file states of a law beside its proofs, held against the law and against what the proofs prove. */
 
 import { HALF, ONE, Unknown, ZERO, exact, greatest, sum, whole } from "./proof_numbers.mjs";
-import { MEANS, PEAKS, parsed } from "./proof_rows.mjs";
+import { MEANS, PEAKS, parsed, scaleOf } from "./proof_rows.mjs";
 import { ends, lawOfZ } from "./proof_laws.mjs";
 import { limitOf } from "./proof_limits.mjs";
 import { conditionsOf, distance, enclosed, missesOf, motionOf, objectiveOf, reachedAt } from "./proof_motion.mjs";
@@ -14,6 +14,8 @@ const ROUNDING = exact(1e-12);
 const KEPT = exact(1e-9);
 /* What a gap may be off, and be without: the law is optimal then. */
 const GAP = exact(1e-8);
+/* An objective that is less, of its scale, is 0 but for rounding. */
+const NO_OBJECTIVE = exact(1e-6);
 /* By how much of its size a law may differ from its Z. */
 const ROUNDED_SERIES = exact(2 ** -44);
 
@@ -37,7 +39,7 @@ export function solutionChecked(data, path, proven) {
     tried("objective", () => {
       const objective = objectiveOf(motion, parsed(problem.minimise));
       [, highest] = objective;
-      if (data.objective !== undefined) claim("objective", near(data.objective, objective), `${data.objective} is stated, ${objective[1].toNumber()} is that of the law`);
+      if (data.objective !== undefined) claim("objective", near(data.objective, objective, scaleOf(parsed(problem.minimise))), `${data.objective} is stated, ${objective[1].toNumber()} is that of the law`);
     });
     for (const key of ["certificate", "power_certificate", "peak_certificate"]) {
       if (data[key]) claim(`problem of the ${key.replace("_", " ")}`, sameData(data[key].problem, problem), "it is to be that of the file");
@@ -54,8 +56,10 @@ export function solutionChecked(data, path, proven) {
   });
   tried("lower bound", () => {
     const limit = limitOf(problem, parsed(problem.minimise));
-    const agrees = (stated, bound) => bound !== null && !bound.plus(STATED.times(bound.magnitude())).below(exact(stated));
-    const aboveIt = (stated) => highest.plus(STATED.times(highest.magnitude())).below(exact(stated));
+    const scale = scaleOf(parsed(problem.minimise));
+    const above = (stated, value) => value.plus(STATED.times(greatest(value.magnitude(), scale))).below(exact(stated));
+    const agrees = (stated, bound) => bound !== null && !above(stated, bound);
+    const aboveIt = (stated) => above(stated, highest);
     const bounds = [...proven.map(({ bound }) => bound), limit].filter((bound) => bound);
     const certificates = ["certificate", "power_certificate", "peak_certificate"].filter((key) => data[key]);
     const limitKnown = (data.limit ?? null) === null || agrees(data.limit, limit);
@@ -70,7 +74,9 @@ export function solutionChecked(data, path, proven) {
       else if (allKnown && best && name === "lower bound") claim(name, false, `${stated} is stated, ${best.toNumber()} is proven`);
       else claims.push({ path: `${path}: ${name}`, verdict: "not checked", detail: `${stated} is stated, by no proof that this program knows` });
     }
-    const gap = highest && best && highest.sign > 0 ? highest.minus(best).over(highest) : null;
+    // of an objective that is 0 but for rounding, the scale is the measure of gaps
+    const measure = highest && (NO_OBJECTIVE.times(scale).below(highest) ? highest : scale);
+    const gap = measure?.sign > 0 && best ? highest.minus(best).over(measure) : null;
     const room = (most) => gap && !most.plus(GAP).below(gap);
     const nearly = (least) => least && !GAP.times(HALF).below(least);
     const shown = gap ? `it is at most ${gap.toNumber()}` : "the gap is not known";
@@ -129,7 +135,7 @@ export function lawChecked(data, path) {
   }
 }
 
-function near(stated, [low, high]) {
-  const room = ROUNDED.times(greatest(ONE, high.magnitude()));
+function near(stated, [low, high], scale = ONE) {
+  const room = ROUNDED.times(greatest(scale, high.magnitude()));
   return !exact(stated).below(low.minus(room)) && !high.plus(room).below(exact(stated));
 }
