@@ -60,8 +60,11 @@ def old_cam(
     """Answer for the table of an old cam."""
     from optlaws.cycles.old_tables.table import read_cycle_table
     from optlaws.exports.format import format_of
+    from optlaws.motion.quantities import positive_quantity
 
     check_files(options.save, plot=plot)
+    if options.speed is not None:
+        positive_quantity(options.speed, "angular velocity", "--speed")
     if options.save is not None and options.save.suffix != ".toml":
         raise InputError(f"--save takes a problem file, whose name ends in .toml, got {options.save}")
     chosen = None if options.export is None else format_of(options.export)

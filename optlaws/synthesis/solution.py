@@ -172,7 +172,9 @@ class Solution(LawExport, JsonText):
         rows = [
             Row("status", self.status.value, note=self.status.advice),
             Row(problem.titled(str(problem.minimise)), self.objective),
-            Row("lower bound", self.lower_bound, note=f"gap {self.gap:.1e}"),
+            Row("lower bound", "none above 0 is known")
+            if self._is_without_bound
+            else Row("lower bound", self.lower_bound, note=f"gap {self.gap:.1e}"),
         ]
         if self.limit is not None:
             laws = f"which no {limited_laws(problem)} can beat, whatever its degree"
@@ -190,6 +192,11 @@ class Solution(LawExport, JsonText):
         rows.append(Row("solved", problem.titled(repr(problem))))
         rows.append(Row("", f"{self.iterations} iterations, {1e3 * self.seconds:.0f} ms"))
         return Summary([*rows, *self.constants.summary(), *(Row("note", note) for note in self.notes)], at="k")
+
+    @property
+    def _is_without_bound(self) -> bool:
+        """Whether nothing is proven but that the objective, which is above 0, is not below it."""
+        return self.gap == 1.0
 
     @property
     def versions(self) -> dict[str, str]:
@@ -217,7 +224,10 @@ class Solution(LawExport, JsonText):
 
     def _exported(self) -> tuple[MotionLaw, tuple[str, ...]]:
         least = f"least {self.problem.minimise} = {self.objective:.9g}"
-        return self.law, (f"law: {least}, none below {self.lower_bound:.9g} in its space; status {self.status.value}",)
+        bound = (
+            "no bound above 0 is known" if self._is_without_bound else f"none below {self.lower_bound:.9g} in its space"
+        )
+        return self.law, (f"law: {least}, {bound}; status {self.status.value}",)
 
     def to_dict(self) -> dict[str, Any]:
         """Plain JSON-able dict: the command line's `--json`, with the problem and the certificate beside it.

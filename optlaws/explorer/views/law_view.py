@@ -219,15 +219,17 @@ def trust(solution: Solution) -> dict[str, Any]:
 
 
 def gap_text(gap: float) -> str:
-    """The gap in words; what is below 1e-12 is rounding.
+    """The gap in words; what is below 1e-12 is rounding, and 1 is the gap of the bound 0.
 
     Examples
     --------
-    >>> gap_text(0.07), gap_text(3e-14)
-    ('gap 7.0e-02', 'gap below 1e-12')
+    >>> gap_text(0.07), gap_text(3e-14), gap_text(1.0)
+    ('gap 7.0e-02', 'gap below 1e-12', 'no bound above 0 is known')
     """
     if bounded(gap) is None:
         return "no bound is known"
+    if gap == 1.0:
+        return "no bound above 0 is known"
     return f"gap {gap:.1e}" if gap > _GAP_ROUNDING else "gap below 1e-12"
 
 

@@ -371,3 +371,13 @@ def test_no_law_has_so_small_an_acceleration() -> None:
 def test_the_general_engine_says_what_has_a_loader(given: dict[str, Any], message: str) -> None:
     with pytest.raises(InputError, match=message):
         synthesize(replace(Problem(B=1.8, order=3, minimise="C_loader"), **given))
+
+
+@pytest.mark.parametrize("least", ["C_loader", "D_loader"])
+def test_a_bound_that_tells_nothing_is_not_shown_as_one(least: str) -> None:
+    solution = synthesize(Problem(B=1.875, order=3, basis=Chebyshev(3), minimise=least))
+    rows = {row.name: row.text(6) for row in solution.summary()}
+    assert rows["lower bound"] == "none above 0 is known"
+    bounded = synthesize(Problem(B=1.875, order=3, basis=Chebyshev(3), minimise=least, monotone=True))
+    assert {row.name: row.text(6) for row in bounded.summary()}["lower bound"] == f"{bounded.lower_bound:.6g}"
+    assert bounded.lower_bound > 0.0

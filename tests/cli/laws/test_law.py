@@ -159,3 +159,15 @@ def test_a_measured_table_is_told_to_be_noisy_unless_its_tolerance_is_given(
     rise = Rise("35 mm", "0.1 s", law=law)
     cycle = Cycle([rise, Dwell("0.1 s"), Return(duration="0.1 s", law=law)], period="0.3 s")
     assert cycle(0.025) == pytest.approx(0.035 * read_law(law)(0.25), rel=1e-12)
+
+
+@pytest.mark.parametrize("data", [{"minimise": "C", "front": [1]}, {"law": [1]}, [], {}])
+def test_a_file_of_another_kind_is_named_with_what_it_holds(
+    data: object, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = tmp_path / "other.json"
+    file.write_text(json.dumps(data), "utf-8")
+    assert exit_code(["law", str(file)]) == 2
+    text = capsys.readouterr().err
+    assert f"{file} holds no law" in " ".join(text.split())
+    assert "format of a law" not in text
