@@ -45,13 +45,10 @@ from optlaws.verification.file_entries import (
     is_proven_front,
     is_time_front,
 )
-from optlaws.verification.least_times import least_time
-from optlaws.verification.overlaps import overlap_of_axes
-from optlaws.verification.proven_fronts import proven_front
+from optlaws.verification.fronts_and_times import least_time, overlap_of_axes, proven_front, time_front
 from optlaws.verification.reading import built, number, read
 from optlaws.verification.result import Claim, Verification
 from optlaws.verification.stated_numbers import at_most, near, stated_constants, stated_numbers
-from optlaws.verification.time_fronts import time_front
 
 _NEGATIVE_MULTIPLIER = 1e-9  # of the greatest multiplier: one so little below 0 is none
 

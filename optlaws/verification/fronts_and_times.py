@@ -1,0 +1,266 @@
+"""Fronts, least times and overlapping axes of files, with every rounding enclosed: what they state of several laws."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from itertools import pairwise
+from typing import Any
+
+from optlaws.errors import OptlawsError
+from optlaws.files.reading import all_entries_of
+from optlaws.lazy import imported
+from optlaws.numbers import real
+from optlaws.synthesis.least_time.least_time import LeastTime
+from optlaws.synthesis.least_time.move_objective import MoveObjective
+from optlaws.synthesis.limits.rounding import rounded_up
+from optlaws.synthesis.problem.constants import meant
+from optlaws.synthesis.proven.front import FrontPoint, ProvenFront
+from optlaws.synthesis.proven.swept_parameter import SweptParameter
+from optlaws.tolerances import BOUND_FEASIBILITY, CORRECTED_MULTIPLIER, NO_OBJECTIVE, STORED_VALUE
+from optlaws.verification.conditions import Excess, excesses
+from optlaws.verification.enclosing.balls import enclosed
+from optlaws.verification.exact.bound import Along, Proof, prove, prove_along
+from optlaws.verification.exact.law import ExactLaw
+from optlaws.verification.reading import built, number
+from optlaws.verification.result import Claim, Verification
+
+_STATED_GAP = 1e-12  # by how much a gap that was computed in doubles may be below the proven one
+
+
+@dataclass(frozen=True)
+class _Known:
+    """Proven data of one certified law: bounds of the least objective, their slopes, and violations."""
+
+    at: Fraction
+    top: Fraction
+    top_slope: Fraction
+    proof: Proof
+    broken: tuple[Excess, ...]
+    worst: float
+
+
+def proven_front(front: ProvenFront, stated: float) -> Verification:
+    """Check every law and certificate of a front, and its gap at every value between."""
+    number, (low, high) = front.number, front.between
+    points = list(front)
+    laws = [ExactLaw(point.law) for point in points]
+    claim = 2.0 * float(front.sides[:, 0].max())
+    known = [_known(front, point, law, claim) for point, law in zip(points, laws, strict=True)]
+    gap = _gap(known, number)
+    claims = [*_laws(number, known), *_certificates(number, known)]
+    where = f"the gap at every {number.name} from {low!r} to {high!r}"
+    shown = "not known" if gap is None else f"{gap:.3e}"
+    claims.append(Claim(where, gap is not None and gap <= stated + _STATED_GAP, f"{stated:.3e} stated, {shown} proven"))
+    return Verification(problem=number.at(low), bound=None, gap=gap, claims=tuple(claims))
+
+
+def _known(front: ProvenFront, point: FrontPoint, law: ExactLaw, claim: float) -> _Known:
+    number = front.number
+    excess_of_laws = excesses(point.problem, law)
+    top = Fraction(enclosed(law.sum(point.problem.objective))[1])
+    slope = Fraction(enclosed(law.term(number.weighted))[1]) if number.concave else Fraction(0)
+    proof = prove_along(point.certificate, _along(front, point, claim))
+    broken = tuple(excess for excess in excess_of_laws if not excess.holds)
+    return _Known(
+        Fraction(point.value), top, slope, proof, broken, max((excess.by for excess in excess_of_laws), default=0.0)
+    )
+
+
+def _along(front: ProvenFront, point: FrontPoint, claim: float) -> Along:
+    number, (low, high) = front.number, front.between
+    if number.concave:
+        return Along(None, Fraction(1), number.at(low), claim)
+    other = high if point.value < high else low
+    return Along(number.at(other), Fraction(other) - Fraction(point.value), number.at(high), claim)
+
+
+def _laws(number: SweptParameter, known: list[_Known]) -> Iterator[Claim]:
+    wrong = [point for point in known if point.broken]
+    if wrong:
+        first = wrong[0]
+        detail = f"{first.broken[0].name} is broken by {first.broken[0].by:.1e} at {number.name} = {float(first.at)!r}"
+        yield Claim("laws", proven=False, detail=f"{len(wrong)} of {len(known)} break conditions: {detail}")
+        return
+    worst = max(point.worst for point in known)
+    yield Claim("laws", proven=True, detail=f"{len(known)} keep every condition, off by at most {max(worst, 0.0):.1e}")
+
+
+def _certificates(number: SweptParameter, known: list[_Known]) -> Iterator[Claim]:
+    wrong = [point for point in known if point.proof.value is None or point.proof.negative or point.proof.unknown]
+    changed = max(point.proof.correction for point in known)
+    detail = (
+        f"{len(known)} prove a bound, corrected by at most {changed:.1e} of the greatest multiplier"
+        if not wrong
+        else (
+            f"{len(wrong)} of {len(known)} prove nothing or have contacts that do not count, the first at "
+            f"{number.name} = {float(wrong[0].at)!r}"
+        )
+    )
+    yield Claim("certificates", not wrong and changed <= CORRECTED_MULTIPLIER, detail)
+
+
+def _gap(known: list[_Known], number: SweptParameter) -> float | None:
+    """The greatest gap of any value, relative as of a solution, rounded up."""
+    gaps = [_between(point, other, number) for point, other in pairwise(known)]
+    return None if None in gaps else rounded_up(max(gap for gap in gaps if gap is not None))
+
+
+def _between(point: _Known, other: _Known, number: SweptParameter) -> Fraction | None:
+    """The greatest difference of a chord and two lines, each an affine function: at the ends or where they cross."""
+    if point.proof.value is None or other.proof.value is None:
+        return None
+    width = other.at - point.at
+    if number.concave:
+        differences = [
+            (point.top - point.proof.value, point.top + point.top_slope * width - other.proof.value),
+            (other.top - other.top_slope * width - point.proof.value, other.top - other.proof.value),
+        ]
+    else:
+        rise, fall = point.proof.slope[0] * width, other.proof.slope[1] * width
+        differences = [
+            (point.top - point.proof.value, other.top - point.proof.value - rise),
+            (point.top - other.proof.value + fall, other.top - other.proof.value),
+        ]
+    (first, last), (second, end) = differences
+    turn = (last - first) - (end - second)
+    shares = [Fraction(0), Fraction(1), *([(second - first) / turn] if turn else [])]
+    gaps = [min(first + (last - first) * s, second + (end - second) * s) for s in shares if 0 <= s <= 1]
+    least = min(point.top, other.top)
+    scale = Fraction(number.problem.objective.scale)
+    return max(gaps) / (least if least > Fraction(NO_OBJECTIVE) * scale else scale)
+
+
+def least_time(data: Mapping[str, Any], of_law: Verification) -> Verification:
+    """Check the time, the limits that its law keeps and the proofs; `of_law` is what is known of its solution."""
+    stated = {key: value for key, value in data.items() if key not in {"unit", "about"}}
+    least = built(LeastTime.from_dict, stated, "the least time")
+    claims = (*of_law.claims, *_limits(least), *_proofs(least))
+    return replace(of_law, claims=claims, unchecked=(*of_law.unchecked, *_limit(least, data)))
+
+
+def _limits(least: LeastTime) -> Iterator[Claim]:
+    """The claim that the law satisfies every limit in the time, in the units of the file."""
+    law = ExactLaw(least.law)
+    for limit in least.move.limits_in(least.duration):
+        used = Fraction(enclosed(law.term(limit.constant))[1]) / Fraction(limit.bound)
+        holds = used <= 1 + Fraction(BOUND_FEASIBILITY)
+        yield Claim(f"the limit of the {limit.name}", holds, f"the law uses {float(used):.9g} of it")
+    broken = [excess for excess in excesses(least.move.within(least.duration), law) if not excess.holds]
+    detail = "; ".join(f"{excess.name} is broken by {excess.by:.1e}" for excess in broken)
+    yield Claim("the law in the least time", not broken, detail or "it keeps every condition of the move")
+
+
+def _proofs(least: LeastTime) -> Iterator[Claim]:
+    """The claim that no law satisfies the limits in any shorter time."""
+    wrong = least.contradiction
+    if wrong:
+        yield Claim("the least time", proven=False, detail=wrong)
+    for proof in least.proofs:
+        shown = [prove(certificate) for certificate in proof.certificates(least.move)]
+        stands = bool(shown) and all(each.value is not None and each.value > 0 for each in shown)
+        times = (
+            f"from {proof.shortest:.9g} s to {proof.longest:.9g} s" if proof.shortest else f"up to {proof.longest!r} s"
+        )
+        how = "the multipliers contradict the limits" if stands else "the multipliers do not contradict the limits"
+        yield Claim(f"no law in a time {times}", stands, how)
+
+
+def _limit(least: LeastTime, data: Mapping[str, Any]) -> Iterator[Claim]:
+    """The closed form for all laws, recomputed in doubles; a file with another value is refused."""
+    if least.limit is not None:
+        detail = f"{number(data, 'limit')!r} stated, {least.limit!r} by the segments"
+        yield Claim("the limit of all laws", proven=False, detail=detail, checked=False)
+
+
+_KEYS = ("duration", "value", "lower_bound", "solution")
+
+
+def time_front(data: Mapping[str, Any], of_least: Verification, of_points: Sequence[Verification]) -> Verification:
+    """Check that each law is of the move in its time, and its numbers in SI units; the rest is known already.
+
+    Parameters
+    ----------
+    data
+        The file's entry.
+    of_least, of_points
+        What is known of the least time, and of the solution of each point.
+    """
+    stated = {key: value for key, value in data["fastest"].items() if key not in {"unit", "about"}}
+    least = built(LeastTime.from_dict, stated, "the least time")
+    objective = built(MoveObjective.from_dict, data["minimise"], "what is least")
+    rows = [all_entries_of(row, _KEYS, f"points[{i}]") for i, row in enumerate(data["points"])]
+    durations = [number(row, "duration") for row in rows]
+    ascending = bool(rows) and durations[0] >= least.duration and all(low < high for low, high in pairwise(durations))
+    detail = "they ascend, none below the least time" if ascending else "they do not ascend from the least time on"
+    claims = [Claim("the times of the points", ascending, detail), *of_least.claims]
+    for duration, row, known in zip(durations, rows, of_points, strict=True):
+        where = f"at {duration:.9g} s"
+        claims += [replace(claim, name=f"{where}: {claim.name}") for claim in known.claims]
+        claims += [replace(claim, name=f"{where}: {claim.name}") for claim in _point(least, objective, row, known)]
+    unchecked = [
+        replace(claim, name=f"at {duration:.9g} s: {claim.name}")
+        for duration, known in zip(durations, of_points, strict=True)
+        for claim in known.unchecked
+    ]
+    return replace(of_least, claims=tuple(claims), unchecked=(*of_least.unchecked, *unchecked))
+
+
+def _point(least: LeastTime, objective: MoveObjective, row: Mapping[str, Any], known: Verification) -> Iterator[Claim]:
+    """The claim that a law belongs to the move in its time, with its objective and its lower bound, in SI units."""
+    duration, move = number(row, "duration"), least.move
+    with meant():
+        same = known.problem == objective.problem(move, duration)
+    yield Claim("the problem", same, f"its limits {'are' if same else 'are not'} those of the move in this time")
+    of_law = objective.in_time(duration, move.stroke)
+    unit = Fraction(of_law.bound)
+    low, high = (None, None) if known.objective is None else (Fraction(side) / unit for side in known.objective)
+    value = Fraction(number(row, "value"))
+    # a value near 0, such as a residual that vanishes, is compared with its scale
+    little = Fraction(STORED_VALUE) * max(abs(value), Fraction(of_law.constant.scale) / unit)
+    near = low is not None and high is not None and low - little <= value <= high + little
+    yield Claim(f"the {objective.name}", near, f"{float(value)!r} stated, {_shown(high)} at most")
+    stated, bound = real(row["lower_bound"]), None if known.bound is None else Fraction(known.bound) / unit
+    below = row["lower_bound"] is None or (bound is not None and stated is not None and stated <= bound + little)
+    yield Claim(f"no law with less {objective.name}", below, f"{row['lower_bound']!r} stated, {_shown(bound)} proven")
+
+
+def _shown(value: Fraction | None) -> str:
+    return "nothing" if value is None else repr(float(value))
+
+
+def overlap_of_axes(data: Mapping[str, Any]) -> Verification:
+    """Check the objective, the interlocks and the bound of axes that overlap, all computed again from the machine."""
+    overlap = built(imported("optlaws.cycles.machine_axes").Overlap.stated, data, "the axes that overlap")
+    wrong = built(lambda stated: stated.contradiction(), overlap, "the axes that overlap")
+    detail = wrong or f"{overlap.objective!r} stated, which its axes have within their limits, in doubles"
+    claims = [Claim(f"the {overlap.goal}", proven=False, detail=detail, checked=bool(wrong))]
+    if not wrong:
+        claims += [*_interlocks(overlap), _bound(overlap)]
+    return Verification(
+        problem=None,
+        bound=None,
+        claims=tuple(claim for claim in claims if claim.checked),
+        unchecked=tuple(claim for claim in claims if not claim.checked),
+    )
+
+
+def _interlocks(overlap: Any) -> Iterator[Claim]:
+    """The claims that interlocks are clear over the whole cycle, by enclosures of the positions."""
+    for least in overlap.axes.clearances:
+        detail = f"{least.status}, {least.text}; {least.bound!r} {least.unit} or more everywhere"
+        yield Claim(f"interlock {least.interlock.label}", least.status == "clear", detail, least.status != "open")
+
+
+def _bound(overlap: Any) -> Claim:
+    """The claim that no other instants have less, with what leaves no room, sought again."""
+    name = "no other instants"
+    try:
+        again = overlap.again()
+    except OptlawsError as error:
+        return Claim(name, proven=False, detail=str(error))
+    detail = f"{overlap.lower_bound!r} stated, {again.lower_bound!r} sought again; bound by {', '.join(again.binding)}"
+    low = overlap.lower_bound <= again.lower_bound * (1.0 + STORED_VALUE)
+    agrees = low and overlap.binding == again.binding and overlap.objective >= again.lower_bound * (1.0 - STORED_VALUE)
+    return Claim(name, proven=False, detail=detail, checked=not agrees)
