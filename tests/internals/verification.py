@@ -4,6 +4,7 @@ import pytest
 
 pytest.importorskip("flint")
 
+from optlaws.verification.claims import near
 from optlaws.verification.enclosing.ball_formulas import BALLS
 from optlaws.verification.enclosing.balls import ball, enclosed, enclosure, lower, upper
 from optlaws.verification.enclosing.isolated_roots import real_roots
@@ -26,4 +27,3 @@ from optlaws.verification.machines.output_motion import cycle, followed, of_piec
 from optlaws.verification.machines.residuals import ExactModeResidual
 from optlaws.verification.machines.transfer import Transfer
 from optlaws.verification.reading import built, number, read
-from optlaws.verification.stated_numbers import near
