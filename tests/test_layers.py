@@ -122,7 +122,6 @@ CHECKERS = (
     "optlaws.synthesis.proof.data",
     "optlaws.synthesis.proof.sublevel_bounds",
     "optlaws.synthesis.proof.duality",
-    "optlaws.synthesis.proof.farkas",
     "optlaws.synthesis.proof.peak_rows",
     "optlaws.synthesis.proof.power.box",
     "optlaws.synthesis.proof.nodes",

@@ -38,7 +38,7 @@ from optlaws.synthesis.limits.of_problem import known_limit
 from optlaws.synthesis.limits.phase_plane import TorqueLimit, VelocityLimit
 from optlaws.synthesis.limits.phase_plane_program import optimum
 from optlaws.synthesis.limits.rounding import not_above, root_rounded_down, rounded_down, rounded_up
-from optlaws.synthesis.method import exchange, few_families, starts
+from optlaws.synthesis.method import exchange, starts
 from optlaws.synthesis.method.discretised import ipopt
 from optlaws.synthesis.method.discretised.expressions import KINDS, RowShape
 from optlaws.synthesis.method.discretised.grids import first_points
@@ -69,9 +69,8 @@ from optlaws.synthesis.program import writer
 from optlaws.synthesis.program.evaluation import evaluate, shortfalls
 from optlaws.synthesis.program.writer import Model, extreme_velocity, least_violation, model_of, relaxed
 from optlaws.synthesis.proof import make
-from optlaws.synthesis.proof.certificate import RELAXED, VIOLATION, _model, weighted_rows
+from optlaws.synthesis.proof.certificate import RELAXED, VIOLATION, _model, farkas_margin, weighted_rows
 from optlaws.synthesis.proof.duality import _weighted, by_bends, lines_of, row_of, sum_of_rows
-from optlaws.synthesis.proof.farkas import farkas_margin
 from optlaws.synthesis.proof.infeasible import failure
 from optlaws.synthesis.proof.nodes import PlaceRange
 from optlaws.synthesis.proof.peak_rows import PeakRows

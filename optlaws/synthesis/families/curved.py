@@ -20,10 +20,10 @@ from optlaws.kept import kept_property
 from optlaws.numbers import Array
 from optlaws.numerics.chebyshev import FEWEST, MOST, from_values, nodes
 from optlaws.numerics.roots import candidates, sign_changes
+from optlaws.synthesis.families.cone import SumOfSquares, sum_of_squares
 from optlaws.synthesis.families.family import LinearFamily, NonlinearFamily, RowJet, WholeLawFamily, last_result
 from optlaws.synthesis.families.formula_slopes import FactorTables, Slopes
 from optlaws.synthesis.families.peaks import peaks
-from optlaws.synthesis.families.squares import SumOfSquares, sum_of_squares
 from optlaws.tolerances import LEAST_ENERGY, ROUNDOFF
 
 _FORMULA_RESOLVED = 1e-13  # of the greatest value: what the last coefficients of a formula along a law leave

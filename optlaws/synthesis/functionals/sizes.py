@@ -17,8 +17,8 @@ from optlaws.formulas.of_motion import MotionFormula
 from optlaws.formulas.tree import ORDERS
 from optlaws.numbers import Array, power_of_two
 from optlaws.numerics.chebyshev import gauss as gauss_rule
+from optlaws.synthesis.families.cone import SumOfSquares
 from optlaws.synthesis.families.curved import IntegralFamily
-from optlaws.synthesis.families.squares import SumOfSquares
 from optlaws.synthesis.functionals.affine_rows import columns, gauss
 from optlaws.synthesis.functionals.curved_rows import columns_of, integral_rows, rule_cells
 from optlaws.synthesis.spaces.end_conditions import BoundaryConditions

@@ -12,10 +12,9 @@ from typing import Any
 import numpy as np
 
 from optlaws.numbers import Array
-from optlaws.synthesis.families.cone import ConeFamily
+from optlaws.synthesis.families.cone import ConeFamily, SumOfSquares
 from optlaws.synthesis.families.curved import FormulaFamily
 from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, NormFamily, Points, Program
-from optlaws.synthesis.families.squares import SumOfSquares
 from optlaws.synthesis.method.discretised.ipopt import Answer
 from optlaws.tolerances import EMPTY_ROW
 
