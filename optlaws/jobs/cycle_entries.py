@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import msgspec
 
@@ -15,13 +15,42 @@ from optlaws.files.problem_file import Text, convert
 from optlaws.jobs.axes.axis_transitions import TransitionEntries
 from optlaws.jobs.axes.drive_entries import drive_of
 from optlaws.jobs.axes.entry_sweep import SweepEntries, SweptCycle, swept
-from optlaws.jobs.axes.interlock_entries import InterlockEntries, OverlapEntries
 from optlaws.jobs.axes.segment_entries import SegmentEntries, given, segment_of
 from optlaws.jobs.job import JobFile
 from optlaws.suggest import unknown_key
 
 if TYPE_CHECKING:
     from optlaws.cycles.machine_axes import Axes, Overlap
+
+
+class InterlockEntries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+    """A condition on two axes; which entries it has beside the axis depends on its kind."""
+
+    kind: Literal["after", "clearance", "forbidden", "synchronous"]
+    axis: Text
+    name: Text | None = None
+    position: str | None = None
+    of: str | None = None
+    above: str | None = None
+    below: str | None = None
+    way: str | None = None
+    over: str | None = None
+    least: str | list[list[str]] | None = None
+    most: str | list[list[str]] | None = None
+    units: list[str] | None = None
+    across: str | None = None
+    corners: list[list[str]] | None = None
+    to: str | None = None
+    during: list[str] | None = None
+    within: str | None = None
+    ratio: float | None = None
+
+
+class OverlapEntries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+    """How moves are to overlap: the goal, and of an acceleration the axes whose moves may take longer."""
+
+    goal: Literal["period", "acceleration"]
+    of: Annotated[list[Text], msgspec.Meta(max_length=8)] = []
 
 
 class ElasticFollowerEntries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):

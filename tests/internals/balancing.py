@@ -5,7 +5,7 @@ from optlaws.balancing.dwells.clutch import exact_swing
 from optlaws.balancing.dwells.mechanism import DwellMechanism, DwellType
 from optlaws.balancing.dwells.sections import PartSegment
 from optlaws.balancing.levers.design import QUANTITIES
-from optlaws.balancing.levers.exact_swing import swung, upper_extreme
+from optlaws.balancing.levers.lever import swung, upper_extreme
 from optlaws.balancing.levers.linkage import FourBar
 from optlaws.balancing.levers.motion import LeverMotion
 from optlaws.balancing.loaders.constants import NAMES, B_loader, C_loader, D_loader, LoaderPeak
