@@ -33,7 +33,7 @@ from optlaws.errors import InfeasibleProblem
 from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.mechanisms.drives.effort import PieceEffort
 from optlaws.mechanisms.drives.sheet import share_used
-from optlaws.motion.piece import Piece, unit_of
+from optlaws.motion.piece import Piece, jump_beside, unit_of
 from optlaws.numerics.peaks import is_kept
 from optlaws.sentences import Amount, joined, sentence
 from optlaws.shown.summary import Row
@@ -41,7 +41,7 @@ from optlaws.shown.summary import Row
 #: a `Cycle`, which knows this module
 AnyCycle: TypeAlias = Any
 
-_SNAP = 4
+_JERK, _SNAP = 3, 4
 _DRIVEN = (FORCE, POWER, CURVE)
 _OF_MOTOR = {"speed": "rad/s", "torque-speed curve": ""}
 
@@ -102,6 +102,7 @@ class _InPlace(NamedTuple):
     start: float
     stop: float
     drive: CycleDrive | None
+    jump: float | None  #: the time at which its acceleration jumps where it begins or ends
 
 
 def limits_taken(cycle: AnyCycle, limited: AnyCycle | None = None) -> tuple[LimitTaken, ...]:
@@ -156,8 +157,8 @@ def _reason(broken: _Taken, cycle: AnyCycle) -> str:
     at = "" if time is None else sentence(" at {} of the master", Amount(360.0 * time / cycle.duration, "deg"))
     if not isfinite(taken.value):
         return sentence(
-            "{}: its law jumps{}, so that no time keeps the {} {}: take a smoother law, or leave that limit out",
-            taken.where, at, taken.name, taken.text,
+            "{}: its {} jumps{}, so that no time keeps the {} {}: take a smoother law, or leave that limit out",
+            taken.where, "acceleration" if nu == _JERK else "law", at, taken.name, taken.text,
         )  # fmt: skip
     longer = f"{taken.share ** (1.0 / nu):.6g} times as much time" if nu > 0 else "more time"
     remedy = f"give it {longer}, a wider limit{', or another law' * isinstance(stretch.given, Move)}"
@@ -214,7 +215,10 @@ def _in_place(cycle: AnyCycle) -> list[_InPlace]:
     placed = []
     for stretch, (start, stop) in zip(cycle.programme.stretches, pairwise(times), strict=True):
         before = [piece for piece in cycle.pieces if piece.start <= start < piece.stop]
-        placed += [_InPlace(stretch, piece, start, stop, drive) for piece in before[-1:]]
+        given = isinstance(stretch.given, Move | Free) and not is_optimal(stretch.given)
+        for piece in before[-1:]:
+            jump = jump_beside(piece, cycle.pieces, cycle.duration) if given else None
+            placed.append(_InPlace(stretch, piece, start, stop, drive, jump))
     return placed
 
 
@@ -248,7 +252,7 @@ def _of_segments(
 
 def _greatest(placed: _InPlace, key: LimitKey) -> tuple[float, float | None]:
     """The greatest magnitude in a segment on the side that a limit bounds, and its time where it has one."""
-    stretch, piece, start, stop, _ = placed
+    stretch, piece, start, stop, _, jump = placed
     if key in _DRIVEN:
         return _greatest_of_drive(placed, key)
     nu = key if isinstance(key, int) else key.nu
@@ -258,6 +262,8 @@ def _greatest(placed: _InPlace, key: LimitKey) -> tuple[float, float | None]:
         return (key.sign * speed if isinstance(key, OneSided) else abs(speed)), start
     if not is_optimal(stretch.given) and not isfinite(piece.law.peak(nu).value):
         return inf, piece.start + piece.law.peak(nu).k * piece.duration
+    if nu >= _JERK and jump is not None:
+        return inf, jump
     (low, first), (high, last) = piece.extremes(nu, start, stop)
     if isinstance(key, OneSided):
         return (high, last) if key.sign > 0.0 else (-low, first)

@@ -173,3 +173,23 @@ def by_pieces(pieces: Sequence[Piece], functions: Sequence[Callable[[Array], Arr
         if here.any():
             values[here] = function(times[here])
     return values
+
+
+def jump_beside(piece: Piece, pieces: Sequence[Piece], period: float) -> float | None:
+    """The time at which a piece begins or ends with an acceleration that its neighbour does not have; None of none.
+
+    Its neighbours are the pieces that end and begin there, also a turn away; one that is not known has the same.
+    """
+    for side, time in enumerate((piece.start, piece.stop)):
+        for other in pieces:
+            apart = (other.start if side else other.stop) - time
+            if abs(apart - period * round(apart / period)) <= SAME_TIME * period:
+                c, rounding = piece.end(2, side), JUMP * max(map(_size_of_acceleration, (piece, other)))
+                if min(abs(c), abs(c - other.end(2, 1 - side))) > rounding:
+                    return time
+    return None
+
+
+def _size_of_acceleration(piece: Piece) -> float:
+    peak = piece.law.peak(2).value if piece.stroke else 0.0
+    return abs(factor(piece.stroke, piece.duration, 2)) * peak

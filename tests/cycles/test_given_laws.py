@@ -22,10 +22,12 @@ from optlaws import (
     Return,
     Rise,
     Status,
+    catalogue,
 )
 
 LAWS = ("cycloidal", "modified sine", "modified trapezoid", "polynomial 3-4-5", "polynomial 4-5-6-7")
 WEAK = Motor("3e-4 kg m^2", rated_torque="1 N m", peak_torque="3 N m", greatest_speed="600 rpm")
+FROM_REST = [law for law in sorted(catalogue) if np.all(abs(catalogue[law].law(np.array([0.0, 1.0]), 1)) < 1e-9)]
 GEARED = Drive(Mechanism("0.8 kg m^2", load="3 N m", viscous="0.5 N m s/rad"), WEAK, ratio=20)
 
 
@@ -141,7 +143,7 @@ def test_snap_and_jumps_inside_a_law() -> None:
     snap = law.peak(4).value * 0.035 / 0.1**4
     smooth = slide("polynomial 4-5-6-7", limits={"snap": f"{1.001 * snap!r} m/s^4"})
     assert smooth.unchecked().limits_taken[0].value == pytest.approx(snap, rel=1e-12)
-    assert "its law jumps" in str(refused(slide("parabolic", limits={"jerk": "1e9 m/s^3"})))
+    assert "its acceleration jumps" in str(refused(slide("parabolic", limits={"jerk": "1e9 m/s^3"})))
 
 
 def test_constant_velocities_and_holding_forces_bind_too() -> None:
@@ -207,3 +209,36 @@ def test_a_cycle_that_is_not_refused_has_its_greatest_speed_beyond_its_own() -> 
     refused(cycle)
     assert cycle.fastest().rpm == pytest.approx(20.0 / 7.0, rel=1e-12)
     assert cycle.fastest().cycle.peak(1) == pytest.approx(0.01, rel=1e-12)
+
+
+@pytest.mark.parametrize("law", FROM_REST)
+@pytest.mark.parametrize("between", [(), (Dwell("0.05 s"),)])
+def test_accelerations_that_jump_where_segments_meet_break_every_limit_of_the_jerk(
+    law: str, between: tuple[Dwell, ...]
+) -> None:
+    moves = [Rise("35 mm", "0.1 s", law=law), *between, Return(law="polynomial 3-4-5")]
+    limited = Cycle(moves, period="0.25 s", limits={"jerk": "1e15 m/s^3"})
+    shown = limited.unchecked()
+    # a nanosecond beside a place, an acceleration that is continuous has changed little
+    times = np.concatenate([[joint["time"] for joint in shown.joints], np.linspace(0.0, 0.25, 2001)[1:-1]])
+    apart = np.abs(shown(times + 1e-9, 2) - shown(times - 1e-9, 2))
+    jumps = bool(np.max(apart) > 1e-3 * shown.peak(2))
+    assert shown.status is (Status.INFEASIBLE if jumps else Status.OPTIMAL)
+    assert (shown.limits_taken[0].value == np.inf) is jumps
+    if jumps:
+        assert str(refused(limited)).startswith("segment 1 (Rise): its acceleration jumps at ")
+        with pytest.raises(
+            InfeasibleProblem, match=r"^segment 1 \(Rise\): its (law|acceleration) jumps, so that no speed"
+        ):
+            limited.fastest()
+
+
+def test_accelerations_that_neighbours_share_do_not_jump() -> None:
+    harmonic = [Rise("35 mm", "0.1 s", law="simple harmonic"), Return(law="simple harmonic")]
+    limits = {"jerk": "1e6 m/s^3"}
+    assert Cycle(harmonic, period="0.2 s", limits=limits).peak(3) == pytest.approx(0.0175 * (10 * np.pi) ** 3)
+    # an optimal law takes the acceleration of its neighbour; one that is given does not
+    assert Cycle([harmonic[0], Return()], period="0.2 s", limits=limits).status is Status.OPTIMAL
+    assert "jumps at 0 deg" in str(refused(Cycle(harmonic, period="0.25 s", limits=limits)))
+    of_snap = Cycle(harmonic, period="0.25 s", limits={"snap": "1e9 m/s^4"})
+    assert "segment 1 (Rise): its law jumps" in str(refused(of_snap))

@@ -27,7 +27,7 @@ from optlaws.cycles.specification.segments import Dwell
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
-from optlaws.motion.piece import Piece, factor
+from optlaws.motion.piece import Piece, factor, jump_beside
 from optlaws.sentences import sentence
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.proof.certificate import VIOLATION, Certificate
@@ -37,6 +37,7 @@ from optlaws.tolerances import BINDING_LIMIT, CLOSURE, SAME_TIME
 
 #: so many times slower every limit of a derivative is kept
 _SLOW = 1e4
+_JERK = 3
 
 
 @dataclass(frozen=True)
@@ -291,8 +292,10 @@ class FastestSearch:
         still = isinstance(stretch.given, Dwell) or piece.stroke == 0.0
         rows = [] if still else self._rows(span, piece.stroke)
         least = least_time_of_law(piece.law, rows)
-        if not isfinite(least.scale):
-            row = next(row for row in rows if not isfinite(row.least_scale(piece.law)))
+        jerked = [row for row in rows if (row.key if isinstance(row.key, int) else row.key.nu) >= _JERK]
+        jumps = jerked and jump_beside(piece, self._layout.pieces, self.programme.period) is not None
+        if jumps or not isfinite(least.scale):
+            row = jerked[0] if jumps else next(row for row in rows if not isfinite(row.least_scale(piece.law)))
             limit = in_units(row.key, row.most, self.programme.axis)
             raise InfeasibleProblem(
                 sentence(
