@@ -316,10 +316,24 @@ def refusal(constant: OfFormula) -> str | None:
     side = "high" if bad == [-1.0] else "low"
     hint = ""
     if len(signs) == 2 and len(bad) == 1:
-        other = {"high": "low", "low": "high"}[side]
-        hint = f'; side="{side}" is possible, together with side="{other}" of one branch of its maximum by maximum(...)'
+        hint = f"; {_both_sides(constant.motion, side)}"
     formula = constant.motion.formula
     return f"{cut(str(formula), _SHOWN)} has kinks that are not those of a maximum of smooth formulas{hint}"
+
+
+def _both_sides(motion: MotionFormula, side: str) -> str:
+    """What can be minimised in place of a magnitude of which one side alone is a maximum of smooth formulas."""
+    last = (motion.branches(1.0 if side == "high" else -1.0) or [motion.formula])[-1]
+    parts = "" if (motion.start, motion.stop) == (0.0, 1.0) else f", start={motion.start!r}, stop={motion.stop!r}"
+    both = f'maximum(peak("{motion.formula}", side="{side}"{parts}), peak("{last}", side="low"{parts}))'
+    if len(both) > 2 * _SHOWN:
+        both = (
+            f'maximum(peak(..., side="{side}"{parts}), peak(..., side="low"{parts})) of it and of one of its branches'
+        )
+    return (
+        f'side="{side}" is possible; for both sides write {both}, which is never less: of a drive they are `torque` '
+        "and `branches[-1]`"
+    )
 
 
 def boxes_of(problem: ProblemView) -> dict[str, tuple[float, float]]:
