@@ -60,6 +60,12 @@ def synthesize(problem: Problem, *, start: Solution | None = None, bound: Bound 
     """
     _check_types(problem, start, bound)
     warn_of_mixture(problem.objective, problem.order)
+    if problem.windows:
+        from optlaws.synthesis.proof.infeasible import beyond_known_value
+
+        excluded = beyond_known_value(problem)
+        if excluded is not None:
+            raise excluded
     model = model_of(problem)
     search = LawSearch(model, tight=bound == TIGHT, warm=_warm(model, start))
     solution = best_available(search)

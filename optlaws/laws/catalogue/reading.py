@@ -481,7 +481,7 @@ def stored_law(file: Path) -> MotionLaw:
             f"the entries {', '.join(map(shortened, list(data)[:6]))}" if isinstance(data, dict) and data else "others"
         )
         raise InputError(
-            f"{file} holds no law, which has a kind, but {held}: `optlaws solve --output` and law.to_json() write laws"
+            f"{file} holds no law, which has a kind, but {found}: `optlaws solve --output` and law.to_json() write laws"
         )
     try:
         return MotionLaw.from_dict(data)

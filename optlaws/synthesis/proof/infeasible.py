@@ -25,10 +25,14 @@ from optlaws.synthesis.program.writer import Model, extreme_velocity, least_viol
 from optlaws.synthesis.proof.certificate import OBJECTIVE, VIOLATION, Certificate
 from optlaws.synthesis.proof.make import certificate, violation_certificate
 from optlaws.synthesis.proof.no_law import beyond_limit, convex_part, least_of
+from optlaws.synthesis.proof.nodes import Contact
 from optlaws.synthesis.spaces.bases import Basis, PolynomialBasis
+from optlaws.synthesis.spaces.of_basis import space_of
 
 _INFEASIBLE_WEIGHTLESS = 1e-9  # a weight of a proof of infeasibility that is less is none
 _DEEP_LAW_EXCESS = 1e-3  # by how much a law far below all of the field may miss a bound
+
+_FREE = 1e-15  # of a law's coordinate: what moves a value by less does not move it but for rounding
 
 _ROUNDS = 6
 _PLAIN = 2  # so few equations contradict each other whatever freedom the law has
@@ -92,6 +96,43 @@ def failure(problem: Problem, outcome: Outcome) -> InfeasibleProblem | SolverFai
     msg = "no law was found, and none was shown not to exist; try a degree higher or lower by 2, or other numbers"
     remarks = [remark for constant in problem.constants for remark in constant.remarks]
     return SolverFailure("; mind that ".join([msg, *remarks]), problem=problem, tried=tried)
+
+
+def beyond_known_value(problem: Problem) -> InfeasibleProblem | None:
+    """The error for a window that excludes a value which all laws have, at an end or in the middle of symmetric ones.
+
+    >>> from optlaws import Window
+    >>> beyond_known_value(Problem(order=4, windows=(Window("a", low=0.3, high=0.3),))).proof.contacts[0].k
+    0.0
+    """
+    if not problem.windows:
+        return None
+    space = space_of(problem.basis, problem.conditions, symmetric=problem.symmetric)
+    for number, window in enumerate(problem.windows, 1):
+        if window.motion is not None or window.value:
+            continue
+        halves = (names.window(number), names.mirrored(names.window(number)))
+        parts = window.first_half() if problem.symmetric else (window,)
+        for part, name in zip(parts, halves, strict=False):
+            for k in (place for place in (0.0, 0.5, 1.0) if part.start <= place <= part.stop):
+                *slopes, value = space.row(part.nu, k).tolist()
+                sign = 1.0 if value > part.high else -1.0
+                if any(abs(slope) > _FREE for slope in slopes) or part.low <= value <= part.high:
+                    continue
+                contact = Contact(names.window_side(name, sign), sign, k, 1.0)
+                at = k if name == halves[0] else 1.0 - k
+                equations = [0.0] * len(model_of(problem).program.right)
+                proof = Certificate.of_leaf(problem, (contact,), equations, VIOLATION)
+                # doubles charge for rounding without end where nothing bounds the laws, though none moves the value
+                if proof.proves_infeasible or not any(slopes):
+                    return InfeasibleProblem(
+                        f"no law of order {problem.order} keeps {window!r}: it excludes the value that every law "
+                        f"of the problem has at k = {at:g}. Another interval or bound helps",
+                        problem=problem,
+                        proof=proof,
+                        tried=_contradiction(proof),
+                    )
+    return None
 
 
 def falls_for_ever(problem: Problem) -> bool:
