@@ -477,12 +477,10 @@ def stored_law(file: Path) -> MotionLaw:
     if isinstance(data, dict) and "kind" not in data and "law" in data:
         data = data["law"]
     if not isinstance(data, dict) or "kind" not in data:
-        held = (
+        contents = (
             f"the entries {', '.join(map(shortened, list(data)[:6]))}" if isinstance(data, dict) and data else "others"
         )
-        raise InputError(
-            f"{file} holds no law, which has a kind, but {found}: `optlaws solve --output` and law.to_json() write laws"
-        )
+        raise InputError(f"{file} holds no law, which has a kind, but {contents}: `optlaws solve --output` writes laws")
     try:
         return MotionLaw.from_dict(data)
     except InputError as error:
