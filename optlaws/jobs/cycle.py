@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
@@ -160,7 +159,8 @@ def run(results: Results) -> None:
     exports = exports_of(spec, cycles, results.file, transitions)
     sweeps = sweeps_of(spec, results.file)
     results.title = spec.title
-    results.text("cycle.md", str(page(spec, cycles, exports, CycleSearches(sweeps, fastest, overlap, transitions))))
+    shown = page(spec, cycles, exports, sweeps=sweeps, fastest=fastest, overlap=overlap, transitions=transitions)
+    results.text("cycle.md", str(shown))
     for number, (sweep, rows) in enumerate(zip(spec.sweep, sweeps, strict=True), 1):
         headings, cells = sweep_table(sweep, rows)
         results.table(f"{SWEEP}{number}", headings, cells)
@@ -234,27 +234,26 @@ def answer(entries: Mapping[str, Any], file: Path) -> dict[str, Any]:
     return {name: _facts(cycle) for name, cycle in axes.items()} | known
 
 
-@dataclass(frozen=True)
-class CycleSearches:
-    """Results beside the cycles: sweeps, greatest speeds, overlapping moves, run-ins and run-outs."""
-
-    sweeps: Sequence[list[SweptCycle]] = ()
-    fastest: Mapping[str, FastestCycle] = field(default_factory=dict)
-    overlap: Overlap | None = None
-    transitions: Sequence[AxisTransition] = ()
-
-
-def page(spec: CycleProblemFile, axes: Axes, exports: Exports, sought: CycleSearches) -> Page:
+def page(
+    spec: CycleProblemFile,
+    axes: Axes,
+    exports: Exports,
+    *,
+    sweeps: Sequence[list[SweptCycle]],
+    fastest: Mapping[str, FastestCycle],
+    overlap: Overlap | None,
+    transitions: Sequence[AxisTransition],
+) -> Page:
     """The page of the cycles' results."""
-    result = slowest(Page(spec.title).text(spec.text), sought.fastest)
+    result = slowest(Page(spec.title).text(spec.text), fastest)
     if len(axes) > 1:
         result.figure(TOGETHER, f"{spec.title}: all axes over one time")
-    add_interlocks(result, spec.title, axes, sought.overlap)
+    add_interlocks(result, spec.title, axes, overlap)
     pictures = _drive_pictures(axes)
     for name, cycle in axes.items():
         result.heading(name).figure(plain_name(name), f"{spec.title}: {name}")
-        if name in sought.fastest:
-            result.table(FASTEST_HEADINGS, fastest_rows(sought.fastest[name]), digits=9)
+        if name in fastest:
+            result.table(FASTEST_HEADINGS, fastest_rows(fastest[name]), digits=9)
         result.table(_headings(cycle), [*_segment_rows(cycle), _whole_row(cycle)], digits=7)
         rows = [*proof_rows(cycle), *jerk_rows(cycle), *limit_rows(cycle), *drive_rows(cycle), *joint_rows(cycle)]
         cells = [[row.name, row.value, row.unit or None, row.note or None] for row in rows]
@@ -265,8 +264,8 @@ def page(spec: CycleProblemFile, axes: Axes, exports: Exports, sought: CycleSear
         if exports[name]:
             result.text("What controllers will run: peaks of the exported files as interpolated, over the law's.")
             result.table(_EXPORT_HEADINGS, [_export_row(*item) for item in exports[name].items()], digits=7)
-    add_transitions(result, spec.title, sought.transitions)
-    for number, (sweep, swept_cycles) in enumerate(zip(spec.sweep, sought.sweeps, strict=True), 1):
+    add_transitions(result, spec.title, transitions)
+    for number, (sweep, swept_cycles) in enumerate(zip(spec.sweep, sweeps, strict=True), 1):
         result.heading(f"{sweep.axis} by {sweep.entry}").figure(f"{SWEEP}{number}", f"{sweep.axis} by {sweep.entry}")
         result.table(*sweep_table(sweep, swept_cycles), digits=7)
     return result

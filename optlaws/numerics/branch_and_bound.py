@@ -119,8 +119,7 @@ def extremes(
     >>> round(enclosure.most, 9), round(enclosure.most_at, 6), 0.0 <= enclosure.high - enclosure.most < 1e-8
     (1.0, 1.570796, True)
     """
-    options = _Options(share, parts, order, enough, magnitude=magnitude)
-    return _answered(_enclosing(np.asarray(edges, dtype=np.float64), options), function)
+    return _answered(_enclosing(edges, share, parts, order, enough, magnitude=magnitude), function)
 
 
 def extremes_of_each(
@@ -146,7 +145,7 @@ def extremes_of_each(
     """
     shares = [share] * len(edges) if isinstance(share, int | float) else share
     searches = [
-        _enclosing(np.asarray(each, dtype=np.float64), _Options(near, count, magnitude=magnitude))
+        _enclosing(each, near, count, magnitude=magnitude)
         for each, count, near in zip(edges, parts or [1] * len(edges), shares, strict=True)
     ]
     requests = {i: next(search) for i, search in enumerate(searches)}
@@ -183,35 +182,27 @@ def _ends(places: Interval) -> tuple[Array, Array]:
     return places.middle, places.radius
 
 
-class _Options(NamedTuple):
-    """Options of `extremes`, by the names there."""
-
-    share: float
-    parts: int
-    order: int = 2
-    enough: float = np.inf
-    magnitude: bool = False
-
-
-def _enclosing(edges: Array, options: _Options) -> _Asking[Extremes]:
-    search = _Search(edges, options.order)
-    low, high = search.first(options.parts)
+def _enclosing(
+    edges: Any, share: float, parts: int, order: int = 2, enough: float = np.inf, *, magnitude: bool
+) -> _Asking[Extremes]:
+    search = _Search(np.asarray(edges, dtype=np.float64), order)
+    low, high = search.first(parts)
     for _ in range(_ROUNDS):
         cells = yield from search.look(low, high)
-        slack = max(options.share * max(_finite(search.least), _finite(search.most)), SMALLEST_SIZE) + cells.rounding
+        slack = max(share * max(_finite(search.least), _finite(search.most)), SMALLEST_SIZE) + cells.rounding
         least, most = search.least, search.most
-        if options.magnitude:
+        if magnitude:
             least, most = min(least, -most), max(most, -least)
         beyond = (cells.top > most + slack) | (cells.bottom < least - slack)
         beyond &= cells.half > _SMALLEST_CELL * (np.abs(cells.middle) + cells.half)
         search.take(cells, ~beyond)
         low, high = search.split(cells, beyond)
-        if not 0 < len(low) <= _MOST or max(-search.least, search.most) > options.enough:
+        if not 0 < len(low) <= _MOST or max(-search.least, search.most) > enough:
             break
     if len(low):
         cells = yield from search.look(low, high)
         search.take(cells, np.ones(len(low), dtype=bool))
-    return (yield from search.result(polished=options.enough == np.inf, places=not options.magnitude))
+    return (yield from search.result(polished=enough == np.inf, places=not magnitude))
 
 
 @dataclass(frozen=True)

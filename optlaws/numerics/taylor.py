@@ -8,7 +8,6 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from optlaws.numbers import Array
 from optlaws.numerics.interval import Interval, between, chosen, convolved, dot, dot_of_rows, exact, hull, stacked
 
 #: an array of numbers, intervals, or a number
@@ -81,7 +80,8 @@ class Jet:
         block = self.block
         if block is None:
             return Jet(tuple(i * term for i, term in enumerate(self.terms))[1:])
-        return Jet.of_rows(block[1:] * _column(block, 1))
+        rows = np.arange(1.0, len(block.middle)).reshape(-1, *(1,) * (block.middle.ndim - 1))
+        return Jet.of_rows(block[1:] * rows)
 
     def cut(self, order: int) -> Jet:
         """The jet up to an order."""
@@ -268,11 +268,6 @@ def _alike(first: Jet, second: Jet) -> tuple[Interval, Interval] | None:
         return None
     length = min(len(left.middle), len(right.middle))
     return left[:length], right[:length]
-
-
-def _column(block: Interval, start: int) -> Array:
-    """The numbers of the rows of a block, from a first one on, as a column."""
-    return np.arange(start, len(block.middle), dtype=np.float64).reshape(-1, *(1,) * (block.middle.ndim - 1))
 
 
 Pair: TypeAlias = tuple[Jet, Jet]

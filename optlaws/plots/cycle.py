@@ -69,7 +69,8 @@ def draw_cycle(cycle: Cycle, axes: Any = None, **style: Any) -> list[Artist]:
         artists += draw_curve(cycle, panel, nu, {"color": BLUES[3]} | style)
         mark_segments(cycle, panel)
         artists += _mark_limits(cycle, panel, nu)
-    for panel, function, name in zip(with_drive, (cycle.force, cycle.power), _names_of_drive(cycle), strict=False):
+    names = f"{force_name(cycle)}, {force_unit(cycle)}", "power, W"
+    for panel, function, name in zip(with_drive, (cycle.force, cycle.power), names, strict=False):
         times, values = samples_of_drive(cycle, function, _EACH)
         artists += panel.plot(1e3 * times, values, **{"color": BLUES[3]} | style)
         panel.axhline(0.0, color=GREY, linewidth=0.7)
@@ -134,10 +135,6 @@ def samples_of_drive(cycle: Cycle, function: Callable[[Array], Array], count: in
 def _times(piece: Piece, count: int) -> Array:
     breaks = piece.start + piece.duration * np.array(piece.law.breaks)
     return np.unique(np.concatenate([np.linspace(piece.start, piece.stop, count), breaks]))
-
-
-def _names_of_drive(cycle: Cycle) -> tuple[str, str]:
-    return f"{force_name(cycle)}, {force_unit(cycle)}", "power, W"
 
 
 def mark_segments(cycle: Cycle, axes: Axes) -> None:

@@ -207,12 +207,8 @@ def _entry(entry: FileEntry) -> Verification:
         claim = Claim(f"{entry.around.status}", proven=False, detail="no certificate stands beside it")
         return Verification(problem=None, bound=None, claims=(claim,))
     check_keys(entry.data)
-    alone = _alone(entry.data)
+    alone = next(verified for known, verified in _KINDS if known(entry.data))(entry.data)
     return replace(alone, claims=(*alone.claims, *claims_in_context(entry, alone)))
-
-
-def _alone(data: Mapping[str, Any]) -> Verification:
-    return next(verified for known, verified in _KINDS if known(data))(data)
 
 
 def _front(data: Mapping[str, Any]) -> Verification:

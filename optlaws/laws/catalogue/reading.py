@@ -111,7 +111,9 @@ def points_of(
     """
     text = reading.text(file, LARGEST_TABLE, legacy=True) if content is None else content
     table = _read(text, str(file), columns, most)
-    places, heights, *derivatives = ([_value(text) for text in table.texts(i)] for i in range(len(table.columns)))
+    places, heights, *derivatives = (
+        [float(text.replace(",", ".")) for text in table.texts(i)] for i in range(len(table.columns))
+    )
     lines = [line.number for line in table.lines]
     units = (match[2] or "" if (match := number) else "" for number in table.lines[0].numbers(table.columns[:2]))
     above = (table.headings[i] if i < len(table.headings) else "" for i in table.columns)
@@ -177,7 +179,8 @@ def _read(content: str, name: str, columns: Sequence[Column] | None, most: int) 
     while points and not any(points[-1].numbers(chosen)):
         points.pop()
     _check(points, chosen, name)
-    points = [line for i, line in enumerate(points) if not i or _differs(line, points[i - 1], chosen)]
+    cells = [[line.cells[column] for column in chosen] for line in points]
+    points = [line for i, line in enumerate(points) if not i or cells[i] != cells[i - 1]]
     return _Table(points, chosen, headings)
 
 
@@ -268,14 +271,6 @@ def _check(points: list[_Line], columns: tuple[int, ...], name: str) -> None:
             raise InputError(
                 f"{name}, line {line.number}: {shortened(', '.join(line.cells))} is in other units than the line above"
             )
-
-
-def _differs(line: _Line, before: _Line, columns: tuple[int, ...]) -> bool:
-    return [line.cells[i] for i in columns] != [before.cells[i] for i in columns]
-
-
-def _value(text: str) -> float:
-    return float(text.replace(",", "."))
 
 
 def resolution_of(texts: list[str], values: list[float]) -> float:

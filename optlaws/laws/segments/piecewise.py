@@ -63,7 +63,7 @@ class PiecewiseLaw(MotionLaw, kind="piecewise"):
         places = numbers(breaks, "breaks")
         if len(places) < 2 or places[0] != 0.0 or places[-1] != 1.0 or any(b <= a for a, b in pairwise(places)):
             raise InputError(f"breaks must increase from 0 to 1, got {places}")
-        parts = tuple(_listed(segments))
+        parts = tuple(segments if isinstance(segments, list | tuple) else ())
         if len(parts) != len(places) - 1 or not all(isinstance(segment, Segment) for segment in parts):
             raise InputError(
                 f"segments must be {len(places) - 1} segments, one between breaks, got {shortened(segments)}"
@@ -152,7 +152,3 @@ class PiecewiseLaw(MotionLaw, kind="piecewise"):
         if not isinstance(fields["segments"], list | tuple):
             raise InputError(f"segments must be a list, got {shortened(fields['segments'])}")
         return cls(fields["breaks"], [Segment.from_dict(entry) for entry in fields["segments"]], fields["a0"])
-
-
-def _listed(segments: object) -> Sequence[Any]:
-    return segments if isinstance(segments, list | tuple) else ()

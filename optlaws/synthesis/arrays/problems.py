@@ -217,7 +217,10 @@ class ProblemArray:
         return np.where((values > 1.0) & (values <= MOST_VELOCITY), values, np.nan)
 
     def __repr__(self) -> str:
-        parts = [f"{name}={_shown(value)}" for name, value in self._entries.items()]
+        parts = [
+            f"{name}={shortened(_mapped(value, lambda array: f'array of shape {array.shape}'))}"
+            for name, value in self._entries.items()
+        ]
         if self._given is not None:
             parts = [f"{len(self._given)} problems"]
         return f"ProblemArray({', '.join(parts)})"
@@ -301,7 +304,3 @@ def _frozen(value: Any) -> Any:
         return copy
 
     return _mapped(value, copied)
-
-
-def _shown(value: Any) -> str:
-    return shortened(_mapped(value, lambda array: f"array of shape {array.shape}"))
