@@ -239,7 +239,7 @@ class CycleInterchange(JsonText):
         'acceleration, m/s²'
         """
         from optlaws.plots.cycle import draw_cycle
-        from optlaws.plots.motors import draw_motor_of_cycle
+        from optlaws.plots.machine import draw_motor_of_cycle
 
         cycle = self._cycle
         if over not in get_args(PlotOver):

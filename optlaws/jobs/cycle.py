@@ -45,8 +45,7 @@ from optlaws.mechanisms.linkages.mechanism import Mechanism
 from optlaws.motion.quantities import QUANTITIES
 from optlaws.plots.cycle import UNITS, axes_figure, cycle_figure
 from optlaws.plots.interlocks import clearance_figure, timing_figure
-from optlaws.plots.mechanism import mechanism_figure
-from optlaws.plots.motors import motor_figure
+from optlaws.plots.machine import mechanism_figure, motor_figure
 from optlaws.plots.sweep import sweep_figure
 from optlaws.results import Page, Results
 from optlaws.tolerances import CYCLE_ROUNDING

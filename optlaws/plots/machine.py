@@ -1,18 +1,34 @@
-"""Plots of what machines and followers answer: outputs over time, peaks and residual vibration over speed."""
+"""Pictures of machines: what an output does, how a mechanism moves, and what a motor can."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Literal
 
-from optlaws.plots.style import DISTINCT, GREY, new_axes
+import numpy as np
+
+from optlaws.errors import InputError
+from optlaws.formulas.arithmetic import NUMPY, evaluate
+from optlaws.formulas.tree import Formula
+from optlaws.numbers import Array
+from optlaws.plots.cycle import samples, samples_of_drive
+from optlaws.plots.style import BLUES, DISTINCT, GREEN, GREY, WARM, name_point, new_axes, new_figure, plot_style, titled
+from optlaws.tolerances import VALUE_ROUNDING
 
 if TYPE_CHECKING:
     from matplotlib.artist import Artist
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
+    from optlaws.cycles.cycle import Cycle
+    from optlaws.mechanisms.drives.drive_train import Drive
+    from optlaws.mechanisms.drives.effort import PieceEffort
+    from optlaws.mechanisms.drives.motor import Motor
+    from optlaws.mechanisms.drives.sheet import BestRatio
+    from optlaws.mechanisms.linkages.mechanism import Mechanism
     from optlaws.mechanisms.machine.over_time import OutputCurve
     from optlaws.mechanisms.machine.parameters import MachineSpectrum
     from optlaws.mechanisms.spectrum import ResponseSpectrum
+    from optlaws.numbers import Array
 
 
 def draw_spectrum(
@@ -61,3 +77,172 @@ def draw_machine_spectrum(
     axes.set_ylim(bottom=0.0)
     axes.legend(frameon=False)
     return list(lines)
+
+
+_MILLI = 1e3
+_POSITIONS = 721
+_SHOWN = 7  # positions of the linkage
+_SCALES = {
+    "angle": (180.0 / np.pi, "input, deg", ("J, kg m²", "J', kg m²/rad", "T, N m")),
+    "length": (_MILLI, "input, mm", ("J, kg", "J', kg/m", "T, N")),
+}
+
+
+def draw_mechanism(mechanism: Mechanism, axes: Any = None, **style: Any) -> list[Artist]:
+    """Draw a mechanism into four pairs of axes, one for the linkage alone, or a new figure; return the artists.
+
+    One that has no linkage to draw has three panels.
+    """
+    with plot_style():
+        linked = bool(mechanism.linkage.chains)
+        panels = _new_panels(linked) if axes is None else list(np.ravel(np.array(axes, dtype=object)))
+        if linked and len(panels) == 1:
+            return _linkage(mechanism, panels[0])
+        if len(panels) != 3 + linked:
+            raise InputError(
+                f"ax must be {3 + linked} pairs of axes for this mechanism{', or one for its linkage' * linked}, got "
+                f"{len(panels)}"
+            )
+        artists = _linkage(mechanism, panels.pop(0)) if linked else []
+        return artists + _curves(mechanism, panels, style)
+
+
+def mechanism_figure(mechanism: Mechanism, title: str) -> Figure:
+    """A mechanism with its inertia and load, as a figure."""
+    figure: Figure = draw_mechanism(mechanism)[0].get_figure()  # type: ignore[assignment] # a figure of our own
+    with plot_style():
+        return titled(figure, title)
+
+
+def _new_panels(linked: bool) -> list[Axes]:  # noqa: FBT001
+    if not linked:
+        return list(np.ravel(new_figure(7.2, 6.0).subplots(3, 1, sharex=True)))
+    figure = new_figure(10.4, 5.4)
+    grid = figure.add_gridspec(3, 2, width_ratios=(1.15, 1.0))
+    first = figure.add_subplot(grid[0, 1])
+    others = [figure.add_subplot(grid[i, 1], sharex=first) for i in (1, 2)]
+    panels = [first, *others]
+    for panel in panels[:2]:
+        panel.tick_params(labelbottom=False)
+    figure.align_ylabels(panels)
+    return [figure.add_subplot(grid[:, 0]), *panels]
+
+
+def _range(mechanism: Mechanism) -> Array:
+    """Positions of the input at which it is drawn: a turn or 0.1 m where it has no bound."""
+    low, high = mechanism.over if mechanism.has_end else (0.0, 2.0 * np.pi if mechanism.axis == "angle" else 0.1)
+    return np.linspace(low, high, _POSITIONS)
+
+
+def _curves(mechanism: Mechanism, panels: list[Axes], style: dict[str, Any]) -> list[Artist]:
+    x = _range(mechanism)
+    scale, label, names = _SCALES[mechanism.axis]
+    values = (mechanism.inertia(x), mechanism.inertia(x, 1), mechanism.load(x))
+    artists: list[Artist] = []
+    for axes, name, curve, colour in zip(panels, names, values, (BLUES[3], GREEN, WARM), strict=True):
+        artists += axes.plot(scale * x, curve, **{"color": colour, **style})
+        axes.axhline(0.0, color=GREY, linewidth=0.8)
+        axes.set(ylabel=name)
+    panels[-1].set(xlabel=label)
+    return artists
+
+
+def _linkage(mechanism: Mechanism, axes: Axes) -> list[Artist]:
+    """The links in several positions, the first one dark, with the paths of their joints."""
+    x = _range(mechanism)
+    closed = bool(np.isclose(x[-1] - x[0], 2.0 * np.pi))
+    shown = np.linspace(x[0], x[-1], _SHOWN + closed)[: _SHOWN if closed else None]
+    artists: list[Artist] = []
+    axes.set_aspect("equal")
+    for chain in mechanism.linkage.chains:
+        joints = [_placed(point, x) for point in chain]
+        for path in joints:
+            if np.ptp(path, axis=1).max() > 0.0:
+                artists += axes.plot(*path, color=GREY, linewidth=0.8, linestyle=":", zorder=1)
+        if len(chain) == 1:
+            fixed = not chain[0][0].names() | chain[0][1].names()
+            marker: dict[str, Any] = {
+                "marker": "^" if fixed else "s",
+                "color": GREY if fixed else WARM,
+                "markersize": 7.0 + 2.0 * fixed,
+            }
+            artists += axes.plot(*_placed(chain[0], shown[:1]), linestyle="", zorder=5, **marker)
+            continue
+        places = np.array([_placed(point, shown) for point in chain])
+        for i in range(len(shown))[::-1]:
+            line: dict[str, Any] = (
+                {"color": BLUES[4], "linewidth": 2.2} if i == 0 else {"color": BLUES[1], "linewidth": 1.0}
+            )
+            artists += axes.plot(*places[:, :, i].T, marker="o", markersize=4.0 if i == 0 else 2.5, zorder=3, **line)
+    axes.set(xlabel="x, mm", ylabel="y, mm", title=f"{mechanism.name}, {len(shown)} positions")
+    return artists
+
+
+def _placed(point: tuple[Formula, Formula], x: Array) -> Array:
+    """A joint's coordinates in millimetres."""
+    return _MILLI * np.array([evaluate(part, {"x": x}, NUMPY) + 0.0 * x for part in point])
+
+
+_RPM = 30.0 / np.pi
+_SAMPLES = 801
+
+
+def draw_move(along: PieceEffort, motor: Motor, axes: Axes | None = None, **style: Any) -> list[Artist]:
+    """Draw torque over speed at the motor during a move, within the motor's curves of peak and continuous torque."""
+    times = np.linspace(along.piece.start, along.piece.stop, _SAMPLES)
+    way = np.sign(along.piece.stroke)
+    course = way * along.speed(times), way * along.force(times)
+    return draw_torque_over_speed(course, motor, axes, **{"label": "move", **style})
+
+
+def draw_motor_of_cycle(cycle: Cycle, drive: Drive, axes: Axes | None = None, **style: Any) -> list[Artist]:
+    """Draw torque over speed at the motor during a cycle, within the motor's curves."""
+    _, speeds = samples(cycle, 1, _SAMPLES)
+    _, torques = samples_of_drive(cycle, cycle.force, _SAMPLES)
+    return draw_torque_over_speed((drive.ratio * speeds, torques), drive.motor, axes, **{"label": "cycle", **style})
+
+
+def motor_figure(cycle: Cycle, drive: Drive, title: str) -> Figure:
+    """Torque over speed at the motor during a cycle, under a title."""
+    with plot_style():
+        figure = new_figure(7.2, 4.6)
+        draw_motor_of_cycle(cycle, drive, figure.add_subplot())
+        return titled(figure, title)
+
+
+def draw_torque_over_speed(
+    course: tuple[Array, Array], motor: Motor, axes: Axes | None = None, **style: Any
+) -> list[Artist]:
+    """Draw torques over speeds within the motor's curves of peak and continuous torque, on either side of rest."""
+    axes = axes or new_axes()
+    artists: list[Artist] = []
+    goes_back = course[0].min() < -VALUE_ROUNDING * np.abs(course[0]).max()
+    fastest = min(motor.greatest_speed, 1.5 * float(np.abs(course[0]).max()))
+    speeds = np.unique([*np.linspace(0.0, fastest, _SAMPLES), *(speed for speed, _ in motor.curve if speed <= fastest)])
+    limits = (motor.peak_at(speeds), "peak torque", "-"), (motor.continuous_at(speeds), "continuous torque", "--")
+    for values, name, dashes in limits:
+        if np.isfinite(values).all():
+            look: dict[str, Any] = {"color": GREY, "linestyle": dashes, "linewidth": 1.1}
+            for side, label in ((1.0, name), (-1.0, None)):
+                for way in (1.0, -1.0) if goes_back else (1.0,):
+                    shown = label if way > 0.0 else None
+                    artists += axes.plot(way * _RPM * speeds, side * values, **look, label=shown)
+    artists += axes.plot(_RPM * course[0], course[1], **{"color": BLUES[3], **style})
+    axes.axhline(0.0, color=GREY, linewidth=0.8)
+    axes.set(xlabel="speed of the motor, rpm", ylabel="torque at the motor, N m")
+    axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=3, frameon=False)
+    return artists
+
+
+def draw_best_ratio(best: BestRatio, axes: Axes | None = None, **style: Any) -> list[Artist]:
+    """Draw root mean square and peak torque over the ratio into axes, new ones by default; return the artists."""
+    axes = axes or new_axes()
+    artists: list[Artist] = []
+    for values, name, colour in ((best.rms_torques, "RMS torque", BLUES[3]), (best.peak_torques, "peak torque", GREY)):
+        artists += axes.plot(best.ratios, values, **{"color": colour, "label": name, **style})
+    artists += axes.plot([best.ratio], [best.rms_torque], "o", color=WARM)
+    artists.append(name_point(axes, f"{best.ratio:.4g}", (best.ratio, best.rms_torque)))
+    axes.set(xscale="log", xlabel="ratio", ylabel="torque at the motor, N m")
+    axes.set_ylim(bottom=0.0)
+    axes.legend(frameon=False)
+    return artists

@@ -442,7 +442,7 @@ class Drive(JsonText):
         style
             What `Axes.plot` takes, for the move.
         """
-        from optlaws.plots.motors import draw_move
+        from optlaws.plots.machine import draw_move
 
         piece, _ = self._move(law, start, stroke, duration, None)
         return draw_move(PieceEffort(MotorTorque(self), piece), self.motor, ax, **style)

@@ -201,7 +201,7 @@ class BestRatio:
 
     def plot(self, ax: Any = None, **style: Any) -> list[Any]:
         """Draw the root mean square and the peak of the torque over the ratio, with the best one marked."""
-        from optlaws.plots.motors import draw_best_ratio
+        from optlaws.plots.machine import draw_best_ratio
 
         return draw_best_ratio(self, ax, **style)
 

@@ -457,7 +457,7 @@ class Mechanism(JsonText):
         `ax` is four pairs of axes, or one for the mechanism alone; a new figure unless given. `style` is what
         `Axes.plot` takes, for the curves.
         """
-        from optlaws.plots.mechanism import draw_mechanism
+        from optlaws.plots.machine import draw_mechanism
 
         return draw_mechanism(self, ax, **style)
 
