@@ -23,8 +23,7 @@ from optlaws.numbers import Array, bounded, finite, not_negative, numbers, posit
 from optlaws.suggest import unknown_key
 from optlaws.synthesis.functionals.kinds import FormulaIntegral, FormulaPeak, FormulaRms, OfFormula
 from optlaws.synthesis.limits.motions.integrated import value_of
-from optlaws.synthesis.limits.motions.standing import Standing, standing_level, standing_sign
-from optlaws.synthesis.limits.motions.work import least_energy
+from optlaws.synthesis.limits.motions.standing import Standing, least_energy, standing_level, standing_sign
 from optlaws.synthesis.limits.phase_plane import PhasePlane, TorqueLimit
 from optlaws.synthesis.limits.phase_plane_bound import Guess, Potential, even_price, proven_bound
 from optlaws.synthesis.limits.phase_plane_program import PhaseOptimum, optimum

@@ -17,7 +17,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from math import inf
+from math import fsum, inf, nextafter
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -31,6 +31,7 @@ from optlaws.numerics.taylor import variable
 from optlaws.synthesis.limits.formula_jets import formula_jet
 from optlaws.synthesis.limits.phase_plane import PhasePlane
 from optlaws.synthesis.limits.phase_torque import AnyTorque, GearTorque, PhaseTorque
+from optlaws.tolerances import ROUNDOFF
 
 _HOLDING_ENCLOSED = 1e-9  # of the torque that holds a load nearest to 0: how narrow its enclosure is
 
@@ -220,3 +221,44 @@ def _range(formula: Formula, sign: int, low: Array, high: Array) -> tuple[Array,
         bent = (exact(np.maximum(np.abs(over.terms[2].low), np.abs(over.terms[2].high))) * half * half).high
         by_slope = (at.terms[0] - steep * (1.0 + _HOLDING_ENCLOSED) - bent * (1.0 + _HOLDING_ENCLOSED)).low
     return np.fmax(over.terms[0].low, np.where(np.isnan(by_slope), -inf, by_slope)), at.terms[0].high
+
+
+_WORK_CELLS = 1024
+_ROUNDING = 8.0 * ROUNDOFF  # cells are a little wider than they are
+
+
+def least_energy(plane: PhasePlane) -> float:
+    """A lower bound of what is minimised, from the work of every power alone; at least 0 where there is none.
+
+    >>> from optlaws.formulas.reading import read
+    >>> lifting = PhaseTorque.of(read("(1 + a)*c + 0.5*b^2 + 3*a^2"))
+    >>> round(least_energy(PhasePlane(maxima=((lifting, lifting.scaled(0.5)),), C=9.0)), 8)
+    1.0
+    """
+    works = [
+        max(_least_work(plane, branch) for torque in torques for branch in torque.branches) for torques in plane.maxima
+    ]
+    return fsum(works) if len(works) < 2 or -inf in works else nextafter(fsum(works), -inf)
+
+
+def _least_work(plane: PhasePlane, torque: PhaseTorque) -> float:
+    """A lower bound of the integral of a torque over the position, by Taylor's formula in cells."""
+    if torque == PhaseTorque(Number(0.0)):
+        return 0.0
+    ends = np.unique(np.concatenate([np.linspace(0.0, 1.0, _WORK_CELLS + 1), plane.kinks]))
+    low, high = ends[:-1], ends[1:]
+    middle, half = 0.5 * (low + high), exact(0.5 * (high - low) * (1.0 + _ROUNDING))
+    cells, most = variable(between(low, high), 2), plane.greatest_velocity
+    at, over = formula_jet(torque.load, "a", variable(exact(middle), 1)), formula_jet(torque.load, "a", cells)
+    inertia, square, drag = (formula_jet(factor, "a", cells) for factor in torque.factors[:3])
+    rest = (square.terms[0] - inertia.terms[1] * 0.5).low
+    rubs = float(np.min(drag.terms[0].low))
+    with np.errstate(invalid="ignore", over="ignore"):
+        by_taylor = (at.terms[0] + over.terms[2] * half * half * (1.0 / 3.0)).low
+        load = np.fmax(np.where(np.isfinite(by_taylor), by_taylor, -inf), over.terms[0].low)
+        of_square = np.where(rest < 0.0, rest * most * most * (1.0 + _ROUNDING), 0.0)
+        parts = ((exact(load) + of_square) * half * 2.0).low
+    if not np.isfinite(parts).all():
+        return -inf
+    rounding = _ROUNDING * fsum(np.abs(parts).tolist())
+    return nextafter(fsum(parts.tolist()) - rounding + (rubs if rubs >= 0.0 else rubs * most), -inf)
