@@ -14,8 +14,7 @@ from numpy.typing import NDArray
 
 from optlaws.kept import kept_property
 from optlaws.numbers import Array
-from optlaws.numerics.chebyshev import basis_values, product, real_parts_of_roots
-from optlaws.numerics.gegenbauer import even_gegenbauer_jet
+from optlaws.numerics.chebyshev import basis_values, even_gegenbauer_jet, product, real_parts_of_roots
 from optlaws.synthesis.families.peaks import peaks, products
 from optlaws.tolerances import AT_END, ROW_ROUNDING
 

@@ -17,8 +17,7 @@ from numpy.polynomial import chebyshev, legendre
 from optlaws.kept import kept_property
 from optlaws.laws import PolynomialLaw
 from optlaws.numbers import Array
-from optlaws.numerics.chebyshev import basis_values, from_values, nodes
-from optlaws.numerics.gegenbauer import gegenbauer
+from optlaws.numerics.chebyshev import basis_values, from_values, gegenbauer, nodes
 from optlaws.synthesis.families.family import (
     ConstraintFamily,
     EvenFamily,
