@@ -112,15 +112,16 @@ def test_a_peak_along_the_corners_of_a_table_is_that_of_its_lines(efficiency: fl
     force = {"0 deg": "0 N", "90 deg": "-20 N", "150 deg": "-50 N", "360 deg": "0 N"}
     press = slider_crank("0.1 m", "0.4 m", bodies={"crank": "0.02 kg m^2"}, loads=Loads(force, over="input"))
     drive = press if efficiency is None else Drive(press, Motor("3e-4 kg m^2"), ratio=5, efficiency=efficiency)
-    strokes = [Rise("180 deg", "0.5 s"), Return(law="modified sine")]
-    best = Cycle(strokes, period="1 s", minimise="torque", drive=drive, degree=5)
+    # the return, whose law is given, is so slow that the rise decides
+    strokes = [Rise("180 deg", "0.5 s"), Return("180 deg", "2.5 s", law="modified sine")]
+    best = Cycle(strokes, period="3 s", minimise="torque", drive=drive, degree=5)
     times = np.linspace(0.0, 0.5, 200001)[:-1]
     x, v, a = (best(times, nu) for nu in range(3))
     torque = np.abs(drive.torque(x, v, a)).max()
     assert best.objective >= torque * (1.0 - 1e-12)
     assert best.solutions[0].objective > 0.0
-    usual = Cycle([Rise("180 deg", "0.5 s", law="modified sine"), *strokes[1:]], period="1 s", drive=drive)
-    assert best.objective < usual.effort.peak_force
+    usual = Cycle([Rise("180 deg", "0.5 s", law="modified sine"), *strokes[1:]], period="3 s", drive=drive)
+    assert best.objective < 0.9 * usual.effort.peak_force
 
 
 def test_peaks_behind_a_gear_with_losses_are_of_two_torques() -> None:
