@@ -93,17 +93,6 @@ def solutions(numbers: Numbers) -> Entries:
     }
 
 
-def fronts(numbers: Numbers) -> Entries:
-    over, low, high = of(numbers, (["B", "C"], 1.4, 2.0), (["B", "J"], 1.5, 2.0), (["C", "J"], 5.0, 8.0))
-    front: Entries = {"label": "ours"} | ({"B": 1.8} if over == ["C", "J"] and numbers.random() < 0.5 else {})
-    return {
-        "job": "fronts",
-        "points": 3,
-        "problem": {"order": 3, "degree": 4},
-        "figure": [{"name": "one", "title": "One", "over": over, "between": [low, high], "front": [front]}],
-    }
-
-
 # --- moves ---
 
 
@@ -275,12 +264,9 @@ DRAWN: dict[str, Callable[[Numbers], Entries]] = {
     "cycle": cycle,
     "cycle, at greatest speed": fastest_cycle,
     "fastest": fastest_moves,
-    "fronts": fronts,
     "machine laws": machine_laws,
     "solutions": solutions,
 }
-#: tables, pages and pictures alone
-WITHOUT_DATA = {"atlas", "force loaded"}
 
 
 # --- commands ---
@@ -371,7 +357,7 @@ def outcome_of_command(name: str, seed: int, folder: Path, capsys: pytest.Captur
 
 
 def test_every_job_with_data_is_drawn() -> None:
-    assert {DRAWN[name](np.random.default_rng(0))["job"] for name in DRAWN} | WITHOUT_DATA == set(JOBS)
+    assert {DRAWN[name](np.random.default_rng(0))["job"] for name in DRAWN} == set(JOBS)
 
 
 @pytest.mark.sample(3)
