@@ -80,6 +80,7 @@ nitpick_ignore = [
     ("py:class", "optlaws.cams.followers.rollers_and_faces.RollerContact"),
     ("py:class", "optlaws.cams.followers.follower.Place"),
     ("py:class", "optlaws.mechanisms.measured_spectrum.WeightPart"),
+    ("py:class", "optlaws.mechanisms.drives.effort.SegmentEffort"),
     ("py:class", "optlaws.synthesis.least_time.follower_residual.LawSize"),
     ("py:class", "optlaws.synthesis.least_time.motor_torque.LossyGear"),
     ("py:class", "optlaws.cycles.specification.drive.CycleDrive"),
