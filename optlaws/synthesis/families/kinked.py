@@ -63,6 +63,15 @@ class KinkSplit:
 
 
 @dataclass(frozen=True, eq=False)
+class AtKinks:
+    """Formulas of the law, each at the place of a kink."""
+
+    value: Array
+    across: Array  #: derivatives with respect to the variables, shape (kinks, variables)
+    along: Array  #: derivatives with respect to the kinks themselves
+
+
+@dataclass(frozen=True, eq=False)
 class FreeKinks:
     """The integral over stretches as a function of the law and of the places of its kinks, of which it is the greatest.
 
@@ -219,7 +228,7 @@ class KinkedIntegralFamily(IntegralFamily):
 
     def free_kinks(self, x: Array, stretches: list[SmoothStretch]) -> FreeKinks:
         """The integral over stretches whose kinks are where they are put, with its derivatives."""
-        split, point = self._over(stretches, x), np.append(x, 1.0)
+        split = self._over(stretches, x)
         value, share = self.outer(np.array(split.total))
         bend = np.zeros((len(x),) * 2)
         for formula, names, columns, shares in split.by_formula():
@@ -228,20 +237,45 @@ class KinkedIntegralFamily(IntegralFamily):
         bend *= share
         if self.root:
             bend -= np.outer(split.slope[:-1], split.slope[:-1]) / (4.0 * value**3)
-        k = self.kinks_of(stretches)
-        columns, turns = self.columns_at(k), self.columns_at(k, 1)
-        names, count = self._names(point, k, columns), len(k)
-        # of one formula before each kink, and of another behind it
-        rise, along, across = np.zeros(count), np.zeros(count), np.zeros((count, len(x)))
         pairs = [pair for pair in pairwise(stretches) if self.movable_kink(pair[1].low)]
-        for formula in dict.fromkeys(stretch.formula for pair in pairs for stretch in pair):
-            sides = np.array([(left.formula == formula) * 1.0 - (right.formula == formula) for left, right in pairs])
+        beside = [(left.formula, right.formula) for left, right in pairs]
+        sides = [{before: 1.0, behind: -1.0} if before != behind else {} for before, behind in beside]
+        rise = self._at_kinks(x, self.kinks_of(stretches), sides)
+        slope = share * split.slope[:-1]
+        return FreeKinks(float(value), float(share), slope, bend, rise.value, rise.across, rise.along)
+
+    def switches_of(self, x: Array, stretches: list[SmoothStretch]) -> list[Formula]:
+        """Of each kink the smooth formula that changes its sign there.
+
+        What the formulas beside a kink differ by does not say where it is: at the knots of a spline that is nothing,
+        and where a square begins it is 0 with its slope.
+        """
+        _, plain, bent, _ = self._tabulated
+        k = self.kinks_of(stretches)
+        if not len(k):
+            return []
+        names = self._with_factors(self._names(np.append(x, 1.0), k, self.columns_at(k)))
+        several = [branches_at(switch, names, len(k)) for switch in (*plain.formulas, *bent.formulas)]
+        away = [_distances(self.at_kinks(x, stretches, switches)) for switches in several]
+        return [several[i][kink] for kink, i in enumerate(np.argmin(away, axis=0).tolist())]
+
+    def at_kinks(self, x: Array, stretches: list[SmoothStretch], switches: list[Formula]) -> AtKinks:
+        """The switches of the kinks, each at its kink."""
+        return self._at_kinks(x, self.kinks_of(stretches), [{switch: 1.0} for switch in switches])
+
+    def _at_kinks(self, x: Array, k: Array, sums: list[dict[Formula, float]]) -> AtKinks:
+        """Weighted sums of formulas, one at each place."""
+        point, columns, turns = np.append(x, 1.0), self.columns_at(k), self.columns_at(k, 1)
+        names, count = self._names(point, k, columns), len(k)
+        value, along, across = np.zeros(count), np.zeros(count), np.zeros((count, len(x)))
+        for formula in dict.fromkeys(formula for terms in sums for formula in terms):
+            times = np.array([terms.get(formula, 0.0) for terms in sums])
             slopes = self._slopes(formula, (*self.names, "k"))
-            gradient = sides * slopes.gradient(names)
-            rise += sides * slopes.value(names)
+            gradient = times * slopes.gradient(names)
+            value += times * slopes.value(names)
             across += np.einsum("ip,ipn->pn", gradient[:-1], columns[:, :, :-1])
             along += np.einsum("ip,ip->p", gradient[:-1], turns @ point) + gradient[-1]
-        return FreeKinks(float(value), float(share), share * split.slope[:-1], bend, rise, across, along)
+        return AtKinks(value, across, along)
 
     def movable_kink(self, k: float) -> bool:
         """Whether the end of a stretch is where a law has a kink, not an edge at which a formula ends."""
@@ -264,6 +298,12 @@ class KinkedIntegralFamily(IntegralFamily):
     def value(self, x: Array, u: Array) -> Array:
         """Values of f at the places."""
         return np.full(len(u), self.outer(np.array(self.split(x).total))[0])
+
+
+def _distances(switches: AtKinks) -> Array:
+    """How far roots of the switches are from the kinks, to first order."""
+    nowhere = np.full(len(switches.value), np.inf)
+    return np.abs(np.divide(switches.value, switches.along, nowhere, where=switches.along != 0.0))
 
 
 @lru_cache(maxsize=256)

@@ -7,9 +7,9 @@ is quadratic, and fewer contacts than variables are no difficulty (the curvature
 What is near the optimum is rounded to few digits, and the last steps begin there: from whatever guess an optimum was
 met, its last digit is the same.
 
-Of an integral with kinks the places of these are unknowns too, each a root of what the formulas beside it differ by: as
-a function of the law alone the integral bends without bound where two kinks are about to vanish, as a function of both
-it is smooth there.
+Of an integral with kinks the places of these are unknowns too, each a root of the formula that changes its sign there:
+as a function of the law alone the integral bends without bound where two kinks are about to vanish, as a function of
+both it is smooth there.
 """
 
 from __future__ import annotations
@@ -19,10 +19,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from optlaws.formulas.tree import Formula
 from optlaws.numbers import Array, power_of_two
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.family import Program
-from optlaws.synthesis.families.kinked import FreeKinks, KinkedIntegralFamily, SmoothStretch
+from optlaws.synthesis.families.kinked import AtKinks, FreeKinks, KinkedIntegralFamily, SmoothStretch
 from optlaws.tolerances import AT_END, DEPENDENT_ROWS, SAME_PLACE
 
 _NEWTON_CONVERGED = 1e-13  # of a law: a step of Newton's method that is the last
@@ -48,6 +49,7 @@ class _Kinked:
 
     family: KinkedIntegralFamily
     stretches: list[SmoothStretch]
+    switches: list[Formula]  #: each 0 at its kink
 
     @property
     def kinks(self) -> Array:
@@ -60,8 +62,15 @@ class _Kinked:
     def at(self, x: Array) -> FreeKinks:
         return self.family.free_kinks(x, self.stretches)
 
+    def switches_at(self, x: Array) -> AtKinks:
+        return self.family.at_kinks(x, self.stretches, self.switches)
+
     def moved(self, step: Array) -> _Kinked:
-        return replace(self, stretches=self.family.with_kinks(self.stretches, self.kinks + step))
+        kinks = self.kinks + step
+        # one that comes to an end of all stretches has vanished there
+        pairs = zip(self.switches, kinks.tolist(), strict=True)
+        left = [switch for switch, k in pairs if self.family.movable_kink(k)]
+        return replace(self, stretches=self.family.with_kinks(self.stretches, kinks), switches=left)
 
 
 #: the integrals with kinks that bind, by the numbers of their families
@@ -92,7 +101,8 @@ def _integrals(program: Program, state: ActiveSet) -> _Integrals:
     """The integrals with kinks that bind at a law, over its stretches."""
     families = [(i, program.families[i]) for i in sorted(set(state.family.tolist()))]
     kinked = [(i, family) for i, family in families if isinstance(family, KinkedIntegralFamily)]
-    return {i: _Kinked(family, family.split(state.x).stretches) for i, family in kinked}
+    split = [(i, family, family.split(state.x).stretches) for i, family in kinked]
+    return {i: _Kinked(family, stretches, family.switches_of(state.x, stretches)) for i, family, stretches in split}
 
 
 def _have_all_kinks(x: Array, integrals: _Integrals) -> bool:
@@ -214,7 +224,9 @@ def _conditions(program: Program, state: ActiveSet, integrals: _Integrals) -> tu
             here = slice(begin, begin + len(integral.rise))
             system[:n, here] = weight * integral.share * integral.across.T
             system[n + m + np.flatnonzero(contacts), here] = s[:, None] * integral.share * integral.rise
-            system[here, :n], system[here, here], defect[here] = integral.across, np.diag(integral.along), integral.rise
+            switches = integrals[i].switches_at(state.x)
+            system[here, :n], system[here, here] = switches.across, np.diag(switches.along)
+            defect[here] = switches.value
             begin = here.stop
             continue
         jet = family.jet(state.x, u, s)

@@ -75,3 +75,20 @@ def test_a_formula_that_touches_0_in_the_middle_has_its_sign_beside() -> None:
         plain = np.abs(family.columns_at(places)[0] @ np.append(x, 1.0)).mean()
         # the objective is in units of its scale, 1/32 of a jerk
         assert family.value(x, np.ones(1))[0] == pytest.approx(plain / 32.0, rel=1e-6)
+
+
+@pytest.mark.parametrize("text", [*KINDS, "rms(spline(a, 0:1, 0.3:2, 0.6:1, 1:3)*c)"])
+def test_each_kink_is_a_simple_root_of_its_switch(text: str) -> None:
+    """Even at knots of a spline, where the formulas beside a kink are the same, and where a square begins."""
+    family = family_of(text, symmetric=False)
+    x = np.random.default_rng(6).normal(size=len(family.slack)) * 0.1
+    stretches = family.split(x).stretches
+    kinks, step = family.kinks_of(stretches), 1e-6
+    switches = family.switches_of(x, stretches)
+    at = family.at_kinks(x, stretches, switches)
+    assert len(kinks)
+    assert np.abs(at.value / at.along) == pytest.approx(np.zeros(len(kinks)), abs=1e-12)
+    ways = np.eye(len(x)) * step
+    for way, across in zip(ways, at.across.T, strict=True):
+        moved = family.kinks_of(family.split(x + way).stretches) - family.kinks_of(family.split(x - way).stretches)
+        assert moved / (2.0 * step) == pytest.approx(-across / at.along, rel=1e-5, abs=1e-6)
