@@ -66,7 +66,7 @@ def test_an_axis_of_a_problem_file_is_chosen(capsys: Capture) -> None:
         (("lever_tables",), 2, "lever_tables"),
         ((*MOVE, "--frequency", "30"), 2, "frequency"),
         ((*MOVE, *("--frequency", "30Hz") * 3), 2, "once, or twice"),
-        ((*MOVE, "--law", "modified sin"), 0, ""),
+        ((*MOVE, "--law", "modified sin"), 2, "did you mean 'modified sine'"),
         ((*MOVE, "--limit", "velocity=360 mm/s", "--limit", "acceleration=16 m/s^2"), 3, "infeasible: "),
     ],
 )

@@ -86,7 +86,8 @@ def test_a_script_asserts_its_numbers_and_is_short(name: str) -> None:
 )
 def test_results_in_the_repository_are_what_a_script_gives(tmp_path: Path, name: str) -> None:
     kept = ROOT / "results" / name
-    shutil.copytree(kept, tmp_path / name)
+    if name not in UNSTEADY:  # what says something else is not replaced
+        shutil.copytree(kept, tmp_path / name)
     written = problems.run(name, tmp_path / name)
     assert sorted(written) == sorted((tmp_path / name).iterdir())
     assert {file.name for file in written} == {file.name for file in kept.iterdir()}

@@ -472,10 +472,11 @@ def stored_law(file: Path) -> MotionLaw:
     if isinstance(data, dict) and "kind" not in data and "law" in data:
         data = data["law"]
     if not isinstance(data, dict) or "kind" not in data:
-        contents = (
-            f"the entries {', '.join(map(shortened, list(data)[:6]))}" if isinstance(data, dict) and data else "others"
+        entries = ", ".join(map(shortened, list(data)[:6])) if isinstance(data, dict) else ""
+        contents = f"its entries are {entries}" if entries else "it is no object with entries"
+        raise InputError(
+            f"{file} holds no law: {contents}, and a law has a 'kind': `optlaws solve --output` writes laws"
         )
-        raise InputError(f"{file} holds no law, which has a kind, but {contents}: `optlaws solve --output` writes laws")
     try:
         return MotionLaw.from_dict(data)
     except InputError as error:

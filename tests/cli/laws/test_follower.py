@@ -122,7 +122,7 @@ def test_nonsense_is_refused(capsys: Capture, arguments: list[str], says: str) -
 
 def test_a_file_that_is_no_law_is_refused(capsys: Capture, tmp_path: Path) -> None:
     file = tmp_path / "law.json"
-    for content, says in (("{", "is not JSON"), ("[]", "a law must be a dict"), ('{"law": {}}', "format of a law")):
+    for content, says in (("{", "is not JSON"), ("[]", "holds no law"), ('{"law": {}}', "a law has a 'kind'")):
         file.write_text(content, "utf-8")
         code, _, err = called(capsys, file, "--frequency", 20)
         assert code == 2
