@@ -303,7 +303,7 @@ class KinkedIntegralFamily(IntegralFamily):
 def _distances(switches: AtKinks) -> Array:
     """How far roots of the switches are from the kinks, to first order."""
     nowhere = np.full(len(switches.value), np.inf)
-    return np.abs(np.divide(switches.value, switches.along, nowhere, where=switches.along != 0.0))
+    return np.asarray(np.abs(np.divide(switches.value, switches.along, nowhere, where=switches.along != 0.0)))
 
 
 @lru_cache(maxsize=256)
