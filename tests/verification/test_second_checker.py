@@ -11,7 +11,7 @@ from typing import Any
 
 import pytest
 from flint import arb_mat, ctx
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from optlaws import (
@@ -348,7 +348,8 @@ def test_a_raised_bound_is_refused(tmp_path: Path) -> None:
 
 
 @settings(max_examples=3)
-@given(st.floats(1.3, 2.6), st.sampled_from([3, 5, 7]))
+@example(B=1.6919579422228668, degree=7)  # rounding decided which of the last two nodes leaves no box
+@given(B=st.floats(1.3, 2.6), degree=st.sampled_from([3, 5, 7]))
 def test_the_least_power_by_boxes_is_proven_there_too(B: float, degree: int) -> None:
     from tempfile import TemporaryDirectory
 

@@ -4,10 +4,15 @@ import json
 from dataclasses import replace
 from fractions import Fraction
 
+import numpy as np
 import pytest
+from hypothesis import example, given
+from hypothesis import strategies as st
 
-from optlaws import BoundaryConditions, Certificate, Chebyshev, Problem, Split, synthesize
+from optlaws import BoundaryConditions, Certificate, Chebyshev, InfeasibleProblem, Problem, Split, synthesize
 from optlaws.verification import exact_bound, verify
+from tests.internals.synthesis import rows_of
+from tests.sampling import examples
 
 FIRST = Problem(B=1.641, order=4, basis=Chebyshev(5), minimise="D")
 PROBLEMS = [
@@ -34,6 +39,50 @@ def test_what_doubles_prove_is_proven_in_balls(problem: Problem) -> None:
     assert solution.status.value == "optimal"
     data = json.loads(json.dumps(solution.to_dict()["power_certificate"]))
     assert exact_bound(Certificate.from_dict(data)) == Fraction(solution.lower_bound)
+
+
+def closes_whatever_rounds(certificate: Certificate) -> bool:
+    """Whether boxes are empty after the same nodes with sums rounded down and with sums rounded up."""
+    rows = rows_of(certificate.problem, certificate.claim or 0.0, certificate.points or ())
+    assert rows is not None
+    regions = [(rows.root(), rows.root())]
+    for node in certificate.tree:
+        box, inner = regions.pop()
+        if isinstance(node, Split):
+            left, left_inner = rows.after(box, node) or [], rows.after(inner, node) or []
+        else:
+            left, left_inner = rows.moved(box, node), rows.moved(inner, node, rounded=1)
+        if len(left) != len(left_inner):
+            return False
+        regions += zip(left, left_inner, strict=True)
+    return not regions
+
+
+def all_is_proven(B: float, order: int, degree: int) -> None:
+    try:
+        solution = synthesize(Problem(B=B, order=order, basis=Chebyshev(degree), minimise="D"), bound="tight")
+    except InfeasibleProblem:
+        return
+    certificate = solution.power_certificate
+    assert certificate is not None
+    assert exact_bound(certificate) == Fraction(solution.lower_bound)
+    assert closes_whatever_rounds(certificate)
+
+
+# rounding decided which of the last two nodes leaves no box
+@example(B=1.6919579422228668, order=3, degree=7)
+@example(B=1.7275155080248294, order=4, degree=5)
+@given(B=st.floats(1.3, 2.6), order=st.sampled_from([3, 4]), degree=st.sampled_from([3, 5, 7]))
+@examples(40)
+def test_what_doubles_prove_of_the_least_power_is_proven_in_balls(B: float, order: int, degree: int) -> None:
+    all_is_proven(B, order, degree)
+
+
+@pytest.mark.long
+def test_three_hundred_of_them_are() -> None:
+    random = np.random.default_rng(11)
+    for B in random.uniform(1.3, 2.6, 300).tolist():
+        all_is_proven(B, int(random.choice([3, 4])), int(random.choice([3, 5, 7])))
 
 
 def test_what_is_false_or_unfinished_is_not_proven() -> None:

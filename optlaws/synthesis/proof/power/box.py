@@ -241,12 +241,12 @@ class BoxRows(ABC):
             return [box.cut(node.variable, 1, node.at), box.cut(node.variable, -1, node.at)]
         return self.moved(box, node)
 
-    def moved(self, box: Box, node: Leaf) -> list[Box]:
-        """The box after a sum of rows has moved its side; None if it is empty.
+    def moved(self, box: Box, node: Leaf, *, rounded: int = -1) -> list[Box]:
+        """The box after a sum of rows, rounded as by `least_sum`, has moved its side; none if it is empty.
 
         Rows that the problem does not have, and negative multipliers of rows, count as zero.
         """
-        value = self.least_sum(box, node)
+        value = self.least_sum(box, node, rounded=rounded)
         if not isinstance(node, Tightening):
             return [] if value > 0.0 else [box]
         side = node.side * value
@@ -255,8 +255,11 @@ class BoxRows(ABC):
             return []
         return [box.cut(node.variable, node.side, side)] if low < side < high else [box]
 
-    def least_sum(self, box: Box, node: Leaf) -> float:
-        """A lower bound of side times the variable in the box, by the sum of the rows, which is at most 0."""
+    def least_sum(self, box: Box, node: Leaf, *, rounded: int = -1) -> float:
+        """A lower bound of side times the variable in the box, by the sum of the rows, which is at most 0.
+
+        It is not above what exact arithmetic gives; with `rounded` 1 it is not below that, and proves nothing.
+        """
         equations = self.equations()[: len(node.equations)]
         joined = np.vstack([self.of_contacts(node.contacts, box), equations, self.objective()])
         multipliers = [max(contact.multiplier, 0.0) for contact in node.contacts]
@@ -267,4 +270,4 @@ class BoxRows(ABC):
         total = moved + weights @ joined
         size = np.abs(moved) + np.abs(weights) @ np.abs(joined)
         greatest = np.append(np.maximum(np.abs(box.low), np.abs(box.high)), 1.0)
-        return float(box.extent(total[None])[0][0]) - ENERGY_ROUNDING * float(size @ greatest)
+        return float(box.extent(total[None])[0][0]) + rounded * ENERGY_ROUNDING * float(size @ greatest)

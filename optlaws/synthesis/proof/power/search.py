@@ -12,7 +12,7 @@ from optlaws.numbers import Array
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import model_of
 from optlaws.synthesis.proof.certificate import Certificate
-from optlaws.synthesis.proof.nodes import Node, Split
+from optlaws.synthesis.proof.nodes import Leaf, Node, Split
 from optlaws.synthesis.proof.power.box import Box, BoxRows
 from optlaws.synthesis.proof.power.grid import Grid
 from optlaws.synthesis.proof.power.rows import rows_of
@@ -65,6 +65,34 @@ def searched(problem: Problem, claim: float, x: Array, budget: int, explore: Exp
     return search
 
 
+@dataclass(frozen=True, eq=False)
+class Region:
+    """What nodes leave of a box with sums rounded down, and rounded up: exact arithmetic leaves a box between."""
+
+    box: Box
+    inner: Box
+
+    def cut(self, variable: int, side: int, value: float) -> Region:
+        """Both boxes with one side moved."""
+        return Region(self.box.cut(variable, side, value), self.inner.cut(variable, side, value))
+
+    def moved(self, rows: BoxRows, node: Leaf) -> Region | None:
+        """The region after a node, None where it is empty; the region itself where rounding decides whether it is.
+
+        A tree with such a node closes the box earlier in exact arithmetic, and its next node finds another one or none.
+        """
+        left = rows.moved(self.box, node)
+        if left == [self.box]:
+            return self
+        if rows.alone:
+            # planes of integrals touch at laws of the box: in a part of it they need not be better
+            return Region(left[0], left[0]) if left else None
+        inner = rows.moved(self.inner, node, rounded=1)
+        if bool(left) != bool(inner):
+            return self
+        return Region(left[0], inner[0]) if left else None
+
+
 @dataclass(eq=False)
 class BoxSearch:
     """A search for the proof of one claim."""
@@ -86,11 +114,12 @@ class BoxSearch:
 
     def run(self) -> None:
         """Empty one box after the other."""
-        boxes = [self.rows.root()]
-        while boxes:
-            box = self._shrunk(boxes.pop())
-            if box is None:
+        regions = [Region(self.rows.root(), self.rows.root())]
+        while regions:
+            region = self._shrunk(regions.pop())
+            if region is None:
                 continue
+            box = region.box
             self.overtaken = self.explore(self._variables_of((box.low + box.high) / 2.0))
             if self.overtaken or self.left <= 0:
                 return
@@ -98,34 +127,35 @@ class BoxSearch:
             if worth is None:
                 worth = (box.high - box.low) / self._root_width
             variable = max(self._variables, key=worth.__getitem__)
-            at = float(box.low[variable] + box.high[variable]) / 2.0
+            at = float(region.inner.low[variable] + region.inner.high[variable]) / 2.0
             self._tree.append(Split(variable, at))
-            boxes += [box.cut(variable, 1, at), box.cut(variable, -1, at)]
+            regions += [region.cut(variable, 1, at), region.cut(variable, -1, at)]
         points = tuple(self.rows.points.tolist())
         proof = Certificate(self.rows.problem, self.rows.claim, tuple(self._tree), points=points)
         self.certificate = proof if proof.proven else None
 
-    def _shrunk(self, box: Box) -> Box | None:
-        """The box with its sides moved as long as that goes on; None where it is empty."""
+    def _shrunk(self, region: Region) -> Region | None:
+        """The region with its sides moved as long as that goes on; None where it is empty."""
         for _ in range(_ROUNDS):
             if self.left <= 0:
                 break
+            box = region.box
             before = (box.high - box.low)[self._variables]
             nodes, points = self.grid.nodes(box, [self._variables[i] for i in np.argsort(-before)])
             self.left -= len(nodes)
             self._exchange(box, points)
             for node in nodes:
-                moved = next(iter(self.rows.moved(box, node)), None)
-                if moved is not box:
+                moved = region.moved(self.rows, node)
+                if moved is not region:
                     self._tree.append(node)
                 if moved is None:
                     return None
-                box = moved
-            after = (box.high - box.low)[self._variables]
+                region = moved
+            after = (region.box.high - region.box.low)[self._variables]
             ratio = np.maximum(after, TINY) / np.maximum(before, TINY)
             if float(np.exp(np.log(ratio).mean())) > _STALLED:
                 break
-        return box
+        return region
 
     def _exchange(self, box: Box, points: Sequence[Array]) -> None:
         """Add rows to the grid that the solutions of linear programs violate, by the mean solution of each side."""

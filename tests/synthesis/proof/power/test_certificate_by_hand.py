@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from optlaws import Certificate, Chebyshev, Contact, Leaf, Problem, Split, Tightening, synthesize
-from tests.internals.synthesis import Box, PowerRows
+from tests.internals.synthesis import Box, PowerRows, Region
 
 ONE_LAW = Problem(B=1.75, order=4, basis=Chebyshev(1), minimise="D")
 CLAIM = 10.0
@@ -64,6 +64,20 @@ def test_sides_that_cross_leave_no_law() -> None:
     # each of the other steps says nothing against the box
     assert leaves_as_it_is(beyond, RAISE)
     assert leaves_as_it_is(short, LOWER)
+
+
+def test_a_node_counts_only_where_the_box_is_empty_with_either_rounding() -> None:
+    whole, below = narrowed(V - 1.0, V + 1.0), narrowed(V - 1.0, V - 1e-9)
+    lowest, highest = (ROWS.least_sum(whole, RAISE, rounded=rounded) for rounded in (-1, 1))
+    assert lowest < V < highest < lowest + 1e-10
+    empty, unsure = Region(below, below), Region(*[narrowed(V - 1.0, (V + lowest) / 2)] * 2)
+    assert empty.moved(ROWS, RAISE) is None
+    assert ROWS.moved(unsure.box, RAISE), "rounded down it is not empty"
+    assert not ROWS.moved(unsure.inner, RAISE, rounded=1), "rounded up it is"
+    assert unsure.moved(ROWS, RAISE) is unsure
+    both = Region(whole, whole).moved(ROWS, RAISE)
+    assert both is not None
+    assert (both.box.low[0], both.inner.low[0]) == (lowest, highest)
 
 
 def test_a_sum_above_nothing_leaves_no_law() -> None:
