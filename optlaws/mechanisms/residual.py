@@ -416,7 +416,7 @@ def terms_of_exponential(half: float) -> int:
     Where |exp(w t)| is at most 1 on the line the coefficient n is at most 2 (half / 2)^n / n!.
 
     >>> terms_of_exponential(0.01), terms_of_exponential(10.0)
-    (7, 37)
+    (7, 38)
     """
     n, size = 0, 2.0
     while size > NEGLIGIBLE_TERM or n < half:
