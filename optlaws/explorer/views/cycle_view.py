@@ -207,7 +207,7 @@ def trust(shown: Cycle) -> dict[str, Any] | None:
     status = shown.status
     trust = {
         "status": status.value,
-        "word": TITLES[status],
+        "word": TITLES.get(status, status.value),
         "advice": advice.get(status, status.advice),
         "gap": gap,
         "facts": facts,
