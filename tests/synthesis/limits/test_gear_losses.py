@@ -98,6 +98,18 @@ def test_least_times_are_those_of_passes_though_the_bound_is_not_convex(wave: fl
     limit = drive_limit(behind("0.5*c", load, 1.0 / 0.7, 0.7), "time", P=7.0)
     known = least_time_by_passes(7.0, 0.5, wave, (1.0 / 0.7, 0.7))
     assert known * (1.0 - 1e-5) <= limit.value <= known * (1.0 + 1e-7)
+    assert limit.attained == pytest.approx(known, rel=1e-7)
+
+
+@given(st.floats(0.1, 1.5), st.floats(0.1, 0.9), st.floats(0.5, 0.95), st.floats(0.5, 0.95))
+@examples(4)
+def test_motions_that_change_the_form_in_which_they_brake_are_found(
+    motor: float, wave: float, driving: float, braking: float
+) -> None:
+    load = f"(1 + {wave!r}*cos(2*pi*a))*c - {wave!r}*pi*sin(2*pi*a)*b^2"
+    shares = 1.0 / driving, braking
+    limit = drive_limit(behind(f"{motor!r}*c", load, *shares), "time", P=7.0)
+    assert limit.attained == pytest.approx(least_time_by_passes(7.0, motor, wave, shares), rel=1e-6)
 
 
 @given(

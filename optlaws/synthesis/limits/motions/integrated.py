@@ -5,7 +5,9 @@ cap allows; the lower of both is a motion that keeps them. It is as long as it s
 where a peak is minimised or the time, where the peak or nothing is chosen so.
 
 Integrals are taken by Gauss's rule in cells of one arc, that ascends, follows the cap or brakes; where arcs meet within
-a cell, or one of them changes from one bound to another, it is divided into parts of constant acceleration.
+a cell, or one of them changes from one bound to another, it is divided into parts. A part of one arc has the arc's
+acceleration in its middle: the mean between its ends breaks a bound of which one form of two must be kept, where the
+forms change places. Other parts have a constant acceleration.
 """
 
 from __future__ import annotations
@@ -56,6 +58,7 @@ class _Motion(NamedTuple):
     c: Array
     mixed: NDArray[np.intp]  #: cells in which arcs meet, or bounds
     parts: Array  #: the squared velocities at the ends of their parts
+    rates: Array  #: the accelerations in the middles of these
 
 
 class _Arcs(NamedTuple):
@@ -180,7 +183,8 @@ class MotionCells:
         cap, c = np.where(below, w, most), np.where(below, c, 0.0)
         nothing = np.zeros(0, dtype=np.intp)
         if not bounds:
-            return _Motion(cap, c, nothing, np.zeros((0, _PARTS + 1))) if np.isfinite(cap).all() else None
+            none = np.zeros((0, _PARTS + 1))
+            return _Motion(cap, c, nothing, none, none[:, 1:]) if np.isfinite(cap).all() else None
         sides = _Sides(self, bounds, cap, c)
         forward, back = sides.arcs(ahead=True), sides.arcs(ahead=False)
         if forward is None or back is None:
@@ -197,14 +201,22 @@ class MotionCells:
         capped = self.greatest[mixed, None]
         if isfinite(scale):
             capped = np.minimum(capped, scale * (self.cap[0][mixed, :_MIDDLE] @ _OF_PARTS.T))
-        parts = np.minimum(np.minimum(forward.in_parts(mixed), back.in_parts(mixed)), capped)
+        both = forward.in_parts(mixed), back.in_parts(mixed)
+        parts = np.minimum(np.minimum(*both), capped)
         first, last = (lowest[mixed, place, None] for place in (_START, _END))
         # where the cap winds too much about the motion, that has one acceleration
         winds = (~fits | bends)[mixed] & (several[0] <= lowest).any(axis=1)[mixed]
         ways = np.cumsum(self._ways(mixed), axis=1)
         parts = np.where(winds[:, None], np.append(first, first + (last - first) * ways / ways[:, -1:], axis=1), parts)
         parts[:, :1], parts[:, -1:] = first, last
-        return _Motion(w, c, mixed, np.maximum(parts, 0.0))
+        parts = np.maximum(parts, 0.0)
+        with np.errstate(all="ignore"):
+            rates = 0.5 * np.diff(parts, axis=1) / self._ways(mixed)
+        for several, ahead in zip(both, (True, False), strict=True):
+            at = several <= parts * (1.0 + _AT_CAP)
+            alone = at[:, 1:] & at[:, :-1] & ~winds[:, None]
+            rates = np.where(alone, sides.in_middles(mixed, parts, ahead=ahead), rates)
+        return _Motion(w, c, mixed, parts, rates)
 
     def keeps(self, motion: _Motion) -> bool:
         """Whether a motion keeps the bounds at all places of cells, and in the middles of their parts."""
@@ -221,7 +233,7 @@ class MotionCells:
             beyond = size > (bound.at_rest - bound.fall * b) * more
             if np.any(beyond[whole & within]):
                 return False
-            size, b = np.abs(self.torque_in_parts(bound.torque, motion)), np.sqrt(self._middles(motion))
+            size, b = np.abs(self.torque_in_parts(bound.torque, motion)), np.sqrt(_middles(motion.parts))
             if np.any((size > (bound.at_rest - bound.fall * b) * more)[within[motion.mixed]]):
                 return False
         return True
@@ -241,12 +253,7 @@ class MotionCells:
         forms = [
             tuple(factor[motion.mixed][:, :_MIDDLE] @ _IN_PARTS.T for factor in form) for form in self.factors(torque)
         ]
-        with np.errstate(all="ignore"):
-            c = 0.5 * np.diff(motion.parts, axis=1) / self._ways(motion.mixed)
-        return _greatest(forms, self._middles(motion), c)
-
-    def _middles(self, motion: _Motion) -> Array:
-        return np.asarray(0.5 * (motion.parts[:, 1:] + motion.parts[:, :-1]))
+        return _greatest(forms, _middles(motion.parts), motion.rates)
 
     def _ways(self, cells: NDArray[np.intp]) -> Array:
         """The lengths of parts of cells over the position."""
@@ -284,6 +291,11 @@ class MotionCells:
         return max(float(np.max(np.abs(values), initial=0.0)) for values in several)
 
 
+def _middles(parts: Array) -> Array:
+    """The squared velocities in the middles of parts."""
+    return np.asarray(0.5 * (parts[:, 1:] + parts[:, :-1]))
+
+
 def _greatest(forms: Sequence[tuple[Array, ...]], w: Array, c: Array) -> Array:
     """The greatest of several forms of a torque."""
     b = np.sqrt(w)
@@ -304,7 +316,7 @@ class _Sides:
             fall = np.full_like(cap, bound.fall)
             self.forms.append([(most, fall, *form) for form in cells.factors(bound.torque)])
         with np.errstate(all="ignore"):
-            fits = (c <= self._limit(cap, ahead=True)), (c >= self._limit(cap, ahead=False))
+            fits = (c <= _limit(self.forms, cap, ahead=True)), (c >= _limit(self.forms, cap, ahead=False))
         #: cells in which the cap does not ascend too fast, and does not brake too hard
         self.fits: NDArray[np.bool_] = np.array([(fit | (cap == 0.0)).all(axis=1) for fit in fits])
         self.rows = [
@@ -321,19 +333,16 @@ class _Sides:
         """Whether accelerations depend on the velocity itself, which is no smooth function of its square at rest."""
         return any(np.any(form[1]) or np.any(form[4]) for forms in self.forms for form in forms)
 
-    def _limit(self, w: Array, *, ahead: bool) -> Array:
-        """The greatest acceleration at the places of cells, or the least."""
-        b, limit = np.sqrt(w), np.full_like(w, inf)
-        for forms in self.forms:
-            several = []
-            for most, fall, inertia, square, drag, load in forms:
-                with np.errstate(all="ignore"):
-                    free = drag * b + square * w + load
-                    by = (most - fall * b - free) / inertia if ahead else (fall * b - most - free) / inertia
-                several.append(np.where(inertia > 0.0, by, inf if ahead else -inf))
-            either = np.min(several, axis=0)
-            limit = np.minimum(limit, either if ahead else -either)
-        return np.asarray(limit if ahead else -limit)
+    def in_middles(self, cells: NDArray[np.intp], parts: Array, *, ahead: bool) -> Array:
+        """The greatest acceleration in the middles of parts of cells, or the least."""
+        forms = [
+            [
+                (most[cells, :1], fall[cells, :1], *(factor[cells, :_MIDDLE] @ _IN_PARTS.T for factor in factors))
+                for most, fall, *factors in several
+            ]
+            for several in self.forms
+        ]
+        return _limit(forms, _middles(parts), ahead=ahead)
 
     def _greatest(self, rows: list[Any], i: int, w: float) -> tuple[float, int]:
         """The greatest acceleration at a place of a cell, and the number of the bound that it is of."""
@@ -385,7 +394,7 @@ class _Sides:
         uneven = [cell for cell, (_, changes) in inner.items() if changes]
         w = hermite(np.arange(count), _PLACES_OF_CELL)
         with np.errstate(all="ignore"):
-            c = self._limit(np.where(np.isfinite(w), np.maximum(w, 0.0), 0.0), ahead=ahead)
+            c = _limit(self.forms, np.where(np.isfinite(w), np.maximum(w, 0.0), 0.0), ahead=ahead)
         w = np.where(np.isnan(w), inf, w)
 
         def in_parts(cells: NDArray[np.intp]) -> Array:
@@ -461,6 +470,21 @@ class _Sides:
             ]
         most = float(self.forms[number][0][0][i, 0])
         return [[[most, self.falls[number], *factors] for factors in form] for form in known[i]]
+
+
+def _limit(forms: Sequence[Sequence[tuple[Array, ...]]], w: Array, *, ahead: bool) -> Array:
+    """The greatest acceleration by the forms of bounds, or the least."""
+    b, limit = np.sqrt(w), np.full_like(w, inf)
+    for several in forms:
+        by_forms = []
+        for most, fall, inertia, square, drag, load in several:
+            with np.errstate(all="ignore"):
+                free = drag * b + square * w + load
+                by = (most - fall * b - free) / inertia if ahead else (fall * b - most - free) / inertia
+            by_forms.append(np.where(inertia > 0.0, by, inf if ahead else -inf))
+        either = np.min(by_forms, axis=0)
+        limit = np.minimum(limit, either if ahead else -either)
+    return np.asarray(limit if ahead else -limit)
 
 
 def _steps_near_rest(count: int) -> list[int]:
