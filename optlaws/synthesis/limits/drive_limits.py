@@ -45,7 +45,7 @@ _STEEPER = (0.0, 1e-8, 1e-6, 1e-4)
 #: of the level about which a torque is squared, where that of the load proves little
 _SHARES = (0.5, 0.0)
 #: where a gap is not small: how often a program is solved, from how many times as many elements, up to which gap
-_FINER = ((3, 4, inf), (3, 8, 1e-3), (6, 1, 1e-4))
+_FINER = ((3, 4, inf), (3, 8, 1e-3), (4, 4, 1e-4))
 #: positions at which a mean of the load is looked for that is above a bound
 _LOOKS = 512
 #: times the time that is given within which a load beyond a torque is proven not to be moved
