@@ -122,6 +122,11 @@ class BoxRows(ABC):
         """Names of all possible curved rows."""
 
     @property
+    def tightens(self) -> bool:
+        """Whether all rows are at least as good in a part of the box; not where they touch at laws of the box."""
+        return False
+
+    @property
     def alone(self) -> tuple[str, ...]:
         """Names of the rows without a place, such as rows of integrals."""
         return ()

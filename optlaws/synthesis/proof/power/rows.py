@@ -58,6 +58,11 @@ class PowerRows(BoxRows):
         self.anchors = self._anchors()
 
     @property
+    def tightens(self) -> bool:
+        """The chords of the power's bound are."""
+        return True
+
+    @property
     def names(self) -> tuple[str, ...]:
         """Names of the rows by the greatest and by the least D of a box."""
         return POWER_ROWS

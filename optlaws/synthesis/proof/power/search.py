@@ -15,7 +15,7 @@ from optlaws.synthesis.proof.certificate import Certificate
 from optlaws.synthesis.proof.nodes import Leaf, Node, Split
 from optlaws.synthesis.proof.power.box import Box, BoxRows
 from optlaws.synthesis.proof.power.grid import Grid
-from optlaws.synthesis.proof.power.rows import PowerRows, rows_of
+from optlaws.synthesis.proof.power.rows import rows_of
 from optlaws.tolerances import TINY
 
 _NARROW_RANGE = 1e-3  # added to widths by which rows are weighted
@@ -84,8 +84,7 @@ class Region:
         left = rows.moved(self.box, node)
         if left == [self.box]:
             return self
-        if not isinstance(rows, PowerRows):
-            # rows of formulas and energies touch at laws of the box: in a part of it they need not be better
+        if not rows.tightens:
             return Region(left[0], left[0]) if left else None
         inner = rows.moved(self.inner, node, rounded=1)
         if bool(left) != bool(inner):
