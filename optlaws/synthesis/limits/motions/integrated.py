@@ -14,7 +14,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from math import exp, inf, isfinite, sqrt
+from functools import cache, partial
+from math import exp, inf, isfinite, nan, sqrt
 from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
@@ -425,7 +426,7 @@ class _Sides:
         first, middle, last = (0, 1, 2) if ahead else (2, 1, 0)
         rates = [self.at[place] for place in (first, middle, last)]
         w, known, count = 0.0, list[tuple[float, float, float, float]](), len(most)
-        not_known = (inf * 0.0,) * 4
+        not_known = (nan,) * 4
         for k in range(count):
             i = k if ahead else count - 1 - k
             if fits[k] and w >= follows[k]:
@@ -543,14 +544,19 @@ def value_of(plane: PhasePlane, edges: tuple[float, ...], s: tuple[float, ...], 
 
 def _of_mean(cells: MotionCells) -> float:
     """The least mean of motions by the scaled cap: in the whole time, and at rest for some of it."""
-    plane = cells.plane
 
-    def excess(by: float) -> float:
-        motion = cells.motion(exp(2.0 * by), plane.bounds)
-        return inf if motion is None else cells.time(motion) - 1.0
+    @cache
+    def motion(by: float) -> _Motion | None:
+        return cells.motion(exp(2.0 * by), cells.plane.bounds)
 
-    known = [cells.motion(exp(2.0 * by), plane.bounds) for by in (0.0, *_root(excess))]
-    return min((_mean(cells, motion) for motion in known if motion is not None), default=inf)
+    known = [motion(by) for by in (0.0, *_root(partial(_excess, cells, motion)))]
+    return min((_mean(cells, each) for each in known if each is not None), default=inf)
+
+
+def _excess(cells: MotionCells, motion: Callable[[float], _Motion | None], by: float) -> float:
+    """By how much a motion takes more than the time 1; infinite where there is none."""
+    known = motion(by)
+    return inf if known is None else cells.time(known) - 1.0
 
 
 def _mean(cells: MotionCells, motion: _Motion) -> float:
@@ -575,15 +581,12 @@ def _of_peak(cells: MotionCells) -> float:
     torque = plane.peak
     size = torque.size
 
+    @cache
     def motion(by: float) -> _Motion | None:
         return cells.motion(inf, (*plane.bounds, TorqueLimit(torque, size * exp(by))))
 
-    def excess(by: float) -> float:
-        known = motion(by)
-        return inf if known is None else cells.time(known) - 1.0
-
     best = inf
-    for by in _root(excess):
+    for by in _root(partial(_excess, cells, motion)):
         known = motion(by)
         if known is None or not cells.keeps(known):
             continue
