@@ -134,10 +134,14 @@ def _between(point: _Known, other: _Known, number: SweptParameter) -> Fraction |
 
 def least_time(data: Mapping[str, Any], of_law: Verification) -> Verification:
     """Check the time, the limits that its law keeps and the proofs; `of_law` is what is known of its solution."""
-    stated = {key: value for key, value in data.items() if key not in {"unit", "about"}}
-    least = built(LeastTime.from_dict, stated, "the least time")
+    least = _stated(data)
     claims = (*of_law.claims, *_limits(least), *_proofs(least))
     return replace(of_law, claims=claims, unchecked=(*of_law.unchecked, *_limit(least, data)))
+
+
+def _stated(data: Mapping[str, Any]) -> LeastTime:
+    stated = {key: value for key, value in data.items() if key not in {"unit", "about"}}
+    return built(LeastTime.from_dict, stated, "the least time")
 
 
 def _limits(least: LeastTime) -> Iterator[Claim]:
@@ -187,8 +191,7 @@ def time_front(data: Mapping[str, Any], of_least: Verification, of_points: Seque
     of_least, of_points
         What is known of the least time, and of the solution of each point.
     """
-    stated = {key: value for key, value in data["fastest"].items() if key not in {"unit", "about"}}
-    least = built(LeastTime.from_dict, stated, "the least time")
+    least = _stated(data["fastest"])
     objective = built(MoveObjective.from_dict, data["minimise"], "what is least")
     rows = [all_entries_of(row, _KEYS, f"points[{i}]") for i, row in enumerate(data["points"])]
     durations = [number(row, "duration") for row in rows]
