@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import product
 from math import ceil, floor
 
 import numpy as np
@@ -21,6 +23,7 @@ from optlaws.synthesis.method.strategies.identified import as_answered
 from optlaws.synthesis.method.strategies.strategy import Strategy, cutting_plane_loop
 from optlaws.synthesis.problem.constants import C, Functional
 from optlaws.synthesis.problem.problem import Problem
+from optlaws.synthesis.problem.windows import Window
 from optlaws.synthesis.program.writer import Model, extreme_velocity, least_violation, model_of
 from optlaws.synthesis.proof.certificate import OBJECTIVE, VIOLATION, Certificate
 from optlaws.synthesis.proof.make import certificate, violation_certificate
@@ -105,34 +108,36 @@ def beyond_known_value(problem: Problem) -> InfeasibleProblem | None:
     >>> beyond_known_value(Problem(order=4, windows=(Window("a", low=0.3, high=0.3),))).proof.contacts[0].k
     0.0
     """
-    if not problem.windows:
-        return None
+    for window, contact, slopes in _excluded_values(problem):
+        equations = [0.0] * len(model_of(problem).program.right)
+        proof = Certificate.of_leaf(problem, (contact,), equations, VIOLATION)
+        # doubles charge for rounding without end where nothing bounds the laws, though none moves the value
+        if proof.proves_infeasible or not any(slopes):
+            at = contact.k if window.start <= contact.k <= window.stop else 1.0 - contact.k
+            return InfeasibleProblem(
+                f"no law of order {problem.order} keeps {window!r}: it excludes the value that every law of the "
+                f"problem has at k = {at:g}. Another interval or bound helps",
+                problem=problem,
+                proof=proof,
+                tried=_contradiction(proof),
+            )
+    return None
+
+
+def _excluded_values(problem: Problem) -> Iterator[tuple[Window, Contact, list[float]]]:
+    """Windows that exclude a value which no coordinate moves beyond rounding, with the contact there and slopes."""
     space = space_of(problem.basis, problem.conditions, symmetric=problem.symmetric)
     for number, window in enumerate(problem.windows, 1):
         if window.motion is not None or window.value:
             continue
         halves = (names.window(number), names.mirrored(names.window(number)))
         parts = window.first_half() if problem.symmetric else (window,)
-        for part, name in zip(parts, halves, strict=False):
-            for k in (place for place in (0.0, 0.5, 1.0) if part.start <= place <= part.stop):
-                *slopes, value = space.row(part.nu, k).tolist()
-                sign = 1.0 if value > part.high else -1.0
-                if any(abs(slope) > _FREE for slope in slopes) or part.low <= value <= part.high:
-                    continue
-                contact = Contact(names.window_side(name, sign), sign, k, 1.0)
-                at = k if name == halves[0] else 1.0 - k
-                equations = [0.0] * len(model_of(problem).program.right)
-                proof = Certificate.of_leaf(problem, (contact,), equations, VIOLATION)
-                # doubles charge for rounding without end where nothing bounds the laws, though none moves the value
-                if proof.proves_infeasible or not any(slopes):
-                    return InfeasibleProblem(
-                        f"no law of order {problem.order} keeps {window!r}: it excludes the value that every law "
-                        f"of the problem has at k = {at:g}. Another interval or bound helps",
-                        problem=problem,
-                        proof=proof,
-                        tried=_contradiction(proof),
-                    )
-    return None
+        places = product(zip(parts, halves, strict=False), (0.0, 0.5, 1.0))
+        for part, name, k in ((part, name, k) for (part, name), k in places if part.start <= k <= part.stop):
+            *slopes, value = space.row(part.nu, k).tolist()
+            sign = 1.0 if value > part.high else -1.0
+            if all(abs(slope) <= _FREE for slope in slopes) and not part.low <= value <= part.high:
+                yield window, Contact(names.window_side(name, sign), sign, k, 1.0), slopes
 
 
 def falls_for_ever(problem: Problem) -> bool:

@@ -34,3 +34,10 @@ def test_a_window_without_the_value_of_all_laws_is_refused_with_a_proof(window: 
         synthesize(Problem(order=3, basis=basis, windows=(window,)))
     assert isinstance(raised.value.proof, Certificate)
     assert (exact_bound(raised.value.proof) or 0) > 0
+
+
+@pytest.mark.parametrize(("start", "stop", "at"), [(0.0, 0.1, "0"), (0.9, 1.0, "1")])
+def test_the_place_is_in_the_window_also_of_symmetric_laws(start: float, stop: float, at: str) -> None:
+    window = Window("a", low=0.3, high=0.6, start=start, stop=stop)
+    with pytest.raises(InfeasibleProblem, match=rf"the value that every law of the problem has at k = {at}\. "):
+        synthesize(Problem(order=4, windows=(window,)))
