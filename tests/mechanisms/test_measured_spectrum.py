@@ -205,12 +205,12 @@ def test_of_many_rows_those_that_bind_give_the_optimum_of_all(
             problem = Problem(order=3, basis=Chebyshev(7), minimise=limit, B=at_most(2), C=at_most(7))
         else:
             problem = Problem(order=3, basis=Chebyshev(7), bounds={limit: at_most(0.5 * limit.value(smoothstep(4)))})
-        found = synthesize(problem)
-        assert found.status.value == "optimal"
-        assert found.gap <= 1e-9
+        best = synthesize(problem)
+        assert best.status.value == "optimal"
+        assert best.gap <= 1e-9
         with monkeypatch.context() as patch:
             patch.setattr(exchange, "_MANY", 10_000)
-            assert synthesize(problem).objective == pytest.approx(found.objective, rel=1e-9)
+            assert synthesize(problem).objective == pytest.approx(best.objective, rel=1e-9)
 
 
 @pytest.mark.long

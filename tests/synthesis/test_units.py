@@ -154,8 +154,8 @@ def test_an_objective_in_another_unit_has_the_same_law(kind: str, unit: float) -
 @pytest.mark.parametrize("scale", SCALES)
 @pytest.mark.parametrize("kind", sampled({**WEIGHED, **OBJECTIVES}, 12))
 def test_an_objective_times_a_number_has_the_same_law(kind: str, scale: float) -> None:
-    plain, found = (law_of({**WEIGHED, **OBJECTIVES}[kind], unit) for unit in (1.0, scale))
-    same(found, plain, scale)
+    plain, scaled = (law_of({**WEIGHED, **OBJECTIVES}[kind], unit) for unit in (1.0, scale))
+    same(scaled, plain, scale)
 
 
 @pytest.mark.parametrize("scale", SCALES)

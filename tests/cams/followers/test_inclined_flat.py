@@ -146,8 +146,8 @@ def test_least_sizes_and_best_laws_are_those_of_the_shorter_stroke() -> None:
     with pytest.raises(InfeasibleProblem, match="no prime circle keeps a pressure angle of 15 deg"):
         least_prime_circle(motion, InclinedFlat("20 deg"), pressure_angle="15 deg")
     for reached in ("20 deg", f"{radians(20.0)!r} rad"):
-        kept = least_prime_circle(motion, InclinedFlat("20 deg"), pressure_angle=reached, radius_of_curvature="20 mm")
-        assert kept.radius == least.radius
+        within = least_prime_circle(motion, InclinedFlat("20 deg"), pressure_angle=reached, radius_of_curvature="20 mm")
+        assert within.radius == least.radius
     square = best_prime_circle(VALVE, TranslatingFlat(), radius_of_curvature="3 mm")
     inclined = best_prime_circle(VALVE, InclinedFlat("20 deg"), radius_of_curvature="3 mm")
     assert inclined.lower_bound == pytest.approx(0.003 + cosine * (square.lower_bound - 0.003), rel=1e-6)

@@ -56,10 +56,10 @@ def cycle(minimise: str, names: tuple[str, ...], scale: float) -> Cycle:
 def outcome(minimise: str, names: tuple[str, ...], scale: float) -> tuple[str, float, float]:
     """The status, the objective and its bound; of a cycle without laws nothing but that."""
     try:
-        found = cycle(minimise, names, scale)
+        best = cycle(minimise, names, scale)
         unit = scale ** (2 if minimise in {"power", "energy", "heat"} else 1)
-        bound = found.lower_bound
-        return str(found.status), found.objective / unit, 0.0 if bound is None else bound / unit
+        bound = best.lower_bound
+        return str(best.status), best.objective / unit, 0.0 if bound is None else bound / unit
     except InfeasibleProblem:
         return "infeasible", 0.0, 0.0
 
