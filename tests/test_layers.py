@@ -25,12 +25,13 @@ BASE = {
     "suggest",
     "tolerances",
 }
-KNOWN = BASE | {"numerics"}
+KNOWN = BASE | {"numerics", "entries"}
 CORE = KNOWN | {"formulas", "laws", "synthesis", "mechanisms", "motion", "cycles", "exports", "cams", "verification"}
 MAY_IMPORT = {
     "echo": set[str](),
     "errors": {"echo", "sentences"},
     "formulas": KNOWN,
+    "entries": BASE | {"motion"},
     "extras": {"errors"},
     "files": {"echo", "errors", "locks", "suggest", "tolerances"},
     "kept": set[str](),

@@ -18,7 +18,7 @@ from optlaws.cams.conjugate import conjugate_cam
 from optlaws.cams.curves.extremes import EnclosedExtreme
 from optlaws.cams.curves.file_options import Cutting
 from optlaws.cams.disc import DiscCam
-from optlaws.cams.followers.follower import read_follower, stated_prime_radius
+from optlaws.cams.followers.follower import CamFollower, stated_prime_radius
 from optlaws.cams.followers.translating_roller import TranslatingRoller
 from optlaws.cams.forces import CamForces
 from optlaws.cams.least_sizes import GreatestRoller, LeastPrimeCircle, greatest_roller, least_prime_circle
@@ -76,7 +76,9 @@ class Findings:
     @kept_property
     def prime_radius(self) -> str:
         """The radius of the prime circle that the file gives; empty where the least one is sought."""
-        given = stated_prime_radius(self.spec.prime_radius, self.spec.base_radius, read_follower(self.spec.follower))
+        given = stated_prime_radius(
+            self.spec.prime_radius, self.spec.base_radius, CamFollower.from_dict(self.spec.follower)
+        )
         if given is None and (self.spec.best in {"laws", "offset"} or not self._limited):
             raise InputError(
                 "prime_radius is missing: give it, such as '60 mm'; or give pressure_angle or radius_of_curvature, and "
@@ -89,7 +91,7 @@ class Findings:
     @kept_property
     def best(self) -> BestCam | BestPrimeCircle | None:
         """The quality of the laws for the cam, and the proof; None where they are the cycle's own."""
-        spec, follower = self.spec, read_follower(self.spec.follower)
+        spec, follower = self.spec, CamFollower.from_dict(self.spec.follower)
         prime_radius = self.prime_radius
         if spec.best == "offset":
             return None
@@ -100,7 +102,7 @@ class Findings:
     @kept_property
     def offset(self) -> BestOffset | None:
         """The best offset of the slide; None where the cam has the offset of the file."""
-        spec, follower = self.spec, read_follower(self.spec.follower)
+        spec, follower = self.spec, CamFollower.from_dict(self.spec.follower)
         if spec.best != "offset":
             return None
         if "offset" in spec.follower:
@@ -120,7 +122,7 @@ class Findings:
         if not self.prime_radius:
             return self._least_of_limits.cam
         turning = self.spec.limits["turning"]
-        return DiscCam(self.cycle, self.prime_radius, read_follower(self.spec.follower), turning=turning)
+        return DiscCam(self.cycle, self.prime_radius, CamFollower.from_dict(self.spec.follower), turning=turning)
 
     @property
     def _limited(self) -> bool:
@@ -130,7 +132,7 @@ class Findings:
     @kept_property
     def _least_of_limits(self) -> LeastPrimeCircle:
         """The least prime circle of the cycle, where the file gives limits in its place."""
-        return least_prime_circle(self.cycle, read_follower(self.spec.follower), **self.spec.limits)
+        return least_prime_circle(self.cycle, CamFollower.from_dict(self.spec.follower), **self.spec.limits)
 
     @kept_property
     def second(self) -> DiscCam | None:
@@ -138,7 +140,7 @@ class Findings:
         cam, entries = self.cam, self.spec.pair
         if entries is None:
             return None
-        follower = None if entries.follower is None else read_follower(entries.follower)
+        follower = None if entries.follower is None else CamFollower.from_dict(entries.follower)
         with located("pair"):
             return conjugate_cam(cam, follower, distance=entries.distance, angle=entries.angle)
 

@@ -3,20 +3,19 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Mapping
-from dataclasses import MISSING, dataclass, fields
+from dataclasses import dataclass
 from functools import cache
 from importlib import import_module
 from pathlib import Path
 from pkgutil import iter_modules
-from typing import Any, ClassVar
+from typing import Any, ClassVar, Self
 
 from optlaws.cams.followers.contact import FollowerContact
+from optlaws.entries.declared import Kinded
 from optlaws.errors import InputError
 from optlaws.motion.quantities import positive_quantity, quantity
 from optlaws.numbers import Quantity
 from optlaws.sentences import Amount
-from optlaws.suggest import unknown_key
 
 
 @dataclass(frozen=True)
@@ -35,27 +34,25 @@ class Place:
     turning: float
 
 
-class CamFollower(ABC):
+class CamFollower(Kinded, ABC, title="a follower"):
     """A follower of a disc cam, as a person gives it.
 
-    A kind is a frozen dataclass of this class in a module of this folder, and named in its head: nothing else names it.
+    A kind is a declared class in a module of this folder, and named in its head: nothing else names it.
     """
 
-    #: kinds by their names in problem files; those of this folder are there once `follower_kinds` was called
-    kinds: ClassVar[dict[str, type[CamFollower]]] = {}
-    kind: ClassVar[str]
     #: whether it moves by a "length" or an "angle"
     axis: ClassVar[str]
-    #: its entries, as errors and the explorer show them
-    examples: ClassVar[dict[str, str]]
     #: its entries that are lengths, from which its size follows
     lengths: ClassVar[tuple[str, ...]] = ()
     #: the limit that is linear in the law and says the least prime circle of all laws; None where none is
     sizing_limit: ClassVar[str | None] = None
 
-    def __init_subclass__(cls, *, kind: str) -> None:
-        cls.kind = kind
-        CamFollower.kinds[kind] = cls
+    @classmethod
+    def kinds(cls) -> dict[str, type[Self]]:
+        """The kinds of followers by their names in problem files, those of this folder among them."""
+        _load()
+        # slides before arms, whichever was imported first
+        return dict(sorted(super().kinds().items(), reverse=True))
 
     @abstractmethod
     def contact(self, place: Place) -> FollowerContact:
@@ -130,38 +127,10 @@ def shown(length: float) -> Amount:
     return Amount(1e3 * length, "mm", 9)
 
 
-def follower_kinds() -> dict[str, type[CamFollower]]:
-    """The kinds of followers by their names in problem files."""
-    _load()
-    # slides before arms, whichever was imported first
-    return dict(sorted(CamFollower.kinds.items(), reverse=True))
-
-
 def follower_names() -> str:
     """Names of the classes, as an error lists them."""
-    *names, last = [kind.__name__ for kind in follower_kinds().values()]
+    *names, last = [kind.__name__ for kind in CamFollower.kinds().values()]
     return f"{', '.join(names)} or {last}"
-
-
-def read_follower(entries: Mapping[str, Any]) -> CamFollower:
-    """A follower from entries of a problem file."""
-    kinds = follower_kinds()
-    if "kind" not in entries:
-        raise InputError(f"follower: kind is missing: give one of {', '.join(kinds)}")
-    if not isinstance(entries["kind"], str) or entries["kind"] not in kinds:
-        raise InputError(f"follower: {unknown_key(entries['kind'], kinds, 'kind')}")
-    kind = kinds[entries["kind"]]
-    given = {name: value for name, value in entries.items() if name != "kind"}
-    named = f"{'an' if kind.kind[0] in 'aeiou' else 'a'} {kind.kind}"
-    taken: dict[str, Any] = {field.name: field.default for field in fields(kind)}  # type: ignore[arg-type]
-    for name in given:
-        if name not in taken:
-            raise InputError(f"follower: {named} takes no {name}; it takes {', '.join(taken) or 'no entries'}")
-    for name, default in taken.items():
-        if name not in given and default is MISSING:
-            raise InputError(f"follower: {named} needs its {name}, such as {name} = '{kind.examples[name]}'")
-    follower: CamFollower = kind(**given)
-    return follower
 
 
 @cache

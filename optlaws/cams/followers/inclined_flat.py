@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import cos, pi
 from typing import ClassVar
 
@@ -10,23 +9,19 @@ from optlaws.cams.followers.contact import CURVATURE
 from optlaws.cams.followers.follower import CamFollower, Place
 from optlaws.cams.followers.rollers_and_faces import FaceContact, SlidingFace
 from optlaws.echo import shortened
+from optlaws.entries.declared import declared, entry
+from optlaws.entries.value_types import Measured
 from optlaws.errors import InputError
 from optlaws.motion.quantities import quantity
 from optlaws.numbers import Quantity
 
 
-@dataclass(frozen=True)
+@declared
 class InclinedFlat(CamFollower, kind="inclined flat"):
     """A follower that slides and has a flat face which is not square to its way.
 
     Its cam is that of a square face that moves cos(inclination) as far, turned by the inclination; the pressure angle
     is the inclination at every angle of the cam.
-
-    Parameters
-    ----------
-    inclination
-        Between the face and the square of the way, above 0 where the face rises to the side to which the cam's top
-        moves when it turns clockwise; less than 90 deg.
 
     Examples
     --------
@@ -34,9 +29,13 @@ class InclinedFlat(CamFollower, kind="inclined flat"):
     'length'
     """
 
-    inclination: Quantity
+    inclination: Quantity = entry(
+        Measured("angle"),
+        "Between the face and the square of the way, above 0 where the face rises to the side to which the cam's top "
+        "moves when it turns clockwise; less than 90 deg.",
+        example="10 deg",
+    )
     axis: ClassVar[str] = "length"
-    examples: ClassVar[dict[str, str]] = {"inclination": "10 deg"}
     sizing_limit: ClassVar[str | None] = CURVATURE
 
     @property

@@ -9,22 +9,17 @@ from typing import ClassVar
 from optlaws.cams.followers.contact import ContactState, Drag, Transmission, bearing, other_leg
 from optlaws.cams.followers.follower import CamFollower, Place, positive, shown
 from optlaws.cams.followers.rollers_and_faces import FaceContact, sign
+from optlaws.entries.declared import declared, entry
+from optlaws.entries.value_types import Measured
 from optlaws.errors import InputError
 from optlaws.motion.quantities import quantity
 from optlaws.numbers import Quantity
 from optlaws.numerics.taylor import Jet, Pair
 
 
-@dataclass(frozen=True)
+@declared
 class OscillatingFlat(CamFollower, kind="oscillating flat"):
     """A follower that swings and has a flat face.
-
-    Parameters
-    ----------
-    pivot_distance
-        From the cam's centre to the pivot.
-    face_offset
-        From the pivot to the line of the face; above 0 where the face lies away from the cam.
 
     Examples
     --------
@@ -32,10 +27,15 @@ class OscillatingFlat(CamFollower, kind="oscillating flat"):
     'angle'
     """
 
-    pivot_distance: Quantity
-    face_offset: Quantity = "0 mm"
+    pivot_distance: Quantity = entry(
+        Measured("length", above=0.0), "From the cam's centre to the pivot.", example="120 mm"
+    )
+    face_offset: Quantity = entry(
+        Measured("length"),
+        "From the pivot to the line of the face; above 0 where the face lies away from the cam.",
+        default="0 mm",
+    )
     axis: ClassVar[str] = "angle"
-    examples: ClassVar[dict[str, str]] = {"pivot_distance": "120 mm", "face_offset": "0 mm"}
     lengths: ClassVar[tuple[str, ...]] = ("pivot_distance",)
 
     def contact(self, place: Place) -> FaceContact:

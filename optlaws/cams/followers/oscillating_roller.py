@@ -13,6 +13,8 @@ import numpy as np
 from optlaws.cams.followers.contact import ContactState, CurvatureTerms, LinearLimit, Transmission, other_leg
 from optlaws.cams.followers.follower import CamFollower, Place, positive, roller_radius, shown
 from optlaws.cams.followers.rollers_and_faces import RollerContact, half_turn
+from optlaws.entries.declared import declared, entry
+from optlaws.entries.value_types import Measured
 from optlaws.errors import InputError
 from optlaws.motion.piece import Piece
 from optlaws.numbers import Array, Quantity
@@ -21,18 +23,9 @@ from optlaws.numerics.taylor import Jet, Pair
 _LINES, _PARTS, _LOOKS = 16, 24, 2001
 
 
-@dataclass(frozen=True)
+@declared
 class OscillatingRoller(CamFollower, kind="oscillating roller"):
     """A follower that swings and has a roller.
-
-    Parameters
-    ----------
-    radius
-        Of the roller, such as "12 mm".
-    arm
-        From the pivot to the roller's centre.
-    pivot_distance
-        From the cam's centre to the pivot.
 
     Examples
     --------
@@ -40,11 +33,12 @@ class OscillatingRoller(CamFollower, kind="oscillating roller"):
     'angle'
     """
 
-    radius: Quantity
-    arm: Quantity
-    pivot_distance: Quantity
+    radius: Quantity = entry(Measured("length", above=0.0), "Of the roller.", example="14 mm")
+    arm: Quantity = entry(Measured("length", above=0.0), "From the pivot to the roller's centre.", example="110 mm")
+    pivot_distance: Quantity = entry(
+        Measured("length", above=0.0), "From the cam's centre to the pivot.", example="140 mm"
+    )
     axis: ClassVar[str] = "angle"
-    examples: ClassVar[dict[str, str]] = {"radius": "14 mm", "arm": "110 mm", "pivot_distance": "140 mm"}
     lengths: ClassVar[tuple[str, ...]] = ("radius", "arm", "pivot_distance")
 
     def contact(self, place: Place) -> RollerContact:

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import ClassVar
 
 from optlaws.cams.followers.contact import CURVATURE
 from optlaws.cams.followers.follower import CamFollower, Place
 from optlaws.cams.followers.rollers_and_faces import FaceContact, SlidingFace
+from optlaws.entries.declared import declared
 
 
-@dataclass(frozen=True)
+@declared
 class TranslatingFlat(CamFollower, kind="translating flat"):
     """A follower that slides and has a flat face square to its way.
 
@@ -21,7 +21,6 @@ class TranslatingFlat(CamFollower, kind="translating flat"):
     """
 
     axis: ClassVar[str] = "length"
-    examples: ClassVar[dict[str, str]] = {}
     sizing_limit: ClassVar[str | None] = CURVATURE
 
     def contact(self, place: Place) -> FaceContact:

@@ -9,6 +9,8 @@ from typing import ClassVar
 from optlaws.cams.followers.contact import PRESSURE, ContactState, CurvatureTerms, LinearLimit, Transmission
 from optlaws.cams.followers.follower import CamFollower, Place, roller_radius, shown
 from optlaws.cams.followers.rollers_and_faces import RollerContact
+from optlaws.entries.declared import declared, entry
+from optlaws.entries.value_types import Measured
 from optlaws.errors import InputError
 from optlaws.motion.piece import Piece
 from optlaws.motion.quantities import quantity
@@ -16,17 +18,9 @@ from optlaws.numbers import Quantity
 from optlaws.numerics.taylor import Jet, Pair
 
 
-@dataclass(frozen=True)
+@declared
 class TranslatingRoller(CamFollower, kind="translating roller"):
     """A follower that slides and has a roller.
-
-    Parameters
-    ----------
-    radius
-        Of the roller, such as "12 mm".
-    offset
-        Of the slide's way from the cam's centre; above 0 on the side to which the cam's top moves when it turns
-        clockwise, so that with a cam that turns counterclockwise it lessens the pressure angle of the rise.
 
     Examples
     --------
@@ -34,10 +28,14 @@ class TranslatingRoller(CamFollower, kind="translating roller"):
     'length'
     """
 
-    radius: Quantity
-    offset: Quantity = "0 mm"
+    radius: Quantity = entry(Measured("length", above=0.0), "Of the roller.", example="12 mm")
+    offset: Quantity = entry(
+        Measured("length"),
+        "Of the slide's way from the cam's centre; above 0 on the side to which the cam's top moves when it turns "
+        "clockwise, so that with a cam that turns counterclockwise it lessens the pressure angle of the rise.",
+        default="0 mm",
+    )
     axis: ClassVar[str] = "length"
-    examples: ClassVar[dict[str, str]] = {"radius": "12 mm", "offset": "0 mm"}
     lengths: ClassVar[tuple[str, ...]] = ("radius", "offset")
     sizing_limit: ClassVar[str | None] = PRESSURE
 

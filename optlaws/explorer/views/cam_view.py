@@ -14,10 +14,11 @@ import numpy as np
 
 from optlaws.cams.curves.extremes import EnclosedExtreme
 from optlaws.cams.disc import DiscCam
-from optlaws.cams.followers.follower import follower_kinds
+from optlaws.cams.followers.follower import CamFollower
 from optlaws.cams.forces import CamForces
 from optlaws.cams.least_sizes import least_prime_circle
 from optlaws.cams.summary import Labelled, named_forces
+from optlaws.entries.reference import examples
 from optlaws.errors import InfeasibleProblem, InputError, OptlawsError
 from optlaws.explorer.views.cycle_view import SEGMENTS, check_axis
 from optlaws.explorer.views.law_view import digits, drawn, refusal
@@ -268,7 +269,7 @@ def followers() -> dict[str, dict[str, Any]]:
     >>> followers()["inclined flat"]
     {'axis': 'length', 'entries': {'inclination': '10 deg'}}
     """
-    return {name: {"axis": kind.axis, "entries": kind.examples} for name, kind in follower_kinds().items()}
+    return {name: {"axis": kind.axis, "entries": examples(kind)} for name, kind in CamFollower.kinds().items()}
 
 
 _PER_MEGAPASCAL = 1e6

@@ -10,7 +10,7 @@ from typing import Any
 
 from optlaws.cams.at_shaft import cam_mechanism
 from optlaws.cams.disc import DiscCam
-from optlaws.cams.followers.follower import read_follower, stated_prime_radius
+from optlaws.cams.followers.follower import CamFollower, stated_prime_radius
 from optlaws.cycles.cycle import Cycle
 from optlaws.echo import shortened
 from optlaws.errors import InputError, located
@@ -48,7 +48,7 @@ def _cam(
 def _disc(prime_radius: Any, follower: Any, segment: Any, turning: Any) -> DiscCam:
     if not isinstance(follower, Mapping):
         raise InputError(f"follower must be a table with its kind, got {shortened(follower)}")
-    return DiscCam(_motion(segment), prime_radius, read_follower(follower), turning=turning)
+    return DiscCam(_motion(segment), prime_radius, CamFollower.from_dict(follower), turning=turning)
 
 
 def cam_of(entries: Mapping[str, Any]) -> DiscCam:
@@ -138,7 +138,7 @@ def mechanism_of(entries: Any) -> Mechanism:
             raise InputError(unknown_key(kind, MAKERS, "kind"))
         given = {name: value for name, value in entries.items() if name != "kind"}
         if kind == "cam" and isinstance(given.get("follower"), Mapping) and "base_radius" in given:  # of earlier files
-            former, follower = given.pop("base_radius"), read_follower(given["follower"])
+            former, follower = given.pop("base_radius"), CamFollower.from_dict(given["follower"])
             given["prime_radius"] = stated_prime_radius(given.get("prime_radius"), former, follower)
         _check_names(given, kind)
         friction = {} if kind == "table" else {name: given.pop(name) for name in _FRICTION if name in given}

@@ -7,7 +7,7 @@ from math import ceil, floor, log10
 from pathlib import Path
 from typing import Any
 
-from optlaws.cams.followers.follower import read_follower
+from optlaws.cams.followers.follower import CamFollower
 from optlaws.errors import InputError
 from optlaws.files.problem_file import convert
 from optlaws.jobs.cam_entries import CamProblemFile
@@ -116,7 +116,7 @@ def _of_study(answers: Answers) -> Answers:
 def _check_cam(entries: Mapping[str, Any], file: Path) -> None:
     spec = convert(entries, CamProblemFile, file)
     follower_cycle(spec.motion, spec.speed, spec.period)
-    read_follower(spec.follower)
+    CamFollower.from_dict(spec.follower)
 
 
 def _check_machine(entries: Mapping[str, Any], file: Path) -> None:

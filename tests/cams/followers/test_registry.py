@@ -9,7 +9,7 @@ import pytest
 
 import optlaws
 from optlaws import InputError
-from tests.internals.cams import follower_kinds, read_follower
+from tests.internals.cams import CamFollower
 
 PACKAGE = Path(optlaws.__file__).parent
 FOLDER = PACKAGE / "cams" / "followers"
@@ -25,14 +25,14 @@ MAKERS = {
 
 
 def kind_modules() -> set[str]:
-    return {kind.__module__.rpartition(".")[2] for kind in follower_kinds().values()} | {"rollers_and_faces"}
+    return {kind.__module__.rpartition(".")[2] for kind in CamFollower.kinds().values()} | {"rollers_and_faces"}
 
 
 def kind_words() -> set[str]:
     """Names of classes in the files of the kinds, and the kinds' own."""
     trees = (ast.parse((FOLDER / f"{name}.py").read_text("utf-8")) for name in kind_modules())
     classes = {node.name for tree in trees for node in tree.body if isinstance(node, ast.ClassDef)}
-    return {name for name in classes if not name.startswith("_")} | set(follower_kinds())
+    return {name for name in classes if not name.startswith("_")} | set(CamFollower.kinds())
 
 
 def named(tree: ast.Module) -> Iterator[str]:
@@ -64,7 +64,7 @@ def test_no_module_outside_the_folder_names_a_kind() -> None:
 
 def test_no_module_of_the_folder_names_another_ones_kind() -> None:
     """Kinds stand side by side; what they share is in contact, rollers and faces."""
-    for kind in follower_kinds().values():
+    for kind in CamFollower.kinds().values():
         module = kind.__module__.rpartition(".")[2]
         imported = {
             node.module.rpartition(".")[2]
@@ -86,15 +86,15 @@ def test_no_follower_is_told_by_its_class() -> None:
 
 
 def test_a_kind_is_read_by_its_name_and_refused_with_the_remedy() -> None:
-    assert len(follower_kinds()) == 5
+    assert len(CamFollower.kinds()) == 5
     given = {"radius": "12 mm", "arm": "90 mm", "pivot_distance": "120 mm", "inclination": "10 deg"}
-    for name, kind in follower_kinds().items():
+    for name, kind in CamFollower.kinds().items():
         entries = {key: value for key, value in given.items() if key in kind.__dataclass_fields__}  # type: ignore[attr-defined]
-        follower = read_follower({"kind": name, **entries})
+        follower = CamFollower.from_dict({"kind": name, **entries})
         assert isinstance(follower, kind)
         assert np.isfinite(follower.prime_radius(1.0))
         assert (follower.pivot is None) == (follower.axis == "length")
     with pytest.raises(InputError, match="translating roller"):
-        read_follower({"kind": "translating rollr"})
-    with pytest.raises(InputError, match="kind is missing"):
-        read_follower({"radius": "12 mm"})
+        CamFollower.from_dict({"kind": "translating rollr"})
+    with pytest.raises(InputError, match="a follower needs its kind: give one of translating roller"):
+        CamFollower.from_dict({"radius": "12 mm"})

@@ -1,0 +1,344 @@
+"""Values that declare their entries: constructors, plain data, files and errors are made from the declaration."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import MISSING, dataclass, field, fields
+from textwrap import wrap
+from typing import Any, ClassVar, Self, TypeVar, dataclass_transform
+
+from optlaws.echo import shortened
+from optlaws.entries.value_types import ValueType
+from optlaws.errors import InputError, located
+from optlaws.files.reading import JsonText
+from optlaws.suggest import unknown_key
+
+_ENTRY = "entry"
+_ENTRIES: dict[type, dict[str, Entry]] = {}
+DeclaredT = TypeVar("DeclaredT", bound="Declared")
+
+
+@dataclass(frozen=True)
+class Entry:
+    """An entry of a value, from which every surface knows it."""
+
+    name: str
+    type: ValueType
+    about: str  #: what it says, in a sentence
+    label: str  #: what a form calls it
+    example: Any  #: a value of it as files have it; None where there is none
+    default: Any  #: its value unless given; `MISSING` where one is needed
+    shown: bool  #: whether forms and references show it
+
+    @property
+    def needed(self) -> bool:
+        """Whether a value without it is refused."""
+        return self.default is MISSING
+
+    @property
+    def kept_default(self) -> Any:
+        """What is kept where it is not given; `MISSING` where it is needed."""
+        return MISSING if self.needed else self.read(self.default)
+
+    @property
+    def plain_default(self) -> Any:
+        """The default as files have it; None where there is none to give."""
+        return None if self.needed or self.kept_default in (None, {}, (), "") else self.type.plain(self.kept_default)
+
+    @property
+    def schema(self) -> dict[str, Any]:
+        """The JSON Schema of the entry."""
+        default = {} if self.plain_default is None else {"default": self.plain_default}
+        return {**self.type.schema(), "description": self.about, **default}
+
+    @property
+    def field(self) -> dict[str, Any]:
+        """The field of a form for it."""
+        usual = self.plain_default if self.example is None and not self.needed else self.example
+        text = "" if usual is None else usual if isinstance(usual, str) else json.dumps(usual)
+        absent = "none, or " if text and self.plain_default is None and not self.needed else ""
+        shown = {"name": self.name, "label": self.label, "about": self.about, "placeholder": f"{absent}{text}"}
+        return {**shown, "needed": self.needed, **self.type.form()}
+
+    @property
+    def sentence(self) -> str:
+        """What its values are, and what it is unless given."""
+        usual = "" if self.needed or self.default in (None, {}, (), "") else f"; {self.default!r} unless given"
+        return f"{self.type.words[:1].upper()}{self.type.words[1:]}{usual}."
+
+    def read(self, value: Any) -> Any:
+        """What is kept of a value; None where it may be absent and is."""
+        if value is None and self.default is None and getattr(self.type, "absent", None) is None:
+            return None
+        return self.type.read(value, self.name)
+
+
+def entry(
+    type_: ValueType,
+    about: str,
+    *,
+    default: Any = MISSING,
+    kw_only: bool = False,
+    label: str = "",
+    example: Any = None,
+    shown: bool = True,
+) -> Any:
+    """An entry of a declared value, in place of a field of a dataclass.
+
+    Parameters
+    ----------
+    type_
+        What its values may be.
+    about
+        What it says, in a sentence that stands in references, forms and starters.
+    default
+        Its value unless given; None says that it may be absent. Without a default it is needed.
+    kw_only
+        Whether the constructor takes it by its name alone.
+    label
+        What a form calls it; its name unless given.
+    example
+        As files have it, for errors and forms.
+    shown
+        Whether forms and references show it.
+    """
+    declaration = {"type": type_, "about": about, "label": label, "example": example, "shown": shown}
+    default_ = {} if default is MISSING else {"default": default}
+    return field(kw_only=kw_only, metadata={_ENTRY: declaration}, **default_)
+
+
+@dataclass_transform(frozen_default=True, field_specifiers=(entry,))
+def declared(cls: type[DeclaredT]) -> type[DeclaredT]:
+    """A class whose fields are entries, as a frozen dataclass that checks them.
+
+    >>> from optlaws.entries.value_types import InSI, Text
+    >>> @declared
+    ... class Gear(Declared, title="a gear"):
+    ...     inertia: float = entry(InSI("moment of inertia", least=0.0), "Of the gear.", example="1 kg m^2")
+    ...     name: str = entry(Text(), "What texts call it.", default="gear", kw_only=True)
+    >>> Gear("3 kg m^2"), Gear.from_dict({"inertia": 2.0}).to_dict()
+    (Gear(inertia=3.0, name='gear'), {'inertia': 2.0})
+    >>> Gear.form()["entries"][1]
+    {'name': 'name', 'label': 'name', 'about': 'What texts call it.', 'placeholder': 'gear', 'needed': False}
+    >>> Gear.json_schema()["required"], Gear.json_schema()["properties"]["name"]["default"]
+    (['inertia'], 'gear')
+    >>> Gear.from_dict({"intertia": 2.0})
+    Traceback (most recent call last):
+    optlaws.errors.InputError: unknown entry of a gear 'intertia'; did you mean 'inertia'?
+    >>> Gear.from_dict({})
+    Traceback (most recent call last):
+    optlaws.errors.InputError: a gear needs its inertia, such as inertia = '1 kg m^2'
+    """
+    value = dataclass(frozen=True)(cls)
+    _document(value)
+    return value
+
+
+def _document(cls: type[Declared]) -> None:
+    """Write the entries of a class into its docstring, before what else it says in sections."""
+    text, entries = cls.__doc__, entries_of(cls).values()
+    if text is None or not entries or "\n    Parameters\n" in text:
+        return
+    lines = [line for each in entries for line in (f"    {each.name}", *_wrapped(f"{each.about} {each.sentence}"))]
+    section = "\n".join(["    Parameters", "    ----------", *lines])
+    head, examples, rest = text.partition("\n    Examples\n")
+    head, raises, errors = head.partition("\n    Raises\n")
+    cls.__doc__ = f"{head.rstrip()}\n\n{section}\n{raises}{errors}{examples}{rest}"
+
+
+def _wrapped(text: str) -> list[str]:
+    return wrap(text, 112, initial_indent=8 * " ", subsequent_indent=8 * " ")
+
+
+class Declared(JsonText):
+    """A value that declares its entries; `title` is what errors call one, such as "a gear"."""
+
+    title: ClassVar[str] = "a value"
+    #: whether `to_dict` writes entries that have their default too
+    writes_defaults: ClassVar[bool] = False
+
+    def __init_subclass__(cls, *, title: str = "", **keywords: Any) -> None:
+        super().__init_subclass__(**keywords)
+        if title:
+            cls.title = cls._json_name = title
+
+    def __post_init__(self) -> None:
+        for each in entries_of(type(self)).values():
+            object.__setattr__(self, each.name, each.read(getattr(self, each.name)))
+        self._check()
+
+    @classmethod
+    def json_schema(cls) -> dict[str, Any]:
+        """The JSON Schema of its plain data."""
+        entries = entries_of(cls)
+        return {
+            "type": "object",
+            "properties": {name: each.schema for name, each in entries.items()},
+            "required": [name for name, each in entries.items() if each.needed],
+            "additionalProperties": False,
+        }
+
+    @classmethod
+    def form(cls) -> dict[str, Any]:
+        """Its entries as a form shows them: name, label, what each asks, and what may be chosen."""
+        return {"entries": [each.field for each in entries_of(cls).values() if each.shown]}
+
+    def _check(self) -> None:
+        """Refuse entries that contradict each other."""
+
+    @classmethod
+    def _from_earlier(cls, data: dict[str, Any]) -> dict[str, Any]:
+        """Entries as they are called now, from those of earlier files."""
+        return data
+
+    def to_dict(self) -> dict[str, Any]:
+        """The entries as plain data, which `from_dict` takes back; those with their default are left out."""
+        plain = {}
+        for each in entries_of(type(self)).values():
+            value = getattr(self, each.name)
+            if self.writes_defaults or value != each.kept_default:
+                plain[each.name] = None if value is None else each.type.plain(value)
+        return plain
+
+    @classmethod
+    def from_dict(cls, data: Any) -> Self:
+        """The value of plain data, as `to_dict` writes it or a file has it.
+
+        Raises
+        ------
+        InputError
+            If an entry is unknown, missing or wrong; the error names it.
+        """
+        known = entries_of(cls)
+        if not isinstance(data, Mapping):
+            raise InputError(
+                f"{cls.title} must be a table of {', '.join(known) or 'no entries'}, got {shortened(data)}"
+            )
+        given = cls._from_earlier(dict(data))
+        for name in given:
+            if name not in known:
+                raise InputError(unknown_key(name, known, f"entry of {cls.title}"))
+        for name, each in known.items():
+            if each.needed and given.get(name) is None:
+                such = "" if each.example is None else f", such as {name} = {each.example!r}"
+                raise InputError(f"{cls.title} needs its {name}{such}")
+        return cls(**given)
+
+
+class Kinded(Declared):
+    """A declared value of one of several kinds, which are classes by the names that files have for them.
+
+    A class of kinds inherits this one; each kind inherits it with its `kind`, and registers itself by that.
+
+    >>> from optlaws.entries.value_types import Measured
+    >>> class Shape(Kinded, title="a shape"):
+    ...     pass
+    >>> @declared
+    ... class Circle(Shape, kind="circle"):
+    ...     radius: str = entry(Measured("length", above=0.0), "Of the circle.", example="3 mm")
+    >>> Shape.from_dict({"kind": "circle", "radius": "2 mm"}).to_dict()
+    {'kind': 'circle', 'radius': '2 mm'}
+    >>> Shape.from_dict({"kind": "circel"})
+    Traceback (most recent call last):
+    optlaws.errors.InputError: unknown kind of a shape 'circel'; did you mean 'circle'?
+    """
+
+    kind: ClassVar[str] = ""
+    _kinds: ClassVar[dict[str, type[Any]]]
+
+    def __init_subclass__(cls, *, kind: str = "", title: str = "", **keywords: Any) -> None:
+        named = f"{'an' if kind[:1] in 'aeiou' else 'a'} {kind}" if kind else ""
+        super().__init_subclass__(title=title or named, **keywords)
+        if Kinded in cls.__bases__:
+            cls._kinds = {}
+        if kind:
+            cls.kind = kind
+            cls._kinds[kind] = cls
+
+    @classmethod
+    def kinds(cls) -> dict[str, type[Self]]:
+        """The kinds by their names."""
+        return dict(cls._kinds)
+
+    @classmethod
+    def json_schema(cls) -> dict[str, Any]:
+        """The JSON Schema of the plain data of its kind; of a class of kinds, that of any of them."""
+        if not cls.kind:
+            return {"oneOf": [kind.json_schema() for kind in cls.kinds().values()]}
+        schema = super().json_schema()
+        properties, needed = {"kind": {"const": cls.kind}, **schema["properties"]}, ["kind", *schema["required"]]
+        return {**schema, "properties": properties, "required": needed}
+
+    @classmethod
+    def form(cls) -> dict[str, Any]:
+        """The entries of its kind as a form shows them; of a class of kinds, those of each by its name."""
+        if not cls.kind:
+            return {"kinds": {name: kind.form()["entries"] for name, kind in cls.kinds().items()}}
+        return super().form()
+
+    def to_dict(self) -> dict[str, Any]:
+        """The kind and the entries as plain data; those with their default are left out."""
+        return {"kind": self.kind, **super().to_dict()}
+
+    @classmethod
+    def from_dict(cls, data: Any) -> Self:
+        """The value of plain data, of the kind that the data names.
+
+        Raises
+        ------
+        InputError
+            If there is no such kind, or an entry is unknown, missing or wrong; the error names it.
+        """
+        if not isinstance(data, Mapping):
+            raise InputError(f"{cls.title} must be a table with its kind, got {shortened(data)}")
+        kinds = {cls.kind: cls} if cls.kind else cls.kinds()
+        kind = data.get("kind")
+        if kind is None:
+            raise InputError(f"{cls.title} needs its kind: give one of {', '.join(kinds)}")
+        if not isinstance(kind, str) or kind not in kinds:
+            raise InputError(unknown_key(kind, kinds, f"kind of {cls.title}"))
+        read = super(Kinded, kinds[kind]).from_dict
+        return read({name: value for name, value in data.items() if name != "kind"})
+
+
+@dataclass(frozen=True)
+class ValueOf(ValueType):
+    """A declared value, or a table of its entries."""
+
+    of: type[Declared]
+
+    def read(self, value: Any, name: str) -> Any:
+        if isinstance(value, self.of):
+            return value
+        with located(name):
+            return self.of.from_dict(value)
+
+    def plain(self, value: Any) -> Any:
+        return value.to_dict()
+
+    @property
+    def words(self) -> str:
+        return f"{self.of.title}, a table"
+
+    def schema(self) -> dict[str, Any]:
+        return self.of.json_schema()
+
+    def form(self) -> dict[str, Any]:
+        return self.of.form()
+
+
+def entries_of(cls: type[Declared]) -> dict[str, Entry]:
+    """The entries of a declared class by their names, in the order in which it declares them."""
+    entries = _ENTRIES.get(cls)
+    if entries is None:
+        entries = _ENTRIES[cls] = {
+            each.name: Entry(name=each.name, default=each.default, **_filled(each.name, each.metadata[_ENTRY]))
+            for each in fields(cls)  # type: ignore[arg-type] # its heirs are dataclasses
+            if _ENTRY in each.metadata
+        }
+    return entries
+
+
+def _filled(name: str, declaration: Mapping[str, Any]) -> dict[str, Any]:
+    return {**declaration, "label": declaration["label"] or name.replace("_", " ")}

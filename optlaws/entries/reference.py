@@ -1,0 +1,66 @@
+"""References and first files from declared entries: tables of Markdown, examples, and commented TOML."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+from optlaws.entries.declared import Declared, Entry, entries_of
+
+
+def markdown_table(cls: type[Declared], heading: str = "what it says") -> str:
+    """The entries of a declared class as a table of Markdown, a row for each.
+
+    >>> from optlaws.entries.declared import declared, entry
+    >>> from optlaws.entries.value_types import Number
+    >>> @declared
+    ... class Damper(Declared, title="a damper"):
+    ...     damping: float = entry(Number(least=0.0), "The damping ratio.", default=0.0)
+    >>> print(markdown_table(Damper))
+    | entry | what it says |
+    |---|---|
+    | `damping` | The damping ratio. A number from 0 on; 0.0 unless given. |
+    """
+    rows = [f"| `{each.name}` | {_sentence(each)} |" for each in _shown(cls)]
+    return "\n".join([f"| entry | {heading} |", "|---|---|", *rows])
+
+
+def _sentence(each: Entry) -> str:
+    words = each.type.words
+    default = each.plain_default
+    usual = "needed" if each.needed else "" if default is None else f"{json.dumps(default)} unless given"
+    such = "" if each.example is None else f", such as `{json.dumps(each.example)}`"
+    return f"{each.about} {words[:1].upper()}{words[1:]}{such}{'; ' if usual else ''}{usual}."
+
+
+def examples(cls: type[Declared]) -> dict[str, Any]:
+    """A value of each entry as files have it: its example, or its default; those with neither are left out."""
+    values = {each.name: each.plain_default if each.example is None else each.example for each in _shown(cls)}
+    return {name: value for name, value in values.items() if value is not None}
+
+
+def _shown(cls: type[Declared]) -> list[Entry]:
+    return [each for each in entries_of(cls).values() if each.shown]
+
+
+def starter(cls: type[Declared], given: Mapping[str, Any], explained: Iterable[str] | None = None) -> str:
+    """Lines of TOML with the entries of a declared class: what is given, and behind # examples of what is not.
+
+    >>> from optlaws.entries.declared import declared, entry
+    >>> from optlaws.entries.value_types import Number
+    >>> @declared
+    ... class Damper(Declared, title="a damper"):
+    ...     damping: float = entry(Number(least=0.0), "The damping ratio.", default=0.0, example=0.05)
+    >>> print(starter(Damper, {}))
+    # The damping ratio.
+    # damping = 0.05
+    """
+    lines = []
+    chosen = None if explained is None else set(explained)
+    for each in _shown(cls):
+        value = given.get(each.name, each.example)
+        if value is None or not (chosen is None or each.name in chosen or each.name in given):
+            continue
+        lines += [f"# {each.about}", f"{'' if each.name in given else '# '}{each.name} = {json.dumps(value)}"]
+    return "\n".join(lines)

@@ -1,0 +1,454 @@
+"""What the values of an entry may be: each type reads them, writes them as plain data, and says what it takes."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from math import inf
+from typing import Any
+
+from optlaws.echo import shortened
+from optlaws.errors import InputError, located
+from optlaws.motion.quantities import DIMENSIONS, either, written
+from optlaws.numbers import bounded, finite, real, whole
+from optlaws.suggest import unknown_key
+
+
+class ValueType(ABC):
+    """The type of an entry's values."""
+
+    @abstractmethod
+    def read(self, value: Any, name: str) -> Any:
+        """The value that is kept of one that was given; errors call it `name`."""
+
+    def plain(self, value: Any) -> Any:
+        """A kept value as plain data, which `read` takes back."""
+        return value
+
+    @property
+    @abstractmethod
+    def words(self) -> str:
+        """What the values are, in words."""
+
+    @abstractmethod
+    def schema(self) -> dict[str, Any]:
+        """The JSON Schema of what is read from a file."""
+
+    def form(self) -> dict[str, Any]:
+        """What a form has for it beside a field of text: its `choices`, the `entries` or `kinds` of a table."""
+        return {}
+
+
+@dataclass(frozen=True)
+class Text(ValueType):
+    """A text that is not empty, unless it may be.
+
+    >>> Text().read("", "name")
+    Traceback (most recent call last):
+    optlaws.errors.InputError: name must be a text, got ''
+    """
+
+    empty: bool = False
+    longest: int = 1_000_000
+
+    def read(self, value: Any, name: str) -> str:
+        if not isinstance(value, str) or not (value or self.empty):
+            quantity = "; a number with a unit is written as text, such as '35 mm'" if real(value) is not None else ""
+            raise InputError(f"{name} must be a text, got {shortened(value)}{quantity}")
+        if len(value) > self.longest:
+            raise InputError(f"{name} must be a text of {self.longest} characters at most, got {shortened(value)}")
+        return value
+
+    @property
+    def words(self) -> str:
+        return "a text"
+
+    def schema(self) -> dict[str, Any]:
+        return {"type": "string"} if self.empty else {"type": "string", "minLength": 1}
+
+
+@dataclass(frozen=True, init=False)
+class Choice(ValueType):
+    """One of several words.
+
+    >>> Choice("up", "down").read("upp", "way")
+    Traceback (most recent call last):
+    optlaws.errors.InputError: unknown way 'upp'; did you mean 'up'?
+    """
+
+    names: tuple[str, ...]
+
+    def __init__(self, *names: str) -> None:
+        object.__setattr__(self, "names", names)
+
+    def read(self, value: Any, name: str) -> str:
+        if not isinstance(value, str) or value not in self.names:
+            raise InputError(unknown_key(value, self.names, name))
+        return value
+
+    @property
+    def words(self) -> str:
+        *most, last = [f'"{name}"' for name in self.names]
+        return f"{', '.join(most)} or {last}" if most else last
+
+    def schema(self) -> dict[str, Any]:
+        return {"enum": list(self.names)}
+
+    def form(self) -> dict[str, Any]:
+        return {"choices": list(self.names)}
+
+
+class Switch(ValueType):
+    """A choice of true or false.
+
+    >>> Switch().read("yes", "animation")
+    Traceback (most recent call last):
+    optlaws.errors.InputError: animation must be true or false, got 'yes'
+    """
+
+    def read(self, value: Any, name: str) -> bool:
+        if not isinstance(value, bool):
+            raise InputError(f"{name} must be true or false, got {shortened(value)}")
+        return value
+
+    @property
+    def words(self) -> str:
+        return "true or false"
+
+    def schema(self) -> dict[str, Any]:
+        return {"type": "boolean"}
+
+    def form(self) -> dict[str, Any]:
+        return {"choices": [False, True]}
+
+
+@dataclass(frozen=True)
+class Whole(ValueType):
+    """A whole number in a range."""
+
+    least: int = 0
+    most: int = 2**53
+
+    def read(self, value: Any, name: str) -> int:
+        return whole(value, name, self.least, self.most)
+
+    @property
+    def words(self) -> str:
+        return f"a whole number from {self.least}" + (f" to {self.most:,}" if self.most < 2**53 else " on")
+
+    def schema(self) -> dict[str, Any]:
+        top = {"maximum": self.most} if self.most < 2**53 else {}
+        return {"type": "integer", "minimum": self.least, **top}
+
+
+@dataclass(frozen=True)
+class Range:
+    """Where numbers are: above a number, or from one on, and up to another."""
+
+    above: float = -inf
+    least: float = -inf
+    most: float = inf
+
+    def check(self, number: float, name: str, value: Any) -> float:
+        """The number, if it is in the range; errors show the value that was given."""
+        if not number > self.above:
+            raise InputError(f"{name} must be above {self.above:g}, got {shortened(value)}")
+        if not number >= self.least:
+            raise InputError(f"{name} must be at least {self.least:g}, got {shortened(value)}")
+        if not number <= self.most:
+            raise InputError(f"{name} must be at most {self.most:g}, got {shortened(value)}")
+        return number
+
+    @property
+    def words(self) -> str:
+        """The range behind the name of what is in it, such as " above 0"."""
+        if self.least > -inf:
+            return f" from {self.least:g} {'on' if self.most == inf else f'to {self.most:g}'}"
+        low = f" above {self.above:g}" if self.above > -inf else ""
+        return low if self.most == inf else f"{low}{' and' if low else ''} at most {self.most:g}"
+
+    def schema(self) -> dict[str, Any]:
+        """Its keywords of JSON Schema."""
+        ends = {"exclusiveMinimum": self.above, "minimum": self.least, "maximum": self.most}
+        return {key: end for key, end in ends.items() if bounded(end) is not None}
+
+
+@dataclass(frozen=True, kw_only=True)
+class Number(ValueType):
+    """A number without a unit, in a range.
+
+    >>> Number(least=0.0).read(-0.1, "damping")
+    Traceback (most recent call last):
+    optlaws.errors.InputError: damping must be at least 0, got -0.1
+    """
+
+    above: float = -inf
+    least: float = -inf
+    most: float = inf
+    absent: float | None = None  #: what is kept where none is given
+
+    @cached_property
+    def range(self) -> Range:
+        """Where its numbers are."""
+        return Range(self.above, self.least, self.most)
+
+    def read(self, value: Any, name: str) -> float | None:
+        if self.absent is not None and (value is None or value == self.absent):
+            return self.absent
+        return self.range.check(finite(value, name), name, value)
+
+    def plain(self, value: Any) -> Any:
+        return None if self.absent is not None and value == self.absent else value
+
+    @property
+    def words(self) -> str:
+        return f"a number{self.range.words}"
+
+    def schema(self) -> dict[str, Any]:
+        return {"type": "number", **self.range.schema()}
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Physical(ValueType):
+    """A quantity of one of several dimensions, in a range of its number in SI units."""
+
+    dimensions: tuple[str, ...]
+    above: float = -inf
+    least: float = -inf
+    most: float = inf
+
+    @cached_property
+    def range(self) -> Range:
+        """Where its numbers in SI units are."""
+        return Range(self.above, self.least, self.most)
+
+    @property
+    def words(self) -> str:
+        names = [f"{'an' if name[0] in 'aeiou' else 'a'} {name}" for name in self.dimensions]
+        return f"{' or '.join(names)}{self.range.words}"
+
+    @property
+    def example(self) -> str:
+        """A quantity of the first dimension."""
+        return DIMENSIONS[self.dimensions[0]][1]
+
+    def schema(self) -> dict[str, Any]:
+        return {"type": "string", "description": f"{self.words}, such as {self.example!r}"}
+
+
+class Measured(_Physical):
+    """A quantity that stays as it is written, such as "35 mm".
+
+    >>> Measured("length", above=0.0).read("35 mm", "radius")
+    '35 mm'
+    >>> Measured("angle", "time").read("35 mm", "at")
+    Traceback (most recent call last):
+    optlaws.errors.InputError: at must be an angle such as '45 deg' or a time such as '0.3 s', but '35 mm' is a length
+    """
+
+    def __init__(self, *dimensions: str, **ends: float) -> None:
+        super().__init__(dimensions=dimensions, **ends)
+
+    def read(self, value: Any, name: str) -> Any:
+        text = written(value)
+        self.range.check(either(text, self.dimensions, name)[1], name, value)
+        return text
+
+
+class InSI(_Physical):
+    """A number in SI units, read from one or from a quantity; `absent` is what is kept where none is given.
+
+    >>> InSI("torque", above=0.0).read("2 kN m", "peak_torque"), InSI("mass", least=0.0).read(3, "mass")
+    (2000.0, 3.0)
+    """
+
+    absent: float | None
+
+    def __init__(self, *dimensions: str, absent: float | None = None, **ends: float) -> None:
+        super().__init__(dimensions=dimensions, **ends)
+        object.__setattr__(self, "absent", absent)
+
+    def read(self, value: Any, name: str) -> float | None:
+        if self.absent is not None and (value is None or value == self.absent):
+            return self.absent
+        united = isinstance(value, str) or hasattr(value, "units")
+        number = either(value, self.dimensions, name)[1] if united else finite(value, name)
+        return self.range.check(number, name, value)
+
+    def plain(self, value: Any) -> Any:
+        return None if self.absent is not None and value == self.absent else value
+
+    def schema(self) -> dict[str, Any]:
+        return {"anyOf": [super().schema(), {"type": "number", **self.range.schema()}]}
+
+
+@dataclass(frozen=True)
+class Listed(ValueType):
+    """Several values of one type, kept as a tuple.
+
+    >>> Listed(Whole(1), least=2).read([3], "waves")
+    Traceback (most recent call last):
+    optlaws.errors.InputError: waves must be a list of 2 at least, got [3]
+    """
+
+    of: ValueType
+    least: int = 0
+    most: int = 1_000_000
+    each: str = ""  #: what an error calls a single value, before its number; the name of the entry unless given
+
+    def read(self, value: Any, name: str) -> tuple[Any, ...]:
+        if isinstance(value, str | Mapping) or not isinstance(value, Sequence):
+            raise InputError(f"{name} must be a list, got {shortened(value)}")
+        if not self.least <= len(value) <= self.most:
+            ends = f"{self.least} at least" if len(value) < self.least else f"{self.most} at most"
+            raise InputError(f"{name} must be a list of {ends}, got {shortened(list(value))}")
+        return tuple(self.of.read(part, f"{self.each or name} {i}") for i, part in enumerate(value, 1))
+
+    def plain(self, value: Any) -> Any:
+        return [self.of.plain(part) for part in value]
+
+    @property
+    def words(self) -> str:
+        return f"a list, each {self.of.words}"
+
+    def schema(self) -> dict[str, Any]:
+        top = {"maxItems": self.most} if self.most < 1_000_000 else {}
+        return {"type": "array", "items": self.of.schema(), "minItems": self.least, **top}
+
+    def form(self) -> dict[str, Any]:
+        return {"list": self.of.form()}
+
+
+@dataclass(frozen=True, init=False)
+class Together(ValueType):
+    """A tuple of values, each of a type of its own, such as a pair of a time and a position."""
+
+    of: tuple[ValueType, ...]
+
+    def __init__(self, *of: ValueType) -> None:
+        object.__setattr__(self, "of", of)
+
+    def read(self, value: Any, name: str) -> tuple[Any, ...]:
+        if not isinstance(value, list | tuple) or len(value) != len(self.of):
+            raise InputError(f"{name} must be {self.words}, got {shortened(value)}")
+        return tuple(
+            each.read(part, f"{name}: {i}") for i, (each, part) in enumerate(zip(self.of, value, strict=True), 1)
+        )
+
+    def plain(self, value: Any) -> Any:
+        return [each.plain(part) for each, part in zip(self.of, value, strict=True)]
+
+    @property
+    def words(self) -> str:
+        return f"a list of {' and '.join(each.words for each in self.of)}"
+
+    def schema(self) -> dict[str, Any]:
+        return {
+            "type": "array",
+            "prefixItems": [each.schema() for each in self.of],
+            "minItems": len(self.of),
+            "items": False,
+        }
+
+
+@dataclass(frozen=True)
+class Table(ValueType):
+    """Values of one type by their names; `names` are those that there may be, all unless given.
+
+    >>> Table(Number(least=0.0), ("contact", "guide")).read({"guid": 0.1}, "friction")
+    Traceback (most recent call last):
+    optlaws.errors.InputError: friction: unknown entry 'guid'; did you mean 'guide'?
+    """
+
+    of: ValueType
+    names: tuple[str, ...] | None = None
+    keep: Callable[[dict[str, Any]], Any] = dict
+
+    def read(self, value: Any, name: str) -> Any:
+        if not isinstance(value, Mapping) or not all(isinstance(key, str) for key in value):
+            raise InputError(f"{name} must be a table, got {shortened(value)}")
+        for key in value:
+            if self.names is not None and key not in self.names:
+                raise InputError(f"{name}: {unknown_key(key, self.names, 'entry')}")
+        return self.keep({key: self.of.read(part, f"{name}: {key}") for key, part in value.items()})
+
+    def plain(self, value: Any) -> Any:
+        return {key: self.of.plain(part) for key, part in value.items()}
+
+    @property
+    def words(self) -> str:
+        return f"a table, each {self.of.words}"
+
+    def schema(self) -> dict[str, Any]:
+        if self.names is None:
+            return {"type": "object", "additionalProperties": self.of.schema()}
+        return {
+            "type": "object",
+            "properties": dict.fromkeys(self.names, self.of.schema()),
+            "additionalProperties": False,
+        }
+
+    def form(self) -> dict[str, Any]:
+        return {} if self.names is None else {"names": list(self.names)}
+
+
+@dataclass(frozen=True, init=False)
+class Either(ValueType):
+    """One of several types, of which the first that takes the value reads it; the error is that of the nearest.
+
+    `which` says which: a function of the value that gives the place of the type among them.
+    """
+
+    of: tuple[ValueType, ...]
+    which: Callable[[Any], int]
+
+    def __init__(self, *of: ValueType, which: Callable[[Any], int]) -> None:
+        object.__setattr__(self, "of", of)
+        object.__setattr__(self, "which", which)
+
+    def read(self, value: Any, name: str) -> Any:
+        return self.of[self.which(value)].read(value, name)
+
+    def plain(self, value: Any) -> Any:
+        return self.of[self.which(value)].plain(value)
+
+    @property
+    def words(self) -> str:
+        return ", or ".join(each.words for each in self.of)
+
+    def schema(self) -> dict[str, Any]:
+        return {"anyOf": [each.schema() for each in self.of]}
+
+    def form(self) -> dict[str, Any]:
+        return self.of[0].form()
+
+
+def is_list(value: Any) -> int:
+    """1 of a list or tuple, 0 of all else: which of two types of `Either` reads it."""
+    return int(isinstance(value, list | tuple))
+
+
+@dataclass(frozen=True)
+class ReadBy(ValueType):
+    """What a function reads, whose errors are placed at the entry, and another writes as plain data."""
+
+    by: Callable[[Any], Any]
+    about: str  #: what the values are, in words
+    write: Callable[[Any], Any] = lambda value: value
+    json: Mapping[str, Any] | None = None  #: the JSON Schema; anything unless given
+
+    def read(self, value: Any, name: str) -> Any:
+        with located(name):
+            return self.by(value)
+
+    def plain(self, value: Any) -> Any:
+        return self.write(value)
+
+    @property
+    def words(self) -> str:
+        return self.about
+
+    def schema(self) -> dict[str, Any]:
+        return dict(self.json or {})
