@@ -9,6 +9,8 @@ from importlib import import_module
 from types import ModuleType
 from typing import Any, TypeVar
 
+from lazy_loader import attach_stub
+
 from optlaws.locks import process_lock
 
 T = TypeVar("T")
@@ -33,55 +35,62 @@ def imported(module: str) -> ModuleType:
     >>> imported("optlaws.numbers").__name__
     'optlaws.numbers'
     """
-    with _circles:
-        for library in _IN_CIRCLES:
-            import_module(library)
+    _import_circles()
     return import_module(module)
 
 
+def _import_circles() -> None:
+    with _circles:
+        for library in _IN_CIRCLES:
+            import_module(library)
+
+
 def face(
-    package: str, modules: Mapping[str, str], *, removed: Mapping[str, str] | None = None
+    module: str, file: str, *, removed: Mapping[str, str] | None = None
 ) -> tuple[Callable[[str], Any], Callable[[], list[str]], list[str]]:
     """`__getattr__`, `__dir__` and `__all__` of a package or module whose names live in other modules (PEP 562).
 
-    Type checkers read the same names in the `.pyi` beside it, which `python -m tests.contracts.faces` writes.
+    The `.pyi` beside it says which, to type checkers as well: `from .numbers import deg as deg`, from its package.
 
     Parameters
     ----------
-    package
-        Its dotted name.
-    modules
-        Names, separated by blanks, by the module that has them.
+    module, file
+        Its `__name__` and `__file__`.
     removed
         What to use in place of names of the version before.
 
     Examples
     --------
-    >>> __getattr__, __dir__, names = face("optlaws", {"optlaws.numbers": "deg", "math": "pi PI"})
-    >>> names
-    ['PI', 'deg', 'pi']
+    >>> import optlaws
+    >>> __getattr__, __dir__, names = face("optlaws", optlaws.__file__, removed={"pi": "take math.pi"})
+    >>> names[:4]
+    ['FUNCTIONALS', 'Advice', 'AdvisedLaw', 'After']
     >>> __getattr__("deg")(180.0)
     3.141592653589793
-    >>> __getattr__, __dir__, names = face("optlaws", {"math": "tau"}, removed={"pi": "take tau / 2"})
     >>> __getattr__("pi")
     Traceback (most recent call last):
-    ImportError: optlaws has no pi any more: take tau / 2
+    ImportError: optlaws has no pi any more: take math.pi
     """
-    homes = {name: module for module, names in modules.items() for name in names.split()}
+    namespace = vars(sys.modules[module])
+    package = namespace["__package__"]
+    load, _, names = attach_stub(package, file)
+    # tables, whose names are in capitals, come first
+    names.sort(key=lambda name: (len(name) == 1 or not name.isupper(), name))
 
-    def load(name: str) -> Any:
+    def load_as_own(name: str) -> Any:
         if removed and name in removed:
             # no AttributeError, whose words `from package import name` leaves out
-            raise ImportError(f"{package} has no {name} any more: {removed[name]}", name=package)
-        if name not in homes:
-            raise AttributeError(f"module {package!r} has no attribute {name!r}", name=name, obj=sys.modules[package])
-        value = getattr(imported(homes[name]), name)
-        setattr(sys.modules[package], name, value)
-        return value
+            raise ImportError(f"{module} has no {name} any more: {removed[name]}", name=module)
+        if name not in names:
+            raise AttributeError(f"module {module!r} has no attribute {name!r}", name=name, obj=sys.modules[module])
+        _import_circles()
+        namespace[name] = load(name)
+        if package != module:
+            # the stub's loader has kept it as a name of the package, which has others
+            vars(sys.modules[package]).pop(name, None)
+        return namespace[name]
 
-    # tables, whose names are in capitals, come first
-    names = sorted(homes, key=lambda name: (len(name) == 1 or not name.isupper(), name))
-    return load, lambda: sorted({*vars(sys.modules[package]), *names}), names
+    return load_as_own, lambda: sorted({*namespace, *names}), names
 
 
 def declare(subject: str, modules: Mapping[str, str]) -> None:

@@ -61,7 +61,7 @@ def test_every_path_and_module_that_a_document_names_is_there() -> None:
     ("page", "names"),
     [
         (
-            "`optlaws/laws/law.py`, `laws/law.py`, `tests/jobs/`, `optlaws.laws`, `python -m tests.contracts.faces`",
+            "`optlaws/laws/law.py`, `laws/law.py`, `tests/jobs/`, `optlaws.laws`, `python -m tests.contracts.frozen`",
             [],
         ),
         ("`optlaws.synthesize`, `optlaws.errors.InputError`, `optlaws.catalogue.search`, `out/law.json`", []),

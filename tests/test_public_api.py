@@ -20,7 +20,7 @@ def is_method(one: object) -> bool:
     return not isinstance(one, cached_property) and inspect.isroutine(one)
 
 
-NAMES = optlaws.__all__
+NAMES: list[str] = vars(optlaws)["__all__"]
 CALLABLES = {name: one for name in NAMES if callable(one := getattr(optlaws, name)) and not isinstance(one, EnumType)}
 # a table of the constants has no text of its own; the objects in it have their class's
 DOCUMENTED = [name for name in NAMES if name != "FUNCTIONALS"]
@@ -214,7 +214,7 @@ def test_the_page_of_types_names_each_of_them_and_the_words_of_each_choice() -> 
         r"^\| (`.*?) \| (.*?) \|", (ROOT / "docs/reference/api/typing.md").read_text("utf-8"), re.MULTILINE
     )
     words = {name: re.findall("`(.*?)`", row) for names, row in rows for name in re.findall("`(.*?)`", names)}
-    assert sorted(words) == sorted(optlaws.typing.__all__)
+    assert sorted(words) == sorted(vars(optlaws.typing)["__all__"])
     for name, listed in words.items():
         kind = getattr(optlaws.typing, name)
         if get_origin(kind) is Literal:

@@ -34,6 +34,7 @@ _NAMES = "abcd"
 _ROWS = 361
 _WIDTH = 116
 _CALLED = re.compile(r"\b([A-Za-z_]\w*)\(")
+_PUBLIC = frozenset(vars(optlaws)["__all__"])
 
 #: what the text of a problem is made of, where it is Python
 _PLAIN = (
@@ -177,13 +178,13 @@ def _problem_text(problem: Problem) -> str:
         plain = all(isinstance(node, _PLAIN) for node in ast.walk(ast.parse(text, mode="eval")))
     except SyntaxError:
         plain = False
-    known = plain and set(_CALLED.findall(text)) <= set(optlaws.__all__)
+    known = plain and set(_CALLED.findall(text)) <= _PUBLIC
     return text if known else f"Problem.from_dict({problem.to_dict()!r})"
 
 
 def _with_imports(lines: list[str]) -> str:
     body = "\n".join(lines)
-    names = {name for name in _CALLED.findall(body) if name in optlaws.__all__}
+    names = {name for name in _CALLED.findall(body) if name in _PUBLIC}
     names |= {name for name in ("Drive", "Mechanism", "MotionLaw", "Problem") if f"{name}." in body}
     return f"from optlaws import {', '.join(sorted(names))}\n\n{body}\n"
 

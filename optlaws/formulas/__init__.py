@@ -2,11 +2,4 @@
 
 from optlaws.lazy import face
 
-__getattr__, __dir__, __all__ = face(
-    __name__,
-    {
-        "optlaws.formulas.arithmetic": "NUMPY evaluate",
-        "optlaws.formulas.reading": "read",
-        "optlaws.formulas.tree": "Formula",
-    },
-)
+__getattr__, __dir__, __all__ = face(__name__, __file__)

@@ -16,7 +16,7 @@ from optlaws.laws.curve import Curve, Sides
 from optlaws.laws.exporting import LawExport
 from optlaws.laws.storage import StoredLaw
 from optlaws.numbers import Array, Quantity, derivative, times
-from optlaws.numerics.peaks import Peak
+from optlaws.numerics.peaks import Peak as Peak  # noqa: PLC0414 - a name of optlaws.laws
 from optlaws.tolerances import JUMP
 
 _JUMP_OF_LOWER = 1e-13  # the same as a share of a lower derivative: uniform motion has c = 0 but for it

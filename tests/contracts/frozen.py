@@ -54,7 +54,7 @@ def signature(function: Any) -> dict[str, str]:
 def public_names() -> Table:
     """Every public callable and every public method of a public class, with its parameters."""
     table: Table = {}
-    for name in optlaws.__all__:
+    for name in vars(optlaws)["__all__"]:
         value = getattr(optlaws, name)
         table[name] = (
             signature(value)

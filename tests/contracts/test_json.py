@@ -25,8 +25,7 @@ from optlaws import (
     pareto_front,
     synthesize,
 )
-from tests.contracts.faces import faces
-from tests.contracts.test_faces import package
+from tests.contracts.test_faces import STUBS, package
 from tests.internals.laws import Segment
 from tests.internals.synthesis import FollowerResidual, MotorTorque, MoveObjective
 from tests.laws.examples import EXAMPLES
@@ -201,7 +200,7 @@ def test_what_gives_plain_data_reads_it_again(values: dict[str, Any]) -> None:
 @cache
 def public_classes() -> set[type]:
     """The classes behind the names of optlaws and of its rooms."""
-    rooms = [optlaws, *(import_module(package(file)) for file, _ in faces())]
+    rooms = [import_module(package(stub)) for stub in STUBS]
     found = [getattr(room, name) for room in rooms for name in room.__all__]
     return {one for one in found if inspect.isclass(one)}
 
