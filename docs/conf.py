@@ -22,6 +22,7 @@ extensions = [
     "sphinx.ext.napoleon",
     "sphinx_gallery.gen_gallery",
     "stacked_tables",
+    "stub_names",
 ]
 exclude_patterns = ["_build", "examples", "gallery/*.ipynb", "gallery/*.py", "sg_execution_times.rst"]
 
@@ -74,13 +75,11 @@ nitpick_ignore = [
     ("py:class", "optlaws.results.Spec"),
     ("py:class", "optlaws.numerics.interval.Interval"),
     ("py:class", "optlaws.numerics.taylor.Jet"),
-    ("py:class", "optlaws.cams.curves.motion_by_angle.CamStretch"),
     ("py:class", "optlaws.cams.followers.contact.FollowerContact"),
     ("py:class", "optlaws.cams.followers.rollers_and_faces.FaceContact"),
     ("py:class", "optlaws.cams.followers.rollers_and_faces.RollerContact"),
     ("py:class", "optlaws.cams.followers.follower.Place"),
     ("py:class", "optlaws.mechanisms.measured_spectrum.WeightPart"),
-    ("py:class", "optlaws.mechanisms.drives.effort.SegmentEffort"),
     ("py:class", "optlaws.synthesis.least_time.follower_residual.LawSize"),
     ("py:class", "optlaws.synthesis.least_time.motor_torque.LossyGear"),
     ("py:class", "optlaws.cycles.specification.drive.CycleDrive"),
@@ -93,10 +92,10 @@ nitpick_ignore = [
     ("py:class", "optlaws.mechanisms.machine.state_space.StateSpace"),
     ("py:class", "optlaws.synthesis.families.active_set.ActiveSet"),
     ("py:class", "optlaws.synthesis.families.cone.ConeFamily"),
-    ("py:class", "optlaws.synthesis.problem.constants.ProblemView"),
-    ("py:class", "optlaws.synthesis.proven.front.LazySequence"),
+    ("py:class", "optlaws.synthesis.arrays.programs.SolvedBatch"),
+    ("py:class", "optlaws.synthesis.program.writer.Model"),
+    ("py:class", "optlaws.synthesis.proven.front.T"),
     ("py:class", "optlaws.synthesis.proven.swept_parameter.SweptParameter"),
-    ("py:class", "optlaws.synthesis.solution_array.SolvedPart"),
     ("py:class", "optlaws.synthesis.spaces.space.LawSpace"),
 ]
 # B, C and D are attributes of several classes: which one a text means is said beside it

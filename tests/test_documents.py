@@ -6,8 +6,10 @@ from pathlib import Path
 
 import pytest
 
+import optlaws
 from docs._ext.docstrings import finish, prepare
 from docs._ext.module_tree import PAGE, page_with_tree
+from docs._ext.stub_names import with_names
 from tests.documents import PROGRAMS, ROOT, Command, commands, failure
 from tests.internals.cli import COMMANDS
 from tests.internals.jobs import JOBS
@@ -50,6 +52,13 @@ def test_every_fenced_block_has_a_language_that_is_executed_or_needs_no_executio
 def test_the_architecture_shows_the_tree_as_it_is() -> None:
     page = PAGE.read_text("utf-8")
     assert page == page_with_tree(page), "run python docs/_ext/module_tree.py"
+
+
+def test_the_reference_shows_every_public_name() -> None:
+    pages = [with_names(page.read_text("utf-8")) for page in (ROOT / "docs" / "reference" / "api").glob("*.md")]
+    lists = [names.split(", ") for page in pages for names in re.findall(r":members: (.*)", page)]
+    single = [re.findall(r"(?:autofunction|py:data):: (?:\S+\.)?(\w+)", page) for page in pages]
+    assert set(vars(optlaws)["__all__"]) - {name for names in [*lists, *single] for name in names} == set()
 
 
 def test_every_path_and_module_that_a_document_names_is_there() -> None:
