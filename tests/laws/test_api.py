@@ -20,7 +20,7 @@ from optlaws import (
 )
 
 
-@pytest.mark.parametrize("name", laws.__all__)
+@pytest.mark.parametrize("name", vars(laws)["__all__"])
 def test_every_public_name_has_an_example(name: str) -> None:
     assert ">>>" in (inspect.getdoc(getattr(laws, name)) or "")
 
