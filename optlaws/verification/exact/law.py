@@ -16,6 +16,9 @@ from optlaws.laws.segments.constant_power import PowerSegment
 from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import PolynomialSegment, Segment
 from optlaws.laws.segments.sine import HarmonicSegment, SineSegment
+from optlaws.mechanisms.machine.output_constants import OutputPeak, OutputRms
+from optlaws.mechanisms.machine.residual_boxes import ModeResidual
+from optlaws.mechanisms.residual import Residual
 from optlaws.synthesis.functionals.curved_rows import split, squared
 from optlaws.synthesis.functionals.kinds import FormulaIntegral, FormulaPeak, FormulaRms, FormulaValue
 from optlaws.synthesis.problem.combined import CombinedPeak, CombinedPower
@@ -31,12 +34,12 @@ from optlaws.verification.enclosing.pieces import (
     least_and_greatest,
 )
 from optlaws.verification.exact.motion_formulas import extremes_of, integral_of
-from optlaws.verification.machines.outputs import ExactOutput, KnownOutput, KnownOutputRms
-from optlaws.verification.machines.residuals import ExactModeResidual, ExactResidual, ModeConstant, ResidualConstant
+from optlaws.verification.machines.outputs import ExactOutput
+from optlaws.verification.machines.residuals import ExactModeResidual, ExactResidual
 
 OfFormula = FormulaIntegral | FormulaPeak | FormulaRms | FormulaValue
 _OF_FORMULAS = {FormulaIntegral, FormulaPeak, FormulaRms, FormulaValue}
-OfMachine = ResidualConstant | ModeConstant | KnownOutput
+OfMachine = Residual | ModeResidual | OutputPeak | OutputRms
 Known = PeakConstant | PowerConstant | RootMeanSquare | CombinedPeak | OfMachine | OfFormula
 
 _OF_CAMS = tuple(f"{name}_cam(" for name in ("B", "C", "C_plus", "C_minus", "D", "J"))
@@ -193,14 +196,14 @@ class ExactLaw:
     def of_machine(self, constant: OfMachine) -> arb:
         """A ball that contains a machine's constant: the residual of a follower or a mode, or an output's constant."""
         with ctx.workprec(2 * self.precision):
-            if isinstance(constant, ResidualConstant):
+            if isinstance(constant, Residual):
                 return ExactResidual(constant).peak(self.polynomials)
-            if isinstance(constant, ModeConstant):
+            if isinstance(constant, ModeResidual):
                 return ExactModeResidual(constant).peak(self.polynomials)
             exact = ExactOutput(constant)
             if exact.impulsive and self._impulses(2):
                 return arb.pos_inf()
-            return (exact.rms if isinstance(constant, KnownOutputRms) else exact.peak)(self.polynomials)
+            return (exact.rms if isinstance(constant, OutputRms) else exact.peak)(self.polynomials)
 
     def of_formula(self, constant: OfFormula) -> arb:
         """A ball that holds a constant of a formula."""

@@ -17,6 +17,9 @@ from optlaws.formulas.branches import switches
 from optlaws.formulas.of_motion import MotionFormula
 from optlaws.formulas.tree import ORDERS
 from optlaws.kept import kept_property
+from optlaws.mechanisms.machine.output_constants import OutputPeak, OutputRms
+from optlaws.mechanisms.machine.residual_boxes import ModeResidual
+from optlaws.mechanisms.residual import Residual
 from optlaws.synthesis.families import names
 from optlaws.synthesis.families.names import RowName, VariableName
 from optlaws.synthesis.functionals.affine_rows import sides as formula_sides
@@ -53,8 +56,7 @@ from optlaws.verification.machines.certificate_rows import (
     residual_parts,
 )
 from optlaws.verification.machines.output_motion import of_space
-from optlaws.verification.machines.outputs import KnownOutput, KnownOutputRms, OutputRows
-from optlaws.verification.machines.residuals import ModeConstant, ResidualConstant
+from optlaws.verification.machines.outputs import OutputRows
 
 _NEAR = Fraction(1, 10**9)
 
@@ -274,10 +276,10 @@ class ExactRows:
         return limit.row(sum(map(mul, weights, column), arb(0)) for column in columns)
 
     def _of_machine(self, constant: OfMachine, limit: UpperLimit) -> None:
-        if isinstance(constant, ResidualConstant):
+        if isinstance(constant, Residual):
             makers, corners = residual_parts(constant, of_space(self.space), limit)
             self.corners.update(corners)
-        elif isinstance(constant, ModeConstant):
+        elif isinstance(constant, ModeResidual):
             makers, corners = mode_edges(constant, of_space(self.space), self._solved, limit)
             self.corners.update(corners)
         else:
@@ -287,10 +289,10 @@ class ExactRows:
             self.cones.add(name)
             self._add(name, maker)
 
-    def _output(self, constant: KnownOutput, limit: UpperLimit) -> None:
+    def _output(self, constant: OutputPeak | OutputRms, limit: UpperLimit) -> None:
         output = self.outputs[constant.name] = OutputRows(constant, self.space)
         unit = ball(constant.unit(self._solved))
-        if not isinstance(constant, KnownOutputRms):
+        if not isinstance(constant, OutputRms):
             self._everywhere(constant.name, output.at, (1.0, -1.0), limit, unit)
             return
 

@@ -8,6 +8,7 @@ from math import inf, isfinite
 
 from flint import arb, ctx
 
+from optlaws.mechanisms.machine.output_constants import OutputConstant
 from optlaws.synthesis.families.names import VariableName
 from optlaws.synthesis.limits.closed_forms import back_velocity
 from optlaws.synthesis.limits.rounding import rounded_up
@@ -20,7 +21,6 @@ from optlaws.verification.enclosing.balls import ball, lower, upper
 from optlaws.verification.exact.law import known
 from optlaws.verification.exact.rows import ExactRows
 from optlaws.verification.machines.floors import floor
-from optlaws.verification.machines.outputs import KnownOutput
 
 #: what makes up for the rounding of a few operations in doubles
 _ROUNDED = 1.0 + 2.0**-40
@@ -127,7 +127,7 @@ def means(problem: Problem, rows: ExactRows, greatest: dict[str, float]) -> dict
 
 def _sizes(problem: Problem, constant: Functional, name: str) -> Iterator[tuple[int, arb, arb]]:
     """Orders, factors and offsets: the mean of |a^(order)| is at most factor times the constant plus the offset."""
-    if name == VariableName.POWER_ROOT or not isinstance(constant, PowerConstant | KnownOutput):
+    if name == VariableName.POWER_ROOT or not isinstance(constant, PowerConstant | OutputConstant):
         space = space_of(problem.basis, problem.conditions, symmetric=problem.symmetric)
         # both are rounded
         for nu, factor, offset in constant.sizes(space):

@@ -10,11 +10,13 @@ from math import hypot
 
 from flint import acb, arb
 
+from optlaws.mechanisms.machine.residual_boxes import ModeResidual
+from optlaws.mechanisms.residual import Residual
 from optlaws.synthesis.proof.nodes import Contact
 from optlaws.synthesis.spaces.space import LawSpace
 from optlaws.verification.enclosing.balls import ball
 from optlaws.verification.machines.output_motion import DrivenStretch
-from optlaws.verification.machines.residuals import ExactModeResidual, ExactResidual, ModeConstant, ResidualConstant
+from optlaws.verification.machines.residuals import ExactModeResidual, ExactResidual
 
 Names = Mapping[str, float | arb]
 
@@ -74,7 +76,7 @@ def cone(amplitudes: Callable[[Fraction], list[acb]], limit: UpperLimit, unit: a
 
 
 def residual_parts(
-    constant: ResidualConstant, drives: Sequence[DrivenStretch], limit: UpperLimit
+    constant: Residual, drives: Sequence[DrivenStretch], limit: UpperLimit
 ) -> tuple[dict[str, Maker], dict[Corner, tuple[Corner, float]]]:
     """A cone for each part of the frequencies by its name, and the start of a part at its predecessor's end."""
     exact, names = ExactResidual(constant), constant.part_names
@@ -88,7 +90,7 @@ def residual_parts(
 
 
 def mode_edges(
-    constant: ModeConstant, drives: Sequence[DrivenStretch], solved: LawSpace, limit: UpperLimit
+    constant: ModeResidual, drives: Sequence[DrivenStretch], solved: LawSpace, limit: UpperLimit
 ) -> tuple[dict[str, Maker], dict[Corner, tuple[Corner, float]]]:
     """A cone for each edge of a box by its name, in the units of the certificate; and corners that two edges have.
 

@@ -7,10 +7,10 @@ from math import inf
 
 from flint import fmpq
 
+from optlaws.mechanisms.machine.output_constants import OutputPeak
 from optlaws.synthesis.problem.constants import Functional
 from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
 from optlaws.verification.enclosing.balls import rational
-from optlaws.verification.machines.outputs import KnownOutputPeak
 from optlaws.verification.machines.transfer import Transfer
 
 
@@ -19,7 +19,7 @@ def floor(constant: Functional, conditions: BoundaryConditions) -> Fraction | fl
 
     A peak of one side of an output may be below 0, but not below the output where the law begins.
     """
-    if not isinstance(constant, KnownOutputPeak) or len(constant.signs) == 2:
+    if not isinstance(constant, OutputPeak) or len(constant.signs) == 2:
         return constant.floor(conditions)
     start = conditions.start
     if constant.steady or constant.cycle is not None or constant.within[0] > 0.0:

@@ -6,14 +6,12 @@ from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from functools import partial
 from math import inf
-from typing import Protocol, runtime_checkable
 
 from flint import arb, arb_mat, arb_poly, arb_series, fmpq_poly
 
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
-from optlaws.laws import MotionLaw
-from optlaws.synthesis.spaces.space import LawSpace
+from optlaws.mechanisms.machine.output_constants import OutputConstant, OutputPeak
 from optlaws.verification.enclosing.balls import ball, rational, root
 from optlaws.verification.enclosing.pieces import PolynomialPiece
 from optlaws.verification.enclosing.taylor_models import Ends, Taylor, cells, greatest_magnitude, integrals_of_products
@@ -28,60 +26,15 @@ from optlaws.verification.machines.output_motion import (
     response,
     with_column,
 )
-from optlaws.verification.machines.transfer import MachineConstant, Transfer
+from optlaws.verification.machines.transfer import Transfer
 
 _OUTPUT_REST = 2.0**-150  # of what an output is made of: what a Taylor polynomial may leave of it
-
-
-@runtime_checkable
-class KnownOutput(MachineConstant, Protocol):
-    """Parts of a constant of a machine's output (optlaws.mechanisms defines it)."""
-
-    @property
-    def scale(self) -> float:
-        """The size of the output while a smooth law drives the machine, a power of 2."""
-
-    @property
-    def within(self) -> tuple[float, float]:
-        """The first and the last time that count, in durations of the rise."""
-
-    @property
-    def cycle(self) -> tuple[float, float] | None:
-        """The dwell and the rest of a cycle that repeats."""
-
-    @property
-    def steady(self) -> bool:
-        """Whether the law is itself a whole cycle that repeats."""
-
-    @property
-    def offset(self) -> float:
-        """The offset that is added to the output."""
-
-    def unit(self, space: LawSpace) -> float:
-        """The unit of the certificate's rows: any number above 0 will do."""
-
-
-@runtime_checkable
-class KnownOutputPeak(KnownOutput, Protocol):
-    """A greatest magnitude, or a one-sided peak."""
-
-    @property
-    def signs(self) -> tuple[float, ...]:
-        """The signs with which the output is followed: of the output, of its opposite, or both."""
-
-
-@runtime_checkable
-class KnownOutputRms(KnownOutput, Protocol):
-    """A root mean square of an output."""
-
-    def along(self, space: LawSpace, direction: Sequence[float]) -> MotionLaw | None:
-        """A law with whose output all others are multiplied: any will do, the optimal one is best."""
 
 
 class ExactOutput:
     """An output over all the time that counts, and what is before it."""
 
-    def __init__(self, constant: KnownOutput) -> None:
+    def __init__(self, constant: OutputConstant) -> None:
         self.constant = constant
         self.start, self.stop = map(Fraction, constant.within)
         self.transfer = Transfer(constant.machine, constant.output)
@@ -103,7 +56,7 @@ class ExactOutput:
     @property
     def both(self) -> bool:
         """Whether the output is small wherever the constant is, on both sides."""
-        return not isinstance(self.constant, KnownOutputPeak) or len(self.constant.signs) == 2
+        return not isinstance(self.constant, OutputPeak) or len(self.constant.signs) == 2
 
     def _moved(self, rise: Sequence[DrivenStretch]) -> OutputMotion:
         if self.constant.cycle is not None:
@@ -115,7 +68,7 @@ class ExactOutput:
 
     def peak(self, pieces: Sequence[PolynomialPiece]) -> arb:
         """A ball that contains the greatest magnitude, or the one-sided peak, under a stored law."""
-        signs = self.constant.signs if isinstance(self.constant, KnownOutputPeak) else (1.0, -1.0)
+        signs = self.constant.signs if isinstance(self.constant, OutputPeak) else (1.0, -1.0)
         return greatest_value(self.response(of_pieces(pieces), [0]), self.start, self.stop, signs)
 
     def rms(self, pieces: Sequence[PolynomialPiece]) -> arb:
@@ -127,7 +80,7 @@ class ExactOutput:
 class OutputRows:
     """An output under all laws of a problem, at the working precision of its first use."""
 
-    def __init__(self, constant: KnownOutput, space: Space) -> None:
+    def __init__(self, constant: OutputConstant, space: Space) -> None:
         self.exact, self.space = ExactOutput(constant), space
 
     @kept_property

@@ -9,19 +9,20 @@ from fractions import Fraction
 from functools import partial, reduce
 from itertools import accumulate, takewhile
 from operator import mul
-from typing import Any, Protocol, TypeVar, runtime_checkable
+from typing import Any, TypeVar
 
 from flint import acb, acb_poly, acb_series, arb, arb_poly
 
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
-from optlaws.synthesis.spaces.space import LawSpace
+from optlaws.mechanisms.machine.residual_boxes import ModeResidual
+from optlaws.mechanisms.residual import Residual
 from optlaws.tolerances import SAME_FREQUENCY, SAME_ROOT, TAYLOR_REST, VIBRATING
 from optlaws.verification.enclosing.balls import ball, root
 from optlaws.verification.enclosing.pieces import PolynomialPiece
 from optlaws.verification.enclosing.taylor_models import Taylor, cells, greatest_magnitude
 from optlaws.verification.machines.output_motion import DrivenStretch, of_pieces
-from optlaws.verification.machines.transfer import MachineConstant, Rational, roots, transforms
+from optlaws.verification.machines.transfer import Rational, roots, transforms
 
 Number = TypeVar("Number", acb, acb_series)
 #: no stretch with a Taylor polynomial of its own is shorter
@@ -80,34 +81,10 @@ def _squared(series: list[acb]) -> arb_poly:
 _I = acb(0, 1)
 
 
-@runtime_checkable
-class ResidualConstant(Protocol):
-    """Parts of a residual over an interval of frequencies (optlaws.mechanisms defines it)."""
-
-    name: str
-    low: float
-    high: float
-    damping: float
-    design: float | None
-    design_damping: float
-
-    @property
-    def scale(self) -> float:
-        """The unit of the certificate's rows where there is no bound: any number above 0 will do."""
-
-    @property
-    def parts(self) -> tuple[tuple[float, float, float, float], ...]:
-        """Intervals of frequencies over which the weight is linear: both ends, and the weights there."""
-
-    @property
-    def part_names(self) -> tuple[str, ...]:
-        """Names of the parts in certificates."""
-
-
 class ExactResidual:
     """The complex amplitude, times nu² and the weight, as a function of the frequency, in parts."""
 
-    def __init__(self, constant: ResidualConstant) -> None:
+    def __init__(self, constant: Residual) -> None:
         self.parts = [tuple(map(Fraction, part)) for part in constant.parts]
         self.damping, self.design_damping = Fraction(constant.damping), Fraction(constant.design_damping)
         self.design = None if constant.design is None else Fraction(constant.design)
@@ -160,30 +137,6 @@ class ExactResidual:
 Corner = tuple[arb, arb]
 
 
-@runtime_checkable
-class ModeConstant(MachineConstant, Protocol):
-    """Parts of the residual of a mode (optlaws.mechanisms defines it)."""
-
-    @property
-    def part_names(self) -> tuple[str, ...]:
-        """Names of the edges in certificates."""
-
-    @property
-    def mode(self) -> int:
-        """The number of the mode, the slowest one's being 1."""
-
-    @property
-    def spread(self) -> float:
-        """Share by which its frequency may be off, either way."""
-
-    @property
-    def dampings(self) -> tuple[float, float] | None:
-        """The least and the greatest damping ratio; None for the mode's own."""
-
-    def unit(self, space: LawSpace, edge: int, bound: float, *, sought: bool) -> float:
-        """The unit of the certificate's rows: any number above 0 will do."""
-
-
 @dataclass(frozen=True)
 class ExactEdge:
     """Roots i nu exp(i angle) between two corners (frequency, angle), sin(angle) being the damping ratio."""
@@ -201,7 +154,7 @@ class ExactEdge:
 class ExactModeResidual:
     """The greatest amplitude over the box, at the working precision of its first use."""
 
-    def __init__(self, constant: ModeConstant) -> None:
+    def __init__(self, constant: ModeResidual) -> None:
         self.constant = constant
 
     @kept_property

@@ -4,62 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, Protocol
+from typing import Any
 
 from flint import acb, acb_poly, acb_series, fmpq, fmpq_mat, fmpq_poly, fmpq_series, fmpz_poly
 
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
+from optlaws.mechanisms.machine.state_space import StateSpace
 from optlaws.verification.enclosing.balls import rational, series_length
 
 Matrix = Sequence[Sequence[float]]
 _S = fmpq_poly([0, 1])
 _NOTHING = fmpq_poly([0])
 _SYMBOLS = "abc"
-
-
-class StateSpaceMatrices(Protocol):
-    """x' = A x + B w, y = C x + D w, as optlaws.mechanisms defines it."""
-
-    @property
-    def A(self) -> Matrix:
-        """The matrix A of the states."""
-
-    @property
-    def B(self) -> Matrix:
-        """The matrix B from the inputs to the states."""
-
-    @property
-    def C(self) -> Matrix:
-        """The matrix C from the states to the outputs."""
-
-    @property
-    def D(self) -> Matrix:
-        """The matrix D from the inputs to the outputs."""
-
-    @property
-    def inputs(self) -> str:
-        """The names of the columns of B and D: a, b or c."""
-
-    @property
-    def outputs(self) -> tuple[str, ...]:
-        """The names of the machine's outputs."""
-
-
-class MachineConstant(Protocol):
-    """Parts of every constant of a machine."""
-
-    @property
-    def name(self) -> str:
-        """The name of the constant."""
-
-    @property
-    def machine(self) -> StateSpaceMatrices:
-        """The machine whose output it speaks of."""
-
-    @property
-    def output(self) -> str:
-        """The name of the output."""
 
 
 @dataclass(frozen=True)
@@ -128,7 +85,7 @@ class Transfer(Rational):
     Where it does not, it is driven by the velocity, which need not come back after a cycle.
     """
 
-    def __init__(self, machine: StateSpaceMatrices, output: str) -> None:
+    def __init__(self, machine: StateSpace, output: str) -> None:
         self.order = 0 if "a" in machine.inputs else 1
         self.characteristic, parts = transforms(machine, output)
         super().__init__(
@@ -137,7 +94,7 @@ class Transfer(Rational):
         )
 
 
-def transforms(machine: StateSpaceMatrices, output: str) -> tuple[fmpq_poly, list[fmpq_poly]]:
+def transforms(machine: StateSpace, output: str) -> tuple[fmpq_poly, list[fmpq_poly]]:
     """The characteristic polynomial p, and for each of a, b and c what is to be divided by p: C (s - A)^-1 B + D."""
     if output not in machine.outputs:
         raise InputError(f"the machine has no output {output!r}")
