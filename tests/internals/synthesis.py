@@ -89,4 +89,3 @@ from optlaws.synthesis.spaces.of_basis import space_of
 from optlaws.synthesis.spaces.polynomial_space import polynomial_space
 from optlaws.synthesis.spaces.space import LawSpace
 from optlaws.synthesis.spaces.spline_space import spline_space
-from optlaws.synthesis.structure_table import structure_of_program, structures_along_velocity

@@ -10,7 +10,6 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import lru_cache
-from math import frexp
 from pathlib import Path
 
 import numpy as np
@@ -75,16 +74,6 @@ class StoredStructure:
     def away(self, B: Array) -> Array:
         """The distances of some B from the structure's range of B."""
         return np.maximum(np.maximum(self.begin - B, B - self.end), 0.0)
-
-    def packed(self) -> list[int]:
-        """The structure as whole numbers of 16 bits."""
-        ends = [round((end - 1.0) * _OF_VELOCITY) if end else 0 for end in (self.begin, self.end)]
-        rows = self.family * 4 + 2 * (self.sign > 0.0) + self.free
-        count = self.variables.shape[1]
-        exponent = frexp(float(np.abs(self.variables).max()))[1] if count else 0
-        series = np.hstack([self.places * _OF_PLACE, self.variables * 2.0 ** (_BITS - exponent)])
-        header = [*ends, len(rows), len(series), count, exponent]
-        return [*header, *rows.tolist(), *np.round(series).astype(int).ravel().tolist()]
 
 
 def key_of(model: Model) -> str | None:
@@ -170,16 +159,6 @@ def guess_of(program: Program, structure: StoredStructure, B: float) -> ActiveSe
         multipliers=multipliers[:count],
         equality_multipliers=multipliers[count:],
     )
-
-
-def written(structures: dict[str, list[StoredStructure]]) -> bytes:
-    """A file of structures: a line of text for each key, with how many numbers are its own, and all numbers."""
-    numbers = {
-        key: [number for structure in several for number in structure.packed()] for key, several in structures.items()
-    }
-    lines = [f"{key} {len(several)}\n" for key, several in numbers.items()]
-    together = np.array([number for several in numbers.values() for number in several], dtype="<i2")
-    return "".join(lines).encode() + b"\n" + together.tobytes()
 
 
 @lru_cache(maxsize=1)

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from optlaws import Chebyshev, Problem, Solution, synthesize
+from tests.internals.structure_table import packed, structure_of_program, structures_along_velocity
 from tests.internals.synthesis import (
     ActiveSet,
     Model,
@@ -17,8 +18,6 @@ from tests.internals.synthesis import (
     model_of,
     stored_guess,
     stored_structures,
-    structure_of_program,
-    structures_along_velocity,
 )
 
 USUAL = [
@@ -84,8 +83,8 @@ def test_the_file_holds_what_is_computed(minimise: str, monotone: bool) -> None:
         stored = stored_structures(key)
         assert len(stored) == len(computed)
         for first, last in zip(stored, computed, strict=True):
-            assert len(first.packed()) == len(last.packed())
-            assert np.abs(np.subtract(first.packed(), last.packed())).max() <= 2
+            assert len(packed(first)) == len(packed(last))
+            assert np.abs(np.subtract(packed(first), packed(last))).max() <= 2
 
 
 def test_a_flat_optimum_is_not_stored() -> None:

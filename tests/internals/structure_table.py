@@ -1,9 +1,11 @@
-"""The structures that come with optlaws, computed: `python -m optlaws.synthesis.structure_table` writes them.
+"""The structures that come with optlaws, computed: `python -m tests.internals.structure_table` writes them.
 
 It takes some minutes. Nothing depends on them but time.
 """
 
 from __future__ import annotations
+
+from math import frexp
 
 import numpy as np
 
@@ -14,7 +16,15 @@ from optlaws.synthesis.arrays.continued_laws import segments_of
 from optlaws.synthesis.arrays.newton_steps import structure_of
 from optlaws.synthesis.arrays.programs import between
 from optlaws.synthesis.method.exchange import solve
-from optlaws.synthesis.method.stored_structures import STORED, StoredStructure, guess_of, key_of, written
+from optlaws.synthesis.method.stored_structures import (
+    _BITS,
+    _OF_PLACE,
+    _OF_VELOCITY,
+    STORED,
+    StoredStructure,
+    guess_of,
+    key_of,
+)
 from optlaws.synthesis.method.strategies.contacts import polished
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import Model, extreme_velocity, model_of
@@ -36,13 +46,7 @@ _SOUGHT = (0.02, 0.26, 0.5, 0.74, 0.98)
 
 
 def structures_along_velocity(problem: Problem) -> list[StoredStructure]:
-    """The structures of the best laws of a problem between the least and the greatest B that are stored.
-
-    Examples
-    --------
-    >>> [len(structure.sign) for structure in structures_along_velocity(Problem(order=4, basis=Chebyshev(3)))]
-    [2, 2, 1, 2, 1]
-    """
+    """The structures of the best laws of a problem between the least and the greatest B that are stored."""
     walks = (_along(problem, (least, _GREATEST)) for least in _LEAST[repr(problem.objective)])
     structures = max(walks, key=covered)
     return structures if problem.convex else [known for known in structures if _none_better(problem, known)]
@@ -56,11 +60,7 @@ def _along(problem: Problem, ends: tuple[float, float]) -> list[StoredStructure]
 
 
 def covered(structures: list[StoredStructure]) -> float:
-    """The range of B that structures cover, to two decimals.
-
-    >>> covered(structures_along_velocity(Problem(order=4, basis=Chebyshev(3))))
-    1.68
-    """
+    """The range of B that structures cover, to two decimals."""
     return round(sum(known.end - known.begin for known in structures), 2)
 
 
@@ -98,13 +98,7 @@ def _variables(model: Model, x: Array) -> Array:
 
 
 def structure_of_program(model: Model) -> list[StoredStructure]:
-    """The structure of the optimum of a single program, which differs from others in no B; none if unclear or flat.
-
-    Examples
-    --------
-    >>> [len(known.sign) for known in structure_of_program(model_of(Problem(order=4, basis=Chebyshev(3))))]
-    [2]
-    """
+    """The structure of the optimum of a single program, which differs from others in no B; none if unclear or flat."""
     optimum = solve(model.program).optimum
     if optimum is None:
         return []
@@ -132,6 +126,27 @@ def usual_structures() -> dict[str, list[StoredStructure]]:
                         if key is not None and known:
                             structures[key] = known
     return structures
+
+
+def packed(structure: StoredStructure) -> list[int]:
+    """The structure as whole numbers of 16 bits."""
+    ends = [round((end - 1.0) * _OF_VELOCITY) if end else 0 for end in (structure.begin, structure.end)]
+    rows = structure.family * 4 + 2 * (structure.sign > 0.0) + structure.free
+    count = structure.variables.shape[1]
+    exponent = frexp(float(np.abs(structure.variables).max()))[1] if count else 0
+    series = np.hstack([structure.places * _OF_PLACE, structure.variables * 2.0 ** (_BITS - exponent)])
+    header = [*ends, len(rows), len(series), count, exponent]
+    return [*header, *rows.tolist(), *np.round(series).astype(int).ravel().tolist()]
+
+
+def written(structures: dict[str, list[StoredStructure]]) -> bytes:
+    """A file of structures: a line of text for each key, with how many numbers are its own, and all numbers."""
+    numbers = {
+        key: [number for structure in several for number in packed(structure)] for key, several in structures.items()
+    }
+    lines = [f"{key} {len(several)}\n" for key, several in numbers.items()]
+    together = np.array([number for several in numbers.values() for number in several], dtype="<i2")
+    return "".join(lines).encode() + b"\n" + together.tobytes()
 
 
 if __name__ == "__main__":
