@@ -227,7 +227,8 @@ def draw_solution(
     artists += _limit(by_order, solution)
     for panel in by_order:
         if any(not str(line.get_label()).startswith("_") for line in panel.lines):
-            panel.legend(*_once(panel), **_ABOVE)
+            labelled = dict(zip(*reversed(panel.get_legend_handles_labels()), strict=True))
+            panel.legend(*list(labelled.values()), list(labelled), **_ABOVE)
     return artists
 
 
@@ -310,9 +311,3 @@ def _limit(by_order: Sequence[Axes], solution: Solution) -> list[Artist]:
         for sign in signs
     ]
     return [line for some in lines for line in some]
-
-
-def _once(axes: Axes) -> tuple[list[Any], list[str]]:
-    """Handles and labels of a legend, each label once."""
-    labelled = dict(zip(*reversed(axes.get_legend_handles_labels()), strict=True))
-    return list(labelled.values()), list(labelled)

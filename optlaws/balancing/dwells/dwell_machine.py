@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from math import tau
-from typing import Any, Self, TypedDict, Unpack
+from typing import Any, Self
 
 from optlaws.balancing.dwells.mechanism import DwellMechanism, DwellType, dwell_mechanism
 from optlaws.cams.curves.motion_by_angle import CamMotion
@@ -20,7 +20,6 @@ from optlaws.laws import MotionLaw
 from optlaws.motion.piece import Piece
 from optlaws.motion.quantities import positive_quantity, quantity
 from optlaws.numbers import Quantity, positive
-from optlaws.suggest import keywords_of
 
 _DWELL = ("run-out", "reverse", "run-up")
 _SIZES = ("inertia", "loader_inertia", "arm", "prime_radius")
@@ -182,16 +181,6 @@ class DwellMachine(JsonText):
         return self.mechanism
 
 
-class DwellSizes(TypedDict):
-    """Inertias of a dwell machine and lengths of its rockers and cams."""
-
-    inertia: Quantity
-    loader_inertia: Quantity
-    arm: Quantity
-    prime_radius: Quantity
-
-
-@keywords_of(DwellSizes)
 def dwell_machine(
     kind: DwellType,
     *,
@@ -200,9 +189,12 @@ def dwell_machine(
     dwell: Quantity,
     rise: Quantity,
     swing: Quantity,
+    inertia: Quantity,
+    loader_inertia: Quantity,
+    arm: Quantity,
+    prime_radius: Quantity,
     clutch_time: Quantity = "0 s",
     more: Mapping[str, Any] | None = None,
-    **sizes: Unpack[DwellSizes],
 ) -> DwellMachine:
     """A balancing dwell mechanism from a machine's data: its clutch takes a time, an angle that grows with the speed.
 
@@ -241,8 +233,12 @@ def dwell_machine(
     (DwellMechanism(III, a=1.59434, b=0.15, S1=0, S2=0.666667), 0.668101, 0.100215)
     """
     rate = positive_quantity(speed, "angular velocity", "speed")
-    kinds = dict(zip(_SIZES, ("moment of inertia",) * 2 + ("length",) * 2, strict=True))
-    known = {name: positive_quantity(sizes[name], kind, name) for name, kind in kinds.items()}  # type: ignore[literal-required]
+    known = {
+        "inertia": positive_quantity(inertia, "moment of inertia", "inertia"),
+        "loader_inertia": positive_quantity(loader_inertia, "moment of inertia", "loader_inertia"),
+        "arm": positive_quantity(arm, "length", "arm"),
+        "prime_radius": positive_quantity(prime_radius, "length", "prime_radius"),
+    }
     time = quantity(clutch_time, "time", "clutch_time")
     if time < 0.0:
         raise InputError(f"clutch_time must be at least 0, got {shortened(clutch_time)}")

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from functools import partial
-from typing import Any, NamedTuple
+from math import isfinite
+from typing import Any
 
 import numpy as np
 
@@ -93,8 +94,8 @@ def find_torsion_levers(
     limits: dict[str, Any] = {"least_transmission": least_transmission, "most_rocker_swing": most_rocker_swing}
     make = partial(TorsionLever, rho=rho, nu=nu, swing=swing, **fixed, **limits)
     if len(targets) == 1:
-        ((quantity, value),), ((name, span),) = targets.items(), sought.items()
-        return along(LengthSearch(make, name, span, quantity, QUANTITIES[quantity]), value)
+        ((title, value),), ((name, span),) = targets.items(), sought.items()
+        return along(make, name, span, title, value)
     return within(make, sought, {name: (QUANTITIES[name], value) for name, value in targets.items()})
 
 
@@ -115,63 +116,46 @@ _STARTS = 4
 _BAR = 1e3  # residual where there is no lever: far above any that a lever has
 
 
-class LengthSearch(NamedTuple):
-    """A constant of the lever as a function of one length."""
+def along(make: Make, name: str, span: tuple[float, float], title: str, value: float) -> tuple[TorsionLever, ...]:
+    """The levers whose constant has a value, in order of the length that is sought."""
+    from scipy.optimize import brentq
 
-    make: Make
-    name: str
-    span: tuple[float, float]
-    title: str
-    quantity: Quantity
-
-    def lever(self, length: float) -> TorsionLever:
-        """The lever of this length."""
-        return self.make(**{self.name: length})
-
-    def value(self, length: float) -> float:
-        """The constant at this length; nan beyond the limits."""
+    def constant(length: float) -> float:
         try:
-            return self.quantity(self.lever(length))
+            return QUANTITIES[title](make(**{name: length}))
         except OptlawsError:
             return float("nan")
 
-
-def along(line: LengthSearch, value: float) -> tuple[TorsionLever, ...]:
-    """The levers whose constant has a value, in order of their length."""
-    from scipy.optimize import brentq
-
-    lengths, values = _samples(line)
+    lengths, values = _samples(constant, span)
+    if not len(lengths):
+        middle = float(np.geomspace(*span, _TRIED)[_TRIED // 2])
+        QUANTITIES[title](make(**{name: middle}))  # raises, and says which limit it is
     excess = values - value
     places = lengths[excess == 0.0].tolist()
     for i in np.flatnonzero(excess[:-1] * excess[1:] < 0.0):
         low, high = lengths[i : i + 2].tolist()
-        places.append(float(brentq(lambda length: line.value(length) - value, low, high, xtol=1e-14, rtol=1e-14)))
+        places.append(float(brentq(lambda length: constant(length) - value, low, high, xtol=1e-14, rtol=1e-14)))
     if not places:
         low, high = int(np.argmin(values)), int(np.argmax(values))
         raise InputError(
-            f"{line.title} = {value:.6g} is out of reach: for {line.name} from {lengths[0]:.5g} to {lengths[-1]:.5g}, "
+            f"{title} = {value:.6g} is out of reach: for {name} from {lengths[0]:.5g} to {lengths[-1]:.5g}, "
             f"where all limits hold, it runs from {values[low]:.6g} (at {lengths[low]:.5g}) to {values[high]:.6g} "
             f"(at {lengths[high]:.5g}); change the other length, the swing or the pre-twists"
         )
-    return tuple(line.lever(length) for length in sorted(places))
+    return tuple(make(**{name: length}) for length in sorted(places))
 
 
-def _samples(line: LengthSearch) -> tuple[Array, Array]:
+def _samples(constant: Callable[[float], float], span: tuple[float, float]) -> tuple[Array, Array]:
     """Lengths within all limits, up to the very limits, and the constant there."""
-    lengths = np.geomspace(*line.span, _TRIED)
-    values = np.array([line.value(float(length)) for length in lengths])
+    lengths = np.geomspace(*span, _TRIED)
+    values = np.array([constant(float(length)) for length in lengths])
     known = np.isfinite(values)
-    if not known.any():
-        line.quantity(line.lever(float(lengths[_TRIED // 2])))  # raises, and says which limit it is
-    edges = [_edge(line, *lengths[[i, i + 1] if known[i] else [i + 1, i]]) for i in np.flatnonzero(np.diff(known))]
+    changes = [lengths[[i, i + 1] if known[i] else [i + 1, i]] for i in np.flatnonzero(np.diff(known))]
+    edges = [float(bisect(lambda length: isfinite(constant(length)), low, high, _HALVINGS)[0]) for low, high in changes]
     lengths = np.append(lengths[known], edges)
-    values = np.append(values[known], [line.value(edge) for edge in edges])
+    values = np.append(values[known], [constant(edge) for edge in edges])
     order = np.argsort(lengths)
     return lengths[order], values[order]
-
-
-def _edge(line: LengthSearch, inside: float, outside: float) -> float:
-    return float(bisect(lambda length: bool(np.isfinite(line.value(length))), inside, outside, _HALVINGS)[0])
 
 
 def within(

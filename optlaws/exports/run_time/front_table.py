@@ -115,7 +115,7 @@ def front_table(
     peaks[:, 1:] = np.maximum.accumulate(peaks[::-1, 1:])[::-1]
     if not (np.diff(peaks[:, 0]) > 0.0).all() or not np.isfinite(peaks).all():
         raise InputError("a table needs laws of ascending B and finite C and J: take a front of order 3 or more")
-    stored = _odd_only(series) if odd else series
+    stored = np.ascontiguousarray(series[:, :, 1::2]) if odd else series
     errors = _errors(series, exact_series, breaks, odd=odd)
     b, c, j = (tuple(column) for column in peaks.T.tolist())
     return FrontTable(b, c, j, stored, breaks, odd, gap, ends, errors, _slack(peaks, errors))
@@ -149,10 +149,6 @@ def _chebyshev(stretch: Stretch) -> list[Fraction]:
     """The series in x, -1 where the stretch begins and 1 where it ends."""
     low, high, powers = stretch
     return exact.exact_chebyshev([value * (high - low) ** n for n, value in enumerate(powers)])
-
-
-def _odd_only(series: Array) -> Array:
-    return np.ascontiguousarray(series[:, :, 1::2])
 
 
 def _errors(

@@ -34,19 +34,14 @@ def check_ends(motion: MotionFormula, conditions: BoundaryConditions) -> None:
         wrong = [part for part in parts if not np.isfinite(MotionFormula(part).values({**known, "k": k}))]
         if wrong:
             values = " and ".join(f"{name} = {known[name]:g}" for name in sorted(wrong[0].names() & ORDERS.keys()))
-            raise _no_value(
-                motion.formula,
-                wrong[-1],
+            text = str(motion.formula)
+            places = (same.place for same in read(text).walk() if same == wrong[-1])
+            raise FormulaError(
                 f"{motion.formula} has no finite value at k = {k:g}, where {values} in every law: ask for a part "
                 "of the interval, such as start=0.05, stop=0.95",
+                text,
+                next(places, 0),
             )
-
-
-def _no_value(formula: Formula, part: Formula, what: str) -> FormulaError:
-    """The error that points at a part of a formula in its printed form."""
-    text = str(formula)
-    places = (same.place for same in read(text).walk() if same == part)
-    return FormulaError(what, text, next(places, 0))
 
 
 def check_passed(motion: MotionFormula, conditions: BoundaryConditions, *, smooth: bool) -> None:

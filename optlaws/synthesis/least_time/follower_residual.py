@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import asdict, dataclass
 from math import inf, nextafter, sqrt
-from typing import Any, NamedTuple
+from typing import Any
 
 from optlaws.errors import InputError
 from optlaws.files.reading import JsonText, all_entries_of
@@ -16,13 +16,6 @@ from optlaws.tolerances import LIMIT_ROUNDING
 #: the name of the limit
 RESIDUAL = "residual acceleration"
 _KEYS = ("lowest", "highest", "damping", "most")
-
-
-class LawSize(NamedTuple):
-    """Bounds of integrals of laws from rest to rest, infinite where none is known."""
-
-    velocity: float  #: of the integral of |k - 1/2| |b|
-    acceleration: float  #: of the integral of |k - 1/2| |c|
 
 
 @dataclass(frozen=True)
@@ -68,20 +61,22 @@ class FollowerResidual(JsonText):
         low, high = (frequency * duration for frequency in (self.lowest, self.highest))
         return self._limit(low, high, self.most * duration * duration / stroke)
 
-    def limit_over(self, shortest: float, longest: float, stroke: float, size: LawSize) -> TimedLimit:
+    def limit_over(
+        self, shortest: float, longest: float, stroke: float, velocity: float, acceleration: float
+    ) -> TimedLimit:
         """A limit of every law that keeps the residual's in some time from the shortest to the longest.
 
         The frequencies nu = omega T that all these times have in common are limited by what is allowed in the longest.
         Where there are none, the middle between them is: there the amplitude is greater by its slope times the
-        distance at most, which is bounded by the size of laws. The limit is infinite where no size is.
+        distance at most, which is bounded by the integrals of |k - 1/2| |b| and |k - 1/2| |c| in any such law:
+        `velocity` and `acceleration`. The limit is infinite where these are.
 
         Examples
         --------
-        >>> size = LawSize(0.5, 2.0)
-        >>> FollowerResidual(95.0, 105.0, 0.05, most=0.4).limit_over(0.199, 0.2, 0.1, size).constant
+        >>> FollowerResidual(95.0, 105.0, 0.05, most=0.4).limit_over(0.199, 0.2, 0.1, 0.5, 2.0).constant
         residual(frequency=(19.000000000000004, 20.894999999999996), damping=0.05)
         >>> certain = FollowerResidual(100.0, 100.0, 0.0, most=0.4)
-        >>> round(certain.limit_over(0.1998, 0.2, 0.1, size).bound, 6)
+        >>> round(certain.limit_over(0.1998, 0.2, 0.1, 0.5, 2.0).bound, 6)
         0.55972
         """
         low, high = nextafter(self.lowest * longest, inf), nextafter(self.highest * shortest, 0.0)
@@ -94,8 +89,8 @@ class FollowerResidual(JsonText):
         damped, share = sqrt((1.0 - self.damping) * (1.0 + self.damping)), 1.0 - 0.5 * self.damping * apart
         if share <= 0.0:
             return self._limit(nu, nu, inf)
-        by_acceleration = nu * (most / self.lowest + apart * size.acceleration / damped)
-        by_velocity = nu * nu * (self.most / stroke / self.lowest**2 + apart * size.velocity / damped)
+        by_acceleration = nu * (most / self.lowest + apart * acceleration / damped)
+        by_velocity = nu * nu * (self.most / stroke / self.lowest**2 + apart * velocity / damped)
         return self._limit(nu, nu, min(by_acceleration, by_velocity) / share * wider)
 
     def _limit(self, low: float, high: float, bound: float) -> TimedLimit:

@@ -12,7 +12,7 @@ from optlaws.errors import InputError
 from optlaws.files.reading import JsonText
 from optlaws.numbers import finite, positive
 from optlaws.suggest import unknown_key
-from optlaws.synthesis.least_time.follower_residual import FollowerResidual, LawSize
+from optlaws.synthesis.least_time.follower_residual import FollowerResidual
 from optlaws.synthesis.least_time.motor_torque import MotorTorque, TimedLimit
 from optlaws.synthesis.problem.constants import B, C, C_minus, C_plus, Functional, J, snap
 from optlaws.synthesis.problem.expression import Expression, maximum
@@ -244,10 +244,10 @@ class TimedMove:
         """
         if self.residual is None:
             return self.limits_in(longest)
-        left = self.residual.limit_over(shortest, longest, self.stroke, self._size_in(longest))
+        left = self.residual.limit_over(shortest, longest, self.stroke, *self._sizes_in(longest))
         return (*self.without_residual.limits_in(longest), *((left,) if left.bound < inf else ()))
 
-    def _size_in(self, duration: float) -> LawSize:
+    def _sizes_in(self, duration: float) -> tuple[float, float]:
         """A priori bounds of laws within the limits in a time: the integrals of |k - 1/2| |b| and of |k - 1/2| |c|."""
         most = {limit.constant: limit.bound for limit in self.without_residual.limits_in(duration)}
         smooth = getattr(self.problem.basis, "continuity", 2) >= 2
@@ -255,7 +255,7 @@ class TimedMove:
         up, down = (most.get(side, most.get(C, inf)) for side in (C_plus, C_minus))
         # what is gained is lost again: the integral of |c| is at most twice that of one side; and c vanishes somewhere
         acceleration = min(0.25 * max(up, down), up, down, 0.25 * jerk)
-        return LawSize(min(velocity, 0.5) if self.problem.monotone else velocity, acceleration)
+        return min(velocity, 0.5) if self.problem.monotone else velocity, acceleration
 
     @property
     def without_residual(self) -> TimedMove:

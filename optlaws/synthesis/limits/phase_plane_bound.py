@@ -99,7 +99,9 @@ def _sums(standing: Standing, potential: Potential, weight: float, guess: Guess)
         free += _times(known.free, length)[~weak].tolist()
         if not weak.any():
             break
-        piece, low, high = _divided(piece[weak], low[weak], high[weak])
+        shares = np.arange(_PARTS + 1) / _PARTS
+        edges = low[weak][:, None] * (1.0 - shares) + high[weak][:, None] * shares
+        piece, low, high = np.repeat(piece[weak], _PARTS), edges[:, :-1].ravel(), edges[:, 1:].ravel()
     jumps = _jumps(plane, potential)
     return nextafter(_sum(sums) - jumps, -inf), nextafter(_sum(free) - jumps, -inf)
 
@@ -164,13 +166,6 @@ def _whole(potential: Potential) -> tuple[NDArray[np.intp], Array, Array]:
     shares = np.concatenate([np.arange(count) for count in counts]) / counts[piece]
     low = edges[piece] * (1.0 - shares) + edges[piece + 1] * shares
     return piece, low, np.append(low[1:], 1.0)
-
-
-def _divided(piece: NDArray[np.intp], low: Array, high: Array) -> tuple[NDArray[np.intp], Array, Array]:
-    """A few equal parts of every cell."""
-    shares = np.arange(_PARTS + 1) / _PARTS
-    edges = low[:, None] * (1.0 - shares) + high[:, None] * shares
-    return np.repeat(piece, _PARTS), edges[:, :-1].ravel(), edges[:, 1:].ravel()
 
 
 def _proven(first: ProofCells, other: ProofCells | None) -> CellBounds:

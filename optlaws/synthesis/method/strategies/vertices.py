@@ -83,7 +83,8 @@ class ByVertices(Strategy[list[Points], ActiveSet]):
             return optimum, None
         onward = with_extrema(self.program, points, vertex.x)
         known = all(len(new.u) == len(old.u) for new, old in zip(onward, points, strict=True))
-        if self._ended(known=known):
+        last = known and (self.near is not None or self.program.curved or self.central)
+        if self.excess <= EXCESS or last or self.least <= self.excess <= _SLACK * EXCESS:
             return of_vertex(points, vertex), None
         self.least = min(self.least, self.excess)
         if self.excess <= _VERTEX_FINE:
@@ -110,11 +111,6 @@ class ByVertices(Strategy[list[Points], ActiveSet]):
             return None
         self.promising = self.excess / _CLOSER if self.program.size <= _SMALL else 0.0
         return optimum_near(self.program, self.holds, points, vertex)
-
-    def _ended(self, *, known: bool) -> bool:
-        """Whether the vertex is the optimum: it exceeds nothing, or no step pays; `known` are all its extrema."""
-        last = known and (self.near is not None or self.program.curved or self.central)
-        return self.excess <= EXCESS or last or self.least <= self.excess <= _SLACK * EXCESS
 
 
 def _excess(program: Program, x: Array) -> float:
