@@ -46,7 +46,10 @@ _HALVES_OF_PARTS = np.vander(0.5 * np.arange(2 * _PARTS + 1) / _PARTS, _PLACES +
     np.vander(_PLACES_OF_CELL[:_MIDDLE], _PLACES + 2)
 )
 _IN_PARTS, _OF_PARTS = _HALVES_OF_PARTS[1::2], _HALVES_OF_PARTS[::2]
-
+#: integrals from a cell's start to its places, of its length, by values at its places
+_RISES = (np.vander(_PLACES_OF_CELL, _PLACES + 3)[:, :-1] / np.arange(_PLACES + 2, 0, -1)) @ np.linalg.inv(
+    np.vander(_PLACES_OF_CELL[:_MIDDLE], _PLACES + 2)
+)
 
 #: an acceleration by the factors of bounds at a place of a cell and the squared velocity, and the number of its bound
 _Limit: TypeAlias = Callable[[list[Any], int, float], tuple[float, int]]
@@ -327,12 +330,6 @@ class _Sides:
         self.falls = [bound.fall for bound in bounds]
         #: the factors of forms at the ends and in the middles of the parts of cells, where they were asked for
         self.in_halves = [cells.in_halves_of_parts(bound.torque) for bound in bounds]
-        self._near_rest = _steps_near_rest(len(self.steps)) if self._has_roots else [1] * len(self.steps)
-
-    @property
-    def _has_roots(self) -> bool:
-        """Whether accelerations depend on the velocity itself, which is no smooth function of its square at rest."""
-        return any(np.any(form[1]) or np.any(form[4]) for forms in self.forms for form in forms)
 
     def in_middles(self, cells: NDArray[np.intp], parts: Array, *, ahead: bool) -> Array:
         """The greatest acceleration in the middles of parts of cells, or the least."""
@@ -377,29 +374,25 @@ class _Sides:
         known = self._integrated(inner, ahead=ahead)
         if known is None:
             return None
-        # squared velocities and their derivatives by s, at the starts and at the ends of cells
-        w0, w1, c0, c1 = np.array(known).T
-        h = self.cells.lengths
-        d0, d1 = 2.0 * h * c0 * self.cells.rate[:, _START], 2.0 * h * c1 * self.cells.rate[:, _END]
+        h, x = self.cells.lengths[:, None], _PLACES_OF_CELL
+        # squared velocities and their slopes, at the starts and at the ends of cells
+        w0, w1, c0, c1 = np.array(known).T[:, :, None]
+        d0, d1 = 2.0 * h * c0 * self.cells.rate[:, [_START]], 2.0 * h * c1 * self.cells.rate[:, [_END]]
 
-        bulges = np.zeros(count)
+        bulges = np.zeros((count, 1))
         for cell, (several, _) in inner.items():  # by the value in the middle
             bulges[cell] = 16.0 * several[len(several) // 2] - 8.0 * (w0 + w1)[cell] - 2.0 * (d0 - d1)[cell]
-
-        def hermite(cells: NDArray[np.intp], x: Array) -> Array:
-            rise = (w1 - w0)[cells, None]
-            by_slopes = (d0[cells, None] - rise) * (1.0 - x) + (rise - d1[cells, None]) * x
-            bulge = x * (1.0 - x) * bulges[cells, None]
-            return np.asarray(w0[cells, None] + rise * x + x * (1.0 - x) * (by_slopes + bulge))
-
-        uneven = [cell for cell, (_, changes) in inner.items() if changes]
-        w = hermite(np.arange(count), _PLACES_OF_CELL)
-        with np.errstate(all="ignore"):
-            c = _limit(self.forms, np.where(np.isfinite(w), np.maximum(w, 0.0), 0.0), ahead=ahead)
+        by_slopes = (d0 - w1 + w0) * (1.0 - x) + (w1 - w0 - d1) * x
+        w = w0 + (w1 - w0) * x + x * (1.0 - x) * (by_slopes + x * (1.0 - x) * bulges)
+        # the slopes that belong to these are more exact than their own
+        rises = (2.0 * h * self.cells.rate * self._limit(w, ahead=ahead))[:, :_MIDDLE] @ _RISES.T
+        w = w0 + rises if ahead else w1 - rises[:, [_END]] + rises
+        c = self._limit(w, ahead=ahead)
         w = np.where(np.isnan(w), inf, w)
+        uneven = [cell for cell, (_, changes) in inner.items() if changes]
 
         def in_parts(cells: NDArray[np.intp]) -> Array:
-            several = hermite(cells, np.arange(_PARTS + 1) / _PARTS)
+            several = w[cells, :_MIDDLE] @ _OF_PARTS.T
             for row, cell in enumerate(cells.tolist()):
                 if cell in uneven:
                     several[row] = inner[cell][0]
@@ -408,6 +401,11 @@ class _Sides:
         even = np.ones(count, dtype=bool)
         even[uneven] = False
         return _Arcs(w, c, even, in_parts)
+
+    def _limit(self, w: Array, *, ahead: bool) -> Array:
+        """The greatest acceleration at all places, or the least; at rest where no squared velocity is known."""
+        with np.errstate(all="ignore"):
+            return _limit(self.forms, np.where(np.isfinite(w), np.maximum(w, 0.0), 0.0), ahead=ahead)
 
     def _integrated(
         self, inner: dict[int, tuple[list[float], bool]], *, ahead: bool
@@ -425,6 +423,7 @@ class _Sides:
         most, fits = caps.tolist(), (self.fits[0] if ahead else self.fits[1][::-1]).tolist()
         first, middle, last = (0, 1, 2) if ahead else (2, 1, 0)
         rates = [self.at[place] for place in (first, middle, last)]
+        near_rest = _steps_near_rest(self.cells.lengths if ahead else self.cells.lengths[::-1])
         w, known, count = 0.0, list[tuple[float, float, float, float]](), len(most)
         not_known = (nan,) * 4
         for k in range(count):
@@ -435,10 +434,10 @@ class _Sides:
                 continue
             rows = self.rows[first], self.rows[middle], self.rows[last]
             more, c, several = _step(limit, rows, i, w, [2.0 * way * self.steps[i] * rate[i] for rate in rates])
-            if (steps := _PARTS if several else self._near_rest[k]) > 1:
+            if (steps := _PARTS if several else near_rest[k]) > 1:
                 in_parts = self._in_parts(limit, i, w, steps, ahead=ahead)
                 inner[i], more = (in_parts if ahead else in_parts[::-1], several), in_parts[-1]
-            if not more > 0.0 and k + 1 < count:
+            if not more > (0.0 if k + 1 < count else -INTEGRATION * w):
                 return None
             more = max(more, 0.0)
             beyond, _ = limit(self.rows[last], i, more)
@@ -488,9 +487,14 @@ def _limit(forms: Sequence[Sequence[tuple[Array, ...]]], w: Array, *, ahead: boo
     return np.asarray(limit if ahead else -limit)
 
 
-def _steps_near_rest(count: int) -> list[int]:
-    """How many steps a cell has, from one at rest on: each is short beside its distance from there."""
-    return [max(_PARTS >> cell.bit_length(), 1) for cell in range(count)]
+def _steps_near_rest(lengths: Array) -> list[int]:
+    """How many steps cells have, from one at rest on, a power of 2: each is short beside its distance from there.
+
+    Near rest the relative error of a squared velocity counts, which is as small as the velocity.
+    """
+    gone = np.concatenate([[_SHORTEST], np.cumsum(lengths[:-1])])
+    steps = 0.5 * _PARTS * lengths / gone
+    return [int(count) for count in 2.0 ** np.ceil(np.log2(np.clip(steps, 1.0, _PARTS)))]
 
 
 def _step(
