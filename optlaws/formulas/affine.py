@@ -171,7 +171,6 @@ def degree(formula: Formula, names: Mapping[str, int]) -> int | None:
 
 
 def _degree(formula: Formula, parts: list[int | None], names: Mapping[str, int]) -> int | None:
-    """The degree from the degrees of its parts."""
     if not formula.names() & names.keys():
         return 0
     if isinstance(formula, Name):

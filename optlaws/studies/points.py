@@ -163,7 +163,6 @@ def _check_span(name: str, span: SteppedRange | SampleSpan) -> None:
 
 
 def _whole(name: str, value: Any) -> int:
-    """The value as an integer."""
     number = numbers.real(value)
     if number is None or not number.is_integer():
         raise InputError(f"{name} must be a whole number at every point, got {shortened(value)}")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from time import monotonic
-from typing import Any, Protocol
+from typing import Any
 
 from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
@@ -14,8 +14,11 @@ from optlaws.shown.steps import watched
 _SECONDS = 10.0
 
 
-class Watch(Protocol):
-    """Reports of a study's progress: points done by status, at the beginning, now and then, and at the end."""
+class Watch:
+    """Reports of a study's progress: points done by status, at the beginning, now and then, and at the end.
+
+    This one shows nothing; others override what they show.
+    """
 
     def begin(self, total: int, counts: Mapping[str, int]) -> None:
         """Begin a run with a number of finished points."""
@@ -27,20 +30,7 @@ class Watch(Protocol):
         """The run ends, finished or not."""
 
 
-class Silent:
-    """Progress that is not shown."""
-
-    def begin(self, total: int, counts: Mapping[str, int]) -> None:
-        """Show nothing at the start."""
-
-    def advance(self, counts: Mapping[str, int]) -> None:
-        """Show nothing at a step."""
-
-    def end(self, counts: Mapping[str, int]) -> None:
-        """Show nothing at the end."""
-
-
-class Bar:
+class Bar(Watch):
     """A progress bar with rate, time left and counts by status."""
 
     def __init__(self, console: Console) -> None:
@@ -54,31 +44,27 @@ class Bar:
         )
 
     def begin(self, total: int, counts: Mapping[str, int]) -> None:
-        """Show the bar, at its start."""
         self._rate = _Rate(total, counts)
         done = sum(counts.values())
         self._task = self._progress.add_task("", total=total, completed=done, rate="", counts=listed(counts))
         self._progress.start()
 
     def advance(self, counts: Mapping[str, int]) -> None:
-        """Move the bar by some steps."""
         rate, _ = self._rate.texts(counts)
         self._progress.update(self._task, completed=sum(counts.values()), rate=rate, counts=listed(counts))
 
     def end(self, counts: Mapping[str, int]) -> None:
-        """Leave the bar unchanged."""
         self.advance(counts)
         self._progress.stop()
 
 
-class Lines:
+class Lines(Watch):
     """A line of text at the beginning, every ten seconds and at the end."""
 
     def __init__(self, console: Console) -> None:
         self._console = console
 
     def begin(self, total: int, counts: Mapping[str, int]) -> None:
-        """Print the line of the start."""
         self._rate, self._total, self._last = _Rate(total, counts), total, monotonic()
         self._print(f"{sum(counts.values())} of {total} points done before")
 
@@ -89,7 +75,6 @@ class Lines:
             self.end(counts)
 
     def end(self, counts: Mapping[str, int]) -> None:
-        """Print the line of the end."""
         parts = (f"{sum(counts.values())} of {self._total}", *self._rate.texts(counts), listed(counts))
         self._print(", ".join(part for part in parts if part))
 
@@ -99,7 +84,7 @@ class Lines:
 
 def watching() -> Watch:
     """A bar for whoever watches, on a terminal or in a notebook; nothing elsewhere."""
-    return Bar(Console(stderr=True)) if watched() else Silent()
+    return Bar(Console(stderr=True)) if watched() else Watch()
 
 
 class _Rate:

@@ -56,7 +56,6 @@ class SolvedPart:
 
     @property
     def coordinates(self) -> Array:
-        """The coordinates of each law."""
         return self.optima.x[:, : self.model.space.terms]
 
     @property

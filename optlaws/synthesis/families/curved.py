@@ -61,7 +61,6 @@ class FormulaFamily(NonlinearFamily):
         raise TypeError(f"{self.formula} is not quadratic at {u:g}")
 
     def scaled_down(self, by: float) -> Self:
-        """The same family divided by a power of 2, the formula included."""
         return self if by == 1.0 else self._divided(by, scaled(self.formula, 1.0 / by))
 
     def _divided(self, by: float, formula: Formula) -> Self:
@@ -243,7 +242,6 @@ class CurvedFamily(FormulaFamily):
         return from_values(np.broadcast_to(heights, places.shape).T).T
 
     def value(self, x: Array, u: Array) -> Array:
-        """f at the points u."""
         values = [part.value(x, u) for _, part in self.parts]
         return self.slopes.value(self._at(np.array(values), u))
 
@@ -380,7 +378,6 @@ class IntegralFamily(WholeLawFamily, FormulaFamily):
         return height, share, np.asarray((weighted @ self.columns).sum(axis=0))
 
     def planes(self, u: Array, point: Array) -> tuple[Array, Array, Array]:
-        """The plane that touches f in each law."""
         height, share, rows = self._planes(self._at_nodes(point))
         plane = share[:, None] * rows
         plane[:, -1] += height - (plane * point).sum(axis=1)
@@ -388,7 +385,6 @@ class IntegralFamily(WholeLawFamily, FormulaFamily):
         return planes, np.zeros(planes.shape), np.zeros(u.shape)
 
     def hessians(self, u: Array, point: Array, weights: Array) -> Array:  # noqa: ARG002 - it has no place
-        """The second derivatives of f, times the sum of weights."""
         names = self._at_nodes(point)
         moved = between(self.slopes.hessian(names) * self.weights, self.columns[:, None, :, :-1])
         if self.root:
@@ -408,5 +404,4 @@ class IntegralFamily(WholeLawFamily, FormulaFamily):
         return np.asarray((blur * share * weights.sum(axis=1))[:, None] * rows)
 
     def greatest(self, point: Array) -> Array:
-        """The integral in each law."""
         return self.outer(self.slopes.value(self._at_nodes(point)) @ self.weights)[0]

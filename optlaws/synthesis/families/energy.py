@@ -195,7 +195,6 @@ class EnergyFamily(ConstraintFamily):
         return np.asarray(0.5 * (high + low) + 0.5 * (high - low) * local)
 
     def jet(self, x: Array, u: Array, s: Array) -> RowJet:
-        """Residuals of the energy with their derivatives."""
         peak = self._taylor(x, u)
         return RowJet(
             s * peak.value - self.right_side(x),
@@ -206,11 +205,9 @@ class EnergyFamily(ConstraintFamily):
         )
 
     def hessian(self, x: Array, u: Array, weights: Array) -> Array | None:
-        """Second derivatives of f, weighted."""
         return np.asarray(np.tensordot(weights, self._taylor(x, u).curvature[:, 1:, 1:], axes=1))
 
     def value(self, x: Array, u: Array) -> Array:
-        """f at the points u."""
         values = np.full(len(u), self.scale * (0.5 / self.energy.value(x)) ** self.degree)
         for factor in self.factors:
             values = values * factor.value(x, u)

@@ -184,7 +184,6 @@ class NonlinearFamily(BatchFamily):
         """The greatest of f, with the signs that count, in each law over the whole domain."""
 
     def jet(self, x: Array, u: Array, s: Array) -> RowJet:
-        """Residuals of one law with their derivatives."""
         point = np.append(x, 1.0)
         planes, slopes, bend = self.planes(u[None], point[None])
         signs = s[:, None]
@@ -194,7 +193,6 @@ class NonlinearFamily(BatchFamily):
         )
 
     def hessian(self, x: Array, u: Array, weights: Array) -> Array | None:
-        """Second derivative by x of the sum of weights times f in one law."""
         return np.asarray(self.hessians(u[None], np.append(x, 1.0)[None], weights[None])[0])
 
 
@@ -239,7 +237,6 @@ class LinearFamily(SeriesFamily):
         return columns[:, :-1] - self.slack, self.bound - columns[:, -1]
 
     def jet(self, x: Array, u: Array, s: Array) -> RowJet:
-        """Residuals of the rows with their derivatives."""
         columns = self.columns(u) * s[:, None]
         columns[0, :, :-1] -= self.slack
         value, slope, curvature = columns @ np.append(x, 1.0)
@@ -276,7 +273,6 @@ class LinearFamily(SeriesFamily):
         return np.asarray(weights.sum(axis=1)[:, None] * self.rounding)
 
     def value(self, x: Array, u: Array) -> Array:
-        """f at the points u."""
         point = np.append(x, 1.0)
         return np.asarray(chebyshev.chebval(u, self.series @ point) if self.plain else self.columns(u)[0] @ point)
 
@@ -372,7 +368,6 @@ class ProductFamily(NonlinearFamily):
     second: LinearFamily
 
     def scaled_down(self, by: float) -> Self:
-        """The family divided by a power of 2."""
         first = self.first.scaled_down(by)
         return replace(self, first=first, slack=self.slack / by, bound=self.bound / by, unit=self.unit * by)
 
@@ -435,7 +430,6 @@ class WholeLawFamily(NonlinearFamily):
     domain: tuple[float, float] = (1.0, 1.0)
 
     def value(self, x: Array, u: Array) -> Array:
-        """The value of f for any points."""
         return np.full(len(u), self.greatest(np.append(x, 1.0)[None])[0])
 
     def stationary(self, x: Array) -> Array:  # noqa: ARG002
@@ -467,7 +461,6 @@ class NormFamily(WholeLawFamily):
         return size, (image / size[:, None]) @ self.matrix
 
     def hessians(self, u: Array, point: Array, weights: Array) -> Array:  # noqa: ARG002 - it has no place
-        """The second derivatives of the norm, times the sum of weights."""
         size, shown = self._touching(point)
         rows, matrix = shown[:, :-1], self.matrix[:, :-1]
         bent = matrix.T @ matrix - rows[:, :, None] * rows[:, None, :]
@@ -479,7 +472,6 @@ class NormFamily(WholeLawFamily):
         return np.asarray(weights.sum(axis=1)[:, None] * errors)
 
     def greatest(self, point: Array) -> Array:
-        """The norm of each law."""
         return self._touching(point)[0]
 
 
@@ -522,7 +514,6 @@ class Program:
 
     @property
     def size(self) -> int:
-        """The number of the variables."""
         return len(self.objective)
 
     @property

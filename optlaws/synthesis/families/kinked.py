@@ -106,7 +106,6 @@ class KinkedIntegralFamily(IntegralFamily):
         return formula, Together(tuple(switches[: len(plain)])), Together(tuple(switches[len(plain) :])), tables
 
     def in_units(self, units: Array, unit: float) -> Self:
-        """The family of variables in other units; its own unit stays."""
         return replace(super().in_units(units, unit), units=self.units * np.append(units, 1.0))
 
     def rounded(self, share: float, x: Array) -> IntegralFamily:
@@ -201,7 +200,6 @@ class KinkedIntegralFamily(IntegralFamily):
         return tuple(x.tolist())
 
     def tangent_row(self, u: float, sign: float, point: tuple[float, ...]) -> Array | None:  # noqa: ARG002
-        """The affine function that touches f at the variables that are given, the constant last."""
         if not self.convex or len(point) != len(self.slack):
             return None
         split = self.split(np.array(point))
@@ -211,7 +209,6 @@ class KinkedIntegralFamily(IntegralFamily):
         return row
 
     def jet(self, x: Array, u: Array, s: Array) -> RowJet:
-        """The residual with its gradient."""
         split = self.split(x)
         value, share = self.outer(np.array(split.total))
         nothing = np.zeros(len(u))
@@ -219,7 +216,6 @@ class KinkedIntegralFamily(IntegralFamily):
         return RowJet(s * value - self.right_side(x), nothing, nothing, gradient, np.zeros((len(u), len(x))))
 
     def hessian(self, x: Array, u: Array, weights: Array) -> Array | None:  # noqa: ARG002 - it has no place
-        """The second derivatives of f, times the sum of weights."""
         of_law = self.free_kinks(x, self.split(x).stretches)
         moving = of_law.along != 0.0
         across = of_law.across[moving]

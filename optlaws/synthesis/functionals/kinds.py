@@ -51,7 +51,6 @@ class OfFormula(Functional):
 
     @property
     def scale(self) -> float:
-        """The scale of the formula, a power of 2."""
         return self.motion.scale
 
     @property
@@ -138,7 +137,6 @@ class OfFormula(Functional):
         return self._families(space, slack, bound)
 
     def _families(self, space: LawSpace, slack: Array, bound: float) -> tuple[ConstraintFamily, ...]:
-        """The families of the rows themselves."""
         return tuple(branch_rows(space, branch, slack, bound) for branch in self.branches(symmetric=space.symmetric))
 
 
@@ -165,7 +163,6 @@ class FormulaPeak(OfFormula):
         return max([least, *(sign * value - VALUE_ROUNDING * size for value, size in known for sign in self.signs)])
 
     def value(self, law: MotionLaw) -> float:
-        """The peak over the whole part."""
         return max(greatest_along(self.motion, sign, law) for sign in self.counted)
 
     def _size(self, space: LawSpace) -> SizeBound | None:
@@ -189,7 +186,6 @@ class FormulaPeak(OfFormula):
         return None
 
     def branches(self, *, symmetric: bool) -> list[Branch]:
-        """The smooth formulas whose rows hold the peak."""
         halves = sides(self.motion, self.name, self.counted, symmetric=symmetric)
         several = [split(side.motion, sign, side.name) for side in halves for sign in side.signs]
         return [branch for branches in several for branch in branches or []]
@@ -228,7 +224,6 @@ class FormulaRms(OfFormula):
 
     @property
     def length(self) -> float:
-        """The length of the part of the interval."""
         return self.motion.stop - self.motion.start
 
     def value(self, law: MotionLaw) -> float:
@@ -280,7 +275,6 @@ class FormulaIntegral(OfFormula):
         return by_integral(space, self.motion) if self.convex and not self.affine else None
 
     def _families(self, space: LawSpace, slack: Array, bound: float) -> tuple[ConstraintFamily, ...]:
-        """A family of a single row."""
         return (integral_rows(space, self.motion, self.name, slack, bound, root=False, convex=self.convex),)
 
 
@@ -289,11 +283,9 @@ class FormulaValue(OfFormula):
     """Value of a formula at a single k; constructed by `value`."""
 
     def value(self, law: MotionLaw) -> float:
-        """The value along a law."""
         return value_along(self.motion, law)
 
     def branches(self, *, symmetric: bool) -> list[Branch]:
-        """The smooth formulas whose rows hold the value."""
         [motion] = self.parts(symmetric=symmetric)
         return split(motion, 1.0, self.name) or []
 

@@ -264,7 +264,6 @@ class TimedMove:
 
     @property
     def _lowest(self) -> RateLimit:
-        """The limit of the lowest derivative."""
         return min(self.rates, key=lambda limit: limit.nu)
 
     def within(self, duration: float, shortest: float | None = None) -> Problem:

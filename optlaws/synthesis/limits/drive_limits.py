@@ -469,7 +469,6 @@ def _bound(limit: DriveLimit) -> float:
 
 
 def _attained(limit: DriveLimit) -> float:
-    """The value of the motion of a limit."""
     return _put_right(
         limit, _in_units(value_of(limit.plane, limit.edges, limit.s, limit.b), limit.minimise, limit.unit, inf)
     )

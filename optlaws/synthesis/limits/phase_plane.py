@@ -156,7 +156,6 @@ class PhasePlane(JsonText):
 
     @property
     def torques(self) -> tuple[AnyTorque, ...]:
-        """Every torque that occurs in it."""
         first = [torque for torque in (self.squared, self.peak) if torque is not None]
         several = [torque for torques in self.maxima for torque in torques]
         return (*first, *several, *(limit.torque for limit in self.limits))

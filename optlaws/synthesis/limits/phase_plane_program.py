@@ -202,7 +202,6 @@ class _Program:
         self._write()
 
     def solved(self) -> PhaseOptimum:
-        """The optimum with its multipliers."""
         import clarabel
         from scipy.sparse import csc_matrix, vstack
 

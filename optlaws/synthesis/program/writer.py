@@ -121,7 +121,6 @@ def _objective_terms(expression: Expression) -> tuple[list[Term], list[Maximum]]
 
 
 def _objective_names(problem: Problem) -> list[str]:
-    """Names of the variables in the objective."""
     return [repr(term) for terms in _objective_terms(problem.objective) for term in terms]
 
 

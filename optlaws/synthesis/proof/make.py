@@ -88,7 +88,6 @@ def certify(model: Model, optimum: ActiveSet, objective: float, limit: float | N
 
 
 def _of_convex(model: Model, optimum: ActiveSet, objective: float) -> Certificate:
-    """The certificate of the optimum of a convex problem."""
     if abs(objective) <= OPTIMALITY_GAP * model.problem.objective.scale:
         # constants that are nowhere below 0 say so without a sum, of which rounding would be all that is left
         plain = Certificate.of_leaf(model.problem)

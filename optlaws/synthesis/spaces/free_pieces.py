@@ -132,7 +132,6 @@ class PieceSpace(PiecewiseSpace):
         return PieceSeries(pieces.breaks, np.stack(integrals))
 
     def forward(self, slack: Array) -> ConstraintFamily:
-        """Rows b >= 0, divided by their zeros at the ends for laws from rest to rest."""
         order = self.boundary.order
         whole = len(self.k) == 2 and not self.symmetric
         if order == 1 or whole or self.boundary != BoundaryConditions.rest(order):

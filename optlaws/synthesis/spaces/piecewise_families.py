@@ -82,7 +82,6 @@ class PieceFamily(LinearFamily):
     jumps: bool = False
 
     def in_units(self, units: Array, unit: float) -> Self:
-        """The columns on every piece and the right side in other units."""
         pieces = PieceSeries(self.pieces.breaks, self.pieces.series * np.append(units, 1.0) / unit)
         return replace(self, pieces=pieces, slack=self.slack * units / unit, bound=self.bound / unit)
 

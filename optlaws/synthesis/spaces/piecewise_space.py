@@ -152,7 +152,6 @@ class PiecewiseSpace(LawSpace):
         return mirrored(series)
 
     def combined(self, nu: int, weights: tuple[float, ...]) -> PieceSeries:
-        """Series of w0 a^(nu) + w1 a^(nu+1) + ..., the base law's column last."""
         self._finite(nu + len(weights) - 1)
         lowest = self.pieces(nu)
         if weights == (1.0,):
@@ -169,7 +168,6 @@ class PiecewiseSpace(LawSpace):
         return self.pieces(nu).values(u)
 
     def degree_of(self, nu: int) -> int:
-        """The degree of the derivative of order nu on every piece."""
         return int(self.pieces(nu).series.shape[1]) - 1
 
     @property
@@ -178,7 +176,6 @@ class PiecewiseSpace(LawSpace):
         return tuple(self.pieces(2).breaks.tolist())
 
     def jumps(self, nu: int) -> bool:
-        """Whether the derivative of order nu may jump at a break."""
         return nu > self.continuity
 
     def row(self, nu: int, k: float) -> Array:

@@ -174,7 +174,6 @@ class PolynomialSpace(LawSpace):
         return np.append(np.zeros(self.terms), float(self.boundary.start[1]))
 
     def z_series(self, coordinates: Array) -> Array:
-        """Chebyshev series of Z in 2k - 1."""
         series = from_values((self._shapes[3] * self.scale[:, None]).T)[: self.degree + 1]
         mirrored: Array = series @ coordinates
         mirrored[1::2] *= -1.0
@@ -183,7 +182,6 @@ class PolynomialSpace(LawSpace):
         return mirrored
 
     def given(self, series: Array, size: int, *, jumps: bool = False) -> dict[str, Any]:
-        """The series, over all variables."""
         del jumps
         return {"series": self.widened(series, size)}
 
@@ -192,7 +190,6 @@ class PolynomialSpace(LawSpace):
         return series * (-1.0) ** np.arange(len(series))[:, None]
 
     def combined(self, nu: int, weights: tuple[float, ...]) -> Array:
-        """Series of w0 a^(nu) + w1 a^(nu+1) + ..., the base law's as the last column."""
         if weights == (1.0,):
             return self.series(nu)
         total = np.zeros_like(self.series(nu))
@@ -225,7 +222,6 @@ class PolynomialSpace(LawSpace):
         return np.asarray(known[1][:, : len(series)] @ series)
 
     def degree_of(self, nu: int) -> int:
-        """The degree of the derivative of order nu."""
         return len(self.series(nu)) - 1
 
     def row(self, nu: int, k: float) -> Array:

@@ -158,7 +158,6 @@ class PolynomialPiece(ExactPiece):
         return self.derivative(nu)(self.local(k))
 
     def value(self, nu: int, k: Fraction) -> arb:
-        """The derivative of order nu at k."""
         return arb(self.exact(nu, k))
 
     def extremes(self, nu: int, start: Fraction, stop: Fraction) -> Extremes:
@@ -226,7 +225,6 @@ class SinePiece(ExactPiece):
         return sum((_sine(sine, nu, s) for sine in self.sines), s * 0)
 
     def value(self, nu: int, k: Fraction) -> arb:
-        """The derivative of order nu at k."""
         return self.at(nu, ball(k - self.start))
 
     def extremes(self, nu: int, start: Fraction, stop: Fraction) -> Extremes:

@@ -166,7 +166,6 @@ class FormulaRows(BoxRows):
 
     @kept_property
     def integrals(self) -> dict[str, ConvexUnderestimator]:
-        """Underestimators of integrals, by the names of their rows."""
         formulas = {
             constant.name: constant
             for constant in self.problem.constants
@@ -234,7 +233,6 @@ class FormulaRows(BoxRows):
         return beneath.row(box, np.array(contact.direction), self._limits, self._room(beneath.family))
 
     def is_curved(self, family: ConstraintFamily) -> bool:
-        """Whether the family belongs to a formula."""
         return isinstance(family, CurvedFamily)
 
     @kept_property

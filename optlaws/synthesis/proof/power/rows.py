@@ -74,7 +74,6 @@ class PowerRows(BoxRows):
         return [] if self.place is None or alone else [self.place]
 
     def is_curved(self, family: ConstraintFamily) -> bool:
-        """Whether the family is the power."""
         return isinstance(family, ProductFamily)
 
     def kinds(self, box: Box) -> list[tuple[str, float]]:
