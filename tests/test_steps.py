@@ -9,7 +9,7 @@ import pytest
 
 from optlaws import Problem, ProblemArray, pareto_front, synthesize_array
 from tests.internals.shown import steps
-from tests.internals.studies import Bar, Watch, watching
+from tests.internals.studies import Bar, Silent, watching
 
 
 class Terminal(StringIO):
@@ -40,7 +40,7 @@ def test_nobody_sees_what_is_quick_or_said_otherwise(monkeypatch: pytest.MonkeyP
     terminal = watched_by(monkeypatch)
     with steps.without_bars():
         pareto_front(Problem(order=3), points=4, between=(1.6, 1.8))
-        assert type(watching()) is Watch
+        assert type(watching()) is Silent
     assert isinstance(watching(), Bar)
     monkeypatch.setattr(steps, "PATIENCE", 60.0)
     pareto_front(Problem(order=3), points=4, between=(1.6, 1.8))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from time import monotonic
-from typing import Any
+from typing import Any, Protocol
 
 from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
@@ -14,11 +14,8 @@ from optlaws.shown.steps import watched
 _SECONDS = 10.0
 
 
-class Watch:
-    """Reports of a study's progress: points done by status, at the beginning, now and then, and at the end.
-
-    This one shows nothing; others override what they show.
-    """
+class Watch(Protocol):
+    """Reports of a study's progress: points done by status, at the beginning, now and then, and at the end."""
 
     def begin(self, total: int, counts: Mapping[str, int]) -> None:
         """Begin a run with a number of finished points."""
@@ -28,6 +25,19 @@ class Watch:
 
     def end(self, counts: Mapping[str, int]) -> None:
         """The run ends, finished or not."""
+
+
+class Silent:
+    """Progress that is not shown."""
+
+    def begin(self, total: int, counts: Mapping[str, int]) -> None:
+        """Show nothing at the start."""
+
+    def advance(self, counts: Mapping[str, int]) -> None:
+        """Show nothing at a step."""
+
+    def end(self, counts: Mapping[str, int]) -> None:
+        """Show nothing at the end."""
 
 
 class Bar(Watch):
@@ -84,7 +94,7 @@ class Lines(Watch):
 
 def watching() -> Watch:
     """A bar for whoever watches, on a terminal or in a notebook; nothing elsewhere."""
-    return Bar(Console(stderr=True)) if watched() else Watch()
+    return Bar(Console(stderr=True)) if watched() else Silent()
 
 
 class _Rate:

@@ -12,9 +12,9 @@ import pytest
 from optlaws import Problem, ProblemArray, Solution, open_study, run_study, synthesize_array
 from tests.internals.studies import (
     Serial,
+    Silent,
     StudyPoints,
     Task,
-    Watch,
     along_B,
     array_along_B,
     blocks,
@@ -33,7 +33,7 @@ ASKED: dict[str, Any] = {
 }
 
 
-class StopAfter(Watch):
+class StopAfter(Silent):
     """Ends a run by Ctrl-C when so many points are done."""
 
     def __init__(self, points: int) -> None:
