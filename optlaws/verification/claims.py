@@ -37,20 +37,7 @@ from optlaws.verification.enclosing.pieces import between, least_and_greatest
 from optlaws.verification.exact.bound import Proof, prove
 from optlaws.verification.exact.law import ExactLaw
 from optlaws.verification.exact.sublevel_bounds import exact_limit
-from optlaws.verification.file_entries import (
-    NO_FILE,
-    FileEntry,
-    check_keys,
-    entries,
-    is_array,
-    is_drive_limit,
-    is_entry,
-    is_least_time,
-    is_move_limit,
-    is_overlap,
-    is_proven_front,
-    is_time_front,
-)
+from optlaws.verification.file_entries import NO_FILE, FileEntry, check_keys, entries, is_entry, kind_of
 from optlaws.verification.fronts_and_times import least_time, overlap_of_axes, proven_front, time_front
 from optlaws.verification.reading import built, number, read
 from optlaws.verification.result import Claim, Verification
@@ -207,7 +194,7 @@ def _entry(entry: FileEntry) -> Verification:
         claim = Claim(f"{entry.around.status}", proven=False, detail="no certificate stands beside it")
         return Verification(problem=None, bound=None, claims=(claim,))
     check_keys(entry.data)
-    alone = next(verified for known, verified in _KINDS if known(entry.data))(entry.data)
+    alone = _VERIFIED[kind_of(entry.data)](entry.data)
     return replace(alone, claims=(*alone.claims, *claims_in_context(entry, alone)))
 
 
@@ -254,7 +241,7 @@ def _arrays(data: Mapping[str, Any]) -> Verification:
 def _limit_of_drive(data: Mapping[str, Any]) -> Verification:
     """A limit of drives, whose bound is computed again from its potential; in SI units by the unit of its move."""
     claims, unit = [], Fraction(1)
-    if is_drive_limit(data):
+    if kind_of(data) == "drive limit":
         limit = built(DriveLimit.stated, data, "the drive's limit")
     else:
         moved, wrong = built(MoveLimit.stated, data, "the limit of a move")
@@ -469,16 +456,16 @@ def _constants(entry: FileEntry) -> Iterator[Claim]:
         yield near(f"the front's {name}", value, enclosed(law.term(constant)))
 
 
-#: what an entry is, and how it is verified; the first that fits
-_KINDS: tuple[tuple[Callable[[Mapping[str, Any]], bool], Callable[[Mapping[str, Any]], Verification]], ...] = (
-    (is_array, _arrays),
-    (is_proven_front, _front),
-    (is_drive_limit, _limit_of_drive),
-    (is_move_limit, _limit_of_drive),
-    (is_least_time, _least_time),
-    (is_time_front, _time_front),
-    (is_overlap, overlap_of_axes),
-    (lambda data: "certificate" in data, _solution),
-    (lambda data: "law" in data, _law_alone),
-    (lambda _: True, _certificate),
-)
+#: how an entry of each kind is verified
+_VERIFIED: Mapping[str | None, Callable[[Mapping[str, Any]], Verification]] = {
+    "array": _arrays,
+    "proven front": _front,
+    "drive limit": _limit_of_drive,
+    "move limit": _limit_of_drive,
+    "least time": _least_time,
+    "time front": _time_front,
+    "overlap": overlap_of_axes,
+    "solution": _solution,
+    "law": _law_alone,
+    "certificate": _certificate,
+}

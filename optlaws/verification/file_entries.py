@@ -39,6 +39,22 @@ _OF_PROOFS = {
 }
 
 
+#: kinds of entries by the keys that each has at least; the first that fits
+_KINDS = (
+    ("array", {"shape", "solutions"}),
+    ("proven front", {"runs", "problem", "points"}),
+    ("drive limit", {"plane", "potential"}),
+    ("move limit", {"drive_limit", "unit", "dimension"}),
+    ("least time", {"duration", "solution", "proofs"}),
+    ("time front", {"minimise", "fastest", "points"}),
+    ("overlap", {"goal", "axes", "given"}),
+    ("solution", {"problem", "law", "certificate"}),
+    ("law", {"law", "constants"}),
+    ("certificate", {"problem", "contacts"}),
+    ("certificate", {"problem", "steps"}),
+)
+
+
 class SolutionFile(msgspec.Struct, forbid_unknown_fields=True):
     """The output of `Solution.to_dict`, and of commands; its claims are checked elsewhere."""
 
@@ -193,54 +209,25 @@ def laws_within(data: object, path: str = "") -> Iterator[tuple[str, Data]]:
 
 
 def is_entry(data: Data) -> bool:
-    """Whether this is a solution, a certificate, a law, a proven front or a least time, whatever its other entries."""
-    solution = {"problem", "law", "certificate"} <= data.keys()
-    certificate = {"problem", "contacts"} <= data.keys() or {"problem", "steps"} <= data.keys()
-    of_drive = is_drive_limit(data) or is_move_limit(data)
-    several = is_proven_front(data) or is_least_time(data) or is_time_front(data) or is_overlap(data) or of_drive
-    return solution or certificate or several or {"law", "constants"} <= data.keys()
+    """Whether this is what is verified by itself, whatever its other entries: anything but an array of solutions."""
+    return any(keys <= data.keys() for kind, keys in _KINDS if kind != "array")
 
 
-def is_array(data: Data) -> bool:
-    """Whether this is an array of solutions, with the arrays that it is read from."""
-    return {"shape", "solutions"} <= data.keys()
+def kind_of(data: Data) -> str | None:
+    """The kind of an entry, by the keys that it has at least; None of what is no entry.
 
-
-def is_proven_front(data: Data) -> bool:
-    """Whether this is a front that is proven at every value of a number."""
-    return {"runs", "problem", "points"} <= data.keys()
-
-
-def is_drive_limit(data: Data) -> bool:
-    """Whether this is the limit of a drive, with its potential as certificate."""
-    return {"plane", "potential"} <= data.keys()
-
-
-def is_move_limit(data: Data) -> bool:
-    """Whether this is the limit of a drive in SI units."""
-    return {"drive_limit", "unit", "dimension"} <= data.keys()
-
-
-def is_least_time(data: Data) -> bool:
-    """Whether this is the least time of a move, with its law and its proofs."""
-    return {"duration", "solution", "proofs"} <= data.keys()
-
-
-def is_time_front(data: Data) -> bool:
-    """Whether this is a front over the time of a move."""
-    return {"minimise", "fastest", "points"} <= data.keys()
-
-
-def is_overlap(data: Data) -> bool:
-    """Whether this is a machine whose moves overlap, beside the machine that was given."""
-    return {"goal", "axes", "given"} <= data.keys()
+    >>> kind_of({"law": {}, "constants": {}, "about": ""}), kind_of({"about": ""})
+    ('law', None)
+    """
+    return next((kind for kind, keys in _KINDS if keys <= data.keys()), None)
 
 
 def check_keys(data: Data) -> None:
     """Refuse an entry with keys that no entry of its kind has."""
-    if is_least_time(data):
+    kind = kind_of(data)
+    if kind == "least time":
         _stated(data, LeastTimeFile, "the least time")
-    elif is_time_front(data):
+    elif kind == "time front":
         _stated(data, TimeFrontFile, "the front over the time")
     elif "certificate" in data:
         _stated(data, SolutionFile, "the solution")
@@ -267,7 +254,7 @@ def _walk(data: object, path: str, around: Around) -> Iterator[tuple[str, FileEn
         yield path, FileEntry(data, around)
     elif {"solution", "asked"} & data.keys():
         yield from _row(_stated(data, TableRow, path), path, around)
-    elif is_array(data):
+    elif kind_of(data) == "array":
         yield from _array(_stated(data, SolutionArrayFile, path or "the array of solutions"), data, path)
     elif "over" in data:
         yield from _front(_stated(data, FrontFile, path or "the front"), path)
