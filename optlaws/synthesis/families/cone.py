@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from typing import Protocol
 
 import numpy as np
 from numpy.polynomial import chebyshev
@@ -13,16 +12,9 @@ from numpy.typing import NDArray
 from optlaws.numbers import Array
 from optlaws.numerics.chebyshev import product, real_parts_of_roots
 from optlaws.synthesis.families.family import NonlinearFamily, RowJet, SeriesFamily, last_result
+from optlaws.synthesis.families.formula_slopes import Slopes
 from optlaws.synthesis.families.peaks import peaks, products
 from optlaws.tolerances import EPSILON, ROW_ROUNDING, TINY
-
-
-class _Expanded(Protocol):
-    """A formula's values and derivatives by its names."""
-
-    def value(self, at: Mapping[str, Array]) -> Array: ...
-    def gradient(self, at: Mapping[str, Array]) -> Array: ...
-    def hessian(self, at: Mapping[str, Array]) -> Array: ...
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,7 +35,7 @@ class SumOfSquares:
 
 
 def sum_of_squares(
-    slopes: _Expanded, at: Mapping[str, Array], columns: Array, weights: Array, *, root: bool = False
+    slopes: Slopes, at: Mapping[str, Array], columns: Array, weights: Array, *, root: bool = False
 ) -> SumOfSquares:
     """The sum over places of a formula that is quadratic in its names, and convex, times weights above 0.
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from itertools import product
 from math import ceil, floor
 
@@ -20,7 +19,6 @@ from optlaws.synthesis.method.discretised.linear import vertex_on_points
 from optlaws.synthesis.method.equations import contradiction
 from optlaws.synthesis.method.exchange import DEPTH, Outcome, grounded, solve
 from optlaws.synthesis.method.strategies.identified import as_answered
-from optlaws.synthesis.method.strategies.strategy import Strategy, cutting_plane_loop
 from optlaws.synthesis.problem.constants import C, Functional
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.problem.windows import Window
@@ -205,25 +203,16 @@ def _at_vertices(elastic: Model) -> Certificate | None:
         inner.joined(Points(np.tile(family.domain, len(family.signs)), np.repeat(family.signs, 2)))
         for family, inner in zip(program.families, first_points(program), strict=True)
     ]
-    return cutting_plane_loop(_Contradicting(elastic), points)[0]
-
-
-@dataclass(frozen=True)
-class _Contradicting(Strategy[list[Points], Certificate]):
-    """Vertices of least violation; their rows may contradict each other before all active rows are known."""
-
-    elastic: Model
-    rounds: int = _ROUNDS
-
-    def answered(self, points: list[Points]) -> tuple[Certificate | None, list[Points] | None]:
-        """The proof, or the points with the vertex's extrema."""
-        vertex = vertex_on_points(self.elastic.program, points)
+    for _ in range(_ROUNDS):
+        vertex = vertex_on_points(program, points)
         if vertex is None:
-            return None, None
-        proof = violation_certificate(self.elastic, as_answered(points, vertex))
+            return None
+        # its rows may contradict each other before all active rows are known
+        proof = violation_certificate(elastic, as_answered(points, vertex))
         if proof.proves_infeasible:
-            return proof, None
-        return None, with_extrema(self.elastic.program, points, vertex.x)
+            return proof
+        points = with_extrema(program, points, vertex.x)
+    return None
 
 
 def _disagreeing(problem: Problem, proof: Certificate, elastic: Model) -> str:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,7 +12,6 @@ from optlaws.numbers import Array
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.family import ConstraintFamily, Program
 from optlaws.synthesis.method.newton import newton
-from optlaws.synthesis.method.strategies.strategy import Strategy, cutting_plane_loop
 from optlaws.tolerances import EXCESS, SAME_PLACE
 
 _PULLING = 1e-10  # of the greatest multiplier: one that is more negative pulls, and its contact is dropped
@@ -20,38 +19,23 @@ _PULLING = 1e-10  # of the greatest multiplier: one that is more negative pulls,
 _CORRECTIONS = 8
 
 
-@dataclass(frozen=True, eq=False)
-class ByContacts(Strategy[ActiveSet, ActiveSet]):
-    """Newton's method on a guess of the contacts.
-
-    Attributes
-    ----------
-    program
-        What is solved.
-    holds
-        Checks from x alone, faster than the families do, whether every constraint holds.
-    """
-
-    program: Program
-    holds: Callable[[Array], bool] | None = None
-    rounds: int = _CORRECTIONS
-
-    def answered(self, state: ActiveSet) -> tuple[ActiveSet | None, ActiveSet | None]:
-        """The optimum, if its contacts are all there are, or the guess that it leads to."""
-        optimum = newton(self.program, state)
-        if optimum is None:
-            optimum = newton(self.program, state, deficient=True)
-        if optimum is None:
-            return None, None
-        guess = settled(self.program, optimum)
-        if guess is optimum and (self.holds is None or not self.holds(optimum.x)):
-            guess = completed(self.program, optimum)
-        return (optimum, None) if guess is optimum else (None, guess)
-
-
 def polished(program: Program, guess: ActiveSet, holds: Callable[[Array], bool] | None) -> ActiveSet | None:
-    """The optimum that a guess of its contacts leads to; None where Newton's method does not find it."""
-    return cutting_plane_loop(ByContacts(program, holds), guess)[0]
+    """The optimum that a guess of its contacts leads to; None where Newton's method does not find it.
+
+    `holds` checks from x alone, faster than the families do, whether every constraint holds.
+    """
+    for _ in range(_CORRECTIONS):
+        optimum = newton(program, guess)
+        if optimum is None:
+            optimum = newton(program, guess, deficient=True)
+        if optimum is None:
+            return None
+        guess = settled(program, optimum)
+        if guess is optimum and (holds is None or not holds(optimum.x)):
+            guess = completed(program, optimum)
+        if guess is optimum:
+            return optimum
+    return None
 
 
 def settled(program: Program, state: ActiveSet) -> ActiveSet:
