@@ -228,7 +228,7 @@ def draw_solution(
     for panel in by_order:
         if any(not str(line.get_label()).startswith("_") for line in panel.lines):
             labelled = dict(zip(*reversed(panel.get_legend_handles_labels()), strict=True))
-            panel.legend(*list(labelled.values()), list(labelled), **_ABOVE)
+            panel.legend(list(labelled.values()), list(labelled), **_ABOVE)
     return artists
 
 
