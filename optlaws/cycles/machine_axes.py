@@ -210,7 +210,8 @@ class Axes(JsonText, Mapping[str, Cycle]):
         }
         value = best.period if goal == "period" else 1.0 / best.pace**2
         axes = Axes(cycles, interlocks=self.rules)
-        return Overlap(axes, goal, value, best.bound, best.binding, self, tuple(longer))
+        overlap = Overlap(axes, goal, value, best.bound, (), self, tuple(longer))
+        return replace(overlap, binding=overlap.bound_by())
 
     @kept_property
     def clearances(self) -> tuple[LeastClearance, ...]:
@@ -545,6 +546,17 @@ class Overlap(JsonText):
             return self.axes.duration
         return max(now[name] / self.given[name].unchecked().peak(2) for name in self.of)
 
+    def bound_by(self, share: float = 1.0) -> tuple[str, ...]:
+        """What leaves no room at the instants of the axes, to a share of what counts as none."""
+        from optlaws.cycles.interlocks.overlapping import TIGHT_INSTANT, binding_of
+
+        times = {
+            name: [0.0 if i is None else cycle.durations[i] for _, i in _kept_segments(self.given[name], cycle)]
+            for name, cycle in self.axes.items()
+        }
+        tight = share * TIGHT_INSTANT
+        return binding_of(self.given, self.given.rules, self.goal, self.of, times, self.axes.duration, tight)
+
     def again(self) -> Overlap:
         """The overlap of the given machine, sought once more."""
         return self.given._overlap(self.goal, self.of)  # noqa: SLF001 - of the same room
@@ -569,16 +581,27 @@ def _retimed(cycle: Cycle, durations: Sequence[float], laws: Sequence[MotionLaw 
 
 def _in_times_of(cycle: Cycle, other: Cycle) -> Cycle:
     """A cycle with the durations of another one of the same moves, whose dwells of no time are left out."""
-    segments, left = list[CycleSegment](), list(other.segments)
-    for segment in cycle.segments:
-        if left and isinstance(segment, Dwell) and replace(segment, duration=left[0].duration) != left[0]:
-            continue
-        if left:
-            timed = left.pop(0)
+    segments = list[CycleSegment]()
+    for segment, i in _kept_segments(cycle, other):
+        if i is not None:
+            timed = other.segments[i]
             sought: dict[str, Any] = {"law": getattr(timed, "law", None)} if is_optimal(segment) else {}
             segments.append(replace(segment, duration=timed.duration, **sought))  # type: ignore[type-var]
     minimise = "acceleration" if cycle.load is not None else cycle.minimise
     return replace(cycle, segments=segments, speed=None, period=other.period, minimise=minimise)
+
+
+def _kept_segments(cycle: Cycle, other: Cycle) -> Iterator[tuple[CycleSegment, int | None]]:
+    """The segments of a cycle, each with its place in one without dwells of no time; None for what is left out."""
+    place = 0
+    for segment in cycle.segments:
+        timed = other.segments[place] if place < len(other.segments) else None
+        dwell = isinstance(segment, Dwell)
+        if timed is None or (dwell and replace(segment, duration=timed.duration) != timed):  # type: ignore[type-var]
+            yield segment, None
+        else:
+            yield segment, place
+            place += 1
 
 
 def _stored(axes: Axes) -> dict[str, Any]:

@@ -367,7 +367,7 @@ def overlap_file(true: Overlap) -> Format:
     def wrong_verified(stored: Data, verifications: dict[str, Verification]) -> list[str]:
         read = Overlap.from_dict(stored)
         (one,) = verifications.values()
-        binding = [] if read.binding == read.again().binding else ["binding"]
+        binding = [] if sorted(read.binding) == sorted(read.again().binding) else ["binding"]
         return [*wrong(stored, read), *binding, *([] if len(one.unchecked) > 1 else ["nothing is left unchecked"])]
 
     form = plain(true.to_dict())

@@ -24,7 +24,11 @@ def test_an_overlap_is_read_again_and_partly_checked(goal: str, tmp_path: Path) 
     verification = verify(best.to_dict())
     assert [claim.name.split()[0] for claim in verification.claims] == ["interlock"]
     assert verification.proven
-    assert [claim.name for claim in verification.unchecked] == [f"the {goal}", "no other instants"]
+    assert [claim.name for claim in verification.unchecked] == [
+        f"the {goal}",
+        "no other instants",
+        "what leaves no room",
+    ]
     file = tmp_path / "overlap.json"
     file.write_text(best.to_json(), "utf-8")
     with pytest.raises(PartlyChecked, match="no other instants"):
@@ -35,6 +39,9 @@ def test_false_numbers_of_an_overlap_are_not_proven() -> None:
     data = json.loads(drawn_axes("period").to_json())
     for name, factor in (("objective", 0.999), ("objective", 1.001), ("lower_bound", 1.0 + 1e-8), ("lower_bound", 1.1)):
         assert not verify(changed(data, (name,), data[name] * factor)).proven, (name, factor)
-    assert not verify(changed(data, ("binding",), ["nothing"])).proven
+    for binding in (["nothing"], [], data["binding"][1:], [*data["binding"], data["binding"][0]]):
+        assert not verify(changed(data, ("binding",), binding)).proven, binding
+    # no order is stated by it
+    assert verify(changed(data, ("binding",), data["binding"][::-1])).proven
     assert not verify(changed(data, ("given", "interlocks"), [])).proven
     assert not verify(changed(data, ("goal",), "acceleration")).proven

@@ -32,7 +32,7 @@ _LP_FEASIBILITY = 1e-10  # of a period: by so much the solver of programs of ins
 _BROKEN_PLACE = 3e-10  # of a period: the same between the places that programs know
 _INSTANT_MARGIN = 1e-9  # of a period: instants are so much apart from where they touch, which pays for the others
 _PLACE_WIDTH = 1e-9  # of a segment: how near a place comes to where instants are broken most
-_TIGHT = 1e-7  # of a period: what leaves no more binds
+TIGHT_INSTANT = 1e-7  # of a period: what leaves no more binds
 
 _NODES = 4000
 _CUTS = 40
@@ -56,14 +56,13 @@ class Optimum:
 
 @dataclass(frozen=True)
 class BestInstants:
-    """Durations and laws of all segments, the period, the pace, the proven bound of the objective, and what binds."""
+    """Durations and laws of all segments, the period, the pace, and the proven bound of the objective."""
 
     durations: dict[str, list[float]]
     laws: dict[str, list[MotionLaw | None]]
     period: float
     pace: float
     bound: float
-    binding: tuple[str, ...]
     nodes: int
 
 
@@ -279,34 +278,24 @@ class Overlapping:
 
     def _worst(self, i: int, option: WaitOption, unknowns: Array) -> list[float]:
         """The shares of a segment at which a choice is broken more than nearby."""
-        from scipy.optimize import minimize_scalar
-
         requirement, most = self.requirements[i], _BROKEN_PLACE * float(unknowns[-2])
-
-        def off(share: float) -> float:
-            return max((-float(row @ unknowns) for row in requirement.rows(option, share)), default=-np.inf)
-
         shares = requirement.shares()
         values = [max((-float(row @ unknowns) for row in self._rows_of(i, option, share)), default=-np.inf)
                   for share in shares]  # fmt: skip
-        solve: Any = minimize_scalar
         met = []
         for place, value in enumerate(values):
             beside = values[max(place - 1, 0) : place + 2]
             # between two places it may be broken by no more than what it changes from one to the next
             if value < max(beside) or value <= most - 2.0 * (value - min(beside)):
                 continue
-            ends = shares[max(place - 1, 0)], shares[min(place + 1, len(shares) - 1)]
-            lowest = solve(lambda share: -off(share), bounds=ends, method="bounded", options={"xatol": _PLACE_WIDTH})
-            at, by = (float(lowest.x), -float(lowest.fun)) if -lowest.fun > value else (float(shares[place]), value)
-            if by > most:
+            at, room = _least_near(requirement, option, unknowns, shares, place)
+            if -room > most:
                 met.append(at)
         return met
 
     def _result(self, optimum: Optimum, choices: Choices, nodes: int, bound: float) -> BestInstants:
         solved = self._solved(choices, margin=_INSTANT_MARGIN) or optimum
-        x, (rows, sides, names) = solved.unknowns, self._rows(choices)
-        tight = [name for row, side, name in zip(rows, sides, names, strict=True) if row @ x - side <= _TIGHT and name]
+        x = solved.unknowns
         durations = {
             plan.name: [self.unit * float(value) for value in x[plan.first : plan.first + len(plan.segments)]]
             for plan in self.plans
@@ -317,9 +306,31 @@ class Overlapping:
             self.unit * float(x[-2]),
             float(x[-1]),
             bound * (self.unit if self.period is None else 1.0),
-            tuple(dict.fromkeys(tight)),
             nodes,
         )
+
+    def binding(self, unknowns: Array, tight: float = TIGHT_INSTANT) -> tuple[str, ...]:
+        """What leaves no more than a share of a period: limits of moves, dwells and interlocks, by their names.
+
+        It is a matter of the instants alone: an interlock leaves what its most favourable option does, at the place of
+        the segment where that is least.
+        """
+        rows, sides, names = self.base
+        room = tight * float(unknowns[-2])
+        near = [
+            name for row, side, name in zip(rows, sides, names, strict=True) if name and row @ unknowns - side <= room
+        ]
+        near += [
+            requirement.rule.label
+            for requirement in self.requirements
+            if all(_least_room(requirement, option, unknowns) <= room for option in requirement.options())
+        ]
+        return tuple(dict.fromkeys(near))
+
+    def unknowns_of(self, durations: Mapping[str, Sequence[float]], period: float) -> Array:
+        """The unknowns of durations of all segments by axes, in seconds; the pace, of which no name depends, is 1."""
+        times = [value for plan in self.plans for value in durations[plan.name]]
+        return np.array([*(value / self.unit for value in times), period / self.unit, 1.0])
 
     def _contradiction(self, forced: Choices) -> str:
         """The interlocks without any of which there are instants."""
@@ -341,6 +352,58 @@ class Overlapping:
         return row
 
 
+def _room(requirement: Requirement, option: WaitOption, unknowns: Array, share: float) -> float:
+    """The time that an option leaves after a share of its segment."""
+    return min((float(row @ unknowns) for row in requirement.rows(option, share)), default=np.inf)
+
+
+def _least_near(
+    requirement: Requirement, option: WaitOption, unknowns: Array, shares: Array, place: int
+) -> tuple[float, float]:
+    """The share around one of some shares at which an option leaves the least time, and that time."""
+    from scipy.optimize import minimize_scalar
+
+    solve: Any = minimize_scalar
+    at, known = float(shares[place]), _room(requirement, option, unknowns, float(shares[place]))
+    ends = shares[max(place - 1, 0)], shares[min(place + 1, len(shares) - 1)]
+    if ends[0] == ends[1]:
+        return at, known
+    lowest = solve(
+        lambda share: _room(requirement, option, unknowns, share),
+        bounds=ends,
+        method="bounded",
+        options={"xatol": _PLACE_WIDTH},
+    )
+    return (float(lowest.x), float(lowest.fun)) if lowest.fun < known else (at, known)
+
+
+def _least_room(requirement: Requirement, option: WaitOption, unknowns: Array) -> float:
+    """The least time that an option leaves anywhere in its segment."""
+    shares = requirement.shares()
+    place = int(np.argmin([_room(requirement, option, unknowns, float(share)) for share in shares]))
+    return _least_near(requirement, option, unknowns, shares, place)[1]
+
+
+def binding_of(
+    cycles: Mapping[str, Any],
+    rules: Sequence[Interlock],
+    goal: str,
+    longer: Sequence[str],
+    durations: _Times,
+    period: float,
+    tight: float = TIGHT_INSTANT,
+) -> tuple[str, ...]:
+    """What leaves no room at given instants, however these were found; see `Overlapping.binding`."""
+    problem = _problem(_own_laws(cycles, goal, longer), rules, {} if goal == "period" else durations)
+    return problem.binding(problem.unknowns_of(durations, period), tight)
+
+
+def _own_laws(cycles: Mapping[str, Any], goal: str, longer: Sequence[str]) -> list[OwnLaws]:
+    if goal == "period":
+        return [OwnLaws(cycle, name, "fastest") for name, cycle in cycles.items()]
+    return [OwnLaws(cycle, name, "gentlest" if name in longer else "kept") for name, cycle in cycles.items()]
+
+
 def best_instants(
     cycles: Mapping[str, Any], rules: Sequence[Interlock], goal: str, longer: Sequence[str]
 ) -> BestInstants:
@@ -349,10 +412,9 @@ def best_instants(
     Where the period is least the answer is longer by what programs are solved to, so that all limits are met. Laws of
     least acceleration are those for the times that they had before, in rounds, while the acceleration falls.
     """
+    axes = _own_laws(cycles, goal, longer)
     if goal == "period":
-        fastest = [OwnLaws(cycle, name, "fastest") for name, cycle in cycles.items()]
-        return _instants(fastest, rules, {})
-    axes = [OwnLaws(cycle, name, "gentlest" if name in longer else "kept") for name, cycle in cycles.items()]
+        return _instants(axes, rules, {})
     times: _Times = {name: cycle.durations for name, cycle in cycles.items()}
     try:
         best = _instants(axes, rules, times)
@@ -379,10 +441,8 @@ def best_instants(
     return best
 
 
-def _instants(
-    axes: Sequence[OwnLaws], rules: Sequence[Interlock], times: Mapping[str, Sequence[float]]
-) -> BestInstants:
-    """The best instants of laws in some times, or of the fastest laws."""
+def _problem(axes: Sequence[OwnLaws], rules: Sequence[Interlock], times: _Times) -> Overlapping:
+    """The program of the instants of laws in some times, or of the fastest laws."""
     cycles = {axis.name: axis.cycle for axis in axes}
     count_of_unknowns = sum(len(cycle.programme.stretches) for cycle in cycles.values()) + 2
     first, plans = 0, dict[str, AxisPlan]()
@@ -396,7 +456,7 @@ def _instants(
         plans[axis.name], first = plan, first + len(plan.segments)
     duration, shortest = next(iter(cycles.values())).duration, axes[0].way == "fastest"
     least = sum(segment.least[0] for plan in plans.values() for segment in plan.segments)
-    problem = Overlapping(
+    return Overlapping(
         tuple(plans.values()),
         tuple(requirements(rules, plans, cycles)),
         efforts,
@@ -405,8 +465,12 @@ def _instants(
         # the answer may be far shorter than what was given, and programs are as exact as their unit
         max(map(_least_period, plans.values())) or duration if shortest else duration,
     )
-    best = problem.best()
-    if not shortest:
+
+
+def _instants(axes: Sequence[OwnLaws], rules: Sequence[Interlock], times: _Times) -> BestInstants:
+    """The best instants of laws in some times, or of the fastest laws."""
+    best = _problem(axes, rules, times).best()
+    if axes[0].way != "fastest":
         if not best.bound < 0.0:
             labels = "; ".join(rule.label for rule in rules)
             raise InfeasibleProblem(
