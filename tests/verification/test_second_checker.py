@@ -415,6 +415,7 @@ def of_drives() -> dict[str, Any]:
     return {
         "limit of a drive": drive_limit("c + 0.5*a", "rms torque", C=9.0).to_dict(),
         "limit of a move": table.limit("peak torque", "0 deg", "45 deg", "0.25 s").to_dict(),
+        "limit of rms torque": table.limit("rms torque", "0 deg", "45 deg", "0.25 s").to_dict(),
         "least time of a move": table.limit("time", "0 deg", "45 deg", limits={"torque": "50 N m"}).to_dict(),
     }
 
@@ -425,7 +426,15 @@ def test_limits_of_drives_are_not_checked_and_false_where_they_contradict_themse
         limit = ("drive_limit",) if "drive_limit" in data else ()
         wrong: list[tuple[tuple[str, ...], Any]] = [((*limit, "minimise"), "banana")]
         wrong += [((*limit, "value"), value_at(data, (*limit, "attained")) * factor) for factor in (1.0 + 1e-6, 10.0)]
-        wrong += [(("dimension",), "banana"), (("unit",), -1.0)] if limit else []
+        wrong += [((*limit, "unit"), 0.0), ((*limit, "attained"), "no number")]
+        of_move: list[tuple[tuple[str, ...], Any]] = [
+            (("dimension",), "banana"),
+            (("unit",), -1.0),
+            (("further",), 1.0),
+        ]
+        of_move += [(("move",), {}), (("move", "minimise"), "banana"), (("move", "minimise"), "energy")]
+        # a proof that no motion exists is of the least time or of a peak torque, whatever its move minimises
+        wrong += [each for each in of_move if each[1] != "energy" or name == "limit of rms torque"] if limit else []
         for path, value in wrong:
             assert ended(changed(data, path, value), tmp_path).returncode == 1, (name, path)
         leaves = [path for path in places(data) if not isinstance(value_at(data, path), dict | list)]

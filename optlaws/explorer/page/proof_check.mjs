@@ -422,18 +422,42 @@ function isMoveLimit(data) {
 }
 
 /* The limit of a drive: its certificate is in the phase plane, and what contradicts itself is false. */
-function driveLimitChecked({ minimise, value = null, attained = null }, where) {
-  if (!(minimise in LIMITS)) return [{ path: where, verdict: "not proven", detail: `nothing is known of the ${minimise} as what is least` }];
-  if (value !== null && attained !== null && attained < value - 1e-9 * Math.abs(value)) {
-    return [{ path: where, verdict: "not proven", detail: `${value} is stated as a bound, and ${attained} is attained` }];
-  }
+function driveLimitChecked({ minimise, value = null, attained = null, unit }, where) {
+  const number = (stated) => stated === null || Number.isFinite(stated);
+  const detail = !(minimise in LIMITS)
+    ? `nothing is known of the ${minimise} as what is least`
+    : !number(value) || !number(attained)
+      ? `${value} as a bound and ${attained} as attained are no numbers`
+      : !(Number.isFinite(unit) && unit > 0)
+        ? `the unit is ${unit}`
+        : value !== null && attained !== null && attained < value - 1e-9 * Math.abs(value)
+          ? `${value} is stated as a bound, and ${attained} is attained`
+          : "";
+  if (detail) return [{ path: where, verdict: "not proven", detail }];
   return [{ path: where, verdict: "not checked", detail: "this program does not know limits in the phase plane" }];
 }
 
+const OF_MOVE_LIMIT = ["format", "dimension", "unit", "move", "drive_limit"];
+
+/* The unit of a move's limit is that of its kind, and its limit is of what its move minimises, or a proof of no motion. */
 function moveLimitChecked(data, where) {
-  const { unit, dimension, drive_limit: limit } = data;
-  const known = LIMITS[limit?.minimise] ?? [];
-  const detail = !known.includes(dimension) ? `${dimension} is no unit of the ${limit?.minimise}` : !(unit > 0) ? `the unit is ${unit}` : "";
+  const { unit, dimension, move, drive_limit: limit } = data;
+  const least = limit?.minimise;
+  const other = Object.keys(data).find((key) => !OF_MOVE_LIMIT.includes(key) && !SILENT.includes(key));
+  const mechanism = move?.mechanism ?? move?.drive?.mechanism;
+  const detail = other
+    ? `nothing is known of the entry ${other}`
+    : !(LIMITS[least] ?? []).includes(dimension)
+      ? `${dimension} is no unit of the ${least}`
+      : !(Number.isFinite(unit) && unit > 0)
+        ? `the unit is ${unit}`
+        : !mechanism
+          ? "its move has neither a mechanism nor a drive"
+          : !(move.minimise in LIMITS) || ![move.minimise, "time", "peak torque"].includes(least)
+            ? `its move minimises the ${move.minimise}, and its limit is of the ${least}`
+            : least === "time" && move.minimise === "time" && move.duration !== null
+              ? "the duration of a least time is given"
+              : "";
   if (detail) return [{ path: where, verdict: "not proven", detail }];
   return [...driveLimitChecked(limit, `${where}: drive_limit`), unknownRow(where, ["unit, dimension, move"])];
 }
