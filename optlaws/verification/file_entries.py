@@ -13,12 +13,15 @@ from typing import Any, Literal
 
 import msgspec
 
+from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.files.problem_file import typed
 from optlaws.files.reading import of_known_format
+from optlaws.numbers import real
 from optlaws.synthesis.proof.certificate import Certificate
 from optlaws.synthesis.proof.data import problem_of
 from optlaws.synthesis.proof.no_law import ground_of
+from optlaws.tolerances import OPTIMALITY_GAP
 
 Data = Mapping[str, Any]
 
@@ -206,6 +209,33 @@ def laws_within(data: object, path: str = "") -> Iterator[tuple[str, Data]]:
     elif isinstance(data, list):
         for i, value in enumerate(data):
             yield from laws_within(value, f"{path}[{i}]")
+
+
+#: pairs of which the first is never above the second in results without proofs
+_ORDERED = (("low", "high"), ("lower_bound", "objective"), ("too_small", "radius"), ("radius", "too_large"))
+
+
+def contradictions(data: object, path: str = "") -> Iterator[tuple[str, str]]:
+    """What contradicts itself in results without proofs, by place: bounds above what they are bounds of, no numbers.
+
+    >>> list(contradictions({"best": {"lower_bound": 2.0, "objective": 1.0}}))
+    [('best', 'lower_bound 2.0 is above objective 1.0')]
+    """
+    if isinstance(data, Mapping):
+        for less, more in _ORDERED:
+            low, high = data.get(less), data.get(more)
+            if low is None or high is None or isinstance(high, str):  # a spring names its objective
+                continue
+            pair = real(low), real(high)
+            if pair[0] is None or pair[1] is None:
+                yield path, f"{less} {shortened(low)} and {more} {shortened(high)} are to be numbers"
+            elif pair[0] > pair[1] + OPTIMALITY_GAP * max(abs(pair[0]), abs(pair[1])):
+                yield path, f"{less} {low!r} is above {more} {high!r}"
+        for name, value in data.items():
+            yield from contradictions(value, f"{path}.{name}" if path else name)
+    elif isinstance(data, list):
+        for i, value in enumerate(data):
+            yield from contradictions(value, f"{path}[{i}]")
 
 
 def is_entry(data: Data) -> bool:

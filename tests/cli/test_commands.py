@@ -4,6 +4,7 @@ import json
 import subprocess
 import sys
 import tomllib
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 from unittest.mock import patch
@@ -526,3 +527,37 @@ def test_false_constants_inside_results_without_proofs_are_found(tmp_path: Path,
     changed.write_text(json.dumps(data), "utf-8")
     assert exit_code(["verify", str(changed)]) == 1
     assert "deep[0]" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("file", ["cam_rocker/cam.json", "cycle_die_and_table/cycle.json"])
+def test_results_without_proofs_name_what_is_not_checked_and_what_contradicts_itself(
+    file: str, tmp_path: Path, capsys: Capture
+) -> None:
+    data = json.loads((ROOT / "results" / file).read_text("utf-8"))
+    assert exit_code(["verify", str(ROOT / "results" / file)]) == 3
+    text = capsys.readouterr().err
+    assert all(name in text for name, value in data.items() if name not in {"about", "unit"} and value is not None)
+    changed = tmp_path / "changed.json"
+    pairs = {"low": "high", "lower_bound": "objective", "too_small": "radius", "radius": "too_large"}
+    places = [(place, pair) for place in objects(data) for pair in pairs.items() if within(place, pair)]
+    assert places
+    for place, (less, more) in places:
+        before = place[less]
+        for wrong in (place[more] + 0.01 * max(1.0, abs(place[more])), "no number"):
+            place[less] = wrong
+            changed.write_text(json.dumps(data), "utf-8")
+            assert exit_code(["verify", str(changed)]) == 1, (less, more, wrong)
+            capsys.readouterr()
+        place[less] = before
+
+
+def objects(data: object) -> Iterator[dict[str, Any]]:
+    """Every object of a file, however deep."""
+    if isinstance(data, dict):
+        yield data
+    for value in data.values() if isinstance(data, dict) else data if isinstance(data, list) else ():
+        yield from objects(value)
+
+
+def within(data: dict[str, Any], names: tuple[str, str]) -> bool:
+    return all(isinstance(data.get(name), int | float) for name in names)

@@ -77,8 +77,22 @@ def _verified(file: Path) -> dict[str, Verification]:
         if not written:
             text = str(error)
             raise InputError(text if str(file) in text else f"{file}: {text}") from None
-        why = "results without proofs, which the file of --output, the explorer and to_dict() of a solution have"
-        return {**{place: _law(law) for place, law in laws_within(about)}, "": _unchecked("the file", why)}
+        return {**{place: _law(law) for place, law in laws_within(about)}, "": _without_proofs(about)}
+
+
+def _without_proofs(about: Mapping[str, Any]) -> Verification:
+    """Results whose numbers are not computed again: their entries by name, and what in them contradicts itself."""
+    from optlaws.verification import Verification
+    from optlaws.verification.file_entries import contradictions
+    from optlaws.verification.result import Claim
+
+    names = ", ".join(name for name, value in about.items() if name not in {"about", "unit"} and value is not None)
+    why = "results without proofs, which the file of --output, the explorer and to_dict() of a solution have"
+    unchecked = Claim(
+        "the file", proven=False, detail=f"{why}; nothing but laws is computed again of: {names}", checked=False
+    )
+    claims = tuple(Claim(place, proven=False, detail=detail) for place, detail in contradictions(about))
+    return Verification(problem=None, bound=None, claims=claims, unchecked=(unchecked,))
 
 
 def _law(data: Mapping[str, Any]) -> Verification:
