@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import json
+import sys
 from collections.abc import Mapping
 from dataclasses import MISSING, dataclass, field, fields
 from textwrap import wrap
-from typing import Any, ClassVar, Self, TypeVar, dataclass_transform
+from typing import Any, ClassVar, ForwardRef, Self, TypeVar, dataclass_transform, get_args, get_origin
 
 from optlaws.echo import shortened
-from optlaws.entries.value_types import ValueType
+from optlaws.entries.value_types import Kept, ValueType
 from optlaws.errors import InputError, located
 from optlaws.files.reading import JsonText
 from optlaws.suggest import unknown_key
@@ -79,7 +80,7 @@ def entry(
     about: str,
     *,
     default: Any = MISSING,
-    kw_only: bool = False,
+    kw_only: bool | None = None,
     label: str = "",
     example: Any = None,
     shown: bool = True,
@@ -95,7 +96,7 @@ def entry(
     default
         Its value unless given; None says that it may be absent. Without a default it is needed.
     kw_only
-        Whether the constructor takes it by its name alone.
+        Whether the constructor takes it by its name alone; as all after a field of `KW_ONLY` unless given.
     label
         What a form calls it; its name unless given.
     example
@@ -104,8 +105,8 @@ def entry(
         Whether forms and references show it.
     """
     declaration = {"type": type_, "about": about, "label": label, "example": example, "shown": shown}
-    default_ = {} if default is MISSING else {"default": default}
-    return field(kw_only=kw_only, metadata={_ENTRY: declaration}, **default_)
+    options: dict[str, Any] = {} if kw_only is None else {"kw_only": kw_only}
+    return field(default=default, metadata={_ENTRY: declaration}, **options)
 
 
 @dataclass_transform(frozen_default=True, field_specifiers=(entry,))
@@ -132,7 +133,20 @@ def declared(cls: type[DeclaredT]) -> type[DeclaredT]:
     """
     value = dataclass(frozen=True)(cls)
     _document(value)
+    types, module = value.__init__.__annotations__, vars(sys.modules[cls.__module__])
+    types |= {name: _given_type(text, module) for name, text in types.items()}
     return value
+
+
+def _given_type(text: Any, module: Mapping[str, Any]) -> Any:
+    """The type that an argument may have, where that of its field is another."""
+    if isinstance(text, str) and text.startswith("InitVar["):
+        return text.removeprefix("InitVar[").removesuffix("]")
+    alias = module.get(text) if isinstance(text, str) else None
+    if get_origin(alias) is not Kept:
+        return text
+    given = get_args(alias)[1]
+    return given.__forward_arg__ if isinstance(given, ForwardRef) else given
 
 
 def _document(cls: type[Declared]) -> None:

@@ -7,13 +7,35 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from math import inf
-from typing import Any
+from typing import TYPE_CHECKING, Any, Generic, TypeAlias, TypeVar
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError, located
 from optlaws.motion.quantities import DIMENSIONS, either, written
 from optlaws.numbers import bounded, finite, real, whole
 from optlaws.suggest import unknown_key
+
+if TYPE_CHECKING:
+    from optlaws.numbers import NumberOrQuantity
+
+KeptT = TypeVar("KeptT")
+GivenT = TypeVar("GivenT")
+
+
+class Kept(Generic[KeptT, GivenT]):
+    """The type of a field for type checkers, where what is kept is of another type than what may be given."""
+
+    if TYPE_CHECKING:
+
+        def __get__(self, instance: object, owner: Any) -> KeptT: ...
+
+        def __set__(self, instance: object, value: GivenT) -> None: ...
+
+
+#: a number in SI units, given as one or as a quantity
+SINumber: TypeAlias = Kept[float, "NumberOrQuantity"]
+#: likewise, of which None says that there is none
+SILimit: TypeAlias = Kept[float, "NumberOrQuantity | None"]
 
 
 class ValueType(ABC):
@@ -323,19 +345,27 @@ class Listed(ValueType):
 
 @dataclass(frozen=True, init=False)
 class Together(ValueType):
-    """A tuple of values, each of a type of its own, such as a pair of a time and a position."""
+    """A tuple of values, each of a type of its own, such as a pair of a time and a position.
+
+    >>> Together(InSI("time"), InSI("length"), names=("time", "position")).read(["1 s", "2 s"], "point")
+    Traceback (most recent call last):
+    optlaws.errors.InputError: point: position must be a length such as '35 mm', but '2 s' is a time
+    """
 
     of: tuple[ValueType, ...]
+    names: tuple[str, ...]  #: what errors call them; their numbers unless given
 
-    def __init__(self, *of: ValueType) -> None:
+    def __init__(self, *of: ValueType, names: tuple[str, ...] = ()) -> None:
         object.__setattr__(self, "of", of)
+        object.__setattr__(self, "names", names or tuple(str(i) for i in range(1, len(of) + 1)))
 
     def read(self, value: Any, name: str) -> tuple[Any, ...]:
         if not isinstance(value, list | tuple) or len(value) != len(self.of):
-            raise InputError(f"{name} must be {self.words}, got {shortened(value)}")
-        return tuple(
-            each.read(part, f"{name}: {i}") for i, (each, part) in enumerate(zip(self.of, value, strict=True), 1)
-        )
+            examples = [getattr(each, "example", None) for each in self.of]
+            such = "" if None in examples else f" such as {examples}"
+            raise InputError(f"{name} must be {self.words}{such}, got {shortened(value)}")
+        parts = zip(self.of, value, self.names, strict=True)
+        return tuple(each.read(part, f"{name}: {called}") for each, part, called in parts)
 
     def plain(self, value: Any) -> Any:
         return [each.plain(part) for each, part in zip(self.of, value, strict=True)]
