@@ -36,7 +36,7 @@ from .laws.making.multiplier import Multiplier as Multiplier
 from .laws.segments.segment import Segment as Segment
 from .mechanisms.drives.drive_train import DimensionlessDrive as DimensionlessDrive
 from .mechanisms.drives.effort import Effort as Effort, SegmentEffort as SegmentEffort
-from .mechanisms.drives.motor import MotorLosses as MotorLosses, Train as Train
+from .mechanisms.drives.motor import Train as Train
 from .mechanisms.drives.sheet import (
     BestRatio as BestRatio,
     CycleSheet as CycleSheet,

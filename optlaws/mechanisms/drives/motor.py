@@ -3,67 +3,33 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import KW_ONLY, InitVar
 from itertools import pairwise
 from math import inf
 from pathlib import Path
-from typing import Any, NamedTuple, TypedDict, Unpack
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
 from optlaws.echo import shortened
-from optlaws.errors import InputError
-from optlaws.files.reading import JsonText, toml
-from optlaws.motion.quantities import si_number
-from optlaws.numbers import Array, NumberOrQuantity, bounded, finite, not_negative, positive
-from optlaws.suggest import keywords_of, unknown_key
+from optlaws.entries.declared import Declared, declared, entry
+from optlaws.entries.value_types import InSI, Kept, Listed, Number, SILimit, SINumber, Text, Together
+from optlaws.errors import InputError, located
+from optlaws.files.reading import toml
+from optlaws.numbers import Array, NumberOrQuantity
+from optlaws.suggest import unknown_key
 
-#: entries of a motor with their dimensions; curves are lists of speeds and torques
-ENTRIES = {
-    "inertia": "moment of inertia",
-    "rated_torque": "torque",
-    "peak_torque": "torque",
-    "greatest_speed": "angular velocity",
-    "coulomb": "torque",
-    "viscous": "rotary viscous friction",
-}
-CURVES = ("curve", "continuous")
 #: what a motor's torque depends on; all else limits it
 OF_TORQUE = ("inertia", "coulomb", "viscous", "constant")
-Curve = tuple[tuple[float, float], ...]
+CurveOfTorque: TypeAlias = Kept[tuple[tuple[float, float], ...], "Sequence[Any]"]
+Constant: TypeAlias = Kept[float, "float | None"]
+_TORQUE = InSI("torque", above=0.0, absent=inf)
+_CURVE = Listed(Together(InSI("angular velocity"), InSI("torque", least=0.0), names=("speed", "torque")))
 
 
-class MotorLosses(TypedDict, total=False):
-    """The losses of a motor: its friction, "coulomb" and "viscous", and the motor constant, N m/√W."""
-
-    friction: Mapping[str, NumberOrQuantity] | None
-    constant: float | None
-
-
-@dataclass(frozen=True, init=False)
-class Motor(JsonText):
+@declared
+class Motor(Declared, title="a motor"):
     """A motor, as in its data sheet; omitted entries impose no limit. SI units, speeds in rad/s.
-
-    Parameters
-    ----------
-    inertia
-        Of the rotor, such as "3e-4 kg m^2".
-    rated_torque
-        That the root mean square of the torque over a cycle must not exceed.
-    peak_torque
-        That the torque must not exceed at any time.
-    greatest_speed
-        Such as "3000 rpm".
-    curve, continuous
-        The peak torque and the continuous one over the speed, pairs such as ("3000 rpm", "6 N m") by rising speed, with
-        straight lines between them; beyond the last one there is none.
-    friction
-        Of the motor itself: "coulomb" and "viscous".
-    constant
-        The motor constant, N m/√W: torque by the root of the copper heat, which is (torque/constant)². It is the torque
-        constant by the root of the winding's resistance.
-    name
-        What texts call it.
 
     Raises
     ------
@@ -77,46 +43,62 @@ class Motor(JsonText):
     (7.5, 314.15926535897933)
     """
 
-    _json_name = "a motor"
+    writes_defaults = True
 
-    inertia: float
-    rated_torque: float
-    peak_torque: float
-    greatest_speed: float
-    curve: Curve
-    continuous: Curve
-    coulomb: float
-    viscous: float
-    constant: float
-    name: str
+    name: str = entry(Text(), "What texts call it.", default="motor", kw_only=True, shown=False)
+    inertia: SINumber = entry(InSI("moment of inertia", least=0.0), "Of the rotor.", example="3e-4 kg m^2")
+    _: KW_ONLY
+    rated_torque: SILimit = entry(
+        _TORQUE, "That the root mean square of the torque over a cycle must not exceed.", default=None, example="2 N m"
+    )
+    peak_torque: SILimit = entry(_TORQUE, "That the torque must not exceed at any time.", default=None, example="6 N m")
+    greatest_speed: SILimit = entry(
+        InSI("angular velocity", above=0.0, absent=inf), "Of the rotor.", default=None, example="3000 rpm"
+    )
+    curve: CurveOfTorque = entry(
+        _CURVE,
+        "The peak torque over the speed, straight between pairs by rising speed; beyond the last one there is none.",
+        default=(),
+        example=[["0 rpm", "6 N m"], ["3000 rpm", "4 N m"]],
+    )
+    continuous: CurveOfTorque = entry(
+        _CURVE,
+        "The continuous torque over the speed, likewise.",
+        default=(),
+        example=[["0 rpm", "2.4 N m"], ["3000 rpm", "2 N m"]],
+    )
+    coulomb: SINumber = entry(
+        InSI("torque", least=0.0), "Friction of the motor itself.", default=0.0, example="0.1 N m"
+    )
+    viscous: SINumber = entry(
+        InSI("rotary viscous friction", least=0.0),
+        "Its friction in proportion to the speed.",
+        default=0.0,
+        example="1e-4 N m s/rad",
+    )
+    constant: Constant = entry(
+        Number(above=0.0, absent=inf),
+        "The motor constant, N m/√W: torque by the root of the copper heat, which is (torque/constant)²; the torque "
+        "constant by the root of the winding's resistance.",
+        default=None,
+        example=0.4,
+    )
+    #: coulomb and viscous friction in one table, as they were given earlier
+    friction: InitVar[Mapping[str, NumberOrQuantity] | None] = None
 
-    @keywords_of(MotorLosses)
-    def __init__(
-        self,
-        inertia: NumberOrQuantity,
-        *,
-        rated_torque: NumberOrQuantity | None = None,
-        peak_torque: NumberOrQuantity | None = None,
-        greatest_speed: NumberOrQuantity | None = None,
-        curve: Sequence[Any] = (),
-        continuous: Sequence[Any] = (),
-        name: str = "motor",
-        **losses: Unpack[MotorLosses],
-    ) -> None:
-        limits = {"rated_torque": rated_torque, "peak_torque": peak_torque, "greatest_speed": greatest_speed}
-        fields: dict[str, Any] = {"inertia": _entry(inertia, "inertia"), "name": str(name)}
-        fields |= {key: inf if value is None else _limit(value, key) for key, value in limits.items()}
-        friction, constant = losses.get("friction") or {}, losses.get("constant")
-        for key in friction:
-            if key not in ("coulomb", "viscous"):
-                raise InputError(unknown_key(key, ("coulomb", "viscous"), "friction of a motor"))
-        fields |= {key: _entry(friction.get(key, 0.0), key) for key in ("coulomb", "viscous")}
-        fields |= {key: _curve(pairs, key) for key, pairs in zip(CURVES, (curve, continuous), strict=True)}
-        fields["constant"] = inf if constant is None else positive(constant, "constant")
-        ends = [fields[key][-1][0] for key in CURVES[:1] if fields[key]]
-        fields["greatest_speed"] = min([fields["greatest_speed"], *ends])
-        for key, value in fields.items():
-            object.__setattr__(self, key, value)
+    def __post_init__(self, friction: Mapping[str, NumberOrQuantity] | None) -> None:
+        for name, value in (friction or {}).items():
+            if name not in ("coulomb", "viscous"):
+                raise InputError(unknown_key(name, ("coulomb", "viscous"), "friction of a motor"))
+            object.__setattr__(self, name, value)
+        super().__post_init__()
+
+    def _check(self) -> None:
+        for name, pairs in (("curve", self.curve), ("continuous", self.continuous)):
+            if len(pairs) == 1 or any(speed >= following for (speed, _), (following, _) in pairwise(pairs)):
+                raise InputError(f"{name} needs two speeds at least, which rise, got {shortened(pairs)}")
+        if self.curve:
+            object.__setattr__(self, "greatest_speed", min(self.greatest_speed, self.curve[-1][0]))
 
     def peak_at(self, speed: Any) -> Array:
         """The greatest torque at speeds in rad/s, N m; 0 beyond the greatest speed."""
@@ -151,48 +133,11 @@ class Motor(JsonText):
                 lines.append((first[1] + fall * first[0], fall))
         return tuple(lines)
 
-    def _along(self, curve: Curve, speed: Any) -> Array:
+    def _along(self, curve: tuple[tuple[float, float], ...], speed: Any) -> Array:
         size = np.abs(np.asarray(speed, dtype=np.float64))
         values = np.interp(size, *np.transpose(curve)) if curve else np.full(size.shape, inf)
         last = min(self.greatest_speed, curve[-1][0] if curve else inf)
         return np.where(size > last, 0.0, values)
-
-    def to_dict(self) -> dict[str, Any]:
-        """The motor as plain data in SI units."""
-        plain = {name: bounded(getattr(self, name)) for name in ("rated_torque", "peak_torque", "greatest_speed")}
-        return {
-            "name": self.name,
-            "inertia": self.inertia,
-            **plain,
-            **{name: [list(pair) for pair in getattr(self, name)] for name in CURVES},
-            "coulomb": self.coulomb,
-            "viscous": self.viscous,
-            "constant": bounded(self.constant),
-        }
-
-    @classmethod
-    def from_dict(cls, data: Any) -> Motor:
-        """The motor that `to_dict` described, or an entry of a catalogue.
-
-        Raises
-        ------
-        InputError
-            If an entry is unknown or wrong, or there is no inertia.
-
-        Examples
-        --------
-        >>> Motor.from_dict({"inertia": "3e-4 kg m^2", "greatest_speed": "3000 rpm"}).inertia
-        0.0003
-        """
-        known = (*ENTRIES, *CURVES, "constant", "name")
-        if not isinstance(data, Mapping) or data.get("inertia") is None:
-            raise InputError(f"a motor is a table with an inertia, got {shortened(data)}")
-        for key in data:
-            if key not in known:
-                raise InputError(unknown_key(key, known, "entry of a motor"))
-        plain = {key: value for key, value in data.items() if value is not None and key not in ("coulomb", "viscous")}
-        friction = {key: data[key] for key in ("coulomb", "viscous") if data.get(key) is not None}
-        return cls(plain.pop("inertia"), friction=friction, **plain)
 
 
 def read_motors(file: str | Path) -> dict[str, Motor]:
@@ -201,8 +146,7 @@ def read_motors(file: str | Path) -> dict[str, Motor]:
     Parameters
     ----------
     file
-        Whose tables have the entries of a `Motor`: inertia, rated_torque, peak_torque, greatest_speed, curve,
-        continuous, coulomb, viscous, constant.
+        Whose tables have the entries of a `Motor`.
 
     Raises
     ------
@@ -220,42 +164,13 @@ def read_motors(file: str | Path) -> dict[str, Motor]:
     """
     motors = {}
     for name, entries in toml(Path(file)).items():
-        try:
+        with located(f"{Path(file).name}: {name}"):
             motors[name] = Motor.from_dict({"name": name, **entries} if isinstance(entries, Mapping) else entries)
-        except InputError as error:
-            raise InputError(f"{Path(file).name}: {name}: {error}") from None
     return motors
 
 
 def _slope(first: tuple[float, float], second: tuple[float, float]) -> float:
     return (second[1] - first[1]) / (second[0] - first[0])
-
-
-def _entry(value: Any, name: str) -> float:
-    return not_negative(si_number(value, (ENTRIES[name],), name), name)
-
-
-def _limit(value: Any, name: str) -> float:
-    number = _entry(value, name)
-    if number == 0.0:
-        raise InputError(f"{name} must be above 0, got {shortened(value)}")
-    return number
-
-
-def _curve(pairs: Any, name: str) -> Curve:
-    if not isinstance(pairs, list | tuple) or any(
-        not isinstance(pair, list | tuple) or len(pair) != 2 for pair in pairs
-    ):
-        raise InputError(
-            f"{name} must be pairs of a speed and a torque such as ('3000 rpm', '6 N m'), got {shortened(pairs)}"
-        )
-    read = []
-    for speed, torque in pairs:
-        at = finite(si_number(speed, ("angular velocity",), f"{name}: speed"), f"{name}: speed")
-        read.append((at, not_negative(si_number(torque, ("torque",), f"{name}: torque"), f"{name}: torque")))
-    if len(read) == 1 or any(speed >= following for (speed, _), (following, _) in pairwise(read)):
-        raise InputError(f"{name} needs two speeds at least, which rise, got {shortened(pairs)}")
-    return tuple(read)
 
 
 class Train(NamedTuple):

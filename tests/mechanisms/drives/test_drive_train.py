@@ -213,7 +213,10 @@ REFUSED: list[tuple[Callable[[], Any], str]] = [
     (lambda: Motor("3 kg"), "inertia must be a moment of inertia"),
     (lambda: Motor(1.0, peak_torque="0 N m"), "peak_torque must be above 0"),
     (lambda: Motor(1.0, curve=[("9 rpm", "1 N m"), ("3 rpm", "1 N m")]), "two speeds at least, which rise"),
-    (lambda: Motor(1.0, curve=[1.0, 2.0]), "curve must be pairs of a speed and a torque"),
+    (
+        lambda: Motor(1.0, curve=[1.0, 2.0]),
+        "curve 1 must be a list of an angular velocity and a torque .* such as \\['200 rpm', '0.4 N m'\\]",
+    ),
     (lambda: Motor(1.0, friction={"dry": 1.0}), "unknown friction of a motor 'dry'"),
 ]
 
