@@ -41,7 +41,7 @@ from optlaws.cycles.specification.frozen import frozen
 from optlaws.cycles.specification.joints import LawSpan, Layout, layout
 from optlaws.cycles.specification.load import LOAD, Load, read_load
 from optlaws.cycles.specification.process import is_process, read_process
-from optlaws.cycles.specification.programme import Programme, period_of, programme
+from optlaws.cycles.specification.programme import Programme, is_optimal, period_of, programme
 from optlaws.cycles.specification.segments import CycleSegment, Dwell
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
@@ -64,6 +64,7 @@ if TYPE_CHECKING:
     from optlaws.mechanisms.drives.sheet import CycleSheet
 
 
+_JERK = 3
 _STRICTER = (
     "the gear loses power and a load acts: where the motor brakes, its torque is counted as that of power that flows "
     "back, which may be more than it is, so that nothing is proven of it"
@@ -151,10 +152,19 @@ class Cycle(CycleInterchange):
         for entry in ("limits", "drive", "load"):
             object.__setattr__(self, entry, frozen(getattr(self, entry)))
         check_objective(self.minimise, self._load)
-        self.limits_of_segments  # noqa: B018 - limits and drives that are wrong are refused at once
+        self._check_order_of_limits()  # limits and drives that are wrong are refused at once
         if all(stretch.fixed for stretch in self.programme.stretches):
             # and so are velocities that do not meet, and forces at joints beyond their limits
             check_limits_at_joints(self._layout, self._cycle_objective, self.axis, self.duration)
+
+    def _check_order_of_limits(self) -> None:
+        """Refuse a jerk limit of laws whose acceleration may jump where they begin or end."""
+        for stretch, limits in zip(self.programme.stretches, self.limits_of_segments, strict=True):
+            if self.order < _JERK and _JERK in limits and is_optimal(stretch.given):
+                raise InputError(
+                    f"{stretch.where}: its jerk is limited, but laws of order {self.order} may jump in acceleration "
+                    "where they begin or end: take order 3, or leave the limit of the jerk out"
+                )
 
     @kept_property
     def programme(self) -> Programme:

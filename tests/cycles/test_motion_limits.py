@@ -137,3 +137,11 @@ def test_the_summary_says_how_much_of_such_limits_is_taken() -> None:
     assert row.unit == "m/s⁴"
     (pair,) = (row for row in cycle(limits=PAIR, minimise="jerk").summary() if row.name == "lowest acceleration")
     assert pair.note == "limit -14 m/s^2 of segment 1 (Rise)"
+
+
+def test_a_jerk_limit_of_laws_that_jump_at_their_ends_is_refused_with_the_remedy() -> None:
+    with pytest.raises(InputError, match=r"segment 1 .*: its jerk is limited, but laws of order 2 .*: take order 3"):
+        cycle(limits={"jerk": "9000 m/s^3"}, order=2)
+    assert cycle(limits={"jerk": "9000 m/s^3"}).order == 3
+    moved = (Rise("35 mm", "0.1 s", law="cycloidal"), Return(law="cycloidal"))
+    assert Cycle(moved, period="0.25 s", limits={"jerk": "90000 m/s^3"}, order=2).order == 2
