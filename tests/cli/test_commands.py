@@ -551,6 +551,15 @@ def test_results_without_proofs_name_what_is_not_checked_and_what_contradicts_it
         place[less] = before
 
 
+def test_a_cycle_to_solve_claims_nothing_and_verify_says_so(tmp_path: Path, capsys: Capture) -> None:
+    file = tmp_path / "cycle.json"
+    cycle = optlaws.Cycle([optlaws.Rise("35 mm", "120 deg"), optlaws.Return()], speed="200 rpm")
+    for entries in (cycle, optlaws.Axes({"slide": cycle})):
+        file.write_text(entries.to_json(), "utf-8")
+        assert exit_code(["verify", str(file)]) == 2
+        assert "claims nothing of their laws" in capsys.readouterr().err
+
+
 def objects(data: object) -> Iterator[dict[str, Any]]:
     """Every object of a file, however deep."""
     if isinstance(data, dict):

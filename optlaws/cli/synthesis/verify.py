@@ -68,6 +68,11 @@ def _verified(file: Path) -> dict[str, Verification]:
         return dict(verify_all(file))
     except InputError as error:
         about = reading.json_file(file)
+        if isinstance(about, dict) and str(about.get("format")).startswith(("optlaws cycle", "optlaws axes")):
+            raise InputError(
+                f"{file}: it has the entries of a cycle or of axes, and claims nothing of their laws: Cycle.from_json "
+                "or Axes.from_json solves them again; the solutions of a cycle are stored with their proofs"
+            ) from None
         written = (
             isinstance(about, dict)
             and MARK in str(about.get("about"))
