@@ -133,16 +133,19 @@ def declared(cls: type[DeclaredT]) -> type[DeclaredT]:
     """
     value = dataclass(frozen=True)(cls)
     _document(value)
-    types, module = value.__init__.__annotations__, vars(sys.modules[cls.__module__])
-    types |= {name: _given_type(text, module) for name, text in types.items()}
+    types = value.__init__.__annotations__
+    known: dict[str, Any] = {}
+    for base in reversed(cls.__mro__):
+        known |= vars(sys.modules[base.__module__])
+    types |= {name: _given_type(text, known) for name, text in types.items()}
     return value
 
 
-def _given_type(text: Any, module: Mapping[str, Any]) -> Any:
+def _given_type(text: Any, known: Mapping[str, Any]) -> Any:
     """The type that an argument may have, where that of its field is another."""
     if isinstance(text, str) and text.startswith("InitVar["):
         return text.removeprefix("InitVar[").removesuffix("]")
-    alias = module.get(text) if isinstance(text, str) else None
+    alias = known.get(text) if isinstance(text, str) else None
     if get_origin(alias) is not Kept:
         return text
     given = get_args(alias)[1]

@@ -240,11 +240,17 @@ class _Physical(ValueType):
     above: float = -inf
     least: float = -inf
     most: float = inf
+    bare: bool = False  #: whether a number without a unit is one in SI units
 
     @cached_property
     def range(self) -> Range:
         """Where its numbers in SI units are."""
         return Range(self.above, self.least, self.most)
+
+    def number(self, value: Any, name: str) -> float:
+        """The number of a value in SI units, if it is in the range."""
+        bare = self.bare and not isinstance(value, str) and not hasattr(value, "units")
+        return self.range.check(finite(value, name) if bare else either(value, self.dimensions, name)[1], name, value)
 
     @property
     def words(self) -> str:
@@ -257,7 +263,8 @@ class _Physical(ValueType):
         return DIMENSIONS[self.dimensions[0]][1]
 
     def schema(self) -> dict[str, Any]:
-        return {"type": "string", "description": f"{self.words}, such as {self.example!r}"}
+        text = {"type": "string", "description": f"{self.words}, such as {self.example!r}"}
+        return {"anyOf": [text, {"type": "number", **self.range.schema()}]} if self.bare else text
 
 
 class Measured(_Physical):
@@ -270,12 +277,12 @@ class Measured(_Physical):
     optlaws.errors.InputError: at must be an angle such as '45 deg' or a time such as '0.3 s', but '35 mm' is a length
     """
 
-    def __init__(self, *dimensions: str, **ends: float) -> None:
-        super().__init__(dimensions=dimensions, **ends)
+    def __init__(self, *dimensions: str, bare: bool = False, **ends: float) -> None:
+        super().__init__(dimensions=dimensions, bare=bare, **ends)
 
     def read(self, value: Any, name: str) -> Any:
         text = written(value)
-        self.range.check(either(text, self.dimensions, name)[1], name, value)
+        self.number(text, name)
         return text
 
 
@@ -288,22 +295,17 @@ class InSI(_Physical):
 
     absent: float | None
 
-    def __init__(self, *dimensions: str, absent: float | None = None, **ends: float) -> None:
-        super().__init__(dimensions=dimensions, **ends)
+    def __init__(self, *dimensions: str, absent: float | None = None, bare: bool = True, **ends: float) -> None:
+        super().__init__(dimensions=dimensions, bare=bare, **ends)
         object.__setattr__(self, "absent", absent)
 
     def read(self, value: Any, name: str) -> float | None:
         if self.absent is not None and (value is None or value == self.absent):
             return self.absent
-        united = isinstance(value, str) or hasattr(value, "units")
-        number = either(value, self.dimensions, name)[1] if united else finite(value, name)
-        return self.range.check(number, name, value)
+        return self.number(value, name)
 
     def plain(self, value: Any) -> Any:
         return None if self.absent is not None and value == self.absent else value
-
-    def schema(self) -> dict[str, Any]:
-        return {"anyOf": [super().schema(), {"type": "number", **self.range.schema()}]}
 
 
 @dataclass(frozen=True)
@@ -383,6 +385,24 @@ class Together(ValueType):
         }
 
 
+class Span(Together):
+    """Two ends that ascend, such as the range of an angle.
+
+    >>> Span(InSI("angle")).read(("90 deg", "0 deg"), "over")
+    Traceback (most recent call last):
+    optlaws.errors.InputError: over must ascend, got ('90 deg', '0 deg')
+    """
+
+    def __init__(self, of: ValueType) -> None:
+        super().__init__(of, of, names=("low", "high"))
+
+    def read(self, value: Any, name: str) -> tuple[Any, ...]:
+        ends = super().read(value, name)
+        if not ends[0] < ends[1]:
+            raise InputError(f"{name} must ascend, got {shortened(value)}")
+        return ends
+
+
 @dataclass(frozen=True)
 class Table(ValueType):
     """Values of one type by their names; `names` are those that there may be, all unless given.
@@ -397,6 +417,8 @@ class Table(ValueType):
     keep: Callable[[dict[str, Any]], Any] = dict
 
     def read(self, value: Any, name: str) -> Any:
+        if self.keep is pairs and isinstance(value, tuple):
+            value = dict(value)
         if not isinstance(value, Mapping) or not all(isinstance(key, str) for key in value):
             raise InputError(f"{name} must be a table, got {shortened(value)}")
         for key in value:
@@ -405,7 +427,7 @@ class Table(ValueType):
         return self.keep({key: self.of.read(part, f"{name}: {key}") for key, part in value.items()})
 
     def plain(self, value: Any) -> Any:
-        return {key: self.of.plain(part) for key, part in value.items()}
+        return {key: self.of.plain(part) for key, part in dict(value).items()}
 
     @property
     def words(self) -> str:
@@ -422,6 +444,11 @@ class Table(ValueType):
 
     def form(self) -> dict[str, Any]:
         return {} if self.names is None else {"names": list(self.names)}
+
+
+def pairs(table: Mapping[str, Any]) -> tuple[tuple[str, Any], ...]:
+    """How a `Table` is kept whose values are to have a hash."""
+    return tuple(table.items())
 
 
 @dataclass(frozen=True, init=False)

@@ -132,6 +132,8 @@ def values(jumping: Solution) -> dict[str, Any]:
         "Mechanism": optlaws.rack("20 mm", "5 kg"),
         "LinkGeometry": optlaws.rack("20 mm", "5 kg").linkage,
         "Motor": optlaws.Motor("3e-4 kg m^2"),
+        "Body": optlaws.Body("2 kg", centre=("0.1 m", "20 mm")),
+        "Loads": optlaws.Loads({"0.3 m": "0 N", "0.5 m": "-400 N"}, gravity="180 deg"),
         "DriveLimit": optlaws.drive_limit("c + 0.5*a", "rms torque", C=9.0),
         "PhasePlane": optlaws.drive_limit("c + 0.5*a", B=1.8).plane,
         "MoveLimit": moved,
@@ -208,6 +210,11 @@ def public_classes() -> set[type]:
 @pytest.mark.parametrize("value", ["{", "[]", "{}", '{"law": 3, "value": "x", "over": [1]}'])
 def test_what_is_no_such_value_is_refused(value: str) -> None:
     for one in public_classes():
-        if hasattr(one, "from_json"):
+        if hasattr(one, "from_json") and not (value == "{}" and has_all_defaults(one)):
             with pytest.raises(optlaws.InputError):
                 one.from_json(value)
+
+
+def has_all_defaults(one: Any) -> bool:
+    """Whether a declared value needs no entry, as a body without mass."""
+    return issubclass(one, Declared) and not one.json_schema().get("required", ["kind"])

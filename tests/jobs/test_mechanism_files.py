@@ -228,33 +228,33 @@ def test_damage_is_refused_by_name_or_leaves_something_whole(value: object) -> N
 
 SHORT_TABLE = {"kind": "table", "inertia": "0.1 kg m^2", "load": [["0 deg", "1 N m"], ["30 deg", "4 N m"]]}
 WRONG: dict[str, tuple[dict[str, Any], dict[str, Any] | None, str]] = {
-    "no kind": ({"crank": "0.1 m"}, None, "mechanism: kind is missing: give one of slider crank, four bar"),
+    "no kind": ({"crank": "0.1 m"}, None, "mechanism: a mechanism needs its kind: give one of belt, cam, four bar"),
     "kind": (
         {**CRANK, "kind": "slider cranc"},
         None,
-        "mechanism: unknown kind 'slider cranc'; did you mean 'slider crank'",
+        "mechanism: unknown kind of a mechanism 'slider cranc'; did you mean 'slider crank'",
     ),
     "key": (
         {**CRANK, "ofset": "1 mm"},
         None,
         "mechanism: unknown entry of a slider crank 'ofset'; did you mean 'offset'",
     ),
-    "missing": ({"kind": "belt", "radius": "3 cm"}, None, "mechanism: a belt needs mass too"),
+    "missing": ({"kind": "belt", "radius": "3 cm"}, None, "mechanism: a belt needs its mass, such as mass = '8 kg'"),
     "body": ({**CRANK, "bodies": {"slidr": "5 kg"}}, None, "mechanism: unknown body 'slidr'; did you mean 'slider'"),
     "entry of a body": (
         {**CRANK, "bodies": {"rod": {"mas": "5 kg"}}},
         None,
-        "mechanism: bodies: rod: unknown key 'mas'; did you mean 'mass'",
+        "mechanism: bodies: rod: unknown entry of a body 'mas'; did you mean 'mass'",
     ),
     "load": (
         {**CRANK, "loads": {"forces": "5 N"}},
         None,
-        "mechanism: loads: unknown key 'forces'; did you mean 'force'",
+        "mechanism: loads: unknown entry of loads 'forces'; did you mean 'force'",
     ),
     "negative inertia": (
         {**CRANK, "bodies": {"crank": "-0.02 kg m^2"}},
         None,
-        "mechanism: bodies: crank must be at least 0, got -0.02",
+        "mechanism: bodies: crank must be at least 0, got '-0.02 kg m^2'",
     ),
     "not assembled": (
         {"kind": "four bar", "crank": "0.2 m", "coupler": "0.15 m", "rocker": "0.2 m", "frame": "0.3 m", "bodies": {}},

@@ -10,9 +10,11 @@ import msgspec
 
 from optlaws.errors import InputError, located
 from optlaws.files.problem_file import Text, convert
+from optlaws.jobs.axes import mechanism_entries  # noqa: F401 - by which the kind "cam" is known
 from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.mechanisms.drives.motor import Motor, read_motors
 from optlaws.mechanisms.linkages.mechanism import Mechanism
+from optlaws.mechanisms.linkages.mechanism_kinds import MechanismKind
 from optlaws.suggest import unknown_key
 
 
@@ -60,9 +62,8 @@ def drive_of(
                 "{ kind = 'table', inertia = '0.8 kg m^2' }"
             )
         return drive
-    from optlaws.jobs.axes.mechanism_entries import mechanism_of
-
-    driven = mechanism_of(mechanism)
+    with located("mechanism"):
+        driven = MechanismKind.from_dict(mechanism).mechanism
     if drive is None:
         return driven
     if "motor" not in drive:

@@ -1,74 +1,29 @@
-"""Mechanisms of problem files: a kind, its lengths, bodies and loads, and friction at the input."""
+"""The cam of a mechanism of the kind "cam", whose follower's motion is given by segments."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-from functools import partial
-from inspect import Parameter, signature
+from collections.abc import Mapping
+from dataclasses import KW_ONLY
 from pathlib import Path
-from typing import Any
+from typing import Any, get_args
 
 from optlaws.cams.at_shaft import cam_mechanism
-from optlaws.cams.disc import DiscCam
+from optlaws.cams.disc import DiscCam, Turning
 from optlaws.cams.followers.follower import CamFollower, stated_prime_radius
 from optlaws.cycles.cycle import Cycle
 from optlaws.echo import shortened
-from optlaws.errors import InputError, located
+from optlaws.entries.declared import ValueOf, declared, entry
+from optlaws.entries.value_types import Choice, InSI, Measured, ReadBy, SINumber, Span
+from optlaws.errors import InputError
 from optlaws.files.problem_file import convert
 from optlaws.jobs.axes.segment_entries import SegmentEntries, segment_of
-from optlaws.mechanisms.linkages.bodies import NO_LOADS, Body, Loads
-from optlaws.mechanisms.linkages.four_bar import four_bar
-from optlaws.mechanisms.linkages.mechanism import LinkGeometry, Mechanism
-from optlaws.mechanisms.linkages.motions import belt, rack, screw
-from optlaws.mechanisms.linkages.slider_crank import slider_crank
-from optlaws.mechanisms.linkages.toggle import toggle
+from optlaws.mechanisms.linkages.bodies import NO_LOADS, Loads
+from optlaws.mechanisms.linkages.mechanism import Mechanism
+from optlaws.mechanisms.linkages.mechanism_kinds import MechanismKind, OptionalEnds
 from optlaws.motion.quantities import quantity
-from optlaws.suggest import unknown_key
+from optlaws.numbers import NumberOrQuantity, Quantity
 
-_FRICTION = ("coulomb", "viscous")
 _BY_TIME = ("velocity", "start_velocity", "end_velocity")
-
-
-def _cam(
-    *,
-    prime_radius: Any,
-    follower: Any,
-    segment: Any,
-    moved: Any,
-    turning: Any = "counterclockwise",
-    inertia: Any = 0.0,
-    loads: Loads = NO_LOADS,
-    over: Any = None,
-) -> Mechanism:
-    """The mechanism of a cam and its follower, whose motion over the cam's angle consists of segments."""
-    cam = _disc(prime_radius, follower, segment, turning)
-    return cam_mechanism(cam, moved, inertia=inertia, loads=loads, over=over)
-
-
-def _disc(prime_radius: Any, follower: Any, segment: Any, turning: Any) -> DiscCam:
-    if not isinstance(follower, Mapping):
-        raise InputError(f"follower must be a table with its kind, got {shortened(follower)}")
-    return DiscCam(_motion(segment), prime_radius, CamFollower.from_dict(follower), turning=turning)
-
-
-def cam_of(entries: Mapping[str, Any]) -> DiscCam:
-    """The cam of a mechanism of the kind "cam", for what draws it.
-
-    Raises
-    ------
-    InputError
-        If an entry of the cam is missing or wrong.
-
-    Examples
-    --------
-    >>> segments = [{"kind": "rise", "by": "40 mm", "duration": "120 deg"}, {"kind": "return", "duration": "240 deg"}]
-    >>> follower = {"kind": "translating roller", "radius": "12 mm"}
-    >>> cam_of({"kind": "cam", "prime_radius": "60 mm", "follower": follower, "segment": segments}).base_radius
-    0.048
-    """
-    with located("mechanism"):
-        turning = entries.get("turning", "counterclockwise")
-        return _disc(entries.get("prime_radius"), entries.get("follower"), entries.get("segment"), turning)
 
 
 def _motion(segments: Any) -> Cycle:
@@ -90,111 +45,64 @@ def _motion(segments: Any) -> Cycle:
     return Cycle(given, period="1 s")
 
 
-#: what makes the mechanism of each kind; the entries of the kind are the names of its parameters
-MAKERS: dict[str, Callable[..., Mechanism]] = {
-    "slider crank": slider_crank,
-    "four bar": four_bar,
-    "toggle": toggle,
-    "rack": rack,
-    "belt": belt,
-    "screw": screw,
-    "cam": _cam,
-    "table": Mechanism,
-}
-
-
-def mechanism_of(entries: Any) -> Mechanism:
-    """The mechanism that a table of a problem file describes.
-
-    Parameters
-    ----------
-    entries
-        Its `kind`, and what the function of that kind takes by the same names: lengths, `bodies`, `loads`, `over`;
-        friction at the input, `coulomb` and `viscous`, is an entry of all kinds.
-
-    Raises
-    ------
-    InputError
-        If an entry is unknown, missing or wrong; the error names it.
+@declared
+class CamAtShaft(MechanismKind, kind="cam"):
+    """The mechanism of a cam and its follower, whose motion over the cam's angle consists of segments.
 
     Examples
     --------
-    >>> press = mechanism_of(
-    ...     {"kind": "slider crank", "crank": "0.1 m", "rod": "0.4 m", "bodies": {"slider": "5 kg"}, "coulomb": "1 N m"}
-    ... )
-    >>> round(press.inertia("90 deg"), 9), press.coulomb
-    (0.05, 1.0)
-    >>> mechanism_of({"kind": "slider crank", "cranck": "0.1 m"})
-    Traceback (most recent call last):
-    optlaws.errors.InputError: mechanism: unknown entry of a slider crank 'cranck'; did you mean 'crank'?
+    >>> segments = [{"kind": "rise", "by": "40 mm", "duration": "120 deg"}, {"kind": "return", "duration": "240 deg"}]
+    >>> follower = {"kind": "translating roller", "radius": "12 mm"}
+    >>> entries = {"kind": "cam", "prime_radius": "60 mm", "follower": follower, "segment": segments, "moved": "2 kg"}
+    >>> CamAtShaft.from_dict(entries).cam.base_radius
+    0.048
     """
-    with located("mechanism"):
-        if not isinstance(entries, Mapping):
-            raise InputError(f"it must be a table with its kind, got {shortened(entries)}")
-        kind = entries.get("kind")
-        if kind is None:
-            raise InputError(f"kind is missing: give one of {', '.join(MAKERS)}")
-        if not isinstance(kind, str) or kind not in MAKERS:
-            raise InputError(unknown_key(kind, MAKERS, "kind"))
-        given = {name: value for name, value in entries.items() if name != "kind"}
-        if kind == "cam" and isinstance(given.get("follower"), Mapping) and "base_radius" in given:  # of earlier files
-            former, follower = given.pop("base_radius"), CamFollower.from_dict(given["follower"])
-            given["prime_radius"] = stated_prime_radius(given.get("prime_radius"), former, follower)
-        _check_names(given, kind)
-        friction = {} if kind == "table" else {name: given.pop(name) for name in _FRICTION if name in given}
-        for name, read in _READERS.items():
-            if name in given:
-                given[name] = read(given[name])
-        mechanism = MAKERS[kind](**given)
-        return mechanism.with_friction(**friction) if friction else mechanism
 
+    _: KW_ONLY
+    prime_radius: Quantity = entry(Measured("length", above=0.0), "Of the prime circle.", example="60 mm")
+    follower: CamFollower = entry(
+        ValueOf(CamFollower), "The follower.", example={"kind": "translating roller", "radius": "12 mm"}
+    )
+    segment: Any = entry(
+        ReadBy(_motion, "a list of segments whose durations are angles"),
+        "The motion of the follower over a turn of the cam.",
+        example=[{"kind": "rise", "by": "30 mm", "duration": "120 deg"}, {"kind": "return"}],
+    )
+    moved: NumberOrQuantity = entry(
+        Measured("mass", "moment of inertia", bare=True, least=0.0),
+        "What the follower moves: a mass, or of one that swings a moment of inertia about its pivot.",
+        example="2 kg",
+    )
+    turning: Turning = entry(
+        Choice(*get_args(Turning)), "The sense in which the cam turns.", default="counterclockwise"
+    )
+    inertia: SINumber = entry(
+        InSI("moment of inertia", least=0.0), "Of the cam and its shaft.", default=0.0, example="0.01 kg m^2"
+    )
+    loads: Loads = entry(
+        ValueOf(Loads), "What acts on the follower, over its displacement from the prime circle.", default=NO_LOADS
+    )
+    over: OptionalEnds = entry(
+        Span(InSI("angle")),
+        "The range of x, the cam's angle; that of its motion unless given.",
+        default=None,
+        example=["0 deg", "120 deg"],
+    )
 
-def _check_names(given: Mapping[str, Any], kind: str) -> None:
-    parameters = signature(MAKERS[kind]).parameters
-    known = dict.fromkeys([*parameters, *_FRICTION])
-    for name in given:
-        if name not in known:
-            raise InputError(unknown_key(name, known, f"entry of a {kind}"))
-    needed = [name for name, parameter in parameters.items() if parameter.default is Parameter.empty]
-    needed += ["inertia"] * (kind == "table")
-    missing = [name for name in needed if name not in given]
-    if missing:
-        raise InputError(f"a {kind} needs {', '.join(missing)} too")
+    @classmethod
+    def _from_earlier(cls, data: dict[str, Any]) -> dict[str, Any]:
+        if "base_radius" not in data or not isinstance(data.get("follower"), Mapping):
+            return data
+        former, follower = data.pop("base_radius"), CamFollower.from_dict(data["follower"])
+        return {**data, "prime_radius": stated_prime_radius(data.get("prime_radius"), former, follower)}
 
+    @property
+    def cam(self) -> DiscCam:
+        """The cam with its follower."""
+        return DiscCam(self.segment, self.prime_radius, self.follower, turning=self.turning)
 
-def _bodies(given: Any) -> Any:
-    """Bodies as a linkage takes them: tables of mass, centre and inertia become values."""
-    if not isinstance(given, Mapping):
-        return given
-    return {
-        name: _value(Body, ("mass", "centre", "inertia"), f"bodies: {name}", value)
-        if isinstance(value, Mapping)
-        else value
-        for name, value in given.items()
-    }
-
-
-def _lengths(given: Any) -> Any:
-    if not isinstance(given, Mapping):
-        raise InputError(f"lengths must be a table such as {{ crank = '60 mm' }}, got {shortened(given)}")
-    return given
-
-
-def _value(kind: Callable[..., Any], names: Sequence[str], where: str, given: Any) -> Any:
-    """A value of a kind from its table."""
-    with located(where):
-        if not isinstance(given, Mapping):
-            raise InputError(f"it must be a table of {', '.join(names)}, got {shortened(given)}")
-        for name in given:
-            if name not in names:
-                raise InputError(unknown_key(name, names))
-        return kind(**given)
-
-
-_LOADS = ("force", "over", "interpolation", "stiffness", "free", "gravity")
-_READERS: dict[str, Callable[[Any], Any]] = {
-    "bodies": _bodies,
-    "lengths": _lengths,
-    "loads": partial(_value, Loads, _LOADS, "loads"),
-    "linkage": LinkGeometry.from_dict,
-}
+    @property
+    def mechanism(self) -> Mechanism:
+        shaft = cam_mechanism(self.cam, self.moved, inertia=self.inertia, loads=self.loads, over=self.over)
+        friction = {"coulomb": self.coulomb, "viscous": self.viscous}
+        return shaft.with_friction(**friction) if any(friction.values()) else shaft

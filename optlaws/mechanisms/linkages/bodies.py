@@ -2,40 +2,34 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Mapping
+from dataclasses import KW_ONLY, dataclass
 from math import cos, sin
-from typing import Any, Literal, get_args
+from typing import Any, Literal, TypeAlias, get_args
 
 import numpy as np
 
 from optlaws.echo import shortened
-from optlaws.errors import InputError
+from optlaws.entries.declared import Declared, declared, entry
+from optlaws.entries.value_types import Choice, InSI, Kept, Measured, SINumber, Together, ValueType
+from optlaws.errors import InputError, located
 from optlaws.formulas.slopes import added, multiplied
 from optlaws.formulas.tracing import Traced
 from optlaws.formulas.tree import Exponentiation, Formula, Number, number, substituted
-from optlaws.mechanisms.linkages.entries import TableKind, formula_of
+from optlaws.mechanisms.linkages.entries import OverPlace, TableKind, formula_of
 from optlaws.motion.quantities import quantity, si_number
-from optlaws.numbers import NumberOrQuantity, finite, not_negative
+from optlaws.numbers import NumberOrQuantity, Quantity, finite, not_negative
 from optlaws.suggest import unknown_key
 from optlaws.tolerances import WAVE_ROUNDING
 
 GRAVITY = 9.80665
 LoadPlace = Literal["driven", "input"]
+Centre: TypeAlias = Kept[tuple[float, float], "tuple[NumberOrQuantity, NumberOrQuantity]"]
 
 
-@dataclass(frozen=True, init=False)
-class Body:
+@declared
+class Body(Declared, title="a body"):
     """The mass of a link: how great, where its centre is, and its moment of inertia about that.
-
-    Parameters
-    ----------
-    mass
-        A quantity such as "5 kg", or a number in kg.
-    centre
-        Of mass, from the link's first joint: along the link towards its second joint, and across it, to the left.
-    inertia
-        Moment of inertia about the centre of mass, such as "0.002 kg m^2", or a number in kg m².
 
     Raises
     ------
@@ -48,25 +42,20 @@ class Body:
     Body(mass=2.0, centre=(0.1, 0.02), inertia=0.0)
     """
 
-    mass: float
-    centre: tuple[float, float]
-    inertia: float
-
-    def __init__(
-        self,
-        mass: NumberOrQuantity = 0.0,
-        *,
-        centre: tuple[NumberOrQuantity, NumberOrQuantity] = (0.0, 0.0),
-        inertia: NumberOrQuantity = 0.0,
-    ) -> None:
-        place: Any = centre
-        if not isinstance(place, list | tuple) or len(place) != 2:
-            raise InputError(f"centre must be two lengths, along the link and across it, got {shortened(place)}")
-        along, across = (finite(si_number(value, ("length",), "centre"), "centre") for value in centre)
-        object.__setattr__(self, "mass", not_negative(si_number(mass, ("mass",), "mass"), "mass"))
-        object.__setattr__(self, "centre", (along, across))
-        turning = si_number(inertia, ("moment of inertia",), "inertia")
-        object.__setattr__(self, "inertia", not_negative(turning, "inertia"))
+    mass: SINumber = entry(InSI("mass", least=0.0), "How much it is.", default=0.0, example="2 kg")
+    _: KW_ONLY
+    centre: Centre = entry(
+        Together(InSI("length"), InSI("length"), names=("along", "across")),
+        "Of mass, from the link's first joint: along the link towards its second joint, and across it, to the left.",
+        default=(0.0, 0.0),
+        example=["0.1 m", "0 m"],
+    )
+    inertia: SINumber = entry(
+        InSI("moment of inertia", least=0.0),
+        "Moment of inertia about the centre of mass.",
+        default=0.0,
+        example="0.002 kg m^2",
+    )
 
     def about(self, distance_squared: float) -> float:
         """The moment of inertia about a point at a distance from the centre of mass."""
@@ -78,27 +67,9 @@ class Body:
         return self.about(self.centre[0] ** 2 + self.centre[1] ** 2)
 
 
-@dataclass(frozen=True)
-class Loads:
+@declared
+class Loads(Declared, title="loads"):
     """Loads on a mechanism: a process force and a spring on its driven link, and gravity on all its links.
-
-    Parameters
-    ----------
-    force
-        On the driven link, above 0 where it pushes to greater positions: a quantity such as "-200 N", a formula of the
-        position s of the link (or of x, the input's) in SI units, or a table of places and forces; torques for a link
-        that turns.
-    over
-        "driven" where the force is over the position of the driven link, "input" where it is over the input's.
-    interpolation
-        Of a table: straight "lines", or "spline", a smooth curve that rises and falls as the values do and is nowhere
-        beyond its two neighbours.
-    stiffness
-        Of a spring between the driven link and the frame, such as "3 N/mm", or "5 N m/rad".
-    free
-        The position of the driven link at which the spring is without force.
-    gravity
-        The direction in which it acts in the plane of the mechanism, such as "-90 deg"; none unless given.
 
     Examples
     --------
@@ -106,19 +77,42 @@ class Loads:
     'driven'
     """
 
-    force: Any = 0.0
-    over: LoadPlace = "driven"
-    interpolation: TableKind = field(default="lines", kw_only=True)
-    stiffness: NumberOrQuantity = field(default=0.0, kw_only=True)
-    free: NumberOrQuantity = field(default=0.0, kw_only=True)
-    gravity: NumberOrQuantity | None = field(default=None, kw_only=True)
-
-    def __post_init__(self) -> None:
-        if self.over not in tuple(get_args(LoadPlace)):
-            raise InputError(unknown_key(self.over, get_args(LoadPlace), "over of loads"))
-        if self.interpolation not in tuple(get_args(TableKind)):
-            raise InputError(unknown_key(self.interpolation, get_args(TableKind), "interpolation"))
-        self.weight  # noqa: B018 - what is wrong is refused at once
+    force: Any = entry(
+        OverPlace("s, the position of the link, or x, the input's"),
+        "On the driven link, above 0 where it pushes to greater positions; a torque for a link that turns.",
+        default=0.0,
+        example="-200 N",
+    )
+    over: LoadPlace = entry(
+        Choice(*get_args(LoadPlace)),
+        "Whether the force is over the position of the driven link or over the input's.",
+        default="driven",
+    )
+    _: KW_ONLY
+    interpolation: TableKind = entry(
+        Choice(*get_args(TableKind)),
+        "Of a table: straight lines, or a spline, a smooth curve that rises and falls as the values do and is nowhere "
+        "beyond its two neighbours.",
+        default="lines",
+    )
+    stiffness: NumberOrQuantity = entry(
+        Measured("stiffness", "torsional stiffness", bare=True, least=0.0),
+        "Of a spring between the driven link and the frame.",
+        default=0.0,
+        example="3 N/mm",
+    )
+    free: NumberOrQuantity = entry(
+        Measured("length", "angle", bare=True),
+        "The position of the driven link at which the spring is without force.",
+        default=0.0,
+        example="10 mm",
+    )
+    gravity: Quantity | None = entry(
+        Measured("angle"),
+        "The direction in which gravity acts in the plane of the mechanism; none unless given.",
+        default=None,
+        example="-90 deg",
+    )
 
     @property
     def weight(self) -> tuple[float, float]:
@@ -191,33 +185,75 @@ def formula_from(value: Any) -> Formula:
     return value if isinstance(value, Formula) else number(float(value))
 
 
-def bodies_of(given: Any, pivoted: Sequence[str], coupled: Sequence[str], sliding: Sequence[str]) -> dict[str, Body]:
+@dataclass(frozen=True)
+class Bodies(ValueType):
     """The bodies of a linkage by the names of its links; those that are not given have no mass.
 
-    Links on a pivot may be given as a moment of inertia about it, those that slide as a mass.
+    Links on a pivot may be given as a moment of inertia about it, those that slide as a mass; one that is coupled to
+    others needs a `Body`.
+
+    >>> Bodies(pivoted=("crank",), sliding=("slider",)).read({"slider": "5 kg"}, "bodies")["slider"]
+    Body(mass=5.0, centre=(0.0, 0.0), inertia=0.0)
     """
-    names = (*pivoted, *coupled, *sliding)
-    if not isinstance(given, Mapping):
-        raise InputError(f"bodies must be a table such as {{'{names[0]}': '0.02 kg m^2'}}, got {shortened(given)}")
-    for name in given:
-        if name not in names:
-            raise InputError(unknown_key(name, names, "body"))
-    bodies = dict.fromkeys(names, Body())
-    for name, value in given.items():
-        bodies[name] = _body(value, name, "mass" if name in sliding else "moment of inertia", name in coupled)
-    return bodies
+
+    pivoted: tuple[str, ...]
+    coupled: tuple[str, ...] = ()
+    sliding: tuple[str, ...] = ()
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The names of the links."""
+        return (*self.pivoted, *self.coupled, *self.sliding)
+
+    def read(self, value: Any, name: str) -> dict[str, Body]:
+        if not isinstance(value, Mapping):
+            raise InputError(
+                f"{name} must be a table such as {{'{self.names[0]}': '0.02 kg m^2'}}, got {shortened(value)}"
+            )
+        for link in value:
+            if link not in self.names:
+                raise InputError(unknown_key(link, self.names, "body"))
+        return {
+            link: self._body(value[link], link, f"{name}: {link}") if link in value else Body() for link in self.names
+        }
+
+    def _body(self, value: Any, link: str, name: str) -> Body:
+        if isinstance(value, Body):
+            return value
+        if isinstance(value, Mapping):
+            with located(name):
+                return Body.from_dict(value)
+        if link in self.coupled:
+            raise InputError(
+                f"{name} is on no pivot and needs a Body with its mass and centre, such as "
+                f"Body('2 kg', centre=('0.1 m', '0 m')), got {shortened(value)}"
+            )
+        if link in self.sliding:
+            return Body(_MASS.number(value, name))
+        return Body(inertia=_INERTIA.number(value, name))
+
+    def plain(self, value: Any) -> Any:
+        return {name: body.to_dict() for name, body in value.items() if body != Body()}
+
+    @property
+    def words(self) -> str:
+        known = {"moment of inertia": self.pivoted, "body": self.coupled, "mass": self.sliding}
+        return "a table, " + "; ".join(f"{what} of {', '.join(names)}" for what, names in known.items() if names)
+
+    def schema(self) -> dict[str, Any]:
+        body = Body.json_schema()
+        quantity_of = {**dict.fromkeys(self.pivoted, _INERTIA), **dict.fromkeys(self.sliding, _MASS)}
+        links = {
+            name: {"anyOf": [body, *quantity_of[name].schema()["anyOf"]]} if name in quantity_of else body
+            for name in self.names
+        }
+        return {"type": "object", "properties": links, "additionalProperties": False}
+
+    def form(self) -> dict[str, Any]:
+        return {"names": list(self.names), "of": Body.form()}
 
 
-def _body(value: Any, name: str, dimension: str, is_coupled: bool) -> Body:  # noqa: FBT001
-    if isinstance(value, Body):
-        return value
-    if is_coupled:
-        raise InputError(
-            f"bodies: {name} is on no pivot and needs a Body with its mass and centre, such as Body('2 kg', "
-            f"centre=('0.1 m', '0 m')), got {shortened(value)}"
-        )
-    number_ = not_negative(si_number(value, (dimension,), f"bodies: {name}"), f"bodies: {name}")
-    return Body(number_) if dimension == "mass" else Body(inertia=number_)
+_MASS, _INERTIA = InSI("mass", least=0.0), InSI("moment of inertia", least=0.0)
 
 
 def weight_load(mass: float, gravity: tuple[float, float], velocity: tuple[Any, Any]) -> list[Formula]:
@@ -227,21 +263,3 @@ def weight_load(mass: float, gravity: tuple[float, float], velocity: tuple[Any, 
         for part, speed in zip(gravity, velocity, strict=True)
         if mass * part != 0.0
     ]
-
-
-def length(value: Any, name: str) -> float:
-    """A length above 0 in metres, from a number or a quantity."""
-    metres = finite(si_number(value, ("length",), name), name)
-    if metres <= 0.0:
-        raise InputError(f"{name} must be above 0, got {shortened(value)}")
-    return metres
-
-
-def ends_of(over: Any) -> tuple[float, float]:
-    """The ends of a range of the input's angle, rad."""
-    if not isinstance(over, list | tuple) or len(over) != 2:
-        raise InputError(f"over must be two angles such as ('0 deg', '360 deg'), got {shortened(over)}")
-    low, high = (finite(si_number(value, ("angle",), "over"), "over") for value in over)
-    if not low < high:
-        raise InputError(f"over must be two angles that ascend, got {shortened(over)}")
-    return low, high

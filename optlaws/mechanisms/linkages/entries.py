@@ -4,18 +4,19 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import Any, Literal
 
 import numpy as np
 
 from optlaws.echo import shortened
-from optlaws.errors import InputError
+from optlaws.entries.value_types import ValueType
+from optlaws.errors import InputError, located
 from optlaws.formulas.arithmetic import horner, pieces
 from optlaws.formulas.reading import read
 from optlaws.formulas.tree import Formula, Name, Table, TableJoin, number
-from optlaws.motion.quantities import quantity, si_number
+from optlaws.motion.quantities import quantity, si_number, written
 from optlaws.numbers import Array, finite, real
 from optlaws.tolerances import VALUE_ROUNDING
 
@@ -27,6 +28,54 @@ _FEWEST = 2
 _SWING = 0.02
 #: a number with a unit behind it; in formulas a number is followed by a sign
 _WITH_UNIT = re.compile(r"\s*[+-]?[\d./]*\d(?:[eE][+-]?\d+)?+\s*[^\W\d_]")
+
+
+@dataclass(frozen=True)
+class OverPlace(ValueType):
+    """What `formula_of` reads, kept as it is given: its dimension is that of what it acts on.
+
+    >>> OverPlace("x").read(True, "load")
+    Traceback (most recent call last):
+    optlaws.errors.InputError: load must be a number, a quantity, a formula of x, or a table of places and values, ...
+    """
+
+    of: str  #: the variables of formulas, in words
+
+    def read(self, value: Any, name: str) -> Any:
+        if isinstance(value, Formula | str | Mapping | list | tuple) or hasattr(value, "units"):
+            return written(value)
+        if real(value) is None:
+            raise InputError(f"{name} must be {self.words}, got {shortened(value)}")
+        return finite(value, name)
+
+    def plain(self, value: Any) -> Any:
+        return str(value) if isinstance(value, Formula) else value
+
+    @property
+    def words(self) -> str:
+        return f"a number, a quantity, a formula of {self.of}, or a table of places and values"
+
+    def schema(self) -> dict[str, Any]:
+        return {"type": ["number", "string", "array", "object"]}
+
+
+@dataclass(frozen=True)
+class FormulaText(ValueType):
+    """A formula of x, as a text."""
+
+    def read(self, value: Any, name: str) -> Formula:
+        with located(name):
+            return value if isinstance(value, Formula) else read(value, ("x",))
+
+    def plain(self, value: Any) -> str:
+        return str(value)
+
+    @property
+    def words(self) -> str:
+        return "a formula of x"
+
+    def schema(self) -> dict[str, Any]:
+        return {"type": "string"}
 
 
 def formula_of(

@@ -3,33 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import KW_ONLY, dataclass
 from math import ceil, cos, pi, sin
 from typing import Any, Literal
 
 import numpy as np
 
-from optlaws.errors import InputError
+from optlaws.entries.declared import declared, entry
+from optlaws.entries.value_types import Choice, SINumber
 from optlaws.formulas.arithmetic import NUMPY, evaluate
-from optlaws.formulas.slopes import added
 from optlaws.formulas.tracing import Traced
 from optlaws.formulas.tree import Formula, Name, Number, number
 from optlaws.kept import kept_property
 from optlaws.mechanisms.linkages.assembly import check_four_bar
-from optlaws.mechanisms.linkages.bodies import (
-    NO_LOADS,
-    Body,
-    DrivenLink,
-    Loads,
-    Moving,
-    bodies_of,
-    ends_of,
-    length,
-    weight_load,
-)
+from optlaws.mechanisms.linkages.bodies import Bodies, Body, DrivenLink, Moving, weight_load
 from optlaws.mechanisms.linkages.mechanism import LinkGeometry, Mechanism
-from optlaws.numbers import NumberOrQuantity
-from optlaws.suggest import unknown_key
+from optlaws.mechanisms.linkages.mechanism_kinds import LENGTH, BodiesByLink, LinkageKind, function_of
 
 FourBarBranch = Literal["open", "crossed"]
 SIDES: dict[FourBarBranch, float] = {"open": 1.0, "crossed": -1.0}
@@ -203,43 +192,16 @@ class FourBarKinematics:
 
 def four_bar_of(lengths: Mapping[str, float], branch: FourBarBranch, ends: tuple[float, float]) -> FourBarKinematics:
     """The kinematics of a four-bar that can be assembled over a range of its crank."""
-    if branch not in tuple(SIDES):
-        raise InputError(unknown_key(branch, SIDES, "branch"))
     check_four_bar(**lengths, ends=ends)
     return FourBarKinematics(**lengths, side=SIDES[branch])
 
 
-def four_bar(
-    crank: NumberOrQuantity,
-    coupler: NumberOrQuantity,
-    rocker: NumberOrQuantity,
-    frame: NumberOrQuantity,
-    *,
-    bodies: Mapping[str, Any],
-    loads: Loads = NO_LOADS,
-    over: tuple[NumberOrQuantity, NumberOrQuantity] = ("0 deg", "360 deg"),
-    branch: FourBarBranch = "open",
-) -> Mechanism:
+@declared
+class FourBar(LinkageKind, kind="four bar"):
     """The mechanism of a crank that swings a rocker through a coupler; x is the crank's angle from the frame.
 
     The frame goes from the crank's pivot to the rocker's. The driven link is the rocker, its position the angle of its
-    pin from the frame's direction.
-
-    Parameters
-    ----------
-    crank, coupler, rocker, frame
-        Their lengths between pins, such as "0.1 m", or numbers in m.
-    bodies
-        Of "crank", "coupler" and "rocker": a moment of inertia about its pivot such as "0.02 kg m^2" for crank and
-        rocker, or a `Body`; `Body("2 kg", centre=("80 mm", "50 mm"))` is a mass at a point of the coupler, along it
-        from the crank's pin and across it.
-    loads
-        What acts on the rocker, torques over its angle; the direction of gravity is from the frame's.
-    over
-        The range of x.
-    branch
-        "open" where the rocker's pin is to the left of the way from the crank's pin to the rocker's pivot, "crossed"
-        where it is to the right.
+    pin from the frame's direction; loads on it are torques over its angle, and gravity's direction is from the frame's.
 
     Raises
     ------
@@ -252,22 +214,37 @@ def four_bar(
     >>> round(linkage.inertia("90 deg"), 9), round(linkage.driven_position("rocker", "90 deg"), 6)
     (0.006471764, 1.907443)
     """
-    named = {"crank": crank, "coupler": coupler, "rocker": rocker, "frame": frame}
-    ends = ends_of(over)
-    linkage = four_bar_of({name: length(value, name) for name, value in named.items()}, branch, ends)
-    known = bodies_of(bodies, pivoted=("crank", "rocker"), coupled=("coupler",), sliding=())
-    inertia, load = moved_by_crank(linkage, known, loads.weight)
-    position = linkage.rocker_position(ends)
-    load += loads.on(DrivenLink("rocker", position, linkage.rocker_velocity.formula, "angle"), "angle")
-    driven = () if position is None else (("rocker", position),)
-    return Mechanism(
-        added(inertia),
-        added(load),
-        over=ends,
-        axis="angle",
-        name="four-bar",
-        linkage=LinkGeometry(driven, linkage.chains),
+
+    crank: SINumber = entry(LENGTH, "Its length between pins.", example="100 mm")
+    coupler: SINumber = entry(LENGTH, "Its length between pins.", example="300 mm")
+    rocker: SINumber = entry(LENGTH, "Its length between pins.", example="250 mm")
+    frame: SINumber = entry(LENGTH, "The distance of the pivots.", example="350 mm")
+    _: KW_ONLY
+    bodies: BodiesByLink = entry(
+        Bodies(("crank", "rocker"), ("coupler",)),
+        'Of crank and rocker a moment of inertia about the pivot, or a `Body`; `Body("2 kg", centre=("80 mm", '
+        '"50 mm"))` is a mass at a point of the coupler, along it from the crank\'s pin and across it.',
+        example={"rocker": "0.05 kg m^2"},
     )
+    branch: FourBarBranch = entry(
+        Choice(*SIDES),
+        "Open where the rocker's pin is to the left of the way from the crank's pin to the rocker's pivot, crossed "
+        "where it is to the right.",
+        default="open",
+    )
+
+    @property
+    def mechanism(self) -> Mechanism:
+        lengths = {"crank": self.crank, "coupler": self.coupler, "rocker": self.rocker, "frame": self.frame}
+        linkage = four_bar_of(lengths, self.branch, self.ends)
+        inertia, load = moved_by_crank(linkage, self.bodies, self.loads.weight)
+        position = linkage.rocker_position(self.ends)
+        load += self.loads.on(DrivenLink("rocker", position, linkage.rocker_velocity.formula, "angle"), "angle")
+        driven = () if position is None else (("rocker", position),)
+        return self._mechanism(inertia, load, self.ends, LinkGeometry(driven, linkage.chains))
+
+
+four_bar = function_of(FourBar)
 
 
 def moved_by_crank(

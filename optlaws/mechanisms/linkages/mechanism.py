@@ -3,26 +3,29 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import KW_ONLY, dataclass
 from functools import lru_cache
 from math import factorial
-from typing import TYPE_CHECKING, Any, Literal, Self
+from typing import TYPE_CHECKING, Any, Literal, Self, TypeAlias, get_args
 
 import numpy as np
 
 from optlaws.echo import shortened
+from optlaws.entries.declared import Declared, ValueOf, declared, entries_of, entry
+from optlaws.entries.value_types import Choice, Kept, Listed, Measured, Text, pairs
+from optlaws.entries.value_types import Table as TableOf
+from optlaws.entries.value_types import Together as Tuple
 from optlaws.errors import InputError
-from optlaws.files.reading import JsonText, entries_of
+from optlaws.files.reading import JsonText, of_known_format
 from optlaws.formulas.arithmetic import NUMPY, Together, evaluate
 from optlaws.formulas.branches import smooth_itself
 from optlaws.formulas.intervals import Endpoints, enclosed
-from optlaws.formulas.reading import read
 from optlaws.formulas.slopes import added
 from optlaws.formulas.slopes import derivative as slope
 from optlaws.formulas.tree import Formula, Name, Table, table_places
 from optlaws.kept import kept_property
 from optlaws.mechanisms.linkages.dimensionless import DimensionlessMechanism, InputFriction, dimensionless
-from optlaws.mechanisms.linkages.entries import formula_of
+from optlaws.mechanisms.linkages.entries import FormulaText, OverPlace, formula_of
 from optlaws.mechanisms.linkages.linear_force import LinearForce, line_of
 from optlaws.mechanisms.linkages.move_limit import (
     MOVED,
@@ -67,42 +70,31 @@ DIMENSIONS: dict[InputAxis, dict[str, str]] = {
 FORMAT = 1
 _LOOKS = 1441
 _PARTS = 64
-_ENTRIES = ("format", "name", "axis", "over", "inertia", "load", "coulomb", "viscous", "linkage")
 
 
-@dataclass(frozen=True)
-class LinkGeometry(JsonText):
-    """Geometry of a mechanism's links beyond inertia and load.
+Driven: TypeAlias = Kept[
+    "tuple[tuple[str, Formula], ...]", "tuple[tuple[str, Formula], ...] | Mapping[str, Formula | str]"
+]
 
-    Attributes
-    ----------
-    driven
-        Names of driven links, and formulas of their positions over x.
-    chains
-        Of points, each a pair of formulas of x in m, that a picture joins by lines; a chain of one point is a pivot.
-    """
 
-    driven: tuple[tuple[str, Formula], ...] = ()
-    chains: tuple[tuple[tuple[Formula, Formula], ...], ...] = ()
+@declared
+class LinkGeometry(Declared, title="a linkage"):
+    """Geometry of a mechanism's links beyond inertia and load."""
 
-    def to_dict(self) -> dict[str, Any]:
-        """The mechanism as plain data, with its formulas as texts."""
-        return {
-            "driven": {name: str(formula) for name, formula in self.driven},
-            "chains": [[[str(x), str(y)] for x, y in chain] for chain in self.chains],
-        }
+    writes_defaults = True
 
-    @classmethod
-    def from_dict(cls, data: Any) -> LinkGeometry:
-        """The links that `to_dict` described."""
-        try:
-            driven = tuple((str(name), read(text, ("x",))) for name, text in data["driven"].items())
-            chains = tuple(tuple((read(x, ("x",)), read(y, ("x",))) for x, y in chain) for chain in data["chains"])
-        except (AttributeError, KeyError, TypeError, ValueError) as error:
-            raise InputError(
-                f"linkage must have a table driven of formulas, and a list chains of points of two formulas: {error}"
-            ) from None
-        return cls(driven, chains)
+    driven: Driven = entry(
+        TableOf(FormulaText(), keep=pairs), "Positions of driven links over x, by their names.", default=()
+    )
+    chains: tuple[tuple[tuple[Formula, Formula], ...], ...] = entry(
+        Listed(Listed(Tuple(FormulaText(), FormulaText()))),
+        "Of points in m, each of two coordinates over x, that a picture joins by lines; a chain of one point is a "
+        "pivot.",
+        default=(),
+    )
+
+
+NO_LINKAGE = LinkGeometry()
 
 
 @dataclass(frozen=True, init=False, eq=False, repr=False)
@@ -171,7 +163,7 @@ class Mechanism(JsonText):
         over: tuple[NumberOrQuantity, NumberOrQuantity] | None = None,
         axis: InputAxis | None = None,
         name: str = "mechanism",
-        linkage: LinkGeometry = LinkGeometry(),
+        linkage: LinkGeometry = NO_LINKAGE,
     ) -> None:
         kind, ends = _axis_and_ends(over, axis)
         known = DIMENSIONS[kind]
@@ -482,23 +474,63 @@ class Mechanism(JsonText):
         }
 
     @classmethod
-    def from_dict(cls, data: Any) -> Self:
+    def from_dict(cls, data: Any) -> Mechanism:
         """The mechanism that `to_dict` described.
 
         Raises
         ------
         InputError
-            If an entry is unknown or wrong.
+            If an entry is unknown, missing or wrong; the error names it.
         """
-        if not isinstance(data, Mapping) or data.get("format", FORMAT) != FORMAT:
-            raise InputError(f"a stored mechanism is a table of format {FORMAT}, got {shortened(data)}")
-        for name in data:
-            if name not in _ENTRIES:
-                raise InputError(unknown_key(name, _ENTRIES, "entry of a mechanism"))
-        entries_of(data, ("inertia", "load"), "a stored mechanism")
-        plain = {name: data[name] for name in _ENTRIES[1:-1] if data.get(name) is not None}
-        linkage = LinkGeometry.from_dict(data["linkage"]) if data.get("linkage") is not None else LinkGeometry()
-        return cls(**plain, linkage=linkage)
+        return MechanismEntries.from_dict(data).mechanism
+
+
+@declared
+class MechanismEntries(Declared, title="a mechanism"):
+    """The entries of a `Mechanism`, as files have them."""
+
+    inertia: Any = entry(
+        OverPlace("x, the input's position,"), "Of all masses at the input; tables are smooth.", example="0.8 kg m^2"
+    )
+    load: Any = entry(
+        OverPlace("x"),
+        "What resists the motion to greater x; tables are straight lines.",
+        default=0.0,
+        example="2*sin(x)",
+    )
+    _: KW_ONLY
+    coulomb: NumberOrQuantity = entry(
+        Measured("torque", "force", bare=True, least=0.0),
+        "Friction that does not depend on the speed, at the input.",
+        default=0.0,
+        example="0.5 N m",
+    )
+    viscous: NumberOrQuantity = entry(
+        Measured("rotary viscous friction", "viscous friction", bare=True, least=0.0),
+        "Friction in proportion to the speed, at the input.",
+        default=0.0,
+        example="0.02 N m s/rad",
+    )
+    over: Any = entry(
+        Listed(Measured("angle", "length", bare=True), least=2, most=2),
+        "The range of x; that of its tables unless given.",
+        default=None,
+        example=["0 deg", "180 deg"],
+    )
+    axis: InputAxis | None = entry(
+        Choice(*get_args(InputAxis)), "Whether the input turns or slides; as `over` says unless given.", default=None
+    )
+    name: str = entry(Text(), "What pictures and texts call it.", default="mechanism", shown=False)
+    linkage: LinkGeometry = entry(ValueOf(LinkGeometry), "What a picture draws.", default=NO_LINKAGE, shown=False)
+
+    @classmethod
+    def _from_earlier(cls, data: dict[str, Any]) -> dict[str, Any]:
+        return of_known_format(data, "a mechanism")
+
+    @property
+    def mechanism(self) -> Mechanism:
+        """The mechanism of these entries."""
+        return Mechanism(**{name: getattr(self, name) for name in entries_of(type(self))})
 
 
 def _range(formulas: Mapping[str, Formula], ends: tuple[float, float] | None, axis: InputAxis) -> tuple[float, float]:

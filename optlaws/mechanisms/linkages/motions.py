@@ -3,18 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from dataclasses import KW_ONLY
 from typing import Any
 
 from optlaws.echo import shortened
+from optlaws.entries.declared import ValueOf, declared, entry
+from optlaws.entries.value_types import InSI, SINumber, Span
 from optlaws.errors import InputError
 from optlaws.formulas.slopes import added, derivative, multiplied
 from optlaws.formulas.tracing import traced
 from optlaws.formulas.tree import Formula, Name, number
-from optlaws.mechanisms.linkages.bodies import NO_LOADS, DrivenLink, Loads, Moving, length
+from optlaws.mechanisms.linkages.bodies import NO_LOADS, DrivenLink, Loads, Moving
 from optlaws.mechanisms.linkages.mechanism import LinkGeometry, Mechanism
-from optlaws.motion.quantities import TURN, either, si_number
-from optlaws.numbers import NumberOrQuantity, not_negative, positive
+from optlaws.mechanisms.linkages.mechanism_kinds import LENGTH, MechanismKind, OptionalEnds, function_of
+from optlaws.motion.quantities import TURN, either
+from optlaws.numbers import NumberOrQuantity, not_negative
 from optlaws.suggest import unknown_key
+
+MASS = InSI("mass", above=0.0)
 
 
 def mechanism_of_motion(
@@ -90,67 +96,54 @@ def _weight(value: Any, name: str) -> tuple[str, float]:
     return ("length" if dimension == "mass" else "angle"), not_negative(weight, f"masses: {name}")
 
 
-def rack(
-    radius: NumberOrQuantity,
-    mass: NumberOrQuantity,
-    *,
-    inertia: NumberOrQuantity = 0.0,
-    loads: Loads = NO_LOADS,
-    over: tuple[NumberOrQuantity, NumberOrQuantity] | None = None,
-) -> Mechanism:
+@declared
+class SlideKind(MechanismKind):
+    """A slide that moves in proportion to the angle of the input."""
+
+    _: KW_ONLY
+    inertia: SINumber = entry(
+        InSI("moment of inertia", least=0.0), "Of what turns with the input.", default=0.0, example="1e-4 kg m^2"
+    )
+    loads: Loads = entry(
+        ValueOf(Loads),
+        "What acts on the slide; gravity's direction is from the slide's way, \"180 deg\" for one that goes straight "
+        "up.",
+        default=NO_LOADS,
+    )
+    over: OptionalEnds = entry(
+        Span(InSI("angle")), "The range of x; without bound unless given.", default=None, example=["0 turn", "9 turn"]
+    )
+
+    def _slide(self, ratio: float, mass: float) -> Mechanism:
+        """The mechanism whose slide is at the ratio times the input's angle."""
+        position: Formula = multiplied([number(ratio), Name("x")])
+        slide = DrivenLink("slide", position, number(ratio), "length")
+        load = [number(-mass * self.loads.weight[0] * ratio), *self.loads.on(slide, "angle")]
+        inertia = number(self.inertia + mass * ratio**2)
+        return self._mechanism([inertia], load, self.over, LinkGeometry((("slide", position),)))
+
+
+@declared
+class Rack(SlideKind, kind="rack"):
     """The mechanism of a pinion that drives a rack; x is the pinion's angle, and the slide is at s = radius x.
-
-    Parameters
-    ----------
-    radius
-        Of the pinion's pitch circle, such as "20 mm", or a number in m.
-    mass
-        Of the rack and what it carries, such as "12 kg".
-    inertia
-        Of the pinion.
-    loads
-        What acts on the slide; gravity's direction is from the slide's way, "180 deg" for one that goes straight up.
-    over
-        The range of x; without bound unless given.
-
-    Raises
-    ------
-    InputError
-        If a quantity is of another dimension or not above 0.
 
     Examples
     --------
     >>> rack("20 mm", "12 kg", inertia="1e-4 kg m^2").inertia(0.0)
     0.0049
     """
-    return _in_proportion(length(radius, "radius"), "rack", mass, (inertia, loads, over))
+
+    radius: SINumber = entry(LENGTH, "Of the pitch circle of the pinion that drives.", example="20 mm")
+    mass: SINumber = entry(MASS, "Of the slide and what it carries.", example="12 kg")
+
+    @property
+    def mechanism(self) -> Mechanism:
+        return self._slide(self.radius, self.mass)
 
 
-def belt(
-    radius: NumberOrQuantity,
-    mass: NumberOrQuantity,
-    *,
-    inertia: NumberOrQuantity = 0.0,
-    loads: Loads = NO_LOADS,
-    over: tuple[NumberOrQuantity, NumberOrQuantity] | None = None,
-) -> Mechanism:
+@declared
+class Belt(SlideKind, kind="belt"):
     """The mechanism of a pulley that drives a carriage by a belt; x is the pulley's angle, s = radius x.
-
-    Parameters
-    ----------
-    radius
-        Of the driven pulley, such as "30 mm", or a number in m.
-    mass
-        Of the carriage and the belt.
-    inertia
-        Of all pulleys, at the driven one.
-    loads, over
-        As of a `rack`.
-
-    Raises
-    ------
-    InputError
-        If a quantity is of another dimension or not above 0.
 
     Examples
     --------
@@ -158,34 +151,18 @@ def belt(
     >>> round(lift.load(0.0), 6)
     2.353596
     """
-    return _in_proportion(length(radius, "radius"), "belt", mass, (inertia, loads, over))
+
+    radius: SINumber = entry(LENGTH, "Of the driven pulley.", example="30 mm")
+    mass: SINumber = entry(MASS, "Of the carriage and the belt.", example="8 kg")
+
+    @property
+    def mechanism(self) -> Mechanism:
+        return self._slide(self.radius, self.mass)
 
 
-def screw(
-    lead: NumberOrQuantity,
-    mass: NumberOrQuantity,
-    *,
-    inertia: NumberOrQuantity = 0.0,
-    loads: Loads = NO_LOADS,
-    over: tuple[NumberOrQuantity, NumberOrQuantity] | None = None,
-) -> Mechanism:
+@declared
+class Screw(SlideKind, kind="screw"):
     """The mechanism of a screw that drives a nut; x is the screw's angle, s = lead x/(2 pi).
-
-    Parameters
-    ----------
-    lead
-        The way of the nut with a turn of the screw, such as "10 mm", or a number in m.
-    mass
-        Of the nut and what it carries.
-    inertia
-        Of the screw.
-    loads, over
-        As of a `rack`.
-
-    Raises
-    ------
-    InputError
-        If a quantity is of another dimension or not above 0.
 
     Examples
     --------
@@ -193,21 +170,13 @@ def screw(
     >>> round(axis.load(0.0), 6), round(axis.driven_position("slide", "1 turn"), 6)
     (0.795775, 0.01)
     """
-    return _in_proportion(length(lead, "lead") / TURN, "screw", mass, (inertia, loads, over))
+
+    lead: SINumber = entry(LENGTH, "The way of the nut with a turn of the screw.", example="10 mm")
+    mass: SINumber = entry(MASS, "Of the nut and what it carries.", example="80 kg")
+
+    @property
+    def mechanism(self) -> Mechanism:
+        return self._slide(self.lead / TURN, self.mass)
 
 
-def _in_proportion(ratio: float, name: str, mass: Any, others: tuple[Any, Loads, Any]) -> Mechanism:
-    inertia, loads, over = others
-    weight = positive(si_number(mass, ("mass",), "mass"), "mass")
-    turning = not_negative(si_number(inertia, ("moment of inertia",), "inertia"), "inertia")
-    position: Formula = multiplied([number(ratio), Name("x")])
-    slide = DrivenLink("slide", position, number(ratio), "length")
-    load = [number(-weight * loads.weight[0] * ratio), *loads.on(slide, "angle")]
-    return Mechanism(
-        turning + weight * ratio**2,
-        added(load),
-        over=over,
-        axis="angle",
-        name=name,
-        linkage=LinkGeometry((("slide", position),)),
-    )
+rack, belt, screw = function_of(Rack), function_of(Belt), function_of(Screw)

@@ -2,59 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from dataclasses import KW_ONLY
 from math import degrees
 from typing import Any
 
 import numpy as np
 
+from optlaws.entries.declared import declared, entry
+from optlaws.entries.value_types import InSI, SINumber
 from optlaws.errors import InputError
-from optlaws.formulas.slopes import added
 from optlaws.formulas.tracing import Traced
 from optlaws.formulas.tree import Formula, Name, Number
-from optlaws.mechanisms.linkages.bodies import (
-    NO_LOADS,
-    Body,
-    DrivenLink,
-    Loads,
-    Moving,
-    bodies_of,
-    ends_of,
-    formula_from,
-    length,
-    weight_load,
-)
+from optlaws.mechanisms.linkages.bodies import Bodies, Body, DrivenLink, Moving, formula_from, weight_load
 from optlaws.mechanisms.linkages.mechanism import LinkGeometry, Mechanism
-from optlaws.motion.quantities import si_number
-from optlaws.numbers import NumberOrQuantity, finite
+from optlaws.mechanisms.linkages.mechanism_kinds import LENGTH, BodiesByLink, LinkageKind, function_of
 
 
-def slider_crank(
-    crank: NumberOrQuantity,
-    rod: NumberOrQuantity,
-    *,
-    offset: NumberOrQuantity = 0.0,
-    bodies: Mapping[str, Any],
-    loads: Loads = NO_LOADS,
-    over: tuple[NumberOrQuantity, NumberOrQuantity] = ("0 deg", "360 deg"),
-) -> Mechanism:
+@declared
+class SliderCrank(LinkageKind, kind="slider crank"):
     """The mechanism of a crank that drives a slide through a rod; x is the crank's angle from the slide's way.
 
     The slide is at s = r cos x + sqrt(l² - (r sin x - e)²) from the crank's pivot, farthest where x = 0 without offset.
-
-    Parameters
-    ----------
-    crank, rod
-        Their lengths r and l, such as "0.1 m", or numbers in m.
-    offset
-        Of the slide's way from the crank's pivot, e, to the left.
-    bodies
-        Of "crank", "rod" and "slider": a mass such as "5 kg" for the slider, a moment of inertia about its pivot such
-        as "0.02 kg m^2" for the crank, or a `Body`.
-    loads
-        What acts on the slide; the direction of gravity is from the slide's way.
-    over
-        The range of x.
 
     Raises
     ------
@@ -68,39 +36,48 @@ def slider_crank(
     >>> round(press.inertia("90 deg"), 9), round(press.driven_position("slider", 0.0), 9)
     (0.07, 0.5)
     """
-    r, rod_length = length(crank, "crank"), length(rod, "rod")
-    e = finite(si_number(offset, ("length",), "offset"), "offset")
-    ends = ends_of(over)
-    _check(r, rod_length, e, ends)
-    known = bodies_of(bodies, pivoted=("crank",), coupled=("rod",), sliding=("slider",))
-    g = loads.weight
-    x = Traced(Name("x"))
-    sine, cosine = np.sin(x), np.cos(x)
-    across = r * sine - e if e else r * sine
-    along = np.sqrt(rod_length**2 - across**2)
-    position = r * cosine + along
-    velocity = -r * sine - (r * across * cosine) / along
-    moving, weights = [Moving(known["slider"].mass, velocity)], weight_load(known["slider"].mass, g, (velocity, 0.0))
-    turning = known["crank"].about_joint
-    crank_body, rod_body = known["crank"], known["rod"]
-    (p, q) = crank_body.centre
-    weights += weight_load(crank_body.mass, g, (-p * sine - q * cosine, p * cosine - q * sine))
-    if rod_body != Body():
-        parts, more = _rod(rod_body, g, rod_length, (r, sine, cosine), (across, along))
-        moving, weights = moving + parts, weights + more
-    inertia: list[Formula] = [Moving(turning, 1.0).inertia, *(part.inertia for part in moving if part.weight)]
-    slider = DrivenLink("slider", position.formula, velocity.formula, "length")
-    zero = Number(0.0)
-    pin, joint = ((r * cosine).formula, (r * sine).formula), (position.formula, formula_from(e))
-    chains = (((zero, zero),), ((zero, zero), pin, joint), (joint,))
-    return Mechanism(
-        added(inertia),
-        added([*weights, *loads.on(slider, "angle")]),
-        over=ends,
-        axis="angle",
-        name="slider-crank",
-        linkage=LinkGeometry((("slider", position.formula),), chains),
+
+    crank: SINumber = entry(LENGTH, "Its length r.", example="100 mm")
+    rod: SINumber = entry(LENGTH, "Its length l.", example="400 mm")
+    _: KW_ONLY
+    offset: SINumber = entry(
+        InSI("length"), "Of the slide's way from the crank's pivot, e, to the left.", default=0.0, example="20 mm"
     )
+    bodies: BodiesByLink = entry(
+        Bodies(("crank",), ("rod",), ("slider",)),
+        "Of the slider a mass, of the crank a moment of inertia about its pivot, or a `Body`.",
+        example={"crank": "0.02 kg m^2", "slider": "5 kg"},
+    )
+
+    @property
+    def mechanism(self) -> Mechanism:
+        r, rod_length, e, known, g = self.crank, self.rod, self.offset, self.bodies, self.loads.weight
+        _check(r, rod_length, e, self.ends)
+        x = Traced(Name("x"))
+        sine, cosine = np.sin(x), np.cos(x)
+        across = r * sine - e if e else r * sine
+        along = np.sqrt(rod_length**2 - across**2)
+        position = r * cosine + along
+        velocity = -r * sine - (r * across * cosine) / along
+        crank_body, rod_body, slid = known["crank"], known["rod"], known["slider"].mass
+        moving, weights = [Moving(slid, velocity)], weight_load(slid, g, (velocity, 0.0))
+        (p, q) = crank_body.centre
+        weights += weight_load(crank_body.mass, g, (-p * sine - q * cosine, p * cosine - q * sine))
+        if rod_body != Body():
+            parts, more = _rod(rod_body, g, rod_length, (r, sine, cosine), (across, along))
+            moving, weights = moving + parts, weights + more
+        moving = [Moving(crank_body.about_joint, 1.0), *(part for part in moving if part.weight)]
+        slider = DrivenLink("slider", position.formula, velocity.formula, "length")
+        zero = Number(0.0)
+        pin, joint = ((r * cosine).formula, (r * sine).formula), (position.formula, formula_from(e))
+        chains = (((zero, zero),), ((zero, zero), pin, joint), (joint,))
+        load = [*weights, *self.loads.on(slider, "angle")]
+        return self._mechanism(
+            [part.inertia for part in moving], load, self.ends, LinkGeometry((("slider", position.formula),), chains)
+        )
+
+
+slider_crank = function_of(SliderCrank)
 
 
 def _rod(

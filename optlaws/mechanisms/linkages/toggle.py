@@ -3,66 +3,35 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import KW_ONLY
 from math import cos, degrees, sin
-from typing import Any
+from typing import TypeAlias
 
 import numpy as np
 
+from optlaws.entries.declared import declared, entry
+from optlaws.entries.value_types import Choice, InSI, Kept, SINumber, Table
 from optlaws.errors import InputError
-from optlaws.formulas.slopes import added
 from optlaws.formulas.tracing import Traced
 from optlaws.formulas.tree import Formula
-from optlaws.mechanisms.linkages.bodies import (
-    NO_LOADS,
-    Body,
-    DrivenLink,
-    Loads,
-    Moving,
-    bodies_of,
-    ends_of,
-    length,
-    weight_load,
-)
-from optlaws.mechanisms.linkages.four_bar import FourBarBranch, FourBarKinematics, four_bar_of, moved_by_crank
+from optlaws.mechanisms.linkages.bodies import Bodies, Body, DrivenLink, Moving, weight_load
+from optlaws.mechanisms.linkages.four_bar import SIDES, FourBarBranch, FourBarKinematics, four_bar_of, moved_by_crank
 from optlaws.mechanisms.linkages.mechanism import LinkGeometry, Mechanism
-from optlaws.motion.quantities import si_number
-from optlaws.numbers import NumberOrQuantity, finite
-from optlaws.suggest import unknown_key
+from optlaws.mechanisms.linkages.mechanism_kinds import LENGTH, BodiesByLink, LinkageKind, function_of
+from optlaws.numbers import NumberOrQuantity
 
+LengthsByLink: TypeAlias = Kept[dict[str, float], "Mapping[str, NumberOrQuantity]"]
 LENGTHS = ("crank", "rod", "upper", "lower", "frame")
 _LOOKS = 2881
 
 
-def toggle(
-    lengths: Mapping[str, NumberOrQuantity],
-    *,
-    direction: NumberOrQuantity = "90 deg",
-    bodies: Mapping[str, Any],
-    loads: Loads = NO_LOADS,
-    over: tuple[NumberOrQuantity, NumberOrQuantity] = ("0 deg", "360 deg"),
-    branch: FourBarBranch = "open",
-) -> Mechanism:
+@declared
+class Toggle(LinkageKind, kind="toggle"):
     """The mechanism of a knee joint: a crank moves the knee through a rod, and the knee a ram; x is the crank's angle.
 
     The upper link turns about a pivot of the frame, at the distance "frame" from the crank's; x is from that
     direction. The knee is the pin of rod, upper and lower link. The ram slides on a line through the upper link's
     pivot: its position is the distance from that pivot, greatest where the knee is stretched.
-
-    Parameters
-    ----------
-    lengths
-        Of "crank", "rod", "upper", "lower" link and "frame", such as "0.1 m", or numbers in m.
-    direction
-        Of the ram's way, from the direction in which the upper link's pivot is seen from the crank's.
-    bodies
-        Of "crank", "rod", "upper", "lower" and "ram": a moment of inertia about its pivot for crank and upper link, a
-        mass for the ram, or a `Body`; the lower link begins at the knee.
-    loads
-        What acts on the ram, over its position; gravity's direction is from the frame's.
-    over
-        The range of x.
-    branch
-        "open" where the knee is to the left of the way from the crank's pin to the upper link's pivot, else "crossed".
 
     Raises
     ------
@@ -76,30 +45,52 @@ def toggle(
     >>> round(press.driven_position("ram", "0 deg"), 6), round(press.driven_position("ram", "180 deg"), 6)
     (0.382283, 0.291583)
     """
-    for name in lengths:
-        if name not in LENGTHS:
-            raise InputError(unknown_key(name, LENGTHS, "length"))
-    missing = [name for name in LENGTHS if name not in lengths]
-    if missing:
-        raise InputError(f"lengths: a toggle needs {', '.join(missing)} too")
-    crank, rod, upper, lower, frame = (length(lengths[name], name) for name in LENGTHS)
-    ends = ends_of(over)
-    linkage = four_bar_of({"crank": crank, "coupler": rod, "rocker": upper, "frame": frame}, branch, ends)
-    angle = finite(si_number(direction, ("angle",), "direction"), "direction")
-    known = bodies_of(bodies, pivoted=("crank", "upper"), coupled=("rod", "lower"), sliding=("ram",))
-    by_crank = {"crank": known["crank"], "coupler": known["rod"], "rocker": known["upper"]}
-    knee = _Knee(linkage, angle, lower, ends)
-    inertia, load = moved_by_crank(linkage, by_crank, loads.weight)
-    parts, weights = knee.moving(known["lower"], known["ram"], loads.weight)
-    ram = DrivenLink("ram", knee.position.formula, knee.velocity.formula, "length")
-    return Mechanism(
-        added([*inertia, *parts]),
-        added([*load, *weights, *loads.on(ram, "angle")]),
-        over=ends,
-        axis="angle",
-        name="toggle",
-        linkage=LinkGeometry((("ram", knee.position.formula),), (*linkage.chains, knee.chain, knee.chain[1:])),
+
+    lengths: LengthsByLink = entry(
+        Table(LENGTH, LENGTHS),
+        "Of crank, rod, upper and lower link, and frame.",
+        example={"crank": "60 mm", "rod": "250 mm", "upper": "200 mm", "lower": "200 mm", "frame": "280 mm"},
     )
+    _: KW_ONLY
+    direction: SINumber = entry(
+        InSI("angle"),
+        "Of the ram's way, from the direction in which the upper link's pivot is seen from the crank's.",
+        default="90 deg",
+    )
+    bodies: BodiesByLink = entry(
+        Bodies(("crank", "upper"), ("rod", "lower"), ("ram",)),
+        "Of crank and upper link a moment of inertia about the pivot, of the ram a mass, or a `Body`; the lower link "
+        "begins at the knee.",
+        example={"ram": "40 kg"},
+    )
+    branch: FourBarBranch = entry(
+        Choice(*SIDES),
+        "Open where the knee is to the left of the way from the crank's pin to the upper link's pivot, else crossed.",
+        default="open",
+    )
+
+    def _check(self) -> None:
+        missing = [name for name in LENGTHS if name not in self.lengths]
+        if missing:
+            raise InputError(f"lengths: a toggle needs {', '.join(missing)} too")
+
+    @property
+    def mechanism(self) -> Mechanism:
+        crank, rod, upper, lower, frame = (self.lengths[name] for name in LENGTHS)
+        lengths = {"crank": crank, "coupler": rod, "rocker": upper, "frame": frame}
+        linkage = four_bar_of(lengths, self.branch, self.ends)
+        known, gravity = self.bodies, self.loads.weight
+        by_crank = {"crank": known["crank"], "coupler": known["rod"], "rocker": known["upper"]}
+        knee = _Knee(linkage, self.direction, lower, self.ends)
+        inertia, load = moved_by_crank(linkage, by_crank, gravity)
+        parts, weights = knee.moving(known["lower"], known["ram"], gravity)
+        ram = DrivenLink("ram", knee.position.formula, knee.velocity.formula, "length")
+        load += [*weights, *self.loads.on(ram, "angle")]
+        geometry = LinkGeometry((("ram", knee.position.formula),), (*linkage.chains, knee.chain, knee.chain[1:]))
+        return self._mechanism([*inertia, *parts], load, self.ends, geometry)
+
+
+toggle = function_of(Toggle)
 
 
 class _Knee:

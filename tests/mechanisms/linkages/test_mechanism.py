@@ -206,7 +206,7 @@ REFUSED: list[tuple[Callable[[], Any], str]] = [
     (lambda: mechanism_of_motion(np.floor, {"q1": "1 kg"}, over=(0, 1)), "numpy.floor"),
     (lambda: mechanism_of_motion(lambda x: x, {"q1": 1.0}, over=(0, 1)), "q1 must be a mass such as '5 kg'"),
     (lambda: mechanism_of_motion(lambda x: x, {}, over=(0, 1)), "needs a mass"),
-    (lambda: Loads("3 N", over="position"), "unknown over of loads 'position'"),  # type: ignore[arg-type]
+    (lambda: Loads("3 N", over="position"), "unknown over 'position'; known are driven, input"),  # type: ignore[arg-type]
     (lambda: Mechanism.from_dict({"format": 1, "mass": 1}), "unknown entry of a mechanism 'mass'"),
 ]
 

@@ -13,7 +13,7 @@ from optlaws.explorer.views.cam_view import drawing
 from optlaws.explorer.views.law_view import drawn
 from optlaws.formulas.arithmetic import NUMPY, evaluate
 from optlaws.formulas.tree import Formula
-from optlaws.jobs.axes.mechanism_entries import cam_of
+from optlaws.jobs.axes.mechanism_entries import CamAtShaft
 from optlaws.motion.quantities import si_number
 from optlaws.numbers import Array
 
@@ -41,7 +41,7 @@ def picture(cycle: Cycle, mechanism: Mechanism, entries: Mapping[str, Any]) -> d
     if mechanism.linkage.chains:
         return shown | {"kind": "links"} | _links(mechanism, x)
     if mechanism.name == "cam":
-        return shown | {"kind": "cam", "dimensions": []} | drawing(cam_of(entries))
+        return shown | {"kind": "cam", "dimensions": []} | drawing(CamAtShaft.from_dict(entries).cam)
     if mechanism.name in _ROUND:
         size = float(si_number(entries[_ROUND[mechanism.name]], ("length",), "size"))
         slide = drawn(_MILLI * np.asarray(mechanism.driven_position("slide", x)), 4)
