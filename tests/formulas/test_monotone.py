@@ -190,12 +190,21 @@ def test_a_spline_that_swings_is_refused_wherever_a_formula_is_taken(made: Calla
     made(f"monotone(x, {FLAT})")
 
 
+@pytest.mark.parametrize("unit", [1e-12, 1.0, 1e9])
+def test_a_spline_is_refused_at_a_top_as_well_and_monotone_never_leaves_its_neighbours(unit: float) -> None:
+    places = np.linspace(0.0, 6.3, 30)
+    waves = ", ".join(f"{x!r}:{unit * float(np.cos(x))!r}" for x in places.tolist())
+    with pytest.raises(InputError, match=r"the spline is .* beyond the values beside it: monotone"):
+        Mechanism("1 kg m^2", load=f"spline(x, {waves})")
+    load = Mechanism("1 kg m^2", load=f"monotone(x, {waves})").load
+    for first, last in pairwise(places.tolist()):
+        between = np.asarray(load(np.linspace(first, last, 41)))
+        ends = sorted(unit * np.cos([first, last]))
+        assert ends[0] - 1e-15 * unit <= between.min()
+        assert between.max() <= ends[1] + 1e-15 * unit
+
+
 @pytest.mark.parametrize("swing", [0.5, 0.05, 1e-3])
-def test_a_spline_may_swing_at_a_top_but_never_where_values_are_flat(swing: float) -> None:
-    waves = ", ".join(f"{x!r}:{float(np.cos(x))!r}" for x in np.linspace(0.0, 6.3, 30).tolist())
-    assert Mechanism("1 kg m^2", load=f"spline(x, {waves})").load("10 deg") == pytest.approx(
-        np.cos(np.radians(10)), abs=1e-4
-    )
-    # it falls by little after a flat, so that the spline swings there by less than at a top
+def test_a_spline_that_falls_by_little_after_a_flat_is_refused(swing: float) -> None:
     with pytest.raises(InputError, match="the spline is"):
         Mechanism("1 kg m^2", load=f"spline(x, 0:1, 1:1, 2:1, 3:{1.0 - swing}, 4:-9, 6.3:-9.5)")

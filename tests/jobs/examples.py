@@ -152,7 +152,7 @@ EXAMPLES = {
         (
             ('"6 mm"', '"66 mm"', "roller: offset 66 mm is beyond the prime circle.*prime circle larger"),
             ('"12 mm"', '"52 mm"', "roller: its radius 52 mm is not less"),
-            ('offset = "6 mm"', 'arm = "6 mm"', "unknown entry of a translating roller 'arm'; known are offset, radius"),
+            ('offset = "6 mm"', 'arm = "6 mm"', "unknown entry of a translating roller 'arm'; known are offset"),
             ('radius = "12 mm"\n', "", "prime_radius|a translating roller needs its radius"),
             ('"translating roller"', '"translating rollr"', "kind"),
             ('by = "20 mm"', 'by = "20 deg"', "drive: unknown key 'mass'"),

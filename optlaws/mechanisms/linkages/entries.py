@@ -17,15 +17,13 @@ from optlaws.formulas.arithmetic import horner, pieces
 from optlaws.formulas.reading import read
 from optlaws.formulas.tree import Formula, Name, Table, TableJoin, number
 from optlaws.motion.quantities import quantity, si_number, written
-from optlaws.numbers import Array, finite, real
+from optlaws.numbers import finite, real
 from optlaws.tolerances import VALUE_ROUNDING
 
 TableKind = Literal["spline", "lines"]
 #: how tables of values are joined: a spline of values keeps their shape
 JOINED: dict[str, TableJoin] = {"spline": "monotone", "lines": "table"}
 _FEWEST = 2
-#: of the range of the values of a cubic spline: so much it may be beyond a top of them
-_SWING = 0.02
 #: a number with a unit behind it; in formulas a number is followed by a sign
 _WITH_UNIT = re.compile(r"\s*[+-]?[\d./]*\d(?:[eE][+-]?\d+)?+\s*[^\W\d_]")
 
@@ -142,37 +140,21 @@ def _table(
 
 
 def _check_shape(table: Table, name: str) -> None:
-    """Refuse a cubic spline that leaves the range of two neighbours: there it would be what nobody measured.
-
-    Where the values have a top, or a bottom, a curve through them may be a little beyond.
-    """
-    values, rows = np.array(table.values), pieces(replace(table, order=0))
-    room, nothing = _SWING * float(np.ptp(values)), VALUE_ROUNDING * float(np.abs(values).max())
+    """Refuse a cubic spline that leaves the range of two neighbours: there it would be what nobody measured."""
+    rows, rounding = pieces(replace(table, order=0)), VALUE_ROUNDING * max(map(abs, table.values))
     for i, (start, slope, bend, twist) in enumerate(rows.tolist()):
         length = table.places[i + 1] - table.places[i]
         turns = [
             at.real for at in np.roots([3.0 * twist, 2.0 * bend, slope]) if at.imag == 0.0 and 0.0 < at.real < length
         ]
-        reached = [horner((start, slope, bend, twist), at) for at in turns]
         low, high = sorted((table.values[i], table.values[i + 1]))
-        below, above = (max([0.0, *beyond]) for beyond in ([low - at for at in reached], [at - high for at in reached]))
-        worst = max(
-            below - (room if _has_top(-values, i) else nothing), above - (room if _has_top(values, i) else nothing)
-        )
-        if worst > 0.0:
+        reached = (horner((start, slope, bend, twist), at) for at in turns)
+        beyond = max((max(low - at, at - high) for at in reached), default=0.0)
+        if beyond > rounding:
             raise InputError(
-                f"{name}: between {table.places[i]:g} and {table.places[i + 1]:g} the spline is "
-                f"{max(below, above):.3g} beyond the values beside it: monotone(...) in its place never is, nor is a "
-                "table of places and values"
+                f"{name}: between {table.places[i]:g} and {table.places[i + 1]:g} the spline is {beyond:.3g} beyond "
+                "the values beside it: monotone(...) in its place never is, nor is a table of places and values"
             )
-
-
-def _has_top(values: Array, i: int) -> bool:
-    """Whether a place and the next one are at a top: beyond the greater of the two, or both if equal, values fall."""
-    here, following, last = values[i], values[i + 1], len(values) - 1
-    left = here < following or (values[i - 1] < here if i else here > following)
-    right = following < here or (values[i + 2] < following if i + 2 <= last else following > here)
-    return bool(left and right)
 
 
 def table_numbers(pairs: list[Any], dimensions: tuple[str, str], name: str) -> list[tuple[float, float]]:

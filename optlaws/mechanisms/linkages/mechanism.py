@@ -108,7 +108,7 @@ class Mechanism(JsonText):
     Parameters
     ----------
     inertia
-        LoadPlace x, the position of the input in rad or m: a quantity such as "0.02 kg m^2", a text such as
+        Over x, the position of the input in rad or m: a quantity such as "0.02 kg m^2", a text such as
         "0.02 + 0.01*sin(x)^2" in SI units, or a table of places and values, `{"0 deg": "0.02 kg m^2", ...}`, through
         which a spline is laid.
     load
