@@ -169,16 +169,16 @@ def _wrapped(text: str) -> list[str]:
 
 
 class Declared(JsonText):
-    """A value that declares its entries; `title` is what errors call one, such as "a gear"."""
+    """A value that declares its entries; `title`, kept as `named`, is what errors call one, such as "a gear"."""
 
-    title: ClassVar[str] = "a value"
+    named: ClassVar[str] = "a value"
     #: whether `to_dict` writes entries that have their default too
     writes_defaults: ClassVar[bool] = False
 
     def __init_subclass__(cls, *, title: str = "", **keywords: Any) -> None:
         super().__init_subclass__(**keywords)
         if title:
-            cls.title = cls._json_name = title
+            cls.named = cls._json_name = title
 
     def __post_init__(self) -> None:
         for each in entries_of(type(self)).values():
@@ -230,16 +230,16 @@ class Declared(JsonText):
         known = entries_of(cls)
         if not isinstance(data, Mapping):
             raise InputError(
-                f"{cls.title} must be a table of {', '.join(known) or 'no entries'}, got {shortened(data)}"
+                f"{cls.named} must be a table of {', '.join(known) or 'no entries'}, got {shortened(data)}"
             )
         given = cls._from_earlier(dict(data))
         for name in given:
             if name not in known:
-                raise InputError(unknown_key(name, known, f"entry of {cls.title}"))
+                raise InputError(unknown_key(name, known, f"entry of {cls.named}"))
         for name, each in known.items():
             if each.needed and given.get(name) is None:
                 such = "" if each.example is None else f", such as {name} = {each.example!r}"
-                raise InputError(f"{cls.title} needs its {name}{such}")
+                raise InputError(f"{cls.named} needs its {name}{such}")
         return cls(**given)
 
 
@@ -308,13 +308,13 @@ class Kinded(Declared):
             If there is no such kind, or an entry is unknown, missing or wrong; the error names it.
         """
         if not isinstance(data, Mapping):
-            raise InputError(f"{cls.title} must be a table with its kind, got {shortened(data)}")
+            raise InputError(f"{cls.named} must be a table with its kind, got {shortened(data)}")
         kinds = {cls.kind: cls} if cls.kind else cls.kinds()
         kind = data.get("kind")
         if kind is None:
-            raise InputError(f"{cls.title} needs its kind: give one of {', '.join(kinds)}")
+            raise InputError(f"{cls.named} needs its kind: give one of {', '.join(kinds)}")
         if not isinstance(kind, str) or kind not in kinds:
-            raise InputError(unknown_key(kind, kinds, f"kind of {cls.title}"))
+            raise InputError(unknown_key(kind, kinds, f"kind of {cls.named}"))
         read = super(Kinded, kinds[kind]).from_dict
         return read({name: value for name, value in data.items() if name != "kind"})
 
@@ -336,7 +336,7 @@ class ValueOf(ValueType):
 
     @property
     def words(self) -> str:
-        return f"{self.of.title}, a table"
+        return f"{self.of.named}, a table"
 
     def schema(self) -> dict[str, Any]:
         return self.of.json_schema()
