@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import sys
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import MISSING, dataclass, field, fields
 from textwrap import wrap
 from typing import Any, ClassVar, ForwardRef, Self, TypeVar, dataclass_transform, get_args, get_origin
@@ -345,17 +345,76 @@ class ValueOf(ValueType):
         return self.of.form()
 
 
+@dataclass(frozen=True, init=False)
+class TableOf(ValueType):
+    """A table with a type for each of its entries, which stays a table; `what` is what errors call an entry.
+
+    `elsewhere` says of names that belong to another table where they are to be given.
+
+    >>> from optlaws.entries.value_types import Measured
+    >>> limits = TableOf("limit", {"velocity": entry(Measured("velocity"), "The greatest.", default=None)})
+    >>> limits.read({"velocty": "1 m/s"}, "limits")
+    Traceback (most recent call last):
+    optlaws.errors.InputError: limits: unknown limit 'velocty'; did you mean 'velocity'?
+    """
+
+    what: str
+    entries: Mapping[str, Entry]
+    keep: Callable[[dict[str, Any]], Any]
+    elsewhere: Mapping[str, str]
+
+    def __init__(
+        self,
+        what: str,
+        entries: Mapping[str, Any],
+        *,
+        keep: Callable[[dict[str, Any]], Any] = dict,
+        elsewhere: Mapping[str, str] | None = None,
+    ) -> None:
+        named = {name: _entry_of(name, each) for name, each in entries.items()}
+        for name, value in {"what": what, "entries": named, "keep": keep, "elsewhere": elsewhere or {}}.items():
+            object.__setattr__(self, name, value)
+
+    def read(self, value: Any, name: str) -> Any:
+        if not isinstance(value, Mapping) or not all(isinstance(key, str) for key in value):
+            such = next(f"{{{key} = {each.example!r}}}" for key, each in self.entries.items())
+            raise InputError(f"{name} must be a table such as {such}, got {shortened(value)}")
+        for key in value:
+            if key in self.elsewhere:
+                raise InputError(f"{name}: {key} {self.elsewhere[key]}")
+            if key not in self.entries:
+                raise InputError(f"{name}: {unknown_key(key, self.entries, self.what)}")
+        return self.keep({key: self.entries[key].type.read(part, f"{name}: {key}") for key, part in value.items()})
+
+    def plain(self, value: Any) -> Any:
+        return {key: self.entries[key].type.plain(part) for key, part in value.items()}
+
+    @property
+    def words(self) -> str:
+        return f"a table of {', '.join(self.entries)}"
+
+    def schema(self) -> dict[str, Any]:
+        properties = {key: each.schema for key, each in self.entries.items()}
+        return {"type": "object", "properties": properties, "additionalProperties": False}
+
+    def form(self) -> dict[str, Any]:
+        return {"entries": [each.field for each in self.entries.values() if each.shown]}
+
+
 def entries_of(cls: type[Declared]) -> dict[str, Entry]:
     """The entries of a declared class by their names, in the order in which it declares them."""
     entries = _ENTRIES.get(cls)
     if entries is None:
         entries = _ENTRIES[cls] = {
-            each.name: Entry(name=each.name, default=each.default, **_filled(each.name, each.metadata[_ENTRY]))
+            each.name: _entry_of(each.name, each)
             for each in fields(cls)  # type: ignore[arg-type] # its heirs are dataclasses
             if _ENTRY in each.metadata
         }
     return entries
 
 
-def _filled(name: str, declaration: Mapping[str, Any]) -> dict[str, Any]:
-    return {**declaration, "label": declaration["label"] or name.replace("_", " ")}
+def _entry_of(name: str, given: Any) -> Entry:
+    """The entry of a name that a field declares."""
+    declaration = given.metadata[_ENTRY]
+    label = declaration["label"] or name.replace("_", " ")
+    return Entry(name=name, default=given.default, **{**declaration, "label": label})

@@ -314,7 +314,7 @@ class Listed(ValueType):
 
     >>> Listed(Whole(1), least=2).read([3], "waves")
     Traceback (most recent call last):
-    optlaws.errors.InputError: waves must be a list of 2 at least, got [3]
+    optlaws.errors.InputError: waves must be a list of 2 at least, each a whole number from 1 on, got [3]
     """
 
     of: ValueType
@@ -324,10 +324,10 @@ class Listed(ValueType):
 
     def read(self, value: Any, name: str) -> tuple[Any, ...]:
         if isinstance(value, str | Mapping) or not isinstance(value, Sequence):
-            raise InputError(f"{name} must be a list, got {shortened(value)}")
+            raise InputError(f"{name} must be {self.words}, got {shortened(value)}")
         if not self.least <= len(value) <= self.most:
             ends = f"{self.least} at least" if len(value) < self.least else f"{self.most} at most"
-            raise InputError(f"{name} must be a list of {ends}, got {shortened(list(value))}")
+            raise InputError(f"{name} must be a list of {ends}, each {self.of.words}, got {shortened(list(value))}")
         return tuple(self.of.read(part, f"{self.each or name} {i}") for i, part in enumerate(value, 1))
 
     def plain(self, value: Any) -> Any:

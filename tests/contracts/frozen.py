@@ -20,6 +20,7 @@ from cyclopts import App
 import optlaws
 from optlaws.results import Results
 from tests.internals.cli import app_of_app as app
+from tests.internals.entries import Declared, Kinded, entries_of
 from tests.internals.jobs import JOBS, do
 
 FROZEN = Path(__file__).with_name("frozen.json")
@@ -117,13 +118,64 @@ def spec_of(job: str) -> Any:
 
 def entries(spec: Any, where: str) -> Iterator[tuple[str, str]]:
     """Entries below one, each with its type and default."""
-    hints = get_type_hints(spec)
+    if issubclass(spec, Declared):
+        yield from declared_entries(spec, where)
+        return
+    hints = get_type_hints(spec, include_extras=True)
     for field in msgspec.structs.fields(spec):
         hint, path = hints[field.name], where + field.encode_name
         default = "" if field.required else f" = {text_of(default_of(field))}"
         yield path, kind_of(hint) + default
         for inner, suffix in structs(hint):
             yield from entries(inner, f"{path}{suffix}.")
+
+
+def declared_entries(spec: type[Declared], where: str) -> Iterator[tuple[str, str]]:
+    """Entries of a declared value, or of any of its kinds, below one."""
+    kinds = spec.kinds() if issubclass(spec, Kinded) and not spec.kind else {}
+    if kinds:
+        yield f"{where}kind", f"Literal[{', '.join(map(repr, kinds))}]"
+    for kind in kinds.values() or [spec]:
+        for each in entries_of(kind).values():
+            usual = "" if each.needed and not kinds else f" | None = {text_of(each.plain_default)}"
+            yield f"{where}{each.name}", kind_of_value(each.type) + usual
+            for inner, suffix in tables_of(each.type):
+                yield from entries(inner, f"{where}{each.name}{suffix}.")
+
+
+def is_declared(one: object) -> bool:
+    """Whether it is a class that declares its entries."""
+    return isinstance(one, type) and issubclass(one, Declared)
+
+
+def kind_of_value(values: Any) -> str:
+    """What the values of an entry are, as types of plain data."""
+    kinds = {"Text": "str", "Measured": "str", "Switch": "bool", "Whole": "int", "Number": "float", "ValueOf": "table"}
+    name = type(values).__name__
+    if name in {"Together", "Either"}:
+        parts = " | ".join(dict.fromkeys(map(kind_of_value, values.of)))
+        return parts if name == "Either" else f"list[{parts}]"
+    if name == "TableOf":
+        parts = " | ".join(dict.fromkeys(kind_of_value(each.type) for each in values.entries.values()))
+        return f"dict[str, {parts}]"
+    if name in {"Listed", "Table"}:
+        return f"{'list[' if name == 'Listed' else 'dict[str, '}{kind_of_value(values.of)}]"
+    if name == "Choice":
+        return f"Literal[{', '.join(map(repr, values.names))}]"
+    return {**kinds, "InSI": "str | float"}.get(name, "Any")
+
+
+def tables_of(values: Any) -> Iterator[tuple[Any, str]]:
+    """Declared values in the type of an entry, and how they are addressed."""
+    name = type(values).__name__
+    if name == "ValueOf":
+        yield values.of, ""
+    elif name in {"Listed", "Table"}:
+        suffix = "[]" if name == "Listed" else ".*"
+        yield from ((inner, suffix + deeper) for inner, deeper in tables_of(values.of))
+    elif name == "Either":
+        for part in values.of:
+            yield from tables_of(part)
 
 
 def default_of(field: msgspec.structs.FieldInfo) -> object:
@@ -136,6 +188,8 @@ def structs(hint: Any) -> Iterator[tuple[Any, str]]:
     if isinstance(hint, type) and issubclass(hint, msgspec.Struct):
         yield hint, ""
     origin = get_origin(hint)
+    if origin is Annotated:
+        yield from ((one, "") for one in get_args(hint)[1:] if is_declared(one))
     suffix = "[]" if origin in {list, tuple} else ".*" if origin is dict else ""
     for part in get_args(hint):
         for inner, deeper in structs(part):
@@ -150,7 +204,7 @@ def kind_of(hint: Any) -> str:
     if origin in {Union, UnionType}:
         return " | ".join(map(kind_of, parts))
     if origin is Annotated:
-        return f"{kind_of(parts[0])} ({', '.join(map(text_of, parts[1:]))})"
+        return "table" if any(map(is_declared, parts[1:])) else kind_of(parts[0])
     if origin in {list, dict, tuple}:
         return f"{origin.__name__}[{', '.join(map(kind_of, parts))}]"
     return "None" if hint is NoneType else hint.__name__ if isinstance(hint, type) else text_of(hint)
