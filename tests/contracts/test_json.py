@@ -25,6 +25,7 @@ from optlaws import (
     pareto_front,
     synthesize,
 )
+from optlaws.entries.declared import Declared
 from tests.contracts.test_faces import STUBS, package
 from tests.internals.laws import Segment
 from tests.internals.synthesis import FollowerResidual, MotorTorque, MoveObjective
