@@ -279,7 +279,7 @@ WRONG: dict[str, tuple[dict[str, Any], dict[str, Any] | None, str]] = {
     ),
     "constants beside": (CRANK, {"mass": "3 kg"}, "drive: beside a mechanism it has a motor"),
     "ratio": (CRANK, {**DRIVE, "ratio": -3.0}, "drive: ratio must be above 0, got -3.0"),
-    "drive key": (CRANK, {**DRIVE, "eficiency": 0.9}, "drive: unknown key 'eficiency'; did you mean 'efficiency'"),
+    "drive key": (CRANK, {**DRIVE, "eficiency": 0.9}, "drive: unknown entry of a drive 'eficiency'; did you mean 'efficiency'"),
     "motor key": (
         CRANK,
         {**DRIVE, "motor": {"inertia": "3e-4 kg m^2", "peak_torqe": "3 N m"}},
@@ -427,7 +427,7 @@ def test_a_sweep_of_a_limit_has_rows_without_a_law(tmp_path: Path) -> None:
         ('axis = "table"\nentry = "drvie.ratio"\nvalues = [1, 2]', "unknown entry 'drvie'; did you mean 'drive'"),
         (
             'axis = "table"\nentry = "drive.ratoi"\nvalues = [1, 2]',
-            "sweep of drive.ratoi, 1.*unknown key 'ratoi'; did you",
+            "sweep of drive.ratoi, 1.*unknown entry of a drive 'ratoi'; did you",
         ),
         ('axis = "table"\nentry = "drive.ratio"\nvalues = [1, -2]', "sweep of drive.ratio, -2.*ratio must be above 0"),
         ('axis = "table"\nentry = "segment.3.by"\nvalues = ["1 deg", "2 deg"]', "unknown entry '3'; known are 1, 2"),

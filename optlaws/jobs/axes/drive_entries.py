@@ -6,27 +6,14 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-import msgspec
-
+from optlaws.entries.value_types import Text
 from optlaws.errors import InputError, located
-from optlaws.files.problem_file import Text, convert
 from optlaws.jobs.axes import mechanism_entries  # noqa: F401 - by which the kind "cam" is known
 from optlaws.mechanisms.drives.drive_train import Drive
-from optlaws.mechanisms.drives.motor import Motor, read_motors
+from optlaws.mechanisms.drives.motor import read_motors
 from optlaws.mechanisms.linkages.mechanism import Mechanism
 from optlaws.mechanisms.linkages.mechanism_kinds import MechanismKind
 from optlaws.suggest import unknown_key
-
-
-class MotorDriveEntries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
-    """A motor and its gear before a mechanism: the entries of a `Drive`, and the file of the motors."""
-
-    motor: Text | dict[str, Any]
-    motors: Text | None = None
-    ratio: float = 1.0
-    efficiency: float | list[float] = 1.0
-    inertia: str | float = 0.0
-    regeneration: float = 0.0
 
 
 def drive_of(
@@ -71,26 +58,24 @@ def drive_of(
             "drive: beside a mechanism it has a motor, such as motor = { inertia = '3e-4 kg m^2' }; masses, springs "
             "and friction of the load are the mechanism's"
         )
-    entries = convert(drive, MotorDriveEntries, Path("drive"))
+    given = dict(drive)
     with located("drive"):
-        given = msgspec.structs.asdict(entries)
-        motor = _motor(given.pop("motor"), given.pop("motors"), folder)
-        return Drive(driven, motor, **given)
+        given["motor"] = _motor(given["motor"], given.pop("motors", None), folder)
+        return Drive.from_dict({"mechanism": driven, **given})
 
 
-def _motor(motor: str | Mapping[str, Any], catalogue: str | None, folder: Path) -> Motor:
-    """The motor from a table of entries, or from a catalogue by its name."""
+def _motor(motor: Any, catalogue: Any, folder: Path) -> Any:
+    """The table of a motor, or the motor of a catalogue that its name says."""
     if not isinstance(motor, str):
         if catalogue is not None:
             raise InputError("motors: the motor is given as a table: leave the catalogue out, or name a motor of it")
-        with located("motor"):
-            return Motor.from_dict(motor)
+        return motor
     if catalogue is None:
         raise InputError(
             f"motor: {motor!r} is one of a catalogue: give its file, such as motors = 'motors.toml', or give the motor "
             "as a table"
         )
-    motors = read_motors(folder / catalogue)
+    motors = read_motors(folder / Text().read(catalogue, "motors"))
     if motor not in motors:
         raise InputError(f"motor: {catalogue}: {unknown_key(motor, motors, 'motor')}")
     return motors[motor]

@@ -3,20 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, fields, replace
-from typing import Any
+from dataclasses import dataclass, replace
+from typing import Any, TypeAlias
 
 import numpy as np
 
-from optlaws.echo import shortened
+from optlaws.entries.declared import Declared, ValueOf, declared, entry
+from optlaws.entries.value_types import Either, InSI, Kept, Number, SINumber, Together, is_list
 from optlaws.errors import InputError
-from optlaws.files.reading import JsonText, entries_of
 from optlaws.formulas.tree import Formula
 from optlaws.laws import MotionLaw, smoothstep
 from optlaws.mechanisms.drives.effort import PieceEffort, bends
 from optlaws.mechanisms.drives.motor import Motor, Train
 from optlaws.mechanisms.drives.sheet import BestRatio, DriveSheet, TorqueByRatio, best_ratio, sheet_of
 from optlaws.mechanisms.linkages.mechanism import DIMENSIONS, Mechanism, duration_of
+from optlaws.mechanisms.linkages.mechanism_kinds import MechanismValue
 from optlaws.mechanisms.linkages.move_limit import (
     MOVED,
     LimitedMove,
@@ -30,8 +31,7 @@ from optlaws.mechanisms.linkages.move_limit import (
 )
 from optlaws.motion.piece import Piece, named_law
 from optlaws.motion.quantities import check_scale, si_number
-from optlaws.numbers import Array, NumberOrQuantity, finite, not_negative, positive, real
-from optlaws.suggest import unknown_key
+from optlaws.numbers import Array, NumberOrQuantity, positive
 from optlaws.synthesis.limits.drive_limits import DriveObjective
 from optlaws.tolerances import CLOSURE
 
@@ -74,27 +74,16 @@ class DimensionlessDrive:
     energy_unit: float
 
 
-@dataclass(frozen=True)
-class Drive(JsonText):
+_SHARE = Number(above=0.0, most=1.0)
+Efficiency: TypeAlias = Kept[tuple[float, float], "float | tuple[float, float]"]
+
+
+@declared
+class Drive(Declared, title="a drive"):
     """A motor that drives a mechanism through a gear or a belt.
 
     The torque at the motor is J i x'' + friction + X/(i eta) while power flows to the load, and X eta/i while it flows
     back: X is the torque at the mechanism's input, i the ratio, J the inertia of motor and gear.
-
-    Parameters
-    ----------
-    mechanism
-        Whose input the gear turns: one whose input turns too.
-    motor
-        Its inertia, ratings and curves.
-    ratio
-        i, turns of the motor with a turn of the mechanism's input, above 0.
-    efficiency
-        eta of the gear, above 0 and at most 1: one for both directions of the power, or a pair, to the load and back.
-    inertia
-        Of gear, brake and coupling at the motor's shaft.
-    regeneration
-        The share of the braking energy that is fed back: 0 with a brake resistor, 1 where nothing is lost.
 
     Raises
     ------
@@ -110,79 +99,56 @@ class Drive(JsonText):
     [3.686, 1.49, 1055.762]
     """
 
-    _json_name = "a drive"
+    writes_defaults = True
 
-    mechanism: Mechanism
-    motor: Motor
-    ratio: float = 1.0
-    efficiency: float | tuple[float, float] = 1.0
-    inertia: NumberOrQuantity = 0.0
-    regeneration: float = 0.0
+    mechanism: Mechanism = entry(
+        MechanismValue(), "Whose input the gear turns: one whose input turns too.", shown=False
+    )
+    motor: Motor = entry(
+        ValueOf(Motor), "Its inertia, ratings and curves.", example={"inertia": "3e-4 kg m^2", "peak_torque": "6 N m"}
+    )
+    ratio: float = entry(
+        Number(above=0.0), "i, turns of the motor with a turn of the mechanism's input.", default=1.0, example=10
+    )
+    efficiency: Efficiency = entry(
+        Either(_SHARE, Together(_SHARE, _SHARE, names=("to the load", "back")), which=is_list),
+        "eta of the gear: one for both directions of the power, or a pair, to the load and back.",
+        default=1.0,
+        example=0.95,
+    )
+    inertia: SINumber = entry(
+        InSI("moment of inertia", least=0.0),
+        "Of gear, brake and coupling at the motor's shaft.",
+        default=0.0,
+        example="1e-5 kg m^2",
+    )
+    regeneration: float = entry(
+        Number(least=0.0, most=1.0),
+        "The share of the braking energy that is fed back: 0 with a brake resistor, 1 where nothing is lost.",
+        default=0.0,
+        example=0.5,
+    )
 
-    def __post_init__(self) -> None:
-        for value, kind, name in ((self.mechanism, Mechanism, "mechanism"), (self.motor, Motor, "motor")):
-            if not isinstance(value, kind):
-                raise InputError(f"{name} must be a {kind.__name__}, got {shortened(value)}")
+    def _check(self) -> None:
         if self.mechanism.axis != "angle":
             raise InputError(
                 "mechanism: the motor turns, and the mechanism's input slides: take rack(), belt() or screw(), or a "
                 "mechanism over the angle of its input"
             )
-        turning = not_negative(si_number(self.inertia, ("moment of inertia",), "inertia"), "inertia")
-        check_scale(positive(self.ratio, "ratio"), "", "ratio", self.ratio)
-        object.__setattr__(self, "ratio", float(self.ratio))
-        object.__setattr__(self, "inertia", turning)
-        given: Any = self.efficiency
-        shares = given if isinstance(given, list | tuple) else (given,) * 2
-        if len(shares) != 2 or not all(0.0 < (real(share) or 0.0) <= 1.0 for share in shares):
-            raise InputError(
-                "efficiency must be above 0 and at most 1, one number or two, to the load and back, got "
-                f"{shortened(given)}"
-            )
-        object.__setattr__(self, "efficiency", (float(shares[0]), float(shares[1])))
-        share = finite(self.regeneration, "regeneration")
-        if not 0.0 <= share <= 1.0:
-            raise InputError(f"regeneration must be from 0 to 1, got {shortened(self.regeneration)}")
-        object.__setattr__(self, "regeneration", share)
+        check_scale(self.ratio, "", "ratio", self.ratio)
+        shares: Any = self.efficiency
+        object.__setattr__(self, "efficiency", shares if isinstance(shares, tuple) else (shares, shares))
 
     @property
     def efficiencies(self) -> tuple[float, float]:
         """The gear's efficiency while power flows to the load, and while it flows back."""
-        return self.efficiency  # type: ignore[return-value] # it is a pair from the start
+        return self.efficiency
 
     @property
     def train(self) -> Train:
         """Motor and gear in numbers."""
-        turning = self.motor.inertia + float(self.inertia)
+        turning = self.motor.inertia + self.inertia
         return Train(turning, self.motor.viscous, self.motor.coulomb, *self.efficiencies)
-
-    def to_dict(self) -> dict[str, Any]:
-        """The mechanism, the motor and the gear as plain data in SI units."""
-        return {
-            "mechanism": self.mechanism.to_dict(),
-            "motor": self.motor.to_dict(),
-            "ratio": self.ratio,
-            "efficiency": list(self.efficiencies),
-            "inertia": self.inertia,
-            "regeneration": self.regeneration,
-        }
-
-    @classmethod
-    def from_dict(cls, data: Any) -> Drive:
-        """The drive that `to_dict` described.
-
-        Raises
-        ------
-        InputError
-            If an entry is missing, unknown or wrong.
-        """
-        known = [field.name for field in fields(cls)]
-        entries = entries_of(data, known, "a drive")
-        for name in data:
-            if name not in known:
-                raise InputError(unknown_key(name, known, "entry of a drive"))
-        read = {"mechanism": Mechanism.from_dict(entries["mechanism"]), "motor": Motor.from_dict(entries["motor"])}
-        return cls(**{**entries, **read})
 
     def with_ratio(self, ratio: float) -> Drive:
         """The drive with another ratio."""

@@ -202,10 +202,10 @@ def test_sheets_are_kept_and_shown() -> None:
 REFUSED: list[tuple[Callable[[], Any], str]] = [
     (lambda: Drive(Mechanism("2 kg", axis="length"), MOTOR), "take rack\\(\\), belt\\(\\) or screw\\(\\)"),
     (lambda: Drive(PRESS, MOTOR, ratio=0.0), "ratio must be above 0"),
-    (lambda: Drive(PRESS, MOTOR, efficiency=1.2), "efficiency must be above 0 and at most 1"),
-    (lambda: Drive(PRESS, MOTOR, efficiency=(0.9, 0.0)), "efficiency must be above 0 and at most 1"),
-    (lambda: Drive(PRESS, MOTOR, regeneration=-1.0), "regeneration must be from 0 to 1"),
-    (lambda: Drive(PRESS, PRESS), "motor must be a Motor"),  # type: ignore[arg-type]
+    (lambda: Drive(PRESS, MOTOR, efficiency=1.2), "efficiency must be at most 1, got 1.2"),
+    (lambda: Drive(PRESS, MOTOR, efficiency=(0.9, 0.0)), "efficiency: back must be above 0, got 0.0"),
+    (lambda: Drive(PRESS, MOTOR, regeneration=-1.0), "regeneration must be at least 0, got -1.0"),
+    (lambda: Drive(PRESS, PRESS), "motor: a motor must be a table of name, inertia, "),  # type: ignore[arg-type]
     (
         lambda: TABLE.sheet("cycloidal", 0.0, 1.0, 0.5, period=0.4),
         "period must be at least the duration of the move, 0.5 s",
