@@ -279,7 +279,11 @@ WRONG: dict[str, tuple[dict[str, Any], dict[str, Any] | None, str]] = {
     ),
     "constants beside": (CRANK, {"mass": "3 kg"}, "drive: beside a mechanism it has a motor"),
     "ratio": (CRANK, {**DRIVE, "ratio": -3.0}, "drive: ratio must be above 0, got -3.0"),
-    "drive key": (CRANK, {**DRIVE, "eficiency": 0.9}, "drive: unknown entry of a drive 'eficiency'; did you mean 'efficiency'"),
+    "drive key": (
+        CRANK,
+        {**DRIVE, "eficiency": 0.9},
+        "drive: unknown entry of a drive 'eficiency'; did you mean 'efficiency'",
+    ),
     "motor key": (
         CRANK,
         {**DRIVE, "motor": {"inertia": "3e-4 kg m^2", "peak_torqe": "3 N m"}},
