@@ -142,11 +142,11 @@ MACHINES: dict[str, tuple[Callable[..., Any], str]] = {
     ),
     "cycle": (
         lambda a, b: optlaws.Cycle([optlaws.Rise(a, b), optlaws.Return(duration="0.1 s")], period="0.3 s"),
-        "Rise|segment|period",
+        "Rise|segment|period|^by|^duration",
     ),
     "move": (
         lambda a, b: optlaws.Cycle([optlaws.Move(a, "0.1 s", law="cycloidal"), optlaws.Dwell(b)], period="0.3 s"),
-        "Move|segment|period|come back|advance",
+        "Move|segment|period|come back|advance|^by|^duration",
     ),
     "export": (lambda a, b: optlaws.smoothstep(3).export("csv", stroke=a, duration=b), "stroke|duration"),
     "task": (

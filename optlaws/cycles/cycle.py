@@ -42,7 +42,7 @@ from optlaws.cycles.specification.joints import LawSpan, Layout, layout
 from optlaws.cycles.specification.load import LOAD, Load, read_load
 from optlaws.cycles.specification.process import is_process, read_process
 from optlaws.cycles.specification.programme import Programme, is_optimal, period_of, programme
-from optlaws.cycles.specification.segments import CycleSegment, Dwell
+from optlaws.cycles.specification.segments import SEGMENTS, CycleSegment, Dwell
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.mechanisms.drives.drive_train import Drive
@@ -146,7 +146,7 @@ class Cycle(CycleInterchange):
     def __post_init__(self) -> None:
         if not isinstance(self.segments, list | tuple) or not self.segments:
             raise InputError("a cycle is a list of segments such as [Rise('35 mm', '120 deg'), Dwell(), ...]")
-        object.__setattr__(self, "segments", tuple(self.segments))
+        object.__setattr__(self, "segments", SEGMENTS.read(self.segments, "segments"))
         for entry in ("speed", "period", "start", "advance"):
             object.__setattr__(self, entry, written(getattr(self, entry)))
         for entry in ("limits", "drive", "load"):

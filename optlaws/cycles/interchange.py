@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import MISSING, fields
 from typing import Any, Literal, Self, Unpack, get_args
 
-from optlaws.cycles.specification.segments import ConstantVelocity, CycleSegment, Dwell, Free, Move, Return, Rise
+from optlaws.cycles.specification.segments import SEGMENTS
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.extras import needed
@@ -26,14 +25,6 @@ from optlaws.suggest import keywords_of, unknown_key
 
 #: what a picture of a cycle is over
 PlotOver = Literal["time", "speed"]
-KINDS: dict[str, type[Any]] = {
-    "dwell": Dwell,
-    "constant velocity": ConstantVelocity,
-    "move": Move,
-    "rise": Rise,
-    "return": Return,
-    "free": Free,
-}
 FORMAT = "optlaws cycle 1"
 ENTRIES = ("speed", "period", "minimise", "limits", "start", "advance", "drive", "load", "order", "degree")
 CLOCK = ("speed", "period")
@@ -61,7 +52,7 @@ class CycleInterchange(JsonText):
         """
         given = {name: _plain(getattr(self, name)) for name in ENTRIES}
         entries = {name: value for name, value in given.items() if value not in (None, {}, ())}
-        return {"format": FORMAT, **entries, "segments": [_segment(segment) for segment in self._cycle.segments]}
+        return {"format": FORMAT, **entries, "segments": SEGMENTS.plain(self._cycle.segments)}
 
     @classmethod
     def from_dict(cls, data: Any) -> Self:
@@ -82,8 +73,7 @@ class CycleInterchange(JsonText):
             given["drive"] = Drive.from_dict(drive)
         elif isinstance(drive, Mapping) and "axis" in drive:
             given["drive"] = Mechanism.from_dict(drive)
-        segments = [_read_segment(entry, i) for i, entry in enumerate(data["segments"], start=1)]
-        return cls(**given | {"segments": segments})
+        return cls(**given, segments=data["segments"])
 
     def to_toml(self, title: str = "Cycle", *, axis: str = "axis") -> str:
         """A problem file for `optlaws cycle`, with this cycle as its only axis; a law that is a value as its JSON text.
@@ -306,31 +296,6 @@ def _drive_tables(drive: Any) -> dict[str, Any]:
         entries = {name: value for name, value in drive.to_dict().items() if name != "mechanism"}
         return {**_drive_tables(drive.mechanism), "drive": entries}
     return {}
-
-
-def _segment(segment: CycleSegment) -> dict[str, Any]:
-    kind = next(name for name, known in KINDS.items() if known is type(segment))
-    given = {each.name: _plain(getattr(segment, each.name)) for each in fields(segment)}  # type: ignore[arg-type] # dataclasses
-    defaults = {each.name: each.default for each in fields(segment)}  # type: ignore[arg-type]
-    entries = {name: value for name, value in given.items() if value not in (None, {}, (), [], defaults[name])}
-    return {"kind": kind, **entries}
-
-
-def _read_segment(data: Any, number: int) -> CycleSegment:
-    given = dict(data) if isinstance(data, Mapping) else {}
-    kind = KINDS.get(str(given.pop("kind", "")))
-    if kind is None:
-        raise InputError(f"segment {number}: its kind must be one of {', '.join(KINDS)}, got {shortened(data)}")
-    for name in given:
-        if name not in kind.__dataclass_fields__:
-            raise InputError(f"segment {number}: {unknown_key(name, tuple(kind.__dataclass_fields__))}")
-    for each in fields(kind):
-        if each.default is MISSING and each.default_factory is MISSING and each.name not in given:
-            raise InputError(f"segment {number}: {each.name} is missing")
-    if isinstance(given.get("law"), Mapping):
-        given["law"] = MotionLaw.from_dict(given["law"])
-    segment: CycleSegment = kind(**given)
-    return segment
 
 
 def _plain(value: Any) -> Any:

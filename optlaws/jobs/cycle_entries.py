@@ -10,12 +10,12 @@ import msgspec
 
 from optlaws.cycles.cycle import Cycle
 from optlaws.cycles.interchange import CLOCK, ENTRIES
+from optlaws.cycles.specification.segments import SEGMENTS, CycleSegment
 from optlaws.errors import InputError, located
 from optlaws.files.problem_file import Text, convert
 from optlaws.jobs.axes.axis_transitions import TransitionEntries
 from optlaws.jobs.axes.drive_entries import drive_of
 from optlaws.jobs.axes.entry_sweep import SweepEntries, SweptCycle, swept
-from optlaws.jobs.axes.segment_entries import SegmentEntries, given, segment_of
 from optlaws.jobs.job import JobFile
 from optlaws.suggest import unknown_key
 
@@ -89,7 +89,7 @@ class AxisEntries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     """A single axis of the machine."""
 
     name: Text
-    segment: Annotated[list[SegmentEntries], msgspec.Meta(min_length=1, max_length=100)]
+    segment: Annotated[list[Annotated[dict[str, Any], CycleSegment]], msgspec.Meta(min_length=1, max_length=100)]
     minimise: str = "acceleration"
     limits: dict[str, str | list[str] | bool] = {}
     start: str | None = None
@@ -116,6 +116,11 @@ class CycleProblemFile(JobFile, kw_only=True, forbid_unknown_fields=True):
     rows: Annotated[int, msgspec.Meta(ge=2, le=100_000)] = 361
     sweep: Annotated[list[SweepEntries], msgspec.Meta(max_length=4)] = msgspec.field(default_factory=list)
     fastest: bool = False
+
+
+def given(entries: msgspec.Struct) -> dict[str, Any]:
+    """Entries that the file gives."""
+    return {name: value for name, value in msgspec.structs.asdict(entries).items() if value is not None}
 
 
 def read(data: Mapping[str, Any], file: Path) -> tuple[CycleProblemFile, Axes]:
@@ -188,11 +193,10 @@ def sweeps_of(spec: CycleProblemFile, file: Path) -> list[list[SweptCycle]]:
 
 def cycle_of(axis: AxisEntries, speed: str | None, period: str | None, folder: Path = Path()) -> Cycle:
     """The cycle of an axis, or of its cam where there is a follower; `folder` contains catalogues of motors."""
-    segments = [segment_of(entry, i + 1) for i, entry in enumerate(axis.segment)]
     entries: dict[str, Any] = {name: getattr(axis, name) for name in ENTRIES if name not in CLOCK}
     entries["load"] = None if axis.load is None else given(axis.load)
     entries["drive"] = drive_of(axis.mechanism, axis.drive, folder)
-    cycle = Cycle(segments, speed=speed, period=period, **entries)
+    cycle = Cycle(SEGMENTS.read(axis.segment, "segments"), speed=speed, period=period, **entries)
     return cycle if axis.follower is None else cycle.cam(axis.follower.period, axis.follower.damping)
 
 

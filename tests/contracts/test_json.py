@@ -158,6 +158,12 @@ def values(jumping: Solution) -> dict[str, Any]:
         "Axes with a mechanism and a motor": optlaws.Axes(
             {"crank": crank, "motor": {"segments": turns, "drive": motor}}, period="0.2 s"
         ),
+        "Dwell": optlaws.Dwell("40 deg", least="0 ms"),
+        "ConstantVelocity": optlaws.ConstantVelocity("1 m/s", ["20 deg", "40 deg"], name="belt"),
+        "Move": optlaws.Move(to="3 mm", law=optlaws.smoothstep(2), end_velocity="1 m/s"),
+        "Rise": optlaws.Rise("35 mm", limits={"acceleration": ("-8 m/s^2", "12 m/s^2"), "snap": "9 m/s^4"}),
+        "Return": optlaws.Return(),
+        "Free": optlaws.Free("3 mm", "0.3 s", via=[("0.1 s", "2 mm")]),
         "After": optlaws.After("x", "9 mm", of="z", above="31 mm", way="up"),
         "Clearance": optlaws.Clearance("x", over="z", least=[("0 mm", "1 mm"), ("9 mm", "3 mm")]),
         "Forbidden": optlaws.Forbidden("x", "z", [("0 mm", "1 mm"), ("9 mm", "3 mm"), ("9 mm", "1 mm")]),

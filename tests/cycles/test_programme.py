@@ -3,7 +3,7 @@
 import json
 from math import pi
 from pathlib import Path
-from typing import Any, cast
+from typing import Any
 
 import numpy as np
 import pytest
@@ -32,6 +32,11 @@ def cycle(*segments: Any, **others: Any) -> Cycle:
     return Cycle(list(segments), **({"speed": "200 rpm"} | others))
 
 
+def plain(kind: str, **entries: Any) -> Any:
+    """A segment as files have it, whose entries are read with the cycle's."""
+    return {"kind": kind, **entries}
+
+
 LEVEL = [Rise("35 mm", "180 deg"), Return("30 mm", "180 deg")]
 
 
@@ -43,8 +48,16 @@ LEVEL = [Rise("35 mm", "180 deg"), Return("30 mm", "180 deg")]
         ([Dwell()], {"period": "1 s"}, "either a speed"),
         ([Dwell()], {"speed": "0 rpm"}, "speed must be above 0"),
         ([Dwell()], {"speed": 200}, "speed must be an angular velocity .* got 200 without a unit"),
-        ([Dwell("120 mm")], {}, r"segment 1 \(Dwell\): duration must be an angle .* or a time .* is a length"),
-        ([Dwell("-3 deg"), Dwell()], {}, "must be above 0"),
+        ([plain("dwell", duration="120 mm")], {}, r"segment 1: duration must be an angle .* or a time .* is a length"),
+        ([plain("dwell", duration="-3 deg"), Dwell()], {}, "segment 1: duration must be above 0"),
+        ([Dwell(), plain("dwell", duration=["3 deg"])], {}, "segment 2: duration must be a list of 2 at least"),
+        ([plain("dwel")], {}, "segment 1: unknown kind of a segment 'dwel'; did you mean 'dwell'"),
+        ([plain("rise", via=[])], {}, "segment 1: unknown entry of a rise 'via'; known are by, duration, end_vel"),
+        (
+            [plain("constant velocity")],
+            {},
+            "segment 1: a constant velocity needs its velocity, such as",
+        ),
         (
             [Rise("35 mm", "120 deg"), Dwell("90 deg"), Return(duration="100 deg")],
             {},
@@ -63,11 +76,21 @@ LEVEL = [Rise("35 mm", "180 deg"), Return("30 mm", "180 deg")]
         ([Move(duration="90 deg"), Return()], {}, "either a displacement `by` or a position `to`"),
         ([Rise("35 mm", "90 deg", law="modified sin x"), Return()], {}, r"segment 1 \(Rise\): law: .*modified sin x"),
         (
-            [Rise("35 mm", "90 deg", law=cast("Any", 5)), Return()],
+            [plain("rise", by="35 mm", duration="90 deg", law=5), Return()],
             {},
-            "a name of the catalogue, a formula, a JSON or CSV file or 'optimal', got 5",
+            "segment 1: law: it must be a name of the catalogue, a formula, a JSON or CSV file, 'optimal'.* got 5",
         ),
-        ([Rise("35 mm", "9 deg", limits={"sped": "1 m/s"}), Return()], {}, "limits: unknown limit .*sped"),
+        (
+            [plain("rise", limits={"sped": "1 m/s"})],
+            {},
+            "segment 1: limits: unknown limit 'sped'; known are",
+        ),
+        (
+            [plain("rise", limits={"energy": "1 J"})],
+            {},
+            "segment 1: limits: energy is of the whole cycle: give",
+        ),
+        ([plain("rise", limits={"snap": "1 m/s"})], {}, "segment 1: limits: snap must be a snap such as '50000"),
         ([Rise("35 mm", "90 deg"), Return()], {"minimise": "accel"}, "minimise: unknown objective"),
         ([Rise("35 mm", "90 deg"), Return()], {"drive": {"mass": "-2 kg"}}, "drive: mass must be at least 0"),
         ([Rise("35 mm", "90 deg"), Return()], {"drive": {"mass": "2 N"}}, "drive: mass must be a mass .* is a force"),
@@ -84,9 +107,9 @@ LEVEL = [Rise("35 mm", "180 deg"), Return("30 mm", "180 deg")]
             r"segment 2 \(Move\): give it law='optimal': .* begin it where velocity and acceleration are known",
         ),
         (
-            [Dwell("9 deg"), Free("1 mm", via=[("200 deg", "3 mm"), ("5 mm", "3 mm")])],
+            [Dwell("9 deg"), plain("free", by="1 mm", via=[("200 deg", "3 mm"), ("5 mm", "3 mm")])],
             {"advance": "1 mm"},
-            "is a length",
+            "segment 2: via 2: 1 must be an angle .* or a time .*, but '5 mm' is a length",
         ),
         ([Dwell("9 deg"), Free("1 mm", via=[("359 deg", "3 mm")])], {"advance": "1 mm"}, "must be within the segment"),
     ],

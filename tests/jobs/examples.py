@@ -180,7 +180,7 @@ EXAMPLES = {
             ('"616 mm/s"', '"616 mm"', "axis slide: limits, velocity must be a velocity.*is a length"),
             ("120 deg", "220 deg", "axis slide: the durations sum to 410 deg"),
             ('kind = "return"', 'kind = "retrun"', "kind"),
-            ('duration = "90 deg"', 'duration = "90 deg"\nby = "3 mm"', "segment 2: a dwell takes no by"),
+            ('duration = "90 deg"', 'duration = "90 deg"\nby = "3 mm"', "segment 2: unknown entry of a dwell 'by'"),
             ("mass =", "inertia =", "drive: .*inertia"),
             ('"rockwell-cam"', '"rockwell-came"', "axis slide: export to.*did you mean 'rockwell-cam'"),
             ("counts = 65536", "file = '../cam.st'", "axis slide: export to rockwell-cam: file must be a name without"),

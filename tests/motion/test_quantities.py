@@ -259,7 +259,7 @@ def test_bare_numbers_of_problem_files_and_units_of_bare_numbers_are_refused_wit
     file = tmp_path / "slide.toml"
     file.write_text('job = "cycle"\ntitle = "S"\nspeed = "200 rpm"\n[[axis]]\nname = "x"\n[[axis.segment]]\n'
                     'kind = "rise"\nby = 35\n', "utf-8")  # fmt: skip
-    with pytest.raises(InputError, match=r'by: .*; a number with a unit is written as text, such as "35 mm"'):
+    with pytest.raises(InputError, match=r"segment 1: by .* got 35 without a unit: write it as text .* as in '35 mm'"):
         read(reading.toml(file), file)
     with pytest.raises(InputError, match="mode 1 must be a finite real number, got '2 Hz': give the number alone"):
         Machine.from_modes([("12 Hz", "2 Hz")], duration=1.0)

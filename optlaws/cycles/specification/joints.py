@@ -248,12 +248,8 @@ def _via(programme: Programme, j: int, start: float, stop: float) -> list[tuple[
     stretch = programme.stretches[j]
     points = []
     given = stretch.given.via if isinstance(stretch.given, Free) else ()
-    if not isinstance(given, list | tuple):
-        raise InputError(f"{stretch.where}: via is a list of pairs such as ('0.1 s', '50 mm'), got {shortened(given)}")
-    for i, point in enumerate(given):
-        name = f"{stretch.where}: via[{i}]"
-        if not isinstance(point, list | tuple) or len(point) != 2:
-            raise InputError(f"{name} must be a pair of a time or angle and a position, got {shortened(point)}")
+    for i, point in enumerate(given, 1):
+        name = f"{stretch.where}: via {i}"
         place = start + time_of(point[0], programme.period, f"{name}, when")
         if not start < place < stop:
             raise InputError(

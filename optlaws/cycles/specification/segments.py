@@ -3,18 +3,50 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, fields
 from typing import Any
 
-from optlaws.cycles.specification.frozen import frozen
+from optlaws.cycles.specification.frozen import FrozenTable
+from optlaws.cycles.specification.limit_entries import LIMITS_OF_SEGMENT
+from optlaws.echo import shortened
+from optlaws.entries.declared import Kinded, ValueOf, declared, entry
+from optlaws.entries.value_types import Either, Listed, Measured, ReadBy, Text, Together, is_list
+from optlaws.errors import InputError
 from optlaws.laws import MotionLaw
-from optlaws.motion.quantities import written
 from optlaws.numbers import Quantity
 
 OPTIMAL = "optimal"
+_PLACE = Measured("length", "angle")
+_RATE = Measured("velocity", "angular velocity")
 
 
-class CycleSegment:
+def _read_law(value: Any) -> MotionLaw:
+    if isinstance(value, MotionLaw):
+        return value
+    if not isinstance(value, Mapping):
+        raise InputError(
+            "it must be a name of the catalogue, a formula, a JSON or CSV file, 'optimal', or a law or its plain data, "
+            f"got {shortened(value)}"
+        )
+    return MotionLaw.from_dict(value)
+
+
+_DURATION = Either(
+    Measured("angle", "time", above=0.0), Listed(Measured("angle", "time", least=0.0), least=2, most=2), which=is_list
+)
+_HOW_LONG = (
+    "An angle of the master or a time; of two it is free between them, and left out it is what is left of the cycle if "
+    "one segment alone is free, else what is best."
+)
+_LAW = Either(
+    Text(), ReadBy(_read_law, "a `MotionLaw`", MotionLaw.to_dict), which=lambda value: int(not isinstance(value, str))
+)
+_NAMED = "What tables call it."
+_LIMITED = "Of its motion, in machine units, beside those of the cycle."
+_MOVED = "Displacement."
+_REACHED = "Position instead of a displacement."
+
+
+class CycleSegment(Kinded, title="a segment"):
     """A stretch of a cycle; its duration is an angle of the master or a time.
 
     `duration` is "120 deg" or "0.1 s"; two of them, or None, where it is free between them: what is left of the cycle
@@ -24,27 +56,15 @@ class CycleSegment:
     duration: Quantity | Sequence[Quantity] | None
     name: str
 
-    def __post_init__(self) -> None:
-        for entry in fields(self):  # type: ignore[arg-type] # its heirs are dataclasses
-            object.__setattr__(self, entry.name, frozen(written(getattr(self, entry.name))))
-
     @property
     def label(self) -> str:
         """The name of the segment, or of its kind."""
         return self.name or type(self).__name__
 
 
-@dataclass(frozen=True)
-class Dwell(CycleSegment):
+@declared
+class Dwell(CycleSegment, kind="dwell"):
     """A rest of the follower or the axis.
-
-    Parameters
-    ----------
-    duration
-        As of every segment.
-    least
-        What `Axes.fastest` and `Axes.gentlest` leave of it at least: "0 ms" of one that only waits. All of its duration
-        unless given, and nothing where the duration is left out.
 
     Examples
     --------
@@ -52,13 +72,20 @@ class Dwell(CycleSegment):
     'Dwell'
     """
 
-    duration: Quantity | Sequence[Quantity] | None = None
-    least: Quantity | None = field(default=None, kw_only=True)
-    name: str = field(default="", kw_only=True)
+    duration: Quantity | Sequence[Quantity] | None = entry(_DURATION, _HOW_LONG, default=None, example="120 deg")
+    least: Quantity | None = entry(
+        Measured("angle", "time", least=0.0),
+        'What `Axes.fastest` and `Axes.gentlest` leave of it at least: "0 ms" of one that only waits. All of its '
+        "duration unless given, and nothing where the duration is left out.",
+        default=None,
+        kw_only=True,
+        example="0 ms",
+    )
+    name: str = entry(Text(empty=True), _NAMED, default="", kw_only=True)
 
 
-@dataclass(frozen=True)
-class ConstantVelocity(CycleSegment):
+@declared
+class ConstantVelocity(CycleSegment, kind="constant velocity"):
     """A motion of constant velocity, such as "300 mm/s".
 
     Examples
@@ -67,31 +94,14 @@ class ConstantVelocity(CycleSegment):
     '300 mm/s'
     """
 
-    velocity: Quantity
-    duration: Quantity | Sequence[Quantity] | None = None
-    name: str = field(default="", kw_only=True)
+    velocity: Quantity = entry(_RATE, "Of the axis.", example="300 mm/s")
+    duration: Quantity | Sequence[Quantity] | None = entry(_DURATION, _HOW_LONG, default=None, example="120 deg")
+    name: str = entry(Text(empty=True), _NAMED, default="", kw_only=True)
 
 
-@dataclass(frozen=True)
-class Move(CycleSegment):
+@declared
+class Move(CycleSegment, kind="move"):
     """A motion by a displacement or to a position.
-
-    Parameters
-    ----------
-    by
-        Displacement, such as "35 mm" or "-45 deg".
-    duration
-        As of every segment.
-    to
-        Position instead of a displacement.
-    law
-        A law, the name of one in the catalogue, a formula of k such as "formula: k^2*(3 - 2*k)", a JSON or CSV file
-        that holds one, or "optimal". Half segments ("C1", "H2") move at one end, where their neighbour must be as fast.
-    limits
-        Of its law, in machine units: `{"velocity": "616 mm/s", "acceleration": "90 m/s^2", "jerk": ...}`; two are the
-        least and the greatest value, a "deceleration" is of slowing down.
-    start_velocity, end_velocity
-        Of an optimal law; those of its neighbours, or rest, unless given.
 
     Examples
     --------
@@ -99,18 +109,27 @@ class Move(CycleSegment):
     'modified sine'
     """
 
-    by: Quantity | None = None
-    duration: Quantity | Sequence[Quantity] | None = None
-    to: Quantity | None = field(default=None, kw_only=True)
-    law: str | MotionLaw = field(default=OPTIMAL, kw_only=True)
-    limits: Mapping[str, Any] = field(default_factory=dict, kw_only=True)
-    start_velocity: Quantity | None = field(default=None, kw_only=True)
-    end_velocity: Quantity | None = field(default=None, kw_only=True)
-    name: str = field(default="", kw_only=True)
+    by: Quantity | None = entry(_PLACE, _MOVED, default=None, example="35 mm")
+    duration: Quantity | Sequence[Quantity] | None = entry(_DURATION, _HOW_LONG, default=None, example="120 deg")
+    to: Quantity | None = entry(_PLACE, _REACHED, default=None, kw_only=True, example="0 mm")
+    law: str | MotionLaw = entry(
+        _LAW,
+        'A law, the name of one in the catalogue, a formula of k such as "formula: k^2*(3 - 2*k)", a JSON or CSV file '
+        'that holds one, or "optimal". Half segments ("C1", "H2") move at one end, where their neighbour must be as '
+        "fast.",
+        default=OPTIMAL,
+        kw_only=True,
+    )
+    limits: Mapping[str, Any] = entry(LIMITS_OF_SEGMENT, _LIMITED, default=FrozenTable(), kw_only=True)
+    start_velocity: Quantity | None = entry(
+        _RATE, "Of an optimal law; that of its neighbour, or rest, unless given.", default=None, kw_only=True
+    )
+    end_velocity: Quantity | None = entry(_RATE, "As `start_velocity`, at its end.", default=None, kw_only=True)
+    name: str = entry(Text(empty=True), _NAMED, default="", kw_only=True)
 
 
-@dataclass(frozen=True)
-class Rise(Move):
+@declared
+class Rise(Move, kind="rise"):
     """A move whose displacement is given as a positive one and added.
 
     Examples
@@ -120,8 +139,8 @@ class Rise(Move):
     """
 
 
-@dataclass(frozen=True)
-class Return(Move):
+@declared
+class Return(Move, kind="return"):
     """A move whose displacement is given as a positive one and taken back; to where the cycle began unless given.
 
     Examples
@@ -131,19 +150,12 @@ class Return(Move):
     """
 
 
-@dataclass(frozen=True)
-class Free(CycleSegment):
+@declared
+class Free(CycleSegment, kind="free", title="a free motion"):
     """An optimal motion of which only the end and points on the way are given.
 
     Between free motions that follow each other velocity and acceleration are free too; beside others they are those of
     the neighbour.
-
-    Parameters
-    ----------
-    by, duration, to, limits
-        As of a move.
-    via
-        Points on the way: pairs of a time or angle since the start of the segment and a position.
 
     Examples
     --------
@@ -151,9 +163,19 @@ class Free(CycleSegment):
     'Free'
     """
 
-    by: Quantity | None = None
-    duration: Quantity | Sequence[Quantity] | None = None
-    to: Quantity | None = field(default=None, kw_only=True)
-    via: Sequence[tuple[Quantity, Quantity]] = field(default=(), kw_only=True)
-    limits: Mapping[str, Any] = field(default_factory=dict, kw_only=True)
-    name: str = field(default="", kw_only=True)
+    by: Quantity | None = entry(_PLACE, _MOVED, default=None, example="35 mm")
+    duration: Quantity | Sequence[Quantity] | None = entry(_DURATION, _HOW_LONG, default=None, example="120 deg")
+    to: Quantity | None = entry(_PLACE, _REACHED, default=None, kw_only=True, example="0 mm")
+    via: Sequence[tuple[Quantity, Quantity]] = entry(
+        Listed(Together(Measured("angle", "time"), _PLACE)),
+        "Points on the way: pairs of a time or angle since the start of the segment and a position.",
+        default=(),
+        kw_only=True,
+        example=[["40 deg", "20 mm"]],
+    )
+    limits: Mapping[str, Any] = entry(LIMITS_OF_SEGMENT, _LIMITED, default=FrozenTable(), kw_only=True)
+    name: str = entry(Text(empty=True), _NAMED, default="", kw_only=True)
+
+
+#: the segments of a cycle, which errors call by their numbers
+SEGMENTS = Listed(ValueOf(CycleSegment), least=1, most=1000, each="segment")

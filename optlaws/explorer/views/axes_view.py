@@ -25,8 +25,7 @@ from optlaws.explorer.views.law_view import TITLES, digits, drawn, refusal
 from optlaws.explorer.views.picture_points import refined
 from optlaws.explorer.views.requests import Question
 from optlaws.files.problem_file import convert
-from optlaws.jobs.axes.segment_entries import given
-from optlaws.jobs.cycle_entries import CycleProblemFile, overlap_of
+from optlaws.jobs.cycle_entries import CycleProblemFile, given, overlap_of
 from optlaws.numbers import Array
 from optlaws.plots.cycle import UNITS
 from optlaws.plots.interlocks import forbidden_region, passed_and_level, plane_axes

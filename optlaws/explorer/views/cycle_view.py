@@ -84,7 +84,7 @@ def check_axis(axis: AxisEntries) -> None:
         raise InputError("motors: the page reads no catalogue: give the motor as a table, or start with the file")
     of_cam = (axis.mechanism or {}).get("segment")
     inner = [entry.get("law") for entry in of_cam if isinstance(entry, Mapping)] if isinstance(of_cam, list) else []
-    for law in (*(segment.law for segment in axis.segment), *inner):
+    for law in (*(segment.get("law") for segment in axis.segment), *inner):
         if isinstance(law, str) and reading.is_file(law):
             raise InputError(f"law: {law} names a file, and the page reads none: take a law of the catalogue")
 

@@ -4,19 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import KW_ONLY
-from pathlib import Path
 from typing import Any, get_args
 
 from optlaws.cams.at_shaft import cam_mechanism
 from optlaws.cams.disc import DiscCam, Turning
 from optlaws.cams.followers.follower import CamFollower, stated_prime_radius
 from optlaws.cycles.cycle import Cycle
-from optlaws.echo import shortened
+from optlaws.cycles.specification.segments import SEGMENTS
 from optlaws.entries.declared import ValueOf, declared, entry
 from optlaws.entries.value_types import Choice, InSI, Measured, ReadBy, SINumber, Span
 from optlaws.errors import InputError
-from optlaws.files.problem_file import convert
-from optlaws.jobs.axes.segment_entries import SegmentEntries, segment_of
 from optlaws.mechanisms.linkages.bodies import NO_LOADS, Loads
 from optlaws.mechanisms.linkages.mechanism import Mechanism
 from optlaws.mechanisms.linkages.mechanism_kinds import MechanismKind, OptionalEnds
@@ -28,20 +25,14 @@ _BY_TIME = ("velocity", "start_velocity", "end_velocity")
 
 def _motion(segments: Any) -> Cycle:
     """The follower's motion over a turn of its cam, of segments whose durations are angles."""
-    if not isinstance(segments, list) or not segments:
-        raise InputError(f"segment must be a list of tables such as {{ kind = 'dwell' }}, got {shortened(segments)}")
-    given = []
-    for number, data in enumerate(segments, 1):
-        if not isinstance(data, Mapping):
-            raise InputError(f"segment {number} must be a table such as {{ kind = 'dwell' }}, got {shortened(data)}")
-        entries = convert(data, SegmentEntries, Path(f"segment {number}"))
-        durations = entries.duration if isinstance(entries.duration, list) else [entries.duration]
+    given = SEGMENTS.read(segments, "segment")
+    for number, segment in enumerate(given, 1):
+        durations = segment.duration if isinstance(segment.duration, tuple) else (segment.duration,)
         for duration in durations:
             if duration is not None:
                 quantity(duration, "angle", f"segment {number}: duration over a turn of the cam")
-        if any(getattr(entries, name) is not None for name in _BY_TIME):
+        if any(getattr(segment, name, None) is not None for name in _BY_TIME):
             raise InputError(f"segment {number}: a cam's motion is over its angle: it takes no velocity by the time")
-        given.append(segment_of(entries, number))
     return Cycle(given, period="1 s")
 
 

@@ -1,0 +1,36 @@
+"""The entries of limits: what may be limited of a segment and of a whole cycle, and by which quantities."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from optlaws.cycles.specification.frozen import FrozenTable
+from optlaws.entries.declared import TableOf, entry
+from optlaws.entries.value_types import Either, Listed, Measured, is_list
+
+
+def _limit(about: str, *dimensions: str, example: str) -> Any:
+    return entry(Measured(*dimensions, above=0.0), about, default=None, example=example)
+
+
+def _sided(of: str, example: str) -> Any:
+    """A limit of a derivative: of its magnitude, or its least and its greatest value."""
+    dimensions = of, f"angular {of}"
+    sides = Listed(Measured(*dimensions), least=2, most=2)
+    about = f"The greatest {of}; of two the first is the least value."
+    return entry(Either(Measured(*dimensions, above=0.0), sides, which=is_list), about, default=None, example=example)
+
+
+_OF_MOTION = {
+    "velocity": _sided("velocity", "616 mm/s"),
+    "acceleration": _sided("acceleration", "20 m/s^2"),
+    "deceleration": _limit("Of moves that slow down.", "acceleration", "angular acceleration", example="14 m/s^2"),
+    "jerk": _sided("jerk", "2000 m/s^3"),
+    "snap": _limit("The greatest snap.", "snap", "angular snap", example="900000 m/s^4"),
+    "force": _limit("Of the drive of a slide.", "force", example="120 N"),
+    "torque": _limit("Of the drive of a table, or at the input of a mechanism.", "torque", example="6 N m"),
+    "power": _limit("Of the drive.", "power", example="400 W"),
+}
+_OF_CYCLE = "is of the whole cycle: give it among the limits of the Cycle"
+_TOTALS = ("rms force", "rms torque", "energy", "motor")
+LIMITS_OF_SEGMENT = TableOf("limit", _OF_MOTION, keep=FrozenTable, elsewhere=dict.fromkeys(_TOTALS, _OF_CYCLE))
