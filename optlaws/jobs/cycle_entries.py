@@ -10,6 +10,7 @@ import msgspec
 
 from optlaws.cycles.cycle import Cycle
 from optlaws.cycles.interchange import CLOCK, ENTRIES
+from optlaws.cycles.interlocks.interlock import Interlock
 from optlaws.cycles.specification.segments import SEGMENTS, CycleSegment
 from optlaws.errors import InputError, located
 from optlaws.files.problem_file import Text, convert
@@ -21,29 +22,6 @@ from optlaws.suggest import unknown_key
 
 if TYPE_CHECKING:
     from optlaws.cycles.machine_axes import Axes, Overlap
-
-
-class InterlockEntries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
-    """A condition on two axes; which entries it has beside the axis depends on its kind."""
-
-    kind: Literal["after", "clearance", "forbidden", "synchronous"]
-    axis: Text
-    name: Text | None = None
-    position: str | None = None
-    of: str | None = None
-    above: str | None = None
-    below: str | None = None
-    way: str | None = None
-    over: str | None = None
-    least: str | list[list[str]] | None = None
-    most: str | list[list[str]] | None = None
-    units: list[str] | None = None
-    across: str | None = None
-    corners: list[list[str]] | None = None
-    to: str | None = None
-    during: list[str] | None = None
-    within: str | None = None
-    ratio: float | None = None
 
 
 class OverlapEntries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
@@ -109,7 +87,9 @@ class CycleProblemFile(JobFile, kw_only=True, forbid_unknown_fields=True):
     """The problem file of a cycle with its axes."""
 
     axis: Annotated[list[AxisEntries], msgspec.Meta(min_length=1, max_length=8)]
-    interlocks: Annotated[list[InterlockEntries], msgspec.Meta(max_length=50)] = msgspec.field(default_factory=list)
+    interlocks: Annotated[list[Annotated[dict[str, Any], Interlock]], msgspec.Meta(max_length=50)] = msgspec.field(
+        default_factory=list
+    )
     overlap: OverlapEntries | None = None
     speed: str | None = None
     period: str | None = None
@@ -166,7 +146,7 @@ def read_given(data: Mapping[str, Any], file: Path) -> tuple[CycleProblemFile, A
     if len(cycles) > 1 and spec.interlocks and "interlocks" in cycles:
         raise InputError(f"{file}: an axis is called interlocks, as what is known of them is: give it another name")
     with located(str(file)):
-        return spec, Axes(cycles, interlocks=[given(entries) for entries in spec.interlocks])
+        return spec, Axes(cycles, interlocks=spec.interlocks)
 
 
 def sweeps_of(spec: CycleProblemFile, file: Path) -> list[list[SweptCycle]]:

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
-from typing import Any, ClassVar
+from typing import Any
 
 import numpy as np
 
 from optlaws.cycles.interlocks.enclosed_axis import EnclosedAxis, Way
-from optlaws.cycles.interlocks.interlock import Interlock, LeastClearance
-from optlaws.echo import shortened
+from optlaws.cycles.interlocks.interlock import AXIS, CALLED, POSITION, Interlock, LeastClearance
+from optlaws.entries.declared import declared, entry
+from optlaws.entries.value_types import Choice, Text
 from optlaws.errors import InputError
 from optlaws.motion.piece import unit_of
 from optlaws.motion.quantities import quantity
@@ -18,25 +18,12 @@ from optlaws.numbers import Array, Quantity
 from optlaws.tolerances import INTERLOCK, SAME_TIME
 
 
-@dataclass(frozen=True)
-class After(Interlock):
+@declared
+class After(Interlock, kind="after", title="an interlock after"):
     """An axis passes a position only after another one is above, or below, a position of its own.
 
     It holds at every instant of the cycle at which the axis passes the position. Positions are those of the first
     cycle, also where each cycle goes on from the one before.
-
-    Parameters
-    ----------
-    axis, position
-        What waits, such as "table" and "5 deg": a position that it passes, not one at which it rests.
-    of
-        The other axis, such as "die".
-    above, below
-        Beyond which of its positions the other axis is by then, such as "31 mm": one of them.
-    way
-        "up" or "down" where only passes in one direction count; all unless given.
-    name
-        What reports call it; the condition in words unless given.
 
     Raises
     ------
@@ -52,22 +39,23 @@ class After(Interlock):
     'die passes 31 mm on its way down after table is above 10 deg'
     """
 
-    kind: ClassVar[str] = "after"
+    axis: str = entry(AXIS, "What waits.", example="table")
+    position: Quantity = entry(
+        POSITION, "A position that it passes, not one at which it rests.", example="5 deg", label="passes"
+    )
+    of: str = entry(AXIS, "The other axis.", kw_only=True, example="die")
+    above: Quantity | None = entry(
+        POSITION, "Above which of its positions the other axis is by then.", default=None, kw_only=True, example="31 mm"
+    )
+    below: Quantity | None = entry(POSITION, "Or below which.", default=None, kw_only=True)
+    way: Way | None = entry(
+        Choice("up", "down"), "Where only passes in one direction count; all unless given.", default=None, kw_only=True
+    )
+    name: str = entry(Text(empty=True), CALLED, default="", kw_only=True)
 
-    axis: str
-    position: Quantity
-    of: str = field(kw_only=True)
-    above: Quantity | None = field(default=None, kw_only=True)
-    below: Quantity | None = field(default=None, kw_only=True)
-    way: Way | None = field(default=None, kw_only=True)
-    name: str = field(default="", kw_only=True)
-
-    def __post_init__(self) -> None:
-        super().__post_init__()
+    def _check(self) -> None:
         if (self.above is None) == (self.below is None):
             raise InputError("after: say what the other axis is by then: above='31 mm', or below='31 mm', one of them")
-        if self.way not in {None, "up", "down"}:
-            raise InputError(f"after: way must be 'up' or 'down', got {shortened(self.way)}")
 
     @property
     def axes(self) -> tuple[str, str]:

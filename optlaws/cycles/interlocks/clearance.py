@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from itertools import pairwise
-from typing import Any, ClassVar, TypeAlias
+from typing import Any, TypeAlias
 
 import numpy as np
 
 from optlaws.cycles.interlocks.enclosed_axis import EnclosedAxis, least
-from optlaws.cycles.interlocks.interlock import Interlock, LeastClearance
+from optlaws.cycles.interlocks.interlock import AXIS, CALLED, PAIR, Interlock, LeastClearance
 from optlaws.echo import shortened
+from optlaws.entries.declared import declared, entry
+from optlaws.entries.value_types import Either, Listed, Text, Together
 from optlaws.errors import InputError
 from optlaws.formulas.arithmetic import NUMPY, evaluate
 from optlaws.formulas.reading import read
@@ -23,22 +25,12 @@ from optlaws.numerics.taylor import Jet
 from optlaws.synthesis.limits.formula_jets import formula_jet
 from optlaws.tolerances import CLEARANCE_SHARE, ROUNDOFF
 
+_BOUND = Either(Listed(PAIR, least=2), Text(), which=lambda value: int(isinstance(value, str)))
 
-@dataclass(frozen=True)
-class Clearance(Interlock):
+
+@declared
+class Clearance(Interlock, kind="clearance"):
     """The position of an axis is at least, or at most, a function of another's position, over the whole cycle.
-
-    Parameters
-    ----------
-    axis, over
-        The axis whose position is bounded, such as "head", and that on whose position the bound depends, "table".
-    least, most
-        The bound, one of them: pairs of a position of `over` and the bound there, straight between them and constant
-        beyond, `[("0 deg", "20 mm"), ("45 deg", "60 mm")]`; or a formula of x, "20 + 40*x/45".
-    units
-        Of a formula: the unit of x and that of the bound, such as ("deg", "mm").
-    name
-        What reports call it; the condition in words unless given.
 
     Raises
     ------
@@ -54,30 +46,35 @@ class Clearance(Interlock):
     'head is at least 20 + 40*x/45 of table (deg, mm)'
     """
 
-    kind: ClassVar[str] = "clearance"
+    axis: str = entry(AXIS, "The axis whose position is bounded.", example="head")
+    over: str = entry(AXIS, "The axis on whose position the bound depends.", kw_only=True, example="table")
+    least: Any = entry(
+        _BOUND,
+        "The least position: pairs of a position of `over` and the bound there, straight between them and constant "
+        'beyond; or a formula of x, such as "20 + 40*x/45".',
+        default=None,
+        kw_only=True,
+        example=[["0 deg", "20 mm"], ["45 deg", "60 mm"]],
+    )
+    most: Any = entry(_BOUND, "The greatest position, likewise; one of them.", default=None, kw_only=True)
+    units: Sequence[str] | None = entry(
+        Together(Text(), Text()),
+        "Of a formula: the unit of x and that of the bound.",
+        default=None,
+        kw_only=True,
+        example=["deg", "mm"],
+    )
+    name: str = entry(Text(empty=True), CALLED, default="", kw_only=True)
 
-    axis: str
-    over: str = field(kw_only=True)
-    least: Any = field(default=None, kw_only=True)
-    most: Any = field(default=None, kw_only=True)
-    units: Sequence[str] | None = field(default=None, kw_only=True)
-    name: str = field(default="", kw_only=True)
-
-    def __post_init__(self) -> None:
-        super().__post_init__()
+    def _check(self) -> None:
         if (self.least is None) == (self.most is None):
             raise InputError(
                 "clearance: give the least position, least=[('0 deg', '20 mm'), ...], or the most, not both"
             )
         if isinstance(self.given, str):
             self.formula()
-            if not isinstance(self.units, tuple) or len(self.units) != 2:
+            if self.units is None:
                 raise InputError("clearance: a formula needs the units of x and of its value, such as ('deg', 'mm')")
-        elif not isinstance(self.given, tuple) or len(self.given) < 2 or not all(map(_is_pair, self.given)):
-            raise InputError(
-                "clearance: the bound is two or more pairs of positions such as ('0 deg', '20 mm'), or a formula of x, "
-                f"got {shortened(self.given)}"
-            )
         elif self.units is not None:
             raise InputError("clearance: pairs have their units in them: leave `units` out")
 
@@ -193,10 +190,6 @@ def bound_of(rule: Clearance, kind: str, over: str) -> PositionBound:
     if any(low >= high for low, high in pairwise(places)):
         raise InputError(f"{where}: positions of {rule.over} must increase, got {shortened(rule.given)}")
     return TableBound(tuple(places), tuple(values))
-
-
-def _is_pair(value: Any) -> bool:
-    return isinstance(value, tuple) and len(value) == 2
 
 
 def _has_table(formula: Formula) -> bool:

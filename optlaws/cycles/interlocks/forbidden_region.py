@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
 from math import hypot, sqrt
-from typing import Any, ClassVar
+from typing import Any
 
 import numpy as np
 
 from optlaws.cycles.interlocks.enclosed_axis import EnclosedAxis, least
-from optlaws.cycles.interlocks.interlock import Interlock, LeastClearance
+from optlaws.cycles.interlocks.interlock import AXIS, CALLED, PAIR, Interlock, LeastClearance
 from optlaws.cycles.interlocks.polygon import SimplePolygon
-from optlaws.echo import shortened
+from optlaws.entries.declared import declared, entry
+from optlaws.entries.value_types import Listed, Text
 from optlaws.errors import InputError
 from optlaws.motion.piece import unit_of
 from optlaws.motion.quantities import quantity
@@ -24,22 +24,12 @@ from optlaws.tolerances import CLEARANCE_SHARE, INTERLOCK
 _SQUARED_CLEARANCE = 1e-12  # the same of the square of a distance
 
 
-@dataclass(frozen=True)
-class Forbidden(Interlock):
+@declared
+class Forbidden(Interlock, kind="forbidden", title="a forbidden region"):
     """A polygon in the plane of the positions of two axes, which their path does not enter.
 
     The clearance is the distance of the path from the polygon: in metres of two slides, in radians of two tables; of a
     slide and a table both positions are divided by their strokes.
-
-    Parameters
-    ----------
-    axis, across
-        The axes of the plane, such as "x" and "z".
-    corners
-        At least three, in order, as pairs of positions: `[("100 mm", "0 mm"), ("140 mm", "0 mm"), ...]`. The polygon
-        need not be convex; its sides do not cross each other.
-    name
-        What reports call it; the condition in words unless given.
 
     Raises
     ------
@@ -54,22 +44,15 @@ class Forbidden(Interlock):
     'x and z stay out of a polygon of 4 corners'
     """
 
-    kind: ClassVar[str] = "forbidden"
-
-    axis: str
-    across: str
-    corners: Sequence[tuple[Any, Any]]
-    name: str = field(default="", kw_only=True)
-
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        corners: Any = self.corners
-        pairs = isinstance(corners, tuple) and all(isinstance(part, tuple) and len(part) == 2 for part in corners)
-        if not pairs or len(corners) < 3:
-            raise InputError(
-                "forbidden: corners are three or more pairs of positions such as ('100 mm', '0 mm'), got "
-                f"{shortened(corners)}"
-            )
+    axis: str = entry(AXIS, "An axis of the plane.", example="x")
+    across: str = entry(AXIS, "The other one.", example="z")
+    corners: Sequence[tuple[Any, Any]] = entry(
+        Listed(PAIR, least=3, each="corner"),
+        "At least three, in order, as pairs of positions; the polygon need not be convex, and its sides do not cross "
+        "each other.",
+        example=[["100 mm", "0 mm"], ["140 mm", "0 mm"], ["140 mm", "60 mm"]],
+    )
+    name: str = entry(Text(empty=True), CALLED, default="", kw_only=True)
 
     @property
     def axes(self) -> tuple[str, str]:

@@ -4,16 +4,16 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
-from dataclasses import MISSING, dataclass, fields
-from typing import Any, ClassVar, Self
+from dataclasses import dataclass
+from typing import Any
 
 from optlaws.cycles.interlocks.enclosed_axis import ClockedMotion, EnclosedAxis
 from optlaws.cycles.specification.segments import Dwell, Move
-from optlaws.echo import shortened
+from optlaws.entries.declared import Kinded
+from optlaws.entries.value_types import Measured, Text, Together
 from optlaws.errors import InputError
-from optlaws.files.reading import JsonText
 from optlaws.motion.piece import unit_of
-from optlaws.motion.quantities import TURN, in_small_units, quantity, written
+from optlaws.motion.quantities import TURN, in_small_units, quantity
 from optlaws.numbers import Array
 from optlaws.sentences import Amount, sentence
 from optlaws.suggest import unknown_key
@@ -86,19 +86,17 @@ class LeastClearance:
         return sentence("{} at {}{}", clearance, Amount(self.angle, "deg"), early)
 
 
-class Interlock(JsonText, ABC):
+#: positions at which interlocks look, and pairs of such
+POSITION = Measured("length", "angle")
+PAIR = Together(POSITION, POSITION)
+AXIS = Text()
+CALLED = "What reports call it; the condition in words unless given."
+
+
+class Interlock(Kinded, ABC, title="an interlock"):
     """A condition on the positions of two axes of one clock; subclasses define the condition."""
 
-    kind: ClassVar[str] = ""
-
     name: str
-
-    def __post_init__(self) -> None:
-        for entry in fields(self):  # type: ignore[arg-type] # its heirs are dataclasses
-            object.__setattr__(self, entry.name, _plain(getattr(self, entry.name)))
-        for axis in self.axes:
-            if not _is_name(axis):
-                raise InputError(f"{self.kind}: an axis is a name such as 'table', got {shortened(axis)}")
 
     @property
     @abstractmethod
@@ -135,28 +133,6 @@ class Interlock(JsonText, ABC):
     @abstractmethod
     def _least_clearance(self, first: EnclosedAxis, second: EnclosedAxis) -> LeastClearance:
         """The least clearance over the whole cycle."""
-
-    def to_dict(self) -> dict[str, Any]:
-        """The kind of the interlock and its entries, plain and JSON-able."""
-        given = {each.name: getattr(self, each.name) for each in fields(self)}  # type: ignore[arg-type]
-        defaults = {each.name: each.default for each in fields(self)}  # type: ignore[arg-type]
-        entries = {name: _lists(value) for name, value in given.items() if value != defaults[name]}
-        return {"kind": self.kind, **entries}
-
-    @classmethod
-    def from_dict(cls, data: Any) -> Self:
-        """The interlock that `to_dict` wrote."""
-        given = dict(data) if isinstance(data, Mapping) else {}
-        if given.pop("kind", None) != cls.kind or not cls.kind:
-            raise InputError(f"an interlock of the kind {cls.kind!r} is a table with this kind, got {shortened(data)}")
-        known = {each.name: each for each in fields(cls)}  # type: ignore[arg-type]
-        for name in given:
-            if name not in known:
-                raise InputError(f"{cls.kind}: {unknown_key(name, ('kind', *known))}")
-        for name, each in known.items():
-            if each.default is MISSING and name not in given:
-                raise InputError(f"{cls.kind}: {name} is missing")
-        return cls(**given)
 
     def _checked_axes(self, cycles: Mapping[str, Any]) -> tuple[ClockedMotion, ClockedMotion]:
         for name in self.axes:
@@ -203,15 +179,3 @@ def joint_positions(cycle: ClockedMotion) -> list[float]:
     for stretch in cycle.programme.stretches:
         positions.append(positions[-1] + stretch.displacement)
     return positions
-
-
-def _is_name(value: Any) -> bool:
-    return isinstance(value, str) and bool(value)
-
-
-def _plain(value: Any) -> Any:
-    return tuple(map(_plain, value)) if isinstance(value, list | tuple) else written(value)
-
-
-def _lists(value: Any) -> Any:
-    return [_lists(part) for part in value] if isinstance(value, tuple) else value

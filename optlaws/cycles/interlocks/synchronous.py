@@ -3,42 +3,29 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
-from typing import Any, ClassVar
+from typing import Any
 
 import numpy as np
 
 from optlaws.cycles.interlocks.enclosed_axis import ClockedMotion, EnclosedAxis, least
-from optlaws.cycles.interlocks.interlock import Interlock, LeastClearance
+from optlaws.cycles.interlocks.interlock import AXIS, CALLED, Interlock, LeastClearance
 from optlaws.cycles.specification.programme import AXES, time_of
-from optlaws.echo import shortened
+from optlaws.entries.declared import declared, entry
+from optlaws.entries.value_types import Measured, Number, Text, Together
 from optlaws.errors import InputError
 from optlaws.motion.piece import unit_of
 from optlaws.motion.quantities import quantity
-from optlaws.numbers import Array, Quantity, finite
+from optlaws.numbers import Array, Quantity
 from optlaws.numerics.interval import Interval
 from optlaws.numerics.taylor import Jet
 from optlaws.tolerances import CLEARANCE_SHARE
 
 
-@dataclass(frozen=True)
-class Synchronous(Interlock):
+@declared
+class Synchronous(Interlock, kind="synchronous", title="a synchronous motion"):
     """An axis runs at the velocity of another, or at a multiple of it, over a window of the clock.
 
     The clearance is the tolerance less the greatest difference of the velocities in the window.
-
-    Parameters
-    ----------
-    axis, to
-        The two axes, such as "shear" and "belt".
-    during
-        From when to when: two angles of the master or times, such as ("60 deg", "120 deg").
-    within
-        By how much the velocities may differ, such as "1 mm/s".
-    ratio
-        Of the velocity of `axis` to that of `to`; 1 unless given.
-    name
-        What reports call it; the condition in words unless given.
 
     Raises
     ------
@@ -52,21 +39,22 @@ class Synchronous(Interlock):
     'shear runs with belt from 60 deg to 120 deg within 1 mm/s'
     """
 
-    kind: ClassVar[str] = "synchronous"
-
-    axis: str
-    to: str
-    during: tuple[Quantity, Quantity] = field(kw_only=True)
-    within: Quantity = field(kw_only=True)
-    ratio: float = field(default=1.0, kw_only=True)
-    name: str = field(default="", kw_only=True)
-
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        finite(self.ratio, "synchronous: ratio")
-        during: Any = self.during
-        if not isinstance(during, tuple) or len(during) != 2:
-            raise InputError(f"synchronous: during is two times or angles, got {shortened(self.during)}")
+    axis: str = entry(AXIS, "The axis that follows.", example="shear")
+    to: str = entry(AXIS, "The axis with which it runs.", example="belt")
+    during: tuple[Quantity, Quantity] = entry(
+        Together(Measured("angle", "time"), Measured("angle", "time")),
+        "From when to when: two angles of the master or times.",
+        kw_only=True,
+        example=["60 deg", "120 deg"],
+    )
+    within: Quantity = entry(
+        Measured("velocity", "angular velocity", above=0.0),
+        "By how much the velocities may differ.",
+        kw_only=True,
+        example="1 mm/s",
+    )
+    ratio: float = entry(Number(), "Of the velocity of `axis` to that of `to`.", default=1.0, kw_only=True)
+    name: str = entry(Text(empty=True), CALLED, default="", kw_only=True)
 
     @property
     def axes(self) -> tuple[str, str]:
@@ -119,7 +107,4 @@ class Synchronous(Interlock):
         return self._least(tolerance - high, tolerance - known.bound, unit, time, first.duration, size=tolerance)
 
     def _tolerance(self, cycle: ClockedMotion) -> float:
-        value = quantity(self.within, AXES[cycle.axis][1], f"interlock {self.label}: within")
-        if value <= 0.0:
-            raise InputError(f"interlock {self.label}: within must be above 0, got {shortened(self.within)}")
-        return value
+        return quantity(self.within, AXES[cycle.axis][1], f"interlock {self.label}: within")

@@ -25,7 +25,7 @@ from optlaws.explorer.views.law_view import TITLES, digits, drawn, refusal
 from optlaws.explorer.views.picture_points import refined
 from optlaws.explorer.views.requests import Question
 from optlaws.files.problem_file import convert
-from optlaws.jobs.cycle_entries import CycleProblemFile, given, overlap_of
+from optlaws.jobs.cycle_entries import CycleProblemFile, overlap_of
 from optlaws.numbers import Array
 from optlaws.plots.cycle import UNITS
 from optlaws.plots.interlocks import forbidden_region, passed_and_level, plane_axes
@@ -78,7 +78,7 @@ def _read(question: str) -> Axes:
             raise InputError(f"two axes are called {axis.name}: give each a name of its own")
         cycle_view.check_axis(axis)
         cycles[axis.name] = cycle_view.stored(spec, axis)
-    return Axes(cycles, interlocks=[given(entries) for entries in spec.interlocks])
+    return Axes(cycles, interlocks=spec.interlocks)
 
 
 def _view(axes: Axes) -> dict[str, Any]:

@@ -174,8 +174,8 @@ AFTER = {"axis": "x", "position": "100 mm", "of": "z", "above": "30 mm"}
         (lambda: After("x", "1 mm", of="z"), "above='31 mm', or below="),
         (lambda: After("x", "1 mm", of="z", above="1 mm", below="2 mm"), "one of them"),
         (lambda: After("x", "1 mm", of="z", above="1 mm", way="left"),  # type: ignore[arg-type]
-         "way must be 'up' or 'down'"),
-        (lambda: After("", "1 mm", of="z", above="1 mm"), "an axis is a name"),
+         "unknown way 'left'; known are down, up"),
+        (lambda: After("", "1 mm", of="z", above="1 mm"), "axis must be a text, got ''"),
         (lambda: least(After("y", "1 mm", of="z", above="1 mm")), "unknown axis 'y'"),
         (lambda: least(After("x", "1 mm", of="x", above="1 mm")), "both are x"),
         (lambda: least(After("x", "400 mm", of="z", above="1 mm")), "0 mm to 300 mm and never passes 400 mm"),
@@ -183,23 +183,23 @@ AFTER = {"axis": "x", "position": "100 mm", "of": "z", "above": "30 mm"}
         (lambda: least(After("x", "100 mm", of="z", above="90 mm")), "0 mm to 80 mm and never passes 90 mm"),
         (lambda: least(After("x", "10 deg", of="z", above="9 mm")), "position of x must be a length"),
         (lambda: Clearance("x", over="z"), "give the least position"),
-        (lambda: Clearance("x", over="z", least=[("1 mm", "1 mm")]), "two or more pairs"),
+        (lambda: Clearance("x", over="z", least=[("1 mm", "1 mm")]), "least must be a list of 2 at least, each"),
         (lambda: Clearance("x", over="z", least="2*x"), "needs the units of x"),
         (lambda: Clearance("x", over="z", least="2*y", units=("mm", "mm")), "unknown name 'y'"),
         (lambda: Clearance("x", over="z", least="table(x, 0:1, 1:2)", units=("mm", "mm")), "give a table as pairs"),
         (lambda: Clearance("x", over="z", least=[("0 m", "1 m"), ("1 m", "1 m")], units=("m", "m")), "leave `units`"),
         (lambda: least(Clearance("x", over="z", least=[("2 mm", "1 mm"), ("1 mm", "1 mm")])), "must increase"),
         (lambda: least(Clearance("x", over="z", least=[("2 deg", "1 mm"), ("3 deg", "1 mm")])), "must be a length"),
-        (lambda: Forbidden("x", "z", BOX[:2]), "three or more pairs"),
+        (lambda: Forbidden("x", "z", BOX[:2]), "corners must be a list of 3 at least, each a list"),
         (lambda: least(Forbidden("x", "z", [("0 mm", "0 mm"), ("1 mm", "1 mm"), ("2 mm", "2 mm")])), "lie on a line"),
         (lambda: least(Forbidden("x", "z", [BOX[0], BOX[2], BOX[1], BOX[3]])), "sides 1 and 3 cross"),
-        (lambda: Synchronous("x", "z", during=("1 s",), within="1 mm/s"), "during is two times"),  # type: ignore[arg-type]
+        (lambda: Synchronous("x", "z", during=("1 s",), within="1 mm/s"), "during must be a list of an angle"),  # type: ignore[arg-type]
         (lambda: least(Synchronous("x", "z", during=("0.2 s", "0.1 s"), within="1 mm/s")), "the earlier one first"),
         (lambda: least(Synchronous("x", "z", during=("0.1 s", "0.2 s"), within="0 mm/s")), "within must be above 0"),
-        (lambda: Axes(dict(PAIR), interlocks=[{"kind": "afer"}]), "unknown kind 'afer'; did you mean 'after'"),
-        (lambda: Axes(dict(PAIR), interlocks=[AFTER | {"kind": "after", "abov": "3 mm"}]), "unknown key 'abov'"),
-        (lambda: Axes(dict(PAIR), interlocks=[{"kind": "after", "axis": "x"}]), "after: position is missing"),
-        (lambda: Axes(dict(PAIR), interlocks=3), "interlocks are a list"),  # type: ignore[arg-type]
+        (lambda: Axes(dict(PAIR), interlocks=[{"kind": "afer"}]), "interlock 1: unknown kind .*; did you mean 'after'"),
+        (lambda: Axes(dict(PAIR), interlocks=[AFTER | {"kind": "after", "abov": "3 mm"}]), "interlock 1: .*; did you mean"),
+        (lambda: Axes(dict(PAIR), interlocks=[{"kind": "after", "axis": "x"}]), "interlock 1: .* needs its position"),
+        (lambda: Axes(dict(PAIR), interlocks=3), "interlocks must be a list, each an interlock"),  # type: ignore[arg-type]
     ],
 )  # fmt: skip
 def test_what_is_wrong_is_refused(make: Any, says: str) -> None:
