@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from copy import copy
-from dataclasses import dataclass, field, replace
+from dataclasses import KW_ONLY, replace
 from functools import partial
 from math import sqrt
 from typing import TYPE_CHECKING, Any
@@ -23,6 +23,7 @@ from optlaws.cycles.optimisation.motion_limits import FORCE, POWER, both_sides, 
 from optlaws.cycles.optimisation.motor_limits import MOTOR, motor_limits
 from optlaws.cycles.optimisation.objectives import (
     LOADED,
+    OBJECTIVES,
     SUMS,
     CycleObjective,
     check_objective,
@@ -37,22 +38,26 @@ from optlaws.cycles.optimisation.search_spaces import remark_on_degrees, search_
 from optlaws.cycles.optimisation.shared_limits import Best, best_of
 from optlaws.cycles.optimisation.sums import total
 from optlaws.cycles.specification.drive import CycleDrive, read_drive
-from optlaws.cycles.specification.frozen import frozen
+from optlaws.cycles.specification.frozen import FrozenTable, frozen
 from optlaws.cycles.specification.joints import LawSpan, Layout, layout
-from optlaws.cycles.specification.load import LOAD, Load, read_load
+from optlaws.cycles.specification.limit_entries import LIMITS_OF_CYCLE
+from optlaws.cycles.specification.load import LOAD, ElasticLoad, Load, read_load
 from optlaws.cycles.specification.process import is_process, read_process
 from optlaws.cycles.specification.programme import Programme, is_optimal, period_of, programme
 from optlaws.cycles.specification.segments import SEGMENTS, CycleSegment, Dwell
+from optlaws.entries.declared import ValueOf, declared, entry
+from optlaws.entries.value_types import Measured, ReadBy, Text, Whole
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.mechanisms.drives.effort import Effort, PieceEffort, SegmentEffort, effort
 from optlaws.mechanisms.drives.motor import OF_TORQUE, Motor
 from optlaws.mechanisms.linkages.mechanism import Mechanism
+from optlaws.mechanisms.machine.machine import Machine
 from optlaws.mechanisms.machine.over_time import RepeatedMotion
 from optlaws.motion.piece import Piece, by_pieces
 from optlaws.motion.quantities import TURN, quantity, written
-from optlaws.numbers import MOST_DEGREE, Array, Quantity, derivative, number_or_array, real_times, whole
+from optlaws.numbers import MOST_DEGREE, Array, Quantity, derivative, number_or_array, real_times
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.solution import Solution
 from optlaws.synthesis.status import Status
@@ -71,47 +76,51 @@ _STRICTER = (
 )
 
 
-@dataclass(frozen=True, repr=False)
+class Objective(Text):
+    """What is least of a cycle: one of `OBJECTIVES`, or an output of its load."""
+
+    def form(self) -> dict[str, Any]:
+        return {"choices": list(OBJECTIVES)}
+
+
+def _read_drive(value: Any) -> Any:
+    stored = isinstance(value, Mapping)
+    if stored and "mechanism" in value:
+        return Drive.from_dict(value)
+    return Mechanism.from_dict(value) if stored and "axis" in value else frozen(value)
+
+
+class LoadTable(ValueOf):
+    """An elastic load or a process force, which stays a table, or a `Machine`."""
+
+    def read(self, value: Any, name: str) -> Any:
+        if isinstance(value, Machine) or (isinstance(value, Mapping) and "A" in value):
+            return value if isinstance(value, Machine) else Machine.from_dict(value)
+        if not is_process(value):
+            super().read(value, name)
+        return frozen(value)
+
+    def plain(self, value: Any) -> Any:
+        return _plain(value)
+
+
+def _plain(value: Any) -> Any:
+    """A drive or a load as plain data."""
+    if isinstance(value, Machine | Mechanism | Drive):
+        return value.to_dict()
+    if isinstance(value, Mapping):
+        return {str(key): _plain(part) for key, part in value.items()}
+    if isinstance(value, tuple):
+        return [_plain(part) for part in value]
+    return value if value is None or isinstance(value, bool | int | float) else str(written(value))
+
+
+@declared
 class Cycle(CycleInterchange):
     """A cycle that repeats: segments and the speed of the master; call it for motion in SI units over time.
 
     Positions are lengths or angles, whichever the first displacement is. Laws that are to be optimal are looked for
     when they are first needed; between joints that are known the cycle decouples, and each law is proven by itself.
-
-    Parameters
-    ----------
-    segments
-        What happens, in order: `Rise`, `Return`, `Move`, `Dwell`, `ConstantVelocity`, `Free`.
-    speed, period
-        Of the master, "200 rpm", or the duration of the cycle, "0.3 s": one of them.
-    minimise
-        "acceleration", "velocity", "jerk", "rms acceleration", "rms jerk", "rms snap" of optimal segments, or of the
-        drive "force", "rms force" (of a table "torque", "rms torque"), "power", "energy" and, of a `Drive` whose motor
-        has a motor constant, "heat": what its winding and its brake resistor burn.
-    limits
-        Of all segments, by optimal laws and by given ones: `{"velocity": "616 mm/s", "power": "400 W"}`, of derivatives
-        up to the "snap". Of two quantities, as ("-8 m/s^2", "12 m/s^2"), the first is the least value; a "deceleration"
-        is of moves that slow down. "rms force", "rms torque" and "energy" are of the whole cycle, as motors are rated;
-        `{"motor": True}` are all those of the motor of a `Drive`.
-    start
-        Position at the start, 0 unless given.
-    advance
-        The advance of each cycle over the previous one; 0 by default.
-    drive
-        What the motion drives: `{"mass": "2 kg", "stiffness": "3 N/mm", "viscous": ..., "dry": ..., "gravity": ...}`,
-        with inertia in place of mass for tables; a `Mechanism` whose input moves as the cycle does, or the `Drive` of
-        its motor. Objectives and limits are then of the torque at the input, or at the motor.
-    load
-        What the motion drives elastically, over the whole cycle: `{"period": "20 ms", "damping": 0.05, "mass": "2 kg"}`
-        for a follower's mass on its spring, the damping as its ratio to the critical one, between mass and ground; or a
-        `Machine` in seconds and SI units. Its outputs may be minimised and
-        bounded: "load acceleration", "rms load deflection", "load force"; the cycle is then one problem. Or a process
-        force on the mechanism of the drive, `{"force": {"0 deg": "0 N", "360 deg": "-400 N"}, "over": "master", "on":
-        "slider"}`: a table or formula over the "time", the "master" or the position of the "driven" link or of the
-        "input", above 0 where it pushes to greater positions.
-    order, degree
-        Number of end conditions of optimal laws, and the degree of their Z, at least 15 where a velocity is given at an
-        end. They make the laws that are compared: `search_space` says which.
 
     Raises
     ------
@@ -131,26 +140,72 @@ class Cycle(CycleInterchange):
     ('optimal', 21.883840, 0.035000)
     """
 
-    segments: Sequence[CycleSegment]
-    speed: Quantity | None = field(default=None, kw_only=True)
-    period: Quantity | None = field(default=None, kw_only=True)
-    minimise: str = field(default="acceleration", kw_only=True)
-    limits: Mapping[str, Any] = field(default_factory=dict, kw_only=True)
-    start: Quantity | None = field(default=None, kw_only=True)
-    advance: Quantity | None = field(default=None, kw_only=True)
-    drive: Mapping[str, Any] | Mechanism | Drive | None = field(default=None, kw_only=True)
-    load: Any = field(default=None, kw_only=True)
-    order: int = field(default=3, kw_only=True)
-    degree: int = field(default=9, kw_only=True)
+    segments: Sequence[CycleSegment] = entry(
+        SEGMENTS, "What happens, in order: `Rise`, `Return`, `Move`, `Dwell`, `ConstantVelocity`, `Free`."
+    )
+    _: KW_ONLY
+    speed: Quantity | None = entry(
+        Measured("angular velocity", above=0.0), "Of the master; it or the period.", default=None, example="200 rpm"
+    )
+    period: Quantity | None = entry(
+        Measured("time", above=0.0), "The duration of the cycle; it or the speed.", default=None, example="0.3 s"
+    )
+    minimise: str = entry(
+        Objective(),
+        '"acceleration", "velocity", "jerk", "rms acceleration", "rms jerk", "rms snap" of optimal segments, or of the '
+        'drive "force", "rms force" (of a table "torque", "rms torque"), "power", "energy" and, of a `Drive` whose '
+        'motor has a motor constant, "heat": what its winding and its brake resistor burn.',
+        default="acceleration",
+        label="least",
+    )
+    limits: Mapping[str, Any] = entry(
+        LIMITS_OF_CYCLE,
+        'Of all segments, by optimal laws and by given ones: `{"velocity": "616 mm/s", "power": "400 W"}`, of '
+        'derivatives up to the "snap". Of two quantities, as ("-8 m/s^2", "12 m/s^2"), the first is the least value; a '
+        '"deceleration" is of moves that slow down. "rms force", "rms torque" and "energy" are of the whole cycle, as '
+        'motors are rated; `{"motor": True}` are all those of the motor of a `Drive`.',
+        default=FrozenTable(),
+        example={"velocity": "616 mm/s"},
+    )
+    start: Quantity | None = entry(
+        Measured("length", "angle"), "Position at the start, 0 unless given.", default=None, example="0 mm"
+    )
+    advance: Quantity | None = entry(
+        Measured("length", "angle"),
+        "The advance of each cycle over the previous one, 0 unless given.",
+        default=None,
+        example="45 deg",
+    )
+    drive: Mapping[str, Any] | Mechanism | Drive | None = entry(
+        ReadBy(_read_drive, "a table of constants, a `Mechanism` or a `Drive`", _plain),
+        'What the motion drives: `{"mass": "2 kg", "stiffness": "3 N/mm", "viscous": ..., "dry": ..., "gravity": '
+        "...}`, with inertia in place of mass for tables; a `Mechanism` whose input moves as the cycle does, or the "
+        "`Drive` of its motor. Objectives and limits are then of the torque at the input, or at the motor.",
+        default=None,
+        example={"mass": "2 kg"},
+    )
+    load: Any = entry(
+        LoadTable(ElasticLoad),
+        'What the motion drives elastically, over the whole cycle: `{"period": "20 ms", "damping": 0.05, "mass": "2 '
+        "kg\"}` for a follower's mass on its spring, the damping as its ratio to the critical one, between mass and "
+        'ground; or a `Machine` in seconds and SI units. Its outputs may be minimised and bounded: "load '
+        'acceleration", "rms load deflection", "load force"; the cycle is then one problem. Or a process force on the '
+        'mechanism of the drive, `{"force": {"0 deg": "0 N", "360 deg": "-400 N"}, "over": "master", "on": '
+        '"slider"}`: a table or formula over the "time", the "master" or the position of the "driven" link or of the '
+        '"input", above 0 where it pushes to greater positions.',
+        default=None,
+        example={"period": "20 ms", "damping": 0.05},
+    )
+    order: int = entry(Whole(2, 10), "Number of end conditions of optimal laws.", default=3)
+    degree: int = entry(
+        Whole(0, MOST_DEGREE),
+        "Of their Z, at least 15 where a velocity is given at an end; order and degree make the laws that are "
+        "compared: `search_space` says which.",
+        default=9,
+    )
+    __repr__ = CycleInterchange.__repr__
 
-    def __post_init__(self) -> None:
-        if not isinstance(self.segments, list | tuple) or not self.segments:
-            raise InputError("a cycle is a list of segments such as [Rise('35 mm', '120 deg'), Dwell(), ...]")
-        object.__setattr__(self, "segments", SEGMENTS.read(self.segments, "segments"))
-        for entry in ("speed", "period", "start", "advance"):
-            object.__setattr__(self, entry, written(getattr(self, entry)))
-        for entry in ("limits", "drive", "load"):
-            object.__setattr__(self, entry, frozen(getattr(self, entry)))
+    def _check(self) -> None:
         check_objective(self.minimise, self._load)
         self._check_order_of_limits()  # limits and drives that are wrong are refused at once
         if all(stretch.fixed for stretch in self.programme.stretches):
@@ -725,8 +780,8 @@ class Cycle(CycleInterchange):
         return CycleObjective(
             self.minimise,
             tightest(read_limits(self.limits, self.axis, "limits"), motor.of_motions),
-            whole(self.order, "order", least=2, most=10),
-            whole(self.degree, "degree", most=MOST_DEGREE),
+            self.order,
+            self.degree,
             self._drive,
             self._load,
             read_load_limits(self.limits, self._load),

@@ -3,22 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any, Literal, Self, Unpack, get_args
+from typing import Any, Literal, Unpack, get_args
 
-from optlaws.cycles.specification.segments import SEGMENTS
 from optlaws.echo import shortened
+from optlaws.entries.declared import Declared, entries_of
 from optlaws.errors import InputError
 from optlaws.extras import needed
-from optlaws.files.reading import JsonText
 from optlaws.files.tables import to_toml
 from optlaws.laws import MotionLaw
 from optlaws.laws.exporting import ExportOptions
 from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.mechanisms.linkages.mechanism import Mechanism
-from optlaws.mechanisms.machine.machine import Machine
 from optlaws.motion.motion import Motion, motion_of_pieces
 from optlaws.motion.piece import unit_of
-from optlaws.motion.quantities import QUANTITIES, written
+from optlaws.motion.quantities import QUANTITIES
 from optlaws.numbers import Quantity
 from optlaws.shown.summary import Summary
 from optlaws.suggest import keywords_of, unknown_key
@@ -26,15 +24,12 @@ from optlaws.suggest import keywords_of, unknown_key
 #: what a picture of a cycle is over
 PlotOver = Literal["time", "speed"]
 FORMAT = "optlaws cycle 1"
-ENTRIES = ("speed", "period", "minimise", "limits", "start", "advance", "drive", "load", "order", "degree")
 CLOCK = ("speed", "period")
 _SHOWN = 6  # segments in a line
 
 
-class CycleInterchange(JsonText):
+class CycleInterchange(Declared, title="a stored cycle"):
     """The forms in which a cycle leaves, apart from the search of its laws: data, files, tables, motions, pictures."""
-
-    _json_name = "a stored cycle"
 
     @property
     def _cycle(self) -> Any:
@@ -50,30 +45,16 @@ class CycleInterchange(JsonText):
         >>> Cycle([Rise("35 mm", "120 deg"), Return()], speed="200 rpm").to_dict()["segments"][0]
         {'kind': 'rise', 'by': '35 mm', 'duration': '120 deg'}
         """
-        given = {name: _plain(getattr(self, name)) for name in ENTRIES}
-        entries = {name: value for name, value in given.items() if value not in (None, {}, ())}
-        return {"format": FORMAT, **entries, "segments": SEGMENTS.plain(self._cycle.segments)}
+        entries = {each.name: (each, getattr(self, each.name)) for each in entries_of(type(self)).values()}
+        plain = {name: each.type.plain(value) for name, (each, value) in entries.items() if value not in (None, {})}
+        segments = plain.pop("segments")
+        return {"format": FORMAT, **plain, "segments": segments}
 
     @classmethod
-    def from_dict(cls, data: Any) -> Self:
-        """The cycle that `to_dict` wrote."""
-        if not isinstance(data, Mapping) or not isinstance(data.get("segments"), list):
-            raise InputError("a stored cycle is a table with a list of segments, as Cycle.to_dict gives it")
+    def _from_earlier(cls, data: dict[str, Any]) -> dict[str, Any]:
         if data.get("format", FORMAT) != FORMAT:
             raise InputError(f"a stored cycle has format {FORMAT!r}, got {shortened(data['format'])}")
-        given = {name: value for name, value in data.items() if name not in {"format", "segments"}}
-        for name in given:
-            if name not in ENTRIES:
-                raise InputError(f"cycle: {unknown_key(name, ('segments', *ENTRIES))}")
-        load = given.get("load")
-        if isinstance(load, Mapping) and "A" in load:
-            given["load"] = Machine.from_dict(load)
-        drive = given.get("drive")
-        if isinstance(drive, Mapping) and "mechanism" in drive:
-            given["drive"] = Drive.from_dict(drive)
-        elif isinstance(drive, Mapping) and "axis" in drive:
-            given["drive"] = Mechanism.from_dict(drive)
-        return cls(**given, segments=data["segments"])
+        return {name: value for name, value in data.items() if name != "format"}
 
     def to_toml(self, title: str = "Cycle", *, axis: str = "axis") -> str:
         """A problem file for `optlaws cycle`, with this cycle as its only axis; a law that is a value as its JSON text.
@@ -296,16 +277,6 @@ def _drive_tables(drive: Any) -> dict[str, Any]:
         entries = {name: value for name, value in drive.to_dict().items() if name != "mechanism"}
         return {**_drive_tables(drive.mechanism), "drive": entries}
     return {}
-
-
-def _plain(value: Any) -> Any:
-    if isinstance(value, MotionLaw | Machine | Mechanism | Drive):
-        return value.to_dict()
-    if isinstance(value, Mapping):
-        return {str(key): _plain(part) for key, part in value.items()}
-    if isinstance(value, list | tuple):
-        return [_plain(part) for part in value]
-    return value if value is None or isinstance(value, bool | int | float) else str(written(value))
 
 
 def _proof(cycle: Any) -> tuple[str, ...]:

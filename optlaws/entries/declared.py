@@ -109,7 +109,14 @@ def entry(
     return field(default=default, metadata={_ENTRY: declaration}, **options)
 
 
-@dataclass_transform(frozen_default=True, field_specifiers=(entry,))
+def same(cls: type[Declared], name: str, *, default: Any = ...) -> Any:
+    """An entry that another class declares, in place of a field, perhaps with another default."""
+    each = entries_of(cls)[name]
+    known = {"label": each.label, "example": each.example, "shown": each.shown}
+    return entry(each.type, each.about, default=each.default if default is ... else default, **known)
+
+
+@dataclass_transform(frozen_default=True, field_specifiers=(entry, same))
 def declared(cls: type[DeclaredT]) -> type[DeclaredT]:
     """A class whose fields are entries, as a frozen dataclass that checks them.
 
@@ -349,7 +356,8 @@ class ValueOf(ValueType):
 class TableOf(ValueType):
     """A table with a type for each of its entries, which stays a table; `what` is what errors call an entry.
 
-    `elsewhere` says of names that belong to another table where they are to be given.
+    `elsewhere` says of names that belong to another table where they are to be given, `further` of what type those
+    are whose names are many.
 
     >>> from optlaws.entries.value_types import Measured
     >>> limits = TableOf("limit", {"velocity": entry(Measured("velocity"), "The greatest.", default=None)})
@@ -362,6 +370,7 @@ class TableOf(ValueType):
     entries: Mapping[str, Entry]
     keep: Callable[[dict[str, Any]], Any]
     elsewhere: Mapping[str, str]
+    further: Callable[[str], ValueType | None]
 
     def __init__(
         self,
@@ -370,24 +379,33 @@ class TableOf(ValueType):
         *,
         keep: Callable[[dict[str, Any]], Any] = dict,
         elsewhere: Mapping[str, str] | None = None,
+        further: Callable[[str], ValueType | None] = lambda _: None,
     ) -> None:
         named = {name: _entry_of(name, each) for name, each in entries.items()}
-        for name, value in {"what": what, "entries": named, "keep": keep, "elsewhere": elsewhere or {}}.items():
+        given = {"what": what, "entries": named, "keep": keep, "elsewhere": elsewhere or {}, "further": further}
+        for name, value in given.items():
             object.__setattr__(self, name, value)
+
+    def _type(self, key: str) -> ValueType | None:
+        return self.entries[key].type if key in self.entries else self.further(key)
 
     def read(self, value: Any, name: str) -> Any:
         if not isinstance(value, Mapping) or not all(isinstance(key, str) for key in value):
             such = next(f"{{{key} = {each.example!r}}}" for key, each in self.entries.items())
             raise InputError(f"{name} must be a table such as {such}, got {shortened(value)}")
-        for key in value:
-            if key in self.elsewhere:
-                raise InputError(f"{name}: {key} {self.elsewhere[key]}")
-            if key not in self.entries:
-                raise InputError(f"{name}: {unknown_key(key, self.entries, self.what)}")
-        return self.keep({key: self.entries[key].type.read(part, f"{name}: {key}") for key, part in value.items()})
+        entries = {}
+        for key, part in value.items():
+            type_ = self._type(key)
+            if type_ is None:
+                where = self.elsewhere.get(key)
+                unknown = unknown_key(key, self.entries, self.what) if where is None else f"{key} {where}"
+                raise InputError(f"{name}: {unknown}")
+            entries[key] = type_.read(part, f"{name}: {key}")
+        return self.keep(entries)
 
     def plain(self, value: Any) -> Any:
-        return {key: self.entries[key].type.plain(part) for key, part in value.items()}
+        types = {key: self._type(key) for key in value}
+        return {key: part if (type_ := types[key]) is None else type_.plain(part) for key, part in value.items()}
 
     @property
     def words(self) -> str:

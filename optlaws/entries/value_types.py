@@ -321,6 +321,7 @@ class Listed(ValueType):
     least: int = 0
     most: int = 1_000_000
     each: str = ""  #: what an error calls a single value, before its number; the name of the entry unless given
+    named: bool = False  #: whether an error calls a table by its entry `name` in place of its number
 
     def read(self, value: Any, name: str) -> tuple[Any, ...]:
         if isinstance(value, str | Mapping) or not isinstance(value, Sequence):
@@ -328,7 +329,13 @@ class Listed(ValueType):
         if not self.least <= len(value) <= self.most:
             ends = f"{self.least} at least" if len(value) < self.least else f"{self.most} at most"
             raise InputError(f"{name} must be a list of {ends}, each {self.of.words}, got {shortened(list(value))}")
-        return tuple(self.of.read(part, f"{self.each or name} {i}") for i, part in enumerate(value, 1))
+        return tuple(
+            self.of.read(part, f"{self.each or name} {self._called(part) or i}") for i, part in enumerate(value, 1)
+        )
+
+    def _called(self, part: Any) -> str:
+        called = part.get("name") if self.named and isinstance(part, Mapping) else None
+        return called if isinstance(called, str) else ""
 
     def plain(self, value: Any) -> Any:
         return [self.of.plain(part) for part in value]

@@ -6,7 +6,7 @@ import ast
 import json
 import re
 from collections.abc import Callable, Mapping
-from dataclasses import fields
+from dataclasses import fields, replace
 from pprint import pformat
 from textwrap import indent
 from typing import Annotated, Any, Literal
@@ -17,6 +17,7 @@ import optlaws
 from optlaws import Axes, Cycle, Drive, Mechanism, MotionLaw, Problem, Solution
 from optlaws.cams.curves import cam_files
 from optlaws.cams.curves.file_options import Cutting
+from optlaws.cycles.specification.load import ElasticFollower
 from optlaws.errors import InputError
 from optlaws.explorer.views import axes_view, cam_view, cycle_view, old_cam_view
 from optlaws.explorer.views.law_view import digits, title
@@ -26,7 +27,7 @@ from optlaws.exports.format import FORMATS
 from optlaws.files.tables import to_toml
 from optlaws.files.writing import MARK
 from optlaws.jobs.cycle import table_of_motion
-from optlaws.jobs.cycle_entries import ElasticFollowerEntries, cycle_of
+from optlaws.jobs.cycle_entries import cycle_of
 from optlaws.laws.values import table_of_values
 from optlaws.suggest import unknown_key
 
@@ -249,7 +250,7 @@ def _of_cycle(request: FileRequest, shown: cycle_view.CycleRequest | None) -> Fi
         about = " ".join(f"{spec.title}: {axis.name}; SI units but for mm and deg".split())
         return _file(f"{_stem(axis.name)}.csv", "text/csv", table_of_motion(cycle, _ROWS, about))
     if request.kind == "python":
-        free = msgspec.structs.replace(axis, follower=None)
+        free = replace(axis, follower=None)
         return _file("cycle.py", "text/x-python", cycle_python(cycle_of(free, spec.speed, spec.period), axis.follower))
     raise InputError("a cycle has several laws: save it as a problem file or a table")
 
@@ -302,7 +303,7 @@ def _of_cam(request: FileRequest) -> File:
     )
 
 
-def cycle_python(cycle: Cycle, follower: ElasticFollowerEntries | None = None) -> str:
+def cycle_python(cycle: Cycle, follower: ElasticFollower | None = None) -> str:
     """Python lines that compute the same cycle, or the cycle of the cam whose follower moves so."""
     lines = [
         f"cycle = {_cycle_text(cycle)}"

@@ -125,7 +125,7 @@ def _single_problem(data: dict[str, Any], name: str) -> Problem | None:
 
 def _of_cycle(data: dict[str, Any], name: str) -> dict[str, Any]:
     """A cycle, or its machine where one of the axes has a mechanism."""
-    axes = convert(data, CycleProblemFile, Path(name)).axis
+    axes = CycleProblemFile.read(data, Path(name)).axis
     driven = next((i for i, axis in enumerate(axes) if axis.mechanism is not None), None)
     return {"view": "cycle", "cycle": data} if driven is None else {"view": "machine", "machine": data, "axis": driven}
 

@@ -46,7 +46,7 @@ class BarrelEntries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
 class BarrelProblemFile(JobFile, kw_only=True, forbid_unknown_fields=True):
     """The problem file of a barrel cam."""
 
-    motion: AxisEntries
+    motion: Annotated[dict[str, Any], AxisEntries]
     barrel: BarrelEntries
     speed: str | None = None
     period: str | None = None

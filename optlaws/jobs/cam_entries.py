@@ -94,7 +94,7 @@ class PairEntries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
 class CamProblemFile(JobFile, kw_only=True, forbid_unknown_fields=True):
     """The problem file of a disc cam."""
 
-    motion: AxisEntries
+    motion: Annotated[dict[str, Any], AxisEntries]
     follower: FollowerEntries
     prime_radius: str | None = None
     #: the name that earlier files have for `prime_radius`

@@ -7,7 +7,6 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
-import msgspec
 import numpy as np
 
 from optlaws.cycles.cycle import Cycle
@@ -121,11 +120,10 @@ def _transition_names(spec: CycleProblemFile) -> Named:
 def _export(cycle: Cycle | TransitionCam, entry: ExportEntries, variable: str) -> Export:
     from optlaws.exports.export import export_cycle
 
-    given = msgspec.structs.asdict(entry)
-    given["name"] = variable if entry.name is None else entry.name
-    placement = {"master": given.pop("master"), "unit": given.pop("unit")}
-    del given["file"], given["to"]
-    return export_cycle(cycle, entry.to, placement, **given)
+    given = {"name": variable} | entry.to_dict()
+    for name in ("to", "file", "master", "unit"):
+        given.pop(name, None)
+    return export_cycle(cycle, entry.to, {"master": entry.master, "unit": entry.unit}, **given)
 
 
 def _file_name(axis: str, entry: ExportEntries) -> str:

@@ -3,104 +3,146 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import KW_ONLY
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Literal
-
-import msgspec
+from typing import TYPE_CHECKING, Any
 
 from optlaws.cycles.cycle import Cycle
-from optlaws.cycles.interchange import CLOCK, ENTRIES
 from optlaws.cycles.interlocks.interlock import Interlock
-from optlaws.cycles.specification.segments import SEGMENTS, CycleSegment
+from optlaws.cycles.specification.frozen import frozen
+from optlaws.cycles.specification.load import ElasticFollower
+from optlaws.cycles.specification.segments import CycleSegment
+from optlaws.echo import shortened
+from optlaws.entries.declared import Declared, ValueOf, declared, entries_of, entry, same
+from optlaws.entries.value_types import Choice, Either, Listed, ReadBy, Switch, Text, Whole
 from optlaws.errors import InputError, located
-from optlaws.files.problem_file import Text, convert
 from optlaws.jobs.axes.axis_transitions import TransitionEntries
 from optlaws.jobs.axes.drive_entries import drive_of
 from optlaws.jobs.axes.entry_sweep import SweepEntries, SweptCycle, swept
-from optlaws.jobs.job import JobFile
+from optlaws.jobs.job import ProblemFile
+from optlaws.numbers import Quantity
 from optlaws.suggest import unknown_key
 
 if TYPE_CHECKING:
     from optlaws.cycles.machine_axes import Axes, Overlap
 
 
-class OverlapEntries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+@declared
+class OverlapEntries(Declared, title="an overlap"):
     """How moves are to overlap: the goal, and of an acceleration the axes whose moves may take longer."""
 
-    goal: Literal["period", "acceleration"]
-    of: Annotated[list[Text], msgspec.Meta(max_length=8)] = []
+    goal: str = entry(Choice("period", "acceleration"), "What is to be least.", example="acceleration")
+    of: tuple[str, ...] = entry(
+        Listed(Text(), most=8), "Of an acceleration the axes whose moves may take longer; all unless given.", default=()
+    )
 
 
-class ElasticFollowerEntries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
-    """An elastic follower whose mass is to execute the cycle."""
-
-    period: str
-    damping: float = 0.0
-
-
-class ExportEntries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+@declared
+class ExportEntries(Declared, title="an export"):
     """An export of an axis: its format, its file, and the format's options."""
 
-    to: str
-    file: Text | None = None
-    master: str = "360 deg"
-    unit: str | None = None
-    points: int | str | None = None
-    counts: int | None = None
-    digits: int | None = None
-    decimal: str | None = None
-    interpolation: str | None = None
-    task: str | None = None
-    name: str | None = None
+    to: str = entry(Text(), "A format of `optlaws export --list`.", example="rockwell-cam")
+    file: str | None = entry(Text(), "The name of its file.", default=None)
+    master: str = entry(Text(), "How far the master goes in a cycle.", default="360 deg")
+    unit: str | None = entry(Text(), "Of positions.", default=None, example="mm")
+    points: int | str | None = entry(
+        Either(Whole(), Text(), which=lambda value: int(isinstance(value, str))),
+        'How many points, or "best", the fewest whose run is as good as that of any number.',
+        default=None,
+        example=361,
+    )
+    counts: int | None = entry(Whole(), "Steps of the encoder, to which positions are rounded.", default=None)
+    digits: int | None = entry(Whole(), "Behind the decimal sign of tables as text.", default=None)
+    decimal: str | None = entry(Text(), "The sign, a point or a comma.", default=None)
+    interpolation: str | None = entry(Text(), "That of the controller, where the format states it.", default=None)
+    task: str | None = entry(Text(), "Time of the drive's task, whose samples are reported.", default=None)
+    name: str | None = entry(Text(), "Of the variable or the table; that of the axis unless given.", default=None)
 
 
-class LoadEntries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
-    """A mass on a spring that the motion drives."""
-
-    period: str
-    damping: float = 0.0
-    mass: str | None = None
-    inertia: str | None = None
+def _constants(value: Any) -> Any:
+    if not isinstance(value, Mapping):
+        raise InputError(f"it must be a table, got {shortened(value)}")
+    return frozen(value)
 
 
-class AxisEntries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+_TABLE = ReadBy(_constants, "a table", json={"type": "object"})
+_TRANSITIONS = Listed(ValueOf(TransitionEntries), most=8, each="cam")
+
+
+@declared
+class AxisEntries(Declared, title="an axis"):
     """A single axis of the machine."""
 
-    name: Text
-    segment: Annotated[list[Annotated[dict[str, Any], CycleSegment]], msgspec.Meta(min_length=1, max_length=100)]
-    minimise: str = "acceleration"
-    limits: dict[str, str | list[str] | bool] = {}
-    start: str | None = None
-    advance: str | None = None
-    mechanism: dict[str, Any] | None = None
-    drive: dict[str, Any] | None = None
-    load: LoadEntries | None = None
-    follower: ElasticFollowerEntries | None = None
-    export: Annotated[list[ExportEntries], msgspec.Meta(max_length=20)] = []
-    run_in: Annotated[list[TransitionEntries], msgspec.Meta(max_length=8)] = []
-    run_out: Annotated[list[TransitionEntries], msgspec.Meta(max_length=8)] = []
-    order: int = 3
-    degree: int = 9
+    writes_defaults = True
+
+    _: KW_ONLY
+    name: str = entry(Text(), "What tables, pictures and files call it.", example="slide")
+    segment: tuple[CycleSegment, ...] = entry(
+        Listed(ValueOf(CycleSegment), least=1, most=100, each="segment"),
+        "What happens, in order.",
+        example=[{"kind": "rise", "by": "35 mm", "duration": "120 deg"}, {"kind": "return"}],
+    )
+    minimise: str = same(Cycle, "minimise")
+    limits: Mapping[str, Any] = same(Cycle, "limits")
+    start: Quantity | None = same(Cycle, "start")
+    advance: Quantity | None = same(Cycle, "advance")
+    mechanism: Mapping[str, Any] | None = entry(
+        _TABLE, "A mechanism whose input moves as the axis does: a kind and its entries.", default=None
+    )
+    drive: Mapping[str, Any] | None = entry(
+        _TABLE,
+        "Constants of what the motion drives, as of `Cycle`; beside a mechanism its `motor`, a table or the name of "
+        "one in the catalogue `motors`, a TOML file found from the problem file, and `ratio`, `efficiency`, `inertia` "
+        "and `regeneration` of the gear, as `Drive` takes them.",
+        default=None,
+        example={"mass": "2 kg"},
+    )
+    load: Any = same(Cycle, "load")
+    follower: ElasticFollower | None = entry(
+        ValueOf(ElasticFollower),
+        "An elastic follower whose mass is to move as the segments say: the axis is then its cam.",
+        default=None,
+        example={"period": "20 ms", "damping": 0.05},
+    )
+    export: tuple[ExportEntries, ...] = entry(
+        Listed(ValueOf(ExportEntries), most=20, each="export"), "Files for controllers.", default=()
+    )
+    run_in: tuple[TransitionEntries, ...] = entry(_TRANSITIONS, "Cams from rest into the cycle.", default=())
+    run_out: tuple[TransitionEntries, ...] = entry(_TRANSITIONS, "Cams out of it.", default=())
+    order: int = same(Cycle, "order")
+    degree: int = same(Cycle, "degree")
 
 
-class CycleProblemFile(JobFile, kw_only=True, forbid_unknown_fields=True):
+@declared
+class CycleProblemFile(ProblemFile, title="a problem file"):
     """The problem file of a cycle with its axes."""
 
-    axis: Annotated[list[AxisEntries], msgspec.Meta(min_length=1, max_length=8)]
-    interlocks: Annotated[list[Annotated[dict[str, Any], Interlock]], msgspec.Meta(max_length=50)] = msgspec.field(
-        default_factory=list
+    _: KW_ONLY
+    axis: tuple[AxisEntries, ...] = entry(
+        Listed(ValueOf(AxisEntries), least=1, most=8, each="axis", named=True), "The axes, each with a name."
     )
-    overlap: OverlapEntries | None = None
-    speed: str | None = None
-    period: str | None = None
-    rows: Annotated[int, msgspec.Meta(ge=2, le=100_000)] = 361
-    sweep: Annotated[list[SweepEntries], msgspec.Meta(max_length=4)] = msgspec.field(default_factory=list)
-    fastest: bool = False
-
-
-def given(entries: msgspec.Struct) -> dict[str, Any]:
-    """Entries that the file gives."""
-    return {name: value for name, value in msgspec.structs.asdict(entries).items() if value is not None}
+    interlocks: tuple[Interlock, ...] = entry(
+        Listed(ValueOf(Interlock), most=50, each="interlock"), "Conditions between two axes each.", default=()
+    )
+    overlap: OverlapEntries | None = entry(
+        ValueOf(OverlapEntries),
+        "Moves are put together anew, within the interlocks.",
+        default=None,
+        example={"goal": "acceleration", "of": ["die"]},
+    )
+    speed: Quantity | None = same(Cycle, "speed")
+    period: Quantity | None = same(Cycle, "period")
+    rows: int = entry(Whole(2, 100_000), "Lines of the tables.", default=361)
+    sweep: tuple[SweepEntries, ...] = entry(
+        Listed(ValueOf(SweepEntries), most=4, each="sweep"),
+        "The cycle for each value of an entry, with its objective and what drive and motor need.",
+        default=(),
+    )
+    fastest: bool = entry(
+        Switch(),
+        "Whether all axes run at the greatest speed that their limits allow, with a file for `optlaws verify`.",
+        default=False,
+    )
 
 
 def read(data: Mapping[str, Any], file: Path) -> tuple[CycleProblemFile, Axes]:
@@ -134,7 +176,7 @@ def read_given(data: Mapping[str, Any], file: Path) -> tuple[CycleProblemFile, A
     """
     from optlaws.cycles.machine_axes import Axes
 
-    spec = convert(data, CycleProblemFile, file)
+    spec = CycleProblemFile.read(data, file)
     cycles: dict[str, Cycle] = {}
     for axis in spec.axis:
         if axis.name in cycles:
@@ -157,10 +199,10 @@ def sweeps_of(spec: CycleProblemFile, file: Path) -> list[list[SweptCycle]]:
     InputError
         If a sweep names an axis or an entry that is not there, or a value is wrong; the error names the file.
     """
-    axes = {axis.name: msgspec.to_builtins(axis) for axis in spec.axis}
+    axes = {axis.name: axis.to_dict() for axis in spec.axis}
 
     def changed(data: dict[str, Any]) -> Cycle:
-        return cycle_of(convert(data, AxisEntries, Path(data["name"])), spec.speed, spec.period, file.parent)
+        return cycle_of(AxisEntries.from_dict(data), spec.speed, spec.period, file.parent)
 
     rows = []
     with located(str(file)):
@@ -171,16 +213,15 @@ def sweeps_of(spec: CycleProblemFile, file: Path) -> list[list[SweptCycle]]:
     return rows
 
 
-def cycle_of(axis: AxisEntries, speed: str | None, period: str | None, folder: Path = Path()) -> Cycle:
+def cycle_of(axis: AxisEntries, speed: Quantity | None, period: Quantity | None, folder: Path = Path()) -> Cycle:
     """The cycle of an axis, or of its cam where there is a follower; `folder` contains catalogues of motors."""
-    entries: dict[str, Any] = {name: getattr(axis, name) for name in ENTRIES if name not in CLOCK}
-    entries["load"] = None if axis.load is None else given(axis.load)
-    entries["drive"] = drive_of(axis.mechanism, axis.drive, folder)
-    cycle = Cycle(SEGMENTS.read(axis.segment, "segments"), speed=speed, period=period, **entries)
+    shared = (name for name in entries_of(Cycle) if name in entries_of(AxisEntries))
+    entries = {name: getattr(axis, name) for name in shared} | {"drive": drive_of(axis.mechanism, axis.drive, folder)}
+    cycle = Cycle(axis.segment, speed=speed, period=period, **entries)
     return cycle if axis.follower is None else cycle.cam(axis.follower.period, axis.follower.damping)
 
 
-def follower_cycle(motion: AxisEntries, speed: str | None, period: str | None) -> Cycle:
+def follower_cycle(given: AxisEntries | Mapping[str, Any], speed: Quantity | None, period: Quantity | None) -> Cycle:
     """The motion of a cam's follower.
 
     Raises
@@ -188,6 +229,7 @@ def follower_cycle(motion: AxisEntries, speed: str | None, period: str | None) -
     InputError
         If it has a mechanism: forces of a cam are of constants.
     """
+    motion = ValueOf(AxisEntries).read(given, "motion")
     if motion.mechanism is not None:
         raise InputError(
             "motion: a cam's follower has no mechanism: an axis of a cycle has one, and the kind 'cam' of it is "

@@ -21,7 +21,7 @@ import optlaws
 from optlaws.results import Results
 from tests.internals.cli import app_of_app as app
 from tests.internals.entries import Declared, Kinded, entries_of
-from tests.internals.jobs import JOBS, do
+from tests.internals.jobs import JOBS, ProblemFile, do
 
 FROZEN = Path(__file__).with_name("frozen.json")
 Table = dict[str, dict[str, str]]
@@ -106,7 +106,8 @@ def spec_of(job: str) -> Any:
     def stop(_data: object, spec: Any, **_options: object) -> None:
         raise Asked(spec)
 
-    with patch.object(msgspec, "convert", stop), TemporaryDirectory() as folder:
+    declared = patch.object(ProblemFile, "read", classmethod(lambda cls, *_: stop(None, cls)))
+    with patch.object(msgspec, "convert", stop), declared, TemporaryDirectory() as folder:
         file = Path(folder, "problem.toml")
         file.write_text(f'job = "{job}"\n', "utf-8")
         try:
@@ -148,10 +149,18 @@ def is_declared(one: object) -> bool:
     return isinstance(one, type) and issubclass(one, Declared)
 
 
+KINDS = {"Text": "str", "Measured": "str", "Switch": "bool", "Whole": "int", "Number": "float", "ValueOf": "table"}
+PARTED = {"Together", "Either", "TableOf", "Listed", "Table", "Choice", "InSI", "ReadBy"}
+
+
+def type_name(values: Any) -> str:
+    """The name of a type of values, or of the one that it specialises."""
+    return next(base.__name__ for base in type(values).__mro__ if base.__name__ in PARTED | KINDS.keys())
+
+
 def kind_of_value(values: Any) -> str:
     """What the values of an entry are, as types of plain data."""
-    kinds = {"Text": "str", "Measured": "str", "Switch": "bool", "Whole": "int", "Number": "float", "ValueOf": "table"}
-    name = type(values).__name__
+    name = type_name(values)
     if name in {"Together", "Either"}:
         parts = " | ".join(dict.fromkeys(map(kind_of_value, values.of)))
         return parts if name == "Either" else f"list[{parts}]"
@@ -162,12 +171,13 @@ def kind_of_value(values: Any) -> str:
         return f"{'list[' if name == 'Listed' else 'dict[str, '}{kind_of_value(values.of)}]"
     if name == "Choice":
         return f"Literal[{', '.join(map(repr, values.names))}]"
-    return {**kinds, "InSI": "str | float"}.get(name, "Any")
+    table = "dict[str, Any]" if values.schema().get("type") == "object" else "Any"
+    return {**KINDS, "InSI": "str | float", "ReadBy": table}[name]
 
 
 def tables_of(values: Any) -> Iterator[tuple[Any, str]]:
     """Declared values in the type of an entry, and how they are addressed."""
-    name = type(values).__name__
+    name = type_name(values)
     if name == "ValueOf":
         yield values.of, ""
     elif name in {"Listed", "Table"}:

@@ -43,7 +43,7 @@ LEVEL = [Rise("35 mm", "180 deg"), Return("30 mm", "180 deg")]
 @pytest.mark.parametrize(
     ("segments", "others", "message"),
     [
-        ([], {}, "a cycle is a list of segments"),
+        ([], {}, "segments must be a list of 1 at least, each a segment"),
         ([Dwell()], {"speed": None}, 'either a speed such as "200 rpm" or a period'),
         ([Dwell()], {"period": "1 s"}, "either a speed"),
         ([Dwell()], {"speed": "0 rpm"}, "speed must be above 0"),

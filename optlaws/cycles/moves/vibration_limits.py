@@ -2,24 +2,43 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from math import tau
 from typing import Any
 
-from optlaws.echo import shortened
+from optlaws.entries.declared import Declared, ValueOf, declared, entry
+from optlaws.entries.value_types import Either, Listed, Measured, Number, is_list
 from optlaws.errors import InputError
-from optlaws.motion.quantities import positive_quantity, table
-from optlaws.suggest import unknown_key
+from optlaws.motion.quantities import positive_quantity, quantity
+from optlaws.numbers import Quantity
 from optlaws.synthesis.least_time.follower_residual import RESIDUAL, FollowerResidual
 
 _EXAMPLE = '{"frequency": ("15.9 Hz", "17.5 Hz"), "damping": 0.05}'
-_KEYS = ("frequency", "damping")
+_FREQUENCY = Measured("frequency", above=0.0)
 _ACCELERATIONS = {"m": "acceleration", "rad": "angular acceleration"}
 
 
+@declared
+class VibratingFollower(Declared, title="a follower"):
+    """An elastic follower that a move leaves vibrating.
+
+    Examples
+    --------
+    >>> VibratingFollower(["27 Hz", "33 Hz"], damping=0.05).frequency
+    ('27 Hz', '33 Hz')
+    """
+
+    frequency: Quantity | Sequence[Quantity] = entry(
+        Either(_FREQUENCY, Listed(_FREQUENCY, least=2, most=2), which=is_list),
+        "Its natural frequency, or the least and the greatest.",
+        example=["27 Hz", "33 Hz"],
+    )
+    damping: float = entry(Number(least=0.0), "Its damping ratio.", default=0.0, example=0.05)
+
+
 def vibration_limit(
-    follower: Mapping[str, Any], limits: Mapping[str, Any]
+    follower: VibratingFollower | Mapping[str, Any], limits: Mapping[str, Any]
 ) -> tuple[dict[str, Any], Callable[[str], FollowerResidual]]:
     """The limits without the follower's limit, and a function that builds that limit for a stroke in "m" or "rad".
 
@@ -45,7 +64,7 @@ def vibration_limit(
     return rest, of_unit
 
 
-def read_follower(follower: Mapping[str, Any]) -> FollowerResidual:
+def read_follower(follower: VibratingFollower | Mapping[str, Any]) -> FollowerResidual:
     """The residual acceleration of a follower in SI units, its limit 1.
 
     Raises
@@ -59,15 +78,7 @@ def read_follower(follower: Mapping[str, Any]) -> FollowerResidual:
     >>> round(known.lowest, 6), round(known.highest, 6), known.most
     (62.831853, 75.398224, 1.0)
     """
-    entries = table(follower, "follower", _EXAMPLE)
-    for name in entries:
-        if name not in _KEYS:
-            raise InputError(unknown_key(name, _KEYS, "entry of a follower"))
-    if "frequency" not in entries:
-        raise InputError(f"a follower needs its frequency, as in {_EXAMPLE}")
-    given = entries["frequency"]
-    pair = given if isinstance(given, list | tuple) else (given, given)
-    if len(pair) != 2:
-        raise InputError(f"follower: frequency must be one, or the least and the greatest, got {shortened(given)}")
-    low, high = (tau * positive_quantity(each, "frequency", "follower: frequency") for each in pair)
-    return FollowerResidual(low, high, entries.get("damping", 0.0), 1.0)
+    read = ValueOf(VibratingFollower).read(follower, "follower")
+    pair = read.frequency if isinstance(read.frequency, tuple) else (read.frequency, read.frequency)
+    low, high = (tau * quantity(each, "frequency", "follower: frequency") for each in pair)
+    return FollowerResidual(low, high, read.damping, 1.0)

@@ -6,7 +6,8 @@ from typing import Any
 
 from optlaws.cycles.specification.frozen import FrozenTable
 from optlaws.entries.declared import TableOf, entry
-from optlaws.entries.value_types import Either, Listed, Measured, is_list
+from optlaws.entries.value_types import Either, Listed, Measured, ReadBy, Switch, is_list
+from optlaws.motion.quantities import written
 
 
 def _limit(about: str, *dimensions: str, example: str) -> Any:
@@ -31,6 +32,19 @@ _OF_MOTION = {
     "torque": _limit("Of the drive of a table, or at the input of a mechanism.", "torque", example="6 N m"),
     "power": _limit("Of the drive.", "power", example="400 W"),
 }
-_OF_CYCLE = "is of the whole cycle: give it among the limits of the Cycle"
-_TOTALS = ("rms force", "rms torque", "energy", "motor")
-LIMITS_OF_SEGMENT = TableOf("limit", _OF_MOTION, keep=FrozenTable, elsewhere=dict.fromkeys(_TOTALS, _OF_CYCLE))
+_OF_WHOLE = {
+    "rms force": _limit("Root mean square over the cycle, as motors are rated.", "force", example="40 N"),
+    "rms torque": _limit("Likewise of a table, or at the input of a mechanism.", "torque", example="2 N m"),
+    "energy": _limit("Of the drive over the cycle.", "energy", example="12 J"),
+    "motor": entry(Switch(), "Whether all limits of its motor hold.", default=None, example=True),
+}
+_LOADED = ReadBy(written, "a quantity, or of a `Machine` a number in SI units", json={"type": ["string", "number"]})
+_OF_CYCLE = dict.fromkeys(_OF_WHOLE, "is of the whole cycle: give it among the limits of the Cycle")
+
+LIMITS_OF_SEGMENT = TableOf("limit", _OF_MOTION, keep=FrozenTable, elsewhere=_OF_CYCLE)
+LIMITS_OF_CYCLE = TableOf(
+    "limit",
+    _OF_MOTION | _OF_WHOLE,
+    keep=FrozenTable,
+    further=lambda name: _LOADED if name.removeprefix("rms ").startswith("load ") else None,
+)

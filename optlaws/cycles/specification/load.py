@@ -9,19 +9,54 @@ from typing import Any
 
 from optlaws.cycles.specification.programme import AXES
 from optlaws.echo import shortened
-from optlaws.errors import InputError
+from optlaws.entries.declared import Declared, declared, entry
+from optlaws.entries.value_types import Measured, Number
+from optlaws.errors import InputError, located
 from optlaws.mechanisms.machine import drives
 from optlaws.mechanisms.machine.machine import Machine
 from optlaws.mechanisms.machine.over_time import RepeatedMotion, jumps
 from optlaws.mechanisms.machine.state_space import FASTEST
 from optlaws.motion.piece import Piece, factor
 from optlaws.motion.quantities import positive_quantity, quantity
-from optlaws.numbers import not_negative, positive
-from optlaws.suggest import unknown_key
+from optlaws.numbers import Quantity, positive
 from optlaws.synthesis.problem.constants import Functional
 
-_ENTRIES = ("period", "damping", "mass", "inertia")
 LOAD = "load "
+
+
+@declared
+class ElasticFollower(Declared, title="an elastic follower"):
+    """A mass on a spring, damped against the ground, that a motion drives.
+
+    Examples
+    --------
+    >>> ElasticFollower("20 ms").damping
+    0.0
+    """
+
+    period: Quantity = entry(Measured("time", above=0.0), "Of its free vibration.", example="20 ms")
+    damping: float = entry(
+        Number(least=0.0),
+        "Its damping as a share of the critical one, between mass and ground.",
+        default=0.0,
+        example=0.05,
+    )
+
+
+@declared
+class ElasticLoad(ElasticFollower, title="a load"):
+    """A mass on a spring that a motion drives, with its mass or moment of inertia where forces are of interest.
+
+    Examples
+    --------
+    >>> ElasticLoad("20 ms", mass="2 kg").to_dict()
+    {'period': '20 ms', 'mass': '2 kg'}
+    """
+
+    mass: Quantity | None = entry(Measured("mass"), "Of a slide, for its force.", default=None, example="2 kg")
+    inertia: Quantity | None = entry(
+        Measured("moment of inertia"), "Of a table, for its torque.", default=None, example="0.02 kg m^2"
+    )
 
 
 @dataclass(frozen=True)
@@ -64,39 +99,30 @@ def read_load(given: Any, axis: str) -> Load:
     """A load from its entries, or a machine in seconds and SI units."""
     if isinstance(given, Machine):
         return Load(given, {})
-    if not isinstance(given, Mapping):
-        raise InputError(
-            "load must be a table such as {'period': '20 ms', 'damping': 0.05}, or a Machine in seconds and SI units, "
-            f"got {shortened(given)}"
-        )
-    for key in given:
-        if key not in _ENTRIES:
-            raise InputError(f"load: {unknown_key(key, _ENTRIES)}")
-    if "period" not in given:
-        raise InputError("load: give the period of its free vibration, such as period = '20 ms'")
-    period = positive_quantity(given["period"], "time", "load: period")
+    with located("load"):
+        load = ElasticLoad.from_dict(given)
+    period = quantity(load.period, "time", "load: period")
     if 2.0 * pi > FASTEST * period:
         raise InputError(
-            f"load: a period of {shortened(given['period'])} is too short: below {2e6 * pi / FASTEST:.0f} us a load "
+            f"load: a period of {shortened(load.period)} is too short: below {2e6 * pi / FASTEST:.0f} us a load "
             "moves as if it were rigid: leave it out, and minimise or limit the cycle's own quantities"
         )
-    return _mass_on_a_spring(given, axis, 2.0 * pi / period)
+    return _mass_on_a_spring(load, axis, 2.0 * pi / period)
 
 
-def _mass_on_a_spring(given: Mapping[str, Any], axis: str, frequency: float) -> Load:
+def _mass_on_a_spring(given: ElasticLoad, axis: str, frequency: float) -> Load:
     """The follower of `Cycle.cam`, damped against the ground, in its deflection x - y, driven by velocity and c."""
-    damping = not_negative(given.get("damping", 0.0), "load: damping")
-    n = damping * frequency
+    n = given.damping * frequency
     motion = [-(frequency**2), -2.0 * n]
     rows, direct = [motion, [1.0, 0.0]], [[-2.0 * n, 0.0], [0.0, 0.0]]
     names = {"acceleration": AXES[axis][2], "deflection": axis}
     weight = {"length": "mass", "angle": "inertia"}[axis]
     other = {"mass": "inertia", "inertia": "mass"}[weight]
-    if other in given:
+    if getattr(given, other) is not None:
         raise InputError(f"load: the motion is {_article(axis)}: give its {weight}, not its {other}")
-    if weight in given:
+    if getattr(given, weight) is not None:
         kind = {"mass": "mass", "inertia": "moment of inertia"}[weight]
-        size = quantity(given[weight], kind, f"load: {weight}")
+        size = quantity(getattr(given, weight), kind, f"load: {weight}")
         rows.append([-size * frequency**2, 0.0])
         direct.append([0.0, 0.0])
         force = {"length": "force", "angle": "torque"}[axis]

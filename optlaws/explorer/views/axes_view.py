@@ -24,7 +24,6 @@ from optlaws.explorer.views import cycle_view
 from optlaws.explorer.views.law_view import TITLES, digits, drawn, refusal
 from optlaws.explorer.views.picture_points import refined
 from optlaws.explorer.views.requests import Question
-from optlaws.files.problem_file import convert
 from optlaws.jobs.cycle_entries import CycleProblemFile, overlap_of
 from optlaws.numbers import Array
 from optlaws.plots.cycle import UNITS
@@ -71,7 +70,7 @@ def axes_of(study: dict[str, Any]) -> Axes:
 
 @lru_cache(maxsize=64)
 def _read(question: str) -> Axes:
-    spec = convert(json.loads(question), CycleProblemFile, _WHERE)
+    spec = CycleProblemFile.read(json.loads(question), _WHERE)
     cycles: dict[str, Cycle] = {}
     for axis in spec.axis:
         if axis.name in cycles:
@@ -311,7 +310,7 @@ def together(request: AxesRequest) -> dict[str, Any]:
 
 
 def _together(study: dict[str, Any]) -> dict[str, Any]:
-    spec, axes = convert(study, CycleProblemFile, _WHERE), axes_of(study)
+    spec, axes = CycleProblemFile.read(study, _WHERE), axes_of(study)
     if spec.overlap is None:
         raise InputError("say what the moves are to be put together for: the least period or the least acceleration")
     overlap = overlap_of(spec, axes, _WHERE)

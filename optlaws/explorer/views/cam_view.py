@@ -26,6 +26,7 @@ from optlaws.explorer.views.requests import Question
 from optlaws.files.problem_file import convert
 from optlaws.jobs.cam_entries import CamProblemFile, ForcesEntries
 from optlaws.jobs.cam_findings import FORCE, STIFFNESS, Findings
+from optlaws.jobs.cycle_entries import AxisEntries
 from optlaws.motion.quantities import quantity
 from optlaws.numbers import Array
 from optlaws.numerics.branch_and_bound import Extremes
@@ -64,7 +65,7 @@ def _solved(question: str) -> Findings:
     data = json.loads(question)
     if "barrel" in data:
         raise InputError("the explorer shows disc cams: `optlaws run` computes barrel cams")
-    check_axis(convert(data, CamProblemFile, _WHERE).motion)
+    check_axis(AxisEntries.from_dict(convert(data, CamProblemFile, _WHERE).motion))
     return Findings.read(data, _WHERE)
 
 
@@ -286,7 +287,7 @@ def loads(request: CamRequest) -> dict[str, Any]:
 @lru_cache(maxsize=32)
 def _loads(question: str) -> dict[str, Any]:
     findings = _solved(question)
-    if findings.spec.motion.drive is None:
+    if findings.spec.motion.get("drive") is None:
         return {"panels": [], "facts": []}
     forces = findings.forces_with(findings.spec.forces or ForcesEntries())
     return {"panels": _load_panels(forces), "facts": [*_load_facts(forces), *_spring(findings)]}

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import fields
+from dataclasses import fields, replace
 from functools import lru_cache
 from math import inf
 from pathlib import Path
@@ -22,13 +22,12 @@ from optlaws.errors import InfeasibleProblem, InputError, OptlawsError, SolverFa
 from optlaws.explorer.views.law_view import TITLES, digits, drawn, gap_text, refusal
 from optlaws.explorer.views.picture_points import refined
 from optlaws.explorer.views.requests import MOST_DEGREE, MOST_ORDER, Question
-from optlaws.files.problem_file import convert
 from optlaws.jobs.cycle_entries import AxisEntries, CycleProblemFile, cycle_of
 from optlaws.laws.catalogue import reading
 from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.mechanisms.drives.motor import OF_TORQUE, Motor
 from optlaws.motion.quantities import QUANTITIES
-from optlaws.numbers import bounded
+from optlaws.numbers import Quantity, bounded
 from optlaws.numerics.peaks import is_kept
 from optlaws.plots.cycle import UNITS, samples
 from optlaws.sentences import Amount, Sentence, joined, sentence
@@ -70,7 +69,7 @@ def read(request: CycleRequest) -> tuple[CycleProblemFile, AxisEntries]:
     InputError
         If an entry is unknown or wrong, or larger than the explorer takes, or a law is named by a file.
     """
-    spec = convert(request.study, CycleProblemFile, _WHERE)
+    spec = CycleProblemFile.read(request.study, _WHERE)
     axis = spec.axis[min(request.axis, len(spec.axis) - 1)]
     check_axis(axis)
     return spec, axis
@@ -83,8 +82,8 @@ def check_axis(axis: AxisEntries) -> None:
     if axis.drive is not None and axis.drive.get("motors") is not None:
         raise InputError("motors: the page reads no catalogue: give the motor as a table, or start with the file")
     of_cam = (axis.mechanism or {}).get("segment")
-    inner = [entry.get("law") for entry in of_cam if isinstance(entry, Mapping)] if isinstance(of_cam, list) else []
-    for law in (*(segment.get("law") for segment in axis.segment), *inner):
+    inner = [entry.get("law") for entry in of_cam if isinstance(entry, Mapping)] if isinstance(of_cam, tuple) else []
+    for law in (*(getattr(segment, "law", None) for segment in axis.segment), *inner):
         if isinstance(law, str) and reading.is_file(law):
             raise InputError(f"law: {law} names a file, and the page reads none: take a law of the catalogue")
 
@@ -96,20 +95,19 @@ def cycle(request: CycleRequest) -> Cycle:
 
 def stored(spec: CycleProblemFile, axis: AxisEntries) -> Cycle:
     """The cycle of an axis, which is computed once."""
-    return _solved(msgspec.json.encode((axis, spec.speed, spec.period)))
+    return _solved(axis, spec.speed, spec.period)
 
 
 @lru_cache(maxsize=128)
-def _solved(question: bytes) -> Cycle:
-    axis, speed, period = msgspec.json.decode(question, type=tuple[AxisEntries, str | None, str | None])
+def _solved(axis: AxisEntries, speed: Quantity | None, period: Quantity | None) -> Cycle:
     motor, drive = (axis.drive or {}).get("motor"), axis.drive or {}
     if isinstance(motor, Mapping) and LIMITING & motor.keys() and not axis.limits.get("motor"):
         # the laws stay while a limit of the motor is dragged
         free = {name: entry for name, entry in motor.items() if name not in LIMITING}
-        same = msgspec.structs.replace(axis, drive={**drive, "motor": free})
+        same = replace(axis, drive={**drive, "motor": free})
         with located("drive"), located("motor"):
             limited = Motor.from_dict(motor)
-        return _solved(msgspec.json.encode((same, speed, period))).with_motor(limited)
+        return _solved(same, speed, period).with_motor(limited)
     cycle_of_axis = cycle_of(axis, speed, period).unchecked()
     _ = cycle_of_axis.peaks  # what cannot be found is told here
     return cycle_of_axis
@@ -246,7 +244,7 @@ def _ways(spec: CycleProblemFile, axis: AxisEntries) -> Iterator[dict[str, Any]]
         if name not in LIMITS or name not in OBJECTIVES or not isinstance(given, str):
             continue
         others = {other: value for other, value in axis.limits.items() if other != name}
-        freed = msgspec.structs.replace(axis, limits=others, minimise=name, follower=None)
+        freed = replace(axis, limits=others, minimise=name, follower=None)
         try:
             least = stored(spec, freed).objective
         except (InfeasibleProblem, SolverFailure):

@@ -6,12 +6,14 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
-import msgspec
 import numpy as np
 
+from optlaws.entries.declared import Declared, declared, entry
+from optlaws.entries.value_types import Measured, Whole
 from optlaws.errors import InfeasibleProblem, InputError
 from optlaws.files.tables import Cell, to_csv
 from optlaws.motion.quantities import QUANTITIES
+from optlaws.numbers import Quantity
 from optlaws.results import Page, Results
 
 if TYPE_CHECKING:
@@ -23,13 +25,24 @@ _HEADINGS = ("what", "value", "unit", "at, s", "note")
 _ABOUT = "Table and picture begin where the cam does: at {:.9g} deg of the cycle's master, until {:.9g} deg."
 
 
-class TransitionEntries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+@declared
+class TransitionEntries(Declared, title="a run-in or run-out"):
     """A cam from rest into the cycle of an axis, or out of it."""
 
-    at: str
-    rest: str | None = None
-    over: str | None = None
-    order: int | None = None
+    at: Quantity = entry(
+        Measured("angle", "time"), "The angle of the master, or time, at which it meets the cycle.", example="60 deg"
+    )
+    rest: Quantity | None = entry(
+        Measured("length", "angle"), "The position of rest; where the cycle starts unless given.", default=None
+    )
+    over: Quantity | None = entry(
+        Measured("angle", "time"),
+        "The angle of the master, or time, that it takes; the least within the limits unless given.",
+        default=None,
+    )
+    order: int | None = entry(
+        Whole(), "How much is continuous where they meet; that of the axis unless given.", default=None
+    )
 
 
 class AxisTransition(NamedTuple):
@@ -57,20 +70,19 @@ def transition_names(
     names: Named = {}
     for axis, kinds in given.items():
         for kind, entries in kinds.items():
-            for i, entry in enumerate(entries, start=1):
+            for i, cam in enumerate(entries, start=1):
                 number = f"_{i}" if len(entries) > 1 else ""
-                names[f"{plain[axis]}_{kind.replace('-', '_')}{number}"] = (axis, kind, entry)
+                names[f"{plain[axis]}_{kind.replace('-', '_')}{number}"] = (axis, kind, cam)
     return names
 
 
 def transitions_of(names: Named, cycles: Mapping[str, Cycle], file: Path) -> list[AxisTransition]:
     """The run-ins and run-outs of axes; errors name the file, the axis and the cam."""
     cams = []
-    for name, (axis, kind, entry) in names.items():
-        given = msgspec.structs.asdict(entry)
+    for name, (axis, kind, given) in names.items():
         cycle = cycles[axis]
         try:
-            cam = cycle.run_in(**given) if kind == "run-in" else cycle.run_out(**given)
+            cam = (cycle.run_in if kind == "run-in" else cycle.run_out)(**given.to_dict())
         except (InputError, InfeasibleProblem) as error:
             raise type(error)(f"{file}: axis {axis}: {kind}: {error}") from None
         cams.append(AxisTransition(name, axis, cycle, cam))

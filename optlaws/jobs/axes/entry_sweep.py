@@ -6,30 +6,35 @@ from collections.abc import Callable, Sequence
 from copy import deepcopy
 from dataclasses import dataclass
 from math import inf, pi
-from typing import Annotated, Any
-
-import msgspec
+from typing import Any
 
 from optlaws.cycles.cycle import Cycle
 from optlaws.cycles.summary import force_unit, objective_unit
+from optlaws.entries.declared import Declared, declared, entry
+from optlaws.entries.value_types import Either, Listed, Number, Text
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
-from optlaws.files.problem_file import Text
 from optlaws.files.tables import Cell
 from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.suggest import unknown_key
 from optlaws.synthesis.status import Status
 
-Values = Annotated[list[str | float], msgspec.Meta(min_length=2, max_length=50)]
 _PERCENT = 100.0
 _RPM = 30.0 / pi
 
 
-class SweepEntries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+@declared
+class SweepEntries(Declared, title="a sweep"):
     """An entry of an axis, such as "drive.ratio" or "mechanism.crank", and the values that it takes."""
 
-    axis: Text
-    entry: Text
-    values: Values
+    axis: str = entry(Text(), "The axis.", example="slide")
+    values: tuple[str | float, ...] = entry(
+        Listed(Either(Number(), Text(), which=lambda value: int(isinstance(value, str))), least=2, most=50),
+        "What the entry is in turn.",
+        example=[10, 20, 30],
+    )
+    entry: str = entry(
+        Text(), 'Of the axis, such as "drive.ratio", "mechanism.crank" or "segment.1.duration".', example="drive.ratio"
+    )
 
 
 @dataclass(frozen=True)

@@ -197,7 +197,7 @@ AFTER = {"axis": "x", "position": "100 mm", "of": "z", "above": "30 mm"}
         (lambda: least(Synchronous("x", "z", during=("0.2 s", "0.1 s"), within="1 mm/s")), "the earlier one first"),
         (lambda: least(Synchronous("x", "z", during=("0.1 s", "0.2 s"), within="0 mm/s")), "within must be above 0"),
         (lambda: Axes(dict(PAIR), interlocks=[{"kind": "afer"}]), "interlock 1: unknown kind .*; did you mean 'after'"),
-        (lambda: Axes(dict(PAIR), interlocks=[AFTER | {"kind": "after", "abov": "3 mm"}]), "interlock 1: .*; did you mean"),
+        (lambda: Axes(dict(PAIR), interlocks=[AFTER | {"kind": "after", "abov": ""}]), "interlock 1: .*; did you mean"),
         (lambda: Axes(dict(PAIR), interlocks=[{"kind": "after", "axis": "x"}]), "interlock 1: .* needs its position"),
         (lambda: Axes(dict(PAIR), interlocks=3), "interlocks must be a list, each an interlock"),  # type: ignore[arg-type]
     ],

@@ -183,7 +183,7 @@ def test_the_residual_is_that_of_the_functional(quiet: FastestMove) -> None:
         ({"follower": {"frequncy": "1 Hz"}}, "did you mean 'frequency'"),
         ({"follower": {"frequency": ("18 Hz", "17 Hz")}}, "must be in order"),
         ({"follower": {"frequency": "18 Hz", "damping": 1.0}}, "damping below 1"),
-        ({"follower": {"frequency": ("18 Hz", "19 Hz", "20 Hz")}}, "the least and the greatest"),
+        ({"follower": {"frequency": ("18 Hz", "19 Hz", "20 Hz")}}, "follower: frequency must be a list of 2 at most"),
         ({"limits": LIMITS}, "residual acceleration"),
         ({"start_velocity": "0.1 m/s"}, "from rest to rest"),
     ],

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache, partial
 from itertools import groupby
 from math import inf, isfinite, pi
@@ -102,7 +102,7 @@ def proof_of(request: FastestRequest) -> dict[str, Any]:
     """The stored proof of a least time, and of the laws in the displayed time."""
     if request.study.get("job") == "cycle":
         spec, axis = _axis(request)
-        quickest = _fastest_cycle(msgspec.json.encode((spec, axis)))
+        quickest = _fastest_cycle(spec, axis)
         solutions = _cycle_in_time(spec, axis, quickest, request.time).solutions
         return quickest.claims() | {"solutions": [solution.to_dict() for solution in solutions]}
     sought = _read(request)
@@ -448,8 +448,7 @@ def _axis(request: FastestRequest) -> tuple[CycleProblemFile, AxisEntries]:
 
 
 @lru_cache(maxsize=32)
-def _fastest_cycle(question: bytes) -> FastestCycle:
-    spec, axis = msgspec.json.decode(question, type=tuple[CycleProblemFile, AxisEntries])
+def _fastest_cycle(spec: CycleProblemFile, axis: AxisEntries) -> FastestCycle:
     return cycle_view.stored(spec, axis).fastest()
 
 
@@ -458,12 +457,12 @@ def _cycle_in_time(spec: CycleProblemFile, axis: AxisEntries, quickest: FastestC
     if time is None or time <= quickest.period * (1.0 + AGREEMENT):
         cycle: Cycle = quickest.cycle
         return cycle
-    return cycle_view.stored(msgspec.structs.replace(spec, speed=None, period=f"{time!r} s"), axis)
+    return cycle_view.stored(replace(spec, speed=None, period=f"{time!r} s"), axis)
 
 
 def _view_of_cycle(request: FastestRequest) -> dict[str, Any]:
     spec, axis = _axis(request)
-    quickest = _fastest_cycle(msgspec.json.encode((spec, axis)))
+    quickest = _fastest_cycle(spec, axis)
     shown = _cycle_in_time(spec, axis, quickest, request.time)
     edges = shown.limits_of_segments
     times = np.unique(np.concatenate([np.linspace(p.start, p.stop, _EACH) for p in shown.pieces]))
@@ -555,7 +554,7 @@ def _trust_of_cycle(quickest: FastestCycle, shown: Cycle) -> dict[str, Any]:
 
 def _front_of_cycle(request: FastestRequest) -> dict[str, Any]:
     spec, axis = _axis(request)
-    quickest = _fastest_cycle(msgspec.json.encode((spec, axis)))
+    quickest = _fastest_cycle(spec, axis)
     points: list[list[float | None]] = []
     proven = True
     for time in np.geomspace(quickest.period * _SLOWER, _LONGEST * quickest.period, _CYCLE_POINTS).tolist():

@@ -342,7 +342,7 @@ def _bound(cycle: Cycle | None) -> float | None:
 
 
 def _at_ratio(spec: CycleProblemFile, axis: AxisEntries, ratio: float) -> Cycle | None:
-    law = _law(spec, msgspec.structs.replace(axis, drive={**(axis.drive or {}), "ratio": ratio}))
+    law = _law(spec, replace(axis, drive={**(axis.drive or {}), "ratio": ratio}))
     return law if isinstance(law, Cycle) else None
 
 
