@@ -56,11 +56,13 @@ class Entry:
     @property
     def field(self) -> dict[str, Any]:
         """The field of a form for it."""
-        usual = self.plain_default if self.example is None and not self.needed else self.example
+        usual, default = self.plain_default if self.example is None else self.example, self.plain_default
         text = "" if usual is None else usual if isinstance(usual, str) else json.dumps(usual)
-        absent = "none, or " if text and self.plain_default is None and not self.needed else ""
-        shown = {"name": self.name, "label": self.label, "about": self.about, "placeholder": f"{absent}{text}"}
-        return {**shown, "needed": self.needed, **self.type.form()}
+        if text and not self.needed and self.example is not None:
+            text = f"{default or 'none'}, or {text}"
+        shown = {"name": self.name, "label": self.label, "about": self.about, "placeholder": text}
+        example = {} if self.example is None else {"example": self.example}
+        return {**shown, **example, "needed": self.needed, **self.type.form()}
 
     @property
     def sentence(self) -> str:

@@ -20,7 +20,7 @@ from starlette.requests import Request
 from starlette.responses import PlainTextResponse, Response
 from starlette.routing import Route
 
-from optlaws import __version__, catalogue
+from optlaws import Drive, __version__, catalogue
 from optlaws.explorer import downloads
 from optlaws.explorer.answering import EXAMPLES, QUESTIONS, message
 from optlaws.explorer.views import cam_view
@@ -49,6 +49,7 @@ def application(start: dict[str, Any], workers: Workers | None = None) -> Starle
         "examples": {name: example() for name, example in EXAMPLES.items()},
         "followers": cam_view.followers(),
         "mechanisms": machine_view.kinds(),
+        "drive": Drive.form()["entries"],
         "formats": downloads.formats(),
         "version": __version__,
     }

@@ -6,7 +6,7 @@ const table = (value) => object(value) && Object.keys(value).length > 0 && Objec
 const pairs = (value) => Array.isArray(value) && value.length > 0 && value.every((one) => Array.isArray(one) && one.length === 2);
 
 /** A value as text; null is what no field can hold. */
-function textOf(value) {
+export function textOf(value) {
   if (table(value)) return textOf(Object.entries(value));
   if (pairs(value)) return value.map(([place, one]) => `${place}: ${one}`).join(", ");
   if (Array.isArray(value)) return value.some((one) => typeof one === "object") ? null : value.join(", ");

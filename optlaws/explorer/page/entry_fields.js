@@ -20,16 +20,18 @@ export class EntryFields {
     this.#shows = [];
   }
 
-  /** A field of the entry at a path; `about` is what a reader of the screen hears. */
-  field(path, placeholder, name, about) {
-    const field = html("input", { type: "text", placeholder, spellcheck: "false", maxlength: 400, "aria-label": about });
+  /** A field of the entry at a path; `about` is what a reader of the screen hears, `more` says what it is, or may be. */
+  field(path, placeholder, name, about, more = {}) {
+    const field = more.choices
+      ? html("select", { "aria-label": about }, ...["", ...more.choices].map((value) => html("option", { value, text: value || placeholder })))
+      : html("input", { type: "text", placeholder, spellcheck: "false", maxlength: 400, "aria-label": about });
     field.addEventListener("input", () => this.#change(about, (table) => put(table, path, plain(field.value.trim()))));
     field.addEventListener("change", () => this.#rested());
     this.#shows.push((table) => {
       const value = read(table, path);
       if (document.activeElement !== field || field.value.trim() !== value) field.value = value;
     });
-    return html("label", { class: "entry" }, html("span", { class: "field-name", text: name, title: about }), field);
+    return html("label", { class: "entry" }, html("span", { class: "field-name", text: name, title: more.about ?? about }), field);
   }
 
   /** Show what a table holds. */

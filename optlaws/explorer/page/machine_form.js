@@ -1,22 +1,23 @@
 // The machine as fields: its kind, its lengths, bodies and loads, its gear and its motor.
 
-import { flat } from "./entries.js";
+import { flat, textOf } from "./entries.js";
 import { EntryFields } from "./entry_fields.js";
 import { group, slider } from "./fields.js";
 import { html, renew } from "./svg.js";
 
 const told = (value) => JSON.stringify(value);
 const NOT_FIELDS = ["kind", "segment", "linkage"];
-const MOTOR = { inertia: "3e-4 kg m^2", rated_torque: "2 N m", peak_torque: "6 N m", greatest_speed: "3000 rpm" };
-const OF_MOTOR = { inertia: "3e-4 kg m^2", rated_torque: "none, or 2 N m", peak_torque: "none, or 6 N m", greatest_speed: "none, or 3000 rpm", curve: "none, or 0 rpm: 6 N m, 3000 rpm: 4 N m", coulomb: "none, or 0.1 N m", constant: "none, or 0.4" };
-const OF_GEAR = { efficiency: "1, or 0.95", inertia: "none, or 1e-5 kg m^2", regeneration: "0 to 1" };
 const RATIOS = [0.1, 200];
 
-/** What a field is called beside it: a body by its link, loads and lengths by themselves. */
-function short(path) {
-  const name = path.at(-1).replaceAll("_", " ");
-  if (path[0] !== "bodies") return path[0] === "loads" && name === "over" ? "force over" : name;
-  return path.length > 2 ? `${path[1]} ${name}` : `${name} body`;
+/** The fields of declared entries, those of their tables by their paths. */
+function declared(entries, path = []) {
+  return entries.flatMap((entry) => {
+    const own = [...path, entry.name];
+    if (entry.entries) return declared(entry.entries, own);
+    if (entry.names) return entry.names.map((name) => ({ path: [...own, name], label: name, about: entry.about, placeholder: entry.example?.[name] ?? "" }));
+    const text = typeof entry.example === "object" ? `${entry.needed ? "" : "none, or "}${textOf(entry.example)}` : entry.placeholder;
+    return entry.kinds ? [] : [{ ...entry, path: own, placeholder: text }];
+  });
 }
 
 /** The axes of the same machine: those that have the mechanism and the drive of one. */
@@ -33,17 +34,19 @@ export class MachineForm {
   #root;
   #study;
   #kinds;
+  #driving;
   #part;
   #shape = "";
   #paths = [];
   #shows = [];
   #fields;
 
-  /** `part(state)` is the study that holds the axes; `kinds` are mechanisms with their examples. */
-  constructor(root, study, kinds, part) {
+  /** `part(state)` is the study that holds the axes; `kinds` are mechanisms with their examples, `drive` its entries. */
+  constructor(root, study, { mechanisms, drive }, part) {
     this.#root = root;
     this.#study = study;
-    this.#kinds = kinds;
+    this.#kinds = mechanisms;
+    this.#driving = drive;
     this.#part = part;
     this.#fields = new EntryFields((what, alter) => this.change(what, alter), () => study.rest());
   }
@@ -71,16 +74,14 @@ export class MachineForm {
   #build(kind, axis, paths) {
     this.#shows = [];
     this.#fields.clear();
-    const known = this.#kinds[kind] ?? { mechanism: {}, other: {} };
-    const usual = Object.fromEntries(flat(known.mechanism).map(([path, text]) => [told(path), text]));
-    const other = Object.fromEntries(Object.entries(known.other).map(([name, text]) => [told(name.split(".")), text]));
-    const placeholders = Object.fromEntries(Object.entries({ ...Object.fromEntries(paths.map((path) => [path, ""])), ...usual, ...other }).filter(([path]) => !NOT_FIELDS.includes(JSON.parse(path)[0])));
-    this.#paths = Object.keys(placeholders);
+    const known = declared(this.#kinds[kind]?.fields ?? []).filter(({ path }) => !NOT_FIELDS.includes(path[0]));
+    const further = paths.filter((path) => !known.some((field) => told(field.path) === path)).map((path) => JSON.parse(path));
+    const fields = [...known, ...further.map((path) => ({ path, label: path.at(-1).replaceAll("_", " "), placeholder: "" }))];
+    this.#paths = fields.map(({ path }) => told(path));
     const choose = html("select", { "aria-label": "kind of mechanism" }, ...(kind in this.#kinds ? [] : [html("option", { value: "", text: "none" })]), ...Object.keys(this.#kinds).map((value) => html("option", { value, text: value })));
     choose.value = kind;
     choose.addEventListener("change", () => this.change("mechanism", (one, study) => this.#take(one, study, choose.value)));
-    const fields = Object.entries(placeholders).map(([path, text]) => this.#field("mechanism", JSON.parse(path), text));
-    renew(this.#root, group("Mechanism", choose, ...fields), ...this.#drive(Boolean(axis.drive?.motor)));
+    renew(this.#root, group("Mechanism", choose, ...fields.map((field) => this.#field("mechanism", field))), ...this.#drive(Boolean(axis.drive?.motor)));
   }
 
   /** Another kind begins with its example and a motion within its range; what moves by which law stays. */
@@ -101,7 +102,8 @@ export class MachineForm {
     const toggle = html("select", { "aria-label": "what drives" }, html("option", { value: "", text: "a torque at the input" }), html("option", { value: "motor", text: "a motor with a gear" }));
     toggle.value = motor ? "motor" : "";
     toggle.addEventListener("change", () => this.change("drive", (one) => {
-      if (toggle.value) one.drive = { motor: { ...MOTOR }, ratio: 10 };
+      const usual = (name) => structuredClone(this.#driving.find((entry) => entry.name === name).example);
+      if (toggle.value) one.drive = { motor: usual("motor"), ratio: usual("ratio") };
       else delete one.drive;
     }));
     if (!motor) return [group("Driven by", toggle)];
@@ -120,12 +122,12 @@ export class MachineForm {
       if (value > 0) ratio.set(logarithm(value));
       if (document.activeElement !== exact || Number(exact.value) !== value) exact.value = value;
     });
-    const gear = Object.entries(OF_GEAR).map(([name, text]) => this.#field("drive", [name], text));
-    const motors = Object.entries(OF_MOTOR).map(([name, text]) => this.#field("drive", ["motor", name], text));
+    const fields = declared(this.#driving).filter(({ path }) => path[0] !== "ratio");
+    const [motors, gear] = [true, false].map((of) => fields.filter(({ path }) => (path[0] === "motor") === of).map((field) => this.#field("drive", field)));
     return [group("Driven by", toggle, ratio.element, ...gear), group("Motor", ...motors)];
   }
 
-  #field(part, path, placeholder) {
-    return this.#fields.field([part, ...path], placeholder, short(path), `${part} ${path.join(" ").replaceAll("_", " ")}`);
+  #field(part, { path, label, about, placeholder, choices }) {
+    return this.#fields.field([part, ...path], placeholder, label, `${part} ${path.join(" ").replaceAll("_", " ")}`, { about, choices });
   }
 }

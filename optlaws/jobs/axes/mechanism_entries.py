@@ -49,6 +49,8 @@ class CamAtShaft(MechanismKind, kind="cam"):
     0.048
     """
 
+    turns_steadily = True
+
     _: KW_ONLY
     prime_radius: Quantity = entry(Measured("length", above=0.0), "Of the prime circle.", example="60 mm")
     follower: CamFollower = entry(

@@ -105,7 +105,14 @@ class Drive(Declared, title="a drive"):
         MechanismValue(), "Whose input the gear turns: one whose input turns too.", shown=False
     )
     motor: Motor = entry(
-        ValueOf(Motor), "Its inertia, ratings and curves.", example={"inertia": "3e-4 kg m^2", "peak_torque": "6 N m"}
+        ValueOf(Motor),
+        "Its inertia, ratings and curves.",
+        example={
+            "inertia": "3e-4 kg m^2",
+            "rated_torque": "2 N m",
+            "peak_torque": "6 N m",
+            "greatest_speed": "3000 rpm",
+        },
     )
     ratio: float = entry(
         Number(above=0.0), "i, turns of the motor with a turn of the mechanism's input.", default=1.0, example=10

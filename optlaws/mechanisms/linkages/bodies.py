@@ -87,6 +87,7 @@ class Loads(Declared, title="loads"):
         Choice(*get_args(LoadPlace)),
         "Whether the force is over the position of the driven link or over the input's.",
         default="driven",
+        label="force over",
     )
     _: KW_ONLY
     interpolation: TableKind = entry(
@@ -250,7 +251,16 @@ class Bodies(ValueType):
         return {"type": "object", "properties": links, "additionalProperties": False}
 
     def form(self) -> dict[str, Any]:
-        return {"names": list(self.names), "of": Body.form()}
+        def plainly(link: str, weight: InSI) -> dict[str, Any]:
+            shown = {"name": link, "label": f"{link} body", "about": f"The {link}: {weight.words}."}
+            return {**shown, "placeholder": f"none, or {weight.example}", "needed": False}
+
+        coupled = [
+            {"name": link, "entries": [{**each, "label": f"{link} {each['label']}"} for each in Body.form()["entries"]]}
+            for link in self.coupled
+        ]
+        weights = [*((link, _INERTIA) for link in self.pivoted), *((link, _MASS) for link in self.sliding)]
+        return {"entries": [*(plainly(*each) for each in weights), *coupled]}
 
 
 _MASS, _INERTIA = InSI("mass", least=0.0), InSI("moment of inertia", least=0.0)

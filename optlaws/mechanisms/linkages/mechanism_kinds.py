@@ -10,7 +10,7 @@ from importlib import import_module
 from inspect import signature
 from pathlib import Path
 from pkgutil import iter_modules
-from typing import Any, ParamSpec, Self, TypeAlias
+from typing import Any, ClassVar, ParamSpec, Self, TypeAlias
 
 from optlaws.entries.declared import Kinded, ValueOf, declared, entry
 from optlaws.entries.value_types import InSI, Kept, SINumber, Span, ValueType
@@ -31,6 +31,9 @@ LENGTH = InSI("length", above=0.0)
 @declared
 class MechanismKind(Kinded, title="a mechanism"):
     """The entries of a mechanism of one kind, as a file has them; friction at the input is one of all kinds."""
+
+    #: whether its input usually turns at a constant velocity
+    turns_steadily: ClassVar[bool] = False
 
     _: KW_ONLY
     coulomb: SINumber = entry(

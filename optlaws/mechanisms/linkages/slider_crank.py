@@ -46,7 +46,7 @@ class SliderCrank(LinkageKind, kind="slider crank"):
     bodies: BodiesByLink = entry(
         Bodies(("crank",), ("rod",), ("slider",)),
         "Of the slider a mass, of the crank a moment of inertia about its pivot, or a `Body`.",
-        example={"crank": "0.02 kg m^2", "slider": "5 kg"},
+        example={"crank": "0.5 kg m^2", "slider": "12 kg"},
     )
 
     @property

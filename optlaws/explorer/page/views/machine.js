@@ -60,11 +60,11 @@ export class View {
   #still = () => {};
   #at;
 
-  constructor(root, study, { mechanisms }) {
+  constructor(root, study, known) {
     this.#study = study;
     const made = layout(root);
     this.#at = made;
-    this.#form = new MachineForm(made.form, study, mechanisms, (state) => state.machine);
+    this.#form = new MachineForm(made.form, study, known, (state) => state.machine);
     this.#programme = new Programme(made.programme, study, (state) => state.machine, { objectives: OBJECTIVES, limits: LIMITS });
     this.#linkage = new Linkage(made.drawing);
     this.#chart = new Chart(made.chart, (key, value) => this.#moved(key, value));

@@ -15,6 +15,7 @@ from optlaws import Cycle, Drive, Mechanism, MotionLaw, Motor, Move, Status
 from optlaws.cycles.specification.process import is_process
 from optlaws.cycles.specification.programme import is_optimal
 from optlaws.cycles.summary import drive_rows, force_name, force_unit
+from optlaws.entries.declared import entries_of
 from optlaws.errors import InputError, OptlawsError
 from optlaws.explorer.views import cycle_view
 from optlaws.explorer.views.cycle_view import CycleRequest
@@ -23,6 +24,7 @@ from optlaws.explorer.views.machines.linkage_picture import over_input, picture
 from optlaws.explorer.views.picture_points import refined
 from optlaws.explorer.views.requests import MOST_LAWS, Question
 from optlaws.jobs.cycle_entries import AxisEntries, CycleProblemFile, cycle_of
+from optlaws.mechanisms.linkages.mechanism_kinds import MechanismKind
 from optlaws.numbers import Array, bounded
 from optlaws.plots.cycle import UNITS, samples, samples_of_drive
 from optlaws.shown.summary import Row
@@ -396,111 +398,42 @@ def _beside_limit(value: float, least: float | None) -> dict[str, Any]:
     return {"text": digits(value, 6), "least": least, "least_text": None if least is None else digits(least, 6)}
 
 
-#: kinds of mechanisms: what each is shown as at first, and what else it may be given
-_MASS_ON_SLIDE = {"loads.gravity": "none, or 180 deg", "loads.stiffness": "none, or 3 N/mm"}
-_FRICTION = {"coulomb": "none, or 0.2 N m", "viscous": "none, or 0.01 N m s/rad"}
-_LINKED = {"loads.force": "none, or -200 N", **_MASS_ON_SLIDE, **_FRICTION}
-
-
-def _there_and_back(by: str, start: str | None = None) -> dict[str, Any]:
-    segments: list[dict[str, Any]] = [
-        {"kind": "rise", "by": by, "duration": "0.25 s"},
-        {"kind": "dwell", "duration": "0.1 s"},
-        {"kind": "return", "duration": "0.25 s"},
-        {"kind": "dwell"},
-    ]
-    return {"segment": segments} | ({} if start is None else {"start": start})
-
-
-def _onward(by: str, name: str) -> dict[str, Any]:
-    return {
-        "advance": by,
-        "segment": [{"kind": "rise", "name": name, "by": by, "duration": "0.5 s"}, {"kind": "dwell"}],
-    }
-
-
-KINDS: dict[str, dict[str, Any]] = {
-    "slider crank": {
-        "mechanism": {"crank": "100 mm", "rod": "400 mm", "bodies": {"crank": "0.5 kg m^2", "slider": "12 kg"}},
-        "other": {"offset": "none, or 20 mm", "over": "0 deg, 360 deg", **_LINKED},
-        "axis": _onward("360 deg", "press"),
-    },
-    "four bar": {
-        "mechanism": {
-            "crank": "100 mm", "coupler": "300 mm", "rocker": "250 mm", "frame": "350 mm", "over": ["0 deg", "180 deg"],
-            "bodies": {"crank": "0.01 kg m^2", "rocker": "0.05 kg m^2"},
-        },
-        "other": {"loads.gravity": "none, or -90 deg", **_FRICTION},
-        "axis": _there_and_back("150 deg", "20 deg"),
-    },
-    "toggle": {
-        "mechanism": {
-            "lengths": {"crank": "60 mm", "rod": "250 mm", "upper": "200 mm", "lower": "200 mm", "frame": "280 mm"},
-            "bodies": {"ram": "40 kg", "crank": "0.05 kg m^2"},
-        },
-        "other": {"over": "0 deg, 360 deg", **_LINKED},
-        "axis": _onward("360 deg", "press"),
-    },
-    "rack": {
-        "mechanism": {"radius": "20 mm", "mass": "12 kg", "inertia": "1e-4 kg m^2"},
-        "other": _LINKED,
-        "axis": _there_and_back("10 rad"),
-    },
-    "belt": {
-        "mechanism": {"radius": "30 mm", "mass": "8 kg", "inertia": "2e-4 kg m^2"},
-        "other": _LINKED,
-        "axis": _there_and_back("10 rad"),
-    },
-    "screw": {
-        "mechanism": {"lead": "10 mm", "mass": "80 kg", "inertia": "3e-4 kg m^2"},
-        "other": _LINKED,
-        "axis": _there_and_back("100 rad"),
-    },
-    "cam": {
-        "mechanism": {
-            "prime_radius": "60 mm", "follower": {"kind": "translating roller", "radius": "12 mm"}, "moved": "5 kg",
-            "inertia": "0.02 kg m^2",
-            "segment": [
-                {"kind": "rise", "by": "35 mm", "duration": "150 deg", "law": "modified sine"},
-                {"kind": "return", "duration": "150 deg", "law": "modified sine"},
-                {"kind": "dwell"},
-            ],
-        },
-        "other": {"loads.force": "none, or -60 N", "loads.stiffness": "none, or 3 N/mm", **_FRICTION},
-        "axis": {"advance": "360 deg", "segment": [{"kind": "constant velocity", "velocity": "720 deg/s"}]},
-        "period": "0.5 s",
-    },
-    "table": {
-        "mechanism": {"inertia": "0.8 kg m^2"},
-        "other": {"load": "none, or 2 N m", **_FRICTION},
-        "axis": _onward("45 deg", "index"),
-    },
-}  # fmt: skip
+#: how the input of a new mechanism moves: a turn and a rest, or for ever
+_A_TURN = [{"kind": "rise", "by": "360 deg", "duration": "0.5 s"}, {"kind": "dwell"}]
+_STEADILY = [{"kind": "constant velocity", "velocity": "720 deg/s"}]
 
 
 def kinds() -> dict[str, dict[str, Any]]:
-    """Kinds of mechanisms: the entries of an example, what else each takes, and a motion within its range.
+    """Kinds of mechanisms: the entries of an example and its motion, and the fields of its form.
 
     Examples
     --------
-    >>> sorted(kinds()["table"])
-    ['axis', 'mechanism', 'other']
+    >>> sorted(kinds()["table"]), kinds()["rack"]["mechanism"]
+    (['axis', 'fields', 'mechanism'], {'radius': '20 mm', 'mass': '12 kg'})
     """
-    return KINDS
+    return {
+        name: {
+            "mechanism": {each.name: each.example for each in entries_of(kind).values() if each.needed},
+            "fields": kind.form()["entries"],
+            "axis": {"advance": "360 deg", "segment": _STEADILY if kind.turns_steadily else _A_TURN},
+            **({"period": "0.5 s"} if kind.turns_steadily else {}),
+        }
+        for name, kind in MechanismKind.kinds().items()
+    }
 
 
 def example() -> dict[str, Any]:
     """The machine that the page shows where none was given: a press, driven by two laws."""
     force = [["0 deg", "0 N"], ["280 deg", "0 N"], ["310 deg", "-600 N"], ["340 deg", "-600 N"], ["360 deg", "0 N"]]
-    press = {"kind": "slider crank", **KINDS["slider crank"]["mechanism"], "loads": {"over": "input", "force": force}}
+    press = {"kind": "slider crank", **kinds()["slider crank"]["mechanism"], "loads": {"over": "input", "force": force}}
     motor = {
         "inertia": "1.5e-3 kg m^2", "rated_torque": "8 N m",
         "curve": [["0 rpm", "24 N m"], ["2000 rpm", "24 N m"], ["3000 rpm", "15 N m"]],
     }  # fmt: skip
     drive = {"motor": motor, "ratio": 10.0}
-    motion = {"mechanism": press, "drive": drive, **KINDS["slider crank"]["axis"]}
-    press_stroke, feed = motion["segment"]
-    known = {**motion, "segment": [{**press_stroke, "law": "modified sine"}, feed]}
+    turn, feed = {"name": "press", **_A_TURN[0]}, _A_TURN[1]
+    motion = {"mechanism": press, "drive": drive, "advance": "360 deg", "segment": [turn, feed]}
+    known = {**motion, "segment": [{**turn, "law": "modified sine"}, feed]}
     return {
         "job": "cycle",
         "title": "A slider-crank press by a motor and a gear",
