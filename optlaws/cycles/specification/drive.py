@@ -11,6 +11,9 @@ import numpy as np
 
 from optlaws.cycles.specification.process import ProcessForce
 from optlaws.echo import shortened
+from optlaws.entries.declared import TableOf, entry
+from optlaws.entries.value_types import InSI
+from optlaws.entries.value_types import Number as Share
 from optlaws.errors import InputError
 from optlaws.formulas.slopes import added, multiplied
 from optlaws.formulas.tree import Name, Number, number
@@ -20,29 +23,30 @@ from optlaws.mechanisms.linkages.dimensionless import DimensionlessMechanism
 from optlaws.mechanisms.linkages.linear_force import LinearForce
 from optlaws.mechanisms.linkages.mechanism import Mechanism
 from optlaws.motion.piece import Piece
-from optlaws.motion.quantities import quantity, table
-from optlaws.numbers import Array, finite
-from optlaws.suggest import unknown_key
+from optlaws.numbers import Array
 
 REGENERATION = "regeneration"
-#: entries of a drive with their dimensions, for slides and for tables
-ENTRIES = {
-    "length": {
-        "mass": "mass",
-        "stiffness": "stiffness",
-        "preload": "force",
-        "gravity": "force",
-        "viscous": "viscous friction",
-        "dry": "force",
-    },
-    "angle": {
-        "inertia": "moment of inertia",
-        "stiffness": "torsional stiffness",
-        "preload": "torque",
-        "gravity": "torque",
-        "viscous": "rotary viscous friction",
-        "dry": "torque",
-    },
+
+
+def _constants(weight: str, inertia: str, stiffness: str, force: str, viscous: str) -> TableOf:
+    """The constants of a drive: the name of its weight, and the dimensions of that and of what acts on it."""
+    acting, against = InSI(force, bare=False), InSI(force, bare=False, least=0.0)
+    types = {
+        weight: (InSI(inertia, bare=False, least=0.0), "What is moved."),
+        "stiffness": (InSI(stiffness, bare=False), "Of a spring without force at 0."),
+        "preload": (acting, "A constant force against the motion to greater positions."),
+        "gravity": (acting, "The weight, likewise."),
+        "viscous": (InSI(viscous, bare=False, least=0.0), "Friction in proportion to the speed."),
+        "dry": (against, "Friction that does not depend on the speed."),
+        REGENERATION: (Share(least=0.0, most=1.0), "The share of the braking energy that is used again."),
+    }
+    return TableOf("key", {name: entry(each, about, default=0.0) for name, (each, about) in types.items()})
+
+
+#: constants of a drive, for slides and for tables
+CONSTANTS = {
+    "length": _constants("mass", "mass", "stiffness", "force", "viscous friction"),
+    "angle": _constants("inertia", "moment of inertia", "torsional stiffness", "torque", "rotary viscous friction"),
 }
 
 
@@ -177,32 +181,16 @@ def read_drive(entries: Mapping[str, Any] | Mechanism | Drive, axis: str) -> Cyc
     """A drive from its entries, each a quantity with its unit, of which what is not given is 0, or from a mechanism."""
     if isinstance(entries, Mechanism | Drive):
         return CycleDrive(_on_axis(entries, axis))
-    known = ENTRIES[axis]
-    for key in table(entries, "drive", "{'mass': '2 kg'}"):
-        if key not in (*known, REGENERATION):
-            raise InputError(f"drive: {unknown_key(key, (*known, REGENERATION))}")
-    regeneration = finite(entries.get(REGENERATION, 0.0), f"drive: {REGENERATION}")
-    if not 0.0 <= regeneration <= 1.0:
-        raise InputError(f"drive: {REGENERATION} must be from 0 to 1, got {shortened(entries[REGENERATION])}")
-    quantities = {
-        key: quantity(value, known[key], f"drive: {key}") for key, value in entries.items() if key != REGENERATION
-    }
-    for key in ("mass", "inertia", "viscous", "dry"):
-        if quantities.get(key, 0.0) < 0.0:
-            raise InputError(f"drive: {key} must be at least 0, got {entries[key]!r}")
+    given = CONSTANTS[axis].read(entries, "drive")
+    of = {name: given.get(name, 0.0) for name in ("mass", "inertia", *CONSTANTS[axis].entries)}
     mechanism = Mechanism(
-        number(quantities.get("mass", 0.0) + quantities.get("inertia", 0.0)),
-        added(
-            [
-                multiplied([number(quantities.get("stiffness", 0.0)), Name("x")]),
-                number(quantities.get("preload", 0.0) + quantities.get("gravity", 0.0)),
-            ]
-        ),
-        coulomb=quantities.get("dry", 0.0),
-        viscous=quantities.get("viscous", 0.0),
+        number(of["mass"] + of["inertia"]),
+        added([multiplied([number(of["stiffness"]), Name("x")]), number(of["preload"] + of["gravity"])]),
+        coulomb=of["dry"],
+        viscous=of["viscous"],
         axis="angle" if axis == "angle" else "length",
     )
-    return CycleDrive(mechanism, fed_back=regeneration)
+    return CycleDrive(mechanism, fed_back=of[REGENERATION])
 
 
 def _on_axis(source: Mechanism | Drive, axis: str) -> Mechanism | Drive:
