@@ -15,9 +15,9 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from optlaws.cams.curves.motion_by_angle import CamMotion
-from optlaws.cycles.specification.process import FORCES, process_entries, rescaled
+from optlaws.cycles.specification.process import FORCES, ProcessEntries, rescaled
 from optlaws.echo import shortened
-from optlaws.errors import InputError
+from optlaws.errors import InputError, located
 from optlaws.formulas.arithmetic import pieces
 from optlaws.formulas.slopes import added, multiplied
 from optlaws.formulas.tree import Formula, Name, Table, number, rebuilt, table_places
@@ -32,7 +32,6 @@ from optlaws.numerics.taylor import Jet, variable
 from optlaws.synthesis.limits.formula_jets import formula_jet
 from optlaws.tolerances import CLOSURE
 
-ENTRIES = (*FORCES, "over", "interpolation")
 #: what a force may be over, with the name in formulas
 VARIABLES = {"time": "t", "master": "m", "driven": "s"}
 
@@ -111,7 +110,9 @@ def read_process_by_angle(given: Mapping[str, Any] | None, motion: CamMotion, ra
         raise InputError(
             f"process must be entries such as {{'force': '-300 N', 'over': 'master'}}, got {shortened(given)}"
         )
-    kind, over, interpolation = process_entries(given, "process", ENTRIES, tuple(VARIABLES))
+    with located("process"):
+        process = ProcessEntries.from_dict(given)
+    kind, over, interpolation = process.kind, process.over, process.interpolation
     if FORCES[kind] != motion.axis:
         right = next(name for name, axis in FORCES.items() if axis == motion.axis)
         raise InputError(f"process: on this follower acts a {right}: give {right} in place of {kind}")
@@ -120,7 +121,7 @@ def read_process_by_angle(given: Mapping[str, Any] | None, motion: CamMotion, ra
             "process: a force over time is another at each speed: give it over the 'master', the cam's angle"
         )
     name, dimension = VARIABLES[over], {"time": "time", "master": "angle"}.get(over, motion.axis)
-    runs = _runs(given[kind], (dimension, kind), f"process: {kind}", name, interpolation)
+    runs = _runs(process.given, (dimension, kind), f"process: {kind}", name, interpolation)
     if over == "driven":
         if len(runs) > 1:
             raise InputError(f"process: {kind}: over the follower's way its table gives a place twice: give it once")

@@ -2,26 +2,68 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-from optlaws.errors import InputError
+from optlaws.entries.declared import Declared, declared, entry
+from optlaws.entries.value_types import Choice, Text
+from optlaws.errors import InputError, located
 from optlaws.formulas.arithmetic import NUMPY, evaluate
 from optlaws.formulas.slopes import added, derivative, multiplied
 from optlaws.formulas.tree import Formula, Name, Table, number, rebuilt, substituted, table_places
-from optlaws.mechanisms.linkages.entries import JOINED, TableKind, formula_of
+from optlaws.mechanisms.linkages.entries import JOINED, OverPlace, TableKind, formula_of
 from optlaws.mechanisms.linkages.mechanism import DIMENSIONS, Mechanism
 from optlaws.motion.quantities import TURN
 from optlaws.numbers import Array
 from optlaws.suggest import unknown_key
 from optlaws.tolerances import CLOSURE
 
+_PLACES = "the time t, the master's angle m, the driven position s or the input's x"
 FORCES = {"force": "length", "torque": "angle"}
-OVER = ("time", "master", "driven", "input")
-ENTRIES = (*FORCES, "over", "on", "interpolation")
+
+
+@declared
+class ProcessEntries(Declared, title="a process"):
+    """The force or the torque of a process, above 0 where it pushes to greater positions, and what it is over."""
+
+    force: Any = entry(OverPlace(_PLACES), "On what slides.", default=None, example=[["0 s", "0 N"], ["0.1 s", "-9 N"]])
+    torque: Any = entry(OverPlace(_PLACES), "On what turns, in its place.", default=None, example="2 N m")
+    over: str = entry(Choice("time", "master", "driven"), "What it is over, and formulas are of.", default="time")
+    interpolation: TableKind = entry(
+        Choice(*JOINED),
+        "Of tables: straight lines, or a smooth curve of their shape.",
+        default="lines",
+    )
+
+    @property
+    def kind(self) -> str:
+        """Whether it is a "force" or a "torque"."""
+        return "force" if self.torque is None else "torque"
+
+    @property
+    def given(self) -> Any:
+        """The force or the torque as it is given."""
+        return getattr(self, self.kind)
+
+    def _check(self) -> None:
+        if (self.force is None) == (self.torque is None):
+            remedy = "such as force = 300 N" if self.force is None else "not both"
+            raise InputError(f"give a force or a torque, {remedy}")
+
+
+@declared
+class MachineProcess(ProcessEntries):
+    """A process on a mechanism, at its input or at a driven link."""
+
+    over: str = entry(
+        Choice("time", "master", "driven", "input"), "What it is over, and formulas are of.", default="time"
+    )
+    on: str | None = entry(
+        Text(), "The driven link on which it acts; the input itself unless given.", default=None, example="slider"
+    )
 
 
 @dataclass(frozen=True)
@@ -51,60 +93,35 @@ def is_process(given: Any) -> bool:
 
 
 def read_process(given: Mapping[str, Any], mechanism: Mechanism, period: float) -> ProcessForce:
-    """A process force from its entries.
-
-    `force`, or `torque` on a link that turns, is a table, a formula or a quantity, above 0 where it pushes to greater
-    positions; `over` the "time", the "master", the position of the "driven" link or of the "input"; `on` names the
-    driven link on which it acts, the input itself unless given.
+    """A process force from the entries of a `MachineProcess`.
 
     Raises
     ------
     InputError
         If an entry is unknown or wrong, no link has the name, or a table over time ends within the cycle.
     """
-    kind, over, interpolation = process_entries(given, "load", ENTRIES, OVER)
-    on = given.get("on")
-    position = _position(mechanism, on, kind)
+    with located("load"):
+        process = MachineProcess.from_dict(given)
+    kind = process.kind
+    position = _position(mechanism, process.on, kind)
     places, variable = {
         "time": ("time", "t"),
         "master": ("angle", "m"),
         "driven": (FORCES[kind], "s"),
         "input": (mechanism.axis, "x"),
-    }[over]
+    }[process.over]
     force = formula_of(
-        given[kind],
+        process.given,
         (places, kind),
         f"load: {kind}",
         variable=variable,
-        interpolation=interpolation,
+        interpolation=process.interpolation,
     )
     end = {"t": period, "m": TURN}.get(variable)
     if end is not None:
         _check_ends(force, variable, end, kind)
     force = _over_time(force, period) if variable == "m" else substituted(force, {"s": position})
     return ProcessForce(multiplied([number(-1.0), force, derivative(position, "x")]))
-
-
-def process_entries(
-    given: Mapping[str, Any], name: str, known: Sequence[str], variables: Sequence[str]
-) -> tuple[str, str, TableKind]:
-    """The kind of a process, "force" or "torque", its variable, and the continuation of its tables between places.
-
-    >>> process_entries({"force": "3 N", "over": "master"}, "load", ENTRIES, OVER)
-    ('force', 'master', 'lines')
-    """
-    for key in given:
-        if key not in known:
-            raise InputError(f"{name}: {unknown_key(key, known)}")
-    kinds = [key for key in FORCES if key in given]
-    if len(kinds) != 1:
-        raise InputError(f"{name}: give a force or a torque, {'not both' if kinds else 'such as force = 300 N'}")
-    over, interpolation = given.get("over", "time"), given.get("interpolation", "lines")
-    if over not in variables:
-        raise InputError(f"{name}: over: {unknown_key(over, variables, 'variable')}")
-    if interpolation not in tuple(JOINED):
-        raise InputError(f"{name}: {unknown_key(interpolation, tuple(JOINED), 'interpolation')}")
-    return kinds[0], over, interpolation
 
 
 def _position(mechanism: Mechanism, on: Any, kind: str) -> Formula:

@@ -6,6 +6,7 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from itertools import pairwise
+from numbers import Real
 from typing import Any, Literal
 
 import numpy as np
@@ -42,7 +43,7 @@ class OverPlace(ValueType):
     def read(self, value: Any, name: str) -> Any:
         if isinstance(value, Formula | str | Mapping | list | tuple) or hasattr(value, "units"):
             return written(value)
-        if real(value) is None:
+        if isinstance(value, bool) or not isinstance(value, Real):
             raise InputError(f"{name} must be {self.words}, got {shortened(value)}")
         return finite(value, name)
 

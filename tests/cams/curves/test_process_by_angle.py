@@ -138,7 +138,7 @@ def test_a_spring_under_a_process_holds_at_every_speed_and_no_lesser_does() -> N
         ({"force": "3 N", "torque": "1 N m"}, "not both"),
         ({"torque": "1 N m"}, "give force in place of torque"),
         ({"force": "3 N", "ovr": "time"}, "did you mean 'over'"),
-        ({"force": "3 N", "over": "input"}, "variable"),
+        ({"force": "3 N", "over": "input"}, "process: unknown over 'input'"),
         ({"force": "3 N", "on": "slider"}, "process: .*on.* takes|process: .*'on'"),
         ({"force": "3 N", "interpolation": "line"}, "did you mean 'lines'"),
         ({"force": "3 N m"}, "force must be a force"),
