@@ -5,10 +5,11 @@ from __future__ import annotations
 import json
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias, TypeVar
 
 import msgspec
 
+from optlaws.errors import InputError
 from optlaws.files import reading, tables, writing
 from optlaws.files.printed import (
     MISPRINT,
@@ -94,6 +95,16 @@ class Page:
         return "\n".join(self._parts)
 
 
+_Content: TypeAlias = "str | Page | Figure | Callable[[Path], Path]"
+
+
+class _File(NamedTuple):
+    """What a file is of, and its text, its figure, or the function that writes it."""
+
+    of: str
+    content: _Content
+
+
 Struct = TypeVar("Struct", bound=msgspec.Struct)
 Spec = TypeVar("Spec", bound="Entries")
 
@@ -168,9 +179,7 @@ class Results:
         self.file = given.with_suffix(".toml") if given.suffix == ".py" else given
         self.digits = digits
         self.title = given.stem
-        self._texts: dict[str, str | Page] = {}
-        self._pictures: dict[str, Figure] = {}
-        self._written: dict[str, Callable[[Path], Path]] = {}
+        self._files: dict[str, _File] = {}
 
     @property
     def about(self) -> str:
@@ -194,34 +203,52 @@ class Results:
 
     def page(self, name: str, title: str | None = None) -> Page:
         """A page `name`.md, to be filled, under the title of the problem file or another."""
-        page = self._texts[f"{name}.md"] = Page(self.title if title is None else title)
+        page = Page(self.title if title is None else title)
+        self._put(f"{name}.md", page, "the page")
         return page
 
     def data(self, name: str, content: Mapping[str, Any]) -> None:
         """Data as JSON, after an entry that describes them."""
         self.text(name, json.dumps({"about": f"{self.about}; {MARK}", **content}, indent=1) + "\n")
 
-    def text(self, name: str, content: str) -> None:
+    def text(self, name: str, content: str | Page, of: str = "a result") -> None:
         """A file of another format; its text must hold the mark "made by optlaws" at the end of a line or an entry."""
-        self._texts[name] = content
+        self._put(name, content, of)
 
-    def picture(self, name: str, figure: Figure) -> None:
+    def picture(self, name: str, figure: Figure, of: str = "a picture") -> None:
         """A picture `name`.svg."""
-        self._pictures[name] = figure
+        self._put(f"{name}.svg", figure, of)
 
-    def add(self, name: str, write: Callable[[Path], Path]) -> None:
+    def add(self, name: str, write: Callable[[Path], Path], of: str = "a file") -> None:
         """A file that a function writes to its place."""
-        self._written[name] = write
+        self._put(name, write, of)
+
+    def _put(self, name: str, content: _Content, of: str) -> None:
+        """Keep a file under its name, which no other has on any file system.
+
+        Raises
+        ------
+        InputError
+            If another file has the name: `of` says what each of the two is.
+        """
+        twin = next((other for other in self._files if other.casefold() == name.casefold()), None)
+        if twin is not None:
+            raise InputError(
+                f"{self.file}: {of}: another file is called {twin}, {self._files[twin].of}: give each a name of its own"
+            )
+        self._files[name] = _File(of, content)
 
     def pictures(self) -> dict[str, str]:
         """The pictures as svg, by the names of their files."""
-        return {f"{name}.svg": self.drawn(name, "svg").decode() for name in self._pictures}
+        names = (name for name, file in self._files.items() if hasattr(file.content, "savefig"))
+        return {name: self.drawn(name.removesuffix(".svg"), "svg").decode() for name in names}
 
     def drawn(self, name: str, kind: str) -> bytes:
         """A picture as svg or png."""
         from optlaws.plots.style import rendered
 
-        return rendered(self._pictures[name], kind)
+        figure: Any = self._files[f"{name}.svg"].content
+        return rendered(figure, kind)
 
     def write(self, out: Path | None = None, *, force: bool = False) -> list[Path]:
         """Write the results into a folder, `results/NAME` in the current folder by default, and return the files.
@@ -236,10 +263,10 @@ class Results:
         from tempfile import TemporaryDirectory
 
         folder = Path("results", self.file.stem) if out is None else out
-        texts = {name: str(content) for name, content in self._texts.items()} | self.pictures()
-        contents = [(folder / name, text.encode(), False) for name, text in texts.items()]
+        texts = {name: str(file.content) for name, file in self._files.items() if isinstance(file.content, str | Page)}
+        contents = [(folder / name, text.encode(), False) for name, text in (texts | self.pictures()).items()]
         with TemporaryDirectory() as place:
-            files = [write(Path(place) / name) for name, write in self._written.items()]
+            files = [file.content(Path(place) / name) for name, file in self._files.items() if callable(file.content)]
             contents += [(folder / file.name, file.read_bytes(), True) for file in files]
         writing.check_free(contents, digits=self.digits, force=force)
         with writing.all_or_none():

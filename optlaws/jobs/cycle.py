@@ -18,7 +18,6 @@ from optlaws.exports.format import FORMATS, format_of
 from optlaws.exports.text import variable_names
 from optlaws.files import tables, writing
 from optlaws.jobs.axes.axis_transitions import (
-    TRANSITIONS,
     AxisTransition,
     Named,
     TransitionEntries,
@@ -68,39 +67,26 @@ _PEAKS = ("peak velocity", "peak acceleration", "peak jerk")
 _EXPORT_HEADINGS = ("file", "format", "points", *_PEAKS, "greatest deviation, unit")
 
 
-def exports_of(
-    spec: CycleProblemFile, cycles: Mapping[str, Cycle], file: Path, transitions: Sequence[AxisTransition] = ()
+def _exports_of(
+    spec: CycleProblemFile, cycles: Mapping[str, Cycle], transitions: Sequence[AxisTransition], results: Results
 ) -> Exports:
-    """The exports of the axes' cycles, run-ins and run-outs, computed but not yet written."""
-    exports: Exports = {}
-    together = {TOGETHER, TIMING, CLEARANCES, GIVEN}
-    for name in sorted(together & {plain_name(axis.name) for axis in spec.axis}) if len(spec.axis) > 1 else ():
-        raise InputError(f"{file}: an axis is called {name}, as the picture of all is: give it another name")
-    taken = {"cycle.md", "cycle.json", "fastest.json", TRANSITIONS}
-    taken |= {f"{name}{ending}" for name in _transition_names(spec) for ending in (".csv", ".svg")}
-    taken |= {f"{name}.svg" for name in together}
-    taken |= {f"{SWEEP}{i}{end}" for i in range(1, len(spec.sweep) + 1) for end in (".csv", ".svg")}
-    taken |= {f"{plain_name(axis.name)}{ending}" for axis in spec.axis for ending in (".csv", ".svg")}
-    drawn = (picture.name for pictures in _drive_pictures(cycles).values() for picture in pictures)
-    taken |= {f"{name}.svg" for name in drawn}
-    names = variable_names(axis.name for axis in spec.axis)
+    """The exports of the axes' cycles, run-ins and run-outs, which are put into results."""
+    exports: Exports = {axis.name: {} for axis in spec.axis}
+    names = variable_names(exports)
     for axis in spec.axis:
-        exports[axis.name] = {}
         for entry in axis.export:
-            with located(f"{file}: axis {axis.name}: export to {entry.to}"):
-                name = _file_name(axis.name, entry)
-                exported: list[tuple[str, Cycle | TransitionCam, str]] = [(name, cycles[axis.name], names[axis.name])]
+            of = f"axis {axis.name}: export to {entry.to}"
+            with located(f"{results.file}: {of}"):
+                name, variable = _file_name(axis.name, entry), names[axis.name]
                 ending = name.removeprefix(f"{plain_name(axis.name)}_")
-                exported += [
-                    (f"{cam.name}_{ending}", cam.cam, f"{names[axis.name]}_{cam.name.rpartition('run_')[2]}")
+                moved = {name: _export(cycles[axis.name], entry, variable)} | {
+                    f"{cam.name}_{ending}": _export(cam.cam, entry, f"{variable}_{cam.name.rpartition('run_')[2]}")
                     for cam in transitions
                     if cam.axis == axis.name
-                ]
-                for each, motion, variable in exported:
-                    if each in taken:
-                        raise InputError(f"another file is called {each}: give each a name of its own")
-                    taken.add(each)
-                    exports[axis.name][each] = _export(motion, entry, variable)
+                }
+            for file, export in moved.items():
+                results.add(file, export.write, of)
+            exports[axis.name] |= moved
     return exports
 
 
@@ -153,7 +139,7 @@ def run(results: Results) -> None:
     fastest = fastest_of(given, results.file) if spec.fastest else {}
     cycles = at_greatest_speed(given if overlap is None else overlap.axes, fastest)
     transitions = transitions_of(_transition_names(spec), cycles, results.file)
-    exports = exports_of(spec, cycles, results.file, transitions)
+    exports = _exports_of(spec, cycles, transitions, results)
     sweeps = sweeps_of(spec, results.file)
     results.title = spec.title
     shown = page(spec, cycles, exports, sweeps=sweeps, fastest=fastest, overlap=overlap, transitions=transitions)
@@ -168,15 +154,14 @@ def run(results: Results) -> None:
         results.data("fastest.json", {name: axis.claims() for name, axis in fastest.items()})
     pictures = _drive_pictures(cycles)
     for name, cycle in cycles.items():
-        results.text(f"{plain_name(name)}.csv", table_of_motion(cycle, spec.rows, results.about))
-        results.picture(plain_name(name), cycle_figure(cycle, f"{spec.title}: {name}"))
+        table = table_of_motion(cycle, spec.rows, results.about)
+        results.text(f"{plain_name(name)}.csv", table, f"axis {name}: its table")
+        results.picture(plain_name(name), cycle_figure(cycle, f"{spec.title}: {name}"), f"axis {name}: its picture")
         for picture in pictures[name]:
             results.picture(picture.name, picture.draw(f"{spec.title}: {name}, {picture.caption}"))
-        for file, export in exports[name].items():
-            results.add(file, export.write)
     write_transitions(results, spec.title, transitions, spec.rows)
     if len(cycles) > 1:
-        results.picture(TOGETHER, axes_figure(cycles, spec.title))
+        results.picture(TOGETHER, axes_figure(cycles, spec.title), "the picture of all axes")
     if cycles.rules:
         results.picture(TIMING, timing_figure(cycles, cycles.rules, spec.title))
     if overlap is not None:

@@ -188,3 +188,11 @@ def test_markdown_is_aligned() -> None:
         "| 0.3333333 | x            |",
         "|           | 20           |",
     ]
+
+
+@pytest.mark.parametrize("twin", ["slide.csv", "Slide.CSV"])
+def test_no_two_files_of_a_result_have_one_name(tmp_path: Path, twin: str) -> None:
+    results = Results(tmp_path / "press.toml")
+    results.text("slide.csv", MINE, "axis slide: its table")
+    with pytest.raises(InputError, match=r"axis b: export: another file is called slide\.csv, axis slide: its table: "):
+        results.add(twin, Path, "axis b: export")

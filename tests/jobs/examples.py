@@ -184,7 +184,11 @@ EXAMPLES = {
             ("mass =", "inertia =", "drive: .*inertia"),
             ('"rockwell-cam"', '"rockwell-came"', "axis slide: export to.*did you mean 'rockwell-cam'"),
             ("counts = 65536", "file = '../cam.st'", "axis slide: export to rockwell-cam: file must be a name without"),
-            ("counts = 65536", "file = 'slide.csv'", "axis slide: export.*another file is called slide.csv"),
+            (
+                "counts = 65536",
+                "file = 'slide.csv'",
+                "axis slide: its table: another file is called slide.csv, axis slide: export to rockwell-cam",
+            ),
             ("points = 61", "points = 4", "axis slide: export.*points must be from 5"),
         ),
     ),
