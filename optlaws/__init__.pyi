@@ -74,7 +74,6 @@ from .errors import (
     OptlawsError as OptlawsError,
     SolverFailure as SolverFailure,
 )
-from .files.schemas import json_schema as json_schema
 from .laws.catalogue.catalogue import catalogue as catalogue
 from .laws.catalogue.reading import read_law as read_law
 from .laws.constants import Constants as Constants
@@ -124,6 +123,7 @@ from .mechanisms.spectrum import ResponseSpectrum as ResponseSpectrum, response_
 from .motion.polynomials import PiecewiseMotion as PiecewiseMotion
 from .numbers import deg as deg
 from .numerics.peaks import Peak as Peak
+from .schemas import json_schema as json_schema
 from .studies.run import run_study as run_study
 from .studies.study import open_study as open_study
 from .synthesis.arrays.problems import ProblemArray as ProblemArray, map_arrays as map_arrays

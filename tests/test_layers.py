@@ -54,6 +54,7 @@ MAY_IMPORT = {
     "balancing": CORE,
     "plots": CORE,
     "studies": CORE,
+    "schemas": {"cycles", "errors", "suggest"},
     "results": {"kept", "echo", "errors", "files", "plots", "suggest"},
     "problems": {"errors", "files", "results", "suggest"},
     "jobs": CORE | {"plots", "studies", "results", "problems"},

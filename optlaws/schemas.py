@@ -10,7 +10,7 @@ from typing import Any
 from optlaws.errors import InputError
 from optlaws.suggest import unknown_key
 
-_PACKAGE = Path(__file__).resolve().parents[1]
+_PACKAGE = Path(__file__).resolve().parent
 #: a file of a proof alone, which has a schema of its own
 _CERTIFICATE = "certificate"
 _KINDS = (
@@ -63,13 +63,24 @@ def json_schema(kind: str) -> dict[str, Any]:
     if kind not in _KINDS:
         raise InputError(unknown_key(kind, _KINDS, "kind of file"))
     formats, proofs = _read("files", "formats"), _read("verification", "proof")
-    definitions = {**proofs["$defs"], **formats["$defs"], _CERTIFICATE: {"oneOf": proofs["oneOf"]}}
+    declared = {"cycle": _cycle()} if kind in {"cycle", "axes"} else {}
+    definitions = {**proofs["$defs"], **formats["$defs"], **declared, _CERTIFICATE: {"oneOf": proofs["oneOf"]}}
     return {
         "$schema": formats["$schema"],
         "title": f"{kind} of optlaws",
         "$ref": f"#/$defs/{kind}",
         "$defs": definitions,
     }
+
+
+def _cycle() -> dict[str, Any]:
+    """The schema of a cycle, whose laws are looked for again when it is read, from the entries that it declares."""
+    from optlaws.cycles.cycle import Cycle
+    from optlaws.cycles.interchange import FORMAT
+
+    schema = Cycle.json_schema()
+    more = {"format": {"const": FORMAT}, "about": {"$ref": "#/$defs/about"}}
+    return {**schema, "properties": {**more, **schema["properties"]}, "required": ["format", *schema["required"]]}
 
 
 @cache
