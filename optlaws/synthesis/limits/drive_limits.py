@@ -340,20 +340,12 @@ def unreachable(plane: PhasePlane, unit: float) -> DriveLimit | None:
         slow = replace(plane, squared=None, maxima=(), peak=None, limits=(), holding=None).slowed(LONG)
         torque = bound.torque.slowed(LONG)
         free = replace(slow, peak=torque)
-        for sign, form in ((1.0, bound.torque.branches[0]), (-1.0, bound.torque.branches[-1])):
-            a = np.linspace(0.0, 1.0, _LOOKS + 1)[1:]
-            load = form.values(a)[3]
-            means = (
-                np.cumsum(load) / np.arange(1, _LOOKS + 1)
-                if sign > 0.0
-                else -np.cumsum(load[::-1]) / np.arange(1, _LOOKS + 1)
-            )
+        for sign, ends, means in _mean_loads(bound.torque):
             beyond = np.flatnonzero(means >= 0.5 * (bound.at_rest + np.max(means)))
             if np.max(means) <= bound.at_rest:
                 continue
             most = int(beyond[-1])
-            ends = (0.0, float(a[most])) if sign > 0.0 else (1.0 - float(a[most]), 1.0)
-            potential = even_price(free, torque, sign, *ends)
+            potential = even_price(free, torque, sign, *ends[most].tolist())
             edges, rows = tuple(potential.edges.tolist()), tuple(map(tuple, potential.coefficients.tolist()))
             limit = DriveLimit(
                 *(
@@ -374,6 +366,20 @@ def unreachable(plane: PhasePlane, unit: float) -> DriveLimit | None:
             if limit.value > bound.at_rest * unit:
                 return replace(limit, attained=_attained(limit))
     return None
+
+
+def _mean_loads(torque: AnyTorque) -> Iterator[tuple[float, Array, Array]]:
+    """Signs, ends of ever longer ways from the first position on, or up to the last, and mean loads times the sign.
+
+    A motion from rest, or to rest, takes no less than this of a torque in the mean of the way, without its friction.
+    """
+    a = np.sin(0.5 * np.pi * np.linspace(0.0, 1.0, _LOOKS + 1)) ** 2
+    for sign, form in ((1.0, torque.branches[0]), (-1.0, torque.branches[-1])):
+        load = form.values(a)[3]
+        works = np.append(0.0, np.cumsum(0.5 * (load[1:] + load[:-1]) * np.diff(a)))
+        first, last = (np.zeros(_LOOKS), a[1:]) if sign > 0.0 else (a[-2::-1], np.ones(_LOOKS))
+        work = works[1:] if sign > 0.0 else works[-1] - works[-2::-1]
+        yield sign, np.stack([first, last], axis=1), sign * work / (last - first)
 
 
 def _proves(limit: DriveLimit) -> tuple[float, float]:
@@ -456,6 +462,10 @@ def _certificates(standing: Standing, motion: PhaseOptimum) -> Iterator[tuple[Po
     if plane.peak is not None and (sign := standing_sign(plane)):
         yield none, little, float(sign), True
         yield even_price(plane, plane.peak, float(sign)), little, 0.0, True
+    if plane.peak is not None:
+        for way, ends, means in _mean_loads(plane.peak):
+            if np.max(means) > 0.0:
+                yield even_price(plane, plane.peak, way, *ends[int(np.argmax(means))].tolist()), little, 0.0, True
     elif standing.level:
         yield none, little, 0.0, True
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import reduce
 from itertools import pairwise
-from math import comb, inf, pi
+from math import comb, inf, nextafter, pi, sqrt
 from typing import NamedTuple
 
 import numpy as np
@@ -203,7 +203,7 @@ class ProofCells:
                 for side in sides
             )
         self.end = np.logical_or(*(side & (distance < most) for side, most in zip(sides, self.reach, strict=True)))
-        self.most = np.where(self.end, inf, self.plane.velocity_bound(*self._positions()))
+        self.most = np.where(self.end, self._most_at_ends(), self.plane.velocity_bound(*self._positions()))
         scale = np.where(self.end, sine.reshape(shape), 1.0)
         self.x = np.minimum(_to_ends(b.reshape(shape) / scale), self.most)
         self.prices = [
@@ -218,6 +218,15 @@ class ProofCells:
         self._keep_to_windows()
         self.mixed = self.follows[0] != self.follows[1]
         self.follows = np.where(self.mixed, last, self.follows[0])
+
+    def _most_at_ends(self) -> Array:
+        """The greatest velocity within the acceleration's bound, over sin(pi s), in cells near rest."""
+        if inf == self.plane.C:
+            return np.full(len(self.low), inf)
+        far = exact(np.minimum(self.high, 1.0 - self.low))
+        # b² <= 2 C sin²(pi s/2), also with the distance from the last end
+        steepest = nextafter(sqrt(0.5 * self.plane.C), inf)
+        return np.asarray((exact(np.full(len(self.low), steepest)) / (far * PI * 0.5).cosine()).high)
 
     def _positions(self) -> tuple[Array, Array]:
         """The least and the greatest position in every cell, rounded outward."""

@@ -36,6 +36,7 @@ _SHORTEST = 1e-12  # of the move: nodes that are nearer are one
 
 _CELLS, _STEPS, _WIDEST = 320, 40, 60.0
 _PLACES, _PARTS = 4, 32
+_WIDER = (1.0001, 1.001, 1.01)  # of a cap's squared velocity: motions below it take a little less than the time
 _X, _SHARES = gauss(_PLACES)
 #: where in a cell a motion is known: at its start, at the places of Gauss's rule, its end, and its middle
 _PLACES_OF_CELL = np.concatenate([[0.0], 0.5 * (_X + 1.0), [1.0, 0.5]])
@@ -202,7 +203,7 @@ class MotionCells:
         arc, here = np.argmax(alone, axis=0), np.arange(len(cap))
         w, c = (np.array(values)[arc, here] for values in ((cap, forward.w, back.w), (c, forward.c, back.c)))
         mixed = np.flatnonzero(~alone.any(axis=0))
-        capped = self.greatest[mixed, None]
+        capped = np.repeat(self.greatest[mixed, None], _PARTS + 1, axis=1)
         if isfinite(scale):
             capped = np.minimum(capped, scale * (self.cap[0][mixed, :_MIDDLE] @ _OF_PARTS.T))
         both = forward.in_parts(mixed), back.in_parts(mixed)
@@ -210,6 +211,7 @@ class MotionCells:
         first, last = (lowest[mixed, place, None] for place in (_START, _END))
         # where the cap winds too much about the motion, that has one acceleration
         winds = (~fits | bends)[mixed] & (several[0] <= lowest).any(axis=1)[mixed]
+        winds |= self._breaks(sides, mixed, capped, capped <= parts)
         ways = np.cumsum(self._ways(mixed), axis=1)
         parts = np.where(winds[:, None], np.append(first, first + (last - first) * ways / ways[:, -1:], axis=1), parts)
         parts[:, :1], parts[:, -1:] = first, last
@@ -221,6 +223,14 @@ class MotionCells:
             alone = at[:, 1:] & at[:, :-1] & ~winds[:, None]
             rates = np.where(alone, sides.in_middles(mixed, parts, ahead=ahead), rates)
         return _Motion(w, c, mixed, parts, rates)
+
+    def _breaks(self, sides: _Sides, mixed: NDArray[np.intp], cap: Array, lowest: NDArray[np.bool_]) -> Array:
+        """The cells in parts of which the cap is the motion, and breaks a bound between the places of the cell."""
+        with np.errstate(all="ignore"):
+            c = 0.5 * np.diff(cap, axis=1) / self._ways(mixed)
+            most, least = (sides.in_middles(mixed, cap, ahead=ahead) for ahead in (True, False))
+            beyond = (c > most + _BOUND_KEPT * np.abs(most)) | (c < least - _BOUND_KEPT * np.abs(least))
+        return np.asarray((beyond & lowest[:, 1:] & lowest[:, :-1]).any(axis=1))
 
     def keeps(self, motion: _Motion) -> bool:
         """Whether a motion keeps the bounds at all places of cells, and in the middles of their parts."""
@@ -579,27 +589,38 @@ def _mean(cells: MotionCells, motion: _Motion) -> float:
 
 
 def _of_peak(cells: MotionCells) -> float:
-    """The least peak of a motion in the whole time, or with a rest in it."""
+    """The least peak of a motion in the whole time, or with a rest in it: as fast as bounds allow, or below the cap."""
+    best, exceeded = _least_peak(cells, inf)
+    if exceeded and len(cells.s) == len(cells.elements.s):
+        best = min([best, *(_least_peak(cells, scale)[0] for scale in _WIDER)])
+    return best
+
+
+def _least_peak(cells: MotionCells, scale: float) -> tuple[float, bool]:
+    """The least peak of motions below a scaled cap, and whether it is above the bound within which it was found.
+
+    Where bounds leave no acceleration, the fastest motion breaks one of them, which slower motions may keep.
+    """
     plane = cells.plane
     assert plane.peak is not None  # noqa: S101 - it is minimised
     torque = plane.peak
-    size = torque.size
 
     @cache
     def motion(by: float) -> _Motion | None:
-        return cells.motion(inf, (*plane.bounds, TorqueLimit(torque, size * exp(by))))
+        known = cells.motion(scale, (*plane.bounds, TorqueLimit(torque, torque.size * exp(by))))
+        return known if known is not None and cells.keeps(known) else None
 
-    best = inf
     for by in _root(partial(_excess, cells, motion)):
         known = motion(by)
-        if known is None or not cells.keeps(known):
+        if known is None:
             continue
-        peak = cells.peak(torque, known)
-        rest = 1.0 - cells.time(known)
+        peak, rest = cells.peak(torque, known), 1.0 - cells.time(known)
+        exceeded = peak > torque.size * exp(by) * (1.0 + _BOUND_KEPT)
         if rest > INTEGRATION:
-            peak = max(peak, min(abs(torque) for torque in _holding(plane)))
-        best = min(best, peak) if rest >= -INTEGRATION else best
-    return best
+            peak = max(peak, min(abs(held) for held in _holding(plane)))
+        if rest >= -INTEGRATION:
+            return peak, exceeded
+    return inf, True
 
 
 def _root(excess: Callable[[float], float]) -> tuple[float, ...]:
