@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from math import ceil, isfinite, log10
+from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import msgspec
 
+from optlaws.entries.value_types import ReadBy
 from optlaws.errors import located
-from optlaws.files.problem_file import Text
+from optlaws.files.problem_file import Text, convert
 from optlaws.synthesis import Problem, Range, Solution, Status
 from optlaws.synthesis.problem.fields import ENTRIES, Kind
 from optlaws.synthesis.problem.windows import Window
@@ -69,6 +71,18 @@ else:
         "Values that entries take in turn; lists in one table go together and are of one length.",
         {name: Annotated[list[TYPES[entry.kind]], Some] for name, entry in ENTRIES.items()},
     )
+
+
+class ProblemTable(ReadBy):
+    """The table of a problem, of which the given entries are kept."""
+
+    entries = ProblemEntries
+
+
+#: the space of laws in files that look for laws in it
+PROBLEM = ProblemTable(
+    lambda data: convert(data, ProblemEntries, Path("its entries")).given(), "a table of the entries of a `Problem`"
+)
 
 
 def problem(where: str, *parts: Mapping[str, Any]) -> Problem:

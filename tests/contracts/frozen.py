@@ -178,7 +178,9 @@ def kind_of_value(values: Any) -> str:
 def tables_of(values: Any) -> Iterator[tuple[Any, str]]:
     """Declared values in the type of an entry, and how they are addressed."""
     name = type_name(values)
-    if name == "ValueOf":
+    if hasattr(values, "entries") and name == "ReadBy":
+        yield values.entries, ""
+    elif name == "ValueOf":
         yield values.of, ""
     elif name in {"Listed", "Table"}:
         suffix = "[]" if name == "Listed" else ".*"

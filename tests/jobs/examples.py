@@ -221,7 +221,7 @@ EXAMPLES = {
             ('mechanism = { kind = "table", inertia = "0.8 kg m^2" }\n', "", "move table: drive: a motor drives"),
             ('["residual acceleration", "jerk"]', '["jerk"]', "move arm: follower: give a limit or a front"),
             ('longest = "0.24 s"', 'longest = "0.2 s"', "move arm: front: longest must be above the least time"),
-            ('frequency = "16 Hz"', 'frequency = "16 mm"', "move arm: front: follower: frequency"),
+            ('frequency = "16 Hz"', 'frequency = "16 mm"', "move arm: follower: frequency"),
             ('limits = { jerk = "300 m/s^3" }', "limits = {}", "move arm: limits must name one"),
         ),
     ),

@@ -38,6 +38,15 @@ _OF_WHOLE = {
     "energy": _limit("Of the drive over the cycle.", "energy", example="12 J"),
     "motor": entry(Switch(), "Whether all limits of its motor hold.", default=None, example=True),
 }
+_OF_MOVE = {
+    **{name: _OF_MOTION[name] for name in ("velocity", "acceleration", "deceleration", "jerk")},
+    "snap": _sided("snap", "900000 m/s^4"),
+    "torque": _limit("At its motor.", "torque", example="6 N m"),
+    "rms torque": _limit("At its motor, over the move.", "torque", example="2 N m"),
+    "residual acceleration": _limit(
+        "The amplitude that its follower vibrates on with.", "acceleration", "angular acceleration", example="0.5 m/s^2"
+    ),
+}
 _LOADED = ReadBy(written, "a quantity, or of a `Machine` a number in SI units", json={"type": ["string", "number"]})
 _OF_CYCLE = dict.fromkeys(_OF_WHOLE, "is of the whole cycle: give it among the limits of the Cycle")
 
@@ -48,3 +57,4 @@ LIMITS_OF_CYCLE = TableOf(
     keep=FrozenTable,
     further=lambda name: _LOADED if name.removeprefix("rms ").startswith("load ") else None,
 )
+LIMITS_OF_MOVE = TableOf("limit", _OF_MOVE, keep=FrozenTable)

@@ -28,7 +28,8 @@ _PERCENT = 100.0
 
 def run(results: Results) -> None:
     """Put the tables, the page, the pictures, and laws with their proofs into results."""
-    spec = results.read(FastestProblemFile)
+    spec = FastestProblemFile.read(results.entries, results.file)
+    results.title = spec.title
     files = [plain_name(move.name) for move in spec.move]
     if len(set(files)) < len(files) or {"about", "fastest"} & set(files):
         raise InputError(

@@ -2,64 +2,86 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
-from typing import Annotated, Any
-
-import msgspec
+from typing import Any
 
 from optlaws.cycles.moves.fastest_move import FastestMove
 from optlaws.cycles.moves.front_over_time import time_front
 from optlaws.cycles.moves.time_front import TimeFront
 from optlaws.cycles.moves.timed_moves import fastest, fastest_moves
+from optlaws.cycles.moves.vibration_limits import VibratingFollower
+from optlaws.cycles.specification.frozen import FrozenTable
+from optlaws.cycles.specification.limit_entries import LIMITS_OF_MOVE
+from optlaws.cycles.specification.segments import Move
+from optlaws.entries.declared import Declared, ValueOf, declared, entry, same
+from optlaws.entries.value_types import Either, Listed, Measured, Text, Whole, is_list
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure, located
-from optlaws.files.problem_file import Text
 from optlaws.jobs.axes.drive_entries import drive_of
-from optlaws.jobs.job import JobFile
+from optlaws.jobs.cycle_entries import AxisEntries
+from optlaws.jobs.job import ProblemFile
 from optlaws.mechanisms.drives.drive_train import Drive
-from optlaws.studies.problem_entries import ProblemEntries, problem
+from optlaws.numbers import Quantity
+from optlaws.studies.problem_entries import PROBLEM, problem
 from optlaws.synthesis.least_time.follower_residual import RESIDUAL
 from optlaws.synthesis.least_time.move_objective import AT_MOTOR
 from optlaws.synthesis.problem.problem import Problem
 
-Strokes = Annotated[list[str], msgspec.Meta(min_length=2, max_length=1000)]
+_STROKE = Measured("length", "angle")
 
 
-class FrontOverTimeEntries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+@declared
+class FrontOverTimeEntries(Declared, title="a front"):
     """Fronts over the time: what is least, how long the longest time is, and how many points there are."""
 
-    minimise: Annotated[list[str], msgspec.Meta(min_length=1, max_length=6)]
-    longest: str | None = None
-    points: Annotated[int, msgspec.Meta(ge=2, le=200)] = 17
+    minimise: tuple[str, ...] = entry(
+        Listed(Text(), least=1, most=6), "What is least, each with a front.", example=["rms acceleration"]
+    )
+    longest: Quantity | None = entry(
+        Measured("time", above=0.0), "The longest time; twice the least unless given.", default=None, example="0.3 s"
+    )
+    points: int = entry(Whole(2, 200), "How many there are.", default=17)
 
 
-class VibratingEntries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
-    """Elastic load of a move: its natural frequency, or the least and the greatest, and its damping ratio."""
-
-    frequency: str | list[str]
-    damping: float = 0.0
-
-
-class MoveEntries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+@declared
+class MoveEntries(Declared, title="a move"):
     """A move, or moves of several strokes, within the limits of a machine."""
 
-    name: Text
-    stroke: str | Strokes
-    limits: dict[str, str | list[str]] = {}
-    start_velocity: str | None = None
-    end_velocity: str | None = None
-    mechanism: dict[str, Any] | None = None
-    drive: dict[str, Any] | None = None
-    start: str | None = None
-    follower: VibratingEntries | None = None
-    front: FrontOverTimeEntries | None = None
+    _: KW_ONLY
+    name: str = entry(Text(), "What tables, pictures and files call it.", example="slide")
+    stroke: Quantity | tuple[Quantity, ...] = entry(
+        Either(_STROKE, Listed(_STROKE, least=2, most=1000), which=is_list),
+        "How far it goes, or a list of up to 1,000 strokes.",
+        example="100 mm",
+    )
+    limits: Mapping[str, Any] = entry(
+        LIMITS_OF_MOVE, "Of the machine.", default=FrozenTable(), example={"velocity": "1 m/s", "jerk": "300 m/s^3"}
+    )
+    start_velocity: Quantity | None = same(Move, "start_velocity")
+    end_velocity: Quantity | None = same(Move, "end_velocity")
+    mechanism: Mapping[str, Any] | None = same(AxisEntries, "mechanism")
+    drive: Mapping[str, Any] | None = same(AxisEntries, "drive")
+    start: Quantity | None = entry(
+        _STROKE, "Where the input of the mechanism begins, 0 unless given.", default=None, example="0 deg"
+    )
+    follower: VibratingFollower | None = entry(ValueOf(VibratingFollower), "What vibrates.", default=None)
+    front: FrontOverTimeEntries | None = entry(
+        ValueOf(FrontOverTimeEntries), "What is least over the time.", default=None
+    )
 
 
-class FastestProblemFile(JobFile, kw_only=True, forbid_unknown_fields=True):
+@declared
+class FastestProblemFile(ProblemFile, title="a problem file"):
     """The problem file of least times."""
 
-    move: Annotated[list[MoveEntries], msgspec.Meta(min_length=1, max_length=8)]
-    problem: ProblemEntries | None = None
+    _: KW_ONLY
+    move: tuple[MoveEntries, ...] = entry(
+        Listed(ValueOf(MoveEntries), least=1, most=8, each="move", named=True), "Moves with their limits."
+    )
+    problem: Mapping[str, Any] | None = entry(
+        PROBLEM, "The space of laws: `order`, 3 unless given, `basis`, `degree`, `windows`, ...", default=None
+    )
 
 
 @dataclass(frozen=True)
@@ -79,7 +101,7 @@ def sought(spec: FastestProblemFile, file: Path) -> list[SoughtMove]:
     InputError, InfeasibleProblem, SolverFailure
         If an entry is wrong, or a move has no law; the error names the move.
     """
-    space = problem("problem", {"order": 3}, {} if spec.problem is None else spec.problem.given())
+    space = problem("problem", {"order": 3}, spec.problem or {})
     moves = []
     for move in spec.move:
         try:
@@ -93,11 +115,11 @@ def sought(spec: FastestProblemFile, file: Path) -> list[SoughtMove]:
 def _sought(move: MoveEntries, space: Problem, folder: Path) -> SoughtMove:
     """The least times and the fronts of one move."""
     given = arguments_of(move, folder)
-    if not isinstance(move.stroke, str):
+    if isinstance(move.stroke, tuple):
         if move.front is not None:
             raise InputError("front: it is that of one stroke: give the strokes to a move of another name")
         return SoughtMove(move.name, fastest_moves(space, strokes=move.stroke, **given), ())
-    minimise = [] if move.front is None else move.front.minimise
+    minimise = () if move.front is None else move.front.minimise
     if len(set(minimise)) < len(minimise):
         raise InputError(f"front: minimise names one of them twice: {', '.join(minimise)}")
     if move.follower is not None and "follower" not in given and RESIDUAL not in minimise:
@@ -124,7 +146,7 @@ def arguments_of(move: MoveEntries, folder: Path) -> dict[str, Any]:
     if motor is not None:
         given |= {"drive": motor, "start": move.start or 0.0}
     if move.follower is not None and RESIDUAL in move.limits:
-        given["follower"] = msgspec.structs.asdict(move.follower)
+        given["follower"] = move.follower
     return given
 
 
@@ -136,7 +158,7 @@ def front_of(
     if minimise in AT_MOTOR and "drive" in given:
         machine = {"drive": given["drive"], "start": given["start"]}
     elif minimise == RESIDUAL:
-        machine = {"follower": None if move.follower is None else msgspec.structs.asdict(move.follower)}
+        machine = {"follower": move.follower}
     longest, points = extent
     return time_front(quickest, minimise, longest=longest, points=points, **machine)
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache, partial
@@ -21,7 +22,6 @@ from optlaws.explorer.views import cycle_view
 from optlaws.explorer.views.law_view import TITLES, digits, drawn, gap_text, refusal
 from optlaws.explorer.views.picture_points import refined
 from optlaws.explorer.views.requests import MOST_DEGREE, MOST_ORDER, Question, without_files
-from optlaws.files.problem_file import convert
 from optlaws.jobs.cycle_entries import AxisEntries, CycleProblemFile
 from optlaws.jobs.moves.move_entries import FastestProblemFile, MoveEntries, arguments_of, front_of
 from optlaws.mechanisms.drives.sheet import share_used
@@ -111,21 +111,20 @@ def proof_of(request: FastestRequest) -> dict[str, Any]:
 
 
 def _read(request: FastestRequest) -> _Sought:
-    spec = convert(request.study, FastestProblemFile, _WHERE)
+    spec = FastestProblemFile.read(request.study, _WHERE)
     move = spec.move[min(request.move, len(spec.move) - 1)]
     if (move.drive or {}).get("motors") is not None:
         raise InputError("motors: the page reads no catalogue: give the motor as a table, or start with the file")
     without_files(request.study.get("problem"))
-    space = {} if spec.problem is None else spec.problem.given()
+    space = spec.problem or {}
     if space.get("bounds"):
         raise InputError("problem: it gives no limits of its own: limits are those of the move")
-    return _sought(msgspec.json.encode((move, space)))
+    return _sought(move, json.dumps(space))
 
 
 @lru_cache(maxsize=64)
-def _sought(question: bytes) -> _Sought:
-    move, entries = msgspec.json.decode(question, type=tuple[MoveEntries, dict[str, Any]])
-    space: Problem = problem("problem", {"order": 3}, entries)
+def _sought(move: MoveEntries, entries: str) -> _Sought:
+    space: Problem = problem("problem", {"order": 3}, json.loads(entries))
     whole(space.order, "order", least=1, most=MOST_ORDER)
     degree = space.basis.to_dict().get("degree")
     if isinstance(degree, int):
