@@ -183,6 +183,8 @@ class Declared(JsonText):
     named: ClassVar[str] = "a value"
     #: whether `to_dict` writes entries that have their default too
     writes_defaults: ClassVar[bool] = False
+    #: of these not even then, as versions before do not know them
+    newer: ClassVar[tuple[str, ...]] = ()
 
     def __init_subclass__(cls, *, title: str = "", **keywords: Any) -> None:
         super().__init_subclass__(**keywords)
@@ -223,7 +225,7 @@ class Declared(JsonText):
         plain = {}
         for each in entries_of(type(self)).values():
             value = getattr(self, each.name)
-            if self.writes_defaults or value != each.kept_default:
+            if (self.writes_defaults and each.name not in self.newer) or value != each.kept_default:
                 plain[each.name] = None if value is None else each.type.plain(value)
         return plain
 

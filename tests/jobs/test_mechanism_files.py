@@ -172,6 +172,17 @@ def test_a_motor_is_given_in_the_file_or_by_a_catalogue(tmp_path: Path) -> None:
         read(entries(CRANK, {"motor": "smal", "motors": "motors.toml"}), tmp_path / "driven.toml")
 
 
+@pytest.mark.parametrize("entry", Drive.form()["entries"], ids=lambda entry: entry["name"])
+def test_every_entry_of_a_drive_that_forms_offer_is_one_of_files(entry: dict[str, Any]) -> None:
+    """What a form asks can be given in a file, and changes the drive that is made of it."""
+    plain = driven(CRANK, {"motor": MOTOR})
+    changed = driven(CRANK, {"motor": MOTOR, entry["name"]: entry["example"]})
+    assert changed != plain
+    assert changed.to_dict().keys() - plain.to_dict().keys() <= {entry["name"]}
+    (again,) = read(entries(CRANK, {"motor": MOTOR, entry["name"]: changed.to_dict()[entry["name"]]}), Path("again"))[1:]
+    assert again["input"].drive == changed
+
+
 @pytest.mark.parametrize(
     "drive", [KINDS["cam"][1], KINDS["four bar"][1], driven(CRANK, DRIVE)], ids=["cam", "linkage", "motor"]
 )

@@ -100,6 +100,7 @@ class Drive(Declared, title="a drive"):
     """
 
     writes_defaults = True
+    newer = ("no_load_torque",)
 
     mechanism: Mechanism = entry(
         MechanismValue(), "Whose input the gear turns: one whose input turns too.", shown=False
@@ -135,6 +136,12 @@ class Drive(Declared, title="a drive"):
         default=0.0,
         example=0.5,
     )
+    no_load_torque: SINumber = entry(
+        InSI("torque", least=0.0),
+        "What the gear takes to turn without load, at the motor's shaft and against the motion.",
+        default=0.0,
+        example="0.05 N m",
+    )
 
     def _check(self) -> None:
         if self.mechanism.axis != "angle":
@@ -155,7 +162,7 @@ class Drive(Declared, title="a drive"):
     def train(self) -> Train:
         """Motor and gear in numbers."""
         turning = self.motor.inertia + self.inertia
-        return Train(turning, self.motor.viscous, self.motor.coulomb, *self.efficiencies)
+        return Train(turning, self.motor.viscous, self.motor.coulomb + self.no_load_torque, *self.efficiencies)
 
     def with_ratio(self, ratio: float) -> Drive:
         """The drive with another ratio."""

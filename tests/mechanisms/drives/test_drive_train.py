@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -99,6 +100,24 @@ def test_sheet_and_formulas_of_a_press(stroke: float) -> None:
     law, at = smoothstep(3), np.array([0.2, 0.5, 0.83])
     x, v, w = start + stroke * law(at), stroke / 0.3 * law(at, 1), stroke / 0.09 * law(at, 2)
     assert np.sign(stroke) * drive.torque(x, v, w) == pytest.approx([by_hand(float(p), 5.0, stroke)[0] for p in at])
+
+
+@pytest.mark.parametrize("efficiency", [1.0, (0.9, 0.8)])
+def test_a_gear_without_load_takes_its_torque_against_the_motion(efficiency: Any) -> None:
+    """As friction of the motor does, in torques, sheets, bounds and the best ratio; at rest there is none of it."""
+    free = Drive(PRESS, MOTOR, ratio=5.0, efficiency=efficiency)
+    geared = replace(free, no_load_torque="30 mN m")
+    rubbing = replace(free, motor=replace(MOTOR, coulomb=MOTOR.coulomb + 0.03))
+    speeds = np.array([-1.0, 1.0, 2.0])
+    more = geared.torque(0.4, speeds, 1.0) - free.torque(0.4, speeds, 1.0)
+    assert more == pytest.approx(0.03 * np.sign(speeds))
+    assert geared.torque(0.4, 0.0, 0.0) == free.torque(0.4, 0.0, 0.0)
+    move: tuple[Any, ...] = ("modified sine", 0.3, 2.5, 0.3)
+    assert geared.sheet(*move, period=0.5) == rubbing.sheet(*move, period=0.5)
+    assert geared.limit("rms torque", *move[1:]).value == rubbing.limit("rms torque", *move[1:]).value
+    assert geared.best_ratio(*move).ratio == rubbing.best_ratio(*move).ratio
+    assert Drive.from_json(geared.to_json()) == geared
+    assert "no_load_torque" not in free.to_dict()
 
 
 def test_the_load_is_held_between_moves() -> None:
