@@ -18,11 +18,12 @@ from optlaws.cams.curves.plane_curve import CurveAlongNormals, CurveAtEachPlace,
 from optlaws.cams.curves.spline import spline
 from optlaws.cams.disc import DiscCam
 from optlaws.cams.followers.contact import FollowerContact, shifted
+from optlaws.entries.value_types import Whole
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.laws.storage import PlainNumbers
 from optlaws.motion.quantities import positive_quantity, quantity
-from optlaws.numbers import Array, Quantity, whole
+from optlaws.numbers import Array, Quantity
 from optlaws.numerics.branch_and_bound import extremes_of_each
 from optlaws.numerics.interval import Interval
 from optlaws.numerics.taylor import Jet, Pair, turned, variable
@@ -183,11 +184,11 @@ def _outward(curve: Outline) -> float:
     return 1.0 if area > 0.0 else -1.0
 
 
-CURVES = ("profile", "pitch")
+MADE_CURVES = ("profile", "pitch")
 ManufacturedFormat = Literal["csv", "csv polar", "dxf spline", "svg", "dxf arcs", "g-code arcs"]
 _CELLS = 128
 _SHIFTS = (0.0, 0.5 * pi, pi, 1.5 * pi)
-_MOST_WAVES = 100_000
+WAVES = Whole(1, 100_000)
 _UNREACHED = (
     "the follower does not reach all of the cam as made: it has corners or hollows narrower than the roller; "
     "ask for more decimals, fewer points or waves, or a lesser error"
@@ -452,8 +453,8 @@ def manufactured_tables(cam: DiscCam, curve: str, tables: Sequence[Cutting]) -> 
 
 def _cut(cam: DiscCam, curve: str) -> tuple[Outline, float]:
     """The curve of the cam that its files describe, and how far it is outside of the profile, m."""
-    if curve not in CURVES:
-        raise InputError(unknown_key(curve, CURVES, "curve"))
+    if curve not in MADE_CURVES:
+        raise InputError(unknown_key(curve, MADE_CURVES, "curve"))
     return (cam.profile, 0.0) if curve == "profile" else (cam.pitch_curve, cam.contact.roller)
 
 
@@ -493,7 +494,7 @@ def with_profile_error(cam: DiscCam, error: Quantity, waves: Any) -> AsMade:
 def profile_errors(cam: DiscCam, error: Quantity, waves: Sequence[Any]) -> list[AsMade | None]:
     """What `with_profile_error` finds of so many waves each; None where the follower does not reach all of the cam."""
     amplitude = positive_quantity(error, "length", "error")
-    counts = [whole(count, "waves", least=1, most=_MOST_WAVES) for count in waves]
+    counts = [WAVES.read(count, "waves") for count in waves]
     curves = [WavyCurve(cam.profile, amplitude, count, shift) for count in counts for shift in _SHIFTS]
     followings = [_following(cam, curve) for curve in curves]
     numbers, shifts, outward = (

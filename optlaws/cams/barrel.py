@@ -26,14 +26,50 @@ from optlaws.cams.curves.plane_curve import CurveByAngle
 from optlaws.cams.disc import Turning, sense
 from optlaws.cams.followers.follower import positive, shown
 from optlaws.cycles.cycle import Cycle
+from optlaws.entries.declared import Declared, declared, entry
+from optlaws.entries.value_types import Measured
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.numbers import Array, Quantity, derivative, number_or_array, real_times
 from optlaws.numerics.taylor import Jet, variable
 from optlaws.suggest import unknown_key
 
+LENGTH = Measured("length", above=0.0)
 Side = Literal["upper", "lower"]
 SIDES: dict[Side, float] = {"upper": 1.0, "lower": -1.0}
+
+
+@declared
+class Groove(Declared, title="a barrel"):
+    """A cylinder with a groove, and the roller in it."""
+
+    outer_radius: Quantity = entry(LENGTH, "Of the cylinder.", example="60 mm")
+    depth: Quantity = entry(LENGTH, "Of the groove.", example="12 mm")
+    roller_radius: Quantity = entry(LENGTH, "Of the roller.", example="8 mm")
+
+    @property
+    def radii(self) -> tuple[float, float]:
+        """Radius of the cylinder, and of the bottom of the groove, m."""
+        outer = positive(self.outer_radius, "outer_radius")
+        return outer, outer - positive(self.depth, "depth")
+
+    @property
+    def roller(self) -> float:
+        """The radius of the roller, m."""
+        return positive(self.roller_radius, "roller_radius")
+
+    def _check(self) -> None:
+        outer, inner = self.radii
+        if inner <= 0.0:
+            raise InputError(
+                f"depth must be less than the radius of the cylinder, {shown(outer)}, got {shown(outer - inner)}:"
+                " make the groove shallower or the cylinder larger"
+            )
+        if self.roller >= inner:
+            raise InputError(
+                f"roller_radius {shown(self.roller)} is not less than the radius at the bottom of the groove,"
+                f" {shown(inner)}: make the roller smaller or the cylinder larger"
+            )
 
 
 @dataclass(frozen=True)
@@ -72,17 +108,7 @@ class BarrelCam:
 
     def __post_init__(self) -> None:
         sense(self.turning)
-        outer, inner = self.radii
-        if inner <= 0.0:
-            raise InputError(
-                f"depth must be less than the radius of the cylinder, {shown(outer)}, got {shown(outer - inner)}:"
-                " make the groove shallower or the cylinder larger"
-            )
-        if self.roller >= inner:
-            raise InputError(
-                f"roller_radius {shown(self.roller)} is not less than the radius at the bottom of the groove,"
-                f" {shown(inner)}: make the roller smaller or the cylinder larger"
-            )
+        self.radii  # noqa: B018 - a groove that is none is refused at once
         self.displacement  # noqa: B018 - a motion of another kind is refused at once
 
     @kept_property
@@ -91,15 +117,18 @@ class BarrelCam:
         return as_motion(self.motion, "length")
 
     @kept_property
+    def _groove(self) -> Groove:
+        return Groove(self.outer_radius, self.depth, self.roller_radius)
+
+    @kept_property
     def radii(self) -> tuple[float, float]:
         """Radius of the cylinder, and of the bottom of the groove."""
-        outer = positive(self.outer_radius, "outer_radius")
-        return outer, outer - positive(self.depth, "depth")
+        return self._groove.radii
 
     @kept_property
     def roller(self) -> float:
         """The radius of the roller in metres."""
-        return positive(self.roller_radius, "roller_radius")
+        return self._groove.roller
 
     @property
     def pitch_curve(self) -> SpaceCurve:

@@ -15,12 +15,13 @@ from optlaws.cams.disc import DiscCam
 from optlaws.cams.followers.contact import Friction, Transmission
 from optlaws.cycles.cycle import Cycle
 from optlaws.cycles.specification.drive import read_linear_drive
-from optlaws.echo import shortened
+from optlaws.entries.declared import Declared, ValueOf, declared, entry
+from optlaws.entries.value_types import Measured, Number, ReadBy, Together
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.mechanisms.linkages.linear_force import LinearForce
 from optlaws.motion.quantities import TURN, in_degrees, positive_quantity, quantity
-from optlaws.numbers import Array, Quantity, finite, number_or_array, real_times
+from optlaws.numbers import Array, Quantity, number_or_array, real_times
 from optlaws.numerics.branch_and_bound import Extremes, Function, extremes
 from optlaws.numerics.integral import integral
 from optlaws.numerics.interval import Interval, highest, middle
@@ -38,14 +39,69 @@ MATERIALS = {
     "bronze": ("110 GPa", 0.34),
     "aluminium": ("70 GPa", 0.33),
 }
-_ENTRIES = ("young", "poisson")
+
+
+@declared
+class Material(Declared, title="a material"):
+    """A material of a cam or its follower."""
+
+    young: Quantity = entry(Measured("pressure", above=0.0), "Young's modulus.", example="210 GPa")
+    poisson: float = entry(Number(above=-1.0, most=0.5), "Poisson's ratio.", example=0.3)
+
+    @property
+    def yielding(self) -> float:
+        """(1 - nu²)/E, 1/Pa."""
+        return (1.0 - self.poisson**2) / quantity(self.young, "pressure", "young")
+
+
+def _material(given: Any) -> Any:
+    """The name of a material, or one of one's own."""
+    if isinstance(given, str) and given not in MATERIALS:
+        raise InputError(
+            f"{unknown_key(given, MATERIALS, 'material')}; one of your own is {{'young': '3 GPa', 'poisson': 0.4}}"
+        )
+    return given if isinstance(given, str | Material) else Material.from_dict(given)
+
+
+_MATERIAL = ReadBy(
+    _material,
+    f"{', '.join(MATERIALS)}, or a table of young and poisson",
+    lambda material: material if isinstance(material, str) else material.to_dict(),
+)
+
+
+@declared
+class Surfaces(Declared, title="forces"):
+    """The surfaces of a cam and its follower, from which friction and pressure follow."""
+
+    friction: Friction = entry(
+        ValueOf(Friction), "Friction of the surfaces, and of a slide in its guide.", default=Friction()
+    )
+    width: Quantity | None = entry(
+        Measured("length", above=0.0), "Of the contact, for Hertz's pressure.", default=None, example="20 mm"
+    )
+    materials: tuple[Any, Any] = entry(
+        Together(_MATERIAL, _MATERIAL, names=("cam", "follower")),
+        "Of the cam and of the follower, for Hertz's pressure.",
+        default=("steel", "steel"),
+    )
+
+    def line(self, roller: float) -> LineContact | None:
+        """The contact along a line with a follower of a radius in m, 0 for a face; None where it has no width."""
+        if self.width is None:
+            return None
+        cam, follower = (
+            Material(*MATERIALS[material]) if isinstance(material, str) else material for material in self.materials
+        )
+        width = positive_quantity(self.width, "length", "width")
+        return LineContact(width, 1.0 / (cam.yielding + follower.yielding), 1.0 / roller if roller else 0.0)
 
 
 @dataclass(frozen=True)
 class LineContact:
     """A contact along a line: p = sqrt(N E / (pi width R)) with 1/E the sum of (1 - nu²)/E of both bodies, SI units.
 
-    >>> contact = line_contact("20 mm", ("steel", "steel"), roller=0.012)
+    >>> contact = LineContact(0.02, 210e9 / (2.0 * (1.0 - 0.3**2)), 1.0 / 0.012)
     >>> round(float(contact.pressure(np.array(1000.0), np.array(0.08))) / 1e6, 3)
     419.51
     """
@@ -71,39 +127,7 @@ class LineContact:
         return force * both * (self.modulus / (pi * self.width))
 
 
-def line_contact(width: Any, materials: Any, roller: float) -> LineContact:
-    """A contact from its width, the materials of cam and follower, and the follower's radius in m (0 for a face).
-
-    A material is one of `MATERIALS`, whose values are those of a handbook, or {"young": "3 GPa", "poisson": 0.4} from a
-    data sheet.
-    """
-    length = positive_quantity(width, "length", "width")
-    if not isinstance(materials, tuple | list) or len(materials) != 2:
-        raise InputError(f"materials must be two, of the cam and of the follower, got {shortened(materials)}")
-    yielding = sum((1.0 - poisson**2) / young for young, poisson in map(_material, materials))
-    return LineContact(length, 1.0 / yielding, 1.0 / roller if roller else 0.0)
-
-
-def _material(given: Any) -> tuple[float, float]:
-    """Young's modulus in Pa, and Poisson's ratio."""
-    if isinstance(given, str):
-        if given not in MATERIALS:
-            raise InputError(
-                f"{unknown_key(given, MATERIALS, 'material')}; one of your own is {{'young': '3 GPa', 'poisson': 0.4}}"
-            )
-        young, poisson = MATERIALS[given]
-    elif isinstance(given, Mapping) and set(given) == set(_ENTRIES):
-        young, poisson = given["young"], finite(given["poisson"], "poisson")
-    else:
-        raise InputError(f"a material is a name or has 'young' and 'poisson', got {shortened(given)}")
-    modulus = quantity(young, "pressure", "young")
-    if modulus <= 0.0 or not -1.0 < poisson < 0.5 + 1e-12:
-        raise InputError(f"young must be above 0 and poisson between -1 and 0.5, got {shortened(given)}")
-    return modulus, poisson
-
-
 _PARTS = 12
-_FRICTION = ("contact", "guide", "overhang", "length")
 
 
 @dataclass(frozen=True)
@@ -123,7 +147,8 @@ class CamForces:
         `contact`, the coefficient between cam and face or of a rolling roller; for slides `guide`, the coefficient in
         the guide, with `overhang` and `length` of the guide.
     width, materials
-        Of the contact, for Hertz's pressure: "20 mm", ("steel", "steel").
+        Of the contact, for Hertz's pressure: "20 mm", ("steel", "steel"). A material is one of `MATERIALS`, whose
+        values are those of a handbook, or {"young": "3 GPa", "poisson": 0.4} from a data sheet.
     process
         The force of a process on the follower, with the entries of a cycle's: `{"force": [("0 deg", "0 N"), ("90 deg",
         "-300 N"), ("360 deg", "0 N")], "over": "master"}`, above 0 where it pushes to greater displacements; over the
@@ -256,23 +281,20 @@ class CamForces:
         return float(self.edges[-1] - self.edges[0])
 
     @kept_property
-    def _friction(self) -> Friction:
-        for key in self.friction:
-            if key not in _FRICTION:
-                raise InputError(f"friction: {unknown_key(key, _FRICTION)}")
-        given = self.friction
-        sizes = {name: quantity(given[name], "length", f"friction: {name}") for name in _FRICTION[2:] if name in given}
-        shares = {name: finite(given[name], f"friction: {name}") for name in _FRICTION[:2] if name in given}
-        for name, value in (sizes | shares).items():
-            if value < 0.0 or (name == "length" and value == 0.0):
-                raise InputError(f"friction: {name} must be {'above' if name == 'length' else 'at least'} 0")
-        if shares.get("guide") and (self.cam.displacement.axis == "angle" or len(sizes) < 2):
+    def _surfaces(self) -> Surfaces:
+        given: Any = self.friction
+        surfaces = Surfaces(given, self.width, self.materials)
+        if surfaces.friction.guide and self.cam.displacement.axis == "angle":
             raise InputError("friction: guide is that of a slide, and needs overhang and length of its guide")
-        return Friction(**shares, **sizes)
+        return surfaces
+
+    @property
+    def _friction(self) -> Friction:
+        return self._surfaces.friction
 
     @kept_property
     def _line(self) -> LineContact | None:
-        return None if self.width is None else line_contact(self.width, self.materials, self.cam.contact.roller)
+        return self._surfaces.line(self.cam.contact.roller)
 
     @kept_property
     def _directions(self) -> Array:

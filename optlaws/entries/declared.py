@@ -45,7 +45,10 @@ class Entry:
     @property
     def plain_default(self) -> Any:
         """The default as files have it; None where there is none to give."""
-        return None if self.needed or self.kept_default in (None, {}, (), "") else self.type.plain(self.kept_default)
+        if self.needed or self.kept_default is None:
+            return None
+        plain = self.type.plain(self.kept_default)
+        return None if plain in (None, {}, [], "") else plain
 
     @property
     def schema(self) -> dict[str, Any]:
@@ -67,7 +70,7 @@ class Entry:
     @property
     def sentence(self) -> str:
         """What its values are, and what it is unless given."""
-        usual = "" if self.needed or self.default in (None, {}, (), "") else f"; {self.default!r} unless given"
+        usual = "" if self.plain_default is None else f"; {self.default!r} unless given"
         return f"{self.type.words[:1].upper()}{self.type.words[1:]}{usual}."
 
     def read(self, value: Any) -> Any:
@@ -212,6 +215,11 @@ class Declared(JsonText):
         """Its entries as a form shows them: name, label, what each asks, and what may be chosen."""
         return {"entries": [each.field for each in entries_of(cls).values() if each.shown]}
 
+    @classmethod
+    def tables(cls) -> Mapping[str, Mapping[str, Any]]:
+        """Its entries by "", or those of each kind by its name."""
+        return {"": entries_of(cls)}
+
     def _check(self) -> None:
         """Refuse entries that contradict each other."""
 
@@ -305,6 +313,11 @@ class Kinded(Declared):
             return {"kinds": {name: kind.form()["entries"] for name, kind in cls.kinds().items()}}
         return super().form()
 
+    @classmethod
+    def tables(cls) -> Mapping[str, Mapping[str, Any]]:
+        """The entries of its kind, or of each kind, by the names of the kinds."""
+        return {name: entries_of(kind) for name, kind in ({cls.kind: cls} if cls.kind else cls.kinds()).items()}
+
     def to_dict(self) -> dict[str, Any]:
         """The kind and the entries as plain data; those with their default are left out."""
         return {"kind": self.kind, **super().to_dict()}
@@ -354,6 +367,9 @@ class ValueOf(ValueType):
 
     def form(self) -> dict[str, Any]:
         return self.of.form()
+
+    def tables(self) -> Mapping[str, Mapping[str, Any]]:
+        return self.of.tables()
 
 
 @dataclass(frozen=True, init=False)
@@ -421,6 +437,9 @@ class TableOf(ValueType):
 
     def form(self) -> dict[str, Any]:
         return {"entries": [each.field for each in self.entries.values() if each.shown]}
+
+    def tables(self) -> Mapping[str, Mapping[str, Any]]:
+        return {"": self.entries}
 
 
 def entries_of(cls: type[Declared]) -> dict[str, Entry]:

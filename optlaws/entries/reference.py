@@ -3,27 +3,47 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from typing import Any
 
 from optlaws.entries.declared import Declared, Entry, entries_of
 
 
-def markdown_table(cls: type[Declared], heading: str = "what it says") -> str:
-    """The entries of a declared class as a table of Markdown, a row for each.
+def markdown_table(cls: type[Declared], heading: str = "what it says", apart: Collection[str] = ()) -> str:
+    """The entries of a declared class as a table of Markdown, a row for each, and for each entry of their tables.
 
-    >>> from optlaws.entries.declared import declared, entry
+    Those of the entries `apart` have tables of their own elsewhere.
+
+    >>> from optlaws.entries.declared import ValueOf, declared, entry
     >>> from optlaws.entries.value_types import Number
     >>> @declared
     ... class Damper(Declared, title="a damper"):
     ...     damping: float = entry(Number(least=0.0), "The damping ratio.", default=0.0)
-    >>> print(markdown_table(Damper))
+    >>> @declared
+    ... class Door(Declared, title="a door"):
+    ...     damper: Damper | None = entry(ValueOf(Damper), "What slows it.", default=None)
+    >>> print(markdown_table(Door))
     | entry | what it says |
     |---|---|
-    | `damping` | The damping ratio. A number from 0 on; 0.0 unless given. |
+    | `damper` | What slows it. A damper, a table. |
+    | `damper.damping` | The damping ratio. A number from 0 on; 0.0 unless given. |
     """
-    rows = [f"| `{each.name}` | {_sentence(each)} |" for each in _shown(cls)]
+    rows = [row for each in _shown(cls) for row in _rows(each, "", apart)]
     return "\n".join([f"| entry | {heading} |", "|---|---|", *rows])
+
+
+def _rows(each: Entry, place: str, apart: Collection[str]) -> Iterator[str]:
+    """The row of an entry, and those of the entries of its table; an entry of several kinds has one."""
+    name = f"{place}{each.name}"
+    yield f"| `{name}` | {_sentence(each)} |"
+    tables = {} if name in apart else each.type.tables()
+    if kinds := ", ".join(f'"{kind}"' for kind in tables if kind):
+        yield f"| `{name}.kind` | One of {kinds}. |"
+    seen: list[Entry] = []
+    for inner in [inner for entries in tables.values() for inner in entries.values() if inner.shown]:
+        if inner not in seen:
+            seen.append(inner)
+            yield from _rows(inner, f"{name}.", apart)
 
 
 def _sentence(each: Entry) -> str:

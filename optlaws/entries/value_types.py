@@ -62,6 +62,10 @@ class ValueType(ABC):
         """What a form has for it beside a field of text: its `choices`, the `entries` or `kinds` of a table."""
         return {}
 
+    def tables(self) -> Mapping[str, Mapping[str, Any]]:
+        """The entries of the tables among its values, by the kinds of these; those of a table without a kind by ""."""
+        return {}
+
 
 @dataclass(frozen=True)
 class Text(ValueType):
@@ -351,6 +355,9 @@ class Listed(ValueType):
     def form(self) -> dict[str, Any]:
         return {"list": self.of.form()}
 
+    def tables(self) -> Mapping[str, Mapping[str, Any]]:
+        return self.of.tables()
+
 
 @dataclass(frozen=True, init=False)
 class Together(ValueType):
@@ -487,6 +494,9 @@ class Either(ValueType):
 
     def form(self) -> dict[str, Any]:
         return self.of[0].form()
+
+    def tables(self) -> Mapping[str, Mapping[str, Any]]:
+        return self.of[0].tables()
 
 
 def is_list(value: Any) -> int:

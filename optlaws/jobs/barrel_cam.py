@@ -5,18 +5,15 @@ from __future__ import annotations
 from collections.abc import Mapping
 from math import degrees
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Any
 
-import msgspec
 import numpy as np
 
 from optlaws.cams.barrel import SIDES, BarrelCam, SpaceCurve
 from optlaws.errors import located
 from optlaws.files import tables
-from optlaws.files.problem_file import convert
+from optlaws.jobs.cam_entries import BarrelProblemFile
 from optlaws.jobs.cam_findings import EXTREMES, enclosure, extreme_row, plain
-from optlaws.jobs.cycle_entries import AxisEntries, follower_cycle
-from optlaws.jobs.job import JobFile
 from optlaws.numbers import Array
 from optlaws.plots.style import BLUES, GREY, WARM, new_figure, plot_style, titled
 from optlaws.results import Results
@@ -33,26 +30,6 @@ _TITLES = {
     "undercut": "a flank has a cusp: make the roller smaller, the cylinder larger or the motion slower",
     "undecided": "whether a flank has a cusp is not decided",
 }
-
-
-class BarrelEntries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
-    """The cylinder, its groove and the roller."""
-
-    outer_radius: str
-    depth: str
-    roller_radius: str
-
-
-class BarrelProblemFile(JobFile, kw_only=True, forbid_unknown_fields=True):
-    """The problem file of a barrel cam."""
-
-    motion: Annotated[dict[str, Any], AxisEntries]
-    barrel: BarrelEntries
-    speed: str | None = None
-    period: str | None = None
-    turning: str = "counterclockwise"
-    cutter_radius: str | None = None
-    rows: Annotated[int, msgspec.Meta(ge=2, le=100_000)] = 361
 
 
 def run(results: Results) -> None:
@@ -79,11 +56,9 @@ def answer(data: Mapping[str, Any], file: Path) -> dict[str, Any]:
 
 def read(data: Mapping[str, Any], file: Path) -> tuple[BarrelProblemFile, BarrelCam]:
     """The entries of a file, and the cam; an error names the file."""
-    spec = convert(data, BarrelProblemFile, file)
+    spec = BarrelProblemFile.read(data, file)
     with located(str(file)):
-        cycle = follower_cycle(spec.motion, spec.speed, spec.period)
-        sizes: dict[str, Any] = {**msgspec.structs.asdict(spec.barrel), "turning": spec.turning}
-        cam = BarrelCam(cycle, **sizes)
+        cam = BarrelCam(spec.cycle, **spec.barrel.to_dict(), turning=spec.turning)
         if spec.cutter_radius is not None:
             cam.cutter_path(spec.cutter_radius)
     return spec, cam

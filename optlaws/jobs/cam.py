@@ -23,7 +23,7 @@ from optlaws.cams.sizing.springs import CONTACT, GREATEST
 from optlaws.cams.summary import named_forces
 from optlaws.cycles.summary import objective_unit
 from optlaws.files import tables
-from optlaws.jobs.cam_entries import CamProblemFile, FileEntries
+from optlaws.jobs.cam_entries import CamProblemFile
 from optlaws.jobs.cam_findings import EXTREMES, FORCE, STIFFNESS, Findings, Limits, enclosure, extreme_rows, plain
 from optlaws.plots.cam import animated, cam_figure, forces_figure, pair_figure
 from optlaws.plots.cycle import UNITS
@@ -57,20 +57,14 @@ def run(results: Results) -> None:
     if findings.forces is not None:
         results.picture("forces", forces_figure(findings.forces, spec.title))
     for entry in spec.file:
-        results.add(entry.name, partial(_cut, first, entry, results.about))
+        results.add(entry.name, partial(entry.write, first, about=results.about))
     if spec.animation:
         results.text("animation.svg", animated(first))
     if second is None:
         return
     results.picture("pair", pair_figure(first, second, spec.title))
     for entry in spec.file:
-        results.add(f"{_RETURN}{entry.name}", partial(_cut, second, entry, results.about))
-
-
-def _cut(cam: DiscCam, entry: FileEntries, about: str, file: Path) -> Path:
-    """The file that cuts a cam."""
-    form: Any = entry.format
-    return cam.export(file, form, about=about, **entry.options())
+        results.add(f"{_RETURN}{entry.name}", partial(entry.write, second, about=results.about))
 
 
 def answer(data: Mapping[str, Any], file: Path) -> dict[str, Any]:

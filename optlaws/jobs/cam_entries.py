@@ -2,126 +2,196 @@
 
 from __future__ import annotations
 
+from dataclasses import KW_ONLY
 from pathlib import Path
-from typing import Annotated, Any, Literal, TypeAlias
+from typing import Any
 
-import msgspec
-
-from optlaws.cams.curves.cam_files import format_of
-from optlaws.cams.curves.file_options import Cutting
-from optlaws.cams.disc import DiscCam
+from optlaws.cams.as_manufactured import MADE_CURVES, WAVES, AsMade, manufactured_tables, profile_errors
+from optlaws.cams.barrel import Groove
+from optlaws.cams.curves.cam_files import FORMATS, format_of
+from optlaws.cams.curves.file_options import DECIMALS, POINTS, Cutting
+from optlaws.cams.disc import CURVES, TURNINGS, CutCurve, DiscCam, Turning
+from optlaws.cams.followers.follower import CamFollower
+from optlaws.cams.forces import Surfaces
+from optlaws.cams.sizing.springs import SoughtSpring
+from optlaws.cycles.cycle import Cycle
+from optlaws.cycles.specification.process import ProcessEntries
+from optlaws.entries.declared import Declared, ValueOf, declared, entries_of, entry, same
+from optlaws.entries.value_types import Choice, Listed, Measured, Number, Switch, Text, Whole
 from optlaws.errors import InputError
 from optlaws.files import writing
-from optlaws.files.problem_file import Text
-from optlaws.jobs.cycle_entries import AxisEntries
-from optlaws.jobs.job import JobFile
+from optlaws.jobs.cycle_entries import AxisEntries, follower_cycle
+from optlaws.jobs.job_entries import ProblemFile
+from optlaws.numbers import Quantity
 
-#: its kind, and the entries that this kind takes
-FollowerEntries: TypeAlias = dict[str, str]
-Several = Annotated[tuple[int, ...], msgspec.Meta(max_length=10)]
+_LENGTH = Measured("length", above=0.0)
 
 
-class ForcesEntries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+@declared
+class CamForcesEntries(Surfaces, title="forces"):
     """Forces of the cam under the drive of its motion."""
 
-    friction: dict[str, float | str] = {}
-    width: str | None = None
-    materials: tuple[str, str] = ("steel", "steel")
-    irregularity: float | None = None
-
-    def options(self) -> dict[str, Any]:
-        """Entries of the forces themselves."""
-        return {"friction": self.friction, "width": self.width, "materials": self.materials}
+    irregularity: float | None = entry(
+        Number(above=0.0),
+        "Of the shaft's speed, for mean power, the work above the mean and the flywheel.",
+        default=None,
+        example=0.04,
+    )
 
 
-class SpringEntries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
-    """A spring that keeps the follower on the cam over a range of speeds."""
-
-    speeds: tuple[str, str]
-    force: str | None = None
-    stiffness: str | None = None
-    preload: str | None = None
-    greatest: Literal["force", "contact"] = "force"
-
-
-class AsManufacturedEntries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+@declared
+class MadeEntries(Declared, title="as_made"):
     """The files whose executed motion is reported: tables of a number of points and decimals, and profile errors."""
 
-    points: Several = (361, 721)
-    decimals: Several = (3, 4, 6)
-    curve: str = "profile"
-    error: str | None = None
-    waves: Several = (3, 12)
+    points: tuple[int, ...] = entry(Listed(POINTS, most=10), "Of tables that the cam is cut by.", default=(361, 721))
+    decimals: tuple[int, ...] = entry(Listed(DECIMALS, most=10), "Of a millimetre in these tables.", default=(3, 4, 6))
+    curve: str = entry(Choice(*MADE_CURVES), "Of the tables.", default="profile")
+    error: Quantity | None = entry(
+        _LENGTH, "Of the profile: the amplitude of its waves.", default=None, example="0.01 mm"
+    )
+    waves: tuple[int, ...] = entry(Listed(WAVES, most=10), "Of the error, in a turn.", default=(3, 12))
+
+    def peaks(self, cam: DiscCam) -> dict[str, AsMade | None]:
+        """Peaks of the cam as manufactured; None where its follower does not reach all of it."""
+        tables = [Cutting(points=points, decimals=decimals) for points in self.points for decimals in self.decimals]
+        names = [f"{each.points} points of the {self.curve}, {each.decimals} decimals of a mm" for each in tables]
+        peaks = manufactured_tables(cam, self.curve, tables) if tables else []
+        if self.error and self.waves:
+            names += [f"error of {self.error}, {count} waves a turn" for count in self.waves]
+            peaks += profile_errors(cam, self.error, self.waves)
+        return dict(zip(names, peaks, strict=True))
 
 
-class FileEntries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
-    """A file that cuts the cam; what is not given is as in `DiscCam.export`."""
+@declared
+class CutFile(Cutting, title="a file"):
+    """A file that cuts the cam."""
 
-    name: Text
-    format: str | None = None
-    curve: str | None = None
-    cutter_radius: str | None = None
-    tolerance: str | None = None
-    decimals: int | None = None
-    points: int | None = None
-    degree: int | None = None
-    feed: str | None = None
+    _: KW_ONLY
+    name: str = entry(Text(), "Of the file, in the folder of results.", example="profile.dxf")
+    format: str | None = entry(
+        Choice(*FORMATS), "That of the name's ending unless given.", default=None, example="dxf spline"
+    )
+    curve: CutCurve | None = entry(
+        Choice(*CURVES), "The profile, or the path of a cutter with a radius, unless given.", default=None
+    )
+    cutter_radius: Quantity | None = entry(
+        _LENGTH, "Of the cutter whose path the file has.", default=None, example="10 mm"
+    )
 
-    def options(self) -> dict[str, Any]:
-        """Entries of the export that are given."""
-        given = msgspec.structs.asdict(self)
-        return {key: value for key, value in given.items() if key not in {"name", "format"} and value is not None}
-
-    def check(self, cam: DiscCam) -> None:
-        """Refuse before the work is done what would be refused when the file is written."""
+    def _check(self) -> None:
+        super()._check()
         if Path(self.name).name != self.name:
-            raise InputError(f"file: name must be that of a file in the folder of results, got {self.name!r}")
+            raise InputError(f"name must be that of a file in the folder of results, got {self.name!r}")
         writing.check_name(Path(self.name))
         format_of(Path(self.name), self.format)
-        entries = self.options()
-        cam.outline(entries.pop("curve", None), entries.pop("cutter_radius", None))
-        Cutting(**entries)
+
+    def write(self, cam: DiscCam, file: Path, about: str) -> Path:
+        """The file of a cam at a place; `about` is what it says of itself."""
+        outline: Any = {"as_": self.format, "curve": self.curve, "cutter_radius": self.cutter_radius}
+        options: Any = {name: getattr(self, name) for name in entries_of(Cutting)}
+        return cam.export(file, about=about, **outline, **options)
 
 
-class PairEntries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+@declared
+class PairEntries(Declared, title="pair"):
     """The return cam: how its follower is fixed to the first one, and the follower where it is another."""
 
-    distance: str | None = None
-    angle: str | None = None
-    follower: FollowerEntries | None = None
+    distance: str | None = entry(
+        _LENGTH, "Between rollers or faces along a slide's way.", default=None, example="170 mm"
+    )
+    angle: str | None = entry(Measured("angle"), "Between the two arms on a pivot.", default=None, example="110 deg")
+    follower: CamFollower | None = entry(ValueOf(CamFollower), "The first one's unless given.", default=None)
 
 
-class CamProblemFile(JobFile, kw_only=True, forbid_unknown_fields=True):
+@declared
+class CamOfMotion(ProblemFile, title="a cam"):
+    """What the problem files of disc cams and of barrel cams have."""
+
+    _: KW_ONLY
+    motion: AxisEntries = entry(ValueOf(AxisEntries), 'One axis with its segments, as in the job "cycle".')
+    speed: Quantity | None = same(Cycle, "speed")
+    period: Quantity | None = same(Cycle, "period")
+    turning: Turning = entry(Choice(*TURNINGS), "How the cam turns.", default="counterclockwise")
+    cutter_radius: str | None = entry(
+        _LENGTH,
+        "Of the cutter or grinding wheel, whose path is part of the table then.",
+        default=None,
+        label="cutter",
+        example="10 mm",
+    )
+    rows: int = entry(Whole(2, 100_000), "Lines of the table.", default=361)
+
+    @property
+    def cycle(self) -> Cycle:
+        """The motion of the follower."""
+        return follower_cycle(self.motion, self.speed, self.period)
+
+
+@declared
+class CamProblemFile(CamOfMotion, title="a cam"):
     """The problem file of a disc cam."""
 
-    motion: Annotated[dict[str, Any], AxisEntries]
-    follower: FollowerEntries
-    prime_radius: str | None = None
+    _: KW_ONLY
+    follower: CamFollower = entry(ValueOf(CamFollower), "What the cam moves.")
+    prime_radius: str | None = entry(
+        _LENGTH,
+        "Radius of the prime circle, from the cam's centre to the roller's, or to the face, where the follower is "
+        "lowest; without one the least that keeps pressure_angle and radius_of_curvature is taken, or what best finds.",
+        default=None,
+        label="prime circle",
+        example="60 mm",
+    )
     #: the name that earlier files have for `prime_radius`
-    base_radius: str | None = None
-    #: "base circle" is what earlier files call "prime circle"
-    best: Literal["laws", "prime circle", "base circle", "offset"] | None = None
-    pair: PairEntries | None = None
-    speed: str | None = None
-    period: str | None = None
-    turning: str = "counterclockwise"
-    cutter_radius: str | None = None
-    pressure_angle: str | None = None
-    radius_of_curvature: str | None = None
-    rows: Annotated[int, msgspec.Meta(ge=2, le=100_000)] = 361
-    process: dict[str, Any] | None = None
-    forces: ForcesEntries | None = None
-    spring: SpringEntries | None = None
-    as_made: AsManufacturedEntries | None = None
-    file: Annotated[list[FileEntries], msgspec.Meta(max_length=50)] = msgspec.field(default_factory=list)
-    animation: bool = False
+    base_radius: Quantity | None = entry(_LENGTH, "That of earlier files.", default=None, shown=False)
+    pressure_angle: str | None = entry(
+        Measured("angle"),
+        "The greatest magnitude of the pressure angle.",
+        default=None,
+        label="pressure ≤",
+        example="30 deg",
+    )
+    radius_of_curvature: str | None = entry(
+        Measured("length"),
+        "The least radius of curvature of the profile where it bulges.",
+        default=None,
+        label="radius ≥",
+        example="15 mm",
+    )
+    best: str | None = entry(
+        Choice("laws", "prime circle", "offset"),
+        "What is optimised: the laws of the motion under the limits of the cam, at the given prime circle; the laws "
+        "with the least prime circle; or the offset of a slide with a roller whose greatest pressure angle is least.",
+        default=None,
+    )
+    pair: PairEntries | None = entry(ValueOf(PairEntries), "A return cam.", default=None)
+    process: ProcessEntries | None = entry(
+        ValueOf(ProcessEntries), "A process force on the follower, in forces and spring.", default=None
+    )
+    forces: CamForcesEntries | None = entry(
+        ValueOf(CamForcesEntries), "Forces under the drive of the motion.", default=None
+    )
+    spring: SoughtSpring | None = entry(
+        ValueOf(SoughtSpring), "The least spring that keeps the follower on the cam.", default=None
+    )
+    as_made: MadeEntries | None = entry(ValueOf(MadeEntries), "Peaks as made.", default=None)
+    file: tuple[CutFile, ...] = entry(Listed(ValueOf(CutFile), most=50), "Files that cut the cam.", default=())
+    animation: bool = entry(Switch(), "Whether animation.svg is written, in which the cam turns.", default=False)
 
-    def __post_init__(self) -> None:
-        if self.best == "base circle":
-            self.best = "prime circle"
+    @classmethod
+    def _from_earlier(cls, data: dict[str, Any]) -> dict[str, Any]:
+        """The best "base circle" of earlier files is the prime circle."""
+        return data | {"best": "prime circle"} if data.get("best") == "base circle" else data
 
     @property
     def limits(self) -> dict[str, Any]:
         """The limits of the cam, and how it turns, as functions of sizes and of best laws take them."""
         limits = {"pressure_angle": self.pressure_angle, "radius_of_curvature": self.radius_of_curvature}
         return {**limits, "turning": self.turning}
+
+
+@declared
+class BarrelProblemFile(CamOfMotion, title="a barrel cam"):
+    """The problem file of a barrel cam."""
+
+    _: KW_ONLY
+    barrel: Groove = entry(ValueOf(Groove), "The cylinder, its groove and the roller.")

@@ -8,29 +8,26 @@ from math import degrees
 from pathlib import Path
 from typing import Any, Self
 
-import msgspec
 import numpy as np
 
-from optlaws.cams.as_manufactured import AsMade, manufactured_tables, profile_errors
+from optlaws.cams.as_manufactured import AsMade
 from optlaws.cams.best_laws import BestCam, BestPrimeCircle, best_cam, best_prime_circle
 from optlaws.cams.best_offset import BestOffset, best_offset
 from optlaws.cams.conjugate import conjugate_cam
 from optlaws.cams.curves.extremes import EnclosedExtreme
-from optlaws.cams.curves.file_options import Cutting
 from optlaws.cams.disc import DiscCam
-from optlaws.cams.followers.follower import CamFollower, stated_prime_radius
+from optlaws.cams.followers.follower import stated_prime_radius
 from optlaws.cams.followers.translating_roller import TranslatingRoller
-from optlaws.cams.forces import CamForces
+from optlaws.cams.forces import CamForces, Surfaces
 from optlaws.cams.least_sizes import GreatestRoller, LeastPrimeCircle, greatest_roller, least_prime_circle
 from optlaws.cams.sizing.energy_fluctuation import EnergyFluctuation, energy_fluctuation
 from optlaws.cams.sizing.springs import Spring, least_spring
 from optlaws.cams.summary import geometry
 from optlaws.cycles.cycle import Cycle
+from optlaws.entries.declared import entries_of
 from optlaws.errors import InfeasibleProblem, InputError, located
 from optlaws.files import tables
-from optlaws.files.problem_file import convert
-from optlaws.jobs.cam_entries import CamProblemFile, ForcesEntries
-from optlaws.jobs.cycle_entries import follower_cycle
+from optlaws.jobs.cam_entries import CamProblemFile
 from optlaws.kept import kept_property
 from optlaws.motion.quantities import TURN, quantity
 from optlaws.tolerances import CAM_FEASIBILITY, RADIUS_ROUNDING
@@ -58,58 +55,53 @@ class Findings:
     @classmethod
     def read(cls, data: Mapping[str, Any], file: Path) -> Self:
         """Results that the entries of a file require, checked; an error names the file."""
-        spec = convert(data, CamProblemFile, file)
-        findings = cls(spec)
+        findings = cls(CamProblemFile.read(data, file))
         with located(str(file)):
             findings.second, findings.forces, findings.fluctuation  # noqa: B018 - what is wrong is refused at once
-            if spec.cutter_radius is not None:
-                findings.cam.cutter_path(spec.cutter_radius)
-            for entry in spec.file:
-                entry.check(findings.cam)
+            if findings.spec.cutter_radius is not None:
+                findings.cam.cutter_path(findings.spec.cutter_radius)
+            for entry in findings.spec.file:
+                findings.cam.outline(entry.curve, entry.cutter_radius)
         return findings
 
     @kept_property
     def cycle(self) -> Cycle:
         """The motion as the file gives it."""
-        return follower_cycle(self.spec.motion, self.spec.speed, self.spec.period)
+        return self.spec.cycle
 
     @kept_property
     def prime_radius(self) -> str:
         """The radius of the prime circle that the file gives; empty where the least one is sought."""
-        given = stated_prime_radius(
-            self.spec.prime_radius, self.spec.base_radius, CamFollower.from_dict(self.spec.follower)
-        )
-        if given is None and (self.spec.best in {"laws", "offset"} or not self._limited):
+        spec = self.spec
+        given = stated_prime_radius(spec.prime_radius, spec.base_radius, spec.follower)
+        if given is None and (spec.best in {"laws", "offset"} or not self._limited):
             raise InputError(
                 "prime_radius is missing: give it, such as '60 mm'; or give pressure_angle or radius_of_curvature, and "
                 "the least one that keeps them is taken; or give best = 'prime circle'"
             )
-        if self.spec.best == "prime circle" and given is not None:
+        if spec.best == "prime circle" and given is not None:
             raise InputError("best = 'prime circle' computes prime_radius: leave it out, or give best = 'laws'")
         return given or ""
 
     @kept_property
     def best(self) -> BestCam | BestPrimeCircle | None:
         """The quality of the laws for the cam, and the proof; None where they are the cycle's own."""
-        spec, follower = self.spec, CamFollower.from_dict(self.spec.follower)
-        prime_radius = self.prime_radius
-        if spec.best == "offset":
-            return None
+        spec, prime_radius = self.spec, self.prime_radius
         if spec.best == "prime circle":
-            return best_prime_circle(self.cycle, follower, **spec.limits)
-        return best_cam(self.cycle, prime_radius, follower, **spec.limits) if spec.best else None
+            return best_prime_circle(self.cycle, spec.follower, **spec.limits)
+        return best_cam(self.cycle, prime_radius, spec.follower, **spec.limits) if spec.best == "laws" else None
 
     @kept_property
     def offset(self) -> BestOffset | None:
         """The best offset of the slide; None where the cam has the offset of the file."""
-        spec, follower = self.spec, CamFollower.from_dict(self.spec.follower)
+        spec, follower = self.spec, self.spec.follower
         if spec.best != "offset":
             return None
-        if "offset" in spec.follower:
-            raise InputError("follower: best = 'offset' computes the offset: leave it out")
         if not isinstance(follower, TranslatingRoller):
             raise InputError(f"best = 'offset' is of a translating roller, got a {follower.kind}")
-        return best_offset(self.cycle, self.prime_radius, follower, turning=spec.limits["turning"])
+        if "offset" in follower.to_dict():
+            raise InputError("follower: best = 'offset' computes the offset: leave it out")
+        return best_offset(self.cycle, self.prime_radius, follower, turning=spec.turning)
 
     @kept_property
     def cam(self) -> DiscCam:
@@ -121,8 +113,7 @@ class Findings:
             return best.cam if isinstance(best, BestCam) else best.least.cam
         if not self.prime_radius:
             return self._least_of_limits.cam
-        turning = self.spec.limits["turning"]
-        return DiscCam(self.cycle, self.prime_radius, CamFollower.from_dict(self.spec.follower), turning=turning)
+        return DiscCam(self.cycle, self.prime_radius, self.spec.follower, turning=self.spec.turning)
 
     @property
     def _limited(self) -> bool:
@@ -132,7 +123,7 @@ class Findings:
     @kept_property
     def _least_of_limits(self) -> LeastPrimeCircle:
         """The least prime circle of the cycle, where the file gives limits in its place."""
-        return least_prime_circle(self.cycle, CamFollower.from_dict(self.spec.follower), **self.spec.limits)
+        return least_prime_circle(self.cycle, self.spec.follower, **self.spec.limits)
 
     @kept_property
     def second(self) -> DiscCam | None:
@@ -140,9 +131,8 @@ class Findings:
         cam, entries = self.cam, self.spec.pair
         if entries is None:
             return None
-        follower = None if entries.follower is None else CamFollower.from_dict(entries.follower)
         with located("pair"):
-            return conjugate_cam(cam, follower, distance=entries.distance, angle=entries.angle)
+            return conjugate_cam(cam, entries.follower, distance=entries.distance, angle=entries.angle)
 
     @kept_property
     def limits(self) -> Limits:
@@ -194,13 +184,18 @@ class Findings:
         """The forces of the cam, if the file requests them."""
         return None if self.spec.forces is None else self.forces_with(self.spec.forces)
 
-    def forces_with(self, options: ForcesEntries) -> CamForces:
+    @property
+    def _process(self) -> dict[str, Any] | None:
+        return None if self.spec.process is None else self.spec.process.to_dict()
+
+    def forces_with(self, surfaces: Surfaces) -> CamForces:
         """The cam's forces at the speed of its cycle."""
         # laws that were found for a cam are no cycle, but go as fast
         beside: dict[str, Any] = {}
         if self.cam.motion is not self.cycle:
             beside = {"speed": f"{TURN / self.cycle.duration!r} rad/s", "drive": self.cycle.drive}
-        return CamForces(self.cam, process=self.spec.process, **options.options(), **beside)
+        options = {name: getattr(surfaces, name) for name in entries_of(Surfaces)}
+        return CamForces(self.cam, process=self._process, **options, **beside)
 
     @kept_property
     def fluctuation(self) -> EnergyFluctuation | None:
@@ -218,24 +213,12 @@ class Findings:
             return None
         given = self.cycle.drive if isinstance(self.cycle.drive, Mapping) else {}
         load = {key: value for key, value in given.items() if key not in {"stiffness", "preload"}}
-        return least_spring(self.cam, drive=load, process=self.spec.process, **msgspec.structs.asdict(self.spec.spring))
+        return least_spring(self.cam, drive=load, process=self._process, **self.spec.spring.to_dict())
 
     @kept_property
     def as_made(self) -> dict[str, AsMade | None]:
         """Peaks of the cam as manufactured; None where its follower does not reach all of it."""
-        options, cam = self.spec.as_made, self.cam
-        if options is None:
-            return {}
-        tables = [
-            Cutting(points=points, decimals=decimals) for points in options.points for decimals in options.decimals
-        ]
-        names = [f"{each.points} points of the {options.curve}, {each.decimals} decimals of a mm" for each in tables]
-        peaks = manufactured_tables(cam, options.curve, tables) if tables else []
-        error, waves = options.error, options.waves if options.error else ()
-        if error and waves:
-            names += [f"error of {error}, {count} waves a turn" for count in waves]
-            peaks += profile_errors(cam, error, waves)
-        return dict(zip(names, peaks, strict=True))
+        return {} if self.spec.as_made is None else self.spec.as_made.peaks(self.cam)
 
     def to_data(self) -> dict[str, Any]:
         """Sizes, forces, the spring and peaks as manufactured as data for programs, in SI units."""

@@ -19,7 +19,7 @@ from optlaws.errors import InputError, located
 from optlaws.jobs.axes.axis_transitions import TransitionEntries
 from optlaws.jobs.axes.drive_entries import drive_of
 from optlaws.jobs.axes.entry_sweep import SweepEntries, SweptCycle, swept
-from optlaws.jobs.job import ProblemFile
+from optlaws.jobs.job_entries import ProblemFile
 from optlaws.numbers import Quantity
 from optlaws.suggest import unknown_key
 

@@ -2,14 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from importlib import import_module
 from pathlib import Path
-from typing import Any, Self
 
-from optlaws.entries.declared import Declared, declared, entry
-from optlaws.entries.value_types import Text
-from optlaws.errors import InputError, located
+from optlaws.errors import InputError
 from optlaws.files.packaged import packaged
 from optlaws.results import Entries, Results
 from optlaws.suggest import unknown_key
@@ -34,26 +30,6 @@ class JobFile(Entries, kw_only=True, forbid_unknown_fields=True):
     """The entries that the problem file of every job has."""
 
     job: str
-
-
-@declared
-class ProblemFile(Declared, title="a problem file"):
-    """The entries that the problem file of every job has."""
-
-    job: str = entry(Text(), "What is to be done.", kw_only=True, shown=False)
-    title: str = entry(Text(), "Heading of the results.", kw_only=True, example="A valve")
-    text: str = entry(Text(empty=True), "What stands below the heading.", default="", kw_only=True)
-
-    @classmethod
-    def read(cls, data: Mapping[str, Any], file: Path) -> Self:
-        """The value of the entries of a file; an error names the file.
-
-        >>> ProblemFile.read({"job": "cam", "titel": "A valve"}, Path("valve.toml"))
-        Traceback (most recent call last):
-        optlaws.errors.InputError: valve.toml: unknown entry of a problem file 'titel'; did you mean 'title'?
-        """
-        with located(str(file)):
-            return cls.from_dict(data)
 
 
 def do(name: str, results: Results) -> None:

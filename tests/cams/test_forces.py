@@ -19,7 +19,7 @@ from optlaws import (
     TranslatingRoller,
 )
 from tests.cams.placed import FOLLOWERS, TURNINGS, cam_of
-from tests.internals.cams import line_contact
+from tests.internals.cams import Surfaces
 
 Array = NDArray[np.float64]
 
@@ -147,7 +147,8 @@ def test_a_cycle_brings_its_speed_and_its_drive() -> None:
 
 def test_hertz_pressure_of_known_bodies() -> None:
     # two steel rollers, radii 20 mm and 30 mm, 10 mm wide, 1 kN: p = sqrt(F E / (2 pi (1 - nu²) L R))
-    one = line_contact("10 mm", ("steel", "steel"), roller=0.02)
+    one = Surfaces(width="10 mm").line(0.02)
+    assert one is not None
     radius = 1.0 / (1.0 / 0.02 + 1.0 / 0.03)
     known = np.sqrt(1000.0 * 210e9 / (2.0 * pi * (1.0 - 0.09) * 0.01 * radius))
     assert one.pressure(np.array(1000.0), np.array(0.03)) == pytest.approx(known, rel=1e-12)
@@ -169,7 +170,7 @@ def test_wrong_entries_name_themselves_and_the_remedy() -> None:
         ({"friction": {"contact": -0.1}}, "contact must be at least 0"),
         ({"width": "0 mm"}, "width must be above 0"),
         ({"width": "1 mm", "materials": ("steel", "stee")}, "did you mean 'steel'"),
-        ({"width": "1 mm", "materials": "steel"}, "materials must be two"),
+        ({"width": "1 mm", "materials": "steel"}, "materials must be a list of steel, .* got 'steel'"),
     ):
         with pytest.raises(InputError, match=match):
             forces("translating roller", **arguments)

@@ -58,7 +58,7 @@ def test_a_damper_is_worst_at_a_speed_between() -> None:
 def test_wrong_springs_say_why() -> None:
     cam = cam_of("translating roller")
     for arguments, match in (
-        ({"speeds": "300 rpm"}, "speeds must be two"),
+        ({"speeds": "300 rpm"}, r"speeds must be a list of an angular velocity .* and an angular velocity .*, got"),
         ({"speeds": ("300 rpm", "60 rpm")}, "speeds must rise"),
         ({"drive": MASS | {"stiffness": "1 N/mm"}}, "to fix it give stiffness"),
         ({"preload": "-1 N"}, "preload must be at least 0"),

@@ -155,7 +155,8 @@ PARTED = {"Together", "Either", "TableOf", "Listed", "Table", "Choice", "InSI", 
 
 def type_name(values: Any) -> str:
     """The name of a type of values, or of the one that it specialises."""
-    return next(base.__name__ for base in type(values).__mro__ if base.__name__ in PARTED | KINDS.keys())
+    named = (base.__name__ for base in type(values).__mro__ if base.__name__ in PARTED | KINDS.keys())
+    return next(named, "")
 
 
 def kind_of_value(values: Any) -> str:

@@ -16,4 +16,4 @@ from optlaws.cams.followers.follower import CamFollower
 from optlaws.cams.followers.oscillating_roller import SwingingRoller
 from optlaws.cams.followers.rollers_and_faces import FaceContact, RollerContact
 from optlaws.cams.followers.translating_roller import SlidingRoller
-from optlaws.cams.forces import line_contact
+from optlaws.cams.forces import Surfaces

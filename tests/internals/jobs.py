@@ -7,6 +7,7 @@ from optlaws.jobs.cam import answer
 from optlaws.jobs.cycle import table_of_motion
 from optlaws.jobs.cycle_entries import read as read_of_cycle_entries
 from optlaws.jobs.cycle_entries import read_given, sweeps_of
-from optlaws.jobs.job import JOBS, ProblemFile, do, run
+from optlaws.jobs.job import JOBS, do, run
+from optlaws.jobs.job_entries import ProblemFile
 from optlaws.jobs.machine_laws import MachineTable, Measure
 from optlaws.jobs.starters.starter_kinds import STARTERS

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Literal, TypedDict
 
 from optlaws.echo import shortened
+from optlaws.entries.declared import Declared, declared, entry
+from optlaws.entries.value_types import Measured, Whole
 from optlaws.errors import InputError
 from optlaws.motion.quantities import positive_quantity
-from optlaws.numbers import Quantity, whole
+from optlaws.numbers import Quantity
 
-MOST_POINTS = 100_000
-MOST_DECIMALS = 12
+DECIMALS, POINTS = Whole(0, 12), Whole(13, 100_000)
 DEGREES = (3, 5)
 
 
@@ -29,28 +29,29 @@ class CuttingOptions(TypedDict, total=False):
     about: str | None
 
 
-@dataclass(frozen=True)
-class Cutting:
-    """The checked options of a file for cutting.
+@declared
+class Cutting(Declared, title="a file for cutting"):
+    """The checked options of a file for cutting; `about` is what the file says of itself."""
 
-    `tolerance` is how far polygon, arcs or spline may be from the curve, `decimals` are of a millimetre, `points` those
-    of a table over the whole turn, the last being the first again, `degree` is that of splines, 3 or 5. Without a
-    `feed`, such as "300 mm/min", the file has none; `about` is what it says of itself.
-    """
-
-    tolerance: Quantity = "1 um"
-    decimals: int = 6
-    points: int = 721
-    degree: int = 3
-    feed: Quantity | None = None
+    tolerance: Quantity = entry(
+        Measured("length", above=0.0),
+        "How far polygon, arcs or spline may be from the curve.",
+        default="1 um",
+    )
+    decimals: int = entry(DECIMALS, "Of a millimetre.", default=6)
+    points: int = entry(POINTS, "Of a table over the whole turn, the last being the first again.", default=721)
+    degree: int = entry(Whole(min(DEGREES), max(DEGREES)), "That of splines, 3 or 5.", default=3)
+    feed: Quantity | None = entry(
+        Measured("velocity", above=0.0),
+        "Of the tool; the file has none unless given.",
+        default=None,
+        example="200 mm/min",
+    )
     about: str = "cam"
 
-    def __post_init__(self) -> None:
-        self.metres, self.feed_rate  # noqa: B018 - wrong quantities are refused at once
-        whole(self.decimals, "decimals", most=MOST_DECIMALS)
-        whole(self.points, "points", least=13, most=MOST_POINTS)
+    def _check(self) -> None:
         if self.degree not in DEGREES:
-            raise InputError(f"degree must be 3 or 5, got {shortened(self.degree)}")
+            raise InputError(f"degree must be 3 or 5, got {self.degree}")
         if not isinstance(self.about, str):
             raise InputError(f"about must be text, got {shortened(self.about)}")
 

@@ -11,6 +11,8 @@ import numpy as np
 
 from optlaws.cams.curves.extremes import CamExtremes, EnclosedExtreme, angle_of_tangent, enclosed_extremes
 from optlaws.cams.curves.motion_by_angle import CamMotion
+from optlaws.entries.declared import Declared, declared, entry
+from optlaws.entries.value_types import InSI, Number
 from optlaws.errors import InputError
 from optlaws.motion.piece import Piece
 from optlaws.numerics.interval import Interval
@@ -76,18 +78,25 @@ class Transmission(NamedTuple):
         return self.lever if self.drag is None else self.lever + self.drag.lever * friction
 
 
-@dataclass(frozen=True)
-class Friction:
-    """Friction of a cam and its follower; coefficients without a dimension, lengths in metres.
+@declared
+class Friction(Declared, title="friction"):
+    """Friction of a cam and its follower."""
 
-    `contact` is that of a face that slides on the cam, or what a rolling roller and its pin take at its surface;
-    `guide` that of a slide in its guide, `overhang` away from where the cam touches and `length` long.
-    """
+    contact: float = entry(
+        Number(least=0.0),
+        "The coefficient between a face and the cam, or what a rolling roller and its pin take at its surface.",
+        default=0.0,
+        example=0.05,
+    )
+    guide: float = entry(Number(least=0.0), "The coefficient of a slide in its guide.", default=0.0, example=0.1)
+    overhang: float | None = entry(
+        InSI("length", least=0.0), "From where the cam touches to the guide.", default=None, example="80 mm"
+    )
+    length: float | None = entry(InSI("length", above=0.0), "Of the guide.", default=None, example="120 mm")
 
-    contact: float = 0.0
-    guide: float = 0.0
-    overhang: float = 0.0
-    length: float = 1.0
+    def _check(self) -> None:
+        if self.guide and (self.overhang is None or self.length is None):
+            raise InputError("guide is that of a slide, and needs overhang and length of its guide")
 
     def in_guide(self, transmission: Transmission) -> Jet:
         """Friction in the guide, of either sign of the velocity, for a normal force of 1 N."""
@@ -96,9 +105,10 @@ class Friction:
         moment = transmission.moment
         if drag is not None and isinstance(drag.moment, Jet):
             moment = moment + drag.moment * self.contact
-        near = moment + across * (self.overhang + self.length)
-        far = moment + across * self.overhang
-        return (near.magnitude() + far.magnitude()) * (self.guide / self.length)
+        overhang, length = self.overhang or 0.0, self.length or 1.0
+        near = moment + across * (overhang + length)
+        far = moment + across * overhang
+        return (near.magnitude() + far.magnitude()) * (self.guide / length)
 
 
 class ContactState(NamedTuple):

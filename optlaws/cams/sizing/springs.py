@@ -14,6 +14,8 @@ from optlaws.cams.curves.process_by_angle import read_process_by_angle
 from optlaws.cams.disc import DiscCam
 from optlaws.cams.forces import CamForces
 from optlaws.echo import shortened
+from optlaws.entries.declared import Declared, declared, entry
+from optlaws.entries.value_types import Choice, Measured, Together
 from optlaws.errors import InfeasibleProblem, InputError
 from optlaws.kept import kept_property
 from optlaws.laws.storage import PlainNumbers
@@ -24,7 +26,6 @@ from optlaws.numerics.integral import integral
 from optlaws.numerics.interval import Interval, chosen
 from optlaws.numerics.taylor import Jet, variable
 from optlaws.sentences import sentence
-from optlaws.suggest import unknown_key
 from optlaws.tolerances import BEFORE_BREAK, FORCE_EXTREMES, ROUNDOFF
 
 _PROGRAM_ROUNDING = 1e-10  # of the forces: by so much the best spring for some angles may miss what these need
@@ -39,11 +40,50 @@ _STEPS = 40
 _NEAR, _BESIDE = 0.03, 10
 _PARTS = 12
 CONTACT = "contact"
+_SPEED = Measured("angular velocity", least=0.0)
 #: what is sought by the greatest force that is to be least
 GREATEST = {"force": "greatest", CONTACT: CONTACT}
 #: what is sought by itself
 _SOLE = ("preload", "stiffness")
 _UNITS = {"length": ("force", "stiffness"), "angle": ("torque", "torsional stiffness")}
+
+
+@declared
+class SoughtSpring(Declared, title="a spring"):
+    """What a spring is to do over a range of speeds, and what of it is known."""
+
+    speeds: tuple[Quantity, Quantity] = entry(
+        Together(_SPEED, _SPEED), "The least and the greatest speed of the cam.", example=["0 rpm", "300 rpm"]
+    )
+    force: Quantity | None = entry(
+        Measured("force", "torque"),
+        "What the cam shall press with at least, along the follower's way; 0 unless given.",
+        default=None,
+        example="20 N",
+    )
+    stiffness: Quantity | None = entry(
+        Measured("stiffness", "torsional stiffness", least=0.0), "Where it is known.", default=None, example="3 N/mm"
+    )
+    preload: Quantity | None = entry(
+        Measured("force", "torque", least=0.0), "Where it is known.", default=None, example="60 N"
+    )
+    greatest: Literal["force", "contact"] = entry(
+        Choice(*GREATEST),
+        "Which greatest force is least where neither stiffness nor preload is given: the force on the follower along "
+        "its way, or the contact force between cam and follower without friction.",
+        default="force",
+    )
+
+    @property
+    def range(self) -> tuple[float, float]:
+        """The least and the greatest speed, rad/s."""
+        slow, fast = self.speeds
+        return quantity(slow, "angular velocity", "speeds"), quantity(fast, "angular velocity", "speeds")
+
+    def _check(self) -> None:
+        slow, fast = self.range
+        if slow > fast or fast == 0.0:
+            raise InputError(f"speeds must rise from at least 0, got {shortened(list(self.speeds))}")
 
 
 @dataclass(frozen=True)
@@ -158,9 +198,8 @@ def least_spring(
     >>> round(spring.stiffness, 3), round(spring.margin, 6) + 0.0, round(spring.critical[0], 3)
     (2273.443, 0.0, 91.667)
     """
-    if greatest not in GREATEST:
-        raise InputError(unknown_key(greatest, GREATEST, "greatest"))
-    task = _task(cam, {"drive": drive, "process": process}, speeds, force, contact=greatest == CONTACT)
+    sought = SoughtSpring(speeds, force, stiffness, preload, greatest)  # type: ignore[arg-type] # which it checks
+    task = _task(cam, {"drive": drive, "process": process}, sought)
     force_unit, stiffness_unit = _UNITS[cam.displacement.axis]
     known = _known(preload, force_unit, "preload"), _known(stiffness, stiffness_unit, "stiffness")
     return _exchange(task, _KnownSpring(*known, GREATEST[greatest]))
@@ -242,30 +281,20 @@ class _SpringTask:
         return s.slope().slope() * load.inertia, s.slope() * load.viscous
 
 
-def _task(
-    cam: DiscCam, moved: dict[str, Any], speeds: Sequence[Quantity], force: Quantity | None, *, contact: bool
-) -> _SpringTask:
-    if not isinstance(speeds, tuple | list) or len(speeds) != 2:
-        raise InputError(f"speeds must be two, the least and the greatest, got {shortened(speeds)}")
+def _task(cam: DiscCam, moved: dict[str, Any], sought: SoughtSpring) -> _SpringTask:
     for key in ("stiffness", "preload"):
         if key in moved["drive"]:
             raise InputError(f"drive: the {key} is sought with the spring: to fix it give {key}=... beside the drive")
-    slow, fast = (quantity(speed, "angular velocity", "speeds") for speed in speeds)
-    if not 0.0 <= slow <= fast or fast == 0.0:
-        raise InputError(f"speeds must rise from at least 0, got {shortened(speeds)}")
-    least = 0.0 if force is None else quantity(force, _UNITS[cam.displacement.axis][0], "force")
+    slow, fast = sought.range
+    least = _known(sought.force, _UNITS[cam.displacement.axis][0], "force") or 0.0
     if slow < fast:  # a force over time, which is another at each speed, is refused
         read_process_by_angle(moved["process"], cam.displacement, None)
-    return _SpringTask(CamForces(cam, speed=speeds[1], **moved), slow, fast, least, contact)
+    forces = CamForces(cam, speed=sought.speeds[1], **moved)
+    return _SpringTask(forces, slow, fast, least, sought.greatest == CONTACT)
 
 
 def _known(value: Quantity | None, dimension: str, name: str) -> float | None:
-    if value is None:
-        return None
-    known = quantity(value, dimension, name)
-    if known < 0.0:
-        raise InputError(f"{name} must be at least 0, got {shortened(value)}")
-    return known
+    return None if value is None else quantity(value, dimension, name)
 
 
 def _exchange(task: _SpringTask, given: _KnownSpring) -> Spring:

@@ -15,7 +15,7 @@ import numpy as np
 from optlaws.cams.curves.extremes import EnclosedExtreme
 from optlaws.cams.disc import DiscCam
 from optlaws.cams.followers.follower import CamFollower
-from optlaws.cams.forces import CamForces
+from optlaws.cams.forces import CamForces, Surfaces
 from optlaws.cams.least_sizes import least_prime_circle
 from optlaws.cams.summary import Labelled, named_forces
 from optlaws.entries.reference import examples
@@ -23,10 +23,8 @@ from optlaws.errors import InfeasibleProblem, InputError, OptlawsError
 from optlaws.explorer.views.cycle_view import SEGMENTS, check_axis
 from optlaws.explorer.views.law_view import digits, drawn, refusal
 from optlaws.explorer.views.requests import Question
-from optlaws.files.problem_file import convert
-from optlaws.jobs.cam_entries import CamProblemFile, ForcesEntries
+from optlaws.jobs.cam_entries import CamProblemFile
 from optlaws.jobs.cam_findings import FORCE, STIFFNESS, Findings
-from optlaws.jobs.cycle_entries import AxisEntries
 from optlaws.motion.quantities import quantity
 from optlaws.numbers import Array
 from optlaws.numerics.branch_and_bound import Extremes
@@ -65,7 +63,7 @@ def _solved(question: str) -> Findings:
     data = json.loads(question)
     if "barrel" in data:
         raise InputError("the explorer shows disc cams: `optlaws run` computes barrel cams")
-    check_axis(AxisEntries.from_dict(convert(data, CamProblemFile, _WHERE).motion))
+    check_axis(CamProblemFile.read(data, _WHERE).motion)
     return Findings.read(data, _WHERE)
 
 
@@ -287,9 +285,9 @@ def loads(request: CamRequest) -> dict[str, Any]:
 @lru_cache(maxsize=32)
 def _loads(question: str) -> dict[str, Any]:
     findings = _solved(question)
-    if findings.spec.motion.get("drive") is None:
+    if findings.spec.motion.drive is None:
         return {"panels": [], "facts": []}
-    forces = findings.forces_with(findings.spec.forces or ForcesEntries())
+    forces = findings.forces_with(findings.spec.forces or Surfaces())
     return {"panels": _load_panels(forces), "facts": [*_load_facts(forces), *_spring(findings)]}
 
 

@@ -7,11 +7,10 @@ from math import ceil, floor, log10
 from pathlib import Path
 from typing import Any
 
-from optlaws.cams.followers.follower import CamFollower
 from optlaws.errors import InputError
 from optlaws.files.problem_file import convert
 from optlaws.jobs.cam_entries import CamProblemFile
-from optlaws.jobs.cycle_entries import follower_cycle, read_given
+from optlaws.jobs.cycle_entries import read_given
 from optlaws.jobs.machine_laws import MachineLawsProblemFile
 from optlaws.jobs.solutions import SolutionsProblemFile
 from optlaws.jobs.starters.starter import Answers, Question, Starter
@@ -114,9 +113,7 @@ def _of_study(answers: Answers) -> Answers:
 
 
 def _check_cam(entries: Mapping[str, Any], file: Path) -> None:
-    spec = convert(entries, CamProblemFile, file)
-    follower_cycle(spec.motion, spec.speed, spec.period)
-    CamFollower.from_dict(spec.follower)
+    CamProblemFile.read(entries, file).cycle  # noqa: B018 - a motion that is none is refused
 
 
 def _check_machine(entries: Mapping[str, Any], file: Path) -> None:
