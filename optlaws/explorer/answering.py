@@ -28,7 +28,6 @@ from optlaws.explorer.views import (
 )
 from optlaws.explorer.views.machines import fastest_view, machine_view
 from optlaws.explorer.views.requests import Question, read, ready
-from optlaws.jobs.cam_entries import CamProblemFile
 from optlaws.sentences import parts_of
 
 #: by the last part of the path: what a question is read as, and what answers it; each view names its own
@@ -109,7 +108,7 @@ def answer_from(connection: Connection) -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is the server's
     _limit_memory()
     Thread(target=_end_with_the_server, daemon=True).start()
-    ready(*(kind for kind, _ in QUESTIONS.values()), CamProblemFile)
+    ready(*(kind for kind, _ in QUESTIONS.values()))
     while True:
         try:
             name, body, seconds = connection.recv()

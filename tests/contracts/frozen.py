@@ -156,7 +156,7 @@ PARTED = {"Together", "Either", "TableOf", "Listed", "Table", "Choice", "InSI", 
 def type_name(values: Any) -> str:
     """The name of a type of values, or of the one that it specialises."""
     named = (base.__name__ for base in type(values).__mro__ if base.__name__ in PARTED | KINDS.keys())
-    return next(named, "")
+    return next(named, "ReadBy")
 
 
 def kind_of_value(values: Any) -> str:
