@@ -64,8 +64,9 @@ class Entry:
         if text and not self.needed and self.example is not None:
             text = f"{default or 'none'}, or {text}"
         shown = {"name": self.name, "label": self.label, "about": self.about, "placeholder": text}
-        example = {} if self.example is None else {"example": self.example}
-        return {**shown, **example, "needed": self.needed, **self.type.form()}
+        known = {"example": self.example, "default": default}
+        given = {name: value for name, value in known.items() if value is not None}
+        return {**shown, **given, "needed": self.needed, **self.type.form()}
 
     @property
     def sentence(self) -> str:
@@ -133,7 +134,7 @@ def declared(cls: type[DeclaredT]) -> type[DeclaredT]:
     >>> Gear("3 kg m^2"), Gear.from_dict({"inertia": 2.0}).to_dict()
     (Gear(inertia=3.0, name='gear'), {'inertia': 2.0})
     >>> Gear.form()["entries"][1]
-    {'name': 'name', 'label': 'name', 'about': 'What texts call it.', 'placeholder': 'gear', 'needed': False}
+    {'name': 'name', 'label': 'name', ..., 'placeholder': 'gear', 'default': 'gear', 'needed': False}
     >>> Gear.json_schema()["required"], Gear.json_schema()["properties"]["name"]["default"]
     (['inertia'], 'gear')
     >>> Gear.from_dict({"intertia": 2.0})

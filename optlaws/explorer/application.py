@@ -47,7 +47,7 @@ def application(start: dict[str, Any], workers: Workers | None = None) -> Starle
     known = {
         "names": [*catalogue, *_MEMBERS],
         "examples": {name: example() for name, example in EXAMPLES.items()},
-        "followers": cam_view.followers(),
+        "cam": cam_view.form(),
         "mechanisms": machine_view.kinds(),
         "drive": Drive.form()["entries"],
         "formats": downloads.formats(),

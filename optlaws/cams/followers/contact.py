@@ -86,13 +86,18 @@ class Friction(Declared, title="friction"):
         Number(least=0.0),
         "The coefficient between a face and the cam, or what a rolling roller and its pin take at its surface.",
         default=0.0,
+        label="friction",
         example=0.05,
     )
-    guide: float = entry(Number(least=0.0), "The coefficient of a slide in its guide.", default=0.0, example=0.1)
+    guide: float = entry(
+        Number(least=0.0), "The coefficient of a slide in its guide.", default=0.0, label="in the guide", example=0.1
+    )
     overhang: float | None = entry(
         InSI("length", least=0.0), "From where the cam touches to the guide.", default=None, example="80 mm"
     )
-    length: float | None = entry(InSI("length", above=0.0), "Of the guide.", default=None, example="120 mm")
+    length: float | None = entry(
+        InSI("length", above=0.0), "Of the guide.", default=None, label="guide length", example="120 mm"
+    )
 
     def _check(self) -> None:
         if self.guide and (self.overhang is None or self.length is None):

@@ -1,7 +1,7 @@
 // The machine as fields: its kind, its lengths, bodies and loads, its gear and its motor.
 
-import { flat, textOf } from "./entries.js";
-import { EntryFields } from "./entry_fields.js";
+import { flat } from "./entries.js";
+import { Form, flattened } from "./form.js";
 import { group, slider } from "./fields.js";
 import { html, renew } from "./svg.js";
 
@@ -9,16 +9,8 @@ const told = (value) => JSON.stringify(value);
 const NOT_FIELDS = ["kind", "segment", "linkage"];
 const RATIOS = [0.1, 200];
 
-/** The fields of declared entries, those of their tables by their paths. */
-function declared(entries, path = []) {
-  return entries.flatMap((entry) => {
-    const own = [...path, entry.name];
-    if (entry.entries) return declared(entry.entries, own);
-    if (entry.names) return entry.names.map((name) => ({ path: [...own, name], label: name, about: entry.about, placeholder: entry.example?.[name] ?? "" }));
-    const text = typeof entry.example === "object" ? `${entry.needed ? "" : "none, or "}${textOf(entry.example)}` : entry.placeholder;
-    return entry.kinds ? [] : [{ ...entry, path: own, placeholder: text }];
-  });
-}
+/** The fields of declared entries that the machine has no other place for. */
+const declared = (entries) => flattened(entries).filter(({ path, kinds }) => !kinds && !NOT_FIELDS.includes(path[0]));
 
 /** The axes of the same machine: those that have the mechanism and the drive of one. */
 export function beside(study, index) {
@@ -48,7 +40,7 @@ export class MachineForm {
     this.#kinds = mechanisms;
     this.#driving = drive;
     this.#part = part;
-    this.#fields = new EntryFields((what, alter) => this.change(what, alter), () => study.rest());
+    this.#fields = new Form((what, alter) => this.change(what, alter), () => study.rest());
   }
 
   show(state) {
@@ -74,7 +66,7 @@ export class MachineForm {
   #build(kind, axis, paths) {
     this.#shows = [];
     this.#fields.clear();
-    const known = declared(this.#kinds[kind]?.fields ?? []).filter(({ path }) => !NOT_FIELDS.includes(path[0]));
+    const known = declared(this.#kinds[kind]?.fields ?? []);
     const further = paths.filter((path) => !known.some((field) => told(field.path) === path)).map((path) => JSON.parse(path));
     const fields = [...known, ...further.map((path) => ({ path, label: path.at(-1).replaceAll("_", " "), placeholder: "" }))];
     this.#paths = fields.map(({ path }) => told(path));
@@ -127,7 +119,7 @@ export class MachineForm {
     return [group("Driven by", toggle, ratio.element, ...gear), group("Motor", ...motors)];
   }
 
-  #field(part, { path, label, about, placeholder, choices }) {
-    return this.#fields.field([part, ...path], placeholder, label, `${part} ${path.join(" ").replaceAll("_", " ")}`, { about, choices });
+  #field(part, entry) {
+    return this.#fields.field({ ...entry, path: [part, ...entry.path] });
   }
 }

@@ -2,7 +2,7 @@
 // on, and the front of what is least in it, in the middle; on the right the motion, drawn by the limit that is nearest.
 
 import { Chart, spanOf } from "../chart.js";
-import { EntryFields } from "../entry_fields.js";
+import { Form } from "../form.js";
 import { flat } from "../entries.js";
 import { group } from "../fields.js";
 import { Latest } from "../latest.js";
@@ -48,7 +48,7 @@ export class View {
   constructor(root, study) {
     this.#study = study;
     this.#at = layout(root);
-    this.#fields = new EntryFields((what, alter) => this.#change(what, alter), () => study.rest());
+    this.#fields = new Form((what, alter) => this.#change(what, alter), () => study.rest());
     this.#programme = new Programme(this.#at.programme, study, (state) => state.fastest);
     this.#panels = new Panels(this.#at.curves, { strip: new Strip({ chosen: () => {} }) });
     this.#chart = new Chart(this.#at.chart, (_, value) => (value === null ? study.rest() : this.#give(value / 1000)));
@@ -120,9 +120,9 @@ export class View {
       state.move = Number(several.value);
       delete state.time;
     }));
-    const rows = (entries, before = []) => Object.entries(entries).map(([name, text]) => this.#fields.field([...before, name], text, name.replaceAll("_", " "), [...before, name].join(" ").replaceAll("_", " ")));
+    const rows = (entries, before = []) => Object.entries(entries).map(([name, text]) => this.#fields.field({ path: [...before, name], placeholder: text, label: name.replaceAll("_", " ") }));
     const limits = { ...LIMITS, ...(move.drive && AT_MOTOR), ...(move.follower && { "residual acceleration": "0.5 m/s^2" }) };
-    const of = (part) => machine.filter(([first]) => first === part).map((path) => this.#fields.field(path, "", path.slice(1).join(" ").replaceAll("_", " "), path.join(" ").replaceAll("_", " ")));
+    const of = (part) => machine.filter(([first]) => first === part).map((path) => this.#fields.field({ path, placeholder: "", label: path.slice(1).join(" ").replaceAll("_", " ") }));
     const groups = [
       group("Move", several, ...rows(MOVE)),
       group("At most", ...rows(Object.fromEntries(Object.entries(limits).map(([name, text]) => [name, `none, or ${text}`])), ["limits"])),
