@@ -617,7 +617,7 @@ def _least_peak(cells: MotionCells, scale: float) -> tuple[float, bool]:
         peak, rest = cells.peak(torque, known), 1.0 - cells.time(known)
         exceeded = peak > torque.size * exp(by) * (1.0 + _BOUND_KEPT)
         if rest > INTEGRATION:
-            peak = max(peak, min(abs(held) for held in _holding(plane)))
+            peak = max(peak, min(abs(holding) for holding in _holding(plane)))
         if rest >= -INTEGRATION:
             return peak, exceeded
     return inf, True
