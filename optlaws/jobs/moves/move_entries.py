@@ -20,7 +20,7 @@ from optlaws.entries.value_types import Either, Listed, Measured, Text, Whole, i
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure, located
 from optlaws.jobs.axes.drive_entries import drive_of
 from optlaws.jobs.cycle_entries import AxisEntries
-from optlaws.jobs.job import ProblemFile
+from optlaws.jobs.job_entries import ProblemFile
 from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.numbers import Quantity
 from optlaws.studies.problem_entries import PROBLEM, problem
