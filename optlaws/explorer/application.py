@@ -23,7 +23,7 @@ from starlette.routing import Route
 from optlaws import Drive, __version__, catalogue
 from optlaws.explorer import downloads
 from optlaws.explorer.answering import EXAMPLES, QUESTIONS, message
-from optlaws.explorer.views import cam_view
+from optlaws.explorer.views import cam_view, cycle_view
 from optlaws.explorer.views.machines import machine_view
 from optlaws.explorer.workers import MOST, SLICE, USUAL, Workers
 
@@ -48,6 +48,7 @@ def application(start: dict[str, Any], workers: Workers | None = None) -> Starle
         "names": [*catalogue, *_MEMBERS],
         "examples": {name: example() for name, example in EXAMPLES.items()},
         "cam": cam_view.form(),
+        "programme": cycle_view.form(),
         "mechanisms": machine_view.kinds(),
         "drive": Drive.form()["entries"],
         "formats": downloads.formats(),

@@ -10,7 +10,7 @@ import pytest
 
 from tests.explorer.conftest import Watch
 from tests.explorer.talk import OPTIMAL, Server, written
-from tests.internals.explorer import cam_view
+from tests.internals.explorer import cam_view, cycle_view
 
 if TYPE_CHECKING:
     from playwright.sync_api import Page
@@ -240,6 +240,33 @@ def test_a_cycle_is_shown_changed_and_refused(page: Page, served: Server) -> Non
     settle(page)
     assert page.locator("#segments .over").count() == 2
     assert page.locator("#motion .beyond").count() == 1
+
+
+def test_what_a_cycle_declares_is_in_its_form(page: Page, served: Server) -> None:
+    """A limit of the snap has a panel of its own, and a free motion its points on the way."""
+    study = cycle_view.example()
+    study["axis"][0]["segment"] = [
+        {"kind": "free", "by": "35 mm", "duration": "160 deg"},
+        {"kind": "free", "by": "-35 mm"},
+    ]
+    go(page, served.link(view="cycle", cycle=study))
+    page.get_by_label("limit snap").fill("60000 m/s^4")
+    page.get_by_label("segment 0 via").fill("80 deg, 20 mm; 120 deg, 31 mm")
+    page.get_by_label("segment 0 via").press("Tab")
+    settle(page)
+    axis = study["axis"][0]
+    axis["limits"]["snap"] = "60000 m/s^4"
+    axis["segment"][0]["via"] = [["80 deg", "20 mm"], ["120 deg", "31 mm"]]
+    answer = served.ask("cycle", {"study": study})
+    assert [panel["name"] for panel in answer["panels"]] == ["position", "velocity", "acceleration", "jerk", "snap"]
+    position, snap = answer["panels"][0], answer["panels"][4]
+    assert position["values"][position["at"].index(80.0)] == pytest.approx(20.0, abs=1e-6)
+    assert max(map(abs, snap["values"])) <= 60000.0 * (1.0 + 1e-6)
+    assert snap["limits"][0]["value"] == 60000.0
+    assert page.locator("#motion svg").count() == 5
+    assert page.locator("#segments thead th").last.inner_text().startswith("snap")
+    shown = page.locator("#segments tbody tr >> nth=0 >> td").last.inner_text()
+    assert shown.replace("\u202f", "") == f"{answer['segments'][0]['peaks'][3]['value']:.6g}"
 
 
 def test_an_export_says_what_the_controller_will_run(page: Page, served: Server) -> None:

@@ -4,27 +4,23 @@ import { group } from "./fields.js";
 import { plain } from "./units.js";
 import { html, renew } from "./svg.js";
 
-const OBJECTIVES = ["acceleration", "velocity", "jerk", "rms acceleration", "rms jerk", "force", "rms force"];
-const LIMITS = { velocity: "616 mm/s", acceleration: "20 m/s²", jerk: "2000 m/s³" };
-const KINDS = { rise: ["by"], return: ["by"], move: ["by", "to"], dwell: [], "constant velocity": ["velocity"], free: ["by", "to"] };
-const LAWS = ["rise", "return", "move"];
+const KEPT = ["by", "duration", "name"];
 const NOTHING = ["none", "free"];
-const PLACEHOLDERS = { name: "name", by: "35 mm", to: "0 mm", velocity: "300 mm/s", duration: "120 deg, or free", law: "optimal" };
 
 export class Programme {
   #root;
   #study;
   #held;
-  #objectives;
+  #entries;
   #limits;
   #shape = "";
   #shows = [];
 
-  /** `held(state)` is what holds speed and period; its axes, or its motion, hold the segments. `shown` are objectives
-      and limits that can be chosen. */
-  constructor(root, study, held, { objectives = OBJECTIVES, limits = LIMITS } = {}) {
-    this.#objectives = objectives;
-    this.#limits = limits;
+  /** `held(state)` is what holds speed and period; its axes, or its motion, hold the segments. `entries` are those that
+      a cycle and its segments declare; of a machine's motion that turns with `turns`. */
+  constructor(root, study, held, entries, { turns = false } = {}) {
+    this.#entries = entries;
+    this.#limits = entries.limits[turns ? "machine" : "motion"];
     this.#root = root;
     this.#study = study;
     this.#held = held;
@@ -58,12 +54,12 @@ export class Programme {
         delete study.period;
         study[kind] = turned(value, kind);
       }),
-      this.#text("timing value", timing, "200 rpm", (_axis, study) => study[timing], (_axis, study, value) => (study[timing] = value)),
-      this.#select("minimise", "least", Object.fromEntries(this.#objectives.map((one) => [one, one])), (one) => one.minimise ?? "acceleration", (one, _study, value) => (one.minimise = value)),
+      this.#text("timing value", { name: timing, placeholder: timing === "speed" ? "200 rpm" : "0.3 s" }, (_axis, study) => study[timing], (_axis, study, value) => (study[timing] = value)),
+      this.#select("minimise", "least", named(this.#entries.objectives), (one) => one.minimise ?? "acceleration", (one, _study, value) => (one.minimise = value)),
     ];
     if (cycle.axis?.length > 1) head.unshift(this.#select("axis", "axis", Object.fromEntries(cycle.axis.map((one, i) => [i, one.name])), () => String(index), (_axis, _study, value, state) => (state.axis = Number(value))));
-    const limits = Object.entries(this.#limits).map(([name, usual]) => this.#text(`limit ${name}`, name, `none, or ${usual}`, (one) => listed(one.limits?.[name]), (one, _study, value) => {
-      one.limits = { ...one.limits, [name]: value === "true" || value };
+    const limits = this.#limits.map(({ name, label, placeholder, about }) => this.#text(`limit ${name}`, { name: label, placeholder, about }, (one) => listed(one.limits?.[name]), (one, _study, value) => {
+      one.limits = { ...one.limits, [name]: value === "true" || sided(value) };
       if (!value) delete one.limits[name];
     }));
     const segments = (axis.segment ?? []).map((segment, i) => this.#segment(segment, i, axis.segment.length));
@@ -73,17 +69,24 @@ export class Programme {
 
   #segment(segment, i, count) {
     const of = (axis) => axis.segment?.[i] ?? {};
-    const row = (name) => this.#text(`segment ${i} ${name}`, name, PLACEHOLDERS[name], (axis) => listed(of(axis)[name]), (axis, _study, value) => {
-      if (value) axis.segment[i][name] = name === "duration" && value.includes(" to ") ? value.split(" to ").map((one) => one.trim()) : value;
+    const row = ({ name, label, placeholder, about, list }) => this.#text(`segment ${i} ${name.replaceAll("_", " ")}`, { name: label, placeholder, about, list, law: name === "law" }, (axis) => listed(of(axis)[name]), (axis, _study, value) => {
+      if (value) axis.segment[i][name] = list ? parts(value, ";").map((pair) => parts(pair, ",")) : name === "duration" ? sided(value) : value;
       else delete axis.segment[i][name];
     });
-    const kind = this.#select(`segment ${i} kind`, "kind", Object.fromEntries(Object.keys(KINDS).map((one) => [one, one])), (axis) => of(axis).kind, (axis, _study, value) => {
-      const { duration, name, by = "10 mm" } = axis.segment[i];
-      axis.segment[i] = { kind: value, ...(duration && { duration }), ...(name && { name }), ...(KINDS[value].includes("by") && { by }) };
+    const kinds = this.#entries.segments;
+    const kind = this.#select(`segment ${i} kind`, "kind", named(Object.keys(kinds)), (axis) => of(axis).kind, (axis, _study, value) => {
+      const before = axis.segment[i];
+      const segment = (axis.segment[i] = { kind: value });
+      for (const { name, needed, placeholder } of kinds[value]) {
+        const usual = needed ? placeholder : name === "by" ? "10 mm" : undefined;
+        const entry = KEPT.includes(name) ? before[name] ?? usual : usual;
+        if (entry !== undefined) segment[name] = entry;
+      }
     });
     const act = (text, about, alter) => html("button", { type: "button", class: "close", "aria-label": `${about} segment ${i + 1}`, title: `${about} this segment`, text, onclick: () => this.#change(`${about} ${i}`, (axis) => alter(axis.segment)) });
     const swap = (all, one, other) => ([all[one], all[other]] = [all[other], all[one]]);
-    const head = row("name");
+    const entries = kinds[segment.kind] ?? [];
+    const head = row(entries.find(({ name }) => name === "name") ?? { name: "name", placeholder: "" });
     head.firstElementChild.textContent = String(i + 1);
     const acts = html("span", { class: "acts" },
       act("↑", "Move up", (all) => i > 0 && swap(all, i - 1, i)),
@@ -91,19 +94,20 @@ export class Programme {
       act("+", "Insert a segment after", (all) => all.splice(i + 1, 0, { kind: "dwell", duration: "30 deg" })),
       act("×", "Take away", (all) => count > 1 && all.splice(i, 1)),
     );
-    const rows = [...(KINDS[segment.kind] ?? []).map(row), row("duration"), ...(LAWS.includes(segment.kind) ? [row("law")] : [])];
+    const rows = entries.filter(({ name }) => name !== "name").map(row);
     return html("div", { class: "segment-card" }, html("div", { class: "segment-head" }, head, acts), kind, ...rows);
   }
 
-  #text(what, name, placeholder, get, put) {
-    const field = html("input", { type: "text", placeholder, spellcheck: "false", maxlength: 100, "aria-label": what, ...(name === "law" && { list: "names" }) });
-    field.addEventListener("input", () => this.#change(what, (axis, study) => put(axis, study, NOTHING.includes(field.value.trim()) ? "" : plain(field.value.trim()))));
+  /** A field of text; that of a list is read when it is left, as half of one says nothing. */
+  #text(what, { name, placeholder, about, law = false, list = false }, get, put) {
+    const field = html("input", { type: "text", placeholder, spellcheck: "false", maxlength: 400, "aria-label": what, ...(law && { list: "names" }) });
+    field.addEventListener(list ? "change" : "input", () => this.#change(what, (axis, study) => put(axis, study, NOTHING.includes(field.value.trim()) ? "" : plain(field.value.trim()))));
     field.addEventListener("change", () => this.#study.rest());
     this.#shows.push((cycle, axis) => {
       const value = get(axis, cycle) ?? "";
-      if (document.activeElement !== field || plain(field.value.trim()) !== value) field.value = value;
+      if (document.activeElement !== field || (!list && plain(field.value.trim()) !== value)) field.value = value;
     });
-    return html("label", { class: "entry" }, html("span", { class: "field-name", text: name }), field);
+    return html("label", { class: "entry" }, html("span", { class: "field-name", text: name, title: about ?? what }), field);
   }
 
   #select(what, name, options, get, put) {
@@ -136,6 +140,11 @@ function turned(value, kind) {
   return Number.isFinite(turns) ? `${Number(turns.toPrecision(12))} ${written}` : kind === "speed" ? "200 rpm" : "0.3 s";
 }
 
-const listed = (value) => (Array.isArray(value) ? value.join(" to ") : typeof value === "boolean" ? String(value) : value);
+const named = (names) => Object.fromEntries(names.map((one) => [one, one]));
+
+/** Two quantities as "40 deg to 60 deg", pairs as "40 deg, 20 mm; 60 deg, 30 mm". */
+const listed = (value) => (Array.isArray(value?.[0]) ? value.map((pair) => pair.join(", ")).join("; ") : Array.isArray(value) ? value.join(" to ") : typeof value === "boolean" ? String(value) : value);
+const parts = (text, sign) => text.split(sign).map((one) => one.trim()).filter(Boolean);
+const sided = (text) => (text.includes(" to ") ? parts(text, " to ") : text);
 
 const axisOf = (cycle, index) => cycle.motion ?? cycle.axis?.[index] ?? cycle.axis?.[0];

@@ -17,7 +17,10 @@ from optlaws.cycles.kinematics import SegmentPeaks
 from optlaws.cycles.optimisation.motion_limits import LIMITS
 from optlaws.cycles.optimisation.motor_limits import MOTOR
 from optlaws.cycles.optimisation.objectives import OBJECTIVES
+from optlaws.cycles.specification.limit_entries import LIMITS_OF_CYCLE
+from optlaws.cycles.specification.segments import CycleSegment
 from optlaws.cycles.summary import drive_rows, joint_rows, objective_unit
+from optlaws.entries.declared import entries_of
 from optlaws.errors import InfeasibleProblem, InputError, OptlawsError, SolverFailure, located
 from optlaws.explorer.views.law_view import TITLES, digits, drawn, gap_text, refusal
 from optlaws.explorer.views.picture_points import refined
@@ -26,6 +29,7 @@ from optlaws.jobs.cycle_entries import AxisEntries, CycleProblemFile, cycle_of
 from optlaws.laws.catalogue import reading
 from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.mechanisms.drives.motor import OF_TORQUE, Motor
+from optlaws.motion.piece import unit_of
 from optlaws.motion.quantities import QUANTITIES
 from optlaws.numbers import Quantity, bounded
 from optlaws.numerics.peaks import is_kept
@@ -35,6 +39,8 @@ from optlaws.tolerances import BOUND_SLACK, CYCLE_ROUNDING
 
 _EACH = 100
 _TURN = 360.0
+_MOTION = ("velocity", "acceleration", "deceleration", "jerk", "snap")
+_LIMITS = {"motion": _MOTION, "machine": (*_MOTION, "torque", "rms torque", "power", "energy", "motor")}
 _WHERE = Path("the cycle")
 #: entries of a motor that change no torque
 LIMITING = {entry.name for entry in fields(Motor)} - {*OF_TORQUE, "name"}
@@ -118,7 +124,7 @@ def _view(shown: Cycle) -> dict[str, Any]:
         "across": f"master, deg ({digits(1e3 * shown.duration)} ms a turn)",
         "turn": 1e3 * shown.duration,
         "symbol": "master",
-        "panels": [_panel(shown, nu) for nu in range(4)],
+        "panels": [_panel(shown, nu) for nu in range(_orders(shown))],
         "segments": list(_segments(shown)),
         "trust": trust(shown),
         "facts": _facts(shown),
@@ -129,10 +135,28 @@ def _degrees(shown: Cycle, time: float) -> float:
     return round(_TURN * time / shown.duration, 4)
 
 
+def _orders(shown: Cycle) -> int:
+    """How many derivatives are shown: up to the jerk, or the one of highest order that has a limit."""
+    return max([len(QUANTITIES), *(nu + 1 for limits in shown.limits_of_segments for nu in limits)])
+
+
+def _unit(shown: Cycle, nu: int) -> tuple[str, float]:
+    """The unit of a derivative, and how many of it are one of SI."""
+    return UNITS[shown.axis][nu] if nu < len(QUANTITIES) else (unit_of(shown.axis, nu), 1.0)
+
+
+def _extremes(shown: Cycle, peak: SegmentPeaks, nu: int) -> tuple[tuple[float, float], tuple[float, float]]:
+    """The least and the greatest value of a derivative in a segment, with their times."""
+    if nu < len(peak.extremes):
+        return peak.extremes[nu]
+    piece = next(piece for piece in reversed(shown.pieces) if piece.start <= peak.start)
+    return piece.extremes(nu, peak.start, peak.start + peak.duration)
+
+
 def _panel(shown: Cycle, nu: int) -> dict[str, Any]:
-    unit, factor = UNITS[shown.axis][nu]
+    unit, factor = _unit(shown, nu)
     times, sampled = samples(shown, nu, _EACH)
-    extremes = [time for peak in shown.peaks for _, time in peak.extremes[nu]]
+    extremes = [time for peak in shown.peaks for _, time in _extremes(shown, peak, nu)]
     times, (sampled,) = refined(times, [sampled], [lambda places: np.asarray(shown(places, nu))], np.array(extremes))
     places = [_degrees(shown, time) for time in times.tolist()]
     values = drawn(factor * sampled)
@@ -146,28 +170,31 @@ def _panel(shown: Cycle, nu: int) -> dict[str, Any]:
         for peak, limit in zip(shown.peaks, shown.limits_of_segments, strict=True)
         if nu in limit
     ]
-    name = QUANTITIES[nu]
+    name = (*QUANTITIES, "snap")[nu]
     return {"name": name, "unit": unit, "at": places, "values": values, "limits": limits, "peaks": _peaks(shown, nu)}
 
 
 def _peaks(shown: Cycle, nu: int) -> list[dict[str, Any]]:
     """The least and the greatest value of the cycle."""
-    factor = UNITS[shown.axis][nu][1]
-    low = min((peak.extremes[nu][0] for peak in shown.peaks), key=lambda pair: pair[0])
-    high = max((peak.extremes[nu][1] for peak in shown.peaks), key=lambda pair: pair[0])
-    seen = [pair for pair in (low, high) if abs(pair[0]) > CYCLE_ROUNDING * shown.peak(nu)]
+    factor, extremes = _unit(shown, nu)[1], [_extremes(shown, peak, nu) for peak in shown.peaks]
+    low = min((least for least, _ in extremes), key=lambda pair: pair[0])
+    high = max((most for _, most in extremes), key=lambda pair: pair[0])
+    seen = [pair for pair in (low, high) if abs(pair[0]) > CYCLE_ROUNDING * max(-low[0], high[0])]
     return [{"at": _degrees(shown, time), "value": value * factor} for value, time in seen]
 
 
 def _segments(shown: Cycle) -> Iterator[dict[str, Any]]:
-    units = UNITS[shown.axis]
+    orders = range(_orders(shown))
+    units = [_unit(shown, nu) for nu in orders]
+    most = [max(abs(value) for peak in shown.peaks for value, _ in _extremes(shown, peak, nu)) for nu in orders]
     for peak, limits, stretch in zip(shown.peaks, shown.limits_of_segments, shown.programme.stretches, strict=True):
         peaks = [
             {
-                "value": _plain(peak.peak(nu) * units[nu][1], shown.peak(nu) * units[nu][1]),
-                "beyond": _beyond(peak, nu, limits.get(nu, (-inf, inf))),
+                "value": _plain(max(abs(value) for value, _ in extremes) * units[nu][1], most[nu] * units[nu][1]),
+                "beyond": _beyond(extremes, limits.get(nu, (-inf, inf))),
             }
-            for nu in (1, 2, 3)
+            for nu in orders[1:]
+            for extremes in [_extremes(shown, peak, nu)]
         ]
         yield {
             "name": peak.name,
@@ -180,8 +207,8 @@ def _segments(shown: Cycle) -> Iterator[dict[str, Any]]:
         }
 
 
-def _beyond(peaks: SegmentPeaks, nu: int, limits: tuple[float, float]) -> bool:
-    (least, _), (most, _) = peaks.extremes[nu]
+def _beyond(extremes: tuple[tuple[float, float], tuple[float, float]], limits: tuple[float, float]) -> bool:
+    (least, _), (most, _) = extremes
     return not (is_kept(-least, -limits[0]) and is_kept(most, limits[1]))
 
 
@@ -264,6 +291,22 @@ SEGMENTS = [
     {"kind": "return", "by": "35 mm", "duration": "100 deg"},
     {"kind": "dwell"},
 ]
+
+
+def form() -> dict[str, Any]:
+    """What the form of a cycle shows: objectives, limits of motions and of machines that turn, and kinds of segments.
+
+    Examples
+    --------
+    >>> [limit["name"] for limit in form()["limits"]["motion"]], form()["segments"]["dwell"][0]["name"]
+    (['velocity', 'acceleration', 'deceleration', 'jerk', 'snap'], 'duration')
+    """
+    kinds = CycleSegment.form()["kinds"]
+    return {
+        "objectives": entries_of(Cycle)["minimise"].field["choices"],
+        "limits": {kind: [LIMITS_OF_CYCLE.entries[name].field for name in names] for kind, names in _LIMITS.items()},
+        "segments": {kind: [each for each in shown if "entries" not in each] for kind, shown in kinds.items()},
+    }
 
 
 def example() -> dict[str, Any]:

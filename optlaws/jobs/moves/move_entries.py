@@ -151,7 +151,7 @@ def arguments_of(move: MoveEntries, folder: Path) -> dict[str, Any]:
 
 
 def front_of(
-    quickest: FastestMove, move: MoveEntries, minimise: str, given: dict[str, Any], extent: tuple[str | None, int]
+    quickest: FastestMove, move: MoveEntries, minimise: str, given: dict[str, Any], extent: tuple[Quantity | None, int]
 ) -> TimeFront:
     """The front of a move over its time, up to the longest time; `given` holds its `arguments_of`."""
     machine: dict[str, Any] = {}

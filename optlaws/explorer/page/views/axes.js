@@ -42,7 +42,7 @@ export class View {
   #known = null;
   #shape = "";
 
-  constructor(root, study) {
+  constructor(root, study, { programme: entries }) {
     this.#study = study;
     const panel = (id, attributes = {}, ...children) => html("div", { id, class: "panel", ...attributes }, ...children);
     const part = (id) => html("div", { id });
@@ -60,7 +60,7 @@ export class View {
     );
     const held = (state) => state.axes;
     this.#names = new AxisNames(names, study, held);
-    this.#programme = new Programme(programme, study, held);
+    this.#programme = new Programme(programme, study, held, entries);
     this.#interlocks = new Interlocks(interlocks, study, held);
     this.#timing = new Timing(timing, (row, segments) => this.#moved(row, segments));
     this.#positions = new Positions(plane, (rule, corner, place) => this.#cornered(rule, corner, place));

@@ -43,11 +43,11 @@ export class View {
   #axis = "";
   #read = html("p", { class: "facts", id: "cam-reading", role: "status" });
 
-  constructor(_root, study, { cam }) {
+  constructor(_root, study, { cam, programme }) {
     this.#study = study;
     this.#kinds = cam;
     this.#form = new Form((what, alter) => study.change(what, (state) => alter(state.cam)), () => study.rest(), (one, _path, before) => this.#take(one, before));
-    this.#programme = new Programme(element("cam-programme"), study, (state) => state.cam);
+    this.#programme = new Programme(element("cam-programme"), study, (state) => state.cam, programme);
     this.#cams = new Latest("api/cam", (answer, question) => {
       this.#render(answer);
       if (answer.refused) return;

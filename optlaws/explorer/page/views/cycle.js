@@ -10,7 +10,7 @@ import { showTrust, unanswered } from "../trust.js";
 import { headed, listed, number } from "../units.js";
 
 const element = (id) => document.getElementById(id);
-const HEADINGS = ["segment", "from, deg", "to, deg", "takes, ms", "moves", "velocity", "acceleration", "jerk"];
+const HEADINGS = ["segment", "from, deg", "to, deg", "takes, ms", "moves"];
 
 const WORDS = {
   "position, velocity": "of the axis over a turn of the master, in the units of the machine; red is where a limit forbids to go",
@@ -37,12 +37,12 @@ export class View {
   #cycles;
   #nearest;
 
-  constructor(_root, study) {
+  constructor(_root, study, { programme }) {
     this.#study = study;
     const strip = new Strip({ moved: (i, at) => this.#join(i, at), rested: () => study.rest(), chosen: (i) => this.#motion.look(this.#answer.segments[i].at) });
     this.#motion = new Panels(element("motion"), { strip });
     this.#motion.cursor.watch((at) => this.#mark(at));
-    this.#programme = new Programme(element("programme"), study, (state) => state.cycle);
+    this.#programme = new Programme(element("programme"), study, (state) => state.cycle, programme);
     this.#cycles = new Latest("api/cycle", (answer, question) => this.#answered(answer, question), (error, question) => this.#answered(unanswered(error), question));
     this.#nearest = new Latest("api/cycle-nearest", ({ ways }) => this.#render(this.#answer, ways), () => this.#render(this.#answer, []));
   }
@@ -98,7 +98,7 @@ export class View {
 
 function table({ segments, panels }) {
   const units = panels.map(({ unit }) => unit);
-  const named = HEADINGS.map((name, i) => (i >= 4 ? headed(name, units[i - 4]) : name));
+  const named = [...HEADINGS, ...panels.slice(1).map(({ name }) => name)].map((name, i) => (i >= 4 ? headed(name, units[i - 4]) : name));
   const head = html("tr", {}, ...named.map((name, i) => html("th", { scope: "col", class: i ? "number" : null, text: name })));
   const rows = segments.map(({ name, from, to, time, by, peaks }) =>
     html(

@@ -45,11 +45,11 @@ export class View {
   #front = null;
   #asked = null;
 
-  constructor(root, study) {
+  constructor(root, study, { programme }) {
     this.#study = study;
     this.#at = layout(root);
     this.#fields = new Form((what, alter) => this.#change(what, alter), () => study.rest());
-    this.#programme = new Programme(this.#at.programme, study, (state) => state.fastest);
+    this.#programme = new Programme(this.#at.programme, study, (state) => state.fastest, programme);
     this.#panels = new Panels(this.#at.curves, { strip: new Strip({ chosen: () => {} }) });
     this.#chart = new Chart(this.#at.chart, (_, value) => (value === null ? study.rest() : this.#give(value / 1000)));
     this.#answers = new Latest("api/fastest", (answer) => this.#answered(answer), (error) => this.#answered(unanswered(error)));

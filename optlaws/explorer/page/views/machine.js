@@ -15,8 +15,6 @@ import { headed, number, written } from "../units.js";
 
 const told = (value) => JSON.stringify(value);
 const PICTURES = { speed: "torque over speed", ratio: "over the ratio", input: "J and T" };
-const OBJECTIVES = ["rms torque", "torque", "energy", "power", "acceleration", "velocity", "jerk", "rms acceleration", "rms jerk", "rms force", "force", "heat"];
-const LIMITS = { velocity: "300 deg/s", acceleration: "200 rad/s^2", jerk: "8000 rad/s^3", torque: "20 N m", "rms torque": "8 N m", motor: "true: those of the motor" };
 const MOST = 4;
 const MOST_AXES = 8;
 const SLOW = 4000; // ms that a cycle takes as it is played
@@ -65,7 +63,7 @@ export class View {
     const made = layout(root);
     this.#at = made;
     this.#form = new MachineForm(made.form, study, known, (state) => state.machine);
-    this.#programme = new Programme(made.programme, study, (state) => state.machine, { objectives: OBJECTIVES, limits: LIMITS });
+    this.#programme = new Programme(made.programme, study, (state) => state.machine, known.programme, { turns: true });
     this.#linkage = new Linkage(made.drawing);
     this.#chart = new Chart(made.chart, (key, value) => this.#moved(key, value));
     this.#input = new Panels(made.input);

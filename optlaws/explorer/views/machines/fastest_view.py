@@ -27,7 +27,7 @@ from optlaws.jobs.moves.move_entries import FastestProblemFile, MoveEntries, arg
 from optlaws.mechanisms.drives.sheet import share_used
 from optlaws.motion.piece import factor, unit_of
 from optlaws.motion.quantities import QUANTITIES, si_number
-from optlaws.numbers import Array, bounded, whole
+from optlaws.numbers import Array, Quantity, bounded, whole
 from optlaws.plots.cycle import UNITS
 from optlaws.sentences import Amount, sentence
 from optlaws.studies.problem_entries import problem
@@ -133,8 +133,8 @@ def _sought(move: MoveEntries, entries: str) -> _Sought:
     return _Sought(move, given, fastest(space, stroke=_stroke(move), **given))
 
 
-def _stroke(move: MoveEntries) -> str:
-    return move.stroke if isinstance(move.stroke, str) else move.stroke[0]
+def _stroke(move: MoveEntries) -> Quantity:
+    return move.stroke[0] if isinstance(move.stroke, tuple) else move.stroke
 
 
 @dataclass(frozen=True)
