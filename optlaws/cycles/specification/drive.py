@@ -40,7 +40,13 @@ def _constants(weight: str, inertia: str, stiffness: str, force: str, viscous: s
         "dry": (against, "Friction that does not depend on the speed."),
         REGENERATION: (Share(least=0.0, most=1.0), "The share of the braking energy that is used again."),
     }
-    return TableOf("key", {name: entry(each, about, default=0.0) for name, (each, about) in types.items()})
+    return TableOf(
+        "key",
+        {
+            name: entry(each, about, default=None, example=getattr(each, "example", 0.5))
+            for name, (each, about) in types.items()
+        },
+    )
 
 
 #: constants of a drive, for slides and for tables

@@ -18,14 +18,14 @@ from optlaws.cams.followers.follower import CamFollower
 from optlaws.cams.forces import CamForces, Surfaces
 from optlaws.cams.least_sizes import least_prime_circle
 from optlaws.cams.summary import Labelled, named_forces
-from optlaws.cycles.specification.drive import ENTRIES
+from optlaws.cycles.specification.drive import CONSTANTS
 from optlaws.errors import InfeasibleProblem, InputError, OptlawsError
 from optlaws.explorer.views.cycle_view import SEGMENTS, check_axis
 from optlaws.explorer.views.law_view import digits, drawn, refusal
 from optlaws.explorer.views.requests import Question
 from optlaws.jobs.cam_entries import CamProblemFile
 from optlaws.jobs.cam_findings import FORCE, STIFFNESS, Findings
-from optlaws.motion.quantities import DIMENSIONS, quantity
+from optlaws.motion.quantities import quantity
 from optlaws.numbers import Array
 from optlaws.numerics.branch_and_bound import Extremes
 from optlaws.sentences import Amount, Sentence, joined, sentence
@@ -265,20 +265,13 @@ def form() -> dict[str, Any]:
 
     Examples
     --------
-    >>> form()["axes"]["inclined flat"], form()["drive"]["length"][0]
-    ('length', {'name': 'mass', 'label': 'mass', 'about': 'mass', 'placeholder': 'none, or 2.5 kg'})
+    >>> form()["axes"]["inclined flat"], form()["drive"]["length"][0]["placeholder"]
+    ('length', 'none, or 2.5 kg')
     """
-    drives = {
-        axis: [
-            {"name": name, "label": name, "about": dimension, "placeholder": f"none, or {DIMENSIONS[dimension][1]}"}
-            for name, dimension in entries.items()
-        ]
-        for axis, entries in ENTRIES.items()
-    }
     return {
         **CamProblemFile.form(),
         "axes": {name: kind.axis for name, kind in CamFollower.kinds().items()},
-        "drive": drives,
+        "drive": {axis: table.form()["entries"] for axis, table in CONSTANTS.items()},
     }
 
 
