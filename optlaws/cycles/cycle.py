@@ -38,7 +38,7 @@ from optlaws.cycles.optimisation.search_spaces import remark_on_degrees, search_
 from optlaws.cycles.optimisation.shared_limits import Best, best_of
 from optlaws.cycles.optimisation.sums import total
 from optlaws.cycles.specification.drive import CycleDrive, read_drive
-from optlaws.cycles.specification.frozen import FrozenTable, frozen
+from optlaws.cycles.specification.frozen import FrozenTable, frozen, thawed
 from optlaws.cycles.specification.joints import LawSpan, Layout, layout
 from optlaws.cycles.specification.limit_entries import LIMITS_OF_CYCLE
 from optlaws.cycles.specification.load import LOAD, ElasticLoad, Load, read_load
@@ -56,7 +56,7 @@ from optlaws.mechanisms.linkages.mechanism import Mechanism
 from optlaws.mechanisms.machine.machine import Machine
 from optlaws.mechanisms.machine.over_time import RepeatedMotion
 from optlaws.motion.piece import Piece, by_pieces
-from optlaws.motion.quantities import TURN, quantity, written
+from optlaws.motion.quantities import TURN, quantity
 from optlaws.numbers import MOST_DEGREE, Array, Quantity, derivative, number_or_array, real_times
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.solution import Solution
@@ -108,11 +108,7 @@ def _plain(value: Any) -> Any:
     """A drive or a load as plain data."""
     if isinstance(value, Machine | Mechanism | Drive):
         return value.to_dict()
-    if isinstance(value, Mapping):
-        return {str(key): _plain(part) for key, part in value.items()}
-    if isinstance(value, tuple):
-        return [_plain(part) for part in value]
-    return value if value is None or isinstance(value, bool | int | float) else str(written(value))
+    return thawed(value)
 
 
 @declared

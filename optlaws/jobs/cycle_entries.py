@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from optlaws.cycles.cycle import Cycle
 from optlaws.cycles.interlocks.interlock import Interlock
-from optlaws.cycles.specification.frozen import frozen
+from optlaws.cycles.specification.frozen import frozen, thawed
 from optlaws.cycles.specification.load import ElasticFollower
 from optlaws.cycles.specification.segments import CycleSegment
 from optlaws.echo import shortened
@@ -65,7 +65,7 @@ def _constants(value: Any) -> Any:
     return frozen(value)
 
 
-_TABLE = ReadBy(_constants, "a table", json={"type": "object"})
+_TABLE = ReadBy(_constants, "a table", thawed, {"type": "object"})
 _TRANSITIONS = Listed(ValueOf(TransitionEntries), most=8, each="cam")
 
 

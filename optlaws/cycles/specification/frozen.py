@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any, NoReturn, Self
 
+from optlaws.motion.quantities import written
+
 
 class FrozenTable(dict[str, Any]):
     """A table whose entries cannot be set, added or removed; it is equal to a plain one, and hashed by its entries.
@@ -54,3 +56,14 @@ def frozen(value: Any, depth: int = 0) -> Any:
     if isinstance(value, Mapping):
         return FrozenTable({name: frozen(entry, depth + 1) for name, entry in value.items()})
     return tuple(frozen(entry, depth + 1) for entry in value) if type(value) in {list, tuple} else value
+
+
+def thawed(value: Any) -> Any:
+    """A value with its frozen tables and tuples as plain tables and lists, which can be changed and stored.
+
+    >>> thawed(frozen({"motor": {"ratio": (1, 2)}}))
+    {'motor': {'ratio': [1, 2]}}
+    """
+    if isinstance(value, Mapping):
+        return {name: thawed(entry) for name, entry in value.items()}
+    return [thawed(entry) for entry in value] if type(value) in {list, tuple} else written(value)
