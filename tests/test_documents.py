@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 import optlaws
+from docs._ext import entry_tables
 from docs._ext.docstrings import finish, prepare
 from docs._ext.module_tree import PAGE, page_with_tree
 from docs._ext.stub_names import with_names
@@ -59,6 +60,13 @@ def test_the_reference_shows_every_public_name() -> None:
     lists = [names.split(", ") for page in pages for names in re.findall(r":members: (.*)", page)]
     single = [re.findall(r"(?:autofunction|py:data):: (?:\S+\.)?(\w+)", page) for page in pages]
     assert set(vars(optlaws)["__all__"]) - {name for names in [*lists, *single] for name in names} == set()
+
+
+def test_the_tables_of_entries_are_what_the_values_declare() -> None:
+    page = entry_tables.PAGE.read_text("utf-8")
+    assert page == entry_tables.page_with_tables(page)
+    for name in entry_tables.TABLES:
+        assert f"<!-- entries of {name} -->\n\n| entry |" in page
 
 
 def test_every_path_and_module_that_a_document_names_is_there() -> None:

@@ -32,18 +32,20 @@ def markdown_table(cls: type[Declared], heading: str = "what it says", apart: Co
     return "\n".join([f"| entry | {heading} |", "|---|---|", *rows])
 
 
-def _rows(each: Entry, place: str, apart: Collection[str]) -> Iterator[str]:
-    """The row of an entry, and those of the entries of its table; an entry of several kinds has one."""
+def _rows(each: Entry, place: str, apart: Collection[str], of: str = "") -> Iterator[str]:
+    """The row of an entry, and those of the entries of its table, which say the kinds that have them."""
     name = f"{place}{each.name}"
-    yield f"| `{name}` | {_sentence(each)} |"
+    yield f"| `{name}`{of} | {_sentence(each)} |"
     tables = {} if name in apart else each.type.tables()
     if kinds := ", ".join(f'"{kind}"' for kind in tables if kind):
         yield f"| `{name}.kind` | One of {kinds}. |"
-    seen: list[Entry] = []
-    for inner in [inner for entries in tables.values() for inner in entries.values() if inner.shown]:
-        if inner not in seen:
-            seen.append(inner)
-            yield from _rows(inner, f"{name}.", apart)
+    having: dict[int, tuple[Entry, list[str]]] = {}
+    for kind, entries in tables.items():
+        for inner in (inner for inner in entries.values() if inner.shown):
+            same = next((key for key, (known, _) in having.items() if known == inner), len(having))
+            having.setdefault(same, (inner, []))[1].append(f'"{kind}"')
+    for inner, owners in having.values():
+        yield from _rows(inner, f"{name}.", apart, f" of {', '.join(owners)}" if len(owners) < len(tables) else "")
 
 
 def _sentence(each: Entry) -> str:

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import KW_ONLY
+from dataclasses import KW_ONLY, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from optlaws.cycles.cycle import Cycle
 from optlaws.cycles.interlocks.interlock import Interlock
+from optlaws.cycles.interlocks.interlock_kinds import INTERLOCKS
 from optlaws.cycles.specification.frozen import frozen, thawed
 from optlaws.cycles.specification.load import ElasticFollower
 from optlaws.cycles.specification.segments import CycleSegment
@@ -122,7 +123,7 @@ class CycleProblemFile(ProblemFile, title="a problem file"):
         Listed(ValueOf(AxisEntries), least=1, most=8, each="axis", named=True), "The axes, each with a name."
     )
     interlocks: tuple[Interlock, ...] = entry(
-        Listed(ValueOf(Interlock), most=50, each="interlock"), "Conditions between two axes each.", default=()
+        replace(INTERLOCKS, most=50), "Conditions between two axes each.", default=()
     )
     overlap: OverlapEntries | None = entry(
         ValueOf(OverlapEntries),
