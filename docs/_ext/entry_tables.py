@@ -4,7 +4,6 @@
 line of `TABLES`, and its two marks in the page: `<!-- entries of NAME -->` and `<!-- end of the entries of NAME -->`.
 """
 
-import re
 from pathlib import Path
 
 from optlaws.entries.declared import Declared
@@ -26,7 +25,8 @@ def page_with_tables(page: str) -> str:
     for name, (value, apart) in TABLES.items():
         begin, end = f"<!-- entries of {name} -->\n", f"<!-- end of the entries of {name} -->\n"
         table = f"{begin}\n{markdown_table(value, apart=apart)}\n\n{end}"
-        page = re.sub(f"{re.escape(begin)}.*?{re.escape(end)}", lambda _, table=table: table, page, flags=re.DOTALL)
+        before, _, rest = page.partition(begin)
+        page = before + table + rest.partition(end)[2]
     return page
 
 

@@ -115,7 +115,11 @@ def test_an_energy_of_a_cycle_is_kept() -> None:
         ({"drive": Drive(TABLE, Motor(3e-4)), "minimise": "heat"}, InputError, "motor constant"),
         ({"minimise": "energy", "limits": C}, InputError, "no drive: give one"),
         ({"drive": TABLE, "limits": {"energy": "3 J", "rms torque": "1 N m"}}, InputError, "give one of them"),
-        ({"drive": {"inertia": "0.8 kg m^2", "regeneration": 1.5}}, InputError, "drive: regeneration must be at most 1, got 1.5"),
+        (
+            {"drive": {"inertia": "0.8 kg m^2", "regeneration": 1.5}},
+            InputError,
+            "drive: regeneration must be at most 1, got 1.5",
+        ),
     ],
     ids=["energy", "heat", "constant", "none", "two", "share"],
 )

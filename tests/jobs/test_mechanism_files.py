@@ -179,7 +179,8 @@ def test_every_entry_of_a_drive_that_forms_offer_is_one_of_files(entry: dict[str
     changed = driven(CRANK, {"motor": MOTOR, entry["name"]: entry["example"]})
     assert changed != plain
     assert changed.to_dict().keys() - plain.to_dict().keys() <= {entry["name"]}
-    (again,) = read(entries(CRANK, {"motor": MOTOR, entry["name"]: changed.to_dict()[entry["name"]]}), Path("again"))[1:]
+    drive = {"motor": MOTOR, entry["name"]: changed.to_dict()[entry["name"]]}
+    (again,) = read(entries(CRANK, drive), Path("again"))[1:]
     assert again["input"].drive == changed
 
 
