@@ -398,6 +398,9 @@ class Together(ValueType):
             "items": False,
         }
 
+    def form(self) -> dict[str, Any]:
+        return {"parts": list(self.names)}
+
 
 class Span(Together):
     """Two ends that ascend, such as the range of an angle.

@@ -221,3 +221,22 @@ def test_axes_are_added_renamed_and_removed_with_what_names_them(page: Page, ser
     page.get_by_role("button", name="Undo").click()
     settle(page)
     assert "interlocks clear" in page.locator("#axes-trust").inner_text()
+
+
+def test_an_interlock_of_another_kind_has_the_fields_that_it_declares(page: Page, served: Server) -> None:
+    go(page, served.link(view="axes", axes=robot()))
+    page.get_by_label("interlock 1 kind").select_option("clearance")
+    page.get_by_label("interlock 1 least").fill("")
+    page.get_by_label("interlock 1 most").fill("0 mm, 5 mm; 300 mm, 90 mm")
+    page.get_by_label("interlock 1 most").press("Tab")
+    settle(page)
+    changed = robot()
+    bound = [["0 mm", "5 mm"], ["300 mm", "90 mm"]]
+    changed["interlocks"] = [{"kind": "clearance", "name": "box", "axis": "x", "over": "z", "most": bound}]
+    (results,) = served.ask("axes-clearances", {"study": changed})["rows"]
+    assert written(results["cells"][0]) in page.locator("#axes-table").inner_text()
+    assert page.get_by_label("interlock 1 corners").count() == 0
+    page.get_by_label("interlock 1 kind").select_option("synchronous")
+    settle(page)
+    assert page.get_by_label("interlock 1 during").input_value() == "60 deg, 120 deg"
+    assert page.get_by_label("interlock 1 to", exact=True).input_value() == "z"

@@ -89,7 +89,16 @@ class LeastClearance:
 #: positions at which interlocks look, and pairs of such
 POSITION = Measured("length", "angle")
 PAIR = Together(POSITION, POSITION)
-AXIS = Text()
+
+
+class AxisName(Text):
+    """The name of an axis, which a form offers to choose."""
+
+    def form(self) -> dict[str, Any]:
+        return {"axis": True}
+
+
+AXIS = AxisName()
 CALLED = "What reports call it; the condition in words unless given."
 
 

@@ -1,7 +1,7 @@
 // The axes of a machine as a form: their names, one more, one less. What interlocks and an overlap say of an axis follows.
 
 import { group } from "./fields.js";
-import { OTHER } from "./interlocks.js";
+import { otherOf } from "./interlocks.js";
 import { html, renew } from "./svg.js";
 
 const FRESH = [
@@ -15,10 +15,12 @@ export class AxisNames {
   #root;
   #study;
   #held;
+  #kinds;
   #shape = "";
 
-  /** `held(state)` is what holds the axes and the interlocks. */
-  constructor(root, study, held) {
+  /** `held(state)` is what holds the axes and the interlocks, whose entries are declared by their `kinds`. */
+  constructor(root, study, held, kinds) {
+    this.#kinds = kinds;
     this.#root = root;
     this.#study = study;
     this.#held = held;
@@ -42,12 +44,12 @@ export class AxisNames {
     const field = html("input", { type: "text", value: name, spellcheck: "false", maxlength: 60, "aria-label": `name of axis ${i + 1}`, "data-key": `axis ${i}` });
     field.addEventListener("change", () => {
       const now = field.value.trim();
-      if (now && !names.includes(now)) this.#change(`rename ${i}`, (held) => renamed(held, i, now));
+      if (now && !names.includes(now)) this.#change(`rename ${i}`, (held) => renamed(held, i, now, this.#kinds));
       else field.value = name;
     });
     const choose = html("input", { type: "radio", name: "axis-of-programme", checked: chosen, "aria-label": `segments of axis ${i + 1}`, title: "its segments stand below", onchange: () => this.#change("axis", (_held, state) => (state.axis = i)) });
     const remove = html("button", { type: "button", class: "close", disabled: names.length < 2, "aria-label": `Remove axis ${i + 1}`, title: "Remove this axis, and its interlocks", text: "×", onclick: () => this.#change(`remove axis ${i}`, (held, state) => {
-      without(held, i);
+      without(held, i, this.#kinds);
       state.axis = Math.min(state.axis > i ? state.axis - 1 : state.axis, held.axis.length - 1);
     }) });
     return html("div", { class: "axis-name" }, choose, field, remove);
@@ -63,17 +65,17 @@ export class AxisNames {
 }
 
 /** Call an axis by another name, wherever it is named. */
-function renamed({ axis, interlocks = [], overlap }, i, now) {
+function renamed({ axis, interlocks = [], overlap }, i, now, kinds) {
   const was = axis[i].name;
   axis[i].name = now;
-  for (const rule of interlocks) for (const key of ["axis", OTHER[rule.kind]]) if (rule[key] === was) rule[key] = now;
+  for (const rule of interlocks) for (const key of ["axis", otherOf(kinds, rule.kind)]) if (rule[key] === was) rule[key] = now;
   if (overlap?.of) overlap.of = overlap.of.map((name) => (name === was ? now : name));
 }
 
 /** Take an axis away, with the interlocks and the goal that are of it. */
-function without(held, i) {
+function without(held, i, kinds) {
   const [{ name }] = held.axis.splice(i, 1);
-  if (held.interlocks) held.interlocks = held.interlocks.filter((rule) => rule.axis !== name && rule[OTHER[rule.kind]] !== name);
+  if (held.interlocks) held.interlocks = held.interlocks.filter((rule) => rule.axis !== name && rule[otherOf(kinds, rule.kind)] !== name);
   if (!held.interlocks?.length) delete held.interlocks;
   if (!held.overlap?.of) return;
   held.overlap.of = held.overlap.of.filter((one) => one !== name);

@@ -13,6 +13,7 @@ import msgspec
 import numpy as np
 
 from optlaws import Cycle, Status
+from optlaws.cycles.interlocks.interlock import Interlock
 from optlaws.cycles.kinematics import SegmentPeaks
 from optlaws.cycles.optimisation.motion_limits import LIMITS
 from optlaws.cycles.optimisation.motor_limits import MOTOR
@@ -294,7 +295,7 @@ SEGMENTS = [
 
 
 def form() -> dict[str, Any]:
-    """What the form of a cycle shows: objectives, limits of motions and of machines that turn, and kinds of segments.
+    """What the form of a cycle shows: objectives, limits of motions and of machines that turn, segments, interlocks.
 
     Examples
     --------
@@ -305,6 +306,7 @@ def form() -> dict[str, Any]:
     return {
         "objectives": entries_of(Cycle)["minimise"].field["choices"],
         "limits": {kind: [LIMITS_OF_CYCLE.entries[name].field for name in names] for kind, names in _LIMITS.items()},
+        "interlocks": Interlock.form()["kinds"],
         "segments": {kind: [each for each in shown if "entries" not in each] for kind, shown in kinds.items()},
     }
 

@@ -59,9 +59,9 @@ export class View {
       html("section", { id: "axes-right", "aria-label": "Clearances" }, rooms, table),
     );
     const held = (state) => state.axes;
-    this.#names = new AxisNames(names, study, held);
+    this.#names = new AxisNames(names, study, held, entries.interlocks);
     this.#programme = new Programme(programme, study, held, entries);
-    this.#interlocks = new Interlocks(interlocks, study, held);
+    this.#interlocks = new Interlocks(interlocks, study, held, entries.interlocks);
     this.#timing = new Timing(timing, (row, segments) => this.#moved(row, segments));
     this.#positions = new Positions(plane, (rule, corner, place) => this.#cornered(rule, corner, place));
     this.#rooms = new Panels(rooms, { cursor: this.#cursor });
