@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from playwright.sync_api import Page
 
 PROBLEMS = Path(__file__).parents[2] / "problems"
-FOLLOWER = {"low": "20 Hz", "high": "24 Hz", "damping": 0.05}
+FOLLOWER = {"frequency": ["20 Hz", "24 Hz"], "damping": 0.05}
 
 
 def known(data: dict[str, Any]) -> Cycle:
@@ -88,7 +88,7 @@ def test_what_cannot_be_advised_says_why(served: Server) -> None:
     for entries, reason in (
         ({"minimise": "beauty"}, "beauty"),
         ({"minimise": "residual acceleration"}, "follower"),
-        ({"follower": {"low": "3 mm", "high": "4 Hz"}}, "frequency"),
+        ({"follower": {"frequency": ["3 mm", "4 Hz"]}}, "frequency"),
     ):
         assert reason in served.ask("advice", {"study": study, **entries})["refused"]["reason"]
     study["axis"][0]["limits"] = {"acceleration": "5 m/s^2"}

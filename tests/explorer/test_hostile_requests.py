@@ -37,7 +37,7 @@ SEEDS: dict[str, list[Any]] = {
     "law-machine": [{"law": OPTIMAL, "stroke": "35 mm", "time": "0.1 s", "mass": "2 kg"}],
     "front": [{"law": OPTIMAL, "over": ["B", "C"]}],
     "nearest": [{"problem": {"order": 4, "degree": 9, "B": 1.7, "J": [0, 20]}, "weights": {"C": 1.0}}],
-    "advice": [CYCLE | {"follower": {"low": "20 Hz", "high": "24 Hz", "damping": 0.05}, "minimise": "jerk"}],
+    "advice": [CYCLE | {"follower": {"frequency": ["20 Hz", "24 Hz"], "damping": 0.05}, "minimise": "jerk"}],
     "advice-standard": [CYCLE],
     "axes": [AXES],
     "axes-clearances": [AXES],

@@ -33,19 +33,11 @@ _MILLI = 1e3
 ShortText = Annotated[str, msgspec.Meta(max_length=40)]
 
 
-class FollowerEntries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
-    """An elastic follower of a motion: the least and the greatest natural frequency, and the damping ratio."""
-
-    low: ShortText
-    high: ShortText
-    damping: float = 0.0
-
-
 class AdviceRequest(CycleRequest, kw_only=True, forbid_unknown_fields=True):
     """A cycle or a machine, the objective, and the elastic follower."""
 
     minimise: ShortText | None = None
-    follower: FollowerEntries | None = None
+    follower: dict[str, Any] | None = None
     points: Annotated[int, msgspec.Meta(ge=0, le=_POINTS)] = _POINTS
 
 
@@ -92,9 +84,7 @@ def _question(request: AdviceRequest) -> bytes:
 def _standard(question: bytes) -> tuple[Cycle, Candidates]:
     request = msgspec.json.decode(question, type=AdviceRequest)
     cycle = cycle_view.stored(*cycle_view.read(request))
-    known = request.follower
-    follower = None if known is None else {"frequency": (known.low, known.high), "damping": known.damping}
-    return cycle, standard_candidates(cycle, minimise=request.minimise or None, follower=follower)
+    return cycle, standard_candidates(cycle, minimise=request.minimise or None, follower=request.follower)
 
 
 @lru_cache(maxsize=16)

@@ -8,7 +8,6 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
-import msgspec
 import numpy as np
 
 from optlaws.cycles.cycle import Cycle
@@ -21,6 +20,7 @@ from optlaws.cycles.specification.programme import is_optimal
 from optlaws.cycles.specification.segments import Dwell
 from optlaws.errors import InputError, OptlawsError
 from optlaws.explorer.views import cycle_view
+from optlaws.explorer.views.cycle_view import CycleRequest
 from optlaws.explorer.views.law_view import TITLES, digits, drawn, refusal
 from optlaws.explorer.views.picture_points import refined
 from optlaws.explorer.views.requests import Question
@@ -43,13 +43,7 @@ _WORDS = {
 _FIGURES = 12  # of durations that are put into a study
 
 
-class AxesRequest(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
-    """Axes with their interlocks, as in a problem file of the job "cycle"."""
-
-    study: dict[str, Any]
-
-
-def answer(request: AxesRequest) -> dict[str, Any]:
+def answer(request: CycleRequest) -> dict[str, Any]:
     """The bars of every axis, and its interlocks in the timing diagram and in planes; or the reason for a refusal."""
     try:
         return _view(axes_of(request.study))
@@ -230,12 +224,12 @@ def _unit(of: str) -> tuple[str, float]:
     return SMALL_UNITS.get(of, (of, 1.0))
 
 
-def clearances(request: AxesRequest) -> dict[str, Any]:
+def clearances(request: CycleRequest) -> dict[str, Any]:
     """The proven clearances of the interlocks over the whole cycle, and the use of the limits of each axis.
 
     Examples
     --------
-    >>> clearances(AxesRequest(study=example()))["trust"]["word"]
+    >>> clearances(CycleRequest(study=example()))["trust"]["word"]
     'interlocks clear'
     """
     try:
@@ -294,12 +288,12 @@ def _trust(axes: Axes) -> dict[str, Any]:
     return {"status": status, "word": word, "advice": text, "gap": "", "facts": facts, "proof": proof}
 
 
-def together(request: AxesRequest) -> dict[str, Any]:
+def together(request: CycleRequest) -> dict[str, Any]:
     """The study with its moves overlapped, and the gain; or the reason for a refusal.
 
     Examples
     --------
-    >>> answered = together(AxesRequest(study=example() | {"overlap": {"goal": "acceleration", "of": ["die"]}}))
+    >>> answered = together(CycleRequest(study=example() | {"overlap": {"goal": "acceleration", "of": ["die"]}}))
     >>> answered["facts"][0]
     'greatest acceleration 0.193894 of the given one, 5.157 times lower'
     """
@@ -391,7 +385,7 @@ def example() -> dict[str, Any]:
 
 
 QUESTIONS: dict[str, Question] = {
-    "axes": (AxesRequest, answer),
-    "axes-clearances": (AxesRequest, clearances),
-    "axes-together": (AxesRequest, together),
+    "axes": (CycleRequest, answer),
+    "axes-clearances": (CycleRequest, clearances),
+    "axes-together": (CycleRequest, together),
 }

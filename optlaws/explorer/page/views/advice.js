@@ -62,7 +62,7 @@ export class View {
     this.#form(state);
     const { minimise, follower } = this.#asked(state);
     const question = { study: this.#motion(state), axis: state.axis, ...(minimise && { minimise }) };
-    if (follower?.on) question.follower = { low: follower.low, high: follower.high, damping: Number(follower.damping) || 0 };
+    if (follower?.on) question.follower = { frequency: [follower.low, follower.high], damping: Number(follower.damping) || 0 };
     if (told(question) === this.#question) return;
     this.#question = told(question);
     this.#step = 0;
