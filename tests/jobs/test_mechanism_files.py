@@ -252,7 +252,11 @@ WRONG: dict[str, tuple[dict[str, Any], dict[str, Any] | None, str]] = {
         "mechanism: unknown entry of a slider crank 'ofset'; did you mean 'offset'",
     ),
     "missing": ({"kind": "belt", "radius": "3 cm"}, None, "mechanism: a belt needs its mass, such as mass = '8 kg'"),
-    "body": ({**CRANK, "bodies": {"slidr": "5 kg"}}, None, "mechanism: unknown body 'slidr'; did you mean 'slider'"),
+    "body": (
+        {**CRANK, "bodies": {"slidr": "5 kg"}},
+        None,
+        "mechanism: bodies: unknown body 'slidr'; did you mean 'slider'",
+    ),
     "entry of a body": (
         {**CRANK, "bodies": {"rod": {"mas": "5 kg"}}},
         None,

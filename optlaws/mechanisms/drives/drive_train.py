@@ -17,7 +17,7 @@ from optlaws.mechanisms.drives.effort import PieceEffort, bends
 from optlaws.mechanisms.drives.motor import Motor, Train
 from optlaws.mechanisms.drives.sheet import BestRatio, DriveSheet, TorqueByRatio, best_ratio, sheet_of
 from optlaws.mechanisms.linkages.mechanism import DIMENSIONS, Mechanism, duration_of
-from optlaws.mechanisms.linkages.mechanism_kinds import MechanismValue
+from optlaws.mechanisms.linkages.mechanism_kinds import MECHANISM
 from optlaws.mechanisms.linkages.move_limit import (
     MOVED,
     LimitedMove,
@@ -102,9 +102,7 @@ class Drive(Declared, title="a drive"):
     writes_defaults = True
     newer = ("no_load_torque",)
 
-    mechanism: Mechanism = entry(
-        MechanismValue(), "Whose input the gear turns: one whose input turns too.", shown=False
-    )
+    mechanism: Mechanism = entry(MECHANISM, "Whose input the gear turns: one whose input turns too.", shown=False)
     motor: Motor = entry(
         ValueOf(Motor),
         "Its inertia, ratings and curves.",

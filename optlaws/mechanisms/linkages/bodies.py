@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import KW_ONLY, dataclass
 from math import cos, sin
 from typing import Any, Literal, TypeAlias, get_args
@@ -10,7 +10,7 @@ from typing import Any, Literal, TypeAlias, get_args
 import numpy as np
 
 from optlaws.echo import shortened
-from optlaws.entries.declared import Declared, declared, entry
+from optlaws.entries.declared import Declared, TableOf, declared, entry
 from optlaws.entries.value_types import Choice, InSI, Kept, Measured, SINumber, Together, ValueType
 from optlaws.errors import InputError, located
 from optlaws.formulas.slopes import added, multiplied
@@ -19,7 +19,6 @@ from optlaws.formulas.tree import Exponentiation, Formula, Number, number, subst
 from optlaws.mechanisms.linkages.entries import OverPlace, TableKind, formula_of
 from optlaws.motion.quantities import quantity, si_number
 from optlaws.numbers import NumberOrQuantity, Quantity, finite, not_negative
-from optlaws.suggest import unknown_key
 from optlaws.tolerances import WAVE_ROUNDING
 
 GRAVITY = 9.80665
@@ -187,83 +186,54 @@ def formula_from(value: Any) -> Formula:
 
 
 @dataclass(frozen=True)
-class Bodies(ValueType):
-    """The bodies of a linkage by the names of its links; those that are not given have no mass.
+class BodyOf(ValueType):
+    """A body, its table, or the mass or moment of inertia that it is alone; nothing alone where no dimension is given.
 
-    Links on a pivot may be given as a moment of inertia about it, those that slide as a mass; one that is coupled to
-    others needs a `Body`.
-
-    >>> Bodies(pivoted=("crank",), sliding=("slider",)).read({"slider": "5 kg"}, "bodies")["slider"]
+    >>> BodyOf("mass").read("5 kg", "slider")
     Body(mass=5.0, centre=(0.0, 0.0), inertia=0.0)
     """
 
-    pivoted: tuple[str, ...]
-    coupled: tuple[str, ...] = ()
-    sliding: tuple[str, ...] = ()
+    dimension: str = ""
 
-    @property
-    def names(self) -> tuple[str, ...]:
-        """The names of the links."""
-        return (*self.pivoted, *self.coupled, *self.sliding)
-
-    def read(self, value: Any, name: str) -> dict[str, Body]:
-        if not isinstance(value, Mapping):
-            raise InputError(
-                f"{name} must be a table such as {{'{self.names[0]}': '0.02 kg m^2'}}, got {shortened(value)}"
-            )
-        for link in value:
-            if link not in self.names:
-                raise InputError(unknown_key(link, self.names, "body"))
-        return {
-            link: self._body(value[link], link, f"{name}: {link}") if link in value else Body() for link in self.names
-        }
-
-    def _body(self, value: Any, link: str, name: str) -> Body:
+    def read(self, value: Any, name: str) -> Body:
         if isinstance(value, Body):
             return value
         if isinstance(value, Mapping):
             with located(name):
                 return Body.from_dict(value)
-        if link in self.coupled:
+        if not self.dimension:
             raise InputError(
-                f"{name} is on no pivot and needs a Body with its mass and centre, such as "
-                f"Body('2 kg', centre=('0.1 m', '0 m')), got {shortened(value)}"
+                f"{name} is on no pivot and needs a Body with its mass and centre, such as Body('2 kg', "
+                f"centre=('0.1 m', '0 m')), got {shortened(value)}"
             )
-        if link in self.sliding:
-            return Body(_MASS.number(value, name))
-        return Body(inertia=_INERTIA.number(value, name))
+        number_ = InSI(self.dimension, least=0.0).number(value, name)
+        return Body(number_) if self.dimension == "mass" else Body(inertia=number_)
 
     def plain(self, value: Any) -> Any:
-        return {name: body.to_dict() for name, body in value.items() if body != Body()}
+        return value.to_dict()
 
     @property
     def words(self) -> str:
-        known = {"moment of inertia": self.pivoted, "body": self.coupled, "mass": self.sliding}
-        return "a table, " + "; ".join(f"{what} of {', '.join(names)}" for what, names in known.items() if names)
+        return f"a {self.dimension}, or a body" if self.dimension else "a body"
 
     def schema(self) -> dict[str, Any]:
-        body = Body.json_schema()
-        quantity_of = {**dict.fromkeys(self.pivoted, _INERTIA), **dict.fromkeys(self.sliding, _MASS)}
-        links = {
-            name: {"anyOf": [body, *quantity_of[name].schema()["anyOf"]]} if name in quantity_of else body
-            for name in self.names
-        }
-        return {"type": "object", "properties": links, "additionalProperties": False}
+        alone = [InSI(self.dimension, least=0.0).schema()] if self.dimension else []
+        return {"anyOf": [*alone, Body.json_schema()]}
 
     def form(self) -> dict[str, Any]:
-        def plainly(link: str, weight: InSI) -> dict[str, Any]:
-            shown = {"name": link, "label": f"{link} body", "about": f"The {link}: {weight.words}."}
-            return {**shown, "placeholder": f"none, or {weight.example}", "needed": False}
-
-        coupled = [
-            {"name": link, "entries": [{**each, "label": f"{link} {each['label']}"} for each in Body.form()["entries"]]}
-            for link in self.coupled
-        ]
-        weights = [*((link, _INERTIA) for link in self.pivoted), *((link, _MASS) for link in self.sliding)]
-        return {"entries": [*(plainly(*each) for each in weights), *coupled]}
+        return {} if self.dimension else Body.form()
 
 
-_MASS, _INERTIA = InSI("mass", least=0.0), InSI("moment of inertia", least=0.0)
+def bodies_of(pivoted: Sequence[str], coupled: Sequence[str], sliding: Sequence[str]) -> TableOf:
+    """The bodies of a linkage by the names of its links; those that are not given have no mass."""
+    turning, alone, moved = BodyOf("moment of inertia"), BodyOf(), BodyOf("mass")
+    types = {**dict.fromkeys(pivoted, turning), **dict.fromkeys(coupled, alone), **dict.fromkeys(sliding, moved)}
+    usual = {turning: "0.01 kg m^2", moved: "5 kg", alone: None}
+    links = {
+        name: entry(each, f"Of the {name}.", default=None, label=f"{name} body", example=usual[each])
+        for name, each in types.items()
+    }
+    return TableOf("body", links, keep=lambda given: {name: given.get(name, Body()) for name in links})
 
 
 def weight_load(mass: float, gravity: tuple[float, float], velocity: tuple[Any, Any]) -> list[Formula]:

@@ -12,8 +12,8 @@ from typing import Any, Literal
 import numpy as np
 
 from optlaws.echo import shortened
-from optlaws.entries.value_types import ValueType
-from optlaws.errors import InputError, located
+from optlaws.entries.value_types import ReadBy, ValueType
+from optlaws.errors import InputError
 from optlaws.formulas.arithmetic import horner, pieces
 from optlaws.formulas.reading import read
 from optlaws.formulas.tree import Formula, Name, Table, TableJoin, number
@@ -58,23 +58,8 @@ class OverPlace(ValueType):
         return {"type": ["number", "string", "array", "object"]}
 
 
-@dataclass(frozen=True)
-class FormulaText(ValueType):
-    """A formula of x, as a text."""
-
-    def read(self, value: Any, name: str) -> Formula:
-        with located(name):
-            return value if isinstance(value, Formula) else read(value, ("x",))
-
-    def plain(self, value: Any) -> str:
-        return str(value)
-
-    @property
-    def words(self) -> str:
-        return "a formula of x"
-
-    def schema(self) -> dict[str, Any]:
-        return {"type": "string"}
+#: a formula of x, as a text
+FORMULA = ReadBy(lambda value: value if isinstance(value, Formula) else read(value, ("x",)), "a formula of x", str)
 
 
 def formula_of(

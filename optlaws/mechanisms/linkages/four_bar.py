@@ -16,7 +16,7 @@ from optlaws.formulas.tracing import Traced
 from optlaws.formulas.tree import Formula, Name, Number, number
 from optlaws.kept import kept_property
 from optlaws.mechanisms.linkages.assembly import check_four_bar
-from optlaws.mechanisms.linkages.bodies import Bodies, Body, DrivenLink, Moving, weight_load
+from optlaws.mechanisms.linkages.bodies import Body, DrivenLink, Moving, bodies_of, weight_load
 from optlaws.mechanisms.linkages.mechanism import LinkGeometry, Mechanism
 from optlaws.mechanisms.linkages.mechanism_kinds import LENGTH, BodiesByLink, LinkageKind, function_of
 
@@ -221,7 +221,7 @@ class FourBar(LinkageKind, kind="four bar"):
     frame: SINumber = entry(LENGTH, "The distance of the pivots.", example="350 mm")
     _: KW_ONLY
     bodies: BodiesByLink = entry(
-        Bodies(("crank", "rocker"), ("coupler",)),
+        bodies_of(("crank", "rocker"), ("coupler",), ()),
         'Of crank and rocker a moment of inertia about the pivot, or a `Body`; `Body("2 kg", centre=("80 mm", '
         '"50 mm"))` is a mass at a point of the coupler, along it from the crank\'s pin and across it.',
         example={"rocker": "0.05 kg m^2"},

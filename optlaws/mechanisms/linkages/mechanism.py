@@ -25,7 +25,7 @@ from optlaws.formulas.slopes import derivative as slope
 from optlaws.formulas.tree import Formula, Name, Table, table_places
 from optlaws.kept import kept_property
 from optlaws.mechanisms.linkages.dimensionless import DimensionlessMechanism, InputFriction, dimensionless
-from optlaws.mechanisms.linkages.entries import FormulaText, OverPlace, formula_of
+from optlaws.mechanisms.linkages.entries import FORMULA, OverPlace, formula_of
 from optlaws.mechanisms.linkages.linear_force import LinearForce, line_of
 from optlaws.mechanisms.linkages.move_limit import (
     MOVED,
@@ -84,10 +84,10 @@ class LinkGeometry(Declared, title="a linkage"):
     writes_defaults = True
 
     driven: Driven = entry(
-        TableOf(FormulaText(), keep=pairs), "Positions of driven links over x, by their names.", default=()
+        TableOf(FORMULA, keep=pairs), "Positions of driven links over x, by their names.", default=()
     )
     chains: tuple[tuple[tuple[Formula, Formula], ...], ...] = entry(
-        Listed(Listed(Tuple(FormulaText(), FormulaText()))),
+        Listed(Listed(Tuple(FORMULA, FORMULA))),
         "Of points in m, each of two coordinates over x, that a picture joins by lines; a chain of one point is a "
         "pivot.",
         default=(),

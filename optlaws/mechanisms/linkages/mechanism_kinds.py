@@ -13,8 +13,7 @@ from pkgutil import iter_modules
 from typing import Any, ClassVar, ParamSpec, Self, TypeAlias
 
 from optlaws.entries.declared import Kinded, ValueOf, declared, entry
-from optlaws.entries.value_types import InSI, Kept, SINumber, Span, ValueType
-from optlaws.errors import located
+from optlaws.entries.value_types import InSI, Kept, ReadBy, SINumber, Span
 from optlaws.formulas.slopes import added
 from optlaws.formulas.tree import Formula
 from optlaws.mechanisms.linkages.bodies import NO_LOADS, Body, Loads
@@ -109,29 +108,16 @@ class MechanismTable(MechanismEntries, MechanismKind, kind="table"):
     """A mechanism by its inertia and load over the position of its input."""
 
 
-class MechanismValue(ValueType):
-    """A mechanism: one, or a table of its kind and entries, or of what `Mechanism.to_dict` writes."""
+def _read(value: Any) -> Mechanism:
+    if isinstance(value, Mechanism):
+        return value
+    if isinstance(value, Mapping) and "kind" in value:
+        return MechanismKind.from_dict(value).mechanism
+    return Mechanism.from_dict(value)
 
-    def read(self, value: Any, name: str) -> Mechanism:
-        if isinstance(value, Mechanism):
-            return value
-        with located(name):
-            if isinstance(value, Mapping) and "kind" in value:
-                return MechanismKind.from_dict(value).mechanism
-            return Mechanism.from_dict(value)
 
-    def plain(self, value: Any) -> Any:
-        return value.to_dict()
-
-    @property
-    def words(self) -> str:
-        return "a mechanism"
-
-    def schema(self) -> dict[str, Any]:
-        return MechanismKind.json_schema()
-
-    def form(self) -> dict[str, Any]:
-        return MechanismKind.form()
+#: a mechanism, its table with its kind, or what `Mechanism.to_dict` writes
+MECHANISM = ReadBy(_read, "a mechanism", Mechanism.to_dict)
 
 
 def function_of(kind: Callable[P, MechanismKind]) -> Callable[P, Mechanism]:

@@ -13,7 +13,7 @@ from optlaws.entries.value_types import InSI, SINumber
 from optlaws.errors import InputError
 from optlaws.formulas.tracing import Traced
 from optlaws.formulas.tree import Formula, Name, Number
-from optlaws.mechanisms.linkages.bodies import Bodies, Body, DrivenLink, Moving, formula_from, weight_load
+from optlaws.mechanisms.linkages.bodies import Body, DrivenLink, Moving, bodies_of, formula_from, weight_load
 from optlaws.mechanisms.linkages.mechanism import LinkGeometry, Mechanism
 from optlaws.mechanisms.linkages.mechanism_kinds import LENGTH, BodiesByLink, LinkageKind, function_of
 
@@ -44,7 +44,7 @@ class SliderCrank(LinkageKind, kind="slider crank"):
         InSI("length"), "Of the slide's way from the crank's pivot, e, to the left.", default=0.0, example="20 mm"
     )
     bodies: BodiesByLink = entry(
-        Bodies(("crank",), ("rod",), ("slider",)),
+        bodies_of(("crank",), ("rod",), ("slider",)),
         "Of the slider a mass, of the crank a moment of inertia about its pivot, or a `Body`.",
         example={"crank": "0.5 kg m^2", "slider": "12 kg"},
     )

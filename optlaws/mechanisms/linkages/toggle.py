@@ -14,7 +14,7 @@ from optlaws.entries.value_types import Choice, InSI, Kept, SINumber, Table
 from optlaws.errors import InputError
 from optlaws.formulas.tracing import Traced
 from optlaws.formulas.tree import Formula
-from optlaws.mechanisms.linkages.bodies import Bodies, Body, DrivenLink, Moving, weight_load
+from optlaws.mechanisms.linkages.bodies import Body, DrivenLink, Moving, bodies_of, weight_load
 from optlaws.mechanisms.linkages.four_bar import SIDES, FourBarBranch, FourBarKinematics, four_bar_of, moved_by_crank
 from optlaws.mechanisms.linkages.mechanism import LinkGeometry, Mechanism
 from optlaws.mechanisms.linkages.mechanism_kinds import LENGTH, BodiesByLink, LinkageKind, function_of
@@ -58,7 +58,7 @@ class Toggle(LinkageKind, kind="toggle"):
         default="90 deg",
     )
     bodies: BodiesByLink = entry(
-        Bodies(("crank", "upper"), ("rod", "lower"), ("ram",)),
+        bodies_of(("crank", "upper"), ("rod", "lower"), ("ram",)),
         "Of crank and upper link a moment of inertia about the pivot, of the ram a mass, or a `Body`; the lower link "
         "begins at the knee.",
         example={"ram": "40 kg"},
