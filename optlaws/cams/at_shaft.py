@@ -2,27 +2,36 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from dataclasses import KW_ONLY
 from itertools import pairwise
 from math import degrees
-from typing import Any
+from typing import Any, get_args
 
 import numpy as np
 
-from optlaws.cams.disc import DiscCam
+from optlaws.cams.disc import DiscCam, Turning
+from optlaws.cams.followers.follower import CamFollower, stated_prime_radius
+from optlaws.cycles.cycle import Cycle
+from optlaws.cycles.specification.segments import SEGMENTS
 from optlaws.echo import shortened
+from optlaws.entries.declared import ValueOf, declared, entry
+from optlaws.entries.value_types import Choice, InSI, Measured, ReadBy, SINumber, Span
 from optlaws.errors import InputError
 from optlaws.formulas.slopes import added, derivative, multiplied
 from optlaws.formulas.tree import Exponentiation, Formula, Name, Number, Table, number
 from optlaws.mechanisms.linkages.bodies import NO_LOADS, DrivenLink, Loads, Moving
 from optlaws.mechanisms.linkages.mechanism import LinkGeometry, Mechanism
-from optlaws.motion.quantities import si_number
-from optlaws.numbers import Array, NumberOrQuantity, finite, not_negative
+from optlaws.mechanisms.linkages.mechanism_kinds import MechanismKind, OptionalEnds
+from optlaws.motion.quantities import quantity, si_number
+from optlaws.numbers import Array, NumberOrQuantity, Quantity, finite, not_negative
 from optlaws.numerics import chebyshev
 from optlaws.tolerances import CLOSURE
 
 _WEIGHTS = {"length": "mass", "angle": "moment of inertia"}
 _MOST_PLACES = 396
 _MOST_IN_STRETCH = 96
+_BY_TIME = ("velocity", "start_velocity", "end_velocity")
 
 
 def cam_mechanism(
@@ -128,3 +137,81 @@ def _through_breaks(cam: DiscCam, breaks: list[float]) -> tuple[Formula, Formula
     values = [np.asarray(cam.displacement.jet(cam.displacement.within(places), 1).derivative(nu)) for nu in (0, 1)]
     position, velocity = (Table(x, known, tuple(some.tolist()), "spline") for some in values)
     return position, velocity
+
+
+def _motion(segments: Any) -> Cycle:
+    """The follower's motion over a turn of its cam, of segments whose durations are angles."""
+    given = SEGMENTS.read(segments, "segment")
+    for place, segment in enumerate(given, 1):
+        durations = segment.duration if isinstance(segment.duration, tuple) else (segment.duration,)
+        for duration in durations:
+            if duration is not None:
+                quantity(duration, "angle", f"segment {place}: duration over a turn of the cam")
+        if any(getattr(segment, name, None) is not None for name in _BY_TIME):
+            raise InputError(f"segment {place}: a cam's motion is over its angle: it takes no velocity by the time")
+    return Cycle(given, period="1 s")
+
+
+@declared
+class CamAtShaft(MechanismKind, kind="cam"):
+    """The mechanism of a cam and its follower, whose motion over the cam's angle consists of segments.
+
+    Examples
+    --------
+    >>> segments = [{"kind": "rise", "by": "40 mm", "duration": "120 deg"}, {"kind": "return", "duration": "240 deg"}]
+    >>> follower = {"kind": "translating roller", "radius": "12 mm"}
+    >>> entries = {"kind": "cam", "prime_radius": "60 mm", "follower": follower, "segment": segments, "moved": "2 kg"}
+    >>> CamAtShaft.from_dict(entries).cam.base_radius
+    0.048
+    """
+
+    turns_steadily = True
+
+    _: KW_ONLY
+    prime_radius: Quantity = entry(Measured("length", above=0.0), "Of the prime circle.", example="60 mm")
+    follower: CamFollower = entry(
+        ValueOf(CamFollower), "The follower.", example={"kind": "translating roller", "radius": "12 mm"}
+    )
+    segment: Any = entry(
+        ReadBy(_motion, "a list of segments whose durations are angles", lambda cycle: SEGMENTS.plain(cycle.segments)),
+        "The motion of the follower over a turn of the cam.",
+        example=[{"kind": "rise", "by": "30 mm", "duration": "120 deg"}, {"kind": "return"}],
+    )
+    moved: NumberOrQuantity = entry(
+        Measured("mass", "moment of inertia", bare=True, least=0.0),
+        "What the follower moves: a mass, or of one that swings a moment of inertia about its pivot.",
+        example="2 kg",
+    )
+    turning: Turning = entry(
+        Choice(*get_args(Turning)), "The sense in which the cam turns.", default="counterclockwise"
+    )
+    inertia: SINumber = entry(
+        InSI("moment of inertia", least=0.0), "Of the cam and its shaft.", default=0.0, example="0.01 kg m^2"
+    )
+    loads: Loads = entry(
+        ValueOf(Loads), "What acts on the follower, over its displacement from the prime circle.", default=NO_LOADS
+    )
+    over: OptionalEnds = entry(
+        Span(InSI("angle")),
+        "The range of x, the cam's angle; that of its motion unless given.",
+        default=None,
+        example=["0 deg", "120 deg"],
+    )
+
+    @classmethod
+    def _from_earlier(cls, data: dict[str, Any]) -> dict[str, Any]:
+        if "base_radius" not in data or not isinstance(data.get("follower"), Mapping):
+            return data
+        former, follower = data.pop("base_radius"), CamFollower.from_dict(data["follower"])
+        return {**data, "prime_radius": stated_prime_radius(data.get("prime_radius"), former, follower)}
+
+    @property
+    def cam(self) -> DiscCam:
+        """The cam with its follower."""
+        return DiscCam(self.segment, self.prime_radius, self.follower, turning=self.turning)
+
+    @property
+    def mechanism(self) -> Mechanism:
+        shaft = cam_mechanism(self.cam, self.moved, inertia=self.inertia, loads=self.loads, over=self.over)
+        friction = {"coulomb": self.coulomb, "viscous": self.viscous}
+        return shaft.with_friction(**friction) if any(friction.values()) else shaft

@@ -6,9 +6,9 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+from optlaws.cams import at_shaft  # noqa: F401 - by which the kind "cam" is known
 from optlaws.entries.value_types import Text
 from optlaws.errors import InputError, located
-from optlaws.jobs.axes import mechanism_entries  # noqa: F401 - by which the kind "cam" is known
 from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.mechanisms.drives.motor import read_motors
 from optlaws.mechanisms.linkages.mechanism import Mechanism

@@ -9,11 +9,11 @@ from typing import Any
 import numpy as np
 
 from optlaws import Cycle, Mechanism
+from optlaws.cams.at_shaft import CamAtShaft
 from optlaws.explorer.views.cam_view import drawing
 from optlaws.explorer.views.law_view import drawn
 from optlaws.formulas.arithmetic import NUMPY, evaluate
 from optlaws.formulas.tree import Formula
-from optlaws.jobs.axes.mechanism_entries import CamAtShaft
 from optlaws.motion.quantities import si_number
 from optlaws.numbers import Array
 
