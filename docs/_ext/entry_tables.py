@@ -4,29 +4,44 @@
 line of `TABLES`, and its two marks in the page: `<!-- entries of NAME -->` and `<!-- end of the entries of NAME -->`.
 """
 
+from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 
-from optlaws.entries.declared import Declared
 from optlaws.entries.reference import markdown_table
 from optlaws.jobs.cycle_entries import AxisEntries, CycleProblemFile
 from optlaws.jobs.moves.move_entries import FastestProblemFile
+from optlaws.mechanisms.drives.drive_train import Drive
+from optlaws.mechanisms.drives.motor import Motor
+from optlaws.mechanisms.linkages.bodies import Body, Loads
+from optlaws.mechanisms.linkages.mechanism_kinds import MechanismKind
 
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "reference" / "problem-files.md"
-#: declared values by the names of their tables, and entries whose own entries stand elsewhere
-TABLES: dict[str, tuple[type[Declared], tuple[str, ...]]] = {
-    "a cycle": (CycleProblemFile, ("axis",)),
-    "an axis": (AxisEntries, ("run_out", "segment.limits")),
-    "a least time": (FastestProblemFile, ()),
+#: tables of declared values by their names; of some entries the entries stand elsewhere
+TABLES: dict[str, Callable[[], str]] = {
+    "a cycle": partial(markdown_table, CycleProblemFile, apart=("axis",)),
+    "an axis": partial(markdown_table, AxisEntries, apart=("run_out", "segment.limits")),
+    "a least time": partial(markdown_table, FastestProblemFile),
+    "mechanisms of all kinds": partial(markdown_table, MechanismKind),
+    **{
+        f"the kind {name}": partial(
+            markdown_table, kind, apart=("bodies", "loads", "follower", "segment"), without=MechanismKind
+        )
+        for name, kind in MechanismKind.kinds().items()
+    },
+    "bodies": partial(markdown_table, Body),
+    "loads": partial(markdown_table, Loads),
+    "a drive": partial(markdown_table, Drive, apart=("motor",)),
+    "a motor": partial(markdown_table, Motor),
 }
 
 
 def page_with_tables(page: str) -> str:
     """The page with the entries of today."""
-    for name, (value, apart) in TABLES.items():
+    for name, table_of in TABLES.items():
         begin, end = f"<!-- entries of {name} -->\n", f"<!-- end of the entries of {name} -->\n"
-        table = f"{begin}\n{markdown_table(value, apart=apart)}\n\n{end}"
         before, _, rest = page.partition(begin)
-        page = before + table + rest.partition(end)[2]
+        page = f"{before}{begin}\n{table_of()}\n\n{end}{rest.partition(end)[2]}"
     return page
 
 

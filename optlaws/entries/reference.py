@@ -9,10 +9,15 @@ from typing import Any
 from optlaws.entries.declared import Declared, Entry, entries_of
 
 
-def markdown_table(cls: type[Declared], heading: str = "what it says", apart: Collection[str] = ()) -> str:
+def markdown_table(
+    cls: type[Declared],
+    heading: str = "what it says",
+    apart: Collection[str] = (),
+    without: type[Declared] | None = None,
+) -> str:
     """The entries of a declared class as a table of Markdown, a row for each, and for each entry of their tables.
 
-    Those of the entries `apart` have tables of their own elsewhere.
+    Those of the entries `apart` have tables of their own elsewhere, and so have those of the class `without`.
 
     >>> from optlaws.entries.declared import ValueOf, declared, entry
     >>> from optlaws.entries.value_types import Number
@@ -28,7 +33,8 @@ def markdown_table(cls: type[Declared], heading: str = "what it says", apart: Co
     | `damper` | What slows it. A damper, a table. |
     | `damper.damping` | The damping ratio. A number from 0 on; 0.0 unless given. |
     """
-    rows = [row for each in _shown(cls) for row in _rows(each, "", apart)]
+    left = {} if without is None else entries_of(without)
+    rows = [row for each in _shown(cls) if each.name not in left for row in _rows(each, "", apart)]
     return "\n".join([f"| entry | {heading} |", "|---|---|", *rows])
 
 
@@ -50,7 +56,7 @@ def _rows(each: Entry, place: str, apart: Collection[str], of: str = "") -> Iter
 
 def _sentence(each: Entry) -> str:
     words = each.type.words
-    default = each.plain_default
+    default = each.default if isinstance(each.default, str | tuple) and each.default else each.plain_default
     usual = "needed" if each.needed else "" if default is None else f"{json.dumps(default)} unless given"
     such = "" if each.example is None else f", such as `{json.dumps(each.example)}`"
     return f"{each.about} {words[:1].upper()}{words[1:]}{such}{'; ' if usual else ''}{usual}."

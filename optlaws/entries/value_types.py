@@ -419,6 +419,10 @@ class Span(Together):
             raise InputError(f"{name} must ascend, got {shortened(value)}")
         return ends
 
+    @property
+    def words(self) -> str:
+        return f"a list of two that ascend, each {self.of[0].words}"
+
 
 @dataclass(frozen=True)
 class Table(ValueType):

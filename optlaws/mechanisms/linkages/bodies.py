@@ -77,7 +77,7 @@ class Loads(Declared, title="loads"):
     """
 
     force: Any = entry(
-        OverPlace("s, the position of the link, or x, the input's"),
+        OverPlace("s (the position of the link) or x (the input's)"),
         "On the driven link, above 0 where it pushes to greater positions; a torque for a link that turns.",
         default=0.0,
         example="-200 N",

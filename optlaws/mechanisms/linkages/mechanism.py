@@ -489,9 +489,7 @@ class Mechanism(JsonText):
 class MechanismEntries(Declared, title="a mechanism"):
     """The entries of a `Mechanism`, as files have them."""
 
-    inertia: Any = entry(
-        OverPlace("x, the input's position,"), "Of all masses at the input; tables are smooth.", example="0.8 kg m^2"
-    )
+    inertia: Any = entry(OverPlace("x"), "Of all masses at the input; tables are smooth.", example="0.8 kg m^2")
     load: Any = entry(
         OverPlace("x"),
         "What resists the motion to greater x; tables are straight lines.",
