@@ -40,6 +40,7 @@ from tests.internals.cli import exit_code
 from tests.internals.files import reading
 from tests.internals.jobs import read_of_cycle_entries as read
 from tests.internals.jobs import sweep_table, sweeps_of
+from tests.internals.mechanisms import MechanismKind
 
 LENGTHS = {"crank": "60 mm", "rod": "250 mm", "upper": "200 mm", "lower": "200 mm", "frame": "280 mm"}
 FORCE = [["0.3 m", "0 N"], ["0.31 m", "-400 N"], ["0.5 m", "-400 N"]]
@@ -495,3 +496,18 @@ def test_machines_of_other_sizes_need_as_much_in_proportion(scale: float) -> Non
     usual = read(entries({"kind": "table", "inertia": "0.8 kg m^2"}, plain), Path("usual.toml"))[1]["input"]
     assert cycle.objective == pytest.approx(scale * usual.objective, rel=1e-6)
     assert cycle.effort.peak_force == pytest.approx(scale * usual.effort.peak_force, rel=1e-4)
+
+
+@pytest.mark.parametrize("kind", MechanismKind.kinds().values(), ids=lambda kind: kind.kind)
+def test_a_kind_with_the_examples_of_its_entries_is_written_and_read_again(kind: type[MechanismKind]) -> None:
+    """The examples that errors, forms and references show are values; the friction of all kinds is in the mechanism."""
+    shown = kind.form()["entries"]
+    needed = {each["name"]: each["example"] for each in shown if each["needed"]}
+    value = kind.from_dict({"kind": kind.kind, **needed, "coulomb": "0.2 N m"})
+    assert kind.from_dict(json.loads(json.dumps(value.to_dict()))).mechanism == value.mechanism
+    assert value.mechanism.coulomb == 0.2
+    for each in shown:
+        if "example" in each and not each["needed"]:
+            assert kind.from_dict({"kind": kind.kind, **needed, each["name"]: each["example"]}) != value
+    with pytest.raises(InputError, match=f"unknown entry of a(n?) {kind.kind} 'coulmob'; did you mean 'coulomb'"):
+        kind.from_dict({"kind": kind.kind, **needed, "coulmob": "0.2 N m"})
