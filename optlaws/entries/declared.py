@@ -18,6 +18,7 @@ from optlaws.suggest import unknown_key
 _ENTRY = "entry"
 _ENTRIES: dict[type, dict[str, Entry]] = {}
 DeclaredT = TypeVar("DeclaredT", bound="Declared")
+T = TypeVar("T")
 
 
 @dataclass(frozen=True)
@@ -145,7 +146,7 @@ def declared(cls: type[DeclaredT]) -> type[DeclaredT]:
     optlaws.errors.InputError: a gear needs its inertia, such as inertia = '1 kg m^2'
     """
     value = dataclass(frozen=True)(cls)
-    _document(value)
+    _document(value, value)
     types = value.__init__.__annotations__
     known: dict[str, Any] = {}
     for base in reversed(cls.__mro__):
@@ -165,9 +166,19 @@ def _given_type(text: Any, known: Mapping[str, Any]) -> Any:
     return given.__forward_arg__ if isinstance(given, ForwardRef) else given
 
 
-def _document(cls: type[Declared]) -> None:
-    """Write the entries of a class into its docstring, before what else it says in sections."""
-    text, entries = cls.__doc__, entries_of(cls).values()
+def documented_by(values: type[Declared]) -> Callable[[type[T]], type[T]]:
+    """Write the entries of declared values into the docstring of a class whose constructor takes the same."""
+
+    def document(cls: type[T]) -> type[T]:
+        _document(cls, values)
+        return cls
+
+    return document
+
+
+def _document(cls: type, values: type[Declared]) -> None:
+    """Write the entries of declared values into the docstring of a class, before what else it says in sections."""
+    text, entries = cls.__doc__, entries_of(values).values()
     if text is None or not entries or "\n    Parameters\n" in text:
         return
     lines = [line for each in entries for line in (f"    {each.name}", *_wrapped(f"{each.about} {each.sentence}"))]

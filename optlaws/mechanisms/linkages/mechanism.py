@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Literal, Self, TypeAlias, get_args
 import numpy as np
 
 from optlaws.echo import shortened
-from optlaws.entries.declared import Declared, ValueOf, declared, entries_of, entry
+from optlaws.entries.declared import Declared, ValueOf, declared, documented_by, entries_of, entry
 from optlaws.entries.value_types import Choice, Kept, Listed, Measured, Text, pairs
 from optlaws.entries.value_types import Table as TableOf
 from optlaws.entries.value_types import Together as Tuple
@@ -97,6 +97,63 @@ class LinkGeometry(Declared, title="a linkage"):
 NO_LINKAGE = LinkGeometry()
 
 
+@declared
+class MechanismEntries(Declared, title="a mechanism"):
+    """The entries of a `Mechanism`, as files have them."""
+
+    inertia: Any = entry(
+        OverPlace("x"),
+        "Of all masses at the input, over its position x in rad or m, in SI units where it is a formula such as "
+        '"0.02 + 0.01*sin(x)^2"; through a table runs a smooth curve.',
+        example="0.8 kg m^2",
+    )
+    load: Any = entry(
+        OverPlace("x"),
+        'What resists the motion to greater x; tables are straight lines, and a curve is "spline(x, 0:1, ...)".',
+        default=0.0,
+        example="2*sin(x)",
+    )
+    _: KW_ONLY
+    coulomb: NumberOrQuantity = entry(
+        Measured("torque", "force", bare=True, least=0.0),
+        "Friction that does not depend on the speed, at the input.",
+        default=0.0,
+        example="0.5 N m",
+    )
+    viscous: NumberOrQuantity = entry(
+        Measured("rotary viscous friction", "viscous friction", bare=True, least=0.0),
+        "Friction in proportion to the speed, at the input.",
+        default=0.0,
+        example="0.02 N m s/rad",
+    )
+    over: Any = entry(
+        Listed(Measured("angle", "length", bare=True), least=2, most=2),
+        "The range of x where it is defined; that of its tables unless given, and without tables no bound.",
+        default=None,
+        example=["0 deg", "180 deg"],
+    )
+    axis: InputAxis | None = entry(
+        Choice(*get_args(InputAxis)), "Whether the input turns or slides; as `over` says unless given.", default=None
+    )
+    name: str = entry(Text(), "What pictures and texts call it.", default="mechanism", shown=False)
+    linkage: LinkGeometry = entry(
+        ValueOf(LinkGeometry),
+        "Positions of its driven links, and what a picture draws.",
+        default=NO_LINKAGE,
+        shown=False,
+    )
+
+    @classmethod
+    def _from_earlier(cls, data: dict[str, Any]) -> dict[str, Any]:
+        return of_known_format(data, "a mechanism")
+
+    @property
+    def mechanism(self) -> Mechanism:
+        """The mechanism of these entries."""
+        return Mechanism(**{name: getattr(self, name) for name in entries_of(type(self))})
+
+
+@documented_by(MechanismEntries)
 @dataclass(frozen=True, init=False, eq=False, repr=False)
 class Mechanism(JsonText):
     """A mechanism of one degree of freedom: inertia J(x) and load T(x) at its input, friction, and where it is defined.
@@ -104,28 +161,6 @@ class Mechanism(JsonText):
     The torque (or force) that moves the input is J(x) x'' + J'(x) x'²/2 + viscous x' + coulomb sign(x') + T(x): the
     inertia and the load are all masses and forces of the mechanism, reduced to the input. `slider_crank`, `four_bar`,
     `toggle`, `rack`, `belt` and `screw` make one from lengths and masses, `mechanism_of_motion` from a function.
-
-    Parameters
-    ----------
-    inertia
-        Over x, the position of the input in rad or m: a quantity such as "0.02 kg m^2", a text such as
-        "0.02 + 0.01*sin(x)^2" in SI units, or a table of places and values, `{"0 deg": "0.02 kg m^2", ...}`, through
-        which a spline is laid.
-    load
-        What resists the motion to greater x, likewise; tables are straight lines. A spline is "spline(x, 0:1, ...)".
-    coulomb
-        Friction that does not depend on the speed, at the input.
-    viscous
-        Friction in proportion to the speed, at the input.
-    over
-        The range of x where the mechanism is defined, such as ("0 deg", "180 deg"); that of its tables unless given,
-        and without tables no bound.
-    axis
-        "angle" for an input that turns, "length" for one that slides; `over` says it too.
-    name
-        What pictures and texts call it.
-    linkage
-        Positions of its driven links, and what a picture draws.
 
     Raises
     ------
@@ -483,52 +518,6 @@ class Mechanism(JsonText):
             If an entry is unknown, missing or wrong; the error names it.
         """
         return MechanismEntries.from_dict(data).mechanism
-
-
-@declared
-class MechanismEntries(Declared, title="a mechanism"):
-    """The entries of a `Mechanism`, as files have them."""
-
-    inertia: Any = entry(OverPlace("x"), "Of all masses at the input; tables are smooth.", example="0.8 kg m^2")
-    load: Any = entry(
-        OverPlace("x"),
-        "What resists the motion to greater x; tables are straight lines.",
-        default=0.0,
-        example="2*sin(x)",
-    )
-    _: KW_ONLY
-    coulomb: NumberOrQuantity = entry(
-        Measured("torque", "force", bare=True, least=0.0),
-        "Friction that does not depend on the speed, at the input.",
-        default=0.0,
-        example="0.5 N m",
-    )
-    viscous: NumberOrQuantity = entry(
-        Measured("rotary viscous friction", "viscous friction", bare=True, least=0.0),
-        "Friction in proportion to the speed, at the input.",
-        default=0.0,
-        example="0.02 N m s/rad",
-    )
-    over: Any = entry(
-        Listed(Measured("angle", "length", bare=True), least=2, most=2),
-        "The range of x; that of its tables unless given.",
-        default=None,
-        example=["0 deg", "180 deg"],
-    )
-    axis: InputAxis | None = entry(
-        Choice(*get_args(InputAxis)), "Whether the input turns or slides; as `over` says unless given.", default=None
-    )
-    name: str = entry(Text(), "What pictures and texts call it.", default="mechanism", shown=False)
-    linkage: LinkGeometry = entry(ValueOf(LinkGeometry), "What a picture draws.", default=NO_LINKAGE, shown=False)
-
-    @classmethod
-    def _from_earlier(cls, data: dict[str, Any]) -> dict[str, Any]:
-        return of_known_format(data, "a mechanism")
-
-    @property
-    def mechanism(self) -> Mechanism:
-        """The mechanism of these entries."""
-        return Mechanism(**{name: getattr(self, name) for name in entries_of(type(self))})
 
 
 def _range(formulas: Mapping[str, Formula], ends: tuple[float, float] | None, axis: InputAxis) -> tuple[float, float]:
