@@ -93,10 +93,10 @@ class Friction(Declared, title="friction"):
         Number(least=0.0), "The coefficient of a slide in its guide.", default=0.0, label="in the guide", example=0.1
     )
     overhang: float | None = entry(
-        InSI("length", least=0.0), "From where the cam touches to the guide.", default=None, example="80 mm"
+        InSI("length", bare=False, least=0.0), "From where the cam touches to the guide.", default=None, example="80 mm"
     )
     length: float | None = entry(
-        InSI("length", above=0.0), "Of the guide.", default=None, label="guide length", example="120 mm"
+        InSI("length", bare=False, above=0.0), "Of the guide.", default=None, label="guide length", example="120 mm"
     )
 
     def _check(self) -> None:

@@ -13,7 +13,7 @@ export function textOf(value) {
   return object(value) || value === null || value === undefined ? null : String(value);
 }
 
-const plain = (text) => (text !== "" && Number.isFinite(Number(text)) ? Number(text) : text);
+const plain = (text) => (text !== "" && Number.isFinite(Number(text)) ? Number(text) : { true: true, false: false }[text] ?? text);
 
 /** The value of a text; formulas stay as they are. */
 export function valueOf(text) {

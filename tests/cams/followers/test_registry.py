@@ -18,6 +18,7 @@ FOLDER = PACKAGE / "cams" / "followers"
 MAKERS = {
     "balancing/dwells/dwell_machine.py": {"OscillatingRoller"},
     "cams/best_offset.py": {"TranslatingRoller"},
+    "jobs/axes/mechanism_entries.py": {"translating roller"},
     "jobs/cam_findings.py": {"TranslatingRoller"},
     "explorer/views/cam_view.py": {"translating roller"},
     "explorer/views/machines/machine_view.py": {"translating roller"},
