@@ -30,7 +30,7 @@ class Labelled(NamedTuple, Generic[T]):
 
 
 def geometry(cam: DiscCam) -> list[Labelled[EnclosedExtreme]]:
-    """Extreme pressure angles, where there are any but 0, and least radii of curvature."""
+    """Extreme pressure angles, where there are any but 0, least radii of curvature, and sizes of the follower."""
     extremes = cam.extremes
     angles = {
         "greatest pressure angle": extremes.greatest_pressure_angle,
@@ -46,6 +46,7 @@ def geometry(cam: DiscCam) -> list[Labelled[EnclosedExtreme]]:
             for name, extreme in radii.items()
             if extreme is not None
         ),
+        *(Labelled(size.name, size.extreme, "mm", 1e3) for size in extremes.own),
     ]
 
 
@@ -63,6 +64,7 @@ def summary(cam: DiscCam) -> Summary:
     """The rows of a cam: intervals enclose an extreme, places are degrees of the cam."""
     undercut = cam.extremes.undercut
     rows = [
+        *(Row("beyond what is allowed", str(broken)) for broken in cam.extremes.beyond),
         Row("undercut", undercut.status, note=str(undercut)),
         Row("radius of the prime circle", 1e3 * positive(cam.prime_radius, "prime_radius"), "mm"),
         Row("radius of the base circle", 1e3 * cam.base_radius, "mm"),

@@ -90,6 +90,9 @@ def _to_data(findings: Findings) -> dict[str, Any]:
         "hollow_radius": None if extremes.least_concave_radius is None else enclosure(extremes.least_concave_radius),
         "undercut": {"status": extremes.undercut.status, "simple": extremes.undercut.simple},
     }
+    for size in extremes.own:
+        limit = {} if size.limit is None else {"limit": size.limit, "kept": size.kept}
+        data[size.name.replace(" ", "_")] = enclosure(size.extreme) | limit
     least, roller = findings.least, findings.roller
     if isinstance(least, LeastPrimeCircle):
         data["least_prime_circle"] = {
@@ -150,6 +153,7 @@ def page(findings: Findings) -> Page:
         result.heading("Laws for the cam").table(_HEADINGS, _best_rows(findings), digits=6)
     result.text(f"{_circles(findings.cam)}\n\nUndercut: {findings.cam.extremes.undercut}.")
     result.table(EXTREMES, extreme_rows(findings.cam, findings.limits), digits=7)
+    result.text("\n".join(f"Beyond what is allowed: {size}." for size in findings.cam.extremes.beyond))
     if findings.offset is not None:
         result.heading("Offset").table(_OF_OFFSET, _offset_rows(findings.offset), digits=6)
     if rows := _size_rows(findings):

@@ -119,6 +119,24 @@ class Undercut:
 
 
 @dataclass(frozen=True)
+class OwnSize:
+    """What a cam needs of its follower by a `name`, enclosed, m, and where it must be no more than a `limit`, that."""
+
+    name: str
+    extreme: EnclosedExtreme
+    limit: float | None = None
+
+    @property
+    def kept(self) -> bool:
+        """Whether it is not beyond its limit, but for rounding."""
+        return self.limit is None or is_kept(self.extreme.low, self.limit, CAM_FEASIBILITY)
+
+    def __str__(self) -> str:
+        given = "" if self.limit is None else sentence(" of {}", Amount(1e3 * self.limit, "mm"))
+        return sentence("the {}, {}{}", self.name, Amount(1e3 * self.extreme.value, "mm", 7), given)
+
+
+@dataclass(frozen=True)
 class CamExtremes:
     """Enclosed extremes over the whole interval of a cam's motion; radians and metres.
 
@@ -133,18 +151,26 @@ class CamExtremes:
         cutter must be smaller.
     undercut
         What is proven of undercut.
+    own
+        Sizes that its kind of follower has, with their limits.
     """
 
     pressure_angles: tuple[EnclosedExtreme, EnclosedExtreme]
     least_convex_radius: EnclosedExtreme
     least_concave_radius: EnclosedExtreme | None
     undercut: Undercut
+    own: tuple[OwnSize, ...] = ()
 
     @property
     def greatest_pressure_angle(self) -> EnclosedExtreme:
         """The greatest magnitude of the pressure angle."""
         least, greatest = self.pressure_angles
         return greatest if greatest.value >= -least.value else -least
+
+    @property
+    def beyond(self) -> tuple[OwnSize, ...]:
+        """Sizes of the follower that are beyond their limits."""
+        return tuple(size for size in self.own if not size.kept)
 
     def keeps_pressure_angle(self, limit: float) -> bool:
         """Whether no pressure angle is beyond a limit in radians, but for the rounding of laws that reach it."""

@@ -189,6 +189,7 @@ def _trust(cam: DiscCam) -> dict[str, Any]:
     if extremes.least_concave_radius is not None:
         hollow = _located(extremes.least_concave_radius, _MILLI, "mm")
         facts.append(sentence("hollow with a radius of {}: a cutter must be smaller", hollow))
+    facts += [sentence("{} {}", size.name, _located(size.extreme, _MILLI, "mm")) for size in extremes.own]
     first, *rest = sentence("{}.", extremes.undercut).parts
     advice = Sentence(first[0].upper() + first[1:], *rest)
     return {"status": status, "word": word, "advice": advice, "gap": "", "facts": facts}
@@ -196,7 +197,7 @@ def _trust(cam: DiscCam) -> dict[str, Any]:
 
 def _broken_limits(spec: CamProblemFile, cam: DiscCam) -> dict[str, str]:
     """A verdict on limits that the cam does not keep; nothing where it keeps all."""
-    extremes, broken = cam.extremes, []
+    extremes, broken = cam.extremes, [sentence("{}", size) for size in cam.extremes.beyond]
     pressure, radius = extremes.greatest_pressure_angle.value, extremes.least_convex_radius.value
     steepest, least = _steepest(spec), spec.radius_of_curvature
     if steepest is not None and not extremes.keeps_pressure_angle(steepest):
