@@ -6,8 +6,8 @@ from math import cos, pi
 from typing import ClassVar
 
 from optlaws.cams.followers.contact import CURVATURE
-from optlaws.cams.followers.follower import CamFollower, Place
-from optlaws.cams.followers.rollers_and_faces import FaceContact, SlidingFace
+from optlaws.cams.followers.follower import Place
+from optlaws.cams.followers.rollers_and_faces import FaceContact, FlatFollower, SlidingFace
 from optlaws.echo import shortened
 from optlaws.entries.declared import declared, entry
 from optlaws.entries.value_types import Measured
@@ -17,7 +17,7 @@ from optlaws.numbers import Quantity
 
 
 @declared
-class InclinedFlat(CamFollower, kind="inclined flat"):
+class InclinedFlat(FlatFollower, kind="inclined flat"):
     """A follower that slides and has a flat face which is not square to its way.
 
     Its cam is that of a square face that moves cos(inclination) as far, turned by the inclination; the pressure angle
@@ -49,7 +49,7 @@ class InclinedFlat(CamFollower, kind="inclined flat"):
             )
         return angle
 
-    def contact(self, place: Place) -> FaceContact:
+    def face(self, place: Place) -> FaceContact:
         return SlidingFace(place.turning, place.lowest, place.radius / cos(self.angle), self.angle)
 
     def prime_radius(self, level: float) -> float:

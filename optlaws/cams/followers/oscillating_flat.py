@@ -7,8 +7,8 @@ from math import asin, degrees, pi, sin
 from typing import ClassVar
 
 from optlaws.cams.followers.contact import ContactState, Drag, Transmission, bearing, other_leg
-from optlaws.cams.followers.follower import CamFollower, Place, positive, shown
-from optlaws.cams.followers.rollers_and_faces import FaceContact, sign
+from optlaws.cams.followers.follower import Place, positive, shown
+from optlaws.cams.followers.rollers_and_faces import FaceContact, FlatFollower, sign
 from optlaws.entries.declared import declared, entry
 from optlaws.entries.value_types import Measured
 from optlaws.errors import InputError
@@ -18,7 +18,7 @@ from optlaws.numerics.taylor import Jet, Pair
 
 
 @declared
-class OscillatingFlat(CamFollower, kind="oscillating flat"):
+class OscillatingFlat(FlatFollower, kind="oscillating flat"):
     """A follower that swings and has a flat face.
 
     Examples
@@ -38,7 +38,7 @@ class OscillatingFlat(CamFollower, kind="oscillating flat"):
     axis: ClassVar[str] = "angle"
     lengths: ClassVar[tuple[str, ...]] = ("pivot_distance",)
 
-    def contact(self, place: Place) -> FaceContact:
+    def face(self, place: Place) -> FaceContact:
         distance = positive(self.pivot_distance, "face: pivot_distance")
         offset = quantity(self.face_offset, "length", "face: face_offset")
         if abs(place.radius - offset) >= distance:

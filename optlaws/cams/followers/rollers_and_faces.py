@@ -20,6 +20,8 @@ from optlaws.cams.followers.contact import (
     bearing,
     shifted,
 )
+from optlaws.cams.followers.follower import CamFollower, Place
+from optlaws.entries.declared import declared
 from optlaws.errors import InputError
 from optlaws.motion.piece import Piece
 from optlaws.numbers import Array
@@ -148,6 +150,19 @@ def half_turn(angle: float) -> bool:
     return 0.0 < angle < pi and sin(angle) > 0.0
 
 
+@declared
+class FlatFollower(CamFollower, title="a flat follower"):
+    """A follower with a flat face."""
+
+    @abstractmethod
+    def face(self, place: Place) -> FaceContact:
+        """How its face touches a cam, however long it is."""
+
+    def contact(self, place: Place) -> FaceContact:
+        return self.face(place)
+
+
+@dataclass(frozen=True)
 class FaceContact(FollowerContact):
     """A flat face, of which the cam's profile is the envelope."""
 

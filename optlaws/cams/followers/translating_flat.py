@@ -5,13 +5,13 @@ from __future__ import annotations
 from typing import ClassVar
 
 from optlaws.cams.followers.contact import CURVATURE
-from optlaws.cams.followers.follower import CamFollower, Place
-from optlaws.cams.followers.rollers_and_faces import FaceContact, SlidingFace
+from optlaws.cams.followers.follower import Place
+from optlaws.cams.followers.rollers_and_faces import FaceContact, FlatFollower, SlidingFace
 from optlaws.entries.declared import declared
 
 
 @declared
-class TranslatingFlat(CamFollower, kind="translating flat"):
+class TranslatingFlat(FlatFollower, kind="translating flat"):
     """A follower that slides and has a flat face square to its way.
 
     Examples
@@ -23,7 +23,7 @@ class TranslatingFlat(CamFollower, kind="translating flat"):
     axis: ClassVar[str] = "length"
     sizing_limit: ClassVar[str | None] = CURVATURE
 
-    def contact(self, place: Place) -> FaceContact:
+    def face(self, place: Place) -> FaceContact:
         return SlidingFace(place.turning, place.lowest, place.radius, 0.0)
 
     def prime_radius(self, level: float) -> float:
