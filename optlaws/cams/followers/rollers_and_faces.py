@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from abc import abstractmethod
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from math import atan, cos, degrees, inf, pi, sin, tan
 
 import numpy as np
 
-from optlaws.cams.curves.extremes import CamExtremes, EnclosedExtreme, Undercut, enclosed_extremes, widened
+from optlaws.cams.curves.extremes import CamExtremes, EnclosedExtreme, OwnSize, Undercut, enclosed_extremes, widened
 from optlaws.cams.curves.motion_by_angle import CamMotion
 from optlaws.cams.followers.contact import (
     ContactState,
@@ -21,10 +21,12 @@ from optlaws.cams.followers.contact import (
     shifted,
 )
 from optlaws.cams.followers.follower import CamFollower, Place
-from optlaws.entries.declared import declared
+from optlaws.entries.declared import declared, entry
+from optlaws.entries.value_types import Measured
 from optlaws.errors import InputError
 from optlaws.motion.piece import Piece
-from optlaws.numbers import Array
+from optlaws.motion.quantities import quantity
+from optlaws.numbers import Array, Quantity
 from optlaws.numerics.interval import Interval
 from optlaws.numerics.peaks import is_kept
 from optlaws.numerics.taylor import Jet, Pair, Term
@@ -154,17 +156,29 @@ def half_turn(angle: float) -> bool:
 class FlatFollower(CamFollower, title="a flat follower"):
     """A follower with a flat face."""
 
+    face_length: Quantity | None = entry(
+        Measured("length", above=0.0),
+        "Of the face: no less than the way of the contact along it, which is reported beside it.",
+        default=None,
+        kw_only=True,
+        example="60 mm",
+    )
+
     @abstractmethod
     def face(self, place: Place) -> FaceContact:
         """How its face touches a cam, however long it is."""
 
     def contact(self, place: Place) -> FaceContact:
-        return self.face(place)
+        given = self.face_length
+        length = None if given is None else quantity(given, "length", "face: face_length")
+        return replace(self.face(place), length=length)
 
 
 @dataclass(frozen=True)
 class FaceContact(FollowerContact):
-    """A flat face, of which the cam's profile is the envelope."""
+    """A flat face, of which the cam's profile is the envelope; its length in m where it is known."""
+
+    length: float | None = field(default=None, kw_only=True)
 
     @property
     def roller(self) -> float:
@@ -201,7 +215,16 @@ class FaceContact(FollowerContact):
         """Enclosed extremes over the whole motion."""
         pressure, least = self.pressure_angles(motion), self.least_convex_radius(motion)
         # a face turns with the cam all the way, so that its envelope is convex where its radius is above 0
-        return CamExtremes(pressure, least, None, Undercut.of(least, simple=motion.closed))
+        undercut = Undercut.of(least, simple=motion.closed)
+        return CamExtremes(pressure, least, None, undercut, () if self.length is None else self._along(motion))
+
+    def _along(self, motion: CamMotion) -> tuple[OwnSize, ...]:
+        """The places of the contact along the face, from the foot of the shaft or the pivot, and their length."""
+        first, last = enclosed_extremes(motion, self.reach, 1)
+        ends = last.low - first.high, last.high - first.low
+        needed = widened(*ends, last.angle, max(abs(first.low), abs(last.high)))
+        places = {"contact along the face, least": first, "contact along the face, greatest": last}
+        return *(OwnSize(name, place) for name, place in places.items()), OwnSize("length of face", needed, self.length)
 
     @abstractmethod
     def reach(self, s: Jet) -> Jet:
