@@ -91,7 +91,7 @@ class MotionLaw(Curve, LawExport, StoredLaw):
         ((0.5, 1.0),)
         """
         nu = derivative(nu)
-        if nu == 0 or len(self.breaks) == 2:
+        if len(self.breaks) == 2:
             return ()
         if nu not in self._known_jumps:
             self._known_jumps[nu] = self._jumps(nu)

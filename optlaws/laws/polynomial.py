@@ -265,7 +265,7 @@ def _exact_derivative(values: list[Fraction]) -> list[Fraction]:
 def _numbers(values: Any, name: str) -> tuple[float, ...]:
     try:
         array = np.asarray(values)
-        right = array.ndim == 1 and (array.dtype.kind in "fiu" or array.size == 0)
+        right = array.ndim == 1 and array.dtype.kind in "fiu"
     except (ValueError, RecursionError, OverflowError):
         right = False
     if right and array.size <= MOST_TERMS and np.all(np.abs(array) <= MAGNITUDE_LIMIT):

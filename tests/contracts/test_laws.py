@@ -364,6 +364,7 @@ def test_named_derivatives_and_power(curve: Curve) -> None:
     k = inside(curve)
     for nu, named in enumerate((curve.a, curve.b, curve.c, curve.j)):
         assert np.array_equal(named(k), curve(k, nu))
+    assert np.array_equal(curve(k), curve.a(k))
     assert curve.d(k) == pytest.approx(curve.b(k) * curve.c(k), rel=1e-12)
 
 
@@ -442,6 +443,23 @@ def test_samples_are_the_values_with_both_sides_of_breaks(curve: Curve) -> None:
         assert set(after) == {curve.c(place)}
         near = curve.c(place - 1e-9)
         assert before == near or abs(before - near) <= 1e-5 * max(1.0, abs(near)) or not np.isfinite(before)
+    many, displacements = curve.samples()
+    assert len(many) == len(curve.to_pandas()) == 201 + 2 * (len(curve.breaks) - 2)
+    assert np.array_equal(displacements, curve.samples(201, 0)[1])
+
+
+@everything
+def test_a_part_that_begins_or_ends_at_a_break_has_both_its_sides(curve: Curve) -> None:
+    first, last = curve.interval
+    for nu in (1, 2):
+        k, values = curve.samples(2, nu)
+        for place in curve.breaks[1:-1]:
+            sides = values[k == place]
+            for part in ((first, place), (place, last)):
+                low, high = curve.extrema(nu, part)
+                room = 1e-13 * curve.peak(nu).value if np.isfinite(curve.peak(nu).value) else 0.0
+                assert low.value <= sides.min() + room
+                assert high.value >= sides.max() - room
 
 
 @pytest.mark.sample(3, kind=shape)

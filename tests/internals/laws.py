@@ -6,7 +6,7 @@ from optlaws.laws.curve import Curve
 from optlaws.laws.direction import direction_of
 from optlaws.laws.making.input_shaping import Shaper
 from optlaws.laws.making.through_points import law_of_table
-from optlaws.laws.making.transform import as_polynomial, law_between
+from optlaws.laws.making.transform import as_polynomial, law_between, section
 from optlaws.laws.making.trapezoids import from_half
 from optlaws.laws.savin import alpha_range
 from optlaws.laws.segments.constant_power import PowerSegment

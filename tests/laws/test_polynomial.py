@@ -40,6 +40,12 @@ def test_places_of_the_peaks_of_s_3() -> None:
     assert constants.J.k == 0.0
 
 
+@pytest.mark.parametrize("order", [3, 12, 30, 76, 84, 88, 100])
+def test_the_power_of_a_smoothstep_is_greatest_where_its_closed_form_is(order: int) -> None:
+    # d is (k (1 - k))^(2l - 3) (1 - 2k) but for a factor
+    assert smoothstep(order).constants.D.k == pytest.approx(0.5 - 0.5 / (4 * order - 5) ** 0.5, abs=2e-14)
+
+
 @pytest.mark.parametrize("order", range(1, 31))
 def test_smoothsteps_meet_their_end_conditions(order: int) -> None:
     law = smoothstep(order)

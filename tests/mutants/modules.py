@@ -6,6 +6,7 @@ BOUNDS = (
     "tests/synthesis/proof/test_certificate.py",
 )
 LAWS = ("tests/contracts/test_laws.py", "tests/laws/test_exactness.py")
+SEGMENTS = ("tests/contracts/test_segments.py", *LAWS)
 NUMERICS = ("tests/numerics", *LAWS)
 
 TESTS: dict[str, tuple[str, ...]] = {
@@ -31,13 +32,13 @@ TESTS: dict[str, tuple[str, ...]] = {
     "optlaws.numerics.roots": ("tests/numerics", "tests/laws/test_savin.py"),
     "optlaws.numerics.panels": NUMERICS,
     "optlaws.laws.curve": LAWS,
-    "optlaws.laws.law": LAWS,
+    "optlaws.laws.law": ("tests/laws/segments/test_piecewise.py", *LAWS),
     "optlaws.laws.polynomial": ("tests/laws/test_polynomial.py", *LAWS),
     "optlaws.laws.segments.piecewise": ("tests/laws/segments/test_piecewise.py", *LAWS),
-    "optlaws.laws.segments.segment": ("tests/laws/segments/test_piecewise.py", *LAWS),
-    "optlaws.laws.segments.sine": ("tests/laws/segments", "tests/laws/making/test_trapezoids.py", *LAWS),
-    "optlaws.laws.segments.fractional": ("tests/laws/segments", *LAWS),
-    "optlaws.laws.segments.constant_power": ("tests/laws/segments/test_piecewise.py", *LAWS),
+    "optlaws.laws.segments.segment": ("tests/laws/segments/test_piecewise.py", *SEGMENTS),
+    "optlaws.laws.segments.sine": ("tests/laws/segments", "tests/laws/making/test_trapezoids.py", *SEGMENTS),
+    "optlaws.laws.segments.fractional": ("tests/laws/segments", *SEGMENTS),
+    "optlaws.laws.segments.constant_power": ("tests/laws/segments/test_piecewise.py", *SEGMENTS),
     "optlaws.laws.making.multiplier": ("tests/laws/making/test_multiplier.py",),
     "optlaws.laws.making.transform": ("tests/laws/making/test_transform.py",),
     "optlaws.laws.making.trapezoids": ("tests/laws/making/test_trapezoids.py", "tests/laws/catalogue", *LAWS),

@@ -70,6 +70,18 @@ def test_every_root_on_every_panel() -> None:
     assert Panels((0.0, 1.0)).roots(np.zeros_like, np.zeros_like).size == 0
 
 
+def test_roots_are_more_exact_than_the_series_that_finds_them() -> None:
+    # seven terms on four radians leave 1e-3
+    roots = Panels((0.0, 4.0, 8.0), 7).roots(np.cos, lambda t: -np.sin(t))
+    assert max(np.abs(roots - np.pi * (n + 0.5)).min() for n in range(3)) <= 4.0 * np.finfo(float).eps
+
+
+def test_each_of_the_first_panels_is_halved() -> None:
+    halves, series = resolved(np.exp, Panels((0.0, 1.0, 2.0, 4.0), 9), lambda _, length: length <= 1.0)
+    assert halves == Panels((0.0, 1.0, 2.0, 3.0, 4.0), 9)
+    assert series == pytest.approx(halves.series(np.exp), rel=1e-15)
+
+
 def test_panels_are_halved_where_the_function_asks_for_it() -> None:
     def spike(t: Array) -> Array:
         return np.asarray(1.0 / (1e-4 + (t - 0.3) ** 2))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from itertools import accumulate
+from itertools import accumulate, pairwise
 from math import pi
 
 from optlaws.errors import InputError
@@ -46,14 +46,16 @@ def from_half(pieces: Sequence[Piece]) -> PiecewiseLaw:
         )
     if places[-1] > 0.5 - SHORTEST_STRETCH:
         places[-1] = 0.5
-    rise = _joined([(b - a, segment) for a, b, (_, segment) in zip(places, places[1:], lasting, strict=False)])
-    top = rise[-1][1].velocity(rise[-1][0], last=True)
-    coast: list[Piece] = [] if places[-1] == 0.5 else [(1.0 - 2.0 * places[-1], PolynomialSegment((), top))]
-    fall = [(length, segment.backwards(length)) for length, segment in rise[::-1]]
-    unit = [*rise, *coast, *fall]
-    breaks = places + ([] if places[-1] == 0.5 else [1.0 - places[-1]]) + [1.0 - place for place in places[-2::-1]]
-    scale = 1.0 / PiecewiseLaw(breaks, [segment for _, segment in unit]).a(1.0)
-    return PiecewiseLaw(breaks, [segment.scaled(length, scale) for length, segment in unit])
+    rise = _joined([(b - a, segment) for (a, b), (_, segment) in zip(pairwise(places), lasting, strict=True)])
+    unit = [segment for _, segment in rise]
+    if places[-1] < 0.5:
+        unit.append(PolynomialSegment((), rise[-1][1].velocity(rise[-1][0], last=True)))
+    unit += [segment.backwards(length) for length, segment in reversed(rise)]
+    breaks = sorted({*places, *(1.0 - place for place in places)})
+    scale = 1.0 / PiecewiseLaw(breaks, unit).a(1.0)
+    return PiecewiseLaw(
+        breaks, [segment.scaled(b - a, scale) for (a, b), segment in zip(pairwise(breaks), unit, strict=True)]
+    )
 
 
 def _joined(pieces: Sequence[Piece]) -> list[Piece]:

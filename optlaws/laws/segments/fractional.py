@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from math import inf
 
 import numpy as np
 
@@ -78,9 +77,6 @@ class FractionalSegment(Segment, kind="fractional"):
 
     def square(self, length: float, nu: int) -> float:
         powers = self.powers(length, nu)
-        lowest = min(powers, default=0.0)
-        if 2.0 * lowest <= -1.0 and min(self.first, self.last) == 0.0:
-            return inf
         low, high = sorted((self.first, self.last))
         return real_powers.integral(real_powers.product(powers, powers), low, high) * length / (high - low)
 

@@ -80,8 +80,7 @@ class PiecewiseLaw(MotionLaw, kind="piecewise"):
 
     @kept_property
     def _starts(self) -> tuple[float, ...]:
-        whole_segment = np.ones(1)
-        steps = (float(segment.derivative(whole_segment, length, 0)[0]) for segment, length in self._lengths)
+        steps = (float(segment.derivative(_END, length, 0)[0]) for segment, length in self._lengths)
         return tuple(accumulate(steps, initial=self.a0))
 
     def _pieces(self, k: Array, values: Any) -> Array:

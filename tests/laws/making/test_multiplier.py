@@ -190,6 +190,20 @@ def test_a_multiplier_is_found_that_gives_the_wanted_constants(law: MotionLaw, c
     assert np.polynomial.polynomial.polyval(K, y).min() >= -1e-12
 
 
+def test_a_multiplier_is_found_on_the_other_side_of_the_law() -> None:
+    # neither from y = 1 nor from a y that is smaller in the middle
+    wanted = {"C": 5.8, "D": 3.7, "J": 30.0}
+    made = multiplied_law(smoothstep(2), multiplier_for(smoothstep(2), **wanted)).constants
+    assert {name: getattr(made, name).value for name in wanted} == pytest.approx(wanted, rel=1e-9)
+
+
+@pytest.mark.parametrize("stroke", [1e-20, 1e9])
+def test_the_multiplier_is_the_same_for_any_stroke(stroke: float) -> None:
+    law = smoothstep(4)
+    wide = PolynomialLaw([stroke * value for value in law.acceleration])
+    assert multiplier_for(wide, B=1.9 * stroke) == pytest.approx(multiplier_for(law, B=1.9), rel=1e-9)
+
+
 def test_two_coefficients_and_one_condition_are_savins_family() -> None:
     made, family = multiplied_law(smoothstep(4), multiplier_for(smoothstep(4), B=1.9)), savin("III", B=1.9)
     np.testing.assert_allclose(made(K), family(K), atol=1e-12)

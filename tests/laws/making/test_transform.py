@@ -19,8 +19,8 @@ from optlaws import (
     trapezoid,
     with_end_velocity,
 )
-from tests.internals.laws import PolynomialSegment, PowerSegment, Segment, as_polynomial
-from tests.laws.examples import EXAMPLES
+from tests.internals.laws import PolynomialSegment, PowerSegment, Segment, as_polynomial, law_between, section
+from tests.laws.examples import EXAMPLES, cut
 
 Array = NDArray[np.float64]
 K = np.linspace(0.0, 1.0, 257)  # 1 - k is exact
@@ -142,6 +142,32 @@ def test_other_smooth_laws_become_polynomials() -> None:
     assert found.a(K) == pytest.approx(law.a(K), abs=1e-14)
     with pytest.raises(InputError, match="smooth"):
         as_polynomial(scca(0.25, 0.5, 0.25))
+
+
+def test_laws_between_laws_in_pieces_are_weighted_means_where_the_breaks_agree() -> None:
+    first, last = cut(smoothstep(3), 0.25, 0.5), cut(smoothstep(5), 0.25, 0.5)
+    mean = law_between(first, last, 0.25)
+    for nu in range(4):
+        room = 1e-14 * size(last, nu)
+        assert mean(K, nu) == pytest.approx(0.75 * first(K, nu) + 0.25 * last(K, nu), abs=room)
+    with pytest.raises(InputError, match="polynomials with the same breaks"):
+        law_between(first, cut(smoothstep(5), 0.25, 0.625), 0.25)
+
+
+def test_a_section_is_a_part_of_the_law_with_stroke_and_duration_1() -> None:
+    rise = cut(smoothstep(3), 0.25, 0.5, 0.75)
+    for law in (rise, mirrored_law(rise)):
+        assert isinstance(law, PiecewiseLaw)
+        part = section(law, 1, 3)
+        start, stroke = law.a(0.25), law.a(0.75) - law.a(0.25)
+        assert part.breaks == (0.0, 0.5, 1.0)
+        assert part.a(K) == pytest.approx((law.a(0.25 + 0.5 * K) - start) / stroke, abs=1e-14)
+
+
+def test_a_section_that_ends_where_it_begins_has_no_stroke() -> None:
+    back = PiecewiseLaw([0, 0.5, 1], [PolynomialSegment((16.0,), -4.0), PolynomialSegment((-16.0,), 4.0)])
+    with pytest.raises(InputError, match=r"from 0 to 0\.5 ends where it begins"):
+        section(back, 0, 1)
 
 
 @pytest.mark.parametrize("b0", [None, "1", float("nan")])

@@ -109,6 +109,15 @@ def test_a_jump_makes_the_next_derivatives_infinite_where_it_is() -> None:
     assert TWO_STEPS.constants.rms_c == 4.0
 
 
+@pytest.mark.parametrize(("height", "continuity"), [(0.25, 1), (1e-12, 1), (1e-14, 9)])
+def test_a_jump_is_one_beside_greater_lower_derivatives_unless_rounding_makes_it(
+    height: float, continuity: int
+) -> None:
+    law = PiecewiseLaw([0, 0.5, 1], [PolynomialSegment((), 1.0), PolynomialSegment((height,), 1.0)])
+    assert law.jumps(2) == (((0.5, height),) if continuity == 1 else ())
+    assert law.continuity == continuity
+
+
 def test_a_jump_of_velocity_makes_c_d_and_rms_infinite() -> None:
     law = PiecewiseLaw([0, 0.25, 0.75, 1], [PolynomialSegment((), b) for b in (0.5, 1.5, 0.5)])
     assert law.a(1.0) == 1.0
@@ -225,11 +234,14 @@ def test_a_new_kind_of_segment_is_one_class() -> None:
     "breaks", [[0], [], [0, 0.5], [0.1, 1], [0, 0.5, 0.5, 1], [0, 0.7, 0.3, 1], [0, nan, 1], ["0", 1], None]
 )
 def test_wrong_breaks_are_refused(breaks: Any) -> None:
-    with pytest.raises(InputError, match="breaks"):
-        PiecewiseLaw(breaks, [PolynomialSegment(())] * 2)
+    count = len(breaks) - 1 if breaks else 0
+    with pytest.raises(InputError, match=r"^breaks(\[\d\])? must"):
+        PiecewiseLaw(breaks, [PolynomialSegment(())] * count)
 
 
-@pytest.mark.parametrize("segments", [[], [PolynomialSegment(())], [1, 2], None, [PolynomialSegment] * 2])
+@pytest.mark.parametrize(
+    "segments", [[], [PolynomialSegment(())], [PolynomialSegment(())] * 3, [1, 2], None, [PolynomialSegment] * 2]
+)
 def test_wrong_segments_are_refused(segments: Any) -> None:
     with pytest.raises(InputError, match="segments must be 2 segments"):
         PiecewiseLaw([0, 0.5, 1], segments)
