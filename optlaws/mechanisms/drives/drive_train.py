@@ -499,7 +499,7 @@ def phase_move_of(move: LimitedMove) -> PhaseMove:
     way = drive.mechanism.dimensionless(move.start, move.stroke, time)
     scales = MoveScales(moved.unit, moved.energy_unit, abs(way.stroke) / way.duration, way.duration)
     lines = [] if move.minimise == "peak torque" else drive.motor.peak_lines
-    bounds = MoveBounds.read(move.limits, DIMENSIONS[drive.mechanism.axis]).over(way.start, way.stroke)
+    bounds = MoveBounds.read(dict(move.limits), DIMENSIONS[drive.mechanism.axis]).over(way.start, way.stroke)
     bounds = bounds.within(drive.motor.greatest_speed / drive.ratio, [(top, fall * drive.ratio) for top, fall in lines])
     return PhaseMove(moved.torque, scales, bounds, MoveCosts.read(drive.regeneration, move.heat), way.holding)
 

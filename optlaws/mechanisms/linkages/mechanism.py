@@ -573,7 +573,7 @@ def phase_move_of(move: LimitedMove) -> PhaseMove:
     moved = mechanism.dimensionless(move.start, move.stroke, duration_of(move.minimise, move.duration))
     velocity, dimension = abs(moved.stroke) / moved.duration, "N m" if mechanism.axis == "angle" else "N"
     scales = MoveScales(moved.unit, moved.energy_unit, velocity, moved.duration, dimension)
-    bounds = MoveBounds.read(move.limits, DIMENSIONS[mechanism.axis]).over(moved.start, moved.stroke)
+    bounds = MoveBounds.read(dict(move.limits), DIMENSIONS[mechanism.axis]).over(moved.start, moved.stroke)
     return PhaseMove(moved.torque, scales, bounds, MoveCosts.read(move.recovered, move.heat), moved.holding)
 
 

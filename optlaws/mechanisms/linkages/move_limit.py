@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from math import fsum, inf, nextafter
-from typing import Any, NamedTuple, Protocol, Self, get_args
+from typing import Any, NamedTuple, Protocol, Self, TypeAlias, cast, get_args
 
 from optlaws.echo import shortened
+from optlaws.entries.declared import Declared, declared, entry
+from optlaws.entries.value_types import Choice, Either, Kept, Listed, Number, ReadBy, Table, Together, is_list, pairs
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.files.reading import JsonText, entries_of
 from optlaws.formulas.reading import read
@@ -32,8 +34,6 @@ from optlaws.synthesis.limits.phase_torque import ACCELERATION, AnyTorque
 from optlaws.tolerances import CLOSURE, STATED_BOUND
 
 _ENTRIES = ("dimension", "unit", "move", "drive_limit")
-_MOVE_ENTRIES = ("minimise", "start", "stroke", "duration", "limits")
-_NUMBERS = {"start", "stroke", "recovered", "heat"}
 _DIGITS = 6
 _PART = 3
 
@@ -170,82 +170,76 @@ class MovedSource(Protocol):
         """That which `to_dict` described."""
 
 
-@dataclass(frozen=True)
-class LimitedMove(JsonText):
-    """A move of a mechanism or a drive over one stroke, with its limits, in SI units.
+def _source(value: Any) -> MovedSource:
+    if not isinstance(value, tuple(kind.source for kind in MOVED.values())):
+        raise InputError(f"it must be a mechanism or a drive, got {shortened(value)}")
+    return cast("MovedSource", value)
 
-    Attributes
-    ----------
-    driven
-        The mechanism, or the drive.
-    minimise
-        Of what a limit is computed.
-    start, stroke, duration
-        Of the input; the duration of the least time is None.
-    limits
-        As `MoveBounds.read` takes them, by position.
-    recovered, heat
-        What of an energy counts; of other quantities, and what a drive recovers by itself, 0.
+
+MoveTable: TypeAlias = Kept["tuple[tuple[str, Any], ...]", "Mapping[str, Any]"]
+_PARTS = Listed(Together(Number(), Number(), Number(above=0.0), names=("from", "to", "bound")))
+
+
+@declared
+class LimitedMove(Declared, title="a move with its limits"):
+    """A move of a mechanism or a drive over one stroke, with its limits, in SI units.
 
     Raises
     ------
     InputError
-        If `minimise` is unknown, something counts of an energy that is not minimised, or the drive itself has it.
+        If an entry is wrong, something counts of an energy that is not minimised, or the drive itself has it.
     """
 
-    driven: MovedSource
-    minimise: DriveObjective
-    start: float
-    stroke: float
-    duration: float | None
-    limits: dict[str, Any] = field(hash=False)
-    recovered: float = 0.0
-    heat: float = 0.0
+    writes_defaults = True
 
-    _json_name = "a move with its limits"
+    driven: MovedSource = entry(ReadBy(_source, "a mechanism or a drive", lambda moved: moved.to_dict()), "What moves.")
+    minimise: DriveObjective = entry(Choice(*get_args(DriveObjective)), "Of what a limit is computed.")
+    start: float = entry(Number(), "Where the input begins.")
+    stroke: float = entry(Number(), "How far it moves.")
+    duration: float | None = entry(Number(above=0.0), "How long; none of the least time.", default=None)
+    limits: MoveTable = entry(
+        Table(Either(Number(above=0.0), _PARTS, which=is_list), keep=pairs),
+        "The greatest velocity and acceleration of the input, and torque or force, or lists of them by position.",
+        default=(),
+    )
+    recovered: float = entry(
+        Number(least=0.0, most=1.0), "Which share of the braking energy of a mechanism is used again.", default=0.0
+    )
+    heat: float = entry(Number(least=0.0), "Copper heat that counts with the energy.", default=0.0)
 
-    def __post_init__(self) -> None:
-        if self.minimise not in get_args(DriveObjective):
-            raise InputError(unknown_key(self.minimise, get_args(DriveObjective), "minimise"))
-        for name in ("recovered", "heat"):
-            if getattr(self, name) and name not in _costs_of(self.minimise, _kind_of(self.driven)):
+    def _check(self) -> None:
+        for name in self._unused:
+            if getattr(self, name):
                 raise InputError(
                     f"{name} is a part of the energy that is minimised: take minimise='energy'"
                     if self.minimise != "energy"
                     else f"{name} of a drive is its regeneration: give it to the drive"
                 )
 
+    @property
+    def kind(self) -> str:
+        """Whether a "mechanism" or a "drive" moves."""
+        return next(kind for kind, moved in MOVED.items() if isinstance(self.driven, moved.source))
+
+    @property
+    def _unused(self) -> set[str]:
+        """What does not count: an energy counts heat, and that of a mechanism what it recovers; a drive says this."""
+        if self.minimise != "energy":
+            return {"recovered", "heat"}
+        return set() if self.kind == "mechanism" else {"recovered"}
+
     def to_dict(self) -> dict[str, Any]:
         """The move and what it moves as plain data."""
-        kind = _kind_of(self.driven)
-        names = (*_MOVE_ENTRIES, *_costs_of(self.minimise, kind))
-        return {kind: self.driven.to_dict(), **{name: getattr(self, name) for name in names}}
+        plain = super().to_dict()
+        moved = {self.kind: plain.pop("driven")}
+        return moved | {name: value for name, value in plain.items() if name not in self._unused}
 
     @classmethod
-    def from_dict(cls, data: Any) -> LimitedMove:
-        """The move that `to_dict` described.
-
-        Raises
-        ------
-        InputError
-            If an entry is missing, unknown or wrong.
-        """
-        known = entries_of(data, _MOVE_ENTRIES, cls._json_name)
+    def _from_earlier(cls, data: dict[str, Any]) -> dict[str, Any]:
         kinds = [kind for kind in MOVED if kind in data]
         if len(kinds) != 1:
-            raise InputError(f"{cls._json_name} has a mechanism or a drive, got {shortened(data)}")
-        if known["minimise"] not in get_args(DriveObjective):
-            raise InputError(unknown_key(known["minimise"], get_args(DriveObjective), "minimise"))
-        costs = entries_of(data, _costs_of(known["minimise"], kinds[0]), cls._json_name)
-        for name in data:
-            if name not in {*known, *costs, *kinds}:
-                raise InputError(unknown_key(name, (*known, *costs, *kinds), f"entry of {cls._json_name}"))
-        if not isinstance(known["limits"], Mapping):
-            raise InputError(f"limits must be an object, got {shortened(known['limits'])}")
-        numbers = {name: finite(value, name) for name, value in (known | costs).items() if name in _NUMBERS}
-        duration = None if known["duration"] is None else positive(known["duration"], "duration")
-        driven = MOVED[kinds[0]].source.from_dict(data[kinds[0]])
-        return cls(driven, known["minimise"], duration=duration, limits=dict(known["limits"]), **numbers)
+            raise InputError(f"a move with its limits has a mechanism or a drive, got {shortened(data)}")
+        return {"driven": MOVED[kinds[0]].source.from_dict(data.pop(kinds[0])), **data}
 
 
 class MoveBounds(NamedTuple):
@@ -283,7 +277,7 @@ class MoveBounds(NamedTuple):
         for name, value in (limits or {}).items():
             if name not in known:
                 raise InputError(unknown_key(name, known, "limit of a move"))
-            for part in value if isinstance(value, list) else [(None, None, value)]:
+            for part in value if isinstance(value, list | tuple) else [(None, None, value)]:
                 if not isinstance(part, list | tuple) or len(part) != _PART:
                     raise InputError(
                         f"{name} must be one bound, or a list of two positions with a bound, got {shortened(value)}"
@@ -524,16 +518,4 @@ def _infeasible(
 
 def _phase_move(move: LimitedMove) -> PhaseMove:
     """The move without dimensions."""
-    return MOVED[_kind_of(move.driven)].phase_move(move)
-
-
-def _costs_of(minimise: str, kind: str) -> tuple[str, ...]:
-    """What is given of an energy beside the move of a mechanism, or of a drive, which says what it recovers."""
-    if minimise != "energy":
-        return ()
-    return ("recovered", "heat") if kind == "mechanism" else ("heat",)
-
-
-def _kind_of(driven: MovedSource) -> str:
-    """Whether a mechanism or a drive moves."""
-    return next(kind for kind, moved in MOVED.items() if isinstance(driven, moved.source))
+    return MOVED[move.kind].phase_move(move)
