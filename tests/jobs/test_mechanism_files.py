@@ -511,3 +511,24 @@ def test_a_kind_with_the_examples_of_its_entries_is_written_and_read_again(kind:
             assert kind.from_dict({"kind": kind.kind, **needed, each["name"]: each["example"]}) != value
     with pytest.raises(InputError, match=f"unknown entry of a(n?) {kind.kind} 'coulmob'; did you mean 'coulomb'"):
         kind.from_dict({"kind": kind.kind, **needed, "coulmob": "0.2 N m"})
+
+
+def made_of(value: Any) -> Any:
+    """The mechanism of its entries; others are made already."""
+    return value.mechanism if isinstance(value, MechanismKind) else value
+
+
+WRONG_VALUES = [True, "3 furlongs", -float("inf"), {"x": 1}, [[[1]]]]
+
+
+@pytest.mark.parametrize("value", WRONG_VALUES, ids=str)
+@pytest.mark.parametrize("kind", [*MechanismKind.kinds().values(), Drive, Motor], ids=lambda kind: kind.__name__)
+def test_no_entry_takes_a_value_of_another_type(kind: type[MechanismKind] | type[Drive | Motor], value: object) -> None:
+    """Errors name the entry, or the entry of its table, and none of Python's comes through."""
+    shown = kind.form()["entries"]
+    needed = {each["name"]: each["example"] for each in shown if each["needed"]}
+    beside = {"kind": kind.kind} if issubclass(kind, MechanismKind) else {"mechanism": KINDS["rack"][1]}
+    for each in shown:
+        data = {**({} if kind is Motor else beside), **needed, each["name"]: value}
+        with pytest.raises(InputError, match=each["name"]):
+            made_of(kind.from_dict(data))
