@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from abc import abstractmethod
+from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import KW_ONLY
 from functools import cache, wraps
@@ -28,7 +28,7 @@ LENGTH = InSI("length", above=0.0)
 
 
 @declared
-class MechanismKind(Kinded, title="a mechanism"):
+class MechanismKind(Kinded, ABC, title="a mechanism"):
     """The entries of a mechanism of one kind, as a file has them; friction at the input is one of all kinds."""
 
     #: whether its input usually turns at a constant velocity
