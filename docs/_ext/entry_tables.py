@@ -8,7 +8,9 @@ from collections.abc import Callable
 from functools import partial
 from pathlib import Path
 
+from optlaws.cams.barrel import Groove
 from optlaws.entries.reference import markdown_table
+from optlaws.jobs.cam_entries import CamProblemFile
 from optlaws.jobs.cycle_entries import AxisEntries, CycleProblemFile
 from optlaws.jobs.moves.move_entries import FastestProblemFile
 from optlaws.mechanisms.drives.drive_train import Drive
@@ -33,6 +35,8 @@ TABLES: dict[str, Callable[[], str]] = {
     "loads": partial(markdown_table, Loads),
     "a drive": partial(markdown_table, Drive, apart=("motor",)),
     "a motor": partial(markdown_table, Motor),
+    "a cam": partial(markdown_table, CamProblemFile, apart=("motion", "pair.follower")),
+    "a barrel": partial(markdown_table, Groove),
 }
 
 

@@ -40,7 +40,7 @@ class CamForcesEntries(Surfaces, title="forces"):
 
 
 @declared
-class MadeEntries(Declared, title="as_made"):
+class MadeEntries(Declared, title="peaks as made"):
     """The files whose executed motion is reported: tables of a number of points and decimals, and profile errors."""
 
     points: tuple[int, ...] = entry(Listed(POINTS, most=10), "Of tables that the cam is cut by.", default=(361, 721))
@@ -93,7 +93,7 @@ class CutFile(Cutting, title="a file"):
 
 
 @declared
-class PairEntries(Declared, title="pair"):
+class PairEntries(Declared, title="a pair"):
     """The return cam: how its follower is fixed to the first one, and the follower where it is another."""
 
     distance: str | None = entry(
