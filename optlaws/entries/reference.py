@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Collection, Iterable, Iterator, Mapping
-from typing import Any
+from collections.abc import Collection, Iterator
 
 from optlaws.entries.declared import Declared, Entry, entries_of
 
@@ -62,33 +61,15 @@ def _sentence(each: Entry) -> str:
     return f"{each.about} {words[:1].upper()}{words[1:]}{such}{'; ' if usual else ''}{usual}."
 
 
-def examples(cls: type[Declared]) -> dict[str, Any]:
-    """A value of each entry as files have it: its example, or its default; those with neither are left out."""
-    values = {each.name: each.plain_default if each.example is None else each.example for each in _shown(cls)}
-    return {name: value for name, value in values.items() if value is not None}
-
-
 def _shown(cls: type[Declared]) -> list[Entry]:
     return [each for each in entries_of(cls).values() if each.shown]
 
 
-def starter(cls: type[Declared], given: Mapping[str, Any], explained: Iterable[str] | None = None) -> str:
-    """Lines of TOML with the entries of a declared class: what is given, and behind # examples of what is not.
-
-    >>> from optlaws.entries.declared import declared, entry
-    >>> from optlaws.entries.value_types import Number
-    >>> @declared
-    ... class Damper(Declared, title="a damper"):
-    ...     damping: float = entry(Number(least=0.0), "The damping ratio.", default=0.0, example=0.05)
-    >>> print(starter(Damper, {}))
-    # The damping ratio.
-    # damping = 0.05
-    """
-    lines = []
-    chosen = None if explained is None else set(explained)
-    for each in _shown(cls):
-        value = given.get(each.name, each.example)
-        if value is None or not (chosen is None or each.name in chosen or each.name in given):
-            continue
-        lines += [f"# {each.about}", f"{'' if each.name in given else '# '}{each.name} = {json.dumps(value)}"]
-    return "\n".join(lines)
+def sentences(cls: type[Declared]) -> dict[str, str]:
+    """What the entries of a declared class say, and those of its tables, by their names; of one name the first."""
+    found: dict[str, str] = {}
+    for each in entries_of(cls).values():
+        found.setdefault(each.name, each.about)
+        for entries in each.type.tables().values():
+            found |= {name: below.about for name, below in entries.items() if name not in found}
+    return found

@@ -7,8 +7,11 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from shlex import quote
+from textwrap import fill
 from typing import Any
 
+from optlaws.entries.declared import Declared
+from optlaws.entries.reference import sentences
 from optlaws.errors import InputError, located
 from optlaws.motion.quantities import DIMENSIONS, either
 from optlaws.numbers import finite
@@ -99,6 +102,8 @@ class Starter:
         Further answers that follow from those given.
     check
         Refuses the entries of a file that could not be run.
+    value
+        What the file is read as: above an entry a # alone in the text stands for what the entry says.
     """
 
     kind: str
@@ -106,6 +111,7 @@ class Starter:
     questions: tuple[Question, ...]
     derived: Callable[[Answers], Answers]
     check: Callable[[Mapping[str, Any], Path], object]
+    value: type[Declared] | None = None
 
     def run(self, file: Path) -> str:
         """The command behind `optlaws` that runs a file."""
@@ -126,11 +132,21 @@ class Starter:
             question.name: question.read(given[question.name]) for question in self.questions if question.name in given
         }
         answers |= self.derived(answers) | {"run": self.run(file)}
-        lines = [self._line(line, answers) for line in (_FOLDER / f"{self.kind}.toml").read_text("utf-8").splitlines()]
+        lines = [self._line(line, answers) for line in self._template()]
         text = "\n".join(lines) + "\n"
         with located(str(file)):
             self.check(tomllib.loads(text), file)
         return text
+
+    def _template(self) -> list[str]:
+        """The lines of the text, with what the entries say."""
+        lines = (_FOLDER / f"{self.kind}.toml").read_text("utf-8").splitlines()
+        said = {} if self.value is None else sentences(self.value)
+        below = [line.lstrip("# ").partition(" ")[0] for line in lines[1:]]
+        return [
+            fill(said[name], 120, initial_indent="# ", subsequent_indent="# ") if line == "#" else line
+            for line, name in zip(lines, [*below, ""], strict=True)
+        ]
 
     def _line(self, line: str, answers: Answers) -> str:
         """A line of the text with its answers; as a comment, with examples, where one is left out."""

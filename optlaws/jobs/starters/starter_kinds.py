@@ -157,6 +157,7 @@ STARTERS: dict[str, Starter] = {
         ),
         _of_cycle,
         _check_cam,
+        CamProblemFile,
     ),
     "machine": Starter(
         "machine",
