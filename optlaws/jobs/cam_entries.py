@@ -22,6 +22,8 @@ from optlaws.errors import InputError
 from optlaws.files import writing
 from optlaws.jobs.cycle_entries import AxisEntries, follower_cycle
 from optlaws.jobs.job_entries import ProblemFile
+from optlaws.kept import kept_property
+from optlaws.motion.quantities import quantity
 from optlaws.numbers import Quantity
 
 _LENGTH = Measured("length", above=0.0)
@@ -121,7 +123,7 @@ class CamOfMotion(ProblemFile, title="a cam"):
     )
     rows: int = entry(Whole(2, 100_000), "Lines of the table.", default=361)
 
-    @property
+    @kept_property
     def cycle(self) -> Cycle:
         """The motion of the follower."""
         return follower_cycle(self.motion, self.speed, self.period)
@@ -187,6 +189,22 @@ class CamProblemFile(CamOfMotion, title="a cam"):
         """The limits of the cam, and how it turns, as functions of sizes and of best laws take them."""
         limits = {"pressure_angle": self.pressure_angle, "radius_of_curvature": self.radius_of_curvature}
         return {**limits, "turning": self.turning}
+
+    @property
+    def limited(self) -> bool:
+        """Whether there are limits that a prime circle keeps."""
+        return bool(self.pressure_angle or self.radius_of_curvature)
+
+    @property
+    def steepest(self) -> float | None:
+        """The limit of the pressure angle, rad."""
+        return None if self.pressure_angle is None else quantity(self.pressure_angle, "angle", "pressure_angle")
+
+    @property
+    def least_radius(self) -> float | None:
+        """The limit of the radius of curvature, m."""
+        given = self.radius_of_curvature
+        return None if given is None else quantity(given, "length", "radius_of_curvature")
 
 
 @declared

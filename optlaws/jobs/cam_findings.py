@@ -29,7 +29,7 @@ from optlaws.errors import InfeasibleProblem, InputError, located
 from optlaws.files import tables
 from optlaws.jobs.cam_entries import CamProblemFile
 from optlaws.kept import kept_property
-from optlaws.motion.quantities import TURN, quantity
+from optlaws.motion.quantities import TURN
 from optlaws.tolerances import CAM_FEASIBILITY, RADIUS_ROUNDING
 
 EXTREMES = ("what", "at least", "at most", "unit", "at, deg")
@@ -64,66 +64,53 @@ class Findings:
                 findings.cam.outline(entry.curve, entry.cutter_radius)
         return findings
 
-    @kept_property
+    @property
     def cycle(self) -> Cycle:
         """The motion as the file gives it."""
         return self.spec.cycle
 
     @kept_property
-    def prime_radius(self) -> str:
-        """The radius of the prime circle that the file gives; empty where the least one is sought."""
-        spec = self.spec
-        given = stated_prime_radius(spec.prime_radius, spec.base_radius, spec.follower)
-        if given is None and (spec.best in {"laws", "offset"} or not self._limited):
+    def sought(self) -> BestCam | BestPrimeCircle | BestOffset | LeastPrimeCircle | None:
+        """What determines the cam where the file does not give all of it."""
+        spec, follower, cycle = self.spec, self.spec.follower, self.cycle
+        radius = stated_prime_radius(spec.prime_radius, spec.base_radius, follower)
+        if spec.best == "prime circle":
+            if radius is not None:
+                raise InputError("best = 'prime circle' computes prime_radius: leave it out, or give best = 'laws'")
+            return best_prime_circle(cycle, follower, **spec.limits)
+        if radius is None and (spec.best is not None or not spec.limited):
             raise InputError(
                 "prime_radius is missing: give it, such as '60 mm'; or give pressure_angle or radius_of_curvature, and "
                 "the least one that keeps them is taken; or give best = 'prime circle'"
             )
-        if spec.best == "prime circle" and given is not None:
-            raise InputError("best = 'prime circle' computes prime_radius: leave it out, or give best = 'laws'")
-        return given or ""
-
-    @kept_property
-    def best(self) -> BestCam | BestPrimeCircle | None:
-        """The quality of the laws for the cam, and the proof; None where they are the cycle's own."""
-        spec, prime_radius = self.spec, self.prime_radius
-        if spec.best == "prime circle":
-            return best_prime_circle(self.cycle, spec.follower, **spec.limits)
-        return best_cam(self.cycle, prime_radius, spec.follower, **spec.limits) if spec.best == "laws" else None
-
-    @kept_property
-    def offset(self) -> BestOffset | None:
-        """The best offset of the slide; None where the cam has the offset of the file."""
-        spec, follower = self.spec, self.spec.follower
-        if spec.best != "offset":
-            return None
+        if spec.best == "laws":
+            return best_cam(cycle, radius, follower, **spec.limits)
+        if spec.best is None:
+            return None if radius is not None else least_prime_circle(cycle, follower, **spec.limits)
         if not isinstance(follower, TranslatingRoller):
             raise InputError(f"best = 'offset' is of a translating roller, got a {follower.kind}")
         if "offset" in follower.to_dict():
             raise InputError("follower: best = 'offset' computes the offset: leave it out")
-        return best_offset(self.cycle, self.prime_radius, follower, turning=spec.turning)
+        return best_offset(cycle, radius, follower, turning=spec.turning)
+
+    @property
+    def best(self) -> BestCam | BestPrimeCircle | None:
+        """The quality of the laws for the cam, and the proof; None where they are the cycle's own."""
+        return self.sought if isinstance(self.sought, BestCam | BestPrimeCircle) else None
+
+    @property
+    def offset(self) -> BestOffset | None:
+        """The best offset of the slide; None where the cam has the offset of the file."""
+        return self.sought if isinstance(self.sought, BestOffset) else None
 
     @kept_property
     def cam(self) -> DiscCam:
-        """The cam, with the optimised laws or the optimised offset where these are sought."""
-        best, offset = self.best, self.offset
-        if offset is not None:
-            return offset.cam
-        if best is not None:
-            return best.cam if isinstance(best, BestCam) else best.least.cam
-        if not self.prime_radius:
-            return self._least_of_limits.cam
-        return DiscCam(self.cycle, self.prime_radius, self.spec.follower, turning=self.spec.turning)
-
-    @property
-    def _limited(self) -> bool:
-        """Whether there are limits that a prime circle keeps."""
-        return bool(self.spec.pressure_angle or self.spec.radius_of_curvature)
-
-    @kept_property
-    def _least_of_limits(self) -> LeastPrimeCircle:
-        """The least prime circle of the cycle, where the file gives limits in its place."""
-        return least_prime_circle(self.cycle, self.spec.follower, **self.spec.limits)
+        """The cam, with what is sought."""
+        spec, sought = self.spec, self.sought
+        if sought is None:
+            radius = stated_prime_radius(spec.prime_radius, spec.base_radius, spec.follower)
+            return DiscCam(self.cycle, radius, spec.follower, turning=spec.turning)
+        return sought.least.cam if isinstance(sought, BestPrimeCircle) else sought.cam
 
     @kept_property
     def second(self) -> DiscCam | None:
@@ -137,13 +124,7 @@ class Findings:
     @kept_property
     def limits(self) -> Limits:
         """The limits that the laws were optimised for; none where the laws are the cycle's own."""
-        if self.best is None:
-            return Limits()
-        pressure, radius = self.spec.pressure_angle, self.spec.radius_of_curvature
-        return Limits(
-            None if pressure is None else quantity(pressure, "angle", "pressure_angle"),
-            None if radius is None else quantity(radius, "length", "radius_of_curvature"),
-        )
+        return Limits() if self.best is None else Limits(self.spec.steepest, self.spec.least_radius)
 
     def angle(self, angle: float) -> float | None:
         """The angle at which a limit determines a size; None for laws that reach the limit at several angles."""
@@ -152,17 +133,15 @@ class Findings:
     @kept_property
     def least(self) -> LeastPrimeCircle | str | None:
         """The least prime circle, the reason why none exists, or None where no limit is given."""
-        if not self._limited:
+        if not self.spec.limited:
             return None
-        if isinstance(self.best, BestPrimeCircle):
-            return self.best.least
-        if not self.prime_radius:
-            return self._least_of_limits
-        cam = self.cam
+        if isinstance(self.sought, BestPrimeCircle | LeastPrimeCircle):
+            return self.sought.least if isinstance(self.sought, BestPrimeCircle) else self.sought
         try:
-            return least_prime_circle(cam.motion, cam.follower, **self.spec.limits)
+            return least_prime_circle(self.cam.motion, self.cam.follower, **self.spec.limits)
         except InfeasibleProblem as error:
-            return str(error)
+            reason: str = error.args[0]
+            return reason
 
     @kept_property
     def least_of_cycle(self) -> LeastPrimeCircle | None:

@@ -16,7 +16,6 @@ from optlaws.cams.curves.extremes import EnclosedExtreme
 from optlaws.cams.disc import DiscCam
 from optlaws.cams.followers.follower import CamFollower
 from optlaws.cams.forces import CamForces, Surfaces
-from optlaws.cams.least_sizes import least_prime_circle
 from optlaws.cams.summary import Labelled, named_forces
 from optlaws.cycles.specification.drive import CONSTANTS
 from optlaws.errors import InfeasibleProblem, InputError, OptlawsError
@@ -144,7 +143,7 @@ def _panels(spec: CamProblemFile, cam: DiscCam, angles: Array) -> list[dict[str,
     turns = drawn(np.degrees(angles), 4)
     unit, factor = ("mm", _MILLI) if cam.follower.axis == "length" else ("deg", degrees(1.0))
     pressure = cam.extremes.greatest_pressure_angle
-    limit = _steepest(spec)
+    limit = spec.steepest
     radius = _MILLI * np.asarray(cam.radius_of_curvature(angles))
     far = _FAR * _MILLI * quantity(cam.prime_radius, "length", "prime_radius")
     bulging = cam.extremes.least_convex_radius
@@ -159,11 +158,6 @@ def _panels(spec: CamProblemFile, cam: DiscCam, angles: Array) -> list[dict[str,
             "radius of curvature", "mm", turns, np.where(np.abs(radius) < far, radius, np.nan), [_mark(bulging, _MILLI)]
         ),
     ]
-
-
-def _steepest(spec: CamProblemFile) -> float | None:
-    """The limit of the pressure angle in radians; None without one."""
-    return None if spec.pressure_angle is None else quantity(spec.pressure_angle, "angle", "pressure_angle")
 
 
 def panel(name: str, unit: str, turns: Any, values: Array, peaks: list[dict[str, Any]]) -> dict[str, Any]:
@@ -198,13 +192,12 @@ def _trust(cam: DiscCam) -> dict[str, Any]:
 def _broken_limits(spec: CamProblemFile, cam: DiscCam) -> dict[str, str]:
     """A verdict on limits that the cam does not keep; nothing where it keeps all."""
     extremes, broken = cam.extremes, [sentence("{}", size) for size in cam.extremes.beyond]
-    pressure, radius = extremes.greatest_pressure_angle.value, extremes.least_convex_radius.value
-    steepest, least = _steepest(spec), spec.radius_of_curvature
-    if steepest is not None and not extremes.keeps_pressure_angle(steepest):
-        taken = Amount(degrees(pressure), "deg", 5)
+    if spec.steepest is not None and not extremes.keeps_pressure_angle(spec.steepest):
+        taken = Amount(degrees(extremes.greatest_pressure_angle.value), "deg", 5)
         broken.append(sentence("the pressure angle, {} of {}", taken, spec.pressure_angle))
-    if least is not None and not extremes.keeps_radius(quantity(least, "length", "radius_of_curvature")):
-        broken.append(sentence("the radius of curvature, {} of {}", Amount(_MILLI * radius, "mm", 5), least))
+    if spec.least_radius is not None and not extremes.keeps_radius(spec.least_radius):
+        taken = Amount(_MILLI * extremes.least_convex_radius.value, "mm", 5)
+        broken.append(sentence("the radius of curvature, {} of {}", taken, spec.radius_of_curvature))
     if not broken or extremes.undercut.status == "undercut":
         return {}
     advice = sentence("Beyond what is allowed: {}.", joined("; ", broken))
@@ -234,14 +227,9 @@ def sizes(request: CamRequest) -> dict[str, Any]:
 
 @lru_cache(maxsize=32)
 def _least(question: str) -> tuple[Sentence, ...]:
-    findings = _solved(question)
-    spec, cam = findings.spec, findings.cam
-    if spec.pressure_angle is None and spec.radius_of_curvature is None:
-        return ()
-    try:
-        least = least_prime_circle(cam.motion, cam.follower, **spec.limits)
-    except InfeasibleProblem as error:
-        return (sentence("{}", error.args[0]),)
+    least = _solved(question).least
+    if least is None or isinstance(least, str):
+        return () if least is None else (sentence("{}", least),)
     radius, base = (Amount(_MILLI * length, "mm", 7) for length in (least.radius, least.cam.base_radius))
     inner = sentence(" (base circle {})", base) if least.cam.contact.roller else ""
     return (sentence("least prime circle that keeps these limits: {}{}, by the {}", radius, inner, least.limit),)
