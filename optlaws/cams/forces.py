@@ -30,16 +30,6 @@ from optlaws.sentences import sentence
 from optlaws.suggest import unknown_key
 from optlaws.tolerances import FORCE_EXTREMES
 
-#: Young's modulus and Poisson's ratio within the ranges of J. M. Gere, Mechanics of Materials, 5th edition, appendix H
-#: (steel 190 to 210 GPa and 0.27 to 0.30, cast iron 83 to 170 and 0.2 to 0.3, bronze 96 to 120 and 0.34, aluminium
-#: 6061-T6 70 and 0.33); 210 GPa and 0.30 are those of EN 1993-1-1. One's own is a mapping with "young" and "poisson".
-MATERIALS = {
-    "steel": ("210 GPa", 0.30),
-    "cast iron": ("110 GPa", 0.26),
-    "bronze": ("110 GPa", 0.34),
-    "aluminium": ("70 GPa", 0.33),
-}
-
 
 @declared
 class Material(Declared, title="a material"):
@@ -48,10 +38,16 @@ class Material(Declared, title="a material"):
     young: Quantity = entry(Measured("pressure", above=0.0), "Young's modulus.", example="210 GPa")
     poisson: float = entry(Number(above=-1.0, most=0.5), "Poisson's ratio.", example=0.3)
 
-    @property
-    def yielding(self) -> float:
-        """(1 - nu²)/E, 1/Pa."""
-        return (1.0 - self.poisson**2) / quantity(self.young, "pressure", "young")
+
+#: within the ranges of J. M. Gere, Mechanics of Materials, 5th edition, appendix H (steel 190 to 210 GPa and 0.27 to
+#: 0.30, cast iron 83 to 170 and 0.2 to 0.3, bronze 96 to 120 and 0.34, aluminium 6061-T6 70 and 0.33); 210 GPa and 0.30
+#: are those of EN 1993-1-1
+MATERIALS = {
+    "steel": Material("210 GPa", 0.30),
+    "cast iron": Material("110 GPa", 0.26),
+    "bronze": Material("110 GPa", 0.34),
+    "aluminium": Material("70 GPa", 0.33),
+}
 
 
 def _material(given: Any) -> Any:
@@ -90,11 +86,12 @@ class Surfaces(Declared, title="forces"):
         """The contact along a line with a follower of a radius in m, 0 for a face; None where it has no width."""
         if self.width is None:
             return None
-        cam, follower = (
-            Material(*MATERIALS[material]) if isinstance(material, str) else material for material in self.materials
+        materials = [MATERIALS.get(material, material) for material in self.materials]
+        yielding = sum(
+            (1.0 - material.poisson**2) / quantity(material.young, "pressure", "young") for material in materials
         )
         width = positive_quantity(self.width, "length", "width")
-        return LineContact(width, 1.0 / (cam.yielding + follower.yielding), 1.0 / roller if roller else 0.0)
+        return LineContact(width, 1.0 / yielding, 1.0 / roller if roller else 0.0)
 
 
 @dataclass(frozen=True)
@@ -182,7 +179,7 @@ class CamForces:
     process: Mapping[str, Any] | None = None
 
     def __post_init__(self) -> None:
-        self.rate, self.load, self.process_force, self._friction, self._line  # noqa: B018 - what is wrong is refused at once
+        self.rate, self.load, self.process_force, self._surfaces.friction, self._line  # noqa: B018 - what is wrong is refused at once
 
     @kept_property
     def rate(self) -> float:
@@ -288,10 +285,6 @@ class CamForces:
             raise InputError("friction: guide is that of a slide, and needs overhang and length of its guide")
         return surfaces
 
-    @property
-    def _friction(self) -> Friction:
-        return self._surfaces.friction
-
     @kept_property
     def _line(self) -> LineContact | None:
         return self._surfaces.line(self.cam.contact.roller)
@@ -331,9 +324,9 @@ class CamForces:
 
     def _driven(self, s: Jet, angle: Array | Interval) -> tuple[Transmission, Jet]:
         unit = self.cam.contact.transmission(s)
-        lever = unit.lever_with(self._friction.contact)
-        if self._friction.guide:
-            lever = lever - self._friction.in_guide(unit) * self.direction(angle)
+        lever = unit.lever_with(self._surfaces.friction.contact)
+        if self._surfaces.friction.guide:
+            lever = lever - self._surfaces.friction.in_guide(unit) * self.direction(angle)
         sure = highest(lever.terms[0])
         if np.any(sure <= 0.0):
             place = in_degrees(float(middle(angle).flat[int(np.argmin(sure))]))
@@ -354,10 +347,10 @@ class CamForces:
 
     def _torque(self, angle: Array | Interval, order: int) -> Jet:
         s, unit, force = self._pressed(angle, order)
-        driven = force * unit.lever_with(self._friction.contact) * s.slope()
-        if not self._friction.contact:
+        driven = force * unit.lever_with(self._surfaces.friction.contact) * s.slope()
+        if not self._surfaces.friction.contact:
             return driven
-        return driven + unit.sliding * force.maximum(0.0) * self._friction.contact
+        return driven + unit.sliding * force.maximum(0.0) * self._surfaces.friction.contact
 
     def _squared_pressure(self, angle: Array | Interval, order: int) -> Jet:
         if self._line is None:

@@ -46,7 +46,7 @@ def geometry(cam: DiscCam) -> list[Labelled[EnclosedExtreme]]:
             for name, extreme in radii.items()
             if extreme is not None
         ),
-        *(Labelled(size.name, size.extreme, "mm", 1e3) for size in extremes.own),
+        *(Labelled(size.name, size.extreme, "mm", 1e3) for size in extremes.sizes),
     ]
 
 

@@ -67,9 +67,9 @@ def _shown(cls: type[Declared]) -> list[Entry]:
 
 def sentences(cls: type[Declared]) -> dict[str, str]:
     """What the entries of a declared class say, and those of its tables, by their names; of one name the first."""
-    found: dict[str, str] = {}
+    texts: dict[str, str] = {}
     for each in entries_of(cls).values():
-        found.setdefault(each.name, each.about)
+        texts.setdefault(each.name, each.about)
         for entries in each.type.tables().values():
-            found |= {name: below.about for name, below in entries.items() if name not in found}
-    return found
+            texts |= {name: below.about for name, below in entries.items() if name not in texts}
+    return texts

@@ -90,8 +90,8 @@ def _to_data(findings: Findings) -> dict[str, Any]:
         "hollow_radius": None if extremes.least_concave_radius is None else enclosure(extremes.least_concave_radius),
         "undercut": {"status": extremes.undercut.status, "simple": extremes.undercut.simple},
     }
-    for size in extremes.own:
-        limit = {} if size.limit is None else {"limit": size.limit, "kept": size.kept}
+    for size in extremes.sizes:
+        limit = {} if size.limit is None else {"limit": size.limit, "kept": size.within}
         data[size.name.replace(" ", "_")] = enclosure(size.extreme) | limit
     least, roller = findings.least, findings.roller
     if isinstance(least, LeastPrimeCircle):

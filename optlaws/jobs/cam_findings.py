@@ -221,7 +221,7 @@ class Findings:
 def extreme_rows(cam: DiscCam, limits: Limits) -> list[list[tables.Cell]]:
     """Rows of a table of extreme pressure angles and radii of curvature."""
     reached = {"deg": limits.pressure, "mm": limits.radius}
-    others = [cam.extremes.least_concave_radius, *(size.extreme for size in cam.extremes.own)]
+    others = [cam.extremes.least_concave_radius, *(size.extreme for size in cam.extremes.sizes)]
     return [
         extreme_row(name, extreme, factor, unit, None if any(extreme is other for other in others) else reached[unit])
         for name, extreme, unit, factor in geometry(cam)

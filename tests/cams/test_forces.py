@@ -213,3 +213,12 @@ def test_an_arm_is_dragged_as_the_surfaces_slide(turning: str) -> None:
     assert force * driven == pytest.approx(np.asarray(forces_of_cam.follower_force(ANGLES)), rel=1e-9)
     assert forces_of_cam.contact.low <= force.min()
     assert force.max() <= forces_of_cam.contact.high
+
+
+def test_surfaces_are_written_and_read_again() -> None:
+    friction = {"contact": 0.05, "guide": 0.1, "overhang": "80 mm", "length": "120 mm"}
+    own = {"young": "3 GPa", "poisson": 0.4}
+    surfaces = Surfaces(friction, "20 mm", ("bronze", own))  # type: ignore[arg-type] # tables are read
+    assert surfaces.to_dict() == {"friction": friction, "width": "20 mm", "materials": ["bronze", own]}
+    assert Surfaces.from_dict(surfaces.to_dict()) == replace(surfaces, width="20 mm") == surfaces
+    assert replace(surfaces.friction, contact=0.2).guide == 0.1

@@ -119,7 +119,7 @@ class Undercut:
 
 
 @dataclass(frozen=True)
-class OwnSize:
+class FollowerSize:
     """What a cam needs of its follower by a `name`, enclosed, m, and where it must be no more than a `limit`, that."""
 
     name: str
@@ -127,7 +127,7 @@ class OwnSize:
     limit: float | None = None
 
     @property
-    def kept(self) -> bool:
+    def within(self) -> bool:
         """Whether it is not beyond its limit, but for rounding."""
         return self.limit is None or is_kept(self.extreme.low, self.limit, CAM_FEASIBILITY)
 
@@ -151,7 +151,7 @@ class CamExtremes:
         cutter must be smaller.
     undercut
         What is proven of undercut.
-    own
+    sizes
         Sizes that its kind of follower has, with their limits.
     """
 
@@ -159,7 +159,7 @@ class CamExtremes:
     least_convex_radius: EnclosedExtreme
     least_concave_radius: EnclosedExtreme | None
     undercut: Undercut
-    own: tuple[OwnSize, ...] = ()
+    sizes: tuple[FollowerSize, ...] = ()
 
     @property
     def greatest_pressure_angle(self) -> EnclosedExtreme:
@@ -168,9 +168,9 @@ class CamExtremes:
         return greatest if greatest.value >= -least.value else -least
 
     @property
-    def beyond(self) -> tuple[OwnSize, ...]:
+    def beyond(self) -> tuple[FollowerSize, ...]:
         """Sizes of the follower that are beyond their limits."""
-        return tuple(size for size in self.own if not size.kept)
+        return tuple(size for size in self.sizes if not size.within)
 
     def keeps_pressure_angle(self, limit: float) -> bool:
         """Whether no pressure angle is beyond a limit in radians, but for the rounding of laws that reach it."""

@@ -12,9 +12,12 @@ import numpy as np
 from optlaws.cams.curves.extremes import CamExtremes, EnclosedExtreme, angle_of_tangent, enclosed_extremes
 from optlaws.cams.curves.motion_by_angle import CamMotion
 from optlaws.entries.declared import Declared, declared, entry
-from optlaws.entries.value_types import InSI, Number
+from optlaws.entries.value_types import Measured, Number
 from optlaws.errors import InputError
+from optlaws.kept import kept_property
 from optlaws.motion.piece import Piece
+from optlaws.motion.quantities import quantity
+from optlaws.numbers import Quantity
 from optlaws.numerics.interval import Interval
 from optlaws.numerics.taylor import Jet, Pair, Term
 from optlaws.synthesis.functionals.makers import peak
@@ -92,16 +95,22 @@ class Friction(Declared, title="friction"):
     guide: float = entry(
         Number(least=0.0), "The coefficient of a slide in its guide.", default=0.0, label="in the guide", example=0.1
     )
-    overhang: float | None = entry(
-        InSI("length", bare=False, least=0.0), "From where the cam touches to the guide.", default=None, example="80 mm"
+    overhang: Quantity | None = entry(
+        Measured("length", least=0.0), "From where the cam touches to the guide.", default=None, example="80 mm"
     )
-    length: float | None = entry(
-        InSI("length", bare=False, above=0.0), "Of the guide.", default=None, label="guide length", example="120 mm"
+    length: Quantity | None = entry(
+        Measured("length", above=0.0), "Of the guide.", default=None, label="guide length", example="120 mm"
     )
 
     def _check(self) -> None:
         if self.guide and (self.overhang is None or self.length is None):
             raise InputError("guide is that of a slide, and needs overhang and length of its guide")
+
+    @kept_property
+    def _guide(self) -> tuple[float, float]:
+        """Overhang and length of the guide, m."""
+        overhang, length = self.overhang or "0 m", self.length or "1 m"
+        return quantity(overhang, "length", "overhang"), quantity(length, "length", "length")
 
     def in_guide(self, transmission: Transmission) -> Jet:
         """Friction in the guide, of either sign of the velocity, for a normal force of 1 N."""
@@ -110,7 +119,7 @@ class Friction(Declared, title="friction"):
         moment = transmission.moment
         if drag is not None and isinstance(drag.moment, Jet):
             moment = moment + drag.moment * self.contact
-        overhang, length = self.overhang or 0.0, self.length or 1.0
+        overhang, length = self._guide
         near = moment + across * (overhang + length)
         far = moment + across * overhang
         return (near.magnitude() + far.magnitude()) * (self.guide / length)

@@ -8,7 +8,14 @@ from math import atan, cos, degrees, inf, pi, sin, tan
 
 import numpy as np
 
-from optlaws.cams.curves.extremes import CamExtremes, EnclosedExtreme, OwnSize, Undercut, enclosed_extremes, widened
+from optlaws.cams.curves.extremes import (
+    CamExtremes,
+    EnclosedExtreme,
+    FollowerSize,
+    Undercut,
+    enclosed_extremes,
+    widened,
+)
 from optlaws.cams.curves.motion_by_angle import CamMotion
 from optlaws.cams.followers.contact import (
     ContactState,
@@ -218,13 +225,15 @@ class FaceContact(FollowerContact):
         undercut = Undercut.of(least, simple=motion.closed)
         return CamExtremes(pressure, least, None, undercut, () if self.length is None else self._along(motion))
 
-    def _along(self, motion: CamMotion) -> tuple[OwnSize, ...]:
+    def _along(self, motion: CamMotion) -> tuple[FollowerSize, ...]:
         """The places of the contact along the face, from the foot of the shaft or the pivot, and their length."""
         first, last = enclosed_extremes(motion, self.reach, 1)
         ends = last.low - first.high, last.high - first.low
         needed = widened(*ends, last.angle, max(abs(first.low), abs(last.high)))
         places = {"contact along the face, least": first, "contact along the face, greatest": last}
-        return *(OwnSize(name, place) for name, place in places.items()), OwnSize("length of face", needed, self.length)
+        return *(FollowerSize(name, place) for name, place in places.items()), FollowerSize(
+            "length of face", needed, self.length
+        )
 
     @abstractmethod
     def reach(self, s: Jet) -> Jet:

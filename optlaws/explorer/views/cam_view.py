@@ -183,7 +183,7 @@ def _trust(cam: DiscCam) -> dict[str, Any]:
     if extremes.least_concave_radius is not None:
         hollow = _located(extremes.least_concave_radius, _MILLI, "mm")
         facts.append(sentence("hollow with a radius of {}: a cutter must be smaller", hollow))
-    facts += [sentence("{} {}", size.name, _located(size.extreme, _MILLI, "mm")) for size in extremes.own]
+    facts += [sentence("{} {}", size.name, _located(size.extreme, _MILLI, "mm")) for size in extremes.sizes]
     first, *rest = sentence("{}.", extremes.undercut).parts
     advice = Sentence(first[0].upper() + first[1:], *rest)
     return {"status": status, "word": word, "advice": advice, "gap": "", "facts": facts}

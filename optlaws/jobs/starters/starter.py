@@ -141,10 +141,10 @@ class Starter:
     def _template(self) -> list[str]:
         """The lines of the text, with what the entries say."""
         lines = (_FOLDER / f"{self.kind}.toml").read_text("utf-8").splitlines()
-        said = {} if self.value is None else sentences(self.value)
+        texts = {} if self.value is None else sentences(self.value)
         below = [line.lstrip("# ").partition(" ")[0] for line in lines[1:]]
         return [
-            fill(said[name], 120, initial_indent="# ", subsequent_indent="# ") if line == "#" else line
+            fill(texts[name], 120, initial_indent="# ", subsequent_indent="# ") if line == "#" else line
             for line, name in zip(lines, [*below, ""], strict=True)
         ]
 

@@ -52,7 +52,7 @@ def test_a_harmonic_motion_needs_the_sum_of_its_steepest_slopes(
     follower = InclinedFlat(f"{inclination!r} deg", face_length="1 m")
     cam = DiscCam(harmonic(stroke, rise, back), f"{9.0 * stroke!r} mm", follower, turning=turning)  # type: ignore[arg-type]
     needed = 0.5e-3 * stroke * (180.0 / rise + 180.0 / back) * cos(radians(inclination))
-    *ends, length = (size.extreme for size in cam.extremes.own)
+    *ends, length = (size.extreme for size in cam.extremes.sizes)
     assert length.value == pytest.approx(needed, rel=1e-8)
     assert length.low <= ends[1].value - ends[0].value <= length.high
 
@@ -68,7 +68,7 @@ def test_a_swinging_face_is_touched_where_the_profile_is(turning: str) -> None:
     contact = np.column_stack([np.cos(turn) * x - np.sin(turn) * y, np.sin(turn) * x + np.cos(turn) * y])
     # the face is square to the offset from the pivot, so that its way from there is what is left of the distance
     along = np.sqrt(np.sum((contact - [0.12, 0.0]) ** 2, axis=1) - 0.008**2)
-    least, greatest, length = (size.extreme for size in cam.extremes.own)
+    least, greatest, length = (size.extreme for size in cam.extremes.sizes)
     assert least.value == pytest.approx(along.min(), rel=1e-7)
     assert greatest.value == pytest.approx(along.max(), rel=1e-7)
     assert length.value == pytest.approx(np.ptp(along), rel=1e-6)
@@ -78,7 +78,7 @@ def test_a_swinging_face_is_touched_where_the_profile_is(turning: str) -> None:
 def test_a_harmonic_of_50_mm_over_half_turns_needs_50_mm(given_length: str, *, kept: bool) -> None:
     moves = [Rise("50 mm", "180 deg", law="simple harmonic"), Return(law="simple harmonic")]
     cam = DiscCam(Cycle(moves, period="1 s"), "80 mm", TranslatingFlat(face_length=given_length))
-    assert cam.extremes.own[-1].kept == kept
+    assert cam.extremes.sizes[-1].within == kept
     assert ("beyond what is allowed" in str(cam.summary())) != kept
 
 
@@ -95,6 +95,6 @@ def test_a_face_that_is_too_short_is_reported_by_job_and_page() -> None:
 
 
 def test_no_length_is_said_where_none_is_given() -> None:
-    assert DiscCam(harmonic(50.0, 150.0, 150.0), "80 mm", TranslatingFlat()).extremes.own == ()
+    assert DiscCam(harmonic(50.0, 150.0, 150.0), "80 mm", TranslatingFlat()).extremes.sizes == ()
     with pytest.raises(InputError, match="face_length must be above 0, got '0 mm'"):
         TranslatingFlat(face_length="0 mm")
