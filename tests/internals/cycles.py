@@ -1,13 +1,12 @@
 """Internals of `optlaws.cycles` that tests look at by themselves."""
 
 from optlaws.cycles.interlocks.polygon import SimplePolygon
-from optlaws.cycles.moves.timed_moves import _NAMES as TIMED_LIMITS
 from optlaws.cycles.old_tables.better_moves import law_of_move, nothing_to_better
 from optlaws.cycles.old_tables.reading import read_points
-from optlaws.cycles.optimisation.motion_limits import _NAMES as LIMIT_NAMES
 from optlaws.cycles.optimisation.motion_limits import FORCE, POWER
 from optlaws.cycles.optimisation.objectives import OBJECTIVES
 from optlaws.cycles.optimisation.search_spaces import halved
 from optlaws.cycles.specification.drive import read_drive
+from optlaws.cycles.specification.limit_entries import LIMITS_OF_CYCLE, LIMITS_OF_MOVE
 from optlaws.mechanisms.drives.effort import size_of
 from optlaws.synthesis.least_time.move_objective import RATES as OBJECTIVES_OF_MOVES

@@ -9,12 +9,12 @@ from typing import Any, NamedTuple
 from optlaws.cycles.moves.fastest_move import AXES, FastestMove
 from optlaws.cycles.moves.torque_limits import TORQUES, motor_torque, without_torques
 from optlaws.cycles.moves.vibration_limits import vibration_limit
+from optlaws.cycles.specification.limit_entries import LIMITS_OF_MOVE
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.mechanisms.drives.drive_train import Drive
-from optlaws.motion.quantities import either, positive_quantity, quantity, table
+from optlaws.motion.quantities import either, positive_quantity, quantity
 from optlaws.numbers import NumberOrQuantity, Quantity, listed
-from optlaws.suggest import unknown_key
 from optlaws.synthesis.least_time.follower_residual import RESIDUAL
 from optlaws.synthesis.least_time.least_time import LeastTime
 from optlaws.synthesis.least_time.motor_torque import MotorTorque
@@ -22,9 +22,8 @@ from optlaws.synthesis.least_time.move_limits import MoveLimits, TimedMove
 from optlaws.synthesis.least_time.time_search import least_time
 from optlaws.synthesis.problem.problem import Problem
 
-_EXAMPLE = '{"velocity": "1 m/s", "acceleration": ("-8 m/s^2", "12 m/s^2"), "jerk": "300 m/s^3"}'
-_NAMES = ("velocity", "acceleration", "deceleration", "jerk", "snap")
 _MOST = 100_000
+_OF_OTHERS = {**dict.fromkeys(TORQUES, "at a motor: give its drive"), RESIDUAL: "that of a follower: give the follower"}
 
 
 def fastest(
@@ -149,13 +148,12 @@ class _Machine(NamedTuple):
 
 def _timed(problem: Problem, stroke: Quantity, limits: Mapping[str, Any], machine: _Machine) -> tuple[TimedMove, str]:
     """The move whose time is sought within all its limits in SI units, and the unit of its stroke."""
-    rest, left, torque = limits, None, None
+    rest, left, torque = LIMITS_OF_MOVE.read(limits, "limits"), None, None
     if machine.follower is not None:
-        rest, left = vibration_limit(machine.follower, table(limits, "limits", _EXAMPLE))
+        rest, left = vibration_limit(machine.follower, rest)
     if machine.drive is not None:
-        given = table(rest, "limits", _EXAMPLE)
-        torque = motor_torque(machine.drive, machine.start, stroke, given)
-        rest = without_torques(machine.drive, given)
+        torque = motor_torque(machine.drive, machine.start, stroke, rest)
+        rest = without_torques(machine.drive, rest)
     move, unit = _move(problem, stroke, rest, machine.ends, torque)
     return (move if left is None else replace(move, residual=left(unit))), unit
 
@@ -190,10 +188,11 @@ class _Read(NamedTuple):
     forward: bool  #: whether the move must never turn back
 
 
-def _read_limits(given: Any, angular: str) -> _Read:
+def _read_limits(entries: Mapping[str, Any], angular: str) -> _Read:
     """Limits of the move in SI units."""
-    entries = table(given, "limits", _EXAMPLE)
-    _check_names(entries)
+    for name in entries:
+        if name in _OF_OTHERS:
+            raise InputError(f"limits: {name} is {_OF_OTHERS[name]}")
     read: dict[str, float] = {}
     forward = False
     for name, value in entries.items():
@@ -217,21 +216,8 @@ def _read_limits(given: Any, angular: str) -> _Read:
     return _Read(MoveLimits(**read), forward)
 
 
-def _check_names(entries: Mapping[str, Any]) -> None:
-    """Refuse names that are no limits of a motion."""
-    for name in entries:
-        if name in TORQUES:
-            raise InputError(f"limits: {name} is at a motor: give its drive")
-        if name == RESIDUAL:
-            raise InputError(f"limits: {name} is that of a follower: give the follower")
-        if name not in _NAMES:
-            raise InputError(unknown_key(name, (*_NAMES, *TORQUES, RESIDUAL), "limit"))
-
-
 def _pair(value: Any, dimension: str, where: str) -> tuple[float, float]:
     """The least and the greatest value of a pair."""
-    if len(value) != 2:
-        raise InputError(f"{where} must be one quantity or two, the least and the greatest, got {shortened(value)}")
     low, high = (quantity(each, dimension, where) for each in value)
     if not (low < 0.0 < high or (low == 0.0 < high and "velocity" in dimension)):
         raise InputError(f"{where}: the least value must be below 0 and the greatest above, got {shortened(value)}")

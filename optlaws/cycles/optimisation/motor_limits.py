@@ -13,12 +13,10 @@ from optlaws.cycles.optimisation.motion_limits import CURVE, FORCE, Limits
 from optlaws.cycles.specification.drive import CycleDrive
 from optlaws.cycles.specification.joints import LawSpan
 from optlaws.cycles.specification.programme import Programme
-from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.mechanisms.drives.motor import Motor
 from optlaws.motion.piece import factor
-from optlaws.motion.quantities import table
 from optlaws.synthesis.functionals.makers import peak
 from optlaws.synthesis.problem.constants import Functional
 from optlaws.tolerances import AGREEMENT
@@ -45,10 +43,8 @@ def motor_limits(entries: Mapping[str, Any], drive: CycleDrive | None, programme
     InputError
         If there is no motor, or its curve of torque over speed is not concave.
     """
-    if MOTOR not in table(entries, "limits", "{'velocity': '2 m/s'}") or entries[MOTOR] is False:
+    if not entries.get(MOTOR):
         return MotorLimits()
-    if entries[MOTOR] is not True:
-        raise InputError(f"limits, motor must be True or False, got {shortened(entries[MOTOR])}")
     source = drive.source if drive is not None else None
     if not isinstance(source, Drive):
         raise InputError("limits, motor: there is no motor: give one, as drive=Drive(mechanism, Motor(...), ratio=20)")

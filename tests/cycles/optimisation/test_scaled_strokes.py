@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from optlaws import Cycle, Drive, Dwell, InfeasibleProblem, Mechanism, Motor, Problem, Return, Rise, fastest, time_front
-from tests.internals.cycles import LIMIT_NAMES, OBJECTIVES, OBJECTIVES_OF_MOVES, TIMED_LIMITS
+from tests.internals.cycles import LIMITS_OF_CYCLE, LIMITS_OF_MOVE, OBJECTIVES, OBJECTIVES_OF_MOVES
 from tests.sampling import sampled
 
 SCALES = (1.1, 1.0001, 1e-12, 1e-6, 1e9)
@@ -66,14 +66,14 @@ def outcome(minimise: str, names: tuple[str, ...], scale: float) -> tuple[str, f
 
 CASES: list[tuple[str, tuple[str, ...]]] = [
     *((name, ()) for name in OBJECTIVES),
-    *(("jerk", (name,)) for name in LIMIT_NAMES if name not in NOT_SCALED),
+    *(("jerk", (name,)) for name in LIMITS_OF_CYCLE.entries if name not in NOT_SCALED),
     *((name, ("velocity",)) for name in ("acceleration", "rms acceleration", "rms jerk", "power", "energy")),
     *((name, ("jerk",)) for name in ("acceleration", "rms acceleration", "force", "rms torque")),
 ]
 
 
 def test_every_limit_is_tried() -> None:
-    assert {*LIMITS, *NOT_SCALED} == {*LIMIT_NAMES}
+    assert {*LIMITS, *NOT_SCALED} == {*LIMITS_OF_CYCLE.entries}
 
 
 @pytest.mark.parametrize("scale", SCALES)
@@ -101,7 +101,11 @@ def least_time(limits: Mapping[str, tuple[float, str]], scale: float) -> Any:
 
 
 def test_every_limit_of_a_move_is_tried() -> None:
-    assert {name for move in MOVES for name in move} == {*TIMED_LIMITS}
+    assert {name for move in MOVES for name in move} == {*LIMITS_OF_MOVE.entries} - {
+        "torque",
+        "rms torque",
+        "residual acceleration",
+    }
 
 
 @pytest.mark.parametrize("scale", SCALES)
