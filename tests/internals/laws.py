@@ -1,6 +1,7 @@
 """Internals of `optlaws.laws` that tests look at by themselves."""
 
 from optlaws.laws.catalogue.catalogue import plain
+from optlaws.laws.catalogue.entry import continuity_with_rest
 from optlaws.laws.catalogue.tyr_codes import canonical, coded
 from optlaws.laws.curve import Curve
 from optlaws.laws.direction import direction_of

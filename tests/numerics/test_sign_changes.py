@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from tests.internals.numerics import bracketed_roots, sign_changes
+from tests.internals.numerics import bracketed_root, bracketed_roots, sign_changes
 
 Array = NDArray[np.float64]
 
@@ -23,6 +23,14 @@ def test_roots_next_to_each_other_are_both_there(apart: float) -> None:
     """Between two places that are looked at: the turning point between the roots shows them."""
     low, high = 0.512 - apart, 0.512 + apart
     places = sign_changes(lambda x: np.array([(x - low) * (x - high) * (2.0 + np.sin(5.0 * x))]), [0.0, 1.0], 16)
+    assert places == pytest.approx([low, high], abs=1e-3 * apart)
+
+
+@pytest.mark.parametrize("apart", [1e-3, 1e-4])
+def test_roots_next_to_each_other_are_there_where_no_series_shows_them(apart: float) -> None:
+    """Twelve terms leave a tenth of the function: parabolas lead to the turning point between the roots."""
+    low, high = 0.512 - apart, 0.512 + apart
+    places = sign_changes(lambda x: np.array([(x - low) * (x - high) * (2.0 + np.sin(20.0 * x))]), [0.0, 1.0], 12)
     assert places == pytest.approx([low, high], abs=1e-3 * apart)
 
 
@@ -60,3 +68,16 @@ def test_roots_many_at_once() -> None:
     low, high = np.zeros(3), np.ones(3)
     roots = bracketed_roots(apart, (low, high), (apart(low), apart(high)))
     assert roots == pytest.approx([0.5 ** (1 / 9), np.log(1e3) / 30.0, 0.25], rel=1e-14)
+
+
+@pytest.mark.parametrize("unit", [1e-12, 1.0, 1e9])
+def test_a_root_takes_few_looks_in_any_unit(unit: float) -> None:
+    looks = 0
+
+    def square(x: float) -> float:
+        nonlocal looks
+        looks += 1
+        return (x / unit) ** 2 - 2.0
+
+    assert bracketed_root(square, 0.0, 2.0 * unit) == pytest.approx(2.0**0.5 * unit, rel=1e-15)
+    assert looks <= 12

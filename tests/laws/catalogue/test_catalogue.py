@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from optlaws import InputError, catalogue
+from optlaws import InputError, catalogue, smoothstep
 from tests.documents import ROOT
-from tests.internals.laws import canonical, plain
+from tests.internals.laws import canonical, continuity_with_rest, plain
 from tests.laws.reference import rows
 
 NAMES = {  # keys of the reference table that are no name of the catalogue
@@ -230,3 +230,8 @@ def documented() -> str:
 
 def test_the_table_in_the_documentation_is_the_catalogue() -> None:
     assert documented() in (ROOT / "docs" / "how-to" / "catalogue.md").read_text("utf-8")
+
+
+@pytest.mark.parametrize("order", [2, 9, 10, 11])
+def test_continuity_with_rest_goes_to_the_ninth_derivative(order: int) -> None:
+    assert continuity_with_rest(smoothstep(order)) == min(order - 1, 9)

@@ -71,6 +71,12 @@ def test_rows_are_those_of_the_law(basis: Chebyshev | Pieces) -> None:
     for sign in both.signs:
         values = both.jet(x, u, np.full(3, sign)).value
         assert values == pytest.approx(sign * law.c((1.0 - u) / 2.0) - 5.0, abs=1e-8)
+    assert space.combination(1, (1.0,), "B", slack).signs == (1.0, -1.0)
+    for turned, k in ((False, np.array([0.05, 0.35])), (True, np.array([0.95, 0.65]))):
+        rooted = space.from_rest("from rest", slack, backward=turned)
+        assert (rooted.signs, rooted.bound) == ((1.0, -1.0), 0.0)
+        expected = law.b(k) / np.sqrt(2.0 * np.minimum(k, 1.0 - k))
+        assert rooted.jet(x, 1.0 - 2.0 * np.minimum(k, 1.0 - k), np.ones(2)).value == pytest.approx(expected)
     forward = LawSpace.forward(space, slack)
     assert forward.jet(x, u, np.full(3, -1.0)).value == pytest.approx(-law.b((1.0 - u) / 2.0), abs=1e-9)
     power = space.power("D", slack, 2.0)
