@@ -14,6 +14,7 @@ from optlaws.errors import located
 from optlaws.files import tables
 from optlaws.jobs.cam_entries import BarrelProblemFile
 from optlaws.jobs.cam_findings import EXTREMES, enclosure, extreme_row, plain
+from optlaws.motion.display_units import MILLI, TURN_DEG
 from optlaws.numbers import Array
 from optlaws.plots.style import BLUES, GREY, WARM, new_figure, plot_style, titled
 from optlaws.results import Results
@@ -22,8 +23,6 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-_MILLI = 1e3
-_TURN = 360.0
 _SAMPLES = 721
 _TITLES = {
     "free": "no flank has a cusp, at any depth",
@@ -41,7 +40,7 @@ def run(results: Results) -> None:
     rows = [
         extreme_row("pressure angle at the bottom, least", cam.pressure_angles[0], degrees(1.0), "deg"),
         extreme_row("pressure angle at the bottom, greatest", cam.pressure_angles[1], degrees(1.0), "deg"),
-        extreme_row("way of a flank a radian, least", cam.margin, _MILLI, "mm"),
+        extreme_row("way of a flank a radian, least", cam.margin, MILLI, "mm"),
     ]
     page.table(EXTREMES, rows, digits=7)
     results.data("cam.json", to_data(cam))
@@ -83,15 +82,15 @@ def draw(cam: BarrelCam, title: str) -> Figure:
         groove, pressure = figure.subplots(2, 1, sharex=True, height_ratios=(1.4, 1.0))
         for side, colour in zip(SIDES, (BLUES[3], WARM), strict=True):
             groove.plot(*_unrolled(cam.flank(side), angles, cam.pitch_curve), color=colour, label=f"{side} flank")
-        centre = np.degrees(angles), _MILLI * cam.pitch_curve(angles)[:, 2]
+        centre = np.degrees(angles), MILLI * cam.pitch_curve(angles)[:, 2]
         groove.plot(*centre, color=GREY, linestyle=":", label="axis of the roller")
         for radius, colour in zip(cam.radii, (BLUES[3], WARM), strict=True):
             values = np.degrees(cam.pressure_angle(angles, radius=radius))
-            pressure.plot(np.degrees(angles), values, color=colour, label=f"at the radius {_MILLI * radius:g} mm")
+            pressure.plot(np.degrees(angles), values, color=colour, label=f"at the radius {MILLI * radius:g} mm")
         pressure.axhline(0.0, color=GREY, linewidth=0.8)
         groove.set(ylabel="along the shaft, mm")
-        pressure.set(xlabel="around the cam, deg", ylabel="pressure angle, deg", xlim=(0.0, _TURN))
-        pressure.set_xticks(np.arange(0.0, _TURN + 1.0, 60.0))
+        pressure.set(xlabel="around the cam, deg", ylabel="pressure angle, deg", xlim=(0.0, TURN_DEG))
+        pressure.set_xticks(np.arange(0.0, TURN_DEG + 1.0, 60.0))
         for axes in (groove, pressure):
             axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0))
         figure.align_ylabels()
@@ -102,7 +101,7 @@ def _unrolled(curve: SpaceCurve, angles: Array, pitch: SpaceCurve) -> tuple[Arra
     """A curve's angle around the cam in degrees, near the roller's angle, and its place along the shaft in mm."""
     x, y, along = curve(angles).T
     beside = np.angle((y + 1j * x) / (pitch(angles) @ np.array([1j, 1.0, 0.0])))
-    return np.degrees(angles + curve.turning * beside), _MILLI * along
+    return np.degrees(angles + curve.turning * beside), MILLI * along
 
 
 def _columns(spec: BarrelProblemFile) -> list[str]:
@@ -113,14 +112,14 @@ def _columns(spec: BarrelProblemFile) -> list[str]:
 
 
 def _rows(spec: BarrelProblemFile, cam: BarrelCam) -> list[list[tables.Cell]]:
-    turns = np.linspace(0.0, _TURN, spec.rows)
+    turns = np.linspace(0.0, TURN_DEG, spec.rows)
     angles = np.radians(turns)
     curves = [cam.pitch_curve, *(cam.flank(side, radius) for radius in cam.radii for side in SIDES)]
     if spec.cutter_radius is not None:
         curves += [cam.cutter_path(spec.cutter_radius, side) for side in SIDES]
     columns = [
         turns,
-        *(column for curve in curves for column in (_MILLI * curve(angles)).T),
+        *(column for curve in curves for column in (MILLI * curve(angles)).T),
         *(np.degrees(cam.pressure_angle(angles, radius=radius)) for radius in cam.radii),
     ]
     return [[plain(value) for value in row] for row in np.array(columns).T.tolist()]

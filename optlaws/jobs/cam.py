@@ -25,15 +25,13 @@ from optlaws.cycles.summary import objective_unit
 from optlaws.files import tables
 from optlaws.jobs.cam_entries import CamProblemFile
 from optlaws.jobs.cam_findings import EXTREMES, FORCE, STIFFNESS, Findings, Limits, enclosure, extreme_rows, plain
+from optlaws.motion.display_units import MICRO, MILLI, TURN_DEG, UNITS
 from optlaws.plots.cam import animated, cam_figure, forces_figure, pair_figure
-from optlaws.plots.cycle import UNITS
 from optlaws.results import Page, Results
 from optlaws.tolerances import FORCE_ROUNDING
 
 _SIZE_MET = 1e-7  # of a radius: a size that is proven to so much is the least one
 
-_MILLI, _MICRO = 1e3, 1e6
-_TURN = 360.0
 _HEADINGS = ("what", "value", "no laws are below", "unit", "status")
 _OF_OFFSET = ("what", "value", "no offset is below", "unit", "status")
 #: before the names of the files of the return cam
@@ -185,7 +183,7 @@ def page(findings: Findings) -> Page:
 
 def _circles(cam: DiscCam) -> str:
     """The radii of the prime circle and of the base circle as a sentence."""
-    base, roller = _MILLI * cam.base_radius, _MILLI * cam.contact.roller
+    base, roller = MILLI * cam.base_radius, MILLI * cam.contact.roller
     return f"The radius of the prime circle is {base + roller:.7g} mm, that of the base circle {base:.7g} mm."
 
 
@@ -202,11 +200,11 @@ def _best_rows(findings: Findings) -> list[list[tables.Cell]]:
             [f"least {name} without them", cycle.objective, cycle.lower_bound, unit, cycle.status.value],
         ]
     assert best is not None  # noqa: S101 - the caller has seen it
-    sizes: list[tables.Cell] = [_MILLI * best.least.radius, _MILLI * best.lower_bound, "mm", _status(findings)]
+    sizes: list[tables.Cell] = [MILLI * best.least.radius, MILLI * best.lower_bound, "mm", _status(findings)]
     rows: list[list[tables.Cell]] = [["least prime circle of all laws", *sizes]]
     of_cycle = findings.least_of_cycle
     if of_cycle is not None:
-        rows.append([f"of the laws of least {name}", _MILLI * of_cycle.radius, None, "mm", None])
+        rows.append([f"of the laws of least {name}", MILLI * of_cycle.radius, None, "mm", None])
     return rows
 
 
@@ -215,10 +213,10 @@ def _size_rows(findings: Findings) -> list[list[tables.Cell]]:
     rows: list[list[tables.Cell]] = []
     if isinstance(least, LeastPrimeCircle):
         name, at = f"least prime circle, by the {least.limit}", findings.angle(degrees(least.angle))
-        rows.append([name, _MILLI * least.radius, _MILLI * least.too_small, "mm", at])
+        rows.append([name, MILLI * least.radius, MILLI * least.too_small, "mm", at])
     if roller is not None:
         at = findings.angle(degrees(roller.angle))
-        rows.append(["greatest roller", _MILLI * roller.radius, _MILLI * roller.too_large, "mm", at])
+        rows.append(["greatest roller", MILLI * roller.radius, MILLI * roller.too_large, "mm", at])
     return rows
 
 
@@ -258,7 +256,7 @@ def _offset_rows(best: BestOffset) -> list[list[tables.Cell]]:
     angles = [degrees(best.pressure_angle), degrees(best.lower_bound)]
     status = "optimal" if best.proven else "local"
     return [
-        ["best offset", _MILLI * best.offset, None, "mm", status],
+        ["best offset", MILLI * best.offset, None, "mm", status],
         ["greatest pressure angle with it", *angles, "deg", status],
     ]
 
@@ -267,7 +265,7 @@ def _force_rows(forces: CamForces) -> list[list[tables.Cell]]:
     rows: list[list[tables.Cell]] = []
     for name, curve, unit, factor in named_forces(forces):
         low, high = (_rounded(value * factor, curve.peak * factor) for value in (curve.least, curve.most))
-        first, last = (_rounded(degrees(at), _TURN) for at in (curve.least_at, curve.most_at))
+        first, last = (_rounded(degrees(at), TURN_DEG) for at in (curve.least_at, curve.most_at))
         rows.append([name, low, first, high, last, unit])
     return rows
 
@@ -290,14 +288,14 @@ def _spring_rows(findings: Findings) -> list[list[tables.Cell]]:
         [f"{greatest}, any speed", spring.greatest, FORCE["length"] if contact else force],
         [f"lower bound of the {sought}", _rounded(spring.lower_bound, spring.greatest), bound],
         ["least force left along the follower's way", _rounded(spring.margin, spring.greatest), force],
-        ["it is left at", _rounded(spring.critical[0], _TURN), "deg"],
+        ["it is left at", _rounded(spring.critical[0], TURN_DEG), "deg"],
     ]
 
 
 def _manufactured_row(name: str, peaks: AsMade | None) -> list[tables.Cell]:
     if peaks is None:
         return [name, None, None, None]
-    return [name, _MICRO * peaks.deviation, peaks.acceleration_ratio, peaks.jerk_ratio]
+    return [name, MICRO * peaks.deviation, peaks.acceleration_ratio, peaks.jerk_ratio]
 
 
 def _rounded(value: float, size: float) -> float:
@@ -316,7 +314,7 @@ def _columns(findings: Findings) -> list[str]:
 
 def _rows(findings: Findings) -> list[list[tables.Cell]]:
     spec, cam = findings.spec, findings.cam
-    turns = np.linspace(0.0, _TURN, spec.rows)
+    turns = np.linspace(0.0, TURN_DEG, spec.rows)
     angles = np.radians(turns)
     curves: list[PlaneCurve] = []
     for disc in (cam, findings.second):
@@ -326,8 +324,8 @@ def _rows(findings: Findings) -> list[list[tables.Cell]]:
     columns = [
         turns,
         UNITS[cam.displacement.axis][0][1] * cam.displacement(angles),
-        *(column for curve in curves for column in (_MILLI * curve(angles)).T),
+        *(column for curve in curves for column in (MILLI * curve(angles)).T),
         np.degrees(cam.pressure_angle(angles)),
-        cam.profile.curvature(angles) / _MILLI,
+        cam.profile.curvature(angles) / MILLI,
     ]
     return [[plain(value) for value in row] for row in np.array(columns).T.tolist()]

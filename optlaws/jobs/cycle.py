@@ -40,8 +40,9 @@ from optlaws.jobs.axes.interlock_page import CLEARANCES, GIVEN, TIMING, add_inte
 from optlaws.jobs.cycle_entries import CycleProblemFile, ExportEntries, overlap_of, read_given, sweeps_of
 from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.mechanisms.linkages.mechanism import Mechanism
+from optlaws.motion.display_units import RPM, TURN_DEG, UNITS
 from optlaws.motion.quantities import QUANTITIES
-from optlaws.plots.cycle import UNITS, axes_figure, cycle_figure
+from optlaws.plots.cycle import axes_figure, cycle_figure
 from optlaws.plots.interlocks import clearance_figure, timing_figure
 from optlaws.plots.machine import mechanism_figure, motor_figure
 from optlaws.plots.sweep import sweep_figure
@@ -126,10 +127,6 @@ def _export_row(name: str, export: Export) -> list[tables.Cell]:
     shown = [f"{ratio:.7g}" if abs(ratio) < float("inf") else "jumps" for ratio in ratios]
     deviation = f"{export.report.deviation[0].value:.3g} {export.motion.units.slave}"
     return [name, export.format.name, export.points, *shown, deviation]
-
-
-_SHARE = 360.0
-_RPM = 30.0 / np.pi
 
 
 def run(results: Results) -> None:
@@ -268,7 +265,7 @@ def _segment_rows(cycle: Cycle) -> list[list[tables.Cell]]:
                 peaks.name,
                 1e3 * peaks.start,
                 1e3 * peaks.duration,
-                _SHARE * peaks.duration / cycle.duration,
+                TURN_DEG * peaks.duration / cycle.duration,
                 _plain(factor * position, factor * max(abs(position), abs(cycle.peak(0)))),
                 *(peaks.peak(nu) * UNITS[cycle.axis][nu][1] for nu in (1, 2, 3)),
             ]
@@ -278,7 +275,7 @@ def _segment_rows(cycle: Cycle) -> list[list[tables.Cell]]:
 
 def _whole_row(cycle: Cycle) -> list[tables.Cell]:
     peaks = [cycle.peak(nu) * UNITS[cycle.axis][nu][1] for nu in (1, 2, 3)]
-    return ["whole cycle", 0.0, 1e3 * cycle.duration, _SHARE, None, *peaks]
+    return ["whole cycle", 0.0, 1e3 * cycle.duration, TURN_DEG, None, *peaks]
 
 
 def _columns(cycle: Cycle) -> list[str]:
@@ -292,8 +289,8 @@ def _columns(cycle: Cycle) -> list[str]:
 
 
 def _rows(cycle: Cycle, count: int) -> list[list[tables.Cell]]:
-    degrees = np.linspace(0.0, _SHARE, count)
-    times = degrees * (cycle.duration / _SHARE)
+    degrees = np.linspace(0.0, TURN_DEG, count)
+    times = degrees * (cycle.duration / TURN_DEG)
     motion = [cycle(times, nu) for nu in range(len(QUANTITIES))]
     columns = [
         [_plain(value * factor, cycle.peak(nu) * factor) for value in motion[nu].tolist()]
@@ -302,7 +299,7 @@ def _rows(cycle: Cycle, count: int) -> list[list[tables.Cell]]:
     if cycle.drive is not None:
         taken = [np.asarray(cycle.force(times)), np.asarray(cycle.power(times))]
         if isinstance(cycle.drive, Drive):
-            taken.append(_RPM * cycle.drive.ratio * motion[1])
+            taken.append(RPM * cycle.drive.ratio * motion[1])
         columns += [[_plain(value, float(np.abs(values).max())) for value in values.tolist()] for values in taken]
     return [list(row) for row in zip(degrees.tolist(), times.tolist(), *columns, strict=True)]
 

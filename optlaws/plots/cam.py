@@ -13,8 +13,8 @@ from optlaws.cams.followers.contact import FollowerContact
 from optlaws.cams.forces import CamForces
 from optlaws.errors import InputError
 from optlaws.files.writing import MARK
+from optlaws.motion.display_units import MILLI, UNITS
 from optlaws.numbers import Array
-from optlaws.plots.cycle import UNITS
 from optlaws.plots.style import BLUES, GREEN, GREY, WARM, new_figure, plot_style, titled
 
 if TYPE_CHECKING:
@@ -27,7 +27,6 @@ _OUTLINE_DRAWN = 1e-5  # m: by so much the outline of an animated cam may be off
 Values = Callable[[Array], Array]
 
 PANELS = ("displacement", "pressure angle", "curvature")
-_MILLI = 1e3
 _SHOWN = 8  # followers around the cam
 _SAMPLES = 721
 _FILL = "#dfe9f3"
@@ -87,10 +86,10 @@ def pair_figure(first: DiscCam, second: DiscCam, title: str) -> Figure:
         axes = figure.subplots()
         axes.set_aspect("equal")
         for cam, colour, name in zip((first, second), colours, ("cam", "return cam"), strict=True):
-            profile = _MILLI * cam.profile(np.linspace(*cam.displacement.interval, _SAMPLES))
+            profile = MILLI * cam.profile(np.linspace(*cam.displacement.interval, _SAMPLES))
             axes.plot(*profile.T, color=colour, zorder=4, label=name)
             start = np.array(0.0)
-            _draw_body(cam, axes, start, colour, 0.6 * float(np.hypot(*(_MILLI * cam.profile(start)))))
+            _draw_body(cam, axes, start, colour, 0.6 * float(np.hypot(*(MILLI * cam.profile(start)))))
         axes.plot(*_linked(first, second).T, color=GREY, linewidth=1.1, label="follower at the start")
         axes.plot([0.0], [0.0], "+", color=GREY, markersize=9.0, zorder=5)
         axes.set(xlabel="x of the cams, mm", ylabel="y of the cams, mm")
@@ -103,20 +102,20 @@ def _draw_body(cam: DiscCam, axes: Axes, at: Array, colour: str, reach: float) -
     if cam.contact.roller:
         from matplotlib.patches import Circle
 
-        centre = tuple(_MILLI * cam.pitch_curve(at))
-        axes.add_patch(Circle(centre, _MILLI * cam.contact.roller, fill=False, edgecolor=colour, zorder=3))
+        centre = tuple(MILLI * cam.pitch_curve(at))
+        axes.add_patch(Circle(centre, MILLI * cam.contact.roller, fill=False, edgecolor=colour, zorder=3))
         return
-    touched, normal = _MILLI * cam.profile(at), cam.profile.normal(at)
+    touched, normal = MILLI * cam.profile(at), cam.profile.normal(at)
     along = reach * np.array([normal[1], -normal[0]])
     axes.plot(*np.array([touched - along, touched + along]).T, color=colour, linewidth=1.1, zorder=3)
 
 
 def _linked(first: DiscCam, second: DiscCam) -> Array:
     """The line between the two followers, along their common slide or through their common pivot."""
-    joints = [_MILLI * cam.pitch_curve(np.array(0.0)) for cam in (first, second)]
+    joints = [MILLI * cam.pitch_curve(np.array(0.0)) for cam in (first, second)]
     if first.contact.pivot is not None:
         turned = _phase(first, 0.0)
-        joints.insert(1, _MILLI * first.contact.pivot * np.array([np.cos(turned), np.sin(turned)]))
+        joints.insert(1, MILLI * first.contact.pivot * np.array([np.cos(turned), np.sin(turned)]))
     return np.array(joints)
 
 
@@ -137,7 +136,7 @@ def draw_cam(cam: DiscCam, axes: Any = None, **style: Any) -> list[Artist]:
     curves: tuple[tuple[str, Values], ...] = (
         (f"displacement, {unit}", lambda at: factor * np.asarray(cam.displacement(at))),
         ("pressure angle, deg", lambda at: np.degrees(cam.pressure_angle(at))),
-        ("curvature, 1/mm", lambda at: np.asarray(cam.profile.curvature(at)) / _MILLI),
+        ("curvature, 1/mm", lambda at: np.asarray(cam.profile.curvature(at)) / MILLI),
     )
     for panel, (text, values) in zip(panels[1:], curves, strict=len(panels) > 1):
         artists += _curve(panel, edges, values, text, **{"color": BLUES[3]} | style)
@@ -173,7 +172,7 @@ def _draw_mechanism(cam: DiscCam, axes: Axes, style: dict[str, Any]) -> list[Art
     """The profile with its base circle, the pitch curve with its prime circle, and the follower seen from the cam."""
     first, last = cam.displacement.interval
     angles = np.linspace(first, last, _SAMPLES)
-    profile = _MILLI * cam.profile(angles)
+    profile = MILLI * cam.profile(angles)
     axes.set_aspect("equal")
     if cam.displacement.closed:
         axes.fill(*profile.T, color=_FILL, zorder=1)
@@ -182,7 +181,7 @@ def _draw_mechanism(cam: DiscCam, axes: Axes, style: dict[str, Any]) -> list[Art
     if cam.contact.roller:
         _draw_circle(axes, cam.base_radius + cam.contact.roller, "prime circle", (0, (6, 2, 1, 2)))
         dotted: Any = {"color": GREY, "linewidth": 0.8, "linestyle": ":", "zorder": 2}
-        axes.plot(*(_MILLI * cam.pitch_curve(angles)).T, label="pitch curve", **dotted)
+        axes.plot(*(MILLI * cam.pitch_curve(angles)).T, label="pitch curve", **dotted)
     for i, at in enumerate(np.linspace(first, last, _SHOWN, endpoint=not cam.displacement.closed)):
         _draw_follower(cam, axes, float(at), GREY if i else WARM)
     axes.plot([], [], color=WARM, linewidth=1.1, label="follower at the start")
@@ -194,17 +193,17 @@ def _draw_mechanism(cam: DiscCam, axes: Axes, style: dict[str, Any]) -> list[Art
 
 def _draw_circle(axes: Axes, radius: float, label: str, dashes: Any) -> None:
     turn = np.linspace(0.0, 2.0 * np.pi, _SAMPLES)
-    points = _MILLI * radius * np.array([np.cos(turn), np.sin(turn)])
+    points = MILLI * radius * np.array([np.cos(turn), np.sin(turn)])
     axes.plot(*points, color=GREY, linewidth=0.8, linestyle=dashes, zorder=2, label=label)
 
 
 def _draw_follower(cam: DiscCam, axes: Axes, angle: float, colour: str) -> None:
     """A roller with its arm or rod, or a face, in the cam's coordinates."""
     at = np.array(angle)
-    farthest = float(np.abs(_MILLI * cam.profile(np.linspace(*cam.displacement.interval, 61))).max())
+    farthest = float(np.abs(MILLI * cam.profile(np.linspace(*cam.displacement.interval, 61))).max())
     _draw_body(cam, axes, at, colour, 0.45 * farthest)
     if cam.contact.roller:
-        centre = _MILLI * cam.pitch_curve(at)
+        centre = MILLI * cam.pitch_curve(at)
         rod = np.array([centre, _holder(cam, cam.contact, angle, centre)])
         axes.plot(*rod.T, color=colour, linewidth=1.1, zorder=3)
 
@@ -213,8 +212,8 @@ def _holder(cam: DiscCam, contact: FollowerContact, angle: float, centre: Array)
     """The displayed end of a rod, or the pivot of an arm, mm."""
     turned = -contact.turning * angle + _phase(cam, angle)
     if contact.pivot is not None:
-        return _MILLI * contact.pivot * np.array([np.cos(turned), np.sin(turned)])
-    return centre + _MILLI * 2.5 * contact.roller * np.array([-np.sin(turned), np.cos(turned)])
+        return MILLI * contact.pivot * np.array([np.cos(turned), np.sin(turned)])
+    return centre + MILLI * 2.5 * contact.roller * np.array([-np.sin(turned), np.cos(turned)])
 
 
 def _phase(cam: DiscCam, angle: float) -> float:
@@ -234,13 +233,13 @@ def animated(cam: DiscCam, seconds: float = 4.0) -> str:
     from optlaws.cams.curves.cam_files import beziers
     from optlaws.cams.curves.spline import spline
 
-    outline = beziers(spline(cam.profile, _OUTLINE_DRAWN)) * [_MILLI, -_MILLI]
+    outline = beziers(spline(cam.profile, _OUTLINE_DRAWN)) * [MILLI, -MILLI]
     curves = " ".join(f"C {_pair(a)} {_pair(b)} {_pair(c)}" for _, a, b, c in outline)
     path = f"M {_pair(outline[0, 0])} {curves} Z"
     every = f'dur="{seconds:g}s" repeatCount="indefinite"'
     turn = -360.0 * cam.contact.turning
     kind, values = _svg_motion(cam)
-    half = _MILLI * (_reach(cam) + 0.5 * cam.contact.roller) + _MARGIN
+    half = MILLI * (_reach(cam) + 0.5 * cam.contact.roller) + _MARGIN
     box = f"{-half:.3f} {-half:.3f} {2 * half:.3f} {2 * half:.3f}"
     return (
         f'<svg xmlns="http://www.w3.org/2000/svg" width="480" height="480" viewBox="{box}">\n'
@@ -266,26 +265,26 @@ def _svg_motion(cam: DiscCam) -> tuple[str, str]:
     angles = np.linspace(*cam.displacement.interval, _FRAMES)
     off = np.asarray(cam.displacement(angles)) - float(cam.displacement(float(angles[0])))
     if cam.contact.pivot is not None:
-        pivot = f"{_MILLI * cam.contact.pivot:.3f} 0"
+        pivot = f"{MILLI * cam.contact.pivot:.3f} 0"
         return "rotate", ";".join(f"{np.degrees(angle):.4f} {pivot}" for angle in off)
-    return "translate", ";".join(f"0 {-_MILLI * length:.4f}" for length in off)
+    return "translate", ";".join(f"0 {-MILLI * length:.4f}" for length in off)
 
 
 def _svg_follower(cam: DiscCam) -> str:
     """The follower in its initial position."""
     contact, first = cam.contact, np.array(cam.displacement.interval[0])
     s = cam.displacement.jet(first, 2)
-    x, y = (_MILLI * float(coordinate.terms[0]) for coordinate in contact.point(s))
+    x, y = (MILLI * float(coordinate.terms[0]) for coordinate in contact.point(s))
     if not contact.roller:
         normal = contact.normal(s)
         along = (
             np.array([1.0, 0.0]) if normal is None else np.array([float(n.terms[0]) for n in (normal[1], normal[0])])
         )
-        way = _FACE * _MILLI * _reach(cam) * along * [1.0, -1.0]
+        way = _FACE * MILLI * _reach(cam) * along * [1.0, -1.0]
         return f'<path d="M {x - way[0]:.3f} {-(y - way[1]):.3f} L {x + way[0]:.3f} {-(y + way[1]):.3f}"/>'
-    end = f"{x:.3f} {-2.0 * y:.3f}" if contact.pivot is None else f"{_MILLI * contact.pivot:.3f} 0"
+    end = f"{x:.3f} {-2.0 * y:.3f}" if contact.pivot is None else f"{MILLI * contact.pivot:.3f} 0"
     return (
-        f'<circle cx="{x:.3f}" cy="{-y:.3f}" r="{_MILLI * contact.roller:.3f}" fill="white"/>'
+        f'<circle cx="{x:.3f}" cy="{-y:.3f}" r="{MILLI * contact.roller:.3f}" fill="white"/>'
         f'<path d="M {x:.3f} {-y:.3f} L {end}"/>'
     )
 

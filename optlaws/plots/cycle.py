@@ -9,8 +9,9 @@ import numpy as np
 from optlaws.cycles.cycle import Cycle
 from optlaws.cycles.summary import force_name, force_unit
 from optlaws.errors import InputError
+from optlaws.motion.display_units import UNITS
 from optlaws.motion.piece import Piece
-from optlaws.motion.quantities import QUANTITIES, TURN
+from optlaws.motion.quantities import QUANTITIES
 from optlaws.numbers import Array, derivative
 from optlaws.plots.style import BLUES, GREEN, GREY, WARM, new_figure, plot_style, titled
 from optlaws.tolerances import INSIDE_PIECE
@@ -23,11 +24,6 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-#: units of tables and pictures, and how many of them make one of SI
-UNITS = {
-    "length": (("mm", 1e3), ("mm/s", 1e3), ("m/s²", 1.0), ("m/s³", 1.0)),
-    "angle": (("deg", 360.0 / TURN), ("deg/s", 360.0 / TURN), ("rad/s²", 1.0), ("rad/s³", 1.0)),
-}
 _EACH = 200
 _ABOVE: Any = {"loc": "lower left", "bbox_to_anchor": (0.0, 1.0), "ncols": 2, "frameon": False, "fontsize": 8.0}
 

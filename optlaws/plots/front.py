@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from optlaws.motion.display_units import MILLI
 from optlaws.plots.style import BLUES, GREY, WARM, name_point, new_axes
 from optlaws.synthesis.problem.named_constants import title_of
 
@@ -26,7 +27,6 @@ _AXES = {"B": "peak velocity B", "C": "peak acceleration C", "D": "peak power D"
 _BETWEEN = 8
 #: values that are further apart are drawn by their logarithms
 _WIDE = 10.0
-_MS = 1e3
 
 
 def _label(name: str) -> str:
@@ -66,7 +66,7 @@ def draw_time_front(front: TimeFront, axes: Axes | None = None, **style: Any) ->
     times = np.array(front.durations)
     lower, upper = np.array(front.lower_bounds), np.array(front.values)
     line = {"color": colour, "linewidth": 1.4, "linestyle": "-", "zorder": 4, **style}
-    points = axes.plot(_MS * times, upper, marker="o", markersize=3.0, label=label, **line)
+    points = axes.plot(MILLI * times, upper, marker="o", markersize=3.0, label=label, **line)
     if front.falls:
         # both sides jump at points, and are smooth between two of them
         near = [_BESIDE_POINT * (high - low) for low, high in pairwise(times)]
@@ -76,11 +76,13 @@ def draw_time_front(front: TimeFront, axes: Axes | None = None, **style: Any) ->
         shown = np.unique(np.concatenate([times, *inside]))
         between = [front(float(time)) for time in shown]
         below = [point.lower_bound for point in between]
-        bound = axes.plot(_MS * shown, below, color=GREY, linewidth=0.9, label="no law below")
-        axes.fill_between(_MS * shown, below, [point.value for point in between], color=colour, alpha=0.15, linewidth=0)
+        bound = axes.plot(MILLI * shown, below, color=GREY, linewidth=0.9, label="no law below")
+        axes.fill_between(
+            MILLI * shown, below, [point.value for point in between], color=colour, alpha=0.15, linewidth=0
+        )
     else:
-        bound = axes.plot(_MS * times, lower, color=GREY, linewidth=0.0, marker="_", label="no law below")
-    least = axes.axvline(_MS * front.fastest.duration, color=WARM, linewidth=1.0, linestyle="--", label="least time")
+        bound = axes.plot(MILLI * times, lower, color=GREY, linewidth=0.0, marker="_", label="no law below")
+    least = axes.axvline(MILLI * front.fastest.duration, color=WARM, linewidth=1.0, linestyle="--", label="least time")
     axes.set(xlabel="time of the move in ms", ylabel=f"least {front.minimise} in {front.unit}")
     axes.set_ylim(bottom=0.0)
     return [*points, *bound, least]

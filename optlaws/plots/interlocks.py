@@ -13,8 +13,9 @@ from optlaws.cycles.interlocks.interlock import SMALL_UNITS
 from optlaws.cycles.machine_axes import AxesPicture
 from optlaws.cycles.specification.segments import Dwell
 from optlaws.errors import InputError
+from optlaws.motion.display_units import TURN_DEG, UNITS
 from optlaws.numbers import Array
-from optlaws.plots.cycle import UNITS, samples
+from optlaws.plots.cycle import samples
 from optlaws.plots.style import BLUES, DISTINCT, GREEN, GREY, WARM, name_point, new_figure, plot_style, titled
 from optlaws.suggest import unknown_key
 
@@ -30,7 +31,6 @@ if TYPE_CHECKING:
 
 _COUNT = 2401
 _HALF = 0.34  # of a bar's height; rows are 1 apart
-_TURN = 360.0
 
 
 def timing_figure(cycles: Mapping[str, Cycle], interlocks: Sequence[Interlock], title: str) -> Figure:
@@ -93,14 +93,14 @@ def _timing(
         if isinstance(interlock, After):
             artists += _arrows(axes, cycles, interlock, rows)
     axes.set_yticks(list(rows.values()), list(rows))
-    axes.set(xlabel="master, deg", xlim=(0.0, _TURN), ylim=(min(rows.values()) - 0.6, 0.6))
-    axes.set_xticks(np.arange(0.0, _TURN + 1.0, 30.0))
+    axes.set(xlabel="master, deg", xlim=(0.0, TURN_DEG), ylim=(min(rows.values()) - 0.6, 0.6))
+    axes.set_xticks(np.arange(0.0, TURN_DEG + 1.0, 30.0))
     axes.grid(visible=False, axis="y")
     return artists
 
 
 def _bars(axes: Axes, cycle: Cycle, row: float, style: dict[str, Any]) -> list[Artist]:
-    scale = _TURN / cycle.duration
+    scale = TURN_DEG / cycle.duration
     times, values = samples(cycle, 0, 60)
     low, high = float(values.min()), float(values.max())
     heights = row - _HALF + 2.0 * _HALF * (values - low) / ((high - low) or 1.0)
@@ -121,7 +121,7 @@ def _bars(axes: Axes, cycle: Cycle, row: float, style: dict[str, Any]) -> list[A
 
 def _arrows(axes: Axes, cycles: Mapping[str, Cycle], rule: After, rows: Mapping[str, float]) -> list[Artist]:
     """From when the other axis came beyond its position to when this one passes its own."""
-    scale = _TURN / next(iter(cycles.values())).duration
+    scale = TURN_DEG / next(iter(cycles.values())).duration
     artists: list[Artist] = []
     position, level = rule.positions(cycles)
     for time, entry, clear in rule.events(cycles):
@@ -255,8 +255,8 @@ def _clearances(
     for panel, rule in zip(panels, interlocks, strict=True):
         least = rule.least_clearance(cycles)
         artists += _clearance(panel, cycles, rule, least, times, style)
-    panels[-1].set(xlabel="master, deg", xlim=(0.0, _TURN))
-    panels[-1].set_xticks(np.arange(0.0, _TURN + 1.0, 30.0))
+    panels[-1].set(xlabel="master, deg", xlim=(0.0, TURN_DEG))
+    panels[-1].set_xticks(np.arange(0.0, TURN_DEG + 1.0, 30.0))
     panels[0].figure.align_ylabels()
     return artists
 
@@ -270,17 +270,17 @@ def _clearance(
     style: dict[str, Any],
 ) -> list[Artist]:
     unit, size = SMALL_UNITS.get(least.unit, (least.unit, 1.0))
-    room, degrees = size * rule.room(cycles, times), _TURN * times / times[-1]
+    room, degrees = size * rule.room(cycles, times), TURN_DEG * times / times[-1]
     artists: list[Artist] = list(panel.plot(degrees, room, **{"color": BLUES[3]} | style))
     panel.axhline(0.0, color=GREY, linewidth=0.8)
     artists.append(panel.fill_between(degrees, np.minimum(room, 0.0), 0.0, color=WARM, alpha=0.25, linewidth=0.0))
     if isinstance(rule, After):
         passes = np.array([event[0] for event in rule.events(cycles)])
         look: Any = {"color": GREY, "markersize": 4.5}
-        artists += panel.plot(_TURN * passes / times[-1], size * rule.room(cycles, passes), "o", **look)
+        artists += panel.plot(TURN_DEG * passes / times[-1], size * rule.room(cycles, passes), "o", **look)
     point = least.angle, size * least.clearance
     artists += panel.plot(*point, "o", color=GREEN if least.status == "clear" else WARM, markersize=4.5)
-    artists.append(name_point(panel, least.text, point, at=(6.0, 4.0) if least.angle < 0.6 * _TURN else (-6.0, 4.0)))
+    artists.append(name_point(panel, least.text, point, at=(6.0, 4.0) if least.angle < 0.6 * TURN_DEG else (-6.0, 4.0)))
     panel.set_title(rule.label, fontsize=8.5, color=GREY)
     panel.set_ylabel(f"clearance, {unit}")
     return artists

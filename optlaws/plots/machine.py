@@ -9,6 +9,7 @@ import numpy as np
 from optlaws.errors import InputError
 from optlaws.formulas.arithmetic import NUMPY, evaluate
 from optlaws.formulas.tree import Formula
+from optlaws.motion.display_units import DEGREES, MILLI, RPM
 from optlaws.numbers import Array
 from optlaws.plots.cycle import samples, samples_of_drive
 from optlaws.plots.style import BLUES, DISTINCT, GREEN, GREY, WARM, name_point, new_axes, new_figure, plot_style, titled
@@ -79,12 +80,11 @@ def draw_machine_spectrum(
     return list(lines)
 
 
-_MILLI = 1e3
 _POSITIONS = 721
 _SHOWN = 7  # positions of the linkage
 _SCALES = {
-    "angle": (180.0 / np.pi, "input, deg", ("J, kg m²", "J', kg m²/rad", "T, N m")),
-    "length": (_MILLI, "input, mm", ("J, kg", "J', kg/m", "T, N")),
+    "angle": (DEGREES, "input, deg", ("J, kg m²", "J', kg m²/rad", "T, N m")),
+    "length": (MILLI, "input, mm", ("J, kg", "J', kg/m", "T, N")),
 }
 
 
@@ -180,10 +180,9 @@ def _linkage(mechanism: Mechanism, axes: Axes) -> list[Artist]:
 
 def _placed(point: tuple[Formula, Formula], x: Array) -> Array:
     """A joint's coordinates in millimetres."""
-    return _MILLI * np.array([evaluate(part, {"x": x}, NUMPY) + 0.0 * x for part in point])
+    return MILLI * np.array([evaluate(part, {"x": x}, NUMPY) + 0.0 * x for part in point])
 
 
-_RPM = 30.0 / np.pi
 _SAMPLES = 801
 
 
@@ -226,8 +225,8 @@ def draw_torque_over_speed(
             for side, label in ((1.0, name), (-1.0, None)):
                 for way in (1.0, -1.0) if goes_back else (1.0,):
                     shown = label if way > 0.0 else None
-                    artists += axes.plot(way * _RPM * speeds, side * values, **look, label=shown)
-    artists += axes.plot(_RPM * course[0], course[1], **{"color": BLUES[3], **style})
+                    artists += axes.plot(way * RPM * speeds, side * values, **look, label=shown)
+    artists += axes.plot(RPM * course[0], course[1], **{"color": BLUES[3], **style})
     axes.axhline(0.0, color=GREY, linewidth=0.8)
     axes.set(xlabel="speed of the motor, rpm", ylabel="torque at the motor, N m")
     axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=3, frameon=False)

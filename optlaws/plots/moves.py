@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optlaws.cycles.moves.fastest_move import AXES
+from optlaws.motion.display_units import MILLI, UNITS
 from optlaws.motion.quantities import QUANTITIES
-from optlaws.plots.cycle import UNITS
 from optlaws.plots.front import draw_time_front
 from optlaws.plots.law import four
 from optlaws.plots.style import BLUES, GREY, WARM, empty_figure, new_figure, plot_style, titled
@@ -27,7 +27,6 @@ if TYPE_CHECKING:
     from optlaws.exports.export import Export
 
 _POINTS = 601
-_MS = 1e3
 _ROOM = 1.08
 #: a limit is drawn up to so many times what is used of it
 _NEAR = 2.0
@@ -49,7 +48,7 @@ def motion_figure(move: FastestMove, title: str) -> Figure:
         for nu, (axes, name, (low, high)) in enumerate(zip(panels, QUANTITIES, bounds, strict=True)):
             unit, factor = UNITS[AXES[move.unit]][nu]
             values = factor * move.stroke / move.duration**nu * np.asarray(move.law(k, nu))
-            axes.plot(_MS * move.duration * k, values, color=BLUES[-1], linewidth=1.5)
+            axes.plot(MILLI * move.duration * k, values, color=BLUES[-1], linewidth=1.5)
             for side, bound in ((-1.0, low), (1.0, high)):
                 # a limit far from what is used would flatten the curve
                 if bound is not None and factor * bound <= _NEAR * float((side * values).max()):
@@ -64,8 +63,8 @@ def strokes_figure(moves: Sequence[FastestMove], title: str) -> Figure:
     ordered = sorted(moves, key=lambda move: move.stroke)
     unit, factor = UNITS[AXES[ordered[0].unit]][0]
     strokes = np.array([factor * move.stroke for move in ordered])
-    times = np.array([_MS * move.duration for move in ordered])
-    limits = np.array([np.nan if move.limit is None else _MS * move.limit for move in ordered])
+    times = np.array([MILLI * move.duration for move in ordered])
+    limits = np.array([np.nan if move.limit is None else MILLI * move.limit for move in ordered])
     with plot_style():
         figure = empty_figure(7.2, 4.6)
         axes = figure.subplots()

@@ -12,6 +12,7 @@ from optlaws.files.reading import JsonText, entries_of
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.laws.exporting import ExportOptions, LawExport
+from optlaws.motion.display_units import DEGREES
 from optlaws.motion.piece import factor, unit_of
 from optlaws.motion.quantities import positive_quantity
 from optlaws.numbers import Quantity, positive
@@ -26,7 +27,6 @@ from optlaws.tolerances import SAME_TIME
 
 #: what the unit of a stroke measures
 AXES = {"m": "length", "rad": "angle"}
-_DEGREES = 57.29577951308232
 _MORE = 0.1
 
 
@@ -246,7 +246,7 @@ class FastestMove(LawExport, JsonText):
         >>> round(float(move.export("csv", points=3).text.splitlines()[-1].split(",")[1]), 9)
         100.0
         """
-        whole = f"{self.stroke * 1e3!r} mm" if self.unit == "m" else f"{self.stroke * _DEGREES!r} deg"
+        whole = f"{self.stroke * 1e3!r} mm" if self.unit == "m" else f"{self.stroke * DEGREES!r} deg"
         return super().export(
             to,
             stroke=whole if stroke is None else stroke,

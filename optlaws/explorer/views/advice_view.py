@@ -22,13 +22,13 @@ from optlaws.explorer.views.cycle_view import CycleRequest
 from optlaws.explorer.views.law_view import drawn, refusal
 from optlaws.explorer.views.picture_points import refined
 from optlaws.explorer.views.requests import Question
+from optlaws.motion.display_units import MILLI, UNITS
 from optlaws.motion.quantities import QUANTITIES
 from optlaws.numbers import bounded
-from optlaws.plots.cycle import UNITS, samples
+from optlaws.plots.cycle import samples
 
 _POINTS = 6
 _EACH = 60
-_MILLI = 1e3
 
 ShortText = Annotated[str, msgspec.Meta(max_length=40)]
 
@@ -190,14 +190,14 @@ def _curves(laws: Sequence[AdvisedLaw]) -> dict[str, Any]:
             for i, (law, cycle) in enumerate(zip(laws, cycles, strict=True))
         ]
         panels.append({"name": QUANTITIES[nu], "unit": unit, "series": series, "limits": [], "peaks": []})
-    return {"across": "time, ms", "symbol": "t, ms", "range": [0.0, _MILLI * duration], "panels": panels}
+    return {"across": "time, ms", "symbol": "t, ms", "range": [0.0, MILLI * duration], "panels": panels}
 
 
 def _curve(cycle: Cycle, nu: int, factor: float) -> dict[str, Any]:
     times, values = samples(cycle, nu, _EACH)
     places = np.array([time for peak in cycle.peaks for _, time in peak.extremes[nu]])
     times, (values,) = refined(times, [values], [lambda inside: np.asarray(cycle(inside, nu))], places)
-    return {"at": drawn(_MILLI * times, 4), "values": drawn(factor * values)}
+    return {"at": drawn(MILLI * times, 4), "values": drawn(factor * values)}
 
 
 def example() -> dict[str, Any]:

@@ -25,12 +25,11 @@ from optlaws.explorer.views.law_view import TITLES, digits, drawn, refusal
 from optlaws.explorer.views.picture_points import refined
 from optlaws.explorer.views.requests import Question
 from optlaws.jobs.cycle_entries import CycleProblemFile, overlap_of
+from optlaws.motion.display_units import TURN_DEG, UNITS
 from optlaws.numbers import Array
-from optlaws.plots.cycle import UNITS
 from optlaws.plots.interlocks import forbidden_region, passed_and_level, plane_axes
 from optlaws.sentences import Amount, joined, sentence
 
-_TURN = 360.0
 _PLACES = 241
 _WHERE = Path("the machine")
 _ROOM = 0.06  # of the range of a plane, beside the path
@@ -76,7 +75,7 @@ def _read(question: str) -> Axes:
 
 def _view(axes: Axes) -> dict[str, Any]:
     times, positions = _positions(axes)
-    degrees = drawn(_TURN / axes.duration * times, 4)
+    degrees = drawn(TURN_DEG / axes.duration * times, 4)
     return {
         "across": f"master, deg ({digits(1e3 * axes.duration)} ms a turn)",
         "period": axes.duration,
@@ -102,7 +101,7 @@ def _position_of(cycle: Cycle) -> Any:
 
 
 def _row(name: str, cycle: Cycle, values: Array) -> dict[str, Any]:
-    scale, units = _TURN / cycle.duration, UNITS[cycle.axis]
+    scale, units = TURN_DEG / cycle.duration, UNITS[cycle.axis]
     return {
         "name": name,
         "unit": units[0][0],
@@ -124,7 +123,7 @@ def _row(name: str, cycle: Cycle, values: Array) -> dict[str, Any]:
 
 def _arrows(axes: Axes, number: int, rule: Interlock) -> Iterator[dict[str, Any]]:
     """From when the other axis comes beyond its position to when this one passes its own; or a window of both."""
-    scale, names = _TURN / axes.duration, list(axes)
+    scale, names = TURN_DEG / axes.duration, list(axes)
     rows = [names.index(name) for name in rule.axes]
     if isinstance(rule, Synchronous):
         yield {
@@ -206,7 +205,7 @@ def _region(
 def _room(axes: Axes, rule: Interlock, times: Array) -> dict[str, Any]:
     """The clearance of an interlock over the master, as a panel."""
     unit, size = _unit(rule.unit(*(axes[name].axis for name in rule.axes)))
-    scale = _TURN / axes.duration
+    scale = TURN_DEG / axes.duration
 
     def room(at: Array) -> Array:
         return size * rule.room(axes, at)
@@ -214,8 +213,10 @@ def _room(axes: Axes, rule: Interlock, times: Array) -> dict[str, Any]:
     ends = np.array(rule.window(axes.duration)) if isinstance(rule, Synchronous) else np.empty(0)
     passes = [scale * time for time, _, _ in rule.events(axes)] if isinstance(rule, After) else None
     at, (values,) = refined(times, [room(times)], [room], ends)
-    spans = [(0.0, _TURN)] if passes is None else [(at - _PASS, at + _PASS) for at in passes]
-    limits = [{"from": max(0.0, start), "to": min(_TURN, stop), "value": None, "least": 0.0} for start, stop in spans]
+    spans = [(0.0, TURN_DEG)] if passes is None else [(at - _PASS, at + _PASS) for at in passes]
+    limits = [
+        {"from": max(0.0, start), "to": min(TURN_DEG, stop), "value": None, "least": 0.0} for start, stop in spans
+    ]
     curve = {"at": drawn(scale * at, 4), "values": drawn(values)}
     return {"name": f"clearance of {rule.label}", "unit": unit, **curve, "limits": limits, "peaks": []}
 
@@ -335,7 +336,7 @@ def _timed(study: dict[str, Any], axes: Axes) -> dict[str, Any]:
             if isinstance(segment.get("law"), dict):
                 segment["law"] = json.dumps(segment["law"])
             seconds = float(segment["duration"].split()[0])
-            size, unit = (1.0, "s") if clock == "period" else (_TURN / axes.duration, "deg")
+            size, unit = (1.0, "s") if clock == "period" else (TURN_DEG / axes.duration, "deg")
             segment["duration"] = f"{size * seconds:.{_FIGURES}g} {unit}"
     changed = [axis | {"segment": timed[axis["name"]]} for axis in study["axis"]]
     same = abs(axes.duration - axes_of(study).duration) == 0.0

@@ -24,14 +24,13 @@ from optlaws.explorer.views.law_view import digits, drawn, refusal
 from optlaws.explorer.views.requests import Question
 from optlaws.jobs.cam_entries import CamProblemFile
 from optlaws.jobs.cam_findings import FORCE, STIFFNESS, Findings
+from optlaws.motion.display_units import MILLI, TURN_DEG
 from optlaws.motion.quantities import quantity
 from optlaws.numbers import Array
 from optlaws.numerics.branch_and_bound import Extremes
 from optlaws.sentences import Amount, Sentence, joined, sentence
 from optlaws.tolerances import FORCE_ROUNDING
 
-_MILLI = 1e3
-_TURN = 360.0
 _STEPS = 360
 _WHERE = Path("the cam")
 _FAR = 4.0  # a radius of curvature beyond so many prime circles is a straight edge
@@ -92,7 +91,7 @@ def drawing(cam: DiscCam, cutter: Any = None) -> dict[str, Any]:
 
 
 def _points(metres: Array) -> list[list[float | None]]:
-    return [drawn(row, 4) for row in _MILLI * metres]
+    return [drawn(row, 4) for row in MILLI * metres]
 
 
 def _frames(cam: DiscCam, angles: Array) -> dict[str, Any]:
@@ -118,8 +117,8 @@ def _follower(cam: DiscCam) -> dict[str, Any]:
     roller, pivot = cam.contact.roller, cam.contact.pivot
     return {
         "kind": cam.follower.kind,
-        "roller": _MILLI * roller if roller else None,
-        "pivot": None if pivot is None else _MILLI * pivot,
+        "roller": MILLI * roller if roller else None,
+        "pivot": None if pivot is None else MILLI * pivot,
     }
 
 
@@ -136,26 +135,26 @@ def _dimensions(spec: CamProblemFile, cam: DiscCam) -> list[dict[str, Any]]:
         given = getattr(cam.follower, name, None)
         if given is not None and quantity(given, "length", name):
             lengths[name.replace("_", " ")] = quantity(given, "length", name)
-    return [{"name": name, "value": _MILLI * length} for name, length in lengths.items()]
+    return [{"name": name, "value": MILLI * length} for name, length in lengths.items()]
 
 
 def _panels(spec: CamProblemFile, cam: DiscCam, angles: Array) -> list[dict[str, Any]]:
     turns = drawn(np.degrees(angles), 4)
-    unit, factor = ("mm", _MILLI) if cam.follower.axis == "length" else ("deg", degrees(1.0))
+    unit, factor = ("mm", MILLI) if cam.follower.axis == "length" else ("deg", degrees(1.0))
     pressure = cam.extremes.greatest_pressure_angle
     limit = spec.steepest
-    radius = _MILLI * np.asarray(cam.radius_of_curvature(angles))
-    far = _FAR * _MILLI * quantity(cam.prime_radius, "length", "prime_radius")
+    radius = MILLI * np.asarray(cam.radius_of_curvature(angles))
+    far = _FAR * MILLI * quantity(cam.prime_radius, "length", "prime_radius")
     bulging = cam.extremes.least_convex_radius
     return [
         panel("displacement", unit, turns, factor * np.asarray(cam.displacement(angles)), []),
         panel(
             "pressure angle", "deg", turns, np.degrees(cam.pressure_angle(angles)), [_mark(pressure, degrees(1.0), cam)]
         )
-        | {"limits": [] if limit is None else [{"from": 0.0, "to": _TURN, "value": degrees(limit)}]}
+        | {"limits": [] if limit is None else [{"from": 0.0, "to": TURN_DEG, "value": degrees(limit)}]}
         | {"beyond": limit is not None and not cam.extremes.keeps_pressure_angle(limit)},
         panel(
-            "radius of curvature", "mm", turns, np.where(np.abs(radius) < far, radius, np.nan), [_mark(bulging, _MILLI)]
+            "radius of curvature", "mm", turns, np.where(np.abs(radius) < far, radius, np.nan), [_mark(bulging, MILLI)]
         ),
     ]
 
@@ -178,12 +177,12 @@ def _trust(cam: DiscCam) -> dict[str, Any]:
     word, status = _TITLES[extremes.undercut.status]
     facts = [
         sentence("greatest pressure angle {}", _located(extremes.greatest_pressure_angle, degrees(1.0), "deg")),
-        sentence("least radius of curvature {}", _located(extremes.least_convex_radius, _MILLI, "mm")),
+        sentence("least radius of curvature {}", _located(extremes.least_convex_radius, MILLI, "mm")),
     ]
     if extremes.least_concave_radius is not None:
-        hollow = _located(extremes.least_concave_radius, _MILLI, "mm")
+        hollow = _located(extremes.least_concave_radius, MILLI, "mm")
         facts.append(sentence("hollow with a radius of {}: a cutter must be smaller", hollow))
-    facts += [sentence("{} {}", size.name, _located(size.extreme, _MILLI, "mm")) for size in extremes.sizes]
+    facts += [sentence("{} {}", size.name, _located(size.extreme, MILLI, "mm")) for size in extremes.sizes]
     first, *rest = sentence("{}.", extremes.undercut).parts
     advice = Sentence(first[0].upper() + first[1:], *rest)
     return {"status": status, "word": word, "advice": advice, "gap": "", "facts": facts}
@@ -196,7 +195,7 @@ def _broken_limits(spec: CamProblemFile, cam: DiscCam) -> dict[str, str]:
         taken = Amount(degrees(extremes.greatest_pressure_angle.value), "deg", 5)
         broken.append(sentence("the pressure angle, {} of {}", taken, spec.pressure_angle))
     if spec.least_radius is not None and not extremes.keeps_radius(spec.least_radius):
-        taken = Amount(_MILLI * extremes.least_convex_radius.value, "mm", 5)
+        taken = Amount(MILLI * extremes.least_convex_radius.value, "mm", 5)
         broken.append(sentence("the radius of curvature, {} of {}", taken, spec.radius_of_curvature))
     if not broken or extremes.undercut.status == "undercut":
         return {}
@@ -230,7 +229,7 @@ def _least(question: str) -> tuple[Sentence, ...]:
     least = _solved(question).least
     if least is None or isinstance(least, str):
         return () if least is None else (sentence("{}", least),)
-    radius, base = (Amount(_MILLI * length, "mm", 7) for length in (least.radius, least.cam.base_radius))
+    radius, base = (Amount(MILLI * length, "mm", 7) for length in (least.radius, least.cam.base_radius))
     inner = sentence(" (base circle {})", base) if least.cam.contact.roller else ""
     return (sentence("least prime circle that keeps these limits: {}{}, by the {}", radius, inner, least.limit),)
 

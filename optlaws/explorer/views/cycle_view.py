@@ -30,16 +30,16 @@ from optlaws.jobs.cycle_entries import AxisEntries, CycleProblemFile, cycle_of
 from optlaws.laws.catalogue import reading
 from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.mechanisms.drives.motor import OF_TORQUE, Motor
+from optlaws.motion.display_units import TURN_DEG, UNITS
 from optlaws.motion.piece import unit_of
 from optlaws.motion.quantities import QUANTITIES
 from optlaws.numbers import Quantity, bounded
 from optlaws.numerics.peaks import is_kept
-from optlaws.plots.cycle import UNITS, samples
+from optlaws.plots.cycle import samples
 from optlaws.sentences import Amount, Sentence, joined, sentence
 from optlaws.tolerances import BOUND_SLACK, CYCLE_ROUNDING
 
 _EACH = 100
-_TURN = 360.0
 _MOTION = ("velocity", "acceleration", "deceleration", "jerk", "snap")
 _LIMITS = {"motion": _MOTION, "machine": (*_MOTION, "torque", "rms torque", "power", "energy", "motor")}
 _WHERE = Path("the cycle")
@@ -133,7 +133,7 @@ def _view(shown: Cycle) -> dict[str, Any]:
 
 
 def _degrees(shown: Cycle, time: float) -> float:
-    return round(_TURN * time / shown.duration, 4)
+    return round(TURN_DEG * time / shown.duration, 4)
 
 
 def _orders(shown: Cycle) -> int:

@@ -35,8 +35,8 @@ from optlaws.explorer.views.requests import (
     solved,
     without,
 )
+from optlaws.motion.display_units import UNITS
 from optlaws.numbers import Array, bounded
-from optlaws.plots.cycle import UNITS as UNITS_OF_MOTION
 from optlaws.sentences import Amount
 from optlaws.synthesis.limits.of_problem import limited_laws
 from optlaws.synthesis.proof.infeasible import possible_velocities
@@ -337,7 +337,7 @@ def in_machine_units(request: MachineRequest) -> dict[str, Any]:
     motion = moved()
     entry, unit, acceleration, force = _INERTIAS[motion.axis]
     alone = moved(drive={entry: unit}).effort
-    peaks = [_in(motion.peak(nu) * factor, name) for nu, (name, factor) in enumerate(UNITS_OF_MOTION[motion.axis])]
+    peaks = [_in(motion.peak(nu) * factor, name) for nu, (name, factor) in enumerate(UNITS[motion.axis])]
     cells = dict(zip(("B", "C", "J"), peaks[1:], strict=True)) | {"rms_c": _in(alone.rms_force, acceleration)}
     rows = [{"name": f"{stroke} in {time}", "cells": cells}]
     if request.mass:

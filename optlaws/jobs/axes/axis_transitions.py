@@ -12,6 +12,7 @@ from optlaws.entries.declared import Declared, declared, entry
 from optlaws.entries.value_types import Measured, Whole
 from optlaws.errors import InfeasibleProblem, InputError
 from optlaws.files.tables import Cell, to_csv
+from optlaws.motion.display_units import UNITS
 from optlaws.motion.quantities import QUANTITIES
 from optlaws.numbers import Quantity
 from optlaws.results import Page, Results
@@ -133,8 +134,6 @@ def _facts(cam: TransitionCam) -> dict[str, Any]:
 
 def _table(cam: TransitionCam, rows: int, about: str) -> str:
     """Angle, time, position, velocity, acceleration and jerk at equal steps over the cam, as CSV."""
-    from optlaws.plots.cycle import UNITS
-
     units = UNITS[cam.axis]
     times = np.linspace(0.0, cam.duration, rows)
     columns = [np.linspace(*cam.master, rows), times]

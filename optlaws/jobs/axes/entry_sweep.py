@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from copy import deepcopy
 from dataclasses import dataclass
-from math import inf, pi
+from math import inf
 from typing import Any
 
 from optlaws.cycles.cycle import Cycle
@@ -15,11 +15,11 @@ from optlaws.entries.value_types import Either, Listed, Number, Text
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.files.tables import Cell
 from optlaws.mechanisms.drives.drive_train import Drive
+from optlaws.motion.display_units import RPM
 from optlaws.suggest import unknown_key
 from optlaws.synthesis.status import Status
 
 _PERCENT = 100.0
-_RPM = 30.0 / pi
 
 
 @declared
@@ -140,7 +140,7 @@ def _columns(cycle: Cycle) -> dict[str, Callable[[Cycle], Cell]]:
 
 
 def _peak_speed(cycle: Cycle) -> Cell:
-    return _RPM * cycle.sheet.peak_speed if isinstance(cycle.drive, Drive) else None
+    return RPM * cycle.sheet.peak_speed if isinstance(cycle.drive, Drive) else None
 
 
 def _use(cycle: Cycle) -> Cell:

@@ -7,13 +7,14 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
 
-from optlaws.cycles.moves.fastest_move import FastestMove
+from optlaws.cycles.moves.fastest_move import AXES, FastestMove
 from optlaws.cycles.moves.time_front import TimeFront
 from optlaws.errors import InputError
 from optlaws.files import writing
 from optlaws.files.tables import Cell
 from optlaws.jobs.cycle import plain_name
 from optlaws.jobs.moves.move_entries import FastestProblemFile, SoughtMove, sought
+from optlaws.motion.display_units import UNITS
 from optlaws.plots.moves import fronts_figure, motion_figure, strokes_figure
 from optlaws.results import Page, Results
 from optlaws.studies.problem_entries import gap
@@ -21,7 +22,6 @@ from optlaws.synthesis.solution import Solution
 from optlaws.synthesis.status import Status
 
 HEADINGS = ("move", "stroke", "least time, s", "no law below, s", "limit of all laws, s", "above it, %", "status")
-_SHOWN = {"m": ("mm", 1e3), "rad": ("deg", 57.29577951308232)}
 _FEW = 7
 _PERCENT = 100.0
 
@@ -53,7 +53,7 @@ def run(results: Results) -> None:
 
 
 def _line(name: str, move: FastestMove) -> list[Cell]:
-    unit, factor = _SHOWN[move.unit]
+    unit, factor = UNITS[AXES[move.unit]][0]
     # what is sought time by time is known to six digits, and where it is proven the bound is a millionth below
     below = move.none_below if move.status is Status.OPTIMAL else float(f"{move.none_below:.5g}")
     limit = move.limit if move.limit is None or move.least.move.torque is None else float(f"{move.limit:.5g}")

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
-from math import inf, isfinite, pi
+from math import inf, isfinite
 from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
@@ -15,6 +15,7 @@ from optlaws.laws.storage import PlainNumbers
 from optlaws.mechanisms.drives.effort import PieceEffort, effort
 from optlaws.mechanisms.drives.motor import Motor, Train
 from optlaws.mechanisms.linkages.mechanism import Mechanism
+from optlaws.motion.display_units import RPM
 from optlaws.motion.smooth_parts import Greatest
 from optlaws.numbers import Array
 from optlaws.numerics.peaks import is_kept
@@ -23,7 +24,6 @@ from optlaws.tolerances import AGREEMENT, VALUE_ROUNDING
 
 _LIMIT_USED = 1e-6  # of a motor's limit: so much of it is left, as peaks are looked for at places alone
 
-_RPM = 30.0 / pi
 _RATIOS = 121
 _DECADES = 0.7
 _FAR = 10.0
@@ -132,7 +132,7 @@ class DriveSheet(PlainNumbers):
             Row("peak torque", self.peak_torque, "N m", self.peak_torque_at),
             Row("RMS torque", self.rms_torque, "N m"),
             Row("holding torque", self.holding_torque, "N m"),
-            Row("peak speed", self.peak_speed * _RPM, "rpm"),
+            Row("peak speed", self.peak_speed * RPM, "rpm"),
             Row("greatest power, motoring", self.motoring_power, "W"),
             Row("greatest power, braking", self.braking_power, "W"),
             Row(f"energy of a {self._of}, motoring", self.motoring_energy, "J"),

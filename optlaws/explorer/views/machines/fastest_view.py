@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache, partial
 from itertools import groupby
-from math import inf, isfinite, pi
+from math import inf, isfinite
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -25,10 +25,10 @@ from optlaws.explorer.views.requests import MOST_DEGREE, MOST_ORDER, Question, w
 from optlaws.jobs.cycle_entries import AxisEntries, CycleProblemFile
 from optlaws.jobs.moves.move_entries import FastestProblemFile, MoveEntries, arguments_of, front_of
 from optlaws.mechanisms.drives.sheet import share_used
+from optlaws.motion.display_units import MILLI, RPM, UNITS
 from optlaws.motion.piece import factor, unit_of
 from optlaws.motion.quantities import QUANTITIES, si_number
 from optlaws.numbers import Array, Quantity, bounded, whole
-from optlaws.plots.cycle import UNITS
 from optlaws.sentences import Amount, sentence
 from optlaws.studies.problem_entries import problem
 from optlaws.synthesis.least_time.follower_residual import RESIDUAL
@@ -37,8 +37,6 @@ from optlaws.synthesis.least_time.move_objective import AT_MOTOR, OBJECTIVES
 from optlaws.tolerances import AGREEMENT, LEAST_TIME_GAP
 
 _WHERE = Path("the study")
-_MILLI = 1e3
-_RPM = 30.0 / pi
 _EACH = 60
 _STEPS = 241
 _POINTS = 11
@@ -163,13 +161,13 @@ def _view_of_move(sought: _Sought, time: float | None) -> dict[str, Any]:
     axis = AXES[least.unit]
     curves = _Curves(sought, shown)
     k, columns = curves.sampled
-    times = _MILLI * shown.duration * k
+    times = MILLI * shown.duration * k
     shares = curves.shares(k)
     used = {
         limit.name: limit.constant.value(shown.law) / limit.bound
         for limit in least.least.move.limits_in(shown.duration)
     }
-    last = _MILLI * shown.duration
+    last = MILLI * shown.duration
     panels = [
         _panel(QUANTITIES[nu], *UNITS[axis][nu], (times, columns[nu], shares), [(0.0, last, *_limits(sought, nu))])
         for nu in range(4)
@@ -180,7 +178,7 @@ def _view_of_move(sought: _Sought, time: float | None) -> dict[str, Any]:
     return {
         "across": "time, ms",
         "symbol": "t, ms",
-        "range": [0.0, _MILLI * shown.duration],
+        "range": [0.0, MILLI * shown.duration],
         "panels": panels,
         "segments": _stretches(times, shares),
         "names": list(shares),
@@ -198,10 +196,10 @@ def _view_of_move(sought: _Sought, time: float | None) -> dict[str, Any]:
 def _least(duration: float, below: float | None, limit: float | None) -> dict[str, Any]:
     return {
         "time": duration,
-        "text": digits(_MILLI * duration),
-        "below": None if below is None else digits(_MILLI * below),
+        "text": digits(MILLI * duration),
+        "below": None if below is None else digits(MILLI * below),
         "limit": limit,
-        "limit_text": None if limit is None else digits(_MILLI * limit),
+        "limit_text": None if limit is None else digits(MILLI * limit),
     }
 
 
@@ -386,7 +384,7 @@ def _rows(sought: _Sought, shown: _InTime) -> Iterator[dict[str, Any]]:
         limited = {limit.name for limit in move.limits_in(shown.duration)}
         torques = {"torque": sheet.peak_torque, "rms torque": sheet.rms_torque}
         yield from (_row(name, value, "N m", None) for name, value in torques.items() if name not in limited)
-        yield _row("speed of the motor", sheet.peak_speed * _RPM, "rpm", None)
+        yield _row("speed of the motor", sheet.peak_speed * RPM, "rpm", None)
 
 
 def _row(name: str, value: float, unit: str, share: float | None) -> dict[str, Any]:
@@ -398,11 +396,11 @@ def _row(name: str, value: float, unit: str, share: float | None) -> dict[str, A
 def _trust_of_move(sought: _Sought, shown: _InTime) -> dict[str, Any]:
     least = sought.least
     facts = [
-        f"least time {digits(_MILLI * least.duration)} ms",
-        f"proven: no law of this space in {digits(_MILLI * least.none_below)} ms or less",
+        f"least time {digits(MILLI * least.duration)} ms",
+        f"proven: no law of this space in {digits(MILLI * least.none_below)} ms or less",
     ]
     if least.limit is not None:
-        facts.append(f"no law of any degree in less than {digits(_MILLI * least.limit)} ms")
+        facts.append(f"no law of any degree in less than {digits(MILLI * least.limit)} ms")
     if shown.solution is None:
         status, gap = least.status, gap_text(least.gap)
         advice = "No law of this order and degree is faster within the limits."
@@ -469,12 +467,12 @@ def _view_of_cycle(request: FastestRequest) -> dict[str, Any]:
     functions = [partial(lambda t, nu: np.asarray(shown(t, nu)), nu=nu) for nu in range(4)]
     times, columns = refined(times, [function(times) for function in functions], functions, places)
     shares = _shares_of_cycle(shown, times, columns, edges)
-    milliseconds = _MILLI * times
+    milliseconds = MILLI * times
     units = UNITS[shown.axis]
     return {
         "across": "time, ms",
         "symbol": "t, ms",
-        "range": [0.0, _MILLI * shown.duration],
+        "range": [0.0, MILLI * shown.duration],
         "panels": [
             _panel(QUANTITIES[nu], *units[nu], (milliseconds, columns[nu], shares), _bars(shown, edges, nu))
             for nu in range(4)
@@ -495,7 +493,7 @@ def _view_of_cycle(request: FastestRequest) -> dict[str, Any]:
 def _bars(shown: Cycle, edges: Sequence[dict[int, tuple[float, float]]], nu: int) -> list[_Bar]:
     """The limits of a derivative, segment by segment."""
     return [
-        (_MILLI * peak.start, _MILLI * (peak.start + peak.duration), *limits[nu])
+        (MILLI * peak.start, MILLI * (peak.start + peak.duration), *limits[nu])
         for peak, limits in zip(shown.peaks, edges, strict=True)
         if nu in limits
     ]
@@ -536,10 +534,10 @@ def _greatest_of_cycle(shown: Cycle, edges: Sequence[dict[int, tuple[float, floa
 def _trust_of_cycle(quickest: FastestCycle, shown: Cycle) -> dict[str, Any]:
     facts: list[str] = [
         sentence("greatest speed {}", Amount(quickest.rpm, "rpm", 7)),
-        f"least period {digits(_MILLI * quickest.period)} ms",
+        f"least period {digits(MILLI * quickest.period)} ms",
     ]
     if quickest.lower_bound is not None:
-        facts.append(f"proven: none in {digits(_MILLI * quickest.lower_bound)} ms")
+        facts.append(f"proven: none in {digits(MILLI * quickest.lower_bound)} ms")
     facts += [sentence("binds: {}", text) for text in quickest.binding]
     if shown is not quickest.cycle:
         known = cycle_view.trust(shown)

@@ -14,17 +14,17 @@ from optlaws.explorer.views.cam_view import drawing
 from optlaws.explorer.views.law_view import drawn
 from optlaws.formulas.arithmetic import NUMPY, evaluate
 from optlaws.formulas.tree import Formula
+from optlaws.motion.display_units import MILLI
 from optlaws.motion.quantities import si_number
 from optlaws.numbers import Array
 
-_MILLI = 1e3
 FRAMES = 181
 _SAMPLES = 241
 _DECIMALS = 3
 #: what a mechanism in proportion is drawn from: the entry of its size
 _ROUND = {"rack": "radius", "belt": "radius", "screw": "lead"}
 #: units of the input, of its inertia and of its load, and how many of the first make one of SI
-INPUTS = {"angle": ("deg", degrees(1.0), "kg m²", "N m"), "length": ("mm", _MILLI, "kg", "N")}
+INPUTS = {"angle": ("deg", degrees(1.0), "kg m²", "N m"), "length": ("mm", MILLI, "kg", "N")}
 
 
 def picture(cycle: Cycle, mechanism: Mechanism, entries: Mapping[str, Any]) -> dict[str, Any]:
@@ -44,8 +44,8 @@ def picture(cycle: Cycle, mechanism: Mechanism, entries: Mapping[str, Any]) -> d
         return shown | {"kind": "cam", "dimensions": []} | drawing(CamAtShaft.from_dict(entries).cam)
     if mechanism.name in _ROUND:
         size = float(si_number(entries[_ROUND[mechanism.name]], ("length",), "size"))
-        slide = drawn(_MILLI * np.asarray(mechanism.driven_position("slide", x)), 4)
-        return shown | {"kind": mechanism.name, "size": _MILLI * size, "slide": slide}
+        slide = drawn(MILLI * np.asarray(mechanism.driven_position("slide", x)), 4)
+        return shown | {"kind": mechanism.name, "size": MILLI * size, "slide": slide}
     return shown | {"kind": "table"}
 
 
@@ -65,7 +65,7 @@ def _moves(point: tuple[Formula, Formula]) -> bool:
 def _placed(point: tuple[Formula, Formula], x: Array) -> list[list[float | None]]:
     """Coordinates of a joint in mm; a fixed joint has the same place at all times."""
     places = np.array([evaluate(part, {"x": x}, NUMPY) + 0.0 * x for part in point])
-    return [drawn(row, _DECIMALS) for row in _MILLI * places.T]
+    return [drawn(row, _DECIMALS) for row in MILLI * places.T]
 
 
 def _used(cycle: Cycle) -> tuple[float, float]:

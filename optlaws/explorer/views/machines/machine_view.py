@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from functools import lru_cache
-from math import isfinite, pi
+from math import isfinite
 from typing import Annotated, Any, cast
 
 import msgspec
@@ -25,14 +25,13 @@ from optlaws.explorer.views.picture_points import refined
 from optlaws.explorer.views.requests import MOST_LAWS, Question
 from optlaws.jobs.cycle_entries import AxisEntries, CycleProblemFile, cycle_of
 from optlaws.mechanisms.linkages.mechanism_kinds import MechanismKind
+from optlaws.motion.display_units import MILLI, RPM, UNITS
 from optlaws.numbers import Array, bounded
-from optlaws.plots.cycle import UNITS, samples, samples_of_drive
+from optlaws.plots.cycle import samples, samples_of_drive
 from optlaws.shown.summary import Row
 from optlaws.tolerances import CYCLE_ROUNDING
 
 _EACH = 60
-_MILLI = 1e3
-_RPM = 30.0 / pi
 _RATIOS = 7
 #: a curve of a motor is drawn up to so many times the speed that is used
 _FAR = 1.6
@@ -172,13 +171,13 @@ def _view(
     return {
         "across": f"time, ms; torque and power at the {'motor' if isinstance(drive, Drive) else 'input'}",
         "symbol": "t, ms",
-        "range": [0.0, _MILLI * max(cycle.duration for cycle in cycles)],
+        "range": [0.0, MILLI * max(cycle.duration for cycle in cycles)],
         "panels": list(_panels(shown, list(zip(colours, cycles, strict=True)))),
         "segments": [
-            {"name": peak.name, "at": [_MILLI * peak.start, _MILLI * (peak.start + peak.duration)]}
+            {"name": peak.name, "at": [MILLI * peak.start, MILLI * (peak.start + peak.duration)]}
             for peak in shown.peaks
         ],
-        "drawing": picture(shown, mechanism, axis.mechanism or {}) | {"duration": _MILLI * shown.duration},
+        "drawing": picture(shown, mechanism, axis.mechanism or {}) | {"duration": MILLI * shown.duration},
         "over_input": over_input(shown, mechanism),
         "over_speed": _over_speed(shown, list(zip(colours, cycles, strict=True))),
         "rows": _rows(laws),
@@ -194,7 +193,7 @@ def _panels(shown: Cycle, cycles: Coloured) -> Iterator[dict[str, Any]]:
     peak = shown.effort.peak_force_at
     torques = [_of_drive(each, each[1].force) for each in cycles]
     value = float(shown.force(peak))
-    mark = {"at": round(_MILLI * peak, 4), "value": value}
+    mark = {"at": round(MILLI * peak, 4), "value": value}
     yield _panel(force_name(shown), force_unit(shown), torques, [mark])
     efforts = [cycle.effort for _, cycle in cycles]
     powers = max(effort.braking_power for effort in efforts), max(effort.motoring_power for effort in efforts)
@@ -233,7 +232,7 @@ def _of_motion(coloured: tuple[int, Cycle], nu: int, factor: float) -> dict[str,
     times, values = samples(cycle, nu, _EACH)
     places = np.array([time for peak in cycle.peaks for _, time in peak.extremes[nu]])
     times, (values,) = refined(times, [values], [lambda inside: np.asarray(cycle(inside, nu))], places)
-    return {"law": law, "at": drawn(_MILLI * times, 4), "values": drawn(factor * values)}
+    return {"law": law, "at": drawn(MILLI * times, 4), "values": drawn(factor * values)}
 
 
 def _of_drive(coloured: tuple[int, Cycle], function: Callable[[Array], Array]) -> dict[str, Any]:
@@ -242,7 +241,7 @@ def _of_drive(coloured: tuple[int, Cycle], function: Callable[[Array], Array]) -
     times, values = samples_of_drive(cycle, function, _EACH)
     places = np.array([cycle.effort.peak_force_at])
     times, (values,) = refined(times, [values], [lambda inside: np.asarray(function(inside))], places)
-    return {"law": law, "at": drawn(_MILLI * times, 4), "values": drawn(values)}
+    return {"law": law, "at": drawn(MILLI * times, 4), "values": drawn(values)}
 
 
 def _rows(laws: Sequence[Cycle | OptlawsError]) -> list[dict[str, Any]]:
@@ -279,16 +278,14 @@ def _over_speed(shown: Cycle, cycles: Coloured) -> dict[str, Any] | None:
 
 def _speed_of_drive(cycle: Cycle) -> float:
     """The motor's speed in rpm by the velocity of the input."""
-    return _RPM * cycle.drive.ratio if isinstance(cycle.drive, Drive) else 1.0
+    return RPM * cycle.drive.ratio if isinstance(cycle.drive, Drive) else 1.0
 
 
 def _motor(motor: Motor, fastest: float) -> dict[str, Any]:
     """The curves of peak and continuous torque up to a speed, and the numbers that limit them."""
-    most = min(_RPM * motor.greatest_speed, _FAR * fastest)
-    places = np.unique(
-        [*np.linspace(0.0, most, 41), *(_RPM * speed for speed, _ in motor.curve if _RPM * speed <= most)]
-    )
-    known = {"peak": motor.peak_at(places / _RPM), "continuous": motor.continuous_at(places / _RPM)}
+    most = min(RPM * motor.greatest_speed, _FAR * fastest)
+    places = np.unique([*np.linspace(0.0, most, 41), *(RPM * speed for speed, _ in motor.curve if RPM * speed <= most)])
+    known = {"peak": motor.peak_at(places / RPM), "continuous": motor.continuous_at(places / RPM)}
     curves = {
         name: [
             [round(speed, 3), round(torque, 6)] for speed, torque in zip(places.tolist(), values.tolist(), strict=True)
@@ -300,8 +297,8 @@ def _motor(motor: Motor, fastest: float) -> dict[str, Any]:
         "curves": curves,
         "peak_torque": bounded(motor.peak_torque),
         "rated_torque": bounded(motor.rated_torque),
-        "greatest_speed": None if not isfinite(motor.greatest_speed) else _RPM * motor.greatest_speed,
-        "corners": [[round(_RPM * speed, 6), torque] for speed, torque in motor.curve],
+        "greatest_speed": None if not isfinite(motor.greatest_speed) else RPM * motor.greatest_speed,
+        "corners": [[round(RPM * speed, 6), torque] for speed, torque in motor.curve],
     }
 
 
@@ -373,7 +370,7 @@ def _moves(shown: Cycle) -> Iterator[dict[str, Any]]:
         least = {name: _limit(shown.drive, name, move) for name in ("peak torque", "rms torque")}
         yield {
             "name": peak.name,
-            "at": [_MILLI * peak.start, _MILLI * (peak.start + peak.duration)],
+            "at": [MILLI * peak.start, MILLI * (peak.start + peak.duration)],
             "peak": _beside_limit(effort.peak_force, least["peak torque"]),
             "rms": _beside_limit(effort.rms_force, least["rms torque"]),
         }
