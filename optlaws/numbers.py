@@ -89,6 +89,17 @@ def bounded(value: float) -> float | None:
     return value if isfinite(value) else None
 
 
+def chop(value: float, size: float, share: float) -> float:
+    """The value, or 0 where it is no more than rounding: a share of a size.
+
+    Examples
+    --------
+    >>> chop(-6.77e-16, 5.528, 1e-12), chop(1.5, 2.0, 1e-12)
+    (0.0, 1.5)
+    """
+    return 0.0 if abs(value) <= share * abs(size) else value
+
+
 def power_of_two(size: float) -> float:
     """The greatest power of 2 that is not above a size; 1 where the size is 0 or not finite.
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias, TypeVar
 
@@ -29,6 +29,9 @@ from optlaws.suggest import unknown_key
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+    from optlaws.shown.report import Report
+    from optlaws.shown.summary import Row
 
 __all__ = [
     "MARK",
@@ -86,6 +89,20 @@ class Page:
         """A table with aligned columns and a given number of digits."""
         self._parts.append(tables.to_markdown(headings, rows, digits=digits))
         return self
+
+    def facts(self, facts: Iterable[Row], *, digits: int = 9, places: str = "") -> Page:
+        """A table of facts; with their places in a unit if it is given, and with notes where there are some."""
+        rows = [(row.name, row.text(digits), row.unit, row.place, row.note) for row in facts]
+        columns = [0, 1, 2, *([3] if places else []), *([4] if any(row[4] for row in rows) else [])]
+        headings = ("what", "value", "unit", f"at, {places}", "note")
+        return self.table([headings[i] for i in columns], [[row[i] for i in columns] for row in rows], digits=digits)
+
+    def report(self, report: Report) -> Page:
+        """The tables of a report, and its facts but those that are columns of a table."""
+        for table in report.tables:
+            self.table(*table)
+        columns = {heading.partition(",")[0] for table in report.tables for heading in table.headings}
+        return self.facts(row for row in report.facts if row.name not in columns)
 
     def _add(self, line: str) -> Page:
         self._parts.append(f"{line}\n")

@@ -64,6 +64,7 @@ from .numerics.branch_and_bound import Extremes as Extremes
 from .numerics.exact import Polynomial as Polynomial
 from .numerics.interval import Interval as Interval
 from .numerics.taylor import Jet as Jet
+from .shown.report import Report as Report
 from .shown.summary import Summary as Summary
 from .studies.progress import Watch as Watch
 from .studies.study import Study as Study

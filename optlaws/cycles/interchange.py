@@ -7,7 +7,7 @@ from typing import Any, Literal, Unpack, get_args
 
 from optlaws.echo import shortened
 from optlaws.entries.declared import Declared, entries_of
-from optlaws.errors import InputError
+from optlaws.errors import InputError, OptlawsError
 from optlaws.extras import needed
 from optlaws.files.tables import to_toml
 from optlaws.laws import MotionLaw
@@ -18,6 +18,7 @@ from optlaws.motion.motion import Motion, motion_of_pieces
 from optlaws.motion.piece import unit_of
 from optlaws.motion.quantities import QUANTITIES
 from optlaws.numbers import Quantity
+from optlaws.shown.report import Report
 from optlaws.shown.summary import Summary
 from optlaws.suggest import keywords_of, unknown_key
 
@@ -235,10 +236,35 @@ class CycleInterchange(Declared, title="a stored cycle"):
 
         return summary(self._cycle)
 
-    def _repr_html_(self) -> str:
-        from optlaws.cycles.summary import cycle_page
+    def report(self) -> Report:
+        """The facts of the cycle, the table of its segments and its curves, as tables, pictures and pages show them.
 
-        return cycle_page(self._cycle)
+        Examples
+        --------
+        >>> from optlaws import Cycle, Return, Rise
+        >>> report = Cycle([Rise("35 mm", "0.1 s", law="cycloidal"), Return(law="cycloidal")], period="0.3 s").report()
+        >>> [(panel.title, round(panel.peak, 3)) for panel in report.panels[:2]]
+        [('position, mm', 35.0), ('velocity, mm/s', 700.0)]
+        """
+        from optlaws.cycles.report import CycleReport
+
+        return CycleReport(self._cycle)
+
+    def _repr_html_(self) -> str:
+        """A cycle as HTML; where its laws cannot be had, the error in their place.
+
+        >>> from optlaws import Cycle, Return, Rise
+        >>> shown = Cycle([Rise("35 mm", "120 deg"), Return()], speed="200 rpm")._repr_html_()
+        >>> shown.count("<svg"), "acceleration, m/s²" in shown
+        (4, True)
+        """
+        from optlaws.shown.report import report_page
+        from optlaws.shown.showing import facts, page
+
+        try:
+            return report_page("Cycle", self.report())
+        except OptlawsError as error:
+            return page("Cycle", facts({"turn, s": self._cycle.duration, "error": error}))
 
 
 def problem_file(

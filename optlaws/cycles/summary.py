@@ -1,29 +1,25 @@
-"""Rows that summarise a cycle: its proof, its peaks, its drive, its joints; and its page in a notebook."""
+"""Rows that summarise a cycle: its proof, its peaks, its drive, its joints."""
 
 from __future__ import annotations
 
 from math import pi
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from optlaws.cycles.limit_rows import limit_rows
 from optlaws.cycles.optimisation.motion_limits import FORCE, POWER
 from optlaws.cycles.optimisation.objectives import LOADED, SUMS, kind_of
 from optlaws.cycles.specification.load import LOAD, read_load
 from optlaws.cycles.specification.process import is_process
-from optlaws.errors import InfeasibleProblem, OptlawsError, SolverFailure
+from optlaws.errors import InfeasibleProblem, SolverFailure
 from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.mechanisms.linkages.mechanism import Mechanism
 from optlaws.motion.piece import unit_of
 from optlaws.motion.quantities import QUANTITIES
-from optlaws.shown.showing import drawing, facts, page, table
 from optlaws.shown.summary import Row, Summary
 
 if TYPE_CHECKING:
     from optlaws.cycles.cycle import Cycle
 
-_SAMPLES = 241
 _ACCELERATION, _JERK = 2, 3
 _LOAD_UNITS = {
     "length": "m",
@@ -159,25 +155,6 @@ def summary(cycle: Cycle) -> Summary:
         ],
         at="s",
     )
-
-
-def cycle_page(cycle: Cycle) -> str:
-    """A cycle as HTML; where its laws cannot be had, the error in their place.
-
-    >>> from optlaws import Cycle, Return, Rise
-    >>> shown = cycle_page(Cycle([Rise("35 mm", "120 deg"), Return()], speed="200 rpm"))
-    >>> shown.count("<svg"), "acceleration, m/s²" in shown
-    (4, True)
-    """
-    try:
-        known = summary(cycle)
-    except OptlawsError as error:
-        return page("Cycle", facts({"turn, s": cycle.duration, "error": error}))
-    names = [f"{name}, {unit_of(cycle.axis, nu)}" for nu, name in enumerate(QUANTITIES)]
-    rows = [(peak.name, peak.duration, *(peak.peak(nu) for nu in (1, 2, 3))) for peak in cycle.peaks]
-    times = np.linspace(0.0, cycle.duration, _SAMPLES)
-    drawings = [drawing(name, times.tolist(), cycle(times, nu).tolist()) for nu, name in enumerate(names)]
-    return page("Cycle", known._repr_html_(), table(("segment", "duration, s", *names[1:]), rows), *drawings)
 
 
 def load_unit(cycle: Cycle, output: str) -> str:

@@ -7,12 +7,8 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
-import numpy as np
-
 from optlaws.cycles.cycle import Cycle
-from optlaws.cycles.limit_rows import limit_rows
-from optlaws.cycles.specification.process import is_process
-from optlaws.cycles.summary import drive_rows, force_name, force_unit, jerk_rows, joint_rows, proof_rows
+from optlaws.cycles.report import CycleReport
 from optlaws.errors import InputError, located
 from optlaws.exports.format import FORMATS, format_of
 from optlaws.exports.text import variable_names
@@ -29,25 +25,20 @@ from optlaws.jobs.axes.axis_transitions import (
 )
 from optlaws.jobs.axes.entry_sweep import SweptCycle, sweep_table
 from optlaws.jobs.axes.fastest_page import (
-    FASTEST_HEADINGS,
     at_greatest_speed,
     fastest_facts,
     fastest_of,
-    fastest_rows,
     slowest,
 )
 from optlaws.jobs.axes.interlock_page import CLEARANCES, GIVEN, TIMING, add_interlocks, interlock_facts
 from optlaws.jobs.cycle_entries import CycleProblemFile, ExportEntries, overlap_of, read_given, sweeps_of
 from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.mechanisms.linkages.mechanism import Mechanism
-from optlaws.motion.display_units import RPM, TURN_DEG, UNITS
-from optlaws.motion.quantities import QUANTITIES
 from optlaws.plots.cycle import axes_figure, cycle_figure
 from optlaws.plots.interlocks import clearance_figure, timing_figure
 from optlaws.plots.machine import mechanism_figure, motor_figure
 from optlaws.plots.sweep import sweep_figure
 from optlaws.results import Page, Results
-from optlaws.tolerances import CYCLE_ROUNDING
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -199,7 +190,7 @@ def table_of_motion(cycle: Cycle, rows: int, about: str) -> str:
 
     With a drive force (or torque) and power, with a motor its speed too.
     """
-    return tables.to_csv(_columns(cycle), _rows(cycle, rows), about=about)
+    return tables.to_csv(*CycleReport(cycle).motion(rows), about=about)
 
 
 def answer(entries: Mapping[str, Any], file: Path) -> dict[str, Any]:
@@ -210,7 +201,7 @@ def answer(entries: Mapping[str, Any], file: Path) -> dict[str, Any]:
     overlap = overlap_of(spec, given, file)
     axes = given if overlap is None else overlap.axes
     known = interlock_facts(axes, overlap) | transition_facts(transitions_of(_transition_names(spec), axes, file))
-    return {name: _facts(cycle) for name, cycle in axes.items()} | known
+    return {name: cycle.report().data for name, cycle in axes.items()} | known
 
 
 def page(
@@ -232,12 +223,8 @@ def page(
     for name, cycle in axes.items():
         result.heading(name).figure(plain_name(name), f"{spec.title}: {name}")
         if name in fastest:
-            result.table(FASTEST_HEADINGS, fastest_rows(fastest[name]), digits=9)
-        result.table(_headings(cycle), [*_segment_rows(cycle), _whole_row(cycle)], digits=7)
-        rows = [*proof_rows(cycle), *jerk_rows(cycle), *limit_rows(cycle), *drive_rows(cycle), *joint_rows(cycle)]
-        cells = [[row.name, row.value, row.unit or None, row.note or None] for row in rows]
-        noted = any(row.note for row in rows)
-        result.table(("what", "value", "unit", "note")[: 3 + noted], [row[: 3 + noted] for row in cells], digits=9)
+            result.facts(fastest[name].summary())
+        result.report(cycle.report())
         for picture in pictures[name]:
             result.figure(picture.name, f"{spec.title}: {name}, {picture.caption}")
         if exports[name]:
@@ -250,64 +237,6 @@ def page(
     return result
 
 
-def _headings(cycle: Cycle) -> list[str]:
-    sized = [f"peak {name}, {unit}" for name, (unit, _) in zip(QUANTITIES, UNITS[cycle.axis], strict=True)]
-    return ["segment", "from, ms", "takes, ms", "takes, deg", "ends at, " + UNITS[cycle.axis][0][0], *sized[1:]]
-
-
-def _segment_rows(cycle: Cycle) -> list[list[tables.Cell]]:
-    position, factor = cycle.programme.start, UNITS[cycle.axis][0][1]
-    rows: list[list[tables.Cell]] = []
-    for stretch, peaks in zip(cycle.programme.stretches, cycle.peaks, strict=True):
-        position += stretch.displacement
-        rows.append(
-            [
-                peaks.name,
-                1e3 * peaks.start,
-                1e3 * peaks.duration,
-                TURN_DEG * peaks.duration / cycle.duration,
-                _plain(factor * position, factor * max(abs(position), abs(cycle.peak(0)))),
-                *(peaks.peak(nu) * UNITS[cycle.axis][nu][1] for nu in (1, 2, 3)),
-            ]
-        )
-    return rows
-
-
-def _whole_row(cycle: Cycle) -> list[tables.Cell]:
-    peaks = [cycle.peak(nu) * UNITS[cycle.axis][nu][1] for nu in (1, 2, 3)]
-    return ["whole cycle", 0.0, 1e3 * cycle.duration, TURN_DEG, None, *peaks]
-
-
-def _columns(cycle: Cycle) -> list[str]:
-    return [
-        "master, deg",
-        "time, s",
-        *(f"{name}, {unit}" for name, (unit, _) in zip(QUANTITIES, UNITS[cycle.axis], strict=True)),
-        *((f"{force_name(cycle)}, {force_unit(cycle)}", "power, W") if cycle.drive is not None else ()),
-        *(("motor speed, rpm",) if isinstance(cycle.drive, Drive) else ()),
-    ]
-
-
-def _rows(cycle: Cycle, count: int) -> list[list[tables.Cell]]:
-    degrees = np.linspace(0.0, TURN_DEG, count)
-    times = degrees * (cycle.duration / TURN_DEG)
-    motion = [cycle(times, nu) for nu in range(len(QUANTITIES))]
-    columns = [
-        [_plain(value * factor, cycle.peak(nu) * factor) for value in motion[nu].tolist()]
-        for nu, (_, factor) in enumerate(UNITS[cycle.axis])
-    ]
-    if cycle.drive is not None:
-        taken = [np.asarray(cycle.force(times)), np.asarray(cycle.power(times))]
-        if isinstance(cycle.drive, Drive):
-            taken.append(RPM * cycle.drive.ratio * motion[1])
-        columns += [[_plain(value, float(np.abs(values).max())) for value in values.tolist()] for values in taken]
-    return [list(row) for row in zip(degrees.tolist(), times.tolist(), *columns, strict=True)]
-
-
-def _plain(value: float, size: float) -> float:
-    return 0.0 if abs(value) <= CYCLE_ROUNDING * size else value
-
-
 def _stored(cycle: Cycle) -> dict[str, Any]:
     """Facts of a cycle with its laws."""
     laws = [
@@ -315,29 +244,4 @@ def _stored(cycle: Cycle) -> dict[str, Any]:
          "law": piece.law.to_dict()}
         for piece in cycle.pieces
     ]  # fmt: skip
-    return _facts(cycle) | {"laws": laws}
-
-
-def _facts(cycle: Cycle) -> dict[str, Any]:
-    drive: dict[str, Any] = {} if cycle.drive is None else {"effort": cycle.effort.to_dict()}
-    if isinstance(cycle.drive, Drive):
-        drive["motor"] = cycle.sheet.to_dict()
-    if cycle.load is not None and not is_process(cycle.load):
-        drive["load"] = {name: cycle.load_motion.peak(name).value for name in cycle.load_motion.machine.outputs}
-    return {
-        "period": cycle.duration,
-        "status": cycle.status.value,
-        "minimise": cycle.minimise,
-        "objective": cycle.objective if cycle.solutions else None,
-        "lower_bound": cycle.lower_bound if cycle.solutions else None,
-        "search_space": cycle.search_space,
-        "remarks": list(cycle.remarks),
-        "modified_sine_jerk": cycle.modified_sine_jerk,
-        "segments": [
-            {"name": peak.name, "start": peak.start, "duration": peak.duration}
-            | {name: peak.peak(nu) for nu, name in enumerate(QUANTITIES) if nu}
-            for peak in cycle.peaks
-        ],
-        "joints": list(cycle.joints),
-        **drive,
-    }
+    return {**cycle.report().data, "laws": laws}

@@ -11,11 +11,11 @@ from optlaws.cycles.interlocks.clearance import Clearance, bound_of
 from optlaws.cycles.interlocks.forbidden_region import Forbidden, corners_of
 from optlaws.cycles.interlocks.interlock import SMALL_UNITS
 from optlaws.cycles.machine_axes import AxesPicture
+from optlaws.cycles.report import samples
 from optlaws.cycles.specification.segments import Dwell
 from optlaws.errors import InputError
 from optlaws.motion.display_units import TURN_DEG, UNITS
 from optlaws.numbers import Array
-from optlaws.plots.cycle import samples
 from optlaws.plots.style import BLUES, DISTINCT, GREEN, GREY, WARM, name_point, new_figure, plot_style, titled
 from optlaws.suggest import unknown_key
 

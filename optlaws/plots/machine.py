@@ -6,12 +6,12 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
+from optlaws.cycles.report import samples, samples_of_drive
 from optlaws.errors import InputError
 from optlaws.formulas.arithmetic import NUMPY, evaluate
 from optlaws.formulas.tree import Formula
 from optlaws.motion.display_units import DEGREES, MILLI, RPM
 from optlaws.numbers import Array
-from optlaws.plots.cycle import samples, samples_of_drive
 from optlaws.plots.style import BLUES, DISTINCT, GREEN, GREY, WARM, name_point, new_axes, new_figure, plot_style, titled
 from optlaws.tolerances import VALUE_ROUNDING
 

@@ -66,8 +66,8 @@ def test_what_is_drawn_and_proven_of_axes_is_the_library_s(served: Server, study
         )
         assert row["peaks"][1] == {"value": pytest.approx(cycle.peak(2), rel=1e-5), "unit": "m/s²", "digits": 6}
     for panel, rule in zip(shown["panels"], axes.rules, strict=True):
-        rooms = 1e3 * rule.room(axes, np.array(panel["at"]) * axes.duration / 360.0)
-        assert panel["values"] == pytest.approx(rooms, abs=2e-3)
+        rooms = 1e3 * rule.room(axes, np.array(panel["series"][0]["at"]) * axes.duration / 360.0)
+        assert panel["series"][0]["values"] == pytest.approx(rooms, abs=2e-3)
     proven = served.ask("axes-clearances", {"study": study})
     for results, least in zip(proven["rows"], axes.clearances, strict=True):
         assert (results["status"], results["value"], results["at"]) == (

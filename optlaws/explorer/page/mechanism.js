@@ -36,7 +36,7 @@ export class Mechanism {
     this.#draw();
   }
 
-  /** The force at the contact over the turn: a panel of its values. */
+  /** The force at the contact over the turn: the curve of its values. */
   bear(force) {
     this.#force = force;
     this.turn(this.#angle);

@@ -131,8 +131,8 @@ export class Panel {
   }
 }
 
-function seriesOf({ series, at, values }) {
-  return (series ?? (at ? [{ at, values }] : [])).map((one) => ({ law: 0, ...one }));
+function seriesOf({ series }) {
+  return series.map((one) => ({ law: 0, ...one }));
 }
 
 /** The value at a place, exact where the curve was computed there, else of the line between its neighbours. */

@@ -2,8 +2,8 @@
 //
 // An answer has {across, range, ticks, panels, segments, active, symbol}: the name of the variable, its range (a turn unless
 // given), its ticks, its symbol, a panel for each quantity, the law whose curve is read first, and the segments of a motion,
-// {name, at: [from, to]}. A panel is {name, unit, symbol, at, values, series, limits, peaks, beyond, span, note}: `values`
-// is one curve over `at`; `series` are several, each {at, values, name, law, dots}, `law` being the number of its colour, `dots` that points are drawn; `limits`
+// {name, at: [from, to]}. A panel is {name, unit, symbol, series, limits, peaks, ends, beyond, span, note}:
+// `series` are its curves, each {at, values, name, law, dots}, `law` being the number of its colour, `dots` that points are drawn; `limits`
 // are {from, to, value, least}, `peaks` {at, value, and text if it is no plain number}; `span` is what is in sight at least; `note` stands beside the name.
 //
 // Wheel, drag, + and - zoom and move; arrow keys move the cursor from place to place, Page keys from peak to peak.

@@ -80,8 +80,7 @@ function panelInUnits(panel) {
   const times = (value) => (value === null || value === undefined ? value : value * factor);
   return {
     ...panel, unit,
-    values: panel.values?.map(times),
-    series: panel.series?.map((one) => ({ ...one, values: one.values.map(times) })),
+    series: panel.series.map((one) => ({ ...one, values: one.values.map(times) })),
     limits: panel.limits?.map((limit) => ({ ...limit, value: times(limit.value), ...("least" in limit && { least: times(limit.least) }) })),
     peaks: panel.peaks?.map((peak) => ({ ...peak, value: peak.value * factor })),
     ends: panel.ends?.map(times),

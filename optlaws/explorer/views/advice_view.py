@@ -9,26 +9,23 @@ from functools import lru_cache
 from typing import Annotated, Any
 
 import msgspec
-import numpy as np
 
 from optlaws import AdvisedLaw, Cycle
 from optlaws.cycles.advising.advice import limits_in_words, proof_in_words
 from optlaws.cycles.advising.advised_motion import advice_from, standard_candidates
 from optlaws.cycles.advising.candidates import Candidates
+from optlaws.cycles.report import CycleReport
 from optlaws.cycles.specification.segments import OPTIMAL, Move
 from optlaws.errors import OptlawsError
 from optlaws.explorer.views import cycle_view
 from optlaws.explorer.views.cycle_view import CycleRequest
-from optlaws.explorer.views.law_view import drawn, refusal
-from optlaws.explorer.views.picture_points import refined
+from optlaws.explorer.views.law_view import refusal
+from optlaws.explorer.views.panel_data import panel_data
 from optlaws.explorer.views.requests import Question
-from optlaws.motion.display_units import MILLI, UNITS
-from optlaws.motion.quantities import QUANTITIES
+from optlaws.motion.display_units import MILLI
 from optlaws.numbers import bounded
-from optlaws.plots.cycle import samples
 
 _POINTS = 6
-_EACH = 60
 
 ShortText = Annotated[str, msgspec.Meta(max_length=40)]
 
@@ -182,22 +179,13 @@ def _curves(laws: Sequence[AdvisedLaw]) -> dict[str, Any]:
     if not cycles:
         return {"panels": []}
     duration = cycles[0].duration
-    panels = []
+    reports, panels = [CycleReport(cycle) for cycle in cycles], []
     for nu in (1, 2, 3):
-        unit, factor = UNITS[cycles[0].axis][nu]
-        series = [
-            {"law": i, "name": law.name, **_curve(cycle, nu, factor)}
-            for i, (law, cycle) in enumerate(zip(laws, cycles, strict=True))
-        ]
-        panels.append({"name": QUANTITIES[nu], "unit": unit, "series": series, "limits": [], "peaks": []})
+        curves = [report.panel(nu) for report in reports]
+        panel = replace(curves[0].with_curves(list(enumerate(curves))), limits=(), peaks=(), ends=(0.0, 0.0))
+        named = (curve._replace(name=law.name) for curve, law in zip(panel.series, laws, strict=True))
+        panels.append(panel_data(replace(panel, series=tuple(named))))
     return {"across": "time, ms", "symbol": "t, ms", "range": [0.0, MILLI * duration], "panels": panels}
-
-
-def _curve(cycle: Cycle, nu: int, factor: float) -> dict[str, Any]:
-    times, values = samples(cycle, nu, _EACH)
-    places = np.array([time for peak in cycle.peaks for _, time in peak.extremes[nu]])
-    times, (values,) = refined(times, [values], [lambda inside: np.asarray(cycle(inside, nu))], places)
-    return {"at": drawn(MILLI * times, 4), "values": drawn(factor * values)}
 
 
 def example() -> dict[str, Any]:

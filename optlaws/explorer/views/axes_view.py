@@ -21,14 +21,15 @@ from optlaws.cycles.specification.segments import Dwell
 from optlaws.errors import InputError, OptlawsError
 from optlaws.explorer.views import cycle_view
 from optlaws.explorer.views.cycle_view import CycleRequest
-from optlaws.explorer.views.law_view import TITLES, digits, drawn, refusal
-from optlaws.explorer.views.picture_points import refined
+from optlaws.explorer.views.law_view import TITLES, digits, refusal
+from optlaws.explorer.views.panel_data import drawn
 from optlaws.explorer.views.requests import Question
 from optlaws.jobs.cycle_entries import CycleProblemFile, overlap_of
 from optlaws.motion.display_units import TURN_DEG, UNITS
 from optlaws.numbers import Array
 from optlaws.plots.interlocks import forbidden_region, passed_and_level, plane_axes
 from optlaws.sentences import Amount, joined, sentence
+from optlaws.shown.curve_points import refined
 
 _PLACES = 241
 _WHERE = Path("the machine")
@@ -218,7 +219,7 @@ def _room(axes: Axes, rule: Interlock, times: Array) -> dict[str, Any]:
         {"from": max(0.0, start), "to": min(TURN_DEG, stop), "value": None, "least": 0.0} for start, stop in spans
     ]
     curve = {"at": drawn(scale * at, 4), "values": drawn(values)}
-    return {"name": f"clearance of {rule.label}", "unit": unit, **curve, "limits": limits, "peaks": []}
+    return {"name": f"clearance of {rule.label}", "unit": unit, "series": [curve], "limits": limits, "peaks": []}
 
 
 def _unit(of: str) -> tuple[str, float]:

@@ -20,7 +20,8 @@ from optlaws.cams.summary import Labelled, named_forces
 from optlaws.cycles.specification.drive import CONSTANTS
 from optlaws.errors import InfeasibleProblem, InputError, OptlawsError
 from optlaws.explorer.views.cycle_view import SEGMENTS, check_axis
-from optlaws.explorer.views.law_view import digits, drawn, refusal
+from optlaws.explorer.views.law_view import digits, refusal
+from optlaws.explorer.views.panel_data import drawn
 from optlaws.explorer.views.requests import Question
 from optlaws.jobs.cam_entries import CamProblemFile
 from optlaws.jobs.cam_findings import FORCE, STIFFNESS, Findings
@@ -161,7 +162,13 @@ def _panels(spec: CamProblemFile, cam: DiscCam, angles: Array) -> list[dict[str,
 
 def panel(name: str, unit: str, turns: Any, values: Array, peaks: list[dict[str, Any]]) -> dict[str, Any]:
     """A curve over the turn in degrees, with its marks."""
-    return {"name": name, "unit": unit, "at": turns, "values": drawn(values), "limits": [], "peaks": peaks}
+    return {
+        "name": name,
+        "unit": unit,
+        "series": [{"at": turns, "values": drawn(values)}],
+        "limits": [],
+        "peaks": peaks,
+    }
 
 
 def _mark(extreme: EnclosedExtreme, factor: float, signed_by: DiscCam | None = None) -> dict[str, Any]:

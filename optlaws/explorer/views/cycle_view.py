@@ -10,36 +10,31 @@ from pathlib import Path
 from typing import Annotated, Any
 
 import msgspec
-import numpy as np
 
 from optlaws import Cycle, Status
 from optlaws.cycles.interlocks.interlock import Interlock
-from optlaws.cycles.kinematics import SegmentPeaks
 from optlaws.cycles.optimisation.motion_limits import LIMITS
 from optlaws.cycles.optimisation.motor_limits import MOTOR
 from optlaws.cycles.optimisation.objectives import OBJECTIVES
+from optlaws.cycles.report import CycleReport
 from optlaws.cycles.specification.limit_entries import LIMITS_OF_CYCLE
 from optlaws.cycles.specification.segments import CycleSegment
 from optlaws.cycles.summary import drive_rows, joint_rows, objective_unit
 from optlaws.entries.declared import entries_of
 from optlaws.errors import InfeasibleProblem, InputError, OptlawsError, SolverFailure, located
-from optlaws.explorer.views.law_view import TITLES, digits, drawn, gap_text, refusal
-from optlaws.explorer.views.picture_points import refined
+from optlaws.explorer.views.law_view import TITLES, digits, gap_text, refusal
+from optlaws.explorer.views.panel_data import panel_data
 from optlaws.explorer.views.requests import MOST_DEGREE, MOST_ORDER, Question
 from optlaws.jobs.cycle_entries import AxisEntries, CycleProblemFile, cycle_of
 from optlaws.laws.catalogue import reading
 from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.mechanisms.drives.motor import OF_TORQUE, Motor
-from optlaws.motion.display_units import TURN_DEG, UNITS
-from optlaws.motion.piece import unit_of
-from optlaws.motion.quantities import QUANTITIES
-from optlaws.numbers import Quantity, bounded
+from optlaws.motion.display_units import MILLI, TURN_DEG, UNITS
+from optlaws.numbers import Quantity, bounded, chop
 from optlaws.numerics.peaks import is_kept
-from optlaws.plots.cycle import samples
 from optlaws.sentences import Amount, Sentence, joined, sentence
 from optlaws.tolerances import BOUND_SLACK, CYCLE_ROUNDING
 
-_EACH = 100
 _MOTION = ("velocity", "acceleration", "deceleration", "jerk", "snap")
 _LIMITS = {"motion": _MOTION, "machine": (*_MOTION, "torque", "rms torque", "power", "energy", "motor")}
 _WHERE = Path("the cycle")
@@ -121,12 +116,13 @@ def _solved(axis: AxisEntries, speed: Quantity | None, period: Quantity | None) 
 
 
 def _view(shown: Cycle) -> dict[str, Any]:
+    report = CycleReport(shown)
     return {
-        "across": f"master, deg ({digits(1e3 * shown.duration)} ms a turn)",
-        "turn": 1e3 * shown.duration,
+        "across": f"master, deg ({digits(MILLI * shown.duration)} ms a turn)",
+        "turn": MILLI * shown.duration,
         "symbol": "master",
-        "panels": [_panel(shown, nu) for nu in range(_orders(shown))],
-        "segments": list(_segments(shown)),
+        "panels": [panel_data(report.panel(nu), TURN_DEG / shown.duration) for nu in report.orders],
+        "segments": list(_segments(report)),
         "trust": trust(shown),
         "facts": _facts(shown),
     }
@@ -136,74 +132,28 @@ def _degrees(shown: Cycle, time: float) -> float:
     return round(TURN_DEG * time / shown.duration, 4)
 
 
-def _orders(shown: Cycle) -> int:
-    """How many derivatives are shown: up to the jerk, or the one of highest order that has a limit."""
-    return max([len(QUANTITIES), *(nu + 1 for limits in shown.limits_of_segments for nu in limits)])
-
-
-def _unit(shown: Cycle, nu: int) -> tuple[str, float]:
-    """The unit of a derivative, and how many of it are one of SI."""
-    return UNITS[shown.axis][nu] if nu < len(QUANTITIES) else (unit_of(shown.axis, nu), 1.0)
-
-
-def _extremes(shown: Cycle, peak: SegmentPeaks, nu: int) -> tuple[tuple[float, float], tuple[float, float]]:
-    """The least and the greatest value of a derivative in a segment, with their times."""
-    if nu < len(peak.extremes):
-        return peak.extremes[nu]
-    piece = next(piece for piece in reversed(shown.pieces) if piece.start <= peak.start)
-    return piece.extremes(nu, peak.start, peak.start + peak.duration)
-
-
-def _panel(shown: Cycle, nu: int) -> dict[str, Any]:
-    unit, factor = _unit(shown, nu)
-    times, sampled = samples(shown, nu, _EACH)
-    extremes = [time for peak in shown.peaks for _, time in _extremes(shown, peak, nu)]
-    times, (sampled,) = refined(times, [sampled], [lambda places: np.asarray(shown(places, nu))], np.array(extremes))
-    places = [_degrees(shown, time) for time in times.tolist()]
-    values = drawn(factor * sampled)
-    limits = [
-        {
-            "from": _degrees(shown, peak.start),
-            "to": _degrees(shown, peak.start + peak.duration),
-            "value": bounded(limit[nu][1] * factor),
-            "least": bounded(limit[nu][0] * factor),
-        }
-        for peak, limit in zip(shown.peaks, shown.limits_of_segments, strict=True)
-        if nu in limit
-    ]
-    name = (*QUANTITIES, "snap")[nu]
-    return {"name": name, "unit": unit, "at": places, "values": values, "limits": limits, "peaks": _peaks(shown, nu)}
-
-
-def _peaks(shown: Cycle, nu: int) -> list[dict[str, Any]]:
-    """The least and the greatest value of the cycle."""
-    factor, extremes = _unit(shown, nu)[1], [_extremes(shown, peak, nu) for peak in shown.peaks]
-    low = min((least for least, _ in extremes), key=lambda pair: pair[0])
-    high = max((most for _, most in extremes), key=lambda pair: pair[0])
-    seen = [pair for pair in (low, high) if abs(pair[0]) > CYCLE_ROUNDING * max(-low[0], high[0])]
-    return [{"at": _degrees(shown, time), "value": value * factor} for value, time in seen]
-
-
-def _segments(shown: Cycle) -> Iterator[dict[str, Any]]:
-    orders = range(_orders(shown))
-    units = [_unit(shown, nu) for nu in orders]
-    most = [max(abs(value) for peak in shown.peaks for value, _ in _extremes(shown, peak, nu)) for nu in orders]
-    for peak, limits, stretch in zip(shown.peaks, shown.limits_of_segments, shown.programme.stretches, strict=True):
+def _segments(report: CycleReport) -> Iterator[dict[str, Any]]:
+    shown, units = report.cycle, UNITS[report.cycle.axis]
+    extremes = [report.extremes(nu) for nu in report.orders]
+    most = [max(abs(value) for ends in each for value, _ in ends) for each in extremes]
+    segments = zip(shown.peaks, shown.limits_of_segments, shown.programme.stretches, strict=True)
+    for i, (peak, limits, stretch) in enumerate(segments):
         peaks = [
             {
-                "value": _plain(max(abs(value) for value, _ in extremes) * units[nu][1], most[nu] * units[nu][1]),
-                "beyond": _beyond(extremes, limits.get(nu, (-inf, inf))),
+                "value": bounded(
+                    report.unit(nu)[1] * chop(max(abs(value) for value, _ in ends), most[nu], CYCLE_ROUNDING)
+                ),
+                "beyond": _beyond(ends, limits.get(nu, (-inf, inf))),
             }
-            for nu in orders[1:]
-            for extremes in [_extremes(shown, peak, nu)]
+            for nu, ends in ((nu, extremes[nu][i]) for nu in report.orders[1:])
         ]
         yield {
             "name": peak.name,
             "from": digits(_degrees(shown, peak.start), 6),
             "to": digits(_degrees(shown, peak.start + peak.duration), 6),
             "at": [_degrees(shown, peak.start), _degrees(shown, peak.start + peak.duration)],
-            "time": digits(1e3 * peak.duration, 6),
-            "by": _plain(stretch.displacement * units[0][1], shown.peak(0) * units[0][1]),
+            "time": digits(MILLI * peak.duration, 6),
+            "by": chop(stretch.displacement * units[0][1], shown.peak(0) * units[0][1], CYCLE_ROUNDING),
             "peaks": peaks,
         }
 
@@ -211,10 +161,6 @@ def _segments(shown: Cycle) -> Iterator[dict[str, Any]]:
 def _beyond(extremes: tuple[tuple[float, float], tuple[float, float]], limits: tuple[float, float]) -> bool:
     (least, _), (most, _) = extremes
     return not (is_kept(-least, -limits[0]) and is_kept(most, limits[1]))
-
-
-def _plain(value: float, size: float) -> float | None:
-    return 0.0 if abs(value) <= CYCLE_ROUNDING * size else bounded(value)
 
 
 def trust(shown: Cycle) -> dict[str, Any] | None:

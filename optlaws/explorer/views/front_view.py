@@ -24,7 +24,8 @@ from optlaws import (
     synthesize_array,
 )
 from optlaws.errors import InputError, OptlawsError
-from optlaws.explorer.views.law_view import digits, drawn, objective_title
+from optlaws.explorer.views.law_view import digits, objective_title
+from optlaws.explorer.views.panel_data import drawn
 from optlaws.explorer.views.requests import LawRequest, Question, problem_of, solved, value, without
 from optlaws.laws.savin import FAMILIES
 from optlaws.numbers import bounded

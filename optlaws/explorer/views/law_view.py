@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator
 from dataclasses import replace
 from functools import lru_cache
-from math import ceil, floor, isfinite, log10
+from math import ceil, floor, log10
 from typing import Annotated, Any
 
 import msgspec
@@ -23,7 +23,7 @@ from optlaws import (
     Status,
 )
 from optlaws.errors import InfeasibleProblem, OptlawsError, SolverFailure
-from optlaws.explorer.views.picture_points import refined
+from optlaws.explorer.views.panel_data import drawn
 from optlaws.explorer.views.requests import (
     MOST_DEGREE,
     LawRequest,
@@ -36,8 +36,9 @@ from optlaws.explorer.views.requests import (
     without,
 )
 from optlaws.motion.display_units import UNITS
-from optlaws.numbers import Array, bounded
+from optlaws.numbers import bounded
 from optlaws.sentences import Amount
+from optlaws.shown.curve_points import refined
 from optlaws.synthesis.limits.of_problem import limited_laws
 from optlaws.synthesis.proof.infeasible import possible_velocities
 from optlaws.tolerances import BOUND_SLACK, NO_MARK
@@ -47,7 +48,6 @@ _GAP_ROUNDING = 1e-12  # of an objective: a gap below it is rounding
 LETTERS = ("a", "b", "c", "d", "j")
 _ORDERS = {"a": 0, "b": 1, "c": 2, "j": 3}
 _SAMPLES = 161
-_DRAWN = 6  # decimals of what is drawn; what is read is a text of its own
 TITLES = {Status.OPTIMAL: "proven optimal", Status.LOCAL: "local", Status.INACCURATE: "bound not met"}
 _LONG_NUMBER = re.compile(r"\d+\.\d{4,}")
 
@@ -167,17 +167,6 @@ def curves(law: MotionLaw) -> dict[str, list[float | None]]:
         np.array([extreme.k for extreme in extremes]),
     )
     return {"k": drawn(k)} | {letter: drawn(curve) for letter, curve in zip(LETTERS, curves, strict=True)}
-
-
-def drawn(values: Array, decimals: int = _DRAWN) -> list[float | None]:
-    """Values to draw: rounded, None where they are missing.
-
-    Examples
-    --------
-    >>> drawn(np.array([1.23456789, np.inf]))
-    [1.234568, None]
-    """
-    return [value if isfinite(value) else None for value in np.round(values, decimals).tolist()]
 
 
 def peaks(law: MotionLaw) -> dict[str, list[dict[str, Any]]]:

@@ -18,7 +18,8 @@ from optlaws.cycles.old_tables.reading import points_in
 from optlaws.cycles.old_tables.stretches import Stretch
 from optlaws.cycles.old_tables.table import OldTable, table_of
 from optlaws.errors import InputError, OptlawsError
-from optlaws.explorer.views.law_view import digits, drawn, refusal
+from optlaws.explorer.views.law_view import digits, refusal
+from optlaws.explorer.views.panel_data import drawn
 from optlaws.explorer.views.requests import Question
 from optlaws.laws.catalogue.catalogue import catalogue
 from optlaws.motion.quantities import QUANTITIES

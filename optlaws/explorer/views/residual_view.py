@@ -10,7 +10,8 @@ import numpy as np
 
 from optlaws import residual_vibration, response_spectrum
 from optlaws.errors import InputError, OptlawsError
-from optlaws.explorer.views.law_view import digits, drawn
+from optlaws.explorer.views.law_view import digits
+from optlaws.explorer.views.panel_data import drawn
 from optlaws.explorer.views.requests import MOST_LAWS, LawRequest, Question, law_of
 from optlaws.mechanisms.measured_spectrum import MOST_POINTS, Spectrum, weight_of
 from optlaws.mechanisms.residual import Residual

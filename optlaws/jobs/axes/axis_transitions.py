@@ -22,7 +22,6 @@ if TYPE_CHECKING:
     from optlaws.cycles.moves.transition_cam import TransitionCam, TransitionKind
 
 TRANSITIONS = "transitions.json"
-_HEADINGS = ("what", "value", "unit", "at, s", "note")
 _ABOUT = "Table and picture begin where the cam does: at {:.9g} deg of the cycle's master, until {:.9g} deg."
 
 
@@ -95,10 +94,7 @@ def add_transitions(result: Page, title: str, transitions: Sequence[AxisTransiti
     for transition in transitions:
         result.heading(transition.title).figure(transition.name, f"{title}: {transition.title}")
         result.text(_ABOUT.format(*transition.cam.master))
-        rows = [
-            [row.name, row.text(9), row.unit or None, row.place, row.note or None] for row in transition.cam.summary()
-        ]
-        result.table(_HEADINGS, rows, digits=9)
+        result.facts(transition.cam.summary(), places="s")
 
 
 def write_transitions(results: Results, title: str, transitions: Sequence[AxisTransition], rows: int) -> None:

@@ -9,14 +9,11 @@ from typing import TYPE_CHECKING, Any
 
 from optlaws.cycles.cycle import Cycle
 from optlaws.errors import located
-from optlaws.files.tables import Cell
 from optlaws.results import Page
 
 if TYPE_CHECKING:
     from optlaws.cycles.fastest_cycle import FastestCycle
     from optlaws.cycles.machine_axes import Axes
-
-FASTEST_HEADINGS = ("what", "value", "unit", "note")
 
 
 def fastest_of(cycles: Mapping[str, Cycle], file: Path) -> dict[str, FastestCycle]:
@@ -65,7 +62,7 @@ def fastest_page(title: str, fastest: Mapping[str, FastestCycle]) -> Page:
     """The greatest speed of each axis, what binds, and what more of it would give."""
     result = Page(title)
     for name, axis in fastest.items():
-        result.heading(name).table(FASTEST_HEADINGS, fastest_rows(axis), digits=9)
+        result.heading(name).facts(axis.summary())
     return slowest(result, fastest)
 
 
@@ -75,8 +72,3 @@ def slowest(result: Page, fastest: Mapping[str, FastestCycle]) -> Page:
         name, axis = max(fastest.items(), key=lambda item: item[1].period)
         result.text(f"The machine is as fast as its slowest axis, {name}: {axis.rpm:.9g} rpm.")
     return result
-
-
-def fastest_rows(fastest: FastestCycle) -> list[list[Cell]]:
-    """The greatest speed of an axis, its bound and what binds it, as rows of a table."""
-    return [[row.name, row.value, row.unit or None, row.note or None] for row in fastest.summary()]

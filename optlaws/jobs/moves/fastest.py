@@ -74,11 +74,7 @@ def _fill(page: Page, each: SoughtMove) -> None:
         return
     move = each.moves[0]
     page.figure(name, f"{each.name}: the fastest motion")
-    page.table(
-        ("what", "value", "unit", "note"),
-        [[row.name, row.value, row.unit or None, row.note or None] for row in move.summary()],
-        digits=6,
-    )
+    page.facts(move.summary(), digits=6)
     if each.fronts:
         page.figure(f"{name}_front", f"{each.name}: what is least over the time")
     for front in each.fronts:

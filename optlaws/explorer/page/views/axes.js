@@ -204,11 +204,13 @@ export class View {
 
 /** A panel with its least clearance as a mark that lies on the curve. */
 function withPeak(panel, { value, at, cells, status }) {
-  const next = panel.at.findIndex((place) => place > at);
-  const k = next < 0 ? panel.at.length : next;
-  const there = panel.at[k - 1] === at;
+  const [curve] = panel.series;
+  const next = curve.at.findIndex((place) => place > at);
+  const k = next < 0 ? curve.at.length : next;
+  const there = curve.at[k - 1] === at;
   const put = (list, one) => (there ? list : [...list.slice(0, k), one, ...list.slice(k)]);
-  return { ...panel, at: put(panel.at, at), values: put(panel.values, value), peaks: [{ at, value, text: written(cells[0]) }], beyond: status === "broken" };
+  const series = [{ ...curve, at: put(curve.at, at), values: put(curve.values, value) }];
+  return { ...panel, series, peaks: [{ at, value, text: written(cells[0]) }], beyond: status === "broken" };
 }
 
 function table(name, headings, rows) {

@@ -91,7 +91,7 @@ export class View {
   #bear({ panels, facts }) {
     element("cam-trust").querySelector(".loads")?.remove();
     if (facts.length) element("cam-trust").querySelector(".sizes")?.before(html("p", { class: "facts loads", text: listed(facts) }));
-    this.#mechanism.bear(panels.find(({ name }) => name === "contact force") ?? null);
+    this.#mechanism.bear(panels.find(({ name }) => name === "contact force")?.series[0] ?? null);
     if (this.#answer && !this.#answer.refused) this.#motion.show({ ...this.#answer, panels: [...this.#answer.panels, ...panels] });
   }
 

@@ -19,8 +19,8 @@ from optlaws.cycles.moves.fastest_move import AXES
 from optlaws.cycles.summary import drive_rows, objective_unit, peak_rows
 from optlaws.errors import InputError, OptlawsError
 from optlaws.explorer.views import cycle_view
-from optlaws.explorer.views.law_view import TITLES, digits, drawn, gap_text, refusal
-from optlaws.explorer.views.picture_points import refined
+from optlaws.explorer.views.law_view import TITLES, digits, gap_text, refusal
+from optlaws.explorer.views.panel_data import drawn
 from optlaws.explorer.views.requests import MOST_DEGREE, MOST_ORDER, Question, without_files
 from optlaws.jobs.cycle_entries import AxisEntries, CycleProblemFile
 from optlaws.jobs.moves.move_entries import FastestProblemFile, MoveEntries, arguments_of, front_of
@@ -30,6 +30,7 @@ from optlaws.motion.piece import factor, unit_of
 from optlaws.motion.quantities import QUANTITIES, si_number
 from optlaws.numbers import Array, Quantity, bounded, whole
 from optlaws.sentences import Amount, sentence
+from optlaws.shown.curve_points import refined
 from optlaws.studies.problem_entries import problem
 from optlaws.synthesis.least_time.follower_residual import RESIDUAL
 from optlaws.synthesis.least_time.motor_torque import CURVE_LIMIT

@@ -11,7 +11,7 @@ import numpy as np
 from optlaws import Cycle, Mechanism
 from optlaws.cams.at_shaft import CamAtShaft
 from optlaws.explorer.views.cam_view import drawing
-from optlaws.explorer.views.law_view import drawn
+from optlaws.explorer.views.panel_data import drawn
 from optlaws.formulas.arithmetic import NUMPY, evaluate
 from optlaws.formulas.tree import Formula
 from optlaws.motion.display_units import MILLI
@@ -82,7 +82,7 @@ def over_input(cycle: Cycle, mechanism: Mechanism) -> dict[str, Any]:
     x = np.linspace(*ends, _SAMPLES)
     at = drawn(factor * x, 4)
     panels = [
-        {"name": name, "unit": unit_of, "at": at, "values": drawn(np.asarray(values), 9), "limits": [], "peaks": []}
+        {"name": name, "unit": unit_of, "series": [{"at": at, "values": drawn(np.asarray(values), 9)}]}
         for name, unit_of, values in (
             ("inertia J", inertia, mechanism.inertia(x)),
             ("load T", load, mechanism.load(x)),

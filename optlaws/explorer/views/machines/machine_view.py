@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from functools import lru_cache
 from math import isfinite
@@ -12,22 +12,22 @@ import msgspec
 import numpy as np
 
 from optlaws import Cycle, Drive, Mechanism, MotionLaw, Motor, Move, Status
+from optlaws.cycles.report import CycleReport, samples, samples_of_drive
 from optlaws.cycles.specification.process import is_process
 from optlaws.cycles.specification.programme import is_optimal
-from optlaws.cycles.summary import drive_rows, force_name, force_unit
+from optlaws.cycles.summary import drive_rows, force_unit
 from optlaws.entries.declared import entries_of
 from optlaws.errors import InputError, OptlawsError
 from optlaws.explorer.views import cycle_view
 from optlaws.explorer.views.cycle_view import CycleRequest
-from optlaws.explorer.views.law_view import digits, drawn, refusal
+from optlaws.explorer.views.law_view import digits, refusal
 from optlaws.explorer.views.machines.linkage_picture import over_input, picture
-from optlaws.explorer.views.picture_points import refined
+from optlaws.explorer.views.panel_data import drawn, panel_data
 from optlaws.explorer.views.requests import MOST_LAWS, Question
 from optlaws.jobs.cycle_entries import AxisEntries, CycleProblemFile, cycle_of
 from optlaws.mechanisms.linkages.mechanism_kinds import MechanismKind
 from optlaws.motion.display_units import MILLI, RPM, UNITS
-from optlaws.numbers import Array, bounded
-from optlaws.plots.cycle import samples, samples_of_drive
+from optlaws.numbers import bounded
 from optlaws.shown.summary import Row
 from optlaws.tolerances import CYCLE_ROUNDING
 
@@ -189,59 +189,15 @@ Coloured = Sequence[tuple[int, Cycle]]
 
 def _panels(shown: Cycle, cycles: Coloured) -> Iterator[dict[str, Any]]:
     """Torque and power over the time, the speed of the motor or of the input, and the position of the input."""
-    driven = isinstance(shown.drive, Drive)
-    peak = shown.effort.peak_force_at
-    torques = [_of_drive(each, each[1].force) for each in cycles]
-    value = float(shown.force(peak))
-    mark = {"at": round(MILLI * peak, 4), "value": value}
-    yield _panel(force_name(shown), force_unit(shown), torques, [mark])
-    efforts = [cycle.effort for _, cycle in cycles]
-    powers = max(effort.braking_power for effort in efforts), max(effort.motoring_power for effort in efforts)
-    yield _panel("power", "W", [_of_drive(each, each[1].power) for each in cycles], ends=(-powers[0], powers[1]))
-    name, unit, factor = (
-        ("speed of the motor", "rpm", _speed_of_drive(shown))
-        if driven
-        else ("velocity of the input", *UNITS[shown.axis][1])
-    )
-    yield _panel(name, unit, [_of_motion(each, 1, factor) for each in cycles], ends=_ends(cycles, 1, factor))
-    unit, factor = UNITS[shown.axis][0]
-    positions = [_of_motion(each, 0, factor) for each in cycles]
-    yield _panel("position of the input", unit, positions, ends=_ends(cycles, 0, factor))
-
-
-def _ends(cycles: Coloured, nu: int, factor: float) -> tuple[float, float]:
-    """The least and the greatest value of a derivative in several cycles."""
-    values = [factor * value for _, cycle in cycles for peak in cycle.peaks for value, _ in peak.extremes[nu]]
-    return min(values), max(values)
-
-
-def _panel(
-    name: str,
-    unit: str,
-    series: list[dict[str, Any]],
-    peaks: Sequence[Any] = (),
-    ends: tuple[float, float] | None = None,
-) -> dict[str, Any]:
-    shown = {"name": name, "unit": unit, "series": series, "limits": [], "peaks": list(peaks)}
-    return shown if ends is None else shown | {"ends": list(ends)}
-
-
-def _of_motion(coloured: tuple[int, Cycle], nu: int, factor: float) -> dict[str, Any]:
-    """A derivative of the input over the time, through its extremes."""
-    law, cycle = coloured
-    times, values = samples(cycle, nu, _EACH)
-    places = np.array([time for peak in cycle.peaks for _, time in peak.extremes[nu]])
-    times, (values,) = refined(times, [values], [lambda inside: np.asarray(cycle(inside, nu))], places)
-    return {"law": law, "at": drawn(MILLI * times, 4), "values": drawn(factor * values)}
-
-
-def _of_drive(coloured: tuple[int, Cycle], function: Callable[[Array], Array]) -> dict[str, Any]:
-    """Torque or power over the time, through its peak and its kinks."""
-    law, cycle = coloured
-    times, values = samples_of_drive(cycle, function, _EACH)
-    places = np.array([cycle.effort.peak_force_at])
-    times, (values,) = refined(times, [values], [lambda inside: np.asarray(function(inside))], places)
-    return {"law": law, "at": drawn(MILLI * times, 4), "values": drawn(values)}
+    name, unit = "velocity of the input", UNITS[shown.axis][1]
+    if isinstance(shown.drive, Drive):
+        name, unit = "speed of the motor", ("rpm", _speed_of_drive(shown))
+    reports = [(law, CycleReport(cycle)) for law, cycle in cycles]
+    for i, panel in enumerate(CycleReport(shown).driven):
+        yield panel_data(panel.with_curves([(law, report.driven[i]) for law, report in reports]))
+    for named, nu, size in ((name, 1, unit), ("position of the input", 0, UNITS[shown.axis][0])):
+        curves = [(law, report.panel(nu, size)) for law, report in reports]
+        yield panel_data(replace(curves[0][1].with_curves(curves), name=named, limits=(), peaks=()))
 
 
 def _rows(laws: Sequence[Cycle | OptlawsError]) -> list[dict[str, Any]]:

@@ -1,0 +1,203 @@
+"""The report of a cycle: its facts, the table of its segments, its motion, and its curves in units for display."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from optlaws.cycles.kinematics import Place
+from optlaws.cycles.specification.process import is_process
+from optlaws.cycles.summary import force_name, force_unit, summary
+from optlaws.kept import kept_property
+from optlaws.mechanisms.drives.drive_train import Drive
+from optlaws.motion.display_units import MILLI, RPM, TURN_DEG, UNITS
+from optlaws.motion.piece import Piece, unit_of
+from optlaws.motion.quantities import QUANTITIES
+from optlaws.numbers import Array, chop
+from optlaws.shown.curve_points import refined
+from optlaws.shown.report import Panel, PanelLimit, ReportSegment, ReportTable, Series
+from optlaws.shown.summary import Summary
+from optlaws.tolerances import CYCLE_ROUNDING, INSIDE_PIECE
+
+if TYPE_CHECKING:
+    from optlaws.cycles.cycle import Cycle
+
+_EACH = 60  # samples of a piece, to which those are added that its curve needs
+
+
+class CycleReport:
+    """The report of a cycle, whose parts are computed when they are needed."""
+
+    def __init__(self, cycle: Cycle) -> None:
+        self.cycle = cycle
+        self.units = UNITS[cycle.axis]
+
+    @kept_property
+    def facts(self) -> Summary:
+        """The summary of the cycle."""
+        return summary(self.cycle)
+
+    @kept_property
+    def tables(self) -> tuple[ReportTable, ...]:
+        """The segments with their ends and their peaks, and the whole cycle."""
+        units = self.units
+        sized = [f"peak {name}, {unit}" for name, (unit, _) in zip(QUANTITIES, units, strict=True)]
+        headings = ["segment", "from, ms", "takes, ms", "takes, deg", f"ends at, {units[0][0]}", *sized[1:]]
+        whole = [self.cycle.peak(nu) * units[nu][1] for nu in (1, 2, 3)]
+        last = ["whole cycle", 0.0, MILLI * self.cycle.duration, TURN_DEG, None, *whole]
+        return (ReportTable(headings, [*self._segment_rows(), last]),)
+
+    def _segment_rows(self) -> list[list[Any]]:
+        cycle, factor = self.cycle, self.units[0][1]
+        position, rows = cycle.programme.start, []
+        for stretch, peaks in zip(cycle.programme.stretches, cycle.peaks, strict=True):
+            position += stretch.displacement
+            size = factor * max(abs(position), abs(cycle.peak(0)))
+            times = [MILLI * peaks.start, MILLI * peaks.duration, TURN_DEG * peaks.duration / cycle.duration]
+            sizes = [peaks.peak(nu) * self.units[nu][1] for nu in (1, 2, 3)]
+            rows.append([peaks.name, *times, chop(factor * position, size, CYCLE_ROUNDING), *sizes])
+        return rows
+
+    def motion(self, count: int) -> ReportTable:
+        """Angle, time, position, velocity, acceleration and jerk at equal steps over the cycle.
+
+        With a drive force (or torque) and power, with a motor its speed too.
+        """
+        cycle = self.cycle
+        degrees = np.linspace(0.0, TURN_DEG, count)
+        times = degrees * (cycle.duration / TURN_DEG)
+        columns = {"master, deg": degrees.tolist(), "time, s": times.tolist()}
+        for nu, (name, (unit, factor)) in enumerate(zip(QUANTITIES, self.units, strict=True)):
+            values, size = np.asarray(cycle(times, nu)).tolist(), cycle.peak(nu) * factor
+            columns[f"{name}, {unit}"] = [chop(value * factor, size, CYCLE_ROUNDING) for value in values]
+        for name, values in self._of_drive(times).items():
+            columns[name] = [chop(value, float(np.abs(values).max()), CYCLE_ROUNDING) for value in values.tolist()]
+        return ReportTable(list(columns), [list(row) for row in zip(*columns.values(), strict=True)])
+
+    def _of_drive(self, times: Array) -> dict[str, Array]:
+        cycle = self.cycle
+        if cycle.drive is None:
+            return {}
+        known = {
+            f"{force_name(cycle)}, {force_unit(cycle)}": np.asarray(cycle.force(times)),
+            "power, W": np.asarray(cycle.power(times)),
+        }
+        if isinstance(cycle.drive, Drive):
+            known["motor speed, rpm"] = RPM * cycle.drive.ratio * np.asarray(cycle(times, 1))
+        return known
+
+    @kept_property
+    def segments(self) -> tuple[ReportSegment, ...]:
+        """The segments with their times."""
+        return tuple(ReportSegment(each.name, each.start, each.start + each.duration) for each in self.cycle.peaks)
+
+    @property
+    def panels(self) -> tuple[Panel, ...]:
+        """Position, velocity, acceleration and jerk; with a drive its force (or torque) and its power."""
+        return (*(self.panel(nu) for nu in range(len(QUANTITIES))), *self.driven)
+
+    @kept_property
+    def driven(self) -> tuple[Panel, ...]:
+        """The force (or torque) and the power of the drive; none without a drive."""
+        cycle = self.cycle
+        if cycle.drive is None:
+            return ()
+        at = cycle.effort.peak_force_at
+        peak = float(cycle.force(at))
+        force = Panel(force_name(cycle), force_unit(cycle), (self._driven(cycle.force),), peaks=((at, peak),))
+        ends = -cycle.effort.braking_power, cycle.effort.motoring_power
+        return force, Panel("power", "W", (self._driven(cycle.power),), ends=ends)
+
+    @property
+    def orders(self) -> range:
+        """The orders of the derivatives that are shown: up to the jerk, or to the one of highest order with a limit."""
+        limited = (nu + 1 for limits in self.cycle.limits_of_segments for nu in limits)
+        return range(max(len(QUANTITIES), *limited, 0))
+
+    def unit(self, nu: int) -> tuple[str, float]:
+        """The unit of a derivative, and how many of it are one of SI."""
+        return self.units[nu] if nu < len(QUANTITIES) else (unit_of(self.cycle.axis, nu), 1.0)
+
+    def extremes(self, nu: int) -> list[tuple[Place, Place]]:
+        """The least and the greatest value of a derivative in each segment, with their times."""
+        if nu < len(QUANTITIES):
+            return [peaks.extremes[nu] for peaks in self.cycle.peaks]
+        pieces = self.cycle.pieces
+        inside = (next(piece for piece in reversed(pieces) if piece.start <= start) for _, start, _ in self.segments)
+        return [piece.extremes(nu, *times) for piece, (_, *times) in zip(inside, self.segments, strict=True)]
+
+    def panel(self, nu: int, unit: tuple[str, float] | None = None) -> Panel:
+        """A derivative of the motion, through its extremes, with the limits of the segments."""
+        cycle, (name, factor) = self.cycle, unit or self.unit(nu)
+        times, values = samples(cycle, nu, _EACH)
+        extremes = [place for ends in self.extremes(nu) for place in ends]
+        marks = np.array([time for _, time in extremes])
+        times, (values,) = refined(times, [values], [lambda inside: np.asarray(cycle(inside, nu))], marks)
+        limits = tuple(
+            PanelLimit(segment.start, segment.stop, *(factor * limit for limit in limited[nu]))
+            for segment, limited in zip(self.segments, cycle.limits_of_segments, strict=True)
+            if nu in limited
+        )
+        least, most = (end(extremes, key=lambda place: place[0]) for end in (min, max))
+        size = max(-least[0], most[0])
+        peaks = tuple((time, value * factor) for value, time in (least, most) if chop(value, size, CYCLE_ROUNDING))
+        ends = factor * least[0], factor * most[0]
+        return Panel((*QUANTITIES, "snap")[nu], name, (Series(times, factor * values),), limits, peaks, ends)
+
+    def _driven(self, function: Callable[[Array], Array]) -> Series:
+        """Force or power through the peak of the force, and its kinks."""
+        cycle = self.cycle
+        times, values = samples_of_drive(cycle, function, _EACH)
+        marks = np.array([cycle.effort.peak_force_at])
+        times, (values,) = refined(times, [values], [lambda inside: np.asarray(function(inside))], marks)
+        return Series(times, values)
+
+    @kept_property
+    def data(self) -> dict[str, Any]:
+        """The cycle for programs, in SI units."""
+        cycle = self.cycle
+        drive: dict[str, Any] = {} if cycle.drive is None else {"effort": cycle.effort.to_dict()}
+        if isinstance(cycle.drive, Drive):
+            drive["motor"] = cycle.sheet.to_dict()
+        if cycle.load is not None and not is_process(cycle.load):
+            drive["load"] = {name: cycle.load_motion.peak(name).value for name in cycle.load_motion.machine.outputs}
+        return {
+            "period": cycle.duration,
+            "status": cycle.status.value,
+            "minimise": cycle.minimise,
+            "objective": cycle.objective if cycle.solutions else None,
+            "lower_bound": cycle.lower_bound if cycle.solutions else None,
+            "search_space": cycle.search_space,
+            "remarks": list(cycle.remarks),
+            "modified_sine_jerk": cycle.modified_sine_jerk,
+            "segments": [
+                {"name": peak.name, "start": peak.start, "duration": peak.duration}
+                | {name: peak.peak(nu) for nu, name in enumerate(QUANTITIES) if nu}
+                for peak in cycle.peaks
+            ],
+            "joints": list(cycle.joints),
+            **drive,
+        }
+
+
+def samples(cycle: Cycle, nu: int, count: int) -> tuple[Array, Array]:
+    """Times and values of a derivative, at points in each piece and at its breaks; jumps are vertical lines."""
+    times = [_times(piece, count) for piece in cycle.pieces]
+    values = [piece.values(inside, nu) for piece, inside in zip(cycle.pieces, times, strict=True)]
+    return np.concatenate(times), np.concatenate(values)
+
+
+def samples_of_drive(cycle: Cycle, function: Callable[[Array], Array], count: int) -> tuple[Array, Array]:
+    """Times and values of the drive's force or power, in the same form as for a derivative."""
+    times = [_times(piece, count) for piece in cycle.pieces]
+    # the end of a piece has its values, not those of the next
+    ends = [piece.stop - INSIDE_PIECE * cycle.duration for piece in cycle.pieces]
+    values = [function(np.minimum(inside, end)) for inside, end in zip(times, ends, strict=True)]
+    return np.concatenate(times), np.concatenate(values)
+
+
+def _times(piece: Piece, count: int) -> Array:
+    breaks = piece.start + piece.duration * np.array(piece.law.breaks)
+    return np.unique(np.concatenate([np.linspace(piece.start, piece.stop, count), breaks]))

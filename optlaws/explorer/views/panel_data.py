@@ -1,0 +1,49 @@
+"""Panels of reports as the page draws them."""
+
+from __future__ import annotations
+
+from math import isfinite
+from typing import Any
+
+import numpy as np
+
+from optlaws.motion.display_units import MILLI
+from optlaws.numbers import Array, bounded
+from optlaws.shown.report import Panel
+
+_DRAWN = 6  # decimals of what is drawn; what is read is a text of its own
+_PLACES = 4  # decimals of where
+
+
+def drawn(values: Array, decimals: int = _DRAWN) -> list[float | None]:
+    """Values to draw: rounded, None where they are missing.
+
+    Examples
+    --------
+    >>> drawn(np.array([1.23456789, np.inf]))
+    [1.234568, None]
+    """
+    return [value if isfinite(value) else None for value in np.round(values, decimals).tolist()]
+
+
+def panel_data(panel: Panel, per: float = MILLI) -> dict[str, Any]:
+    """A panel as JSON, over so many units of time a second: its peaks or, where none are marked, its ends in words."""
+    shown: dict[str, Any] = {
+        "name": panel.name,
+        "unit": panel.unit,
+        "series": [
+            {"law": law, "at": drawn(per * at, _PLACES), "values": drawn(values)} | ({"name": name} if name else {})
+            for at, values, law, name in panel.series
+        ],
+        "limits": [
+            {
+                "from": round(per * start, _PLACES),
+                "to": round(per * stop, _PLACES),
+                "value": bounded(high),
+                "least": bounded(low),
+            }
+            for start, stop, low, high in panel.limits
+        ],
+        "peaks": [{"at": round(per * at, _PLACES), "value": value} for at, value in panel.peaks],
+    }
+    return shown if panel.peaks or not any(panel.ends) else shown | {"ends": list(panel.ends)}

@@ -1,0 +1,74 @@
+"""Pictures of reports: each panel's curves with its limits over time, in one pair of axes or one below the other."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import pairwise
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from optlaws.motion.display_units import MILLI
+from optlaws.plots.style import BLUES, GREY, WARM
+
+if TYPE_CHECKING:
+    from matplotlib.artist import Artist
+    from matplotlib.axes import Axes
+
+    from optlaws.shown.report import Panel, ReportSegment
+
+#: a limit is drawn up to so many times what is used of it
+_NEAR = 4.0
+
+
+def draw_panels(
+    panels: Sequence[Panel], segments: Sequence[ReportSegment], axes: Sequence[Axes], **style: Any
+) -> list[Artist]:
+    """Draw panels into as many axes, one below the other, under the names of the segments; return the artists."""
+    artists: list[Artist] = []
+    for panel, each in zip(panels, axes, strict=True):
+        artists += draw_panel(panel, each, **style)
+        mark_segments(segments, each)
+    name_segments(segments, axes[0])
+    set_time(axes[-1], panels)
+    return artists
+
+
+def draw_panel(panel: Panel, axes: Axes, *, share: float = 1.0, **style: Any) -> list[Artist]:
+    """Draw the curves of a panel, multiplied by a share, and its limits where these are within sight."""
+    artists: list[Artist] = []
+    for curve in panel.series:
+        artists += axes.plot(MILLI * curve.at, share * curve.values, **{"color": BLUES[3]} | style)
+    for start, stop, *ends in panel.limits:
+        for limit in ends:
+            if abs(limit) < _NEAR * max(panel.peak, np.finfo(float).tiny):
+                look: dict[str, Any] = {"color": WARM, "linewidth": 1.1, "linestyle": "--"}
+                artists += axes.plot([MILLI * start, MILLI * stop], [share * limit] * 2, **look)
+    axes.set_ylabel(panel.title)
+    return artists
+
+
+def draw_share(panel: Panel, axes: Axes, name: str, **style: Any) -> list[Artist]:
+    """Draw a panel divided by its peak, which the legend states."""
+    size = panel.peak or 1.0
+    label = f"{name} / {size:.6g} {panel.unit}"
+    return draw_panel(panel, axes, share=1.0 / size, **{"label": label} | style)
+
+
+def name_segments(segments: Sequence[ReportSegment], axes: Axes) -> None:
+    """Write each segment's name above the axes."""
+    above: Any = {"xycoords": ("data", "axes fraction"), "ha": "center", "va": "bottom", "fontsize": 8.0}
+    for name, start, stop in segments:
+        axes.annotate(name, (MILLI * 0.5 * (start + stop), 1.02), color=GREY, **above)
+
+
+def mark_segments(segments: Sequence[ReportSegment], axes: Axes) -> None:
+    """A line at every joint."""
+    for _, after in pairwise(segments):
+        axes.axvline(MILLI * after.start, color=GREY, linewidth=0.7, linestyle=":")
+
+
+def set_time(axes: Axes, panels: Sequence[Panel]) -> None:
+    """Time over the whole of the longest curve."""
+    longest = max(float(curve.at[-1]) for panel in panels for curve in panel.series)
+    axes.set(xlabel="time, ms", xlim=(0.0, MILLI * longest))

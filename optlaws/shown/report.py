@@ -1,0 +1,116 @@
+"""What a result reports: facts, tables, and curves with their limits and peaks, as values that each output renders."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Any, NamedTuple, Protocol
+
+from optlaws.numbers import Array
+from optlaws.shown.showing import drawing, page, table
+from optlaws.shown.summary import Summary
+
+
+class ReportTable(NamedTuple):
+    """A table: headings with the units of their columns, and rows."""
+
+    headings: Sequence[str]
+    rows: Sequence[Sequence[Any]]
+
+
+class ReportSegment(NamedTuple):
+    """A segment of what is drawn, with the times at which it begins and ends."""
+
+    name: str
+    start: float
+    stop: float
+
+
+class PanelLimit(NamedTuple):
+    """The least and the greatest value that a quantity may have from one time to another; infinite where none."""
+
+    start: float
+    stop: float
+    low: float
+    high: float
+
+
+class Series(NamedTuple):
+    """A curve of a panel: times and values, the number of its colour, its name."""
+
+    at: Array
+    values: Array
+    law: int | str = 0
+    name: str = ""
+
+
+@dataclass(frozen=True)
+class Panel:
+    """A quantity over time in a unit for display: its curves, its limits and its peaks.
+
+    Attributes
+    ----------
+    name, unit
+        The quantity, and the unit of all values; times are in seconds.
+    series
+        The curves.
+    limits
+        Limits of the quantity.
+    peaks
+        Times and values that are marked, from the law and not from the curve.
+    ends
+        The least and the greatest value, from the law as well.
+    """
+
+    name: str
+    unit: str
+    series: tuple[Series, ...]
+    limits: tuple[PanelLimit, ...] = ()
+    peaks: tuple[tuple[float, float], ...] = ()
+    ends: tuple[float, float] = (0.0, 0.0)
+
+    @property
+    def title(self) -> str:
+        """The name with its unit."""
+        return f"{self.name}, {self.unit}"
+
+    @property
+    def peak(self) -> float:
+        """The greatest magnitude of the curve."""
+        return max(map(abs, self.ends))
+
+    def with_curves(self, curves: Sequence[tuple[int, Panel]]) -> Panel:
+        """The panel with the curves of several instead of its own, each in a colour of its own."""
+        series = tuple(curve._replace(law=law) for law, panel in curves for curve in panel.series)
+        lows, highs = zip(*(panel.ends for _, panel in curves), strict=True)
+        return replace(self, series=series, ends=(min(lows), max(highs)))
+
+
+class Report(Protocol):
+    """What every report has; its parts are computed when they are needed."""
+
+    @property
+    def facts(self) -> Summary:
+        """Rows of facts with their units, places and notes."""
+
+    @property
+    def tables(self) -> Sequence[ReportTable]:
+        """Tables of the details."""
+
+    @property
+    def panels(self) -> Sequence[Panel]:
+        """Curves over the time."""
+
+    @property
+    def segments(self) -> Sequence[ReportSegment]:
+        """Segments of the time."""
+
+    @property
+    def data(self) -> dict[str, Any]:
+        """The result for programs, in SI units."""
+
+
+def report_page(title: object, report: Report) -> str:
+    """A report as HTML: its facts, its tables, and a small drawing of every panel."""
+    drawings = (drawing(panel.title, *(part.tolist() for part in panel.series[0][:2])) for panel in report.panels)
+    return page(title, report.facts._repr_html_(), *(table(*each) for each in report.tables), *drawings)
