@@ -23,6 +23,7 @@ from optlaws.numbers import Array, Quantity, derivative, number_or_array, real_t
 from optlaws.numerics.interval import Interval
 from optlaws.numerics.taylor import Pair, turned, variable
 from optlaws.sentences import sentence
+from optlaws.shown.report import Report
 from optlaws.shown.summary import Summary
 from optlaws.suggest import keywords_of, unknown_key
 
@@ -209,6 +210,20 @@ class DiscCam:
         from optlaws.cams.summary import summary
 
         return summary(self)
+
+    def report(self) -> Report:
+        """The facts of the cam, its enclosed extremes, and its motion, pressure angle and curvature as curves.
+
+        Examples
+        --------
+        >>> from optlaws import Cycle, DiscCam, Return, Rise, TranslatingRoller
+        >>> lift = Cycle([Rise("25 mm", "150 deg", law="3-4-5"), Return(law="3-4-5")], speed="300 rpm")
+        >>> [panel.title for panel in DiscCam(lift, "50 mm", TranslatingRoller("10 mm")).report().panels][:2]
+        ['displacement, mm', 'pressure angle, deg']
+        """
+        from optlaws.cams.report import CamReport
+
+        return CamReport(self)
 
     def _repr_html_(self) -> str:
         return self.summary()._repr_html_()

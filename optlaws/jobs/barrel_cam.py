@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optlaws.cams.barrel import SIDES, BarrelCam, SpaceCurve
+from optlaws.cams.report import EXTREMES, enclosure, extreme_row, plain
 from optlaws.errors import located
 from optlaws.files import tables
 from optlaws.jobs.cam_entries import BarrelProblemFile
-from optlaws.jobs.cam_findings import EXTREMES, enclosure, extreme_row, plain
 from optlaws.motion.display_units import MILLI, TURN_DEG
 from optlaws.numbers import Array
 from optlaws.plots.style import BLUES, GREY, WARM, new_figure, plot_style, titled

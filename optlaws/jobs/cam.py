@@ -16,16 +16,17 @@ from optlaws.cams.best_offset import BestOffset
 from optlaws.cams.curves.extremes import UNDERCUT
 from optlaws.cams.curves.plane_curve import PlaneCurve
 from optlaws.cams.disc import DiscCam
-from optlaws.cams.followers.follower import positive
 from optlaws.cams.forces import CamForces
 from optlaws.cams.least_sizes import LeastPrimeCircle
+from optlaws.cams.report import CamReport, plain
 from optlaws.cams.sizing.springs import CONTACT, GREATEST
 from optlaws.cams.summary import named_forces
 from optlaws.cycles.summary import objective_unit
 from optlaws.files import tables
 from optlaws.jobs.cam_entries import CamProblemFile
-from optlaws.jobs.cam_findings import EXTREMES, FORCE, STIFFNESS, Findings, Limits, enclosure, extreme_rows, plain
+from optlaws.jobs.cam_findings import FORCE, STIFFNESS, Findings
 from optlaws.motion.display_units import MICRO, MILLI, TURN_DEG, UNITS
+from optlaws.numbers import chop
 from optlaws.plots.cam import animated, cam_figure, forces_figure, pair_figure
 from optlaws.results import Page, Results
 from optlaws.tolerances import FORCE_ROUNDING
@@ -75,22 +76,9 @@ def answer(data: Mapping[str, Any], file: Path) -> dict[str, Any]:
 
 
 def _to_data(findings: Findings) -> dict[str, Any]:
-    extremes, limits = findings.cam.extremes, findings.limits
-    data: dict[str, Any] = {
-        "unit": "SI",
-        "prime_radius": positive(findings.cam.prime_radius, "prime_radius"),
-        "base_radius": findings.cam.base_radius,
-        **_best_data(findings),
-        "greatest_pressure_angle": enclosure(extremes.greatest_pressure_angle, limits.pressure),
-        "least_pressure_angle": enclosure(extremes.pressure_angles[0], limits.pressure),
-        "largest_pressure_angle": enclosure(extremes.pressure_angles[1], limits.pressure),
-        "bulging_radius": enclosure(extremes.least_convex_radius, limits.radius),
-        "hollow_radius": None if extremes.least_concave_radius is None else enclosure(extremes.least_concave_radius),
-        "undercut": {"status": extremes.undercut.status, "simple": extremes.undercut.simple},
-    }
-    for size in extremes.sizes:
-        limit = {} if size.limit is None else {"limit": size.limit, "kept": size.within}
-        data[size.name.replace(" ", "_")] = enclosure(size.extreme) | limit
+    known = CamReport(findings.cam, reached=findings.limits).data
+    first = {name: known[name] for name in ("prime_radius", "base_radius")}
+    data: dict[str, Any] = {"unit": "SI", **first, **_best_data(findings), **known}
     least, roller = findings.least, findings.roller
     if isinstance(least, LeastPrimeCircle):
         data["least_prime_circle"] = {
@@ -132,15 +120,9 @@ def _pair_data(cam: DiscCam | None) -> dict[str, Any]:
     """The data of the return cam; nothing without a return cam."""
     if cam is None:
         return {}
-    return {
-        "return_cam": {
-            "prime_radius": positive(cam.prime_radius, "prime_radius"),
-            "base_radius": cam.base_radius,
-            "greatest_pressure_angle": enclosure(cam.extremes.greatest_pressure_angle),
-            "bulging_radius": enclosure(cam.extremes.least_convex_radius),
-            "undercut": {"status": cam.extremes.undercut.status, "simple": cam.extremes.undercut.simple},
-        }
-    }
+    data = CamReport(cam).data
+    names = ("prime_radius", "base_radius", "greatest_pressure_angle", "bulging_radius", "undercut")
+    return {"return_cam": {name: data[name] for name in names}}
 
 
 def page(findings: Findings) -> Page:
@@ -150,7 +132,7 @@ def page(findings: Findings) -> Page:
     if findings.best is not None:
         result.heading("Laws for the cam").table(_HEADINGS, _best_rows(findings), digits=6)
     result.text(f"{_circles(findings.cam)}\n\nUndercut: {findings.cam.extremes.undercut}.")
-    result.table(EXTREMES, extreme_rows(findings.cam, findings.limits), digits=7)
+    result.table(*CamReport(findings.cam, reached=findings.limits).tables[0])
     result.text("\n".join(f"Beyond what is allowed: {size}." for size in findings.cam.extremes.beyond))
     if findings.offset is not None:
         result.heading("Offset").table(_OF_OFFSET, _offset_rows(findings.offset), digits=6)
@@ -161,7 +143,7 @@ def page(findings: Findings) -> Page:
     if findings.second is not None:
         result.heading("Return cam").figure("pair", "Both cams on one shaft, with their followers at the start")
         result.text(f"{_circles(findings.second)}\n\nUndercut: {findings.second.extremes.undercut}.")
-        result.table(EXTREMES, extreme_rows(findings.second, Limits()), digits=7)
+        result.table(*CamReport(findings.second).tables[0])
         result.text(_links(spec, _RETURN))
     _add_forces(result, findings)
     if findings.spring is not None:
@@ -228,7 +210,7 @@ def _add_forces(result: Page, findings: Findings) -> None:
     result.table(("what", "least", "at, deg", "greatest", "at, deg", "unit"), _force_rows(forces), digits=6)
     result.text(
         f"Torque at the shaft: root mean square {forces.rms_torque[1]:.6g} N m, mean "
-        f"{_rounded(0.5 * sum(forces.mean_torque), forces.torque.peak):.6g} N m. "
+        f"{chop(0.5 * sum(forces.mean_torque), forces.torque.peak, FORCE_ROUNDING):.6g} N m. "
         + ("The follower lifts off." if forces.lifts_off else "The follower stays on the cam.")
     )
     if rows := _energy_rows(findings):
@@ -264,8 +246,8 @@ def _offset_rows(best: BestOffset) -> list[list[tables.Cell]]:
 def _force_rows(forces: CamForces) -> list[list[tables.Cell]]:
     rows: list[list[tables.Cell]] = []
     for name, curve, unit, factor in named_forces(forces):
-        low, high = (_rounded(value * factor, curve.peak * factor) for value in (curve.least, curve.most))
-        first, last = (_rounded(degrees(at), TURN_DEG) for at in (curve.least_at, curve.most_at))
+        low, high = (chop(value * factor, curve.peak * factor, FORCE_ROUNDING) for value in (curve.least, curve.most))
+        first, last = (chop(degrees(at), TURN_DEG, FORCE_ROUNDING) for at in (curve.least_at, curve.most_at))
         rows.append([name, low, first, high, last, unit])
     return rows
 
@@ -284,11 +266,11 @@ def _spring_rows(findings: Findings) -> list[list[tables.Cell]]:
     sought = greatest if spring.objective in GREATEST.values() else spring.objective
     return [
         ["stiffness", spring.stiffness, stiffness],
-        ["preload", _rounded(spring.preload, spring.greatest), force],
+        ["preload", chop(spring.preload, spring.greatest, FORCE_ROUNDING), force],
         [f"{greatest}, any speed", spring.greatest, FORCE["length"] if contact else force],
-        [f"lower bound of the {sought}", _rounded(spring.lower_bound, spring.greatest), bound],
-        ["least force left along the follower's way", _rounded(spring.margin, spring.greatest), force],
-        ["it is left at", _rounded(spring.critical[0], TURN_DEG), "deg"],
+        [f"lower bound of the {sought}", chop(spring.lower_bound, spring.greatest, FORCE_ROUNDING), bound],
+        ["least force left along the follower's way", chop(spring.margin, spring.greatest, FORCE_ROUNDING), force],
+        ["it is left at", chop(spring.critical[0], TURN_DEG, FORCE_ROUNDING), "deg"],
     ]
 
 
@@ -296,11 +278,6 @@ def _manufactured_row(name: str, peaks: AsMade | None) -> list[tables.Cell]:
     if peaks is None:
         return [name, None, None, None]
     return [name, MICRO * peaks.deviation, peaks.acceleration_ratio, peaks.jerk_ratio]
-
-
-def _rounded(value: float, size: float) -> float:
-    """The value, or 0 where it is next to nothing beside a size."""
-    return 0.0 if abs(value) <= FORCE_ROUNDING * abs(size) else value
 
 
 def _columns(findings: Findings) -> list[str]:

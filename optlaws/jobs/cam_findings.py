@@ -4,46 +4,31 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from math import degrees
 from pathlib import Path
 from typing import Any, Self
-
-import numpy as np
 
 from optlaws.cams.as_manufactured import AsMade
 from optlaws.cams.best_laws import BestCam, BestPrimeCircle, best_cam, best_prime_circle
 from optlaws.cams.best_offset import BestOffset, best_offset
 from optlaws.cams.conjugate import conjugate_cam
-from optlaws.cams.curves.extremes import EnclosedExtreme
 from optlaws.cams.disc import DiscCam
 from optlaws.cams.followers.follower import stated_prime_radius
 from optlaws.cams.followers.translating_roller import TranslatingRoller
 from optlaws.cams.forces import CamForces, Surfaces
 from optlaws.cams.least_sizes import GreatestRoller, LeastPrimeCircle, greatest_roller, least_prime_circle
+from optlaws.cams.report import Limits
 from optlaws.cams.sizing.energy_fluctuation import EnergyFluctuation, energy_fluctuation
 from optlaws.cams.sizing.springs import Spring, least_spring
-from optlaws.cams.summary import geometry
 from optlaws.cycles.cycle import Cycle
 from optlaws.entries.declared import entries_of
 from optlaws.errors import InfeasibleProblem, InputError, located
-from optlaws.files import tables
 from optlaws.jobs.cam_entries import CamProblemFile
 from optlaws.kept import kept_property
 from optlaws.motion.quantities import TURN
-from optlaws.tolerances import CAM_FEASIBILITY, RADIUS_ROUNDING
 
-EXTREMES = ("what", "at least", "at most", "unit", "at, deg")
 #: units of forces and of stiffness by what the follower's way is
 FORCE = {"length": "N", "angle": "N m"}
 STIFFNESS = {"length": "N/m", "angle": "N m/rad"}
-
-
-@dataclass(frozen=True)
-class Limits:
-    """Limits that the laws were optimised for, in SI units: the laws reach them at several angles."""
-
-    pressure: float | None = None
-    radius: float | None = None
 
 
 @dataclass(frozen=True)
@@ -216,45 +201,3 @@ class Findings:
         if self.as_made:
             data["as_made"] = {name: None if peaks is None else peaks.to_dict() for name, peaks in self.as_made.items()}
         return data
-
-
-def extreme_rows(cam: DiscCam, limits: Limits) -> list[list[tables.Cell]]:
-    """Rows of a table of extreme pressure angles and radii of curvature."""
-    reached = {"deg": limits.pressure, "mm": limits.radius}
-    others = [cam.extremes.least_concave_radius, *(size.extreme for size in cam.extremes.sizes)]
-    return [
-        extreme_row(name, extreme, factor, unit, None if any(extreme is other for other in others) else reached[unit])
-        for name, extreme, unit, factor in geometry(cam)
-    ]
-
-
-def extreme_row(
-    name: str, extreme: EnclosedExtreme, factor: float, unit: str, limit: float | None = None
-) -> list[tables.Cell]:
-    """The row of an extreme, with a factor from the SI unit; without its angle where laws reach it as a limit.
-
-    Examples
-    --------
-    >>> extreme_row("radius", EnclosedExtreme(0.01, 0.01, 0.0), 1e3, "mm")
-    ['radius', 10.0, 10.0, 'mm', 0.0]
-    """
-    low, high = (plain(factor * value) for value in (extreme.low, extreme.high))
-    angle = _angle(extreme, limit)
-    return [name, low, high if np.isfinite(high) else None, unit, None if angle is None else degrees(angle)]
-
-
-def enclosure(extreme: EnclosedExtreme, limit: float | None = None) -> dict[str, float | None]:
-    """The enclosure of an extreme for programs, in SI units."""
-    high = extreme.high if np.isfinite(extreme.high) else None
-    return {"low": extreme.low, "high": high, "angle": _angle(extreme, limit)}
-
-
-def _angle(extreme: EnclosedExtreme, limit: float | None) -> float | None:
-    """The angle of an extreme; None where its value is a limit that laws reach at several angles."""
-    reached = limit is not None and abs(abs(extreme.value) - limit) <= CAM_FEASIBILITY * limit
-    return None if reached else extreme.angle
-
-
-def plain(value: float) -> float:
-    """The value, or 0 where it is rounding."""
-    return 0.0 if abs(value) < RADIUS_ROUNDING else value

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from itertools import pairwise
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -11,10 +10,12 @@ import numpy as np
 from optlaws.cams.disc import DiscCam
 from optlaws.cams.followers.contact import FollowerContact
 from optlaws.cams.forces import CamForces
+from optlaws.cams.report import CamReport
 from optlaws.errors import InputError
 from optlaws.files.writing import MARK
-from optlaws.motion.display_units import MILLI, UNITS
+from optlaws.motion.display_units import DEGREES, MILLI
 from optlaws.numbers import Array
+from optlaws.plots.report import draw_panels
 from optlaws.plots.style import BLUES, GREEN, GREY, WARM, new_figure, plot_style, titled
 
 if TYPE_CHECKING:
@@ -22,9 +23,9 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-_OUTLINE_DRAWN = 1e-5  # m: by so much the outline of an animated cam may be off
+    from optlaws.shown.report import Panel
 
-Values = Callable[[Array], Array]
+_OUTLINE_DRAWN = 1e-5  # m: by so much the outline of an animated cam may be off
 
 PANELS = ("displacement", "pressure angle", "curvature")
 _SHOWN = 8  # followers around the cam
@@ -46,28 +47,28 @@ def forces_figure(forces: CamForces, title: str) -> Figure:
 
     Between the torque and its mean lies the work that a flywheel stores, where a process takes some.
     """
-    panels: list[tuple[str, Values, str]] = [
-        ("contact force, N", forces.contact_force, BLUES[3]),
-        ("torque at the shaft, N m", forces.shaft_torque, WARM),
-    ]
-    if forces.width is not None:
-        panels.append(("Hertz's pressure, MPa", lambda at: 1e-6 * np.asarray(forces.contact_pressure(at)), GREEN))
-    process = forces.process_force
-    if forces.process is not None:
-        unit = "N" if forces.cam.displacement.axis == "length" else "N m"
-        panels.insert(0, (f"process force, {unit}", lambda at: process.jet(at, 0).terms[0], GREEN))
-    edges = np.union1d(forces.cam.displacement.breaks, process.edges)
+    report = CamReport(forces.cam)
+    process, loads = report.process(forces), report.loads(forces)
+    panels = [*zip(process, [GREEN], strict=False), *zip(loads, (BLUES[3], WARM, GREEN), strict=False)]
     with plot_style():
         figure = new_figure(8.6, 2.2 * len(panels))
         column = np.ravel(figure.subplots(len(panels), 1, sharex=True))
-        for axes, (label, values, colour) in zip(column, panels, strict=True):
-            (curve,) = _curve(axes, edges, values, label, color=colour)
+        for axes, (panel, colour) in zip(column, panels, strict=True):
+            (curve,) = _draw(report, [panel], [axes], color=colour)
             axes.axhline(0.0, color=GREY, linewidth=0.8)
-            if forces.process is not None and colour == WARM:
+            if process and colour == WARM:
                 _work_above_mean(axes, curve, 0.5 * sum(forces.mean_torque))
+            axes.set(xlabel="")
         figure.axes[-1].set(xlabel="cam, deg")
         figure.align_ylabels()
         return titled(figure, title)
+
+
+def _draw(report: CamReport, panels: Sequence[Panel], axes: Sequence[Axes], **style: Any) -> list[Artist]:
+    """Panels over the angle of a cam."""
+    artists = draw_panels(panels, report.segments, axes, per=DEGREES, **style)
+    axes[-1].set_xticks(np.arange(0.0, DEGREES * report.cam.displacement.breaks[-1] + 1.0, 60.0))
+    return artists
 
 
 def _work_above_mean(axes: Axes, curve: Any, mean: float) -> None:
@@ -131,17 +132,9 @@ def draw_cam(cam: DiscCam, axes: Any = None, **style: Any) -> list[Artist]:
     if len(panels) not in {1, 1 + len(PANELS)}:
         raise InputError(f"a cam is drawn into one pair of axes or into four, got {len(panels)}")
     artists = _draw_mechanism(cam, panels[0], {"color": BLUES[3]} | style)
-    edges = np.array(cam.displacement.breaks)
-    unit, factor = UNITS[cam.displacement.axis][0]
-    curves: tuple[tuple[str, Values], ...] = (
-        (f"displacement, {unit}", lambda at: factor * np.asarray(cam.displacement(at))),
-        ("pressure angle, deg", lambda at: np.degrees(cam.pressure_angle(at))),
-        ("curvature, 1/mm", lambda at: np.asarray(cam.profile.curvature(at)) / MILLI),
-    )
-    for panel, (text, values) in zip(panels[1:], curves, strict=len(panels) > 1):
-        artists += _curve(panel, edges, values, text, **{"color": BLUES[3]} | style)
     if len(panels) > 1:
-        panels[-1].set(xlabel="cam, deg")
+        report = CamReport(cam)
+        artists += _draw(report, report.panels[: len(PANELS)], panels[1:], **style)
     return artists
 
 
@@ -154,18 +147,6 @@ def _figure() -> tuple[Figure, list[Axes]]:
     for edge in right[:-1]:
         edge.tick_params(labelbottom=False)
     return figure, [figure.add_subplot(grid[:, 0]), *right]
-
-
-def _curve(axes: Axes, edges: Array, values: Values, label: str, **style: Any) -> list[Artist]:
-    """A function that may jump at edges, where its line is drawn upright."""
-    inside = [np.linspace(low, high, 120) for low, high in pairwise(edges)]
-    near = [part[0] + (part - part[0]) * (1.0 - 2e-9) + 1e-9 * (part[-1] - part[0]) for part in inside]
-    at = np.concatenate(near)
-    for edge in edges[1:-1]:
-        axes.axvline(np.degrees(edge), color=GREY, linewidth=0.6, linestyle=":")
-    axes.set(ylabel=label, xlim=(np.degrees(edges[0]), np.degrees(edges[-1])))
-    axes.set_xticks(np.arange(np.degrees(edges[0]), np.degrees(edges[-1]) + 1.0, 60.0))
-    return list(axes.plot(np.degrees(at), values(at), **style))
 
 
 def _draw_mechanism(cam: DiscCam, axes: Axes, style: dict[str, Any]) -> list[Artist]:

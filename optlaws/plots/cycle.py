@@ -12,7 +12,7 @@ from optlaws.cycles.report import CycleReport
 from optlaws.errors import InputError
 from optlaws.motion.quantities import QUANTITIES
 from optlaws.numbers import derivative
-from optlaws.plots.report import draw_panels, draw_share, mark_segments, set_time
+from optlaws.plots.report import draw_panels, draw_share, mark_segments, set_range
 from optlaws.plots.style import BLUES, GREEN, GREY, WARM, new_figure, plot_style, titled
 
 if TYPE_CHECKING:
@@ -65,7 +65,7 @@ def _draw_together(cycle: Cycle, axes: Axes, style: dict[str, Any]) -> list[Arti
     for panel, colour in zip(motion, (GREY, GREEN, BLUES[3], WARM), strict=True):
         artists += draw_share(panel, axes, panel.name, **{"color": colour} | style)
     mark_segments(report.segments, axes)
-    set_time(axes, motion)
+    set_range(axes, motion)
     axes.set(ylabel="share of the peak")
     axes.legend(**_ABOVE)
     return artists
@@ -101,7 +101,7 @@ def draw_axes(
             artists += draw_share(panel, axes, name, **{"color": _COLOURS[i % len(_COLOURS)]} | style)
         axes.set_ylabel(f"{QUANTITIES[nu]}, share of the peak")
         axes.legend(**_ABOVE)
-        set_time(axes, panels)
+        set_range(axes, panels)
         return artists
     if axes is None:
         with plot_style():
@@ -112,6 +112,6 @@ def draw_axes(
     for each, panel, (name, report) in zip(axes, panels, shown.items(), strict=True):
         artists += draw_panels([panel], report.segments, [each], **style)
         each.set(xlabel="", ylabel=f"{name}\n{panel.title}")
-    set_time(axes[-1], panels)
+    set_range(axes[-1], panels)
     axes[0].figure.align_ylabels()
     return artists

@@ -22,28 +22,33 @@ _NEAR = 4.0
 
 
 def draw_panels(
-    panels: Sequence[Panel], segments: Sequence[ReportSegment], axes: Sequence[Axes], **style: Any
+    panels: Sequence[Panel],
+    segments: Sequence[ReportSegment],
+    axes: Sequence[Axes],
+    *,
+    per: float = MILLI,
+    **style: Any,
 ) -> list[Artist]:
     """Draw panels into as many axes, one below the other, under the names of the segments; return the artists."""
     artists: list[Artist] = []
     for panel, each in zip(panels, axes, strict=True):
-        artists += draw_panel(panel, each, **style)
-        mark_segments(segments, each)
-    name_segments(segments, axes[0])
-    set_time(axes[-1], panels)
+        artists += draw_panel(panel, each, per=per, **style)
+        mark_segments(segments, each, per)
+    name_segments(segments, axes[0], per)
+    set_range(axes[-1], panels, per)
     return artists
 
 
-def draw_panel(panel: Panel, axes: Axes, *, share: float = 1.0, **style: Any) -> list[Artist]:
+def draw_panel(panel: Panel, axes: Axes, *, per: float = MILLI, share: float = 1.0, **style: Any) -> list[Artist]:
     """Draw the curves of a panel, multiplied by a share, and its limits where these are within sight."""
     artists: list[Artist] = []
     for curve in panel.series:
-        artists += axes.plot(MILLI * curve.at, share * curve.values, **{"color": BLUES[3]} | style)
+        artists += axes.plot(per * curve.at, share * curve.values, **{"color": BLUES[3]} | style)
     for start, stop, *ends in panel.limits:
         for limit in ends:
             if abs(limit) < _NEAR * max(panel.peak, np.finfo(float).tiny):
                 look: dict[str, Any] = {"color": WARM, "linewidth": 1.1, "linestyle": "--"}
-                artists += axes.plot([MILLI * start, MILLI * stop], [share * limit] * 2, **look)
+                artists += axes.plot([per * start, per * stop], [share * limit] * 2, **look)
     axes.set_ylabel(panel.title)
     return artists
 
@@ -55,20 +60,20 @@ def draw_share(panel: Panel, axes: Axes, name: str, **style: Any) -> list[Artist
     return draw_panel(panel, axes, share=1.0 / size, **{"label": label} | style)
 
 
-def name_segments(segments: Sequence[ReportSegment], axes: Axes) -> None:
+def name_segments(segments: Sequence[ReportSegment], axes: Axes, per: float = MILLI) -> None:
     """Write each segment's name above the axes."""
     above: Any = {"xycoords": ("data", "axes fraction"), "ha": "center", "va": "bottom", "fontsize": 8.0}
     for name, start, stop in segments:
-        axes.annotate(name, (MILLI * 0.5 * (start + stop), 1.02), color=GREY, **above)
+        axes.annotate(name, (per * 0.5 * (start + stop), 1.02), color=GREY, **above)
 
 
-def mark_segments(segments: Sequence[ReportSegment], axes: Axes) -> None:
+def mark_segments(segments: Sequence[ReportSegment], axes: Axes, per: float = MILLI) -> None:
     """A line at every joint."""
     for _, after in pairwise(segments):
-        axes.axvline(MILLI * after.start, color=GREY, linewidth=0.7, linestyle=":")
+        axes.axvline(per * after.start, color=GREY, linewidth=0.7, linestyle=":")
 
 
-def set_time(axes: Axes, panels: Sequence[Panel]) -> None:
-    """Time over the whole of the longest curve."""
+def set_range(axes: Axes, panels: Sequence[Panel], per: float = MILLI) -> None:
+    """The whole of the longest curve, over time in milliseconds or over an angle in degrees."""
     longest = max(float(curve.at[-1]) for panel in panels for curve in panel.series)
-    axes.set(xlabel="time, ms", xlim=(0.0, MILLI * longest))
+    axes.set(xlabel="time, ms" if per == MILLI else "cam, deg", xlim=(0.0, per * longest))

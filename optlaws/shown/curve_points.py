@@ -41,6 +41,8 @@ def _with(
 ) -> tuple[Array, list[Array]]:
     """Curves with places in between, in their order."""
     new = np.setdiff1d(more, places)
+    if not new.size:
+        return places, list(values)
     order = np.argsort(np.concatenate([places, new]), kind="stable")
     curves = [np.concatenate([curve, f(new)])[order] for curve, f in zip(values, functions, strict=True)]
     return np.concatenate([places, new])[order], curves

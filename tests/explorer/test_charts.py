@@ -130,7 +130,9 @@ def test_one_cursor_goes_through_the_cam_its_curves_and_what_is_read(page: Page,
     page.get_by_label("Angle of the cam, degrees").fill("165")
     shown = page.locator("#cam-reading").inner_text()
     for panel in panels:
-        assert f"{panel['name']} {panel['values'][165]:.6g} {panel['unit']}".replace("-", "−") in shown
+        (curve,) = panel["series"]
+        value = curve["values"][curve["at"].index(165.0)]
+        assert f"{panel['name']} {value:.6g} {panel['unit']}".replace("-", "−") in shown
     box = page.locator("#cam-curves svg").first.bounding_box()
     assert box is not None
     page.mouse.move(box["x"] + 64 + 0.25 * (box["width"] - 78), box["y"] + 60)

@@ -3,6 +3,7 @@
 
 import { label } from "./axes.js";
 import { path, sized, svg } from "./svg.js";
+import { valueAt } from "./timing.js";
 import { written } from "./units.js";
 
 const ROOM = 1.12;
@@ -65,7 +66,7 @@ export class Mechanism {
   }
 
   get #forceHere() {
-    return this.#force?.values[this.#step] ?? null;
+    return this.#force && valueAt(this.#force.at, this.#force.values, this.#step);
   }
 
   /** Circles with their radii, and the other sizes in a corner. */

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
 from functools import lru_cache
 from math import degrees
 from pathlib import Path
@@ -16,25 +15,23 @@ from optlaws.cams.curves.extremes import EnclosedExtreme
 from optlaws.cams.disc import DiscCam
 from optlaws.cams.followers.follower import CamFollower
 from optlaws.cams.forces import CamForces, Surfaces
-from optlaws.cams.summary import Labelled, named_forces
+from optlaws.cams.report import CamReport
 from optlaws.cycles.specification.drive import CONSTANTS
 from optlaws.errors import InfeasibleProblem, InputError, OptlawsError
 from optlaws.explorer.views.cycle_view import SEGMENTS, check_axis
 from optlaws.explorer.views.law_view import digits, refusal
-from optlaws.explorer.views.panel_data import drawn
+from optlaws.explorer.views.panel_data import drawn, panel_data
 from optlaws.explorer.views.requests import Question
 from optlaws.jobs.cam_entries import CamProblemFile
 from optlaws.jobs.cam_findings import FORCE, STIFFNESS, Findings
-from optlaws.motion.display_units import MILLI, TURN_DEG
+from optlaws.motion.display_units import DEGREES, MILLI
 from optlaws.motion.quantities import quantity
 from optlaws.numbers import Array
-from optlaws.numerics.branch_and_bound import Extremes
 from optlaws.sentences import Amount, Sentence, joined, sentence
 from optlaws.tolerances import FORCE_ROUNDING
 
 _STEPS = 360
 _WHERE = Path("the cam")
-_FAR = 4.0  # a radius of curvature beyond so many prime circles is a straight edge
 _TITLES = {"free": ("no undercut", "optimal"), "undercut": ("undercut", "refused"), "undecided": ("undecided", "local")}
 
 
@@ -70,7 +67,7 @@ def _view(findings: Findings) -> dict[str, Any]:
     spec, cam = findings.spec, findings.cam
     return drawing(cam, spec.cutter_radius) | {
         "dimensions": _dimensions(spec, cam),
-        "panels": _panels(spec, cam, np.linspace(0.0, 2.0 * np.pi, _STEPS + 1)),
+        "panels": _panels(spec, cam),
         "across": "angle of the cam, deg",
         "segments": [],
         "trust": _trust(cam) | _broken_limits(spec, cam),
@@ -139,43 +136,11 @@ def _dimensions(spec: CamProblemFile, cam: DiscCam) -> list[dict[str, Any]]:
     return [{"name": name, "value": MILLI * length} for name, length in lengths.items()]
 
 
-def _panels(spec: CamProblemFile, cam: DiscCam, angles: Array) -> list[dict[str, Any]]:
-    turns = drawn(np.degrees(angles), 4)
-    unit, factor = ("mm", MILLI) if cam.follower.axis == "length" else ("deg", degrees(1.0))
-    pressure = cam.extremes.greatest_pressure_angle
+def _panels(spec: CamProblemFile, cam: DiscCam) -> list[dict[str, Any]]:
     limit = spec.steepest
-    radius = MILLI * np.asarray(cam.radius_of_curvature(angles))
-    far = _FAR * MILLI * quantity(cam.prime_radius, "length", "prime_radius")
-    bulging = cam.extremes.least_convex_radius
-    return [
-        panel("displacement", unit, turns, factor * np.asarray(cam.displacement(angles)), []),
-        panel(
-            "pressure angle", "deg", turns, np.degrees(cam.pressure_angle(angles)), [_mark(pressure, degrees(1.0), cam)]
-        )
-        | {"limits": [] if limit is None else [{"from": 0.0, "to": TURN_DEG, "value": degrees(limit)}]}
-        | {"beyond": limit is not None and not cam.extremes.keeps_pressure_angle(limit)},
-        panel(
-            "radius of curvature", "mm", turns, np.where(np.abs(radius) < far, radius, np.nan), [_mark(bulging, MILLI)]
-        ),
-    ]
-
-
-def panel(name: str, unit: str, turns: Any, values: Array, peaks: list[dict[str, Any]]) -> dict[str, Any]:
-    """A curve over the turn in degrees, with its marks."""
-    return {
-        "name": name,
-        "unit": unit,
-        "series": [{"at": turns, "values": drawn(values)}],
-        "limits": [],
-        "peaks": peaks,
-    }
-
-
-def _mark(extreme: EnclosedExtreme, factor: float, signed_by: DiscCam | None = None) -> dict[str, Any]:
-    value = extreme.value
-    if signed_by is not None:
-        value = float(np.copysign(value, signed_by.pressure_angle(extreme.angle)))
-    return {"at": round(degrees(extreme.angle), 4), "value": value * factor}
+    displacement, pressure, _, radius = (panel_data(panel, DEGREES) for panel in CamReport(cam, limit).panels)
+    pressure["beyond"] = limit is not None and not cam.extremes.keeps_pressure_angle(limit)
+    return [displacement, pressure, radius]
 
 
 def _trust(cam: DiscCam) -> dict[str, Any]:
@@ -291,24 +256,10 @@ def _loads(question: str) -> dict[str, Any]:
 
 
 def _load_panels(forces: CamForces) -> list[dict[str, Any]]:
-    values = (forces.contact_force, forces.shaft_torque, forces.contact_pressure)
-    panels = [_load_panel(force, curve) for force, curve in zip(named_forces(forces), values, strict=False)]
+    panels = [panel_data(panel, DEGREES) for panel in CamReport(forces.cam).loads(forces)]
     for pressed in panels[2:]:
         pressed["peaks"] = pressed["peaks"][-1:]
     return panels
-
-
-def _load_panel(force: Labelled[Extremes], values: Callable[[Array], Any]) -> dict[str, Any]:
-    """A curve over the turn with its least and greatest value."""
-    name, extremes, unit, factor = force
-    angles = np.linspace(0.0, 2.0 * np.pi, _STEPS + 1)
-    ends = [(extremes.least, extremes.least_at), (extremes.most, extremes.most_at)]
-    marks = [
-        {"at": round(degrees(at), 4), "value": value * factor}
-        for value, at in ends
-        if abs(value) > FORCE_ROUNDING * extremes.peak
-    ]
-    return panel(name, unit, drawn(np.degrees(angles), 4), factor * np.asarray(values(angles)), marks)
 
 
 def _load_facts(forces: CamForces) -> list[str]:
