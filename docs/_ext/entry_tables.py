@@ -12,6 +12,7 @@ from optlaws.cams.barrel import Groove
 from optlaws.entries.reference import markdown_table
 from optlaws.jobs.cam_entries import CamProblemFile
 from optlaws.jobs.cycle_entries import AxisEntries, CycleProblemFile
+from optlaws.jobs.machine_laws import MachineLawsProblemFile
 from optlaws.jobs.moves.move_entries import FastestProblemFile
 from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.mechanisms.drives.motor import Motor
@@ -24,6 +25,7 @@ TABLES: dict[str, Callable[[], str]] = {
     "a cycle": partial(markdown_table, CycleProblemFile, apart=("axis",)),
     "an axis": partial(markdown_table, AxisEntries, apart=("run_out", "segment.limits")),
     "a least time": partial(markdown_table, FastestProblemFile),
+    "laws for a machine": partial(markdown_table, MachineLawsProblemFile, apart=("sought.keep",)),
     "mechanisms of all kinds": partial(markdown_table, MechanismKind),
     **{
         f"the kind {name}": partial(

@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import KW_ONLY, dataclass
+from typing import TYPE_CHECKING, Any, Literal
 
-import msgspec
 import numpy as np
 
+from optlaws.cycles.specification.frozen import FrozenTable
+from optlaws.echo import shortened
+from optlaws.entries.declared import Declared, ValueOf, declared, entry
+from optlaws.entries.value_types import Choice, Either, Listed, Number, ReadBy, Table, Text, Together, Whole, is_list
 from optlaws.errors import InputError, located
 from optlaws.files import tables, writing
-from optlaws.files.problem_file import Text
-from optlaws.jobs.job import JobFile
+from optlaws.jobs.job_entries import ProblemFile
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.laws.catalogue.catalogue import catalogue
@@ -36,58 +38,86 @@ if TYPE_CHECKING:
 _SHOWN_RESIDUAL = 1e-4  # of the greatest residual: what a logarithmic picture still shows
 _RESIDUAL_ROUNDING = 1e-12  # of the vibration of a step: a residual that is less is rounding
 
-Pair = tuple[float, float]
-Spread = Annotated[float, msgspec.Meta(ge=0.0, lt=1.0)]
+_PAIR = Together(Number(), Number())
+_MATRIX = Listed(Listed(Number()))
+_SPREAD = Number(least=0.0, most=1.0)
+_OUTPUT = "An output of the machine."
 
 
-class MachineTable(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+def _list(value: Any) -> list[Any]:
+    if not isinstance(value, list | tuple):
+        raise InputError(f"it must be a list, got {shortened(value)}")
+    return list(value)
+
+
+@declared
+class MachineTable(Declared, title="a machine"):
     """A machine of masses and links, of measured modes, or of matrices."""
 
-    masses: dict[str, float] | None = None
-    links: list[list[Any]] = []
-    drive: str | list[str] = ""
-    outputs: dict[str, str] | list[str] = []
-    modes: list[list[float]] | None = None
-    A: list[list[float]] | None = None
-    B: list[list[float]] = []
-    C: list[list[float]] = []
-    D: list[list[float]] = []
-    inputs: str = "a"
-    duration: float = 1.0
-    stroke: float = 1.0
+    _: KW_ONLY
+    masses: Mapping[str, float] | None = entry(Table(Number()), "Masses by name.", default=None)
+    links: Sequence[Any] = entry(
+        Listed(ReadBy(_list, "a list of two masses, a stiffness and perhaps a damping")),
+        "Links of two masses: a stiffness, N/m, and perhaps a damping, N s/m.",
+        default=(),
+    )
+    drive: str | Sequence[str] = entry(
+        Either(Text(empty=True), Listed(Text()), which=is_list),
+        "The mass that the law moves, or two: the law is the second one's distance from the first.",
+        default="",
+    )
+    outputs: Mapping[str, str] | Sequence[str] = entry(
+        Either(Listed(Text()), Table(Text()), which=lambda value: int(isinstance(value, Mapping))),
+        "Outputs by the names they are to have; their names alone beside matrices.",
+        default=(),
+    )
+    modes: Sequence[Sequence[float]] | None = entry(
+        _MATRIX,
+        "In place of masses: each a frequency in Hz, a damping ratio and perhaps a participation.",
+        default=None,
+    )
+    A: Sequence[Sequence[float]] | None = entry(_MATRIX, "In place of both: the matrices of the machine.", default=None)
+    B: Sequence[Sequence[float]] = entry(_MATRIX, "Of the inputs.", default=())
+    C: Sequence[Sequence[float]] = entry(_MATRIX, "Of the outputs.", default=())
+    D: Sequence[Sequence[float]] = entry(_MATRIX, "From inputs to outputs.", default=())
+    inputs: str = entry(Text(), "The derivatives of the law that are inputs.", default="a")
+    duration: float = entry(Number(), "Of the rise, s.", default=1.0)
+    stroke: float = entry(Number(), "Of the rise.", default=1.0)
 
     def machine(self) -> Machine:
         """The machine of the table, checked."""
         if sum(given is not None for given in (self.masses, self.modes, self.A)) != 1:
             raise InputError("machine: give either masses with links and a drive, or modes, or matrices A, B, C and D")
         units = {"duration": self.duration, "stroke": self.stroke}
-        outputs: Any = self.outputs or None
-        drive: Any = self.drive if isinstance(self.drive, str) else tuple(self.drive)
+        outputs: Any = self.outputs if isinstance(self.outputs, Mapping) else list(self.outputs) or None
+        drive: Any = self.drive
         with located("machine"):
             if self.modes is not None:
                 return Machine.from_modes(self.modes, outputs=outputs, **units)
             if self.masses is not None:
                 return Machine.from_masses(self.masses, self.links, drive=drive, outputs=outputs, **units)
-            A, names = self.A or [], list(self.outputs)
+            A, names = self.A or (), list(self.outputs)
             return Machine.from_units(A, self.B, self.C, self.D, inputs=self.inputs, outputs=names, **units)
 
 
-class Measure(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+@declared
+class Measure(Declared, title="a constant of the machine"):
     """A constant of the machine: the peak or the RMS of an output, or the residual amplitude of a mode in one."""
 
-    peak: Text | None = None
-    rms: Text | None = None
-    residual: int | None = None
-    output: Text | None = None
-    within: Pair = (0.0, 1.0)
-    cycle: Pair | None = None
-    dwell: float = 0.0
-    spread: Spread = 0.0
-    damping: Pair | None = None
-    side: Literal["both", "high", "low"] = "both"
-    offset: float = 0.0
+    _: KW_ONLY
+    peak: str | None = entry(Text(), "The output whose peak it is.", default=None)
+    rms: str | None = entry(Text(), "The output whose root mean square it is.", default=None)
+    residual: int | None = entry(Whole(), "The mode whose amplitude after the motion it is.", default=None)
+    output: str | None = entry(Text(), "Of a residual: in which output.", default=None)
+    within: tuple[float, float] = entry(_PAIR, "Of a peak: between which k.", default=(0.0, 1.0))
+    cycle: tuple[float, float] | None = entry(_PAIR, "Dwell and rest of a motion that repeats.", default=None)
+    dwell: float = entry(Number(), "Of a root mean square: of the dwell too.", default=0.0)
+    spread: float = entry(_SPREAD, "The share by which frequencies may be off.", default=0.0)
+    damping: tuple[float, float] | None = entry(_PAIR, "The least and the greatest damping ratio.", default=None)
+    side: Literal["both", "high", "low"] = entry(Choice("both", "high", "low"), "Of a peak.", default="both")
+    offset: float = entry(Number(), "A constant load.", default=0.0)
 
-    def constant(self, machine: Machine) -> Functional:
+    def functional(self, machine: Machine) -> Functional:
         """The constant of this machine."""
         if sum(wish is not None for wish in (self.peak, self.rms, self.residual)) != 1:
             raise InputError(
@@ -100,30 +130,42 @@ class Measure(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
         return machine.residual(self.residual or 0, self.output, spread=self.spread, damping=self.damping)
 
 
-class BoundedMeasure(Measure, kw_only=True, forbid_unknown_fields=True):
+@declared
+class BoundedMeasure(Measure, title="a constant with its bound"):
     """A constant with its upper bound, of the machine, or of the law by its name."""
 
-    most: float
-    constant_name: Text | None = msgspec.field(default=None, name="constant")
+    _: KW_ONLY
+    most: float = entry(Number(), "Its upper bound.", example=100.0)
+    constant: str | None = entry(Text(), "In place of one of the machine: a constant of the law.", default=None)
 
     def bounded(self, machine: Machine) -> Functional:
         """The constant that is bounded."""
-        return self.constant(machine) if self.constant_name is None else named(self.constant_name)
+        return self.functional(machine) if self.constant is None else named(self.constant)
 
 
-class Sought(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+@declared
+class Sought(Declared, title="a law that is sought"):
     """A sought law: its objective, its bounds, and further entries of a problem."""
 
-    name: Text
-    minimise: Text | Measure = "C"
-    keep: list[BoundedMeasure] = []
-    problem: dict[str, Any] = {}
+    _: KW_ONLY
+    name: str = entry(Text(), "What tables and pictures call it.", example="gentle")
+    minimise: str | Measure = entry(
+        Either(Text(), ValueOf(Measure), which=lambda value: int(isinstance(value, Mapping | Measure))),
+        "A text as in a problem, or a constant of the machine.",
+        default="C",
+    )
+    keep: tuple[BoundedMeasure, ...] = entry(
+        Listed(ValueOf(BoundedMeasure)), "Constants with what each is at most.", default=()
+    )
+    problem: Mapping[str, Any] = entry(
+        Table(ReadBy(lambda value: value, "what a problem takes")), "Any entries of a problem.", default=FrozenTable()
+    )
 
     def stated(self, machine: Machine) -> Problem:
         """The problem of the law that is sought."""
         with located(f"sought {self.name!r}"):
             entries = from_entries({"order": 3, **self.problem})
-            objective = self.minimise if isinstance(self.minimise, str) else self.minimise.constant(machine)
+            objective = self.minimise if isinstance(self.minimise, str) else self.minimise.functional(machine)
             limits = {bound.bounded(machine): at_most(bound.most) for bound in self.keep}
             entries["bounds"] = {**entries.get("bounds", {}), **limits}
             return Problem(**entries, minimise=objective)
@@ -133,34 +175,46 @@ SHAPERS: tuple[Shaper, ...] = ("ZV", "ZVD")
 _POINTS = 401
 
 
-class Vibration(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+@declared
+class Vibration(Declared, title="a vibration"):
     """The output in which residual vibration counts, its modes, and the spread of their frequencies."""
 
-    output: Text
-    modes: Annotated[list[int], msgspec.Meta(min_length=1, max_length=4)] = msgspec.field(default_factory=lambda: [1])
-    shaped: int = 1
-    spread: Spread = 0.1
+    _: KW_ONLY
+    output: str = entry(Text(), _OUTPUT, example="sway")
+    modes: tuple[int, ...] = entry(Listed(Whole(1), least=1, most=4), "By their numbers.", default=(1,))
+    shaped: int = entry(Whole(1), "The mode that laws are shaped for.", default=1)
+    spread: float = entry(_SPREAD, "The share by which frequencies may be off.", default=0.1)
 
 
-class Pictured(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+@declared
+class Pictured(Declared, title="a figure"):
     """The plotted output and laws, with the length of the plotted dwell."""
 
-    output: Text
-    laws: Annotated[list[Text], msgspec.Meta(min_length=1, max_length=6)]
-    dwell: Annotated[float, msgspec.Meta(ge=0.0, le=5.0)] = 0.5
-    spread: Spread = 0.25
+    _: KW_ONLY
+    output: str = entry(Text(), _OUTPUT, example="sway")
+    laws: tuple[str, ...] = entry(Listed(Text(), least=1, most=6), "Of which laws.", example=["modified sine"])
+    dwell: float = entry(Number(least=0.0, most=5.0), "How much of the dwell, in durations.", default=0.5)
+    spread: float = entry(_SPREAD, "Of the frequencies.", default=0.25)
 
 
-class MachineLawsProblemFile(JobFile, kw_only=True, forbid_unknown_fields=True):
+@declared
+class MachineLawsProblemFile(ProblemFile, title="a problem file"):
     """The problem file of laws for a machine."""
 
-    machine: MachineTable
-    vibration: Vibration
-    report: list[Text]
-    standard: Annotated[list[Text], msgspec.Meta(min_length=1, max_length=8)]
-    sought: Annotated[list[Sought], msgspec.Meta(min_length=1, max_length=8)]
-    figure: Pictured
-    units: dict[str, Text] = msgspec.field(default_factory=dict)
+    _: KW_ONLY
+    machine: MachineTable = entry(ValueOf(MachineTable), "The machine.")
+    vibration: Vibration = entry(ValueOf(Vibration), "What vibrates.")
+    report: tuple[str, ...] = entry(Listed(Text()), "Outputs whose peaks are tabled.", example=["sway"])
+    standard: tuple[str, ...] = entry(
+        Listed(Text(), least=1, most=8), "Names of the catalogue.", example=["modified sine"]
+    )
+    sought: tuple[Sought, ...] = entry(
+        Listed(ValueOf(Sought), least=1, most=8, each="sought", named=True), "The laws that are sought."
+    )
+    figure: Pictured = entry(ValueOf(Pictured), "What is drawn.")
+    units: Mapping[str, str] = entry(
+        Table(Text()), "Units of outputs by their names, as tables and pictures show them.", default=FrozenTable()
+    )
 
     def titled(self, output: str) -> str:
         """An output with its unit, where that is given."""
@@ -200,7 +254,8 @@ class Compared:
 
 def run(results: Results) -> None:
     """Put the table, its page, the laws and the picture into results."""
-    spec = results.read(MachineLawsProblemFile)
+    spec = MachineLawsProblemFile.read(results.entries, results.file)
+    results.title = spec.title
     machine = spec.machine.machine()
     _check(spec, machine)
     laws = list(compared(spec, machine))

@@ -18,7 +18,7 @@ def test_measured_modes_are_a_machine() -> None:
 
 def test_sides_and_loads_are_those_of_the_machine() -> None:
     arm = Machine.from_modes([(8.5, 0.02)], duration=0.4)
-    assert Measure(peak="deflection", side="low", offset=2.0).constant(arm) == arm.peak(
+    assert Measure(peak="deflection", side="low", offset=2.0).functional(arm) == arm.peak(
         "deflection", side="low", offset=2.0
     )
-    assert Measure(rms="velocity", offset=-1.0).constant(arm) == arm.rms("velocity", offset=-1.0)
+    assert Measure(rms="velocity", offset=-1.0).functional(arm) == arm.rms("velocity", offset=-1.0)

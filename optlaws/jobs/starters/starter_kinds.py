@@ -117,7 +117,7 @@ def _check_cam(entries: Mapping[str, Any], file: Path) -> None:
 
 
 def _check_machine(entries: Mapping[str, Any], file: Path) -> None:
-    convert(entries, MachineLawsProblemFile, file).machine.machine()
+    MachineLawsProblemFile.read(entries, file).machine.machine()
 
 
 def _check_law(entries: Mapping[str, Any], file: Path) -> None:

@@ -77,7 +77,7 @@ def test_a_motor_that_is_too_weak_is_told_what_is_reachable() -> None:
     [
         ({"drive": TABLE}, "there is no motor"),
         ({"drive": {"inertia": "1 kg m^2"}}, "there is no motor"),
-        ({"limits": {"motor": "yes"}}, "True or False"),
+        ({"limits": {"motor": "yes"}}, "limits: motor must be true or false"),
         ({"limits": {"motor": True, "energy": "3 J"}}, "give one of them"),
         (
             {"drive": Drive(TABLE, Motor(3e-4, curve=[(0.0, 3.0), (50.0, 1.0), (100.0, 0.5)]), ratio=20)},

@@ -238,7 +238,7 @@ def test_limits_that_cannot_be_kept_name_the_segment() -> None:
         assert quick("355 mm/s").status
     with pytest.raises(InfeasibleProblem, match="no durations of the free moves keep the limits"):
         assert Cycle(FIVE, speed="200 rpm", limits={"velocity": "300 mm/s"}).durations
-    with pytest.raises(InputError, match="limits, velocity must be a velocity"):
+    with pytest.raises(InputError, match="limits: velocity must be a velocity"):
         Cycle(FIVE, speed="200 rpm", limits={"velocity": "300 mm"})
 
 
