@@ -320,7 +320,7 @@ def anew(limit: MoveLimit) -> MoveLimit | None:
         move = replace(move, minimise="time", duration=None, recovered=0.0, heat=0.0)
     elif limit.minimise != move.minimise:
         # a proof that the load is beyond the torque however long the time is
-        free = {name: bound for name, bound in move.limits.items() if name not in {"torque", "force"}}
+        free = {name: bound for name, bound in dict(move.limits).items() if name not in {"torque", "force"}}
         slow = (1.0 if move.duration is None else move.duration) * LONG
         move = replace(move, minimise=limit.minimise, duration=slow, limits=free, recovered=0.0, heat=0.0)
     try:
