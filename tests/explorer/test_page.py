@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
+from urllib.parse import parse_qs, urlsplit
 from xml.etree import ElementTree as ET
 
 import pytest
@@ -289,6 +291,34 @@ def test_an_export_says_what_the_controller_will_run(page: Page, served: Server)
     assert "stroke" in page.locator(".report").inner_text()
     assert page.locator(".report table").count() == 0
     page.wait_for_url("**controller=**")
+
+
+def test_a_cam_is_changed_by_the_fields_that_its_values_declare(page: Page, served: Server) -> None:
+    go(page, f"http://{served.host}/")
+    page.get_by_role("tab", name="Cam", exact=True).click()
+    page.get_by_label("kind of follower").select_option("translating flat")
+    page.get_by_label("face length").fill("9,5 mm")
+    settle(page)
+    assert "of 9.5 mm" in page.locator("#cam-trust").inner_text()
+    page.get_by_label("turning", exact=True).select_option("clockwise")
+    page.get_by_label("spring speeds").fill("0 rpm, 300 rpm")
+    page.get_by_label("spring speeds").blur()
+    page.wait_for_url("**speeds**")
+    study = json.loads(parse_qs(urlsplit(page.url).fragment)["cam"][0])
+    assert study["follower"] == {"kind": "translating flat", "face_length": "9.5 mm"}
+    assert study["spring"] == {"speeds": ["0 rpm", "300 rpm"]}
+    assert study["turning"] == "clockwise"
+    page.get_by_label("turning", exact=True).select_option("counterclockwise")
+    page.get_by_label("face length").fill("")
+    page.wait_for_url(lambda address: "face_length" not in address)
+    study = json.loads(parse_qs(urlsplit(page.url).fragment)["cam"][0])
+    assert study["follower"] == {"kind": "translating flat"}
+    assert "turning" not in study
+    for _ in range(2):
+        page.get_by_role("button", name="Undo").click()
+    settle(page)
+    assert page.get_by_label("turning", exact=True).input_value() == "clockwise"
+    assert page.get_by_label("face length").input_value() == "9.5 mm"
 
 
 def test_a_cam_turns_and_is_refused_where_there_is_none(page: Page, served: Server) -> None:
