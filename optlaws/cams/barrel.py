@@ -53,11 +53,6 @@ class Groove(Declared, title="a barrel"):
         outer = positive(self.outer_radius, "outer_radius")
         return outer, outer - positive(self.depth, "depth")
 
-    @property
-    def roller(self) -> float:
-        """The radius of the roller, m."""
-        return positive(self.roller_radius, "roller_radius")
-
     def _check(self) -> None:
         outer, inner = self.radii
         if inner <= 0.0:
@@ -65,9 +60,10 @@ class Groove(Declared, title="a barrel"):
                 f"depth must be less than the radius of the cylinder, {shown(outer)}, got {shown(outer - inner)}:"
                 " make the groove shallower or the cylinder larger"
             )
-        if self.roller >= inner:
+        roller = positive(self.roller_radius, "roller_radius")
+        if roller >= inner:
             raise InputError(
-                f"roller_radius {shown(self.roller)} is not less than the radius at the bottom of the groove,"
+                f"roller_radius {shown(roller)} is not less than the radius at the bottom of the groove,"
                 f" {shown(inner)}: make the roller smaller or the cylinder larger"
             )
 
@@ -117,18 +113,14 @@ class BarrelCam:
         return as_motion(self.motion, "length")
 
     @kept_property
-    def _groove(self) -> Groove:
-        return Groove(self.outer_radius, self.depth, self.roller_radius)
-
-    @kept_property
     def radii(self) -> tuple[float, float]:
         """Radius of the cylinder, and of the bottom of the groove."""
-        return self._groove.radii
+        return Groove(self.outer_radius, self.depth, self.roller_radius).radii
 
     @kept_property
     def roller(self) -> float:
         """The radius of the roller in metres."""
-        return self._groove.roller
+        return positive(self.roller_radius, "roller_radius")
 
     @property
     def pitch_curve(self) -> SpaceCurve:
