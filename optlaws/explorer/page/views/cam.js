@@ -16,19 +16,14 @@ const element = (id) => document.getElementById(id);
 /** Entries of the file that the page has elsewhere, or does not show. */
 const ELSEWHERE = ["title", "text", "motion", "speed", "period", "rows", "best", "pair", "process", "as_made", "file", "animation"];
 const TABLES = ["follower", "forces", "spring"];
+const named = (entries, name) => entries.find((entry) => entry.name === name);
 const WORDS = {
   "base circle": "the smallest circle that touches the profile: the prime circle less the radius of the roller",
   "undercut": "the profile crosses itself or has a cusp: no such cam can be cut",
 };
 
-const CUT = ["dxf spline", "dxf polyline", "dxf arcs", "svg", "csv", "csv polar", "g-code", "g-code arcs"];
-const FILES = [
-  { kind: "problem", text: "Problem file (TOML)", about: "For optlaws run" },
-  ...CUT.map((format) => ({ kind: "cut", format, text: `Profile (${format})`, about: "The cam's edge, within 1 µm" })),
-];
-
 export class View {
-  files = FILES;
+  files;
   drawings = "#cam-curves svg";
   #study;
   #form;
@@ -46,6 +41,9 @@ export class View {
   constructor(_root, study, { cam, programme }) {
     this.#study = study;
     this.#kinds = cam;
+    const { choices } = named(named(cam.entries, "file").list.entries, "format");
+    const cut = choices.map((format) => ({ kind: "cut", format, text: `Profile (${format})`, about: "The cam's edge, within 1 µm" }));
+    this.files = [{ kind: "problem", text: "Problem file (TOML)", about: "For optlaws run" }, ...cut];
     this.#form = new Form((what, alter) => study.change(what, (state) => alter(state.cam)), () => study.rest(), (one, _path, before) => this.#take(one, before));
     this.#programme = new Programme(element("cam-programme"), study, (state) => state.cam, programme);
     this.#cams = new Latest("api/cam", (answer, question) => {
@@ -99,7 +97,7 @@ export class View {
     this.#axis = axis;
     this.#form.clear();
     const { entries, drive } = this.#kinds;
-    const [follower, forces, spring] = TABLES.map((name) => entries.find((entry) => entry.name === name));
+    const [follower, forces, spring] = TABLES.map((name) => named(entries, name));
     const sizes = entries.filter(({ name }) => !ELSEWHERE.includes(name) && !TABLES.includes(name));
     element("cam-size").replaceChildren(
       group("Follower", ...this.#form.fields([follower])),
