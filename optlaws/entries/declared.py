@@ -55,7 +55,8 @@ class Entry:
     def schema(self) -> dict[str, Any]:
         """The JSON Schema of the entry."""
         default = {} if self.plain_default is None else {"default": self.plain_default}
-        return {**self.type.schema(), "description": self.about, **default}
+        schema = {"anyOf": [self.type.schema(), {"type": "null"}]} if self.default is None else self.type.schema()
+        return {**schema, "description": self.about, **default}
 
     @property
     def field(self) -> dict[str, Any]:

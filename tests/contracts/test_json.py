@@ -8,6 +8,7 @@ from importlib import import_module
 from typing import Any, NoReturn
 
 import pytest
+from jsonschema import Draft202012Validator
 
 import optlaws
 from optlaws import (
@@ -38,7 +39,7 @@ def refuse(constant: str) -> NoReturn:
     raise AssertionError(f"{constant} is not JSON")
 
 
-def strict(text: str) -> object:
+def strict(text: str) -> Any:
     return json.loads(text, parse_constant=refuse)
 
 
@@ -194,6 +195,15 @@ def test_every_value_is_read_again_as_it_was(values: dict[str, Any]) -> None:
             assert strict(again.to_json()) == strict(stored), name
         else:
             assert again == value, name
+
+
+def test_plain_data_is_what_its_schema_says(values: dict[str, Any]) -> None:
+    declared = {name: value for name, value in values.items() if hasattr(value, "json_schema")}
+    assert {"Motor", "Drive", "Body", "Loads", "LimitedMove", "TranslatingRoller"} <= declared.keys()
+    for name, value in declared.items():
+        data = {key: part for key, part in strict(value.to_json()).items() if key not in {"format", "about"}}
+        errors = [error.message for error in Draft202012Validator(value.json_schema()).iter_errors(data)]
+        assert errors == [], name
 
 
 def test_what_gives_plain_data_reads_it_again(values: dict[str, Any]) -> None:

@@ -228,6 +228,18 @@ class LimitedMove(Declared, title="a move with its limits"):
             return {"recovered", "heat"}
         return set() if self.kind == "mechanism" else {"recovered"}
 
+    @classmethod
+    def json_schema(cls) -> dict[str, Any]:
+        """The JSON Schema of the move, and of a mechanism or a drive that moves."""
+        schema = super().json_schema()
+        moved = schema["properties"].pop("driven")
+        properties = {**dict.fromkeys(MOVED, moved), **schema["properties"]}
+        return {
+            **schema,
+            "properties": properties,
+            "required": [name for name in schema["required"] if name != "driven"],
+        }
+
     def to_dict(self) -> dict[str, Any]:
         """The move and what it moves as plain data."""
         plain = super().to_dict()
