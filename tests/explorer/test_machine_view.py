@@ -286,3 +286,20 @@ def test_a_gear_a_motor_and_laws_are_changed_in_the_page(page: Page, served: Ser
     assert page.locator("#machine-drawing svg").count() == 1
     page.get_by_label("Time in the cycle, thousandths").fill("500")
     assert "300 ms · 45 deg" in page.locator("#machine-turning").inner_text()
+
+
+def test_each_entry_that_a_mechanism_and_a_drive_declare_has_a_field(page: Page, served: Server) -> None:
+    asked = study("cycle_geared_table")
+    asked["axis"] = [axis | {"minimise": "velocity"} for axis in asked["axis"][:1]]
+    go(page, served.link(view="machine", machine=asked, axis=0))
+    page.get_by_label("drive no load torque").fill("0.05 N m")
+    page.get_by_label("kind of mechanism", exact=True).select_option("slider crank")
+    page.get_by_label("mechanism bodies rod mass").fill("2 kg")
+    page.get_by_label("mechanism loads over").select_option("input")
+    (saved,) = tomllib.loads(saves(page, "problem"))["axis"]
+    assert saved["drive"]["no_load_torque"] == "0.05 N m"
+    assert (saved["mechanism"]["bodies"]["rod"], saved["mechanism"]["loads"]) == ({"mass": "2 kg"}, {"over": "input"})
+    page.get_by_label("kind of mechanism", exact=True).select_option("cam")
+    page.get_by_label("kind of mechanism follower").select_option("translating flat")
+    (saved,) = tomllib.loads(saves(page, "problem"))["axis"]
+    assert saved["mechanism"]["follower"] == {"kind": "translating flat"}

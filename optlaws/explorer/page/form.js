@@ -8,7 +8,7 @@ const spoken = (path) => path.join(" ").replaceAll("_", " ");
 const at = (table, path) => path.reduce((part, name) => part?.[name], table);
 
 /** Declared entries with their paths: in place of a table its own entries, nothing in place of a list of tables. */
-export function flattened(entries, path = []) {
+function flattened(entries, path = []) {
   return entries.flatMap((entry) => {
     const own = [...path, entry.name];
     if (entry.entries) return flattened(entry.entries, own);

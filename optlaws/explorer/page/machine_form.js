@@ -1,16 +1,11 @@
 // The machine as fields: its kind, its lengths, bodies and loads, its gear and its motor.
 
-import { flat } from "./entries.js";
-import { Form, flattened } from "./form.js";
+import { Form } from "./form.js";
 import { group, slider } from "./fields.js";
 import { html, renew } from "./svg.js";
 
 const told = (value) => JSON.stringify(value);
-const NOT_FIELDS = ["kind", "segment", "linkage"];
 const RATIOS = [0.1, 200];
-
-/** The fields of declared entries that the machine has no other place for. */
-const declared = (entries) => flattened(entries).filter(({ path, kinds }) => !kinds && !NOT_FIELDS.includes(path[0]));
 
 /** The axes of the same machine: those that have the mechanism and the drive of one. */
 export function beside(study, index) {
@@ -29,7 +24,6 @@ export class MachineForm {
   #driving;
   #part;
   #shape = "";
-  #paths = [];
   #shows = [];
   #fields;
 
@@ -47,9 +41,8 @@ export class MachineForm {
     const study = this.#part(state);
     const axis = study.axis[state.axis] ?? study.axis[0];
     const kind = axis.mechanism?.kind ?? "";
-    const paths = flat(axis.mechanism ?? {}).map(([path]) => told(path)).filter((path) => !NOT_FIELDS.includes(JSON.parse(path)[0]));
     const shape = told([kind, Boolean(axis.drive?.motor)]);
-    if (shape !== this.#shape || paths.some((path) => !this.#paths.includes(path))) this.#build(kind, axis, paths);
+    if (shape !== this.#shape) this.#build(kind, axis);
     this.#shape = shape;
     for (const show of this.#shows) show(axis);
     this.#fields.show(axis);
@@ -63,17 +56,14 @@ export class MachineForm {
     });
   }
 
-  #build(kind, axis, paths) {
+  #build(kind, axis) {
     this.#shows = [];
     this.#fields.clear();
-    const known = declared(this.#kinds[kind]?.fields ?? []);
-    const further = paths.filter((path) => !known.some((field) => told(field.path) === path)).map((path) => JSON.parse(path));
-    const fields = [...known, ...further.map((path) => ({ path, label: path.at(-1).replaceAll("_", " "), placeholder: "" }))];
-    this.#paths = fields.map(({ path }) => told(path));
+    const entries = (this.#kinds[kind]?.fields ?? []).filter(({ name }) => name !== "segment");
     const choose = html("select", { "aria-label": "kind of mechanism" }, ...(kind in this.#kinds ? [] : [html("option", { value: "", text: "none" })]), ...Object.keys(this.#kinds).map((value) => html("option", { value, text: value })));
     choose.value = kind;
     choose.addEventListener("change", () => this.change("mechanism", (one, study) => this.#take(one, study, choose.value)));
-    renew(this.#root, group("Mechanism", choose, ...fields.map((field) => this.#field("mechanism", field))), ...this.#drive(Boolean(axis.drive?.motor)));
+    renew(this.#root, group("Mechanism", choose, ...this.#fields.fields(entries, ["mechanism"], [])), ...this.#drive(Boolean(axis.drive?.motor)));
   }
 
   /** Another kind begins with its example and a motion within its range; what moves by which law stays. */
@@ -114,12 +104,8 @@ export class MachineForm {
       if (value > 0) ratio.set(logarithm(value));
       if (document.activeElement !== exact || Number(exact.value) !== value) exact.value = value;
     });
-    const fields = declared(this.#driving).filter(({ path }) => path[0] !== "ratio");
-    const [motors, gear] = [true, false].map((of) => fields.filter(({ path }) => (path[0] === "motor") === of).map((field) => this.#field("drive", field)));
+    const gear = this.#fields.fields(this.#driving.filter(({ name }) => name !== "ratio" && name !== "motor"), ["drive"], []);
+    const motors = this.#fields.fields(this.#driving.find(({ name }) => name === "motor").entries, ["drive", "motor"], []);
     return [group("Driven by", toggle, ratio.element, ...gear), group("Motor", ...motors)];
-  }
-
-  #field(part, entry) {
-    return this.#fields.field({ ...entry, path: [part, ...entry.path] });
   }
 }
