@@ -26,6 +26,7 @@ from optlaws.explorer.answering import EXAMPLES, QUESTIONS, message
 from optlaws.explorer.views import cam_view, cycle_view
 from optlaws.explorer.views.machines import machine_view
 from optlaws.explorer.workers import MOST, SLICE, USUAL, Workers
+from optlaws.jobs.moves.move_entries import MoveEntries
 
 if TYPE_CHECKING:
     from starlette.types import ASGIApp, Message, Receive, Scope, Send
@@ -49,6 +50,7 @@ def application(start: dict[str, Any], workers: Workers | None = None) -> Starle
         "examples": {name: example() for name, example in EXAMPLES.items()},
         "cam": cam_view.form(),
         "programme": cycle_view.form(),
+        "move": MoveEntries.form()["entries"],
         "mechanisms": machine_view.kinds(),
         "drive": Drive.form()["entries"],
         "formats": downloads.formats(),

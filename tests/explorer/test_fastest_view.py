@@ -120,6 +120,9 @@ def test_a_time_is_given_by_slider_picture_and_number_and_stops_at_the_least(pag
     settle(page)
     assert "least jerk in each time: proven" in page.locator("#fastest-words").inner_text()
     assert page.locator("#fastest-legend .limit-key").count() == 4
+    for name in ("start velocity", "limits snap", "follower frequency", "follower damping", "front longest"):
+        assert page.get_by_label(name, exact=True).count() == 1
+    assert page.get_by_label("limits torque").count() == 0  # of a motor, which it has not
     page.get_by_label("limits jerk").fill("1200 m/s^3")
     page.get_by_role("button", name="least", exact=True).click()
     settle(page)

@@ -15,11 +15,8 @@ import { headed, number, shownUnit } from "../units.js";
 
 const told = (value) => JSON.stringify(value);
 const word = (value, digits = 5) => String(Number(value.toPrecision(digits))).replace("-", "−");
-const LIMITS = { velocity: "1 m/s", acceleration: "12 m/s^2", deceleration: "8 m/s^2", jerk: "300 m/s^3", snap: "20000 m/s^4" };
-const AT_MOTOR = { torque: "4 N m", "rms torque": "2 N m" };
-const MOVE = { stroke: "100 mm", start_velocity: "none, or 0.2 m/s", end_velocity: "none, or 0.2 m/s", start: "none, or 0 deg" };
 const SPACE = { order: "3", degree: "9", monotone: "false" };
-const FOLLOWER = { frequency: "none, or 13 Hz, 15 Hz", damping: "none, or 0.02" };
+const OWN = ["stroke", "start_velocity", "end_velocity", "start"];
 const LONGEST = 2; // times the least, where a front has no end of its own
 const FINEST = 1e-4; // s
 const FILES = [
@@ -34,6 +31,7 @@ export class View {
   #state = null;
   #at;
   #fields;
+  #declared;
   #built = "";
   #paths = [];
   #programme;
@@ -45,7 +43,8 @@ export class View {
   #front = null;
   #asked = null;
 
-  constructor(root, study, { programme }) {
+  constructor(root, study, { programme, move }) {
+    this.#declared = Object.fromEntries(move.map((entry) => [entry.name, entry]));
     this.#study = study;
     this.#at = layout(root);
     this.#fields = new Form((what, alter) => this.#change(what, alter), () => study.rest());
@@ -121,15 +120,17 @@ export class View {
       delete state.time;
     }));
     const rows = (entries, before = []) => Object.entries(entries).map(([name, text]) => this.#fields.field({ path: [...before, name], placeholder: text, label: name.replaceAll("_", " ") }));
-    const limits = { ...LIMITS, ...(move.drive && AT_MOTOR), ...(move.follower && { "residual acceleration": "0.5 m/s^2" }) };
+    const { limits, follower, front } = this.#declared;
+    const limited = limits.entries.filter(({ name }) => (!name.includes("torque") || move.drive) && (!name.startsWith("residual") || move.follower));
+    const fields = (entry, entries = entry.entries) => this.#fields.fields(entries, [entry.name], []);
     const of = (part) => machine.filter(([first]) => first === part).map((path) => this.#fields.field({ path, placeholder: "", label: path.slice(1).join(" ").replaceAll("_", " ") }));
     const groups = [
-      group("Move", several, ...rows(MOVE)),
-      group("At most", ...rows(Object.fromEntries(Object.entries(limits).map(([name, text]) => [name, `none, or ${text}`])), ["limits"])),
+      group("Move", several, ...this.#fields.fields(OWN.map((name) => this.#declared[name]))),
+      group("At most", ...fields(limits, limited)),
       group("Laws", ...rows(SPACE, ["problem"])),
       ...(machine.length ? [group("Mechanism", ...of("mechanism")), group("Drive", ...of("drive"))] : []),
-      group("What vibrates", ...rows(FOLLOWER, ["follower"])),
-      group("Front", ...rows({ longest: "none, or 0.5 s" }, ["front"])),
+      group("What vibrates", ...fields(follower)),
+      group("Front", ...fields(front, front.entries.filter(({ name }) => name === "longest"))),
     ];
     renew(this.#at.form, ...groups);
   }
