@@ -6,6 +6,7 @@ from optlaws.cycles.old_tables.reading import read_points
 from optlaws.cycles.optimisation.motion_limits import FORCE, POWER
 from optlaws.cycles.optimisation.objectives import OBJECTIVES
 from optlaws.cycles.optimisation.search_spaces import halved
+from optlaws.cycles.optimisation.shared_limits import _SharedLimit as SharedLimit
 from optlaws.cycles.specification.drive import read_drive
 from optlaws.cycles.specification.limit_entries import LIMITS_OF_CYCLE, LIMITS_OF_MOVE
 from optlaws.mechanisms.drives.effort import size_of

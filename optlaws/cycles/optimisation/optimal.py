@@ -210,7 +210,7 @@ def scale(span: LawSpan) -> float:
     ways = [abs(position - span.offset) for _, position in span.via]
     known = (edge_state for edge_state in (span.first, span.last, *span.states) if edge_state is not None)
     ways += [abs(state.velocity) * span.duration for state in known]
-    return max(ways, default=0.0)
+    return max(ways)
 
 
 def span_problem(span: LawSpan, objective: CycleObjective, axis: str, stroke: float) -> Problem:

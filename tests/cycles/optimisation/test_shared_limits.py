@@ -1,7 +1,8 @@
 """Motors by their ratings: limits of RMS torque and peak power over a cycle, and dry friction where motions turn."""
 
 import re
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -21,7 +22,7 @@ from optlaws import (
     smoothstep,
     synthesize,
 )
-from tests.internals.cycles import FORCE, POWER, read_drive, size_of
+from tests.internals.cycles import FORCE, POWER, SharedLimit, read_drive, size_of
 from tests.internals.motion import Piece
 from tests.sampling import sampled
 
@@ -36,7 +37,7 @@ def cycle(segments: Any = MOVES, **others: Any) -> Cycle:
     return Cycle(list(segments), **given)
 
 
-@pytest.mark.parametrize(("minimise", "constant", "nu"), sampled([("jerk", "J", 3), ("rms jerk", "rms_j", 3)], each=2))
+@pytest.mark.parametrize(("minimise", "constant", "nu"), [("jerk", "J", 3), ("rms jerk", "rms_j", 3)])
 def test_equal_moves_share_the_limit_equally(minimise: str, constant: str, nu: int) -> None:
     """A single law under its own bound is the oracle."""
     stroke, duration, most = np.deg2rad(60.0), 0.2, 1.192
@@ -49,6 +50,36 @@ def test_equal_moves_share_the_limit_equally(minimise: str, constant: str, nu: i
     assert shared.status == "optimal"
     assert shared.objective == pytest.approx(size * single.objective, rel=1e-7)
     assert shared.effort.rms_force == pytest.approx(most, rel=1e-9)
+
+
+def test_a_power_is_the_least_within_a_shared_limit() -> None:
+    """Not convex: a single law under its own bound is the oracle."""
+    stroke, duration, most = np.deg2rad(60.0), 0.2, 1.192
+    single = synthesize(Problem(order=3, basis=Chebyshev(7), minimise="D", symmetric=False, bounds={
+        "rms_c": at_most(most / np.sqrt(2 * duration) / (0.02 * stroke / duration**2))
+    }))  # fmt: skip
+    both = [Rise("60 deg", "0.2 s"), Dwell("0.3 s"), Return(duration="0.2 s"), Dwell()]
+    shared = cycle(both, minimise="power", drive=INERTIA, limits={"rms torque": f"{most} N m"})
+    assert shared.objective == pytest.approx(0.02 * stroke**2 / duration**3 * single.objective, rel=1e-5)
+
+
+def test_below_a_peak_the_nearest_share_is_taken_at_which_no_laws_keep_the_limit() -> None:
+    @dataclass(frozen=True)
+    class ByHand(SharedLimit):
+        """Laws are their peaks; those below 2 - 1e-6 take twice what is left."""
+
+        _exact = True
+        left = 1.0
+
+        def _least(self, span: Any, peak: float) -> Any:  # noqa: ARG002
+            return peak
+
+        def _least_taken(self, laws: Any) -> float:
+            return 2.0 if laws[0] < 2.0 - 1e-6 else 0.5
+
+    by_hand = ByHand(SimpleNamespace(spans=(None,)), None, None, "angle", 1.0)  # type: ignore[arg-type]
+    assert by_hand._impossible(2.0, 1.0) == 2.0 * (1.0 - 1e-6)
+    assert by_hand._impossible(2.0, 2.0 - 1e-6) == 2.0 - 1e-6
 
 
 @pytest.mark.long

@@ -17,7 +17,11 @@ from optlaws.verification import exact_bound
 from tests.internals.synthesis import RELAXED, VIOLATION, expression
 from tests.internals.verification import (
     ExactRows,
+    Proof,
+    _better,
     _spread,
+    _System,
+    ball,
     greatest_values,
     least_objective,
     least_values,
@@ -130,6 +134,53 @@ def test_what_a_sum_leaves_of_a_constant_pays_for_the_law_it_bounds(multiplier: 
         assert value is None
     else:
         assert float(value or 0) == pytest.approx(-6.0 * x * multiplier + 1.5, rel=1e-12)
+
+
+@pytest.mark.parametrize("multiplier", [0.9, 0.99])
+@pytest.mark.parametrize("share", [0.3, 0.49, 0.51, 0.9, 1.5, 3.0])
+def test_a_constant_of_one_sign_pays_twice_for_the_law_it_bounds(multiplier: float, share: float) -> None:
+    # what is above 0 and what is below are as large: the mean size of c is at most twice C_plus
+    left = share * (1.0 - multiplier) / 3.5
+    x = brentq(lambda x: multiplier * (5.0 * x**3 - 3.0 * x) + 1.0 / 8.0 - left, -1.0, -0.7)
+    highest = Contact("C_plus", 1.0, (1.0 + x) / 2.0, multiplier)
+    contacts = (highest, Contact("value(b, at=0.5)", 1.0, 0.5, 1.0))
+    value = exact_bound(Certificate.of_leaf(small(minimise="C_plus + value(b, at=0.5)"), contacts, ()))
+    if share > 0.5:
+        assert value is None
+    else:
+        assert float(value or 0) == pytest.approx(-6.0 * x * multiplier + 1.5, rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("sizes", "joins"),
+    [((0.0, 1.0, 2.0), True), ((1.0, 3.0, 5.0), True), ((0.0, 0.75, 1.0), False), ((0.0, 0.5, 1.5), False)],
+    ids=["line", "line from 1", "bent down", "bent up"],
+)
+def test_moments_join_in_at_a_rate_where_their_bounds_grow_along_a_line(
+    sizes: tuple[float, float, float], joins: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    system = _System(Certificate.of_leaf(small(), (c_at(-GAUSS, 1.0),), ()))
+    known = iter(sizes)
+    monkeypatch.setattr("optlaws.verification.exact.bound.means", lambda *_: {2: ball(next(known))})
+    joined = list(system._paid_helpers([], {}))
+    assert bool(joined) == joins
+    if joins:
+        size = system.rows.scales.get("C", 1.0)
+        rates = [float(helper.rate.mid()) for helper in joined[0] if helper.rate is not None]
+        assert rates == pytest.approx([(sizes[1] - sizes[0]) / size] * len(rates), rel=1e-5)
+        assert rates
+
+
+def test_of_bounds_that_are_equal_up_to_rounding_the_less_corrected_is_better() -> None:
+    exact, rough = (Proof(Fraction(1), correction=correction) for correction in (0.0, 1e-3))
+    hair, more = Fraction(1, 10**14), Fraction(1, 10**12)
+    for better, other in ((hair, False), (more, True)):
+        assert _better(replace(rough, value=1 + better), exact, Fraction(1)) is other
+        assert _better(exact, replace(rough, value=1 + better), Fraction(1)) is not other
+        assert _better(replace(exact, value=1 + better), exact, Fraction(1))
+        assert _better(replace(rough, value=1 + better), rough, Fraction(1))
+    assert _better(rough, Proof(None), Fraction(1))
+    assert not _better(Proof(None), rough, Fraction(1))
 
 
 def test_a_tree_that_holds_proves_its_claim_by_rows() -> None:
