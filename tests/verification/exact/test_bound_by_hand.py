@@ -12,7 +12,18 @@ from typing import Any
 import pytest
 from scipy.optimize import brentq
 
-from optlaws import BoundaryConditions, Certificate, Chebyshev, Contact, Problem, at_least, at_most, synthesize
+from optlaws import (
+    BoundaryConditions,
+    Certificate,
+    Chebyshev,
+    Contact,
+    Link,
+    Machine,
+    Problem,
+    at_least,
+    at_most,
+    synthesize,
+)
 from optlaws.verification import exact_bound
 from tests.internals.synthesis import RELAXED, VIOLATION, expression
 from tests.internals.verification import (
@@ -181,6 +192,21 @@ def test_of_bounds_that_are_equal_up_to_rounding_the_less_corrected_is_better() 
         assert _better(replace(rough, value=1 + better), rough, Fraction(1))
     assert _better(rough, Proof(None), Fraction(1))
     assert not _better(Proof(None), rough, Fraction(1))
+
+
+def test_an_output_that_alone_says_how_large_the_law_is_proves_its_own_least_mean() -> None:
+    machine = Machine.from_masses(
+        {"motor": 0.8e-4, "carriage": 2.4e-4},
+        [Link("motor", "carriage", 9.0, 0.0018)],
+        drive="motor",
+        outputs={"torque": "drive force"},
+        duration=0.1,
+        stroke=4.0,
+    )
+    problem = small(order=3, symmetric=False, minimise=machine.rms("torque", cycle=(0.2, 0.3)))
+    solution = synthesize(problem)
+    assert means(problem, ExactRows(solution.certificate), {}) == {}
+    assert exact_bound(solution.certificate) == pytest.approx(solution.objective, rel=1e-9)
 
 
 def test_a_tree_that_holds_proves_its_claim_by_rows() -> None:
