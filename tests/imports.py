@@ -26,7 +26,7 @@ HANDED_UP = {
     "_plot": ("optlaws.plots.",),
     "export": ("optlaws.exports.", "optlaws.cams.curves.cam_files", "optlaws.synthesis.proven.fewest_laws"),
     "summary": ("optlaws.cycles.summary.", "optlaws.cams.summary."),
-    "report": ("optlaws.cycles.report.", "optlaws.cams.report."),
+    "report": ("optlaws.cycles.report.", "optlaws.cycles.moves.report.", "optlaws.cams.report."),
     "pieces": ("optlaws.exports.",),
     "polynomials": ("optlaws.exports.",),
 }

@@ -12,8 +12,8 @@ from optlaws.cycles.specification.process import is_process
 from optlaws.cycles.summary import force_name, force_unit, summary
 from optlaws.kept import kept_property
 from optlaws.mechanisms.drives.drive_train import Drive
+from optlaws.motion.derivative_panel import display_unit, motion_panel, times_in
 from optlaws.motion.display_units import MILLI, RPM, TURN_DEG, UNITS
-from optlaws.motion.piece import Piece, unit_of
 from optlaws.motion.quantities import QUANTITIES
 from optlaws.numbers import Array, chop
 from optlaws.shown.curve_points import refined
@@ -118,7 +118,7 @@ class CycleReport:
 
     def unit(self, nu: int) -> tuple[str, float]:
         """The unit of a derivative, and how many of it are one of SI."""
-        return self.units[nu] if nu < len(QUANTITIES) else (unit_of(self.cycle.axis, nu), 1.0)
+        return display_unit(self.cycle.axis, nu)
 
     def extremes(self, nu: int) -> list[tuple[Place, Place]]:
         """The least and the greatest value of a derivative in each segment, with their times."""
@@ -130,21 +130,13 @@ class CycleReport:
 
     def panel(self, nu: int, unit: tuple[str, float] | None = None) -> Panel:
         """A derivative of the motion, through its extremes, with the limits of the segments."""
-        cycle, (name, factor) = self.cycle, unit or self.unit(nu)
-        times, values = samples(cycle, nu, _EACH)
-        extremes = [place for ends in self.extremes(nu) for place in ends]
-        marks = np.array([time for _, time in extremes])
-        times, (values,) = refined(times, [values], [lambda inside: np.asarray(cycle(inside, nu))], marks)
-        limits = tuple(
-            PanelLimit(segment.start, segment.stop, *(factor * limit for limit in limited[nu]))
-            for segment, limited in zip(self.segments, cycle.limits_of_segments, strict=True)
+        limits = [
+            PanelLimit(segment.start, segment.stop, *limited[nu])
+            for segment, limited in zip(self.segments, self.cycle.limits_of_segments, strict=True)
             if nu in limited
-        )
-        least, most = (end(extremes, key=lambda place: place[0]) for end in (min, max))
-        size = max(-least[0], most[0])
-        peaks = tuple((time, value * factor) for value, time in (least, most) if chop(value, size, CYCLE_ROUNDING))
-        ends = factor * least[0], factor * most[0]
-        return Panel((*QUANTITIES, "snap")[nu], name, (Series(times, factor * values),), limits, peaks, ends)
+        ]
+        extremes = [place for ends in self.extremes(nu) for place in ends]
+        return motion_panel(self.cycle.pieces, nu, unit or self.unit(nu), extremes, limits)
 
     def _driven(self, function: Callable[[Array], Array]) -> Series:
         """Force or power through the peak of the force, and its kinks."""
@@ -182,22 +174,10 @@ class CycleReport:
         }
 
 
-def samples(cycle: Cycle, nu: int, count: int) -> tuple[Array, Array]:
-    """Times and values of a derivative, at points in each piece and at its breaks; jumps are vertical lines."""
-    times = [_times(piece, count) for piece in cycle.pieces]
-    values = [piece.values(inside, nu) for piece, inside in zip(cycle.pieces, times, strict=True)]
-    return np.concatenate(times), np.concatenate(values)
-
-
 def samples_of_drive(cycle: Cycle, function: Callable[[Array], Array], count: int) -> tuple[Array, Array]:
     """Times and values of the drive's force or power, in the same form as for a derivative."""
-    times = [_times(piece, count) for piece in cycle.pieces]
+    times = [times_in(piece, count) for piece in cycle.pieces]
     # the end of a piece has its values, not those of the next
     ends = [piece.stop - INSIDE_PIECE * cycle.duration for piece in cycle.pieces]
     values = [function(np.minimum(inside, end)) for inside, end in zip(times, ends, strict=True)]
     return np.concatenate(times), np.concatenate(values)
-
-
-def _times(piece: Piece, count: int) -> Array:
-    breaks = piece.start + piece.duration * np.array(piece.law.breaks)
-    return np.unique(np.concatenate([np.linspace(piece.start, piece.stop, count), breaks]))

@@ -11,9 +11,9 @@ from optlaws.cycles.interlocks.clearance import Clearance, bound_of
 from optlaws.cycles.interlocks.forbidden_region import Forbidden, corners_of
 from optlaws.cycles.interlocks.interlock import SMALL_UNITS
 from optlaws.cycles.machine_axes import AxesPicture
-from optlaws.cycles.report import samples
 from optlaws.cycles.specification.segments import Dwell
 from optlaws.errors import InputError
+from optlaws.motion.derivative_panel import samples
 from optlaws.motion.display_units import TURN_DEG, UNITS
 from optlaws.numbers import Array
 from optlaws.plots.style import BLUES, DISTINCT, GREEN, GREY, WARM, name_point, new_figure, plot_style, titled
@@ -101,7 +101,7 @@ def _timing(
 
 def _bars(axes: Axes, cycle: Cycle, row: float, style: dict[str, Any]) -> list[Artist]:
     scale = TURN_DEG / cycle.duration
-    times, values = samples(cycle, 0, 60)
+    times, values = samples(cycle.pieces, 0, 60)
     low, high = float(values.min()), float(values.max())
     heights = row - _HALF + 2.0 * _HALF * (values - low) / ((high - low) or 1.0)
     artists: list[Artist] = list(axes.plot(scale * times, heights, **{"linewidth": 1.4} | style))
@@ -138,7 +138,7 @@ def _arrows(axes: Axes, cycles: Mapping[str, Cycle], rule: After, rows: Mapping[
 
 def _height(cycle: Cycle, position: float, row: float) -> float:
     """The height of a position within the bar of a row."""
-    values = samples(cycle, 0, 60)[1]
+    values = samples(cycle.pieces, 0, 60)[1]
     low, high = float(values.min()), float(values.max())
     return row - _HALF + 2.0 * _HALF * (position - low) / ((high - low) or 1.0)
 

@@ -6,10 +6,11 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from optlaws.cycles.report import samples, samples_of_drive
+from optlaws.cycles.report import samples_of_drive
 from optlaws.errors import InputError
 from optlaws.formulas.arithmetic import NUMPY, evaluate
 from optlaws.formulas.tree import Formula
+from optlaws.motion.derivative_panel import samples
 from optlaws.motion.display_units import DEGREES, MILLI, RPM
 from optlaws.numbers import Array
 from optlaws.plots.style import BLUES, DISTINCT, GREEN, GREY, WARM, name_point, new_axes, new_figure, plot_style, titled
@@ -196,7 +197,7 @@ def draw_move(along: PieceEffort, motor: Motor, axes: Axes | None = None, **styl
 
 def draw_motor_of_cycle(cycle: Cycle, drive: Drive, axes: Axes | None = None, **style: Any) -> list[Artist]:
     """Draw torque over speed at the motor during a cycle, within the motor's curves."""
-    _, speeds = samples(cycle, 1, _SAMPLES)
+    _, speeds = samples(cycle.pieces, 1, _SAMPLES)
     _, torques = samples_of_drive(cycle, cycle.force, _SAMPLES)
     return draw_torque_over_speed((drive.ratio * speeds, torques), drive.motor, axes, **{"label": "cycle", **style})
 

@@ -12,6 +12,7 @@ from optlaws.motion.display_units import MILLI, UNITS
 from optlaws.motion.quantities import QUANTITIES
 from optlaws.plots.front import draw_time_front
 from optlaws.plots.law import four
+from optlaws.plots.report import draw_panels
 from optlaws.plots.style import BLUES, GREY, WARM, empty_figure, new_figure, plot_style, titled
 from optlaws.synthesis.status import Status
 from optlaws.tolerances import INSIDE_PIECE
@@ -26,35 +27,18 @@ if TYPE_CHECKING:
     from optlaws.cycles.moves.transition_cam import TransitionCam
     from optlaws.exports.export import Export
 
-_POINTS = 601
 _ROOM = 1.08
-#: a limit is drawn up to so many times what is used of it
-_NEAR = 2.0
 
 
 def motion_figure(move: FastestMove, title: str) -> Figure:
     """Position, velocity, acceleration and jerk of the fastest motion over time, with their limits."""
-    k = np.linspace(0.0, 1.0, _POINTS)
-    limits = move.least.move.limits
-    bounds = (
-        (None, None),
-        (limits.velocity, limits.velocity),
-        (limits.deceleration, limits.acceleration),
-        (limits.jerk, limits.jerk),
-    )
+    report = move.report()
     with plot_style():
-        figure = empty_figure(7.2, 6.4)
-        panels = figure.subplots(len(QUANTITIES), 1, sharex=True)
-        for nu, (axes, name, (low, high)) in enumerate(zip(panels, QUANTITIES, bounds, strict=True)):
-            unit, factor = UNITS[AXES[move.unit]][nu]
-            values = factor * move.stroke / move.duration**nu * np.asarray(move.law(k, nu))
-            axes.plot(MILLI * move.duration * k, values, color=BLUES[-1], linewidth=1.5)
-            for side, bound in ((-1.0, low), (1.0, high)):
-                # a limit far from what is used would flatten the curve
-                if bound is not None and factor * bound <= _NEAR * float((side * values).max()):
-                    axes.axhline(side * factor * bound, color=WARM, linewidth=1.0, linestyle="--")
-            axes.set_ylabel(f"{name}, {unit}")
-        panels[-1].set_xlabel("time in ms; dashed: limits")
+        figure = empty_figure(7.2, 1.6 * len(report.panels))
+        axes = list(figure.subplots(len(report.panels), 1, sharex=True))
+        draw_panels(report.panels, report.segments, axes)
+        axes[-1].set_xlabel("time in ms; dashed: limits")
+        figure.align_ylabels()
         return titled(figure, title)
 
 

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
     from optlaws.shown.report import Panel, ReportSegment
 
-#: a limit is drawn up to so many times what is used of it
+#: a limit is drawn up to so many times what is used of it on its side
 _NEAR = 4.0
 
 
@@ -44,9 +44,10 @@ def draw_panel(panel: Panel, axes: Axes, *, per: float = MILLI, share: float = 1
     artists: list[Artist] = []
     for curve in panel.series:
         artists += axes.plot(per * curve.at, share * curve.values, **{"color": BLUES[3]} | style)
-    for start, stop, *ends in panel.limits:
-        for limit in ends:
-            if abs(limit) < _NEAR * max(panel.peak, np.finfo(float).tiny):
+    for start, stop, *limits in panel.limits:
+        for side, end, limit in zip((-1.0, 1.0), panel.ends, limits, strict=True):
+            # a limit far from what is used would flatten the curve
+            if side * limit < _NEAR * max(side * end, np.finfo(float).tiny):
                 look: dict[str, Any] = {"color": WARM, "linewidth": 1.1, "linestyle": "--"}
                 artists += axes.plot([per * start, per * stop], [share * limit] * 2, **look)
     axes.set_ylabel(panel.title)

@@ -16,6 +16,7 @@ from optlaws.motion.display_units import DEGREES
 from optlaws.motion.piece import factor, unit_of
 from optlaws.motion.quantities import positive_quantity
 from optlaws.numbers import Quantity, positive
+from optlaws.shown.report import Report
 from optlaws.shown.summary import Row, Summary
 from optlaws.suggest import keywords_of
 from optlaws.synthesis.least_time.least_time import LeastTime
@@ -284,6 +285,20 @@ class FastestMove(LawExport, JsonText):
         if entries_of(data, ["unit"], cls._json_name)["unit"] not in tuple(AXES):
             raise InputError(f"{cls._json_name} has a unit, 'm' or 'rad', got {shortened(data)}")
         return cls(LeastTime.from_dict({key: data[key] for key in data if key != "unit"}), data["unit"])
+
+    def report(self) -> Report:
+        """The facts of the move, and its motion over time within its limits.
+
+        Examples
+        --------
+        >>> import optlaws
+        >>> move = optlaws.fastest(optlaws.Problem(order=3), stroke="100 mm", limits={"jerk": "300 m/s^3"})
+        >>> [(panel.title, round(panel.peak, 6)) for panel in move.report().panels][3]
+        ('jerk, m/s³', 300.0)
+        """
+        from optlaws.cycles.moves.report import MoveReport
+
+        return MoveReport(self, self.law, self.duration)
 
     def _repr_html_(self) -> str:
         from optlaws.laws.html import drawings

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache, partial
 from itertools import groupby
-from math import inf, isfinite
+from math import inf
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -16,21 +16,24 @@ import numpy as np
 
 from optlaws import Cycle, Drive, FastestCycle, FastestMove, MotionLaw, Problem, Solution, Status, fastest
 from optlaws.cycles.moves.fastest_move import AXES
+from optlaws.cycles.moves.report import MoveReport
+from optlaws.cycles.report import CycleReport
 from optlaws.cycles.summary import drive_rows, objective_unit, peak_rows
 from optlaws.errors import InputError, OptlawsError
 from optlaws.explorer.views import cycle_view
 from optlaws.explorer.views.law_view import TITLES, digits, gap_text, refusal
-from optlaws.explorer.views.panel_data import drawn
+from optlaws.explorer.views.panel_data import panel_data
 from optlaws.explorer.views.requests import MOST_DEGREE, MOST_ORDER, Question, without_files
 from optlaws.jobs.cycle_entries import AxisEntries, CycleProblemFile
 from optlaws.jobs.moves.move_entries import FastestProblemFile, MoveEntries, arguments_of, front_of
 from optlaws.mechanisms.drives.sheet import share_used
-from optlaws.motion.display_units import MILLI, RPM, UNITS
+from optlaws.motion.display_units import MILLI, RPM
 from optlaws.motion.piece import factor, unit_of
 from optlaws.motion.quantities import QUANTITIES, si_number
 from optlaws.numbers import Array, Quantity, bounded, whole
 from optlaws.sentences import Amount, sentence
 from optlaws.shown.curve_points import refined
+from optlaws.shown.report import Panel, PanelLimit, Series
 from optlaws.studies.problem_entries import problem
 from optlaws.synthesis.least_time.follower_residual import RESIDUAL
 from optlaws.synthesis.least_time.motor_torque import CURVE_LIMIT
@@ -38,7 +41,6 @@ from optlaws.synthesis.least_time.move_objective import AT_MOTOR, OBJECTIVES
 from optlaws.tolerances import AGREEMENT, LEAST_TIME_GAP
 
 _WHERE = Path("the study")
-_EACH = 60
 _STEPS = 241
 _POINTS = 11
 _CYCLE_POINTS = 6
@@ -159,28 +161,16 @@ def _in_time(sought: _Sought, time: float | None) -> _InTime:
 
 def _view_of_move(sought: _Sought, time: float | None) -> dict[str, Any]:
     least, shown = sought.least, _in_time(sought, time)
-    axis = AXES[least.unit]
-    curves = _Curves(sought, shown)
-    k, columns = curves.sampled
-    times = MILLI * shown.duration * k
-    shares = curves.shares(k)
-    used = {
-        limit.name: limit.constant.value(shown.law) / limit.bound
-        for limit in least.least.move.limits_in(shown.duration)
-    }
-    last = MILLI * shown.duration
-    panels = [
-        _panel(QUANTITIES[nu], *UNITS[axis][nu], (times, columns[nu], shares), [(0.0, last, *_limits(sought, nu))])
-        for nu in range(4)
-    ]
-    if sought.drive is not None:
-        bars = [(0.0, last, *_torque_limits(sought))]
-        panels.append(_panel("torque", "N m", 1.0, (times, curves.torque(k), shares), bars))
+    curves, limits = _Curves(sought, shown), least.least.move.limits_in(shown.duration)
+    used = {limit.name: limit.constant.value(shown.law) / limit.bound for limit in limits}
+    panels = [*MoveReport(least, shown.law, shown.duration).panels, *curves.torque_panel()]
+    times = np.unique(np.concatenate([panel.series[0].at for panel in panels]))
+    shares = curves.shares(times)
     return {
         "across": "time, ms",
         "symbol": "t, ms",
         "range": [0.0, MILLI * shown.duration],
-        "panels": panels,
+        "panels": [_coloured(panel, curves.shares) for panel in panels],
         "segments": _stretches(times, shares),
         "names": list(shares),
         "shares": _greatest_shares({name: used[name] for name in shares}),
@@ -218,102 +208,47 @@ class _Curves:
         self._sought, self._move, self._law = sought, sought.least.least.move, shown.law
         self._time = shown.duration
 
-    def values(self, k: Array, nu: int) -> Array:
+    def values(self, times: Array, nu: int) -> Array:
         """The derivative of order nu in SI units."""
-        return factor(self._move.stroke, self._time, nu) * np.asarray(self._law(k, nu))
+        return factor(self._move.stroke, self._time, nu) * np.asarray(self._law(times / self._time, nu))
 
-    @property
-    def sampled(self) -> tuple[Array, list[Array]]:
-        """Places, and position, velocity, acceleration and jerk there, through their extremes."""
-        k = np.unique(np.concatenate([np.linspace(0.0, 1.0, _STEPS), np.array(self._law.breaks)]))
-        functions = [partial(self.values, nu=nu) for nu in range(4)]
-        extremes = np.array([*(extreme.k for nu in (1, 2, 3) for extreme in self._law.extrema(nu)), *self._of_motor])
-        return refined(k, [function(k) for function in functions], functions, extremes)
-
-    @property
-    def _of_motor(self) -> tuple[float, ...]:
-        """The places at which most of the motor is used."""
-        drive = self._sought.drive
+    def torque_panel(self) -> Iterator[Panel]:
+        """The torque at the motor with its peak and its limit, where there is a motor."""
+        drive, torque = self._sought.drive, self._move.torque
         if drive is None:
-            return ()
-        given, time = self._sought.given["start"], f"{self._time!r} s"
-        sheet = drive.sheet(self._law, given, _stroke(self._sought.move), time)
-        return sheet.peak_torque_at, sheet.curve_use_at
+            return
+        sheet = drive.sheet(self._law, self._sought.given["start"], _stroke(self._sought.move), f"{self._time!r} s")
+        marks = self._time * np.array([sheet.peak_torque_at, sheet.curve_use_at])
+        times = np.unique(self._time * np.array([*np.linspace(0.0, 1.0, _STEPS), *self._law.breaks]))
+        times, (values,) = refined(times, [self.torque(times)], [self.torque], marks)
+        most = None if torque is None else torque.peak
+        limits = () if most is None else (PanelLimit(0.0, self._time, -most, most),)
+        peaks = tuple(zip(marks[:1].tolist(), self.torque(marks[:1]).tolist(), strict=True))
+        yield Panel("torque", "N m", (Series(times, values),), limits, peaks)
 
-    def torque(self, k: Array) -> Array:
+    def torque(self, times: Array) -> Array:
         """The torque at the motor."""
         position = float(si_number(self._sought.given["start"], ("angle",), "start"))
-        x, v, w = (self.values(k, nu) for nu in range(3))
+        x, v, w = (self.values(times, nu) for nu in range(3))
         assert self._sought.drive is not None  # noqa: S101 - asked of moves with one
         return np.asarray(self._sought.drive.torque(position + x, v, w))
 
-    def shares(self, k: Array) -> dict[str, Array]:
-        """The share of each limit that is taken at each place, 0 to 1."""
+    def shares(self, times: Array) -> dict[str, Array]:
+        """The share of each limit that is taken at each time, 0 to 1."""
         taken = {}
         for limit in self._move.rates:
-            rates = self.values(k, limit.nu) / (limit.rate * self._move.stroke)
+            rates = self.values(times, limit.nu) / (limit.rate * self._move.stroke)
             one_sided = limit.nu == 2 and not self._move.limits.symmetric
             sign = -1.0 if limit.name == "deceleration" else 1.0
             taken[limit.name] = np.maximum(sign * rates, 0.0) if one_sided else np.abs(rates)
         torque, drive = self._move.torque, self._sought.drive
         if drive is not None and torque is not None:
-            size = np.abs(self.torque(k))
+            size = np.abs(self.torque(times))
             if torque.peak is not None:
                 taken["torque"] = size / torque.peak
             if torque.curve:
-                taken[CURVE_LIMIT] = share_used(size, drive.motor.peak_at(drive.ratio * self.values(k, 1)))
+                taken[CURVE_LIMIT] = share_used(size, drive.motor.peak_at(drive.ratio * self.values(times, 1)))
         return taken
-
-
-def _limits(sought: _Sought, nu: int) -> tuple[float, float]:
-    """The least and the greatest value that a derivative may have."""
-    limits = sought.least.least.move.limits
-    low, high = {
-        1: (limits.velocity, limits.velocity),
-        2: (limits.deceleration, limits.acceleration),
-        3: (limits.jerk, limits.jerk),
-    }.get(nu, (None, None))
-    return -inf if low is None else -low, inf if high is None else high
-
-
-def _torque_limits(sought: _Sought) -> tuple[float, float]:
-    """The peak torque on both sides."""
-    torque = sought.least.least.move.torque
-    most = None if torque is None else torque.peak
-    return (-inf, inf) if most is None else (-most, most)
-
-
-#: a limit over a stretch of time: where it begins and ends, ms, and the least and the greatest value in SI units
-_Bar = tuple[float, float, float, float]
-
-
-def _panel(
-    name: str, unit: str, size: float, course: tuple[Array, Array, dict[str, Array]], limits: Sequence[_Bar]
-) -> dict[str, Any]:
-    """A curve in parts, each of the limit of which most is taken there, with the limits that it must keep."""
-    times, values, shares = course
-    bars = [
-        {"from": start, "to": stop, "least": bounded(size * low), "value": bounded(size * high)}
-        for start, stop, low, high in limits
-        if isfinite(low) or isfinite(high)
-    ]
-    return {
-        "name": name,
-        "unit": unit,
-        "series": _parts(times, size * values, shares),
-        "limits": bars,
-        "peaks": _peaks(times, size * values),
-    }
-
-
-def _peaks(times: Array, values: Array) -> list[dict[str, Any]]:
-    places = {int(np.argmin(values)), int(np.argmax(values))}
-    size = float(np.abs(values).max())
-    return [
-        {"at": round(float(times[i]), 4), "value": float(values[i])}
-        for i in sorted(places)
-        if abs(values[i]) > AGREEMENT * size
-    ]
 
 
 def _nearest(shares: dict[str, Array], count: int) -> Array:
@@ -330,21 +265,23 @@ def _runs(numbers: Array) -> Iterator[tuple[int, int, int]]:
         start = stop
 
 
-def _parts(times: Array, values: Array, shares: dict[str, Array]) -> list[dict[str, Any]]:
-    """The curve, and a series of it for each limit, which is drawn where most is taken of that one."""
-    names, number = list(shares), _nearest(shares, len(times))
-    parts: dict[int, tuple[list[Any], list[Any]]] = {i: ([], []) for i in range(max(1, len(names)))}
-    for i, start, stop in _runs(number):
-        places, heights = parts[i]
+def _coloured(panel: Panel, shares: Callable[[Array], dict[str, Array]]) -> dict[str, Any]:
+    """The curve of a panel, and a series of it for each limit, which is drawn where most is taken of that one."""
+    (whole,) = panel.series
+    times, taken = whole.at, shares(whole.at)
+    parts: dict[int, list[tuple[Array, Array]]] = {i: [] for i in range(len(taken))}
+    for i, start, stop in _runs(_nearest(taken, len(times))) if taken else ():
         # on to the first place of the next, so that the curve is whole
-        places += [*drawn(times[start : stop + 1], 4), round(float(times[min(stop, len(times) - 1)]), 4)]
-        heights += [*drawn(values[start : stop + 1]), None]
+        at, values = times[start : stop + 1], whole.values[start : stop + 1]
+        parts[i].append((np.append(at, at[-1]), np.append(values, np.nan)))
     limited = [
-        {"law": f"bind-{i}", "name": names[i], "at": at, "values": heights}
-        for i, (at, heights) in parts.items()
-        if at and names
+        Series(
+            np.concatenate([at for at, _ in runs]), np.concatenate([values for _, values in runs]), f"bind-{i}", name
+        )
+        for (i, runs), name in zip(parts.items(), taken, strict=True)
+        if runs
     ]
-    return [{"law": 0, "at": drawn(times, 4), "values": drawn(values)}, *limited]
+    return panel_data(replace(panel, series=(whole, *limited)))
 
 
 def _stretches(times: Array, shares: dict[str, Array]) -> list[dict[str, Any]]:
@@ -353,7 +290,7 @@ def _stretches(times: Array, shares: dict[str, Array]) -> list[dict[str, Any]]:
     stretches = []
     for i, start, stop in _runs(number) if names else ():
         most = float(shares[names[i]][start:stop].max())
-        ends = [round(float(times[start]), 4), round(float(times[min(stop, len(times) - 1)]), 4)]
+        ends = [round(MILLI * float(times[at]), 4) for at in (start, min(stop, len(times) - 1))]
         stretches.append({"name": names[i] if most else "rest", "at": ends, "law": i, "full": most >= _FULL})
     return stretches
 
@@ -462,23 +399,16 @@ def _view_of_cycle(request: FastestRequest) -> dict[str, Any]:
     spec, axis = _axis(request)
     quickest = _fastest_cycle(spec, axis)
     shown = _cycle_in_time(spec, axis, quickest, request.time)
-    edges = shown.limits_of_segments
-    times = np.unique(np.concatenate([np.linspace(p.start, p.stop, _EACH) for p in shown.pieces]))
-    places = np.array([time for peak in shown.peaks for pair in peak.extremes[1:] for _, time in pair])
-    functions = [partial(lambda t, nu: np.asarray(shown(t, nu)), nu=nu) for nu in range(4)]
-    times, columns = refined(times, [function(times) for function in functions], functions, places)
-    shares = _shares_of_cycle(shown, times, columns, edges)
-    milliseconds = MILLI * times
-    units = UNITS[shown.axis]
+    edges, report = shown.limits_of_segments, CycleReport(shown)
+    panels = [report.panel(nu) for nu in range(4)]
+    times = np.unique(np.concatenate([panel.series[0].at for panel in panels]))
+    shares = _shares_of_cycle(shown, times)
     return {
         "across": "time, ms",
         "symbol": "t, ms",
         "range": [0.0, MILLI * shown.duration],
-        "panels": [
-            _panel(QUANTITIES[nu], *units[nu], (milliseconds, columns[nu], shares), _bars(shown, edges, nu))
-            for nu in range(4)
-        ],
-        "segments": _stretches(milliseconds, shares),
+        "panels": [_coloured(panel, partial(_shares_of_cycle, shown)) for panel in panels],
+        "segments": _stretches(times, shares),
         "names": list(shares),
         "shares": _greatest_shares(_greatest_of_cycle(shown, edges)),
         "rows": [_row(row.name, row.value, row.unit, None) for row in (*peak_rows(shown), *drive_rows(shown))],
@@ -491,26 +421,14 @@ def _view_of_cycle(request: FastestRequest) -> dict[str, Any]:
     }
 
 
-def _bars(shown: Cycle, edges: Sequence[dict[int, tuple[float, float]]], nu: int) -> list[_Bar]:
-    """The limits of a derivative, segment by segment."""
-    return [
-        (MILLI * peak.start, MILLI * (peak.start + peak.duration), *limits[nu])
-        for peak, limits in zip(shown.peaks, edges, strict=True)
-        if nu in limits
-    ]
-
-
-def _shares_of_cycle(
-    shown: Cycle, times: Array, columns: Sequence[Array], edges: Sequence[dict[int, tuple[float, float]]]
-) -> dict[str, Array]:
+def _shares_of_cycle(shown: Cycle, times: Array) -> dict[str, Array]:
     """The share of the limits of each segment that is taken at each time."""
     taken: dict[str, Array] = {}
     for nu in (1, 2, 3):
-        share = np.zeros(len(times))
-        for peak, limits in zip(shown.peaks, edges, strict=True):
+        share, values = np.zeros(len(times)), np.asarray(shown(times, nu))
+        for peak, limits in zip(shown.peaks, shown.limits_of_segments, strict=True):
             low, high = limits.get(nu, (-inf, inf))
             inside = (times >= peak.start) & (times <= peak.start + peak.duration)
-            values = columns[nu]
             share = np.where(inside, np.maximum(share, np.maximum(values / high, values / low)), share)
         if share.any():
             taken[QUANTITIES[nu]] = share

@@ -12,7 +12,7 @@ import msgspec
 import numpy as np
 
 from optlaws import Cycle, Drive, Mechanism, MotionLaw, Motor, Move, Status
-from optlaws.cycles.report import CycleReport, samples, samples_of_drive
+from optlaws.cycles.report import CycleReport, samples_of_drive
 from optlaws.cycles.specification.process import is_process
 from optlaws.cycles.specification.programme import is_optimal
 from optlaws.cycles.summary import drive_rows, force_unit
@@ -26,6 +26,7 @@ from optlaws.explorer.views.panel_data import drawn, panel_data
 from optlaws.explorer.views.requests import MOST_LAWS, Question
 from optlaws.jobs.cycle_entries import AxisEntries, CycleProblemFile, cycle_of
 from optlaws.mechanisms.linkages.mechanism_kinds import MechanismKind
+from optlaws.motion.derivative_panel import samples
 from optlaws.motion.display_units import MILLI, RPM, UNITS
 from optlaws.numbers import bounded
 from optlaws.shown.summary import Row
@@ -223,7 +224,7 @@ def _over_speed(shown: Cycle, cycles: Coloured) -> dict[str, Any] | None:
         return None
     courses: list[dict[str, Any]] = []
     for law, cycle in cycles:
-        _, speeds = samples(cycle, 1, 4 * _EACH)
+        _, speeds = samples(cycle.pieces, 1, 4 * _EACH)
         _, torques = samples_of_drive(cycle, cycle.force, 4 * _EACH)
         courses.append({"law": law, "speeds": drawn(_speed_of_drive(cycle) * speeds, 3), "torques": drawn(torques, 5)})
     fastest = max(_speed_of_drive(cycle) * max(peak.peak(1) for peak in cycle.peaks) for _, cycle in cycles)
