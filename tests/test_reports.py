@@ -1,0 +1,76 @@
+"""Reports: every kind of result makes one, its curves go through the peaks of the law, and every output renders it."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+import optlaws
+from optlaws import Cycle, DiscCam, Drive, Dwell, Mechanism, Motor, Return, Rise, TranslatingRoller
+from optlaws.results import Page
+from tests.internals.explorer import panel_data
+from tests.internals.plots import draw_panels, empty_figure
+from tests.internals.shown import report_page
+
+CYCLE = Cycle(
+    [Rise("25 mm", "150 deg", law="3-4-5"), Dwell("30 deg"), Return(law="modified trapezoid")],
+    speed="300 rpm",
+    limits={"velocity": "2 m/s", "acceleration": ["-90 m/s^2", "80 m/s^2"]},
+    drive={"mass": "2 kg", "stiffness": "3 N/mm", "preload": "60 N"},
+).unchecked()
+DRIVEN = Cycle(
+    [Rise("45 deg", "0.25 s", law="modified sine"), Dwell()],
+    period="0.8 s",
+    advance="45 deg",
+    drive=Drive(Mechanism("0.8 kg m^2"), Motor("3e-4 kg m^2", peak_torque="4 N m"), ratio=20),
+)
+RESULTS: dict[str, Any] = {
+    "cycle": CYCLE,
+    "driven": DRIVEN,
+    "cam": DiscCam(Cycle(CYCLE.segments, speed="300 rpm"), "60 mm", TranslatingRoller("12 mm", offset="6 mm")),
+    "move": optlaws.fastest(
+        optlaws.Problem(order=4), stroke="300 mm", limits={"acceleration": "12 m/s^2", "snap": "60000 m/s^4"}
+    ),
+}
+
+
+@pytest.mark.parametrize("kind", RESULTS)
+def test_curves_go_through_the_peaks_of_the_law_and_not_beyond_its_ends(kind: str) -> None:
+    for panel in RESULTS[kind].report().panels:
+        (curve,) = panel.series
+        assert (np.diff(curve.at) >= 0.0).all()
+        for at, value in panel.peaks:
+            assert np.abs(curve.values[np.isclose(curve.at, at, rtol=1e-9)] - value).min() <= 1e-6 * abs(value)
+        if any(panel.ends) and kind != "cam":
+            low, high = panel.ends
+            room = 1e-6 * panel.peak
+            assert low - room <= curve.values.min() <= low + 1e3 * room
+            assert high - 1e3 * room <= curve.values.max() <= high + room
+
+
+@pytest.mark.parametrize("kind", ["cycle", "driven", "cam", "move"])
+def test_every_output_renders_the_same_report(kind: str) -> None:
+    report = RESULTS[kind].report()
+    page, html = str(Page("a result").report(report)), report_page("a result", report)
+    columns = [heading.partition(",")[0] for table in report.tables for heading in table.headings]
+    for row in report.facts:
+        assert f"| {row.name} " in page or row.name in columns
+        assert row.name in html.replace("&#x27;", "'")
+    figure = empty_figure()
+    axes = list(figure.subplots(len(report.panels), 1, squeeze=False)[:, 0])
+    draw_panels(report.panels, report.segments, axes)
+    assert html.count("<svg") == len(report.panels)
+    for panel, each in zip(report.panels, axes, strict=True):
+        data = panel_data(panel)
+        assert panel.title == each.get_ylabel() == f"{data['name']}, {data['unit']}"
+        drawn = np.array(data["series"][0]["values"], dtype=float)
+        assert drawn == pytest.approx(np.asarray(each.lines[0].get_ydata()), rel=1e-6, abs=1e-6, nan_ok=True)
+
+
+def test_a_limit_far_from_what_is_used_on_its_side_is_not_drawn() -> None:
+    velocity, acceleration = RESULTS["move"].report().panels[1:3]
+    figure = empty_figure()
+    axes = list(figure.subplots(2, 1))
+    draw_panels([velocity, acceleration], [], axes)
+    assert [line.get_ydata()[0] for line in axes[1].lines[1:]] == [-12.0, 12.0]
+    assert len(axes[0].lines) == 1
