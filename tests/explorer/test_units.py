@@ -27,7 +27,7 @@ def test_decimal_commas_are_read(page: Page, served: Server) -> None:
     assert page.locator("#table tbody tr >> nth=0 >> [data-constant]").all_inner_texts() == told(served, law)
     page.locator("#views [data-key=cycle]").click()
     settle(page)
-    page.locator("#programme .entry", has_text="velocity").locator("input").fill("700,5 mm/s")
+    page.locator("#programme .entry").get_by_label("limit velocity", exact=True).fill("700,5 mm/s")
     settle(page)
     assert "proven optimal" in page.locator("#cycle-trust").inner_text()
     # what stands in brackets is a formula, whose commas part its arguments
