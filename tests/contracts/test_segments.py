@@ -246,6 +246,18 @@ def test_rest_is_rest_only_below_the_share_asked(segment: Segment, length: float
         assert nearly.at_rest(length, 1e-18) == nearly
 
 
+def test_rest_matters_where_c_is_infinite_alone() -> None:
+    slow = FractionalSegment(1.5, 1.0, 0.0, (4.0,), 1e-15)
+    assert slow.at_rest(0.5, 1e-12) == slow
+
+
+def test_powers_of_time_plus_their_derivatives_are_no_more_powers_than_there_are() -> None:
+    # x^4.5 and x^5.5, and each lowered twice
+    made = FractionalSegment(4.5, 0.2, 1.1, (1.0, -2.0), -0.1).plus_derivatives(0.5, 0.03, 0.0007)
+    assert isinstance(made, FractionalSegment)
+    assert (made.exponent, len(made.coefficients)) == (2.5, 4)
+
+
 @each
 def test_stored_copied_and_pickled_segments_are_equal(segment: Segment, length: float) -> None:
     data = json.loads(json.dumps(segment.to_dict(), allow_nan=False))

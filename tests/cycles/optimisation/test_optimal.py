@@ -225,6 +225,27 @@ def test_a_limited_jerk_has_the_space_of_a_jerk_whatever_is_minimised() -> None:
     assert velocity == jerk
 
 
+def test_a_force_has_the_space_of_an_acceleration() -> None:
+    ways = [Free("30 mm", "0.2 s"), Free("20 mm", "0.2 s"), Free("-50 mm", "0.3 s"), Dwell()]
+    force, acceleration = (
+        problem_of(*ways, period="1 s", minimise=minimise, drive={"mass": "2 kg"}).basis
+        for minimise in ("force", "acceleration")
+    )
+    assert force == acceleration
+
+
+def test_a_snap_is_limited_in_the_whole_law_where_others_are_in_parts() -> None:
+    ways = [Free("30 mm", "0.2 s", limits={"velocity": "250 mm/s"}), Free("-30 mm", "0.2 s")]
+    cycle = Cycle([*ways, Dwell()], period="1 s", order=4, degree=5, limits={"snap": "1e7 mm/s^4"})
+    (solution,), (piece, *_) = cycle.solutions, cycle.pieces
+    assert [str(constant) for constant, _ in solution.problem.bounded] == ["snap"]
+    snap = solution.problem.range("snap")
+    assert snap is not None
+    assert snap.high == pytest.approx(1e4 * piece.duration**4 / abs(piece.stroke))
+    assert piece.law.peak(4).value <= snap.high * (1 + 1e-9)
+    assert cycle.peaks[0].peak(1) <= 0.25 * (1 + 1e-9)
+
+
 def test_a_motion_against_dry_friction_never_goes_back() -> None:
     rise = (Rise("35 mm", "0.1 s"), Return())
     for drive, forward in (({"mass": "2 kg"}, False), ({"mass": "2 kg", "dry": "3 N"}, True)):
