@@ -91,8 +91,6 @@ class MotionLaw(Curve, LawExport, StoredLaw):
         ((0.5, 1.0),)
         """
         nu = derivative(nu)
-        if len(self.breaks) == 2:
-            return ()
         if nu not in self._known_jumps:
             self._known_jumps[nu] = self._jumps(nu)
         return self._known_jumps[nu]

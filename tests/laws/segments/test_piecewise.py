@@ -113,9 +113,14 @@ def test_a_jump_makes_the_next_derivatives_infinite_where_it_is() -> None:
 def test_a_jump_is_one_beside_greater_lower_derivatives_unless_rounding_makes_it(
     height: float, continuity: int
 ) -> None:
-    law = PiecewiseLaw([0, 0.5, 1], [PolynomialSegment((), 1.0), PolynomialSegment((height,), 1.0)])
-    assert law.jumps(2) == (((0.5, height),) if continuity == 1 else ())
-    assert law.continuity == continuity
+    for b in (0.01, 1.0, 100.0):
+        law = PiecewiseLaw([0, 0.5, 1], [PolynomialSegment((), b), PolynomialSegment((b * height,), b)])
+        assert law.jumps(2) == (((0.5, b * height),) if continuity == 1 else ())
+        assert law.continuity == continuity
+
+
+def test_where_velocity_and_acceleration_rest_at_every_break_their_size_is_that_between() -> None:
+    assert cut_sine(1 / 3, 2 / 3, turns=3).continuity == 9
 
 
 def test_a_jump_of_velocity_makes_c_d_and_rms_infinite() -> None:
