@@ -100,7 +100,7 @@ export class Band {
     const inside = weight.filter(([nu]) => nu >= band[0] && nu <= band[1]);
     const allowed = bound === null ? [] : weight.length ? [{ law: "limit", name: "allowed by the spectrum", at: inside.map(([nu]) => nu), values: inside.map(([, size]) => (size > 0 ? bound / size : null)) }] : [];
     const limits = bound === null || weight.length ? [] : [{ from: band[0], to: band[1], least: null, value: bound }];
-    const measuredPanel = weight.length ? [{ name: "measured spectrum", unit: "amplitude", at: weight.map(([nu]) => nu), values: weight.map(([, size]) => size) }] : [];
+    const measuredPanel = weight.length ? [{ name: "measured spectrum", unit: "amplitude", series: [{ at: weight.map(([nu]) => nu), values: weight.map(([, size]) => size) }] }] : [];
     return {
       ...picture,
       panels: [{ ...first, limits, series: [...first.series, ...allowed] }, ...others, ...measuredPanel],

@@ -14,14 +14,13 @@ from tests.internals.cams import CamFollower
 PACKAGE = Path(optlaws.__file__).parent
 FOLDER = PACKAGE / "cams" / "followers"
 #: modules that make a follower of one kind, and ask of no other: arms with rollers, slides whose offset is sought,
-#: and the cams that views show first
+#: and the cams that views and examples show first
 MAKERS = {
     "balancing/dwells/dwell_machine.py": {"OscillatingRoller"},
+    "cams/at_shaft.py": {"translating roller"},
     "cams/best_offset.py": {"TranslatingRoller"},
-    "jobs/axes/mechanism_entries.py": {"translating roller"},
     "jobs/cam_findings.py": {"TranslatingRoller"},
     "explorer/views/cam_view.py": {"translating roller"},
-    "explorer/views/machines/machine_view.py": {"translating roller"},
 }
 
 
