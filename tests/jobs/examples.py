@@ -157,7 +157,7 @@ EXAMPLES = {
             ('"translating roller"', '"translating rollr"', "kind"),
             ('by = "20 mm"', 'by = "20 deg"', "drive: unknown key 'mass'"),
             ('"profile.nc"', '"profile.igs"', "names no format"),
-            ('"profile.nc"', '"../profile.nc"', "file: name must be that of a file in the folder"),
+            ('"profile.nc"', '"../profile.nc"', "file 1: name must be that of a file in the folder"),
             ('tolerance = "20 um"', 'tolerance = "20 s"', "tolerance must be a length"),
             ("mass =", "inertia =", "drive: .*inertia"),
             ('width = "20 mm"', 'width = "0 mm"', "width must be above 0"),
@@ -202,7 +202,7 @@ EXAMPLES = {
             ('name = "slide"', 'name = "Table"', "names must differ as files have them"),
             ('name = "slide"', 'name = "about"', "none is about or fastest"),
             ('["100 mm", "90 mm"]', '["100 mm"]', "stroke"),
-            ('velocity = "1 m/s"', 'speed = "1 m/s"', "move slide: unknown limit 'speed'"),
+            ('velocity = "1 m/s"', 'speed = "1 m/s"', "move slide: limits: unknown limit 'speed'"),
             (
                 '["-8 m/s^2", "12 m/s^2"]',
                 '["8 m/s^2", "12 m/s^2"]',
