@@ -434,7 +434,8 @@ def _limit(standing: Standing, minimise: DriveObjective, unit: float, motion: Ph
     plane = standing.plane
     a = np.sin(0.5 * np.pi * motion.s) ** 2
     s, b = tuple(motion.s.tolist()), tuple(np.minimum(motion.velocities, plane.velocity_bound(a, a)).tolist())
-    attained = _in_units(value_of(plane, tuple(motion.edges.tolist()), s, b), minimise, unit, inf)
+    cells = tuple(motion.edges.tolist())
+    attained = _in_units(value_of(plane, cells, s, b), minimise, unit, inf)
     near = max(motion.objective, 0.0) if plane.kind == "peak" else 0.0
     best = None
     for potential, weight, price, is_last in _certificates(standing, motion):
@@ -448,7 +449,8 @@ def _limit(standing: Standing, minimise: DriveObjective, unit: float, motion: Ph
         if best.gap < (_MOST_PHASE_GAP if is_last else _SMALL_PHASE_GAP):
             break
     assert best is not None  # noqa: S101 - there are several certificates
-    return replace(best, attained=_put_right(best, attained))
+    # what is stored is integrated over its own cells, as whoever verifies it does
+    return replace(best, attained=_put_right(best, attained) if best.edges == cells else _attained(best))
 
 
 def _certificates(standing: Standing, motion: PhaseOptimum) -> Iterator[tuple[Potential, float, float, bool]]:
