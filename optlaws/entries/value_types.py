@@ -202,31 +202,39 @@ class Range:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Number(ValueType):
-    """A number without a unit, in a range.
-
-    >>> Number(least=0.0).read(-0.1, "damping")
-    Traceback (most recent call last):
-    optlaws.errors.InputError: damping must be at least 0, got -0.1
-    """
+class _Ranged(ValueType):
+    """Numbers in a range; `absent` is what is kept where none is given."""
 
     above: float = -inf
     least: float = -inf
     most: float = inf
-    absent: float | None = None  #: what is kept where none is given
+    absent: float | None = None
 
     @cached_property
     def range(self) -> Range:
         """Where its numbers are."""
         return Range(self.above, self.least, self.most)
 
-    def read(self, value: Any, name: str) -> float | None:
+    def number(self, value: Any, name: str) -> float:
+        """The number of a value, if it is in the range."""
+        return self.range.check(finite(value, name), name, value)
+
+    def read(self, value: Any, name: str) -> Any:
         if self.absent is not None and (value is None or value == self.absent):
             return self.absent
-        return self.range.check(finite(value, name), name, value)
+        return self.number(value, name)
 
     def plain(self, value: Any) -> Any:
         return None if self.absent is not None and value == self.absent else value
+
+
+class Number(_Ranged):
+    """A number without a unit, in a range.
+
+    >>> Number(least=0.0).read(-0.1, "damping")
+    Traceback (most recent call last):
+    optlaws.errors.InputError: damping must be at least 0, got -0.1
+    """
 
     @property
     def words(self) -> str:
@@ -237,24 +245,17 @@ class Number(ValueType):
 
 
 @dataclass(frozen=True, kw_only=True)
-class _Physical(ValueType):
+class _Physical(_Ranged):
     """A quantity of one of several dimensions, in a range of its number in SI units."""
 
     dimensions: tuple[str, ...]
-    above: float = -inf
-    least: float = -inf
-    most: float = inf
     bare: bool = False  #: whether a number without a unit is one in SI units
-
-    @cached_property
-    def range(self) -> Range:
-        """Where its numbers in SI units are."""
-        return Range(self.above, self.least, self.most)
 
     def number(self, value: Any, name: str) -> float:
         """The number of a value in SI units, if it is in the range."""
-        bare = self.bare and not isinstance(value, str) and not hasattr(value, "units")
-        return self.range.check(finite(value, name) if bare else either(value, self.dimensions, name)[1], name, value)
+        if self.bare and not isinstance(value, str) and not hasattr(value, "units"):
+            return super().number(value, name)
+        return self.range.check(either(value, self.dimensions, name)[1], name, value)
 
     @property
     def words(self) -> str:
@@ -297,19 +298,8 @@ class InSI(_Physical):
     (2000.0, 3.0)
     """
 
-    absent: float | None
-
     def __init__(self, *dimensions: str, absent: float | None = None, bare: bool = True, **ends: float) -> None:
-        super().__init__(dimensions=dimensions, bare=bare, **ends)
-        object.__setattr__(self, "absent", absent)
-
-    def read(self, value: Any, name: str) -> float | None:
-        if self.absent is not None and (value is None or value == self.absent):
-            return self.absent
-        return self.number(value, name)
-
-    def plain(self, value: Any) -> Any:
-        return None if self.absent is not None and value == self.absent else value
+        super().__init__(dimensions=dimensions, bare=bare, absent=absent, **ends)
 
 
 @dataclass(frozen=True)
@@ -474,10 +464,7 @@ def pairs(table: Mapping[str, Any]) -> tuple[tuple[str, Any], ...]:
 
 @dataclass(frozen=True, init=False)
 class Either(ValueType):
-    """One of several types, of which the first that takes the value reads it; the error is that of the nearest.
-
-    `which` says which: a function of the value that gives the place of the type among them.
-    """
+    """One of several types; `which` is a function of the value that gives the place of its type among them."""
 
     of: tuple[ValueType, ...]
     which: Callable[[Any], int]
