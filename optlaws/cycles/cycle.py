@@ -37,7 +37,7 @@ from optlaws.cycles.optimisation.objectives import (
 from optlaws.cycles.optimisation.search_spaces import remark_on_degrees, search_space
 from optlaws.cycles.optimisation.shared_limits import Best, best_of
 from optlaws.cycles.optimisation.sums import total
-from optlaws.cycles.specification.drive import CycleDrive, read_drive
+from optlaws.cycles.specification.drive import CONSTANTS, CycleDrive, read_drive
 from optlaws.cycles.specification.frozen import FrozenTable, frozen, thawed
 from optlaws.cycles.specification.joints import LawSpan, Layout, layout
 from optlaws.cycles.specification.limit_entries import LIMITS_OF_CYCLE
@@ -88,6 +88,14 @@ def _read_drive(value: Any) -> Any:
     if stored and "mechanism" in value:
         return Drive.from_dict(value)
     return Mechanism.from_dict(value) if stored and "axis" in value else frozen(value)
+
+
+class DriveTable(ReadBy):
+    """Constants of a drive, which stay a table, or a `Mechanism` or `Drive`."""
+
+    def schema(self) -> dict[str, Any]:
+        mechanism = {"type": "object", "required": ["axis", "inertia"]}
+        return {"anyOf": [*(table.schema() for table in CONSTANTS.values()), mechanism, Drive.json_schema()]}
 
 
 class LoadTable(ValueOf):
@@ -173,7 +181,7 @@ class Cycle(CycleInterchange):
         example="45 deg",
     )
     drive: Mapping[str, Any] | Mechanism | Drive | None = entry(
-        ReadBy(_read_drive, "a table of constants, a `Mechanism` or a `Drive`", _plain),
+        DriveTable(_read_drive, "a table of constants, a `Mechanism` or a `Drive`", _plain),
         'What the motion drives: `{"mass": "2 kg", "stiffness": "3 N/mm", "viscous": ..., "dry": ..., "gravity": '
         "...}`, with inertia in place of mass for tables; a `Mechanism` whose input moves as the cycle does, or the "
         "`Drive` of its motor. Objectives and limits are then of the torque at the input, or at the motor.",

@@ -85,6 +85,16 @@ def written() -> dict[str, Any]:
         limits={"velocity": "1 m/s", "acceleration": ("-80 m/s^2", "90 m/s^2")},
         drive={"mass": "2 kg"},
     )
+    table = optlaws.Cycle(
+        [optlaws.Rise("90 deg", "120 deg", law="cycloidal"), optlaws.Dwell("90 deg"), optlaws.Return()],
+        speed="200 rpm",
+        drive=optlaws.Drive(
+            optlaws.Mechanism(axis="angle", inertia="0.2 kg m^2", over=("0 deg", "360 deg")),
+            optlaws.Motor(inertia="1e-4 kg m^2", peak_torque="9 N m"),
+            ratio=10.0,
+        ),
+        load={"period": "20 ms", "damping": 0.05, "inertia": "0.2 kg m^2"},
+    )
     values: dict[str, Any] = {
         "law": optlaws.inertial_loader(optlaws.catalogue["cycloidal"].law).law,
         "solution": optlaws.synthesize(
@@ -96,7 +106,7 @@ def written() -> dict[str, Any]:
         "fastest_move": move,
         "time_front": optlaws.time_front(move, "rms jerk", points=2),
         "cycle": slide,
-        "axes": optlaws.Axes({"slide": slide, "table": slide}),
+        "axes": optlaws.Axes({"table": table, "slide": slide}),
     }
     plain = {kind: json.loads(value.to_json()) for kind, value in values.items()}
     plain["certificate"] = plain["solution"]["certificate"]

@@ -38,7 +38,9 @@ _HOW_LONG = (
     "one segment alone is free, else what is best."
 )
 _LAW = Either(
-    Text(), ReadBy(_read_law, "a `MotionLaw`", MotionLaw.to_dict), which=lambda value: int(not isinstance(value, str))
+    Text(),
+    ReadBy(_read_law, "a `MotionLaw`", MotionLaw.to_dict, {"type": "object", "required": ["kind"]}),
+    which=lambda value: int(not isinstance(value, str)),
 )
 _NAMED = "What tables call it."
 _LIMITED = "Of its motion, in machine units, beside those of the cycle."

@@ -117,7 +117,7 @@ def _read(value: Any) -> Mechanism:
 
 
 #: a mechanism, its table with its kind, or what `Mechanism.to_dict` writes
-MECHANISM = ReadBy(_read, "a mechanism", Mechanism.to_dict)
+MECHANISM = ReadBy(_read, "a mechanism", Mechanism.to_dict, {"type": "object"})
 
 
 def function_of(kind: Callable[P, MechanismKind]) -> Callable[P, Mechanism]:
