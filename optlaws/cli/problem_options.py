@@ -4,21 +4,17 @@ from __future__ import annotations
 
 import inspect
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import replace
 from functools import wraps
-from typing import Annotated, Any, Literal
+from typing import Any, Literal
 
-from cyclopts import Parameter
-
-from optlaws.cli.options import Whole
+from optlaws.cli.options import Command, Option, Whole, takes
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.synthesis import Basis, BoundaryConditions
 from optlaws.synthesis.problem.fields import ENTRIES, Entry, Kind
 from optlaws.synthesis.problem.ranges import as_range, read_bounds
 from optlaws.synthesis.spaces.bases import read_breaks
-
-Command = Callable[..., None]
 
 
 def _numbers(text: str) -> list[float]:
@@ -28,56 +24,25 @@ def _numbers(text: str) -> list[float]:
         raise InputError(f'start and end are numbers such as "0, 0.5", got {shortened(text)}') from None
 
 
-def _as_given(value: Any) -> Any:
-    return value
-
-
-@dataclass(frozen=True)
-class Option:
-    """An option; `read` converts the given text to the entry, which may begin with a minus where `signed`."""
-
-    name: str
-    type: Any
-    about: str
-    read: Callable[[Any], Any] = _as_given
-    signed: bool = False
-
-    @property
-    def keyword(self) -> str:
-        """The name of the command's parameter."""
-        return self.name.removeprefix("--").replace("-", "_")
-
-    def parameter(self, *, default: Any, shown: bool) -> inspect.Parameter:
-        """The parameter of a command; the default `...` makes the option's value compulsory."""
-        needed = default is ...
-        kind = self.type if needed or default is not None else self.type | None
-        how = Parameter(name=self.name, help=self.about, show=shown, allow_leading_hyphen=self.signed)
-        return inspect.Parameter(
-            self.keyword,
-            inspect.Parameter.KEYWORD_ONLY,
-            default=inspect.Parameter.empty if needed else default,
-            annotation=Annotated[kind, how],
-        )
-
-
 #: type and reader of each kind of entry
-_KINDS: dict[Kind, tuple[Any, Callable[[Any], Any]]] = {
-    Kind.CONSTANT: (float, _as_given),
-    Kind.WHOLE: (Whole, _as_given),
-    Kind.NUMBER: (float, _as_given),
+_KINDS: dict[Kind, tuple[Any, Callable[[Any], Any] | None]] = {
+    Kind.CONSTANT: (float, None),
+    Kind.WHOLE: (Whole, None),
+    Kind.NUMBER: (float, None),
     Kind.NUMBERS: (str, _numbers),
-    Kind.TEXT: (str, _as_given),
-    Kind.SWITCH: (bool, _as_given),
-    Kind.BASIS: (Literal[tuple(Basis.kinds)], _as_given),
+    Kind.TEXT: (str, None),
+    Kind.SWITCH: (bool, None),
+    Kind.BASIS: (Literal[tuple(Basis.kinds)], None),
     Kind.BREAKS: (str, read_breaks),
-    Kind.WINDOWS: (list[str], _as_given),
+    Kind.WINDOWS: (list[str], None),
 }
 
 
 def _option(name: str, entry: str, about: str | None = None, read: Callable[[Any], Any] | None = None) -> Option:
     known = ENTRIES[entry]
     kind, plain = _KINDS[known.kind]
-    return Option(name, kind, about or known.about, read or plain, signed=known.kind in {Kind.NUMBERS, Kind.WINDOWS})
+    signed = known.kind in {Kind.NUMBERS, Kind.WINDOWS}
+    return Option(name, kind, about or known.about, read=read or plain, signed=signed)
 
 
 def _at_most(name: str) -> Callable[[float], Any]:
@@ -113,7 +78,7 @@ def options_of(entry: Entry) -> tuple[Option, ...]:
 def asks_for_a_problem(
     *, given: Mapping[str, Any] | None = None, refused: Mapping[str, str] | None = None
 ) -> Callable[[Command], Command]:
-    """Give a command the options of a problem; its first parameter takes the entries that were given, as a dict.
+    """Give a command the options of a problem; its parameter `entries` takes those that were given, as a dict.
 
     Parameters
     ----------
@@ -123,22 +88,20 @@ def asks_for_a_problem(
         By entry: why the command does not take it.
     """
     why, defaults = refused or {}, given or {}
-    parameters = [
-        option.parameter(default=_default(entry, option, defaults, why), shown=entry.name not in why)
+    options = {
+        option.keyword: replace(
+            option, default=_default(entry, option, defaults, why), shown=entry.name not in why, read=None
+        )
         for entry in ENTRIES.values()
         for option in options_of(entry)
-    ]
+    }
 
     def decorated(command: Command) -> Command:
-        others = list(inspect.signature(command).parameters.values())[1:]
-
+        @takes(entries=options)
         @wraps(command)
-        def called(**values: Any) -> None:
-            typed = {parameter.name: values.pop(parameter.name, parameter.default) for parameter in parameters}
-            command(_entries(typed, why), **values)
+        def called(entries: Mapping[str, Any], **values: Any) -> None:
+            command(_entries(entries, why), **values)
 
-        called.__signature__ = inspect.Signature([*parameters, *others])  # type: ignore[attr-defined]
-        called.__annotations__ = {parameter.name: parameter.annotation for parameter in (*parameters, *others)}
         return called
 
     return decorated
@@ -164,7 +127,7 @@ def _entries(typed: Mapping[str, Any], refused: Mapping[str, str]) -> dict[str, 
         if entry.name in refused:
             raise InputError(f"{first.name} is not for this command: {refused[entry.name]}")
         entries[entry.name] = (
-            read_bounds(*(value or [] for value in values)) if len(values) > 1 else first.read(*values)
+            read_bounds(*(value or [] for value in values)) if len(values) > 1 else first.value(*values)
         )
     _check_ends(entries)
     _check_breaks(entries)

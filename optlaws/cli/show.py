@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from math import inf
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from optlaws.tolerances import VALUE_ROUNDING
@@ -13,7 +15,9 @@ if TYPE_CHECKING:
     from rich.console import Console
     from rich.table import Table
 
-    import optlaws
+    from optlaws.exports.export import Export
+    from optlaws.exports.run_time.front_export import FrontExport
+    from optlaws.shown.summary import Summary
 
 _WIDEST = 10_000
 
@@ -42,12 +46,20 @@ def table(*headings: str, rows: Iterable[Iterable[str]] = ()) -> Table:
     return new_table
 
 
-def show(*parts: Table | str) -> None:
+def summary_table(summary: Summary, what: str = "") -> Table:
+    """The rows of a summary as a table; `what` they are heads their names."""
+    headings, *rows = summary.cells()
+    return table(what, *headings[1:], rows=rows)
+
+
+def show(*parts: Summary | Table | str) -> None:
     """Print tables, and text unchanged: numbers are never cut, and lines end without blanks except on a terminal."""
     console = _answering()
     for part in parts:
         if isinstance(part, str):
             console.print(part, markup=False, highlight=False, soft_wrap=True)
+        elif isinstance(part, tuple):
+            _show_table(summary_table(part), console)
         else:
             _show_table(part, console)
 
@@ -79,6 +91,19 @@ def _show_table(rows: Table, console: Console) -> None:
         print(line.rstrip())
 
 
+def show_export(export: Export | FrontExport, output: Path | None, *, as_json: bool) -> None:
+    """Write the text of an export into a file or to stdout, and report it: to stderr beside the text."""
+    if output is not None:
+        export.write(output)
+    if as_json:
+        print_json(export.results() | ({"text": export.text} if output is None else {"file": str(output)}))
+    elif output is None:
+        print(export.text, end="")
+        print(export, file=sys.stderr)
+    else:
+        show(str(export))
+
+
 def number(value: float, size: float, form: str = ".10g") -> str:
     """A number in readable form: rounding errors relative to its kind's size become 0.
 
@@ -108,9 +133,3 @@ def busy(text: str) -> Iterator[None]:
             yield
     else:
         yield
-
-
-def constants_table(constants: optlaws.Constants) -> Table:
-    """A table of constants with the places where they are reached."""
-    headings, *rows = constants.summary().cells()
-    return table("constant", *headings[1:], rows=rows)

@@ -155,9 +155,11 @@ def compare_laws(
     stroke, duration
         Stroke and duration with their units, such as "35 mm" (or "45 deg") and "0.1 s", for the peaks in the machine:
         v = B h/T, a = C h/T², j = J h/T³.
-    frequency, damping
-        Frequency nu of an elastic follower (radians of its free vibration in the motion), or an interval (low, high),
-        and its damping ratio: the greatest residual acceleration is listed too.
+    frequency
+        Frequency nu of an elastic follower (radians of its free vibration in the motion), or an interval (low, high):
+        the greatest residual acceleration is listed too.
+    damping
+        Damping ratio of the follower.
 
     Raises
     ------

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import optlaws
-from optlaws.cli.options import AsJson, Plot, check_files, save_figure
+from optlaws.cli.options import AsJson, Plot, save_figure
 from optlaws.cli.show import print_json, show, table
 from optlaws.errors import InputError
 
@@ -19,10 +19,7 @@ def catalogue(search: str | None = None, /, *, plot: Plot = None, as_json: AsJso
         A name in any language or of a controller, or part of one.
     plot
         Draw the acceleration of each listed law, in a panel each, into this file, PNG or SVG.
-    as_json
-        Print one JSON array on stdout and nothing else.
     """
-    check_files(plot=plot)
     known = optlaws.catalogue
     entries = tuple(known.values()) if search is None else known.search(search)
     if not entries:
@@ -34,13 +31,11 @@ def catalogue(search: str | None = None, /, *, plot: Plot = None, as_json: AsJso
     if as_json:
         print_json([{key: value for key, value in entry.to_dict().items() if key != "law"} for entry in entries])
         return
-    rows = table("law", "B", "C", "D", "J", "continuous")
-    rows.columns[0].no_wrap = True
-    for entry in entries:
-        peaks = entry.constants
-        numbers = [f"{peak.value:.6g}" for peak in (peaks.B, peaks.C, peaks.D, peaks.J)]
-        rows.add_row(entry.name, *numbers, continuous(entry.continuity))
-    show(rows)
+    rows = (
+        [entry.name, *(f"{getattr(entry.constants, name).value:.6g}" for name in "BCDJ"), continuous(entry.continuity)]
+        for entry in entries
+    )
+    show(table("law", *"BCDJ", "continuous", rows=rows))
 
 
 def continuous(order: int) -> str:

@@ -4,20 +4,28 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Annotated, Any
+
+from cyclopts import Parameter
 
 from optlaws.cli.app import NotProven
-from optlaws.cli.old_cam import NO_OLD_CAM, OldCamOptions, old_cam, refuse_options
-from optlaws.cli.options import WHOLE_TABLE, AsJson, Plot, TableOptions, check_files, save_figure
+from optlaws.cli.law_options import COLUMNS
+from optlaws.cli.old_cam import old_cam
+from optlaws.cli.options import AsJson, Plot, Signed, Written, given, options, save_figure, takes
 from optlaws.cli.show import busy, print_json, show
 from optlaws.cli.synthesis.run import done
+from optlaws.cycles.old_tables.table import read_cycle_table
+from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.synthesis.status import Status
 
 if TYPE_CHECKING:
     from optlaws.results import Results
 
+_GROUP = "The table of an old cam"
 
+
+@takes(table=options(read_cycle_table, "unit", "master", "cam", "tolerance", group=_GROUP, columns=COLUMNS))
 def cycle(
     file: Path,
     /,
@@ -25,8 +33,11 @@ def cycle(
     out: Path | None = None,
     fastest: bool = False,
     plot: Plot = None,
-    cam: OldCamOptions = NO_OLD_CAM,
-    points: TableOptions = WHOLE_TABLE,
+    table: Mapping[str, Any],
+    speed: Annotated[Signed, Parameter(group=_GROUP)] = None,
+    modernise: Annotated[str | None, Parameter(group=_GROUP)] = None,
+    export: Annotated[str | None, Parameter(group=_GROUP)] = None,
+    save: Annotated[Written, Parameter(group=_GROUP)] = None,
     as_json: AsJson = False,
 ) -> None:
     """Whole cycles of a machine in physical units, optimal as a whole; or the table of an old cam, and a better one.
@@ -46,17 +57,28 @@ def cycle(
     plot
         Draw all axes, the points and laws of an old cam, or with `--fastest` the motion at that speed, into this file,
         PNG or SVG.
+    speed
+        Of the master, such as "200 rpm"; what the file says unless given. --save and --export need it where the master
+        is an angle.
+    modernise
+        How far better laws may be off the old ones, such as 0.05mm: the laws of least acceleration within it.
+    export
+        A format of `optlaws export --list`: the cycle is written in it, modernised where --modernise is given.
+    save
+        Write the cycle as a problem file (.toml), its laws beside it.
     as_json
-        Print one JSON object on stdout; of all files only that of --plot is written.
+        Print one line of JSON on stdout and nothing else; of all files only that of --plot is written.
     """
+    cam: dict[str, Any] = {"speed": speed, "modernise": modernise, "export": export, "save": save}
     if file.suffix and file.suffix.lower() != ".toml":
         if fastest:
             raise InputError(
                 "--fastest needs a problem file: --save writes one from the table, in which you enter the limits"
             )
-        old_cam(file, cam, points, out, plot, as_json=as_json)
+        old_cam(file, table, **cam, out=out, plot=plot, as_json=as_json)
         return
-    refuse_options(cam, points)
+    for name, value in given({**table, **cam}).items():
+        raise InputError(f"--{name} is of the table of an old cam, got {shortened(value)} with a problem file")
     if fastest:
         _greatest_speed(file, out, plot, as_json=as_json)
     else:
@@ -71,7 +93,6 @@ def _greatest_speed(file: Path, out: Path | None, plot: Path | None, *, as_json:
     from optlaws.jobs.cycle_entries import read
     from optlaws.results import Results
 
-    check_files(plot=plot)
     source, _, entries = problem_of_job(file, "cycle")
     with busy(f"{file}"):
         spec, cycles = read(entries, source)
@@ -103,7 +124,6 @@ def _job(file: Path, out: Path | None, plot: Path | None, *, as_json: bool) -> N
     from optlaws.jobs import job as jobs
     from optlaws.jobs.cycle import answer
 
-    check_files(plot=plot)
     source, folder, entries = problem_of_job(file, "cycle")
     if not as_json:
         if out is not None or folder is not None:

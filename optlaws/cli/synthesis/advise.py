@@ -2,93 +2,64 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
-
-from cyclopts import Parameter
+from typing import TYPE_CHECKING, Any
 
 import optlaws
-from optlaws.cli.options import AsJson, Duration, Signed, Whole, check_files, save, save_picture
+from optlaws.cli.options import AsJson, Plot, Signed, Written, given, options, save, save_picture, takes
 from optlaws.cli.show import busy, number, print_json, show, table
-from optlaws.cli.timed_move import read_limits
+from optlaws.cli.timed_move import LIMITS
+from optlaws.cycles.specification.load import ElasticFollower
 from optlaws.errors import InputError
+from optlaws.motion.motion import motion_of_law
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from optlaws.cycles.advising.advice import Advice
 
-_INTERVAL = 2
+
+def _interval(texts: list[str]) -> tuple[str, str]:
+    """The least and the greatest of a frequency that is given once, or twice."""
+    if len(texts) > 2:
+        raise InputError("--frequency is given once, or twice for the least and the greatest")
+    return texts[0], texts[-1]
 
 
-@Parameter(name="*")
-@dataclass(frozen=True, kw_only=True)
-class SingleMoveOptions:
-    """A single move from rest to rest, in place of a file.
-
-    Parameters
-    ----------
-    stroke
-        Such as 35mm or 45deg.
-    duration
-        Such as 0.1s.
-    mass
-        What the move accelerates, such as 2kg, or "0.05 kg m^2" of an angle: forces, power and energy are listed.
-    """
-
-    stroke: Signed = None
-    duration: Duration = None
-    mass: Signed = None
+_FOLLOWER: dict[str, Any] = {
+    "name": "--frequency",
+    "type": list[str],
+    "read": _interval,
+    "about": "Natural frequency of an elastic follower such as 30Hz, or twice for the least and the greatest.",
+}
 
 
-@Parameter(name="*")
-@dataclass(frozen=True, kw_only=True)
-class AdviceOptions:
-    """The measures that laws are compared by, and the laws.
-
-    Parameters
-    ----------
-    minimise
-        What is to be least: acceleration, jerk, "rms acceleration", "rms torque", "residual acceleration"; what the
-        file says unless given, of a single move the acceleration.
-    limits
-        Such as "velocity=616 mm/s" or "residual acceleration=2 m/s^2"; may be repeated.
-    frequency
-        Natural frequency of an elastic follower such as 30Hz, or twice for the least and the greatest.
-    damping
-        Its damping ratio.
-    laws
-        A law of the catalogue to compare, in place of the five usual ones; may be repeated. Others are compared with
-        the first.
-    degree
-        Of the optimal laws' Z; that of the file unless given, of a single move 21.
-    points
-        Of the front between what is minimised and what decides between equally good laws; 0 for none.
-    """
-
-    minimise: str | None = None
-    limits: Annotated[list[str] | None, Parameter(name="--limit", allow_leading_hyphen=True)] = None
-    frequency: list[str] | None = None
-    damping: float = 0.0
-    laws: Annotated[list[str] | None, Parameter(name="--law")] = None
-    degree: Whole | None = None
-    points: Whole = 7
-
-
-NO_MOVE, AS_USUAL = SingleMoveOptions(), AdviceOptions()
-
-
+@takes(
+    move=options(motion_of_law, "stroke", "duration", group="A single move in place of a file"),
+    wishes=options(
+        optlaws.advise,
+        "minimise",
+        "degree",
+        "points",
+        limits=LIMITS,
+        laws={"name": "--law", "type": list[str], "default": None},
+        follower=_FOLLOWER,
+    ),
+    damper=options(ElasticFollower, "damping"),
+)
 def advise(
     file: Path | None = None,
     /,
     *,
     axis: str | None = None,
-    move: SingleMoveOptions = NO_MOVE,
-    options: AdviceOptions = AS_USUAL,
-    plot: Path | None = None,
+    move: Mapping[str, str | None],
+    mass: Signed = None,
+    wishes: dict[str, Any],
+    damper: Mapping[str, float],
+    plot: Plot = None,
     as_json: AsJson = False,
-    output: Path | None = None,
+    output: Written = None,
 ) -> None:
     """Recommend a law: standard and optimal laws side by side, the cost of each, and the proven bounds.
 
@@ -99,22 +70,23 @@ def advise(
         place --stroke and --duration.
     axis
         The axis of the file; all of them unless given.
-    move
-        A single move.
-    options
-        What laws are compared by.
+    mass
+        What a single move accelerates, such as 2kg, or "0.05 kg m^2" of an angle: forces, power and energy are listed.
     plot
         Draw what is minimised over what decides, with the front, into this file, PNG or SVG; of one axis.
-    as_json
-        Print one JSON object on stdout and nothing else.
     output
         Write the proofs of all optimal laws to this JSON file, which `optlaws verify` checks.
     """
-    check_files(output, plot=plot)
+    if wishes["follower"] is not None:
+        wishes["follower"] = {"frequency": wishes["follower"], **damper}
+    if file is not None and given({**move, "mass": mass}):
+        raise InputError("--stroke, --duration and --mass are of a single move: a file has its own")
+    wishes = given(wishes)
     with busy("laws are compared"):
-        advice = _of_move(move, options) if file is None else _of_file(file, axis, move, options)
-    if plot is not None:
-        save_picture(plot, _only(advice))
+        advice = _of_move(**move, mass=mass, wishes=wishes) if file is None else _of_file(file, axis, wishes)
+    if len(advice) > 1 and plot is not None:
+        raise InputError(f"--plot draws one axis: choose it by --axis, of {', '.join(advice)}")
+    save_picture(plot, next(iter(advice.values())))
     if output is not None:
         proofs = {name: each.proofs() for name, each in advice.items()}
         save(output, {"axes": proofs} if file is not None else {"move": proofs[""]})
@@ -126,26 +98,26 @@ def advise(
         show(*([f"axis {name}"] if name and len(advice) > 1 else []), *_page(each))
 
 
-def _of_move(move: SingleMoveOptions, options: AdviceOptions) -> dict[str, Advice]:
-    if move.stroke is None or move.duration is None:
+def _of_move(
+    stroke: str | None, duration: str | None, mass: str | None, wishes: Mapping[str, Any]
+) -> dict[str, Advice]:
+    if stroke is None or duration is None:
         raise InputError("give a problem file, or --stroke such as 35mm and --duration such as 0.1s")
     drive = None
-    if move.mass is not None:
+    if mass is not None:
         from optlaws.motion.quantities import either
 
-        dimension, _ = either(move.stroke, ("length", "angle"), "--stroke")
-        drive = {"mass" if dimension == "length" else "inertia": move.mass}
-    return {"": optlaws.advise(optlaws.Rise(move.stroke, move.duration), drive=drive, **_entries(options))}
+        dimension, _ = either(stroke, ("length", "angle"), "--stroke")
+        drive = {"mass" if dimension == "length" else "inertia": mass}
+    return {"": optlaws.advise(optlaws.Rise(stroke, duration), drive=drive, **wishes)}
 
 
-def _of_file(file: Path, axis: str | None, move: SingleMoveOptions, options: AdviceOptions) -> dict[str, Advice]:
+def _of_file(file: Path, axis: str | None, wishes: Mapping[str, Any]) -> dict[str, Advice]:
     from optlaws.errors import located
     from optlaws.files.packaged import problem_of_job
     from optlaws.jobs.cycle_entries import read
     from optlaws.suggest import unknown_key
 
-    if move != NO_MOVE:
-        raise InputError("--stroke, --duration and --mass are of a single move: a file has its own")
     source, _, entries = problem_of_job(file, "cycle")
     _, cycles = read(entries, source)
     if axis is not None and axis not in cycles:
@@ -153,33 +125,8 @@ def _of_file(file: Path, axis: str | None, move: SingleMoveOptions, options: Adv
     advice = {}
     for name in cycles if axis is None else (axis,):
         with located(f"{source}: axis {name}"):
-            advice[name] = optlaws.advise(cycles[name], **_entries(options))
+            advice[name] = optlaws.advise(cycles[name], **wishes)
     return advice
-
-
-def _entries(options: AdviceOptions) -> dict[str, Any]:
-    """The options as the library takes them."""
-    if options.frequency is not None and len(options.frequency) > _INTERVAL:
-        raise InputError("--frequency is given once, or twice for the least and the greatest")
-    follower = None
-    if options.frequency is not None:
-        pair = options.frequency if len(options.frequency) == _INTERVAL else options.frequency * _INTERVAL
-        follower = {"frequency": tuple(pair), "damping": options.damping}
-    given = {} if options.laws is None else {"laws": options.laws}
-    return {
-        "minimise": options.minimise,
-        "limits": read_limits(options.limits or []),
-        "follower": follower,
-        "degree": options.degree,
-        "points": options.points,
-        **given,
-    }
-
-
-def _only(advice: dict[str, Advice]) -> Advice:
-    if len(advice) > 1:
-        raise InputError(f"--plot draws one axis: choose it by --axis, of {', '.join(advice)}")
-    return next(iter(advice.values()))
 
 
 def _without_solutions(data: dict[str, Any]) -> dict[str, Any]:

@@ -2,52 +2,51 @@
 
 from __future__ import annotations
 
-import sys
-from dataclasses import dataclass
-from pathlib import Path
+from collections.abc import Mapping
 from typing import Any, Literal
 
-from cyclopts import Parameter
-
 import optlaws
-from optlaws.cli.options import AsJson, Plot, Whole, check_files, save_picture
+from optlaws.cli.options import AsJson, Plot, Written, options, save_picture, takes
 from optlaws.cli.problem_options import asks_for_a_problem
-from optlaws.cli.show import busy, print_json, show, table
+from optlaws.cli.show import busy, print_json, show, show_export, table
 from optlaws.errors import InputError
 from optlaws.numbers import positive, whole
 from optlaws.synthesis.problem.named_constants import apart
 
+Rows = list[list[Any]]
 
-@Parameter(name="*")
-@dataclass(frozen=True, kw_only=True)
-class ProofOptions:
-    """How a front is proven: at its points, or at every value between them.
+
+@asks_for_a_problem(
+    given={"degree": 9, "basis": "chebyshev"}, refused={"minimise": "the last constant of --over is minimised"}
+)
+@takes(curve=options(optlaws.pareto_front, "points", between={"type": tuple[float, float]}))
+def front(
+    entries: dict[str, Any],
+    *,
+    over: str | None = None,
+    curve: Mapping[str, Any],
+    bound: Literal["quick", "tight"] = "quick",
+    gap: float | None = None,
+    csv: Written = None,
+    plot: Plot = None,
+    to: Literal["c99", "iec-st"] | None = None,
+    within: float = 1e-3,
+    name: str = "Front",
+    output: Written = None,
+    as_json: AsJson = False,
+) -> None:
+    """Find the laws that exchange constants for one another: each the best of its own problem.
 
     Parameters
     ----------
+    over
+        Two or three constants, separated by commas, such as "residual(frequency=20),C"; the last is minimised at given
+        values of the others. "B,C" unless given, with --to "at_most.B,C".
     bound
         Where D is in the front: tight searches all laws at each point, for a bound that usually meets the objective.
     gap
         Prove the front of two constants at every value between, to this gap relative to the objective; points are then
         values that are shown, and --json is what `optlaws verify` proves.
-    """
-
-    bound: Literal["quick", "tight"] = "quick"
-    gap: float | None = None
-
-    def check(self) -> None:
-        """Refuse proofs of points and of all values at once."""
-        if self.gap is not None and self.bound != "quick":
-            raise InputError("--bound tight proves the points of a front, --gap every value between: give one of them")
-
-
-@Parameter(name="*")
-@dataclass(frozen=True, kw_only=True)
-class FileOptions:
-    """Files to write of a front: a table, a picture, or functions of a controller, which choose a law at run time.
-
-    Parameters
-    ----------
     csv
         Write the constants of all laws to this file.
     plot
@@ -60,89 +59,34 @@ class FileOptions:
     name
         Before every name of a C header, or of the function block.
     output
-        The file to write.
+        The file of the functions.
     """
-
-    csv: Path | None = None
-    plot: Plot = None
-    to: Literal["c99", "iec-st"] | None = None
-    within: float = 1e-3
-    name: str = "Front"
-    output: Path | None = None
-
-
-_AT_POINTS, _NO_FILES = ProofOptions(), FileOptions()
-
-
-@asks_for_a_problem(
-    given={"degree": 9, "basis": "chebyshev"}, refused={"minimise": "the last constant of --over is minimised"}
-)
-def front(
-    entries: dict[str, Any],
-    *,
-    over: str | None = None,
-    points: Whole = 50,
-    between: tuple[float, float] | None = None,
-    proof: ProofOptions = _AT_POINTS,
-    files: FileOptions = _NO_FILES,
-    as_json: AsJson = False,
-) -> None:
-    """Find the laws that exchange constants for one another: each the best of its own problem.
-
-    Parameters
-    ----------
-    over
-        Two or three constants, separated by commas, such as "residual(frequency=20),C"; the last is minimised at given
-        values of the others. "B,C" unless given, with --to "at_most.B,C".
-    points
-        How many laws.
-    between
-        Least and greatest value of the first constant; where it pays unless given.
-    as_json
-        Print one JSON object on stdout and nothing else.
-    """
-    check_files(files.csv, files.output, plot=files.plot)
-    proof.check()
-    if files.output is not None and files.to is None:
+    if gap is not None and bound != "quick":
+        raise InputError("--bound tight proves the points of a front, --gap every value between: give one of them")
+    if output is not None and to is None:
         raise InputError("--output is where functions of a controller go: say --to c99 or --to iec-st")
-    proven_to = positive(files.within, "within") / 10.0 if files.to and proof.gap is None else proof.gap
-    problem, names = optlaws.Problem.from_dict(entries), tuple(apart(over or ("at_most.B,C" if files.to else "B,C")))
+    proven_to = positive(within, "within") / 10.0 if to and gap is None else gap
+    problem, names = optlaws.Problem.from_dict(entries), tuple(apart(over or ("at_most.B,C" if to else "B,C")))
     front: optlaws.Front | optlaws.ProvenFront
     if proven_to is None:  # which shows its steps itself
-        front = optlaws.pareto_front(problem, names, points=points, between=between, bound=proof.bound)
+        front = optlaws.pareto_front(problem, names, **curve, bound=bound)
     else:
         with busy("solving"):
-            front = optlaws.proven_front(problem, names, between=between, gap=proven_to)
-    headings, rows = _table(front, whole(points, "points", least=2))
-    if files.csv is not None:
-        _save_table(front, files.csv, headings, rows)
-    if files.plot is not None:
-        save_picture(files.plot, front)
-    if isinstance(front, optlaws.ProvenFront) and files.to is not None:
-        _export(front, files, as_json=as_json)
+            front = optlaws.proven_front(problem, names, between=curve["between"], gap=proven_to)
+    headings, rows = _table(front, whole(curve["points"], "points", least=2))
+    if csv is not None:
+        from optlaws.files import tables, writing
+
+        stated = front[0].problem if isinstance(front, optlaws.Front) else front.problem
+        about = f"{' and '.join(front.over)} exchanged: {stated!r}"
+        writing.write(csv, tables.to_csv(headings, rows, about=about))
+    save_picture(plot, front)
+    if to is not None and isinstance(front, optlaws.ProvenFront):
+        show_export(front.export(to, within, name=name), output, as_json=as_json)
     elif as_json:
         print_json(front.to_dict())
     else:
-        _show(front, headings, rows)
-
-
-def _export(front: optlaws.ProvenFront, files: FileOptions, *, as_json: bool) -> None:
-    """Write functions to their file or to stdout, and report their proof."""
-    assert files.to is not None  # noqa: S101 - that is what it is called for
-    export = front.export(files.to, files.within, name=files.name)
-    if files.output is not None:
-        export.write(files.output)
-    if as_json:
-        file = {"text": export.text} if files.output is None else {"file": str(files.output)}
-        print_json(export.results() | file)
-    elif files.output is None:
-        print(export.text, end="")
-        print(export, file=sys.stderr)
-    else:
-        show(str(export))
-
-
-Rows = list[list[Any]]
+        show(table(*headings, rows=(map(_text, row, headings) for row in rows)), *_remarks(front))
 
 
 def _table(front: optlaws.Front | optlaws.ProvenFront, points: int) -> tuple[tuple[str, ...], Rows]:
@@ -156,24 +100,14 @@ def _table(front: optlaws.Front | optlaws.ProvenFront, points: int) -> tuple[tup
     ]
 
 
-def _show(front: optlaws.Front | optlaws.ProvenFront, headings: tuple[str, ...], lines: Rows) -> None:
-    def text(cell: Any, heading: str) -> str:
-        if cell is None or isinstance(cell, str):
-            return cell or ""
-        return format(cell, ".0e" if heading == "gap" else ".7g")
+def _text(cell: Any, heading: str) -> str:
+    if cell is None or isinstance(cell, str):
+        return cell or ""
+    return format(cell, ".0e" if heading == "gap" else ".7g")
 
-    show(table(*headings, rows=(map(text, line, headings) for line in lines)))
+
+def _remarks(front: optlaws.Front | optlaws.ProvenFront) -> list[str]:
     if isinstance(front, optlaws.ProvenFront):
-        show(f"{front!r}")
-        return
-    if front.failed:
-        values = ", ".join(f"{value:.6g}" for value in front.failed)
-        show(f"no law was found at {front.over[0]} = {values}")
-
-
-def _save_table(front: optlaws.Front | optlaws.ProvenFront, file: Path, headings: tuple[str, ...], lines: Rows) -> None:
-    from optlaws.files import tables, writing
-
-    problem = front[0].problem if isinstance(front, optlaws.Front) else front.problem
-    about = f"{' and '.join(front.over)} exchanged: {problem!r}"
-    writing.write(file, tables.to_csv(headings, lines, about=about))
+        return [f"{front!r}"]
+    values = ", ".join(f"{value:.6g}" for value in front.failed)
+    return [f"no law was found at {front.over[0]} = {values}"] if values else []

@@ -2,28 +2,30 @@
 
 from __future__ import annotations
 
-from pathlib import Path
+from collections.abc import Mapping
 from typing import Any, Literal
 
 import optlaws
-from optlaws.cli.options import AsJson, Plot, check_files, save, save_picture
+from optlaws.cli.options import AsJson, Plot, Written, save, save_picture, takes
 from optlaws.cli.problem_options import asks_for_a_problem
-from optlaws.cli.show import constants_table, print_json, show, table
-from optlaws.cli.timed_move import WITHOUT_MOVE, MoveOptions, answer
+from optlaws.cli.show import print_json, show, summary_table, table
+from optlaws.cli.timed_move import MOVE, answer, check_move
 
 #: the law that most designers would take, and the followers it is compared for: two to five vibrations in the motion
 _USUAL, _FREQUENCIES = "modified sine", (12.0, 32.0)
 
 
 @asks_for_a_problem(given={"degree": 9, "basis": "chebyshev"})
+@takes(move=MOVE)
 def solve(
     entries: dict[str, Any],
     *,
     bound: Literal["quick", "tight"] = "quick",
-    move: MoveOptions = WITHOUT_MOVE,
+    fastest: bool = False,
+    move: Mapping[str, Any],
     plot: Plot = None,
     as_json: AsJson = False,
-    output: Path | None = None,
+    output: Written = None,
 ) -> None:
     """Find the law with the least peak constant or mixture of constants, or the least time of a move, and prove it.
 
@@ -31,25 +33,20 @@ def solve(
     ----------
     bound
         Where D is in the problem: tight searches all laws, for a bound that usually meets the objective.
-    move
-        The values of --fastest.
+    fastest
+        Find the least time of a move within limits, and the law that takes it; with --stroke and --limit.
     plot
         Draw the law with its bounds, or the fastest move with its limits, into this file, PNG or SVG.
-    as_json
-        Print one JSON object on stdout and nothing else.
     output
         Write the whole solution, with its problem and certificate, to this JSON file.
     """
-    check_files(output, plot=plot)
-    move.check()
-    if move.fastest:
+    check_move(move, fastest=fastest)
+    if fastest:
         answer(optlaws.Problem.from_dict(entries), move, as_json=as_json, output=output, plot=plot)
         return
     solution = optlaws.synthesize(optlaws.Problem.from_dict(entries), bound=bound)
-    if output is not None:
-        save(output, solution.to_dict())
-    if plot is not None:
-        save_picture(plot, solution)
+    save(output, solution.to_dict())
+    save_picture(plot, solution)
     if as_json:
         print_json(_summary(solution))
     else:
@@ -74,7 +71,7 @@ def _show(solution: optlaws.Solution) -> None:
         elif row not in constants:
             note = _NOTES.get(row.name, ", {}").format(row.note) if row.note else ""
             facts.add_row(row.name, f"{row.text()}{note}")
-    show(facts, constants_table(solution.constants), *notes, *_remarks(solution))
+    show(facts, summary_table(constants, "constant"), *notes, *_remarks(solution))
 
 
 def _remarks(solution: optlaws.Solution) -> list[str]:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 import optlaws
-from optlaws.cli.options import AsJson, Plot, Whole, check_files, save_figure
+from optlaws.cli.options import AsJson, Plot, Whole, save_figure
 from optlaws.cli.show import print_json, progress, show
 from optlaws.errors import InputError
 
@@ -48,10 +48,7 @@ def study(
         Report the progress of the study in this directory, and solve nothing.
     plot
         Draw objective and peaks of the finished points over the entry of most values into this file, PNG or SVG.
-    as_json
-        Print one JSON object on stdout and nothing else.
     """
-    check_files(plot=plot)
     if status is not None:
         if file is not None or out is not None or dask is not None:
             raise InputError("--status takes a directory and neither a study file nor --out nor --dask")

@@ -27,8 +27,6 @@ def verify(*files: Path, as_json: AsJson = False) -> None:
     ----------
     files
         JSON files that `optlaws solve --output` wrote, certificates, or the laws.json of a table.
-    as_json
-        Print one JSON object, with an entry for each file, on stdout and nothing else.
     """
     if not files:
         raise InputError("name at least one file that `optlaws solve --output FILE` wrote")

@@ -62,7 +62,8 @@ def advise(
         What is to be least, as of a `Cycle`: "acceleration", "jerk", "rms torque", "residual acceleration"; what the
         cycle says unless given, of a single move the acceleration.
     limits
-        As of a `Cycle`, more than its own; with a follower of the "residual acceleration" too. A move may have its own.
+        By name, such as velocity "616 mm/s", as of a `Cycle` and more than its own; with a follower of the "residual
+        acceleration" too. A move may have its own.
     follower
         What the motion leaves vibrating: `{"frequency": ("27 Hz", "33 Hz"), "damping": 0.05}`, its natural frequency or
         the least and the greatest, and its damping ratio.

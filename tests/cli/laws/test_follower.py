@@ -73,13 +73,13 @@ def test_an_unbounded_jerk_is_null(capsys: Capture) -> None:
     assert printed(capsys, "constant acceleration", "--frequency", 20)["cam"]["constants"]["J"]["value"] is None
     code, out, _ = called(capsys, "constant acceleration", "--frequency", 20)
     assert code == 0
-    assert "J inf" in out
+    assert ["J", "of", "the", "cam", "inf"] in [line.split()[:5] for line in out.splitlines()]
 
 
 def test_what_a_person_reads(capsys: Capture) -> None:
     code, out, err = called(capsys, "IV", "--alpha", 11, "--frequency", 18, "--design-frequency", 20)
     assert (code, err) == (0, "")
-    for part in ("dynamic factor", "1.1855643", "residual acceleration", "2.8075126", "C 6.292874", "-10 %"):
+    for part in ("dynamic factor", "1.185564348", "residual acceleration", "2.807512597", "6.292873872", "-10 %"):
         assert part in out
 
 

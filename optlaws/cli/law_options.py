@@ -1,0 +1,80 @@
+"""Options that name laws, and read them: a name, a file, a table of points, a member of a family, a frequency."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Annotated, Any
+
+from cyclopts import Parameter, Token
+
+import optlaws
+from optlaws.cli.options import options
+from optlaws.echo import shortened
+from optlaws.errors import InputError
+from optlaws.laws.catalogue import reading
+
+
+def _columns(text: str) -> list[str]:
+    return text.split(",")
+
+
+def _numbers_without_unit(remedy: str, tokens: Sequence[Token]) -> list[float]:
+    try:
+        return [float(token.value) for token in tokens]
+    except ValueError:
+        given = " ".join(token.value for token in tokens)
+        raise ValueError(f"{shortened(given)} is no number without a unit: {remedy}") from None
+
+
+def _follower_frequency(_: object, tokens: Sequence[Token]) -> float:
+    remedy = "the frequency nu is in radians in the rise; one in Hz is --natural-frequency, with --duration or --speed"
+    return _numbers_without_unit(remedy, tokens)[0]
+
+
+def _law_frequencies(_: object, tokens: Sequence[Token]) -> list[float]:
+    remedy = "the frequency nu is in radians in the motion: 2 pi times that in Hz and the duration in s"
+    return _numbers_without_unit(remedy, tokens)
+
+
+#: frequencies of an elastic follower without dimension, which people give in Hz
+FollowerFrequency = Annotated[float, Parameter(converter=_follower_frequency)]
+Frequencies = Annotated[list[float], Parameter(converter=_law_frequencies)]
+#: of the columns of a table, by headings or numbers, as 1,3
+COLUMNS: dict[str, Any] = {"type": str, "read": _columns}
+#: how a table of points is read
+TABLE = options(reading.read_law, "tolerance", columns=COLUMNS)
+
+
+def read_law(
+    text: str,
+    alpha: float | None = None,
+    B: float | None = None,
+    *,
+    by: str = "",
+    points: Mapping[str, Any] | None = None,
+) -> optlaws.MotionLaw:
+    """The law of a text, as every command takes it; a family I to IV may have its member by alpha, or B, beside it.
+
+    `by` are the options that choose a member; `points` are the values of those of a table of points.
+
+    Raises
+    ------
+    InputError
+        If there is no such law, the file cannot be read or holds none, or a member is given of what is no family.
+
+    Examples
+    --------
+    >>> read_law("iii", alpha=7.2) == read_law("III(7.2)")
+    True
+    """
+    family = reading.family_of(text)
+    if alpha is None and B is None:
+        if family is not None and by:
+            low, high = map(float, optlaws.SavinFamily.of(family).range)
+            raise InputError(f"laws of family {family} need {by}: alpha is from {low:.9g} to {high:.9g}")
+        return reading.read_law(text, **points or {})
+    if family is None:
+        raise InputError(
+            f"{by} choose a member of a family I, II, III or IV, and no other takes it, got {shortened(text)}"
+        )
+    return optlaws.savin(family, alpha, B=B)
