@@ -149,7 +149,10 @@ class Cycle(CycleInterchange):
     )
     _: KW_ONLY
     speed: Quantity | None = entry(
-        Measured("angular velocity", above=0.0), "Of the master; it or the period.", default=None, example="200 rpm"
+        Measured("angular velocity", above=0.0),
+        "Speed of the master; it or the period.",
+        default=None,
+        example="200 rpm",
     )
     period: Quantity | None = entry(
         Measured("time", above=0.0), "The duration of the cycle; it or the speed.", default=None, example="0.3 s"

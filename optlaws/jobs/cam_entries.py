@@ -170,7 +170,7 @@ class CamProblemFile(CamOfMotion, title="a cam"):
         ValueOf(ProcessEntries), "A process force on the follower, in forces and spring.", default=None
     )
     forces: CamForcesEntries | None = entry(
-        ValueOf(CamForcesEntries), "Forces under the drive of the motion.", default=None
+        ValueOf(CamForcesEntries), "Contact forces under the drive of the motion.", default=None
     )
     spring: SoughtSpring | None = entry(
         ValueOf(SoughtSpring), "The least spring that keeps the follower on the cam.", default=None

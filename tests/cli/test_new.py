@@ -142,10 +142,13 @@ def test_entries_left_out_are_comments_with_examples_of_the_right_kind(capsys: C
         (["cycle", "--dwell", "200 deg"], "cycle.toml: axis slide: "),
         (["cycle", "--roller", "12 mm"], "cycle: unknown option '--roller'"),
         (["cam", "--presure-angle", "30 deg"], "did you mean '--pressure-angle'?"),
-        (["law", "--minimise", "E"], "--minimise: unknown value 'E'"),
-        (["law", "--order", "2.5"], "--order must be a whole number"),
-        (["machine", "--damping", "much"], "--damping must be a number, got 'much'"),
+        (["law", "--minimise", "E"], "unknown --minimise 'E'"),
+        (["law", "--order", "2.5"], "--order must be a whole number from 1 on, got '2.5'"),
+        (["machine", "--damping", "much"], "--damping must be a number from 0 on, got 'much'"),
         (["study", "--from", "2", "--to", "1.5"], "--from and --to are peak velocities above 1"),
+        (["study", "--from", "0.9"], "--from must be above 1, got 0.9"),
+        (["cam", "--stroke", "90 deg"], "--stroke must be a length"),
+        (["machine", "--spread", "2"], "--spread must be at most 1, got 2"),
         (["cycle", "slide.txt"], "a problem file's name ends in .toml"),
         (["lever"], "lever"),
     ],
@@ -177,4 +180,4 @@ def test_the_help_names_every_number() -> None:
     lines = dict(re.findall(r"^ *(\w+): (.*)$", inspect.getdoc(new) or "", re.MULTILINE))
     lines["cam"] = lines["cam"].replace("as cycle", lines["cycle"])
     for kind, starter in STARTERS.items():
-        assert sorted(re.findall(r"[\w-]+", lines[kind])) == sorted(question.name for question in starter.questions)
+        assert sorted(re.findall(r"[\w-]+", lines[kind])) == sorted(starter.questions)

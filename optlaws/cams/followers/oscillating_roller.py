@@ -33,7 +33,7 @@ class OscillatingRoller(CamFollower, kind="oscillating roller"):
     'angle'
     """
 
-    radius: Quantity = entry(Measured("length", above=0.0), "Of the roller.", example="14 mm")
+    radius: Quantity = entry(Measured("length", above=0.0), "Radius of the roller.", example="14 mm")
     arm: Quantity = entry(Measured("length", above=0.0), "From the pivot to the roller's centre.", example="110 mm")
     pivot_distance: Quantity = entry(
         Measured("length", above=0.0), "From the cam's centre to the pivot.", example="140 mm"

@@ -2,17 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Literal
+from typing import Annotated, Literal
 
 from cyclopts import Parameter
 
 from optlaws.cli.show import show
 from optlaws.errors import InputError
-
-if TYPE_CHECKING:
-    from optlaws.jobs.starters.starter import Starter
 
 Kind = Literal["cycle", "cam", "machine", "study", "law"]
 
@@ -45,30 +41,20 @@ def new(
         Any of the numbers, with its unit.
     """
     from optlaws.files import writing
-    from optlaws.jobs.starters.starter_kinds import STARTERS
+    from optlaws.jobs.starters.starter import STARTERS
 
     starter = STARTERS[kind]
     place = file or Path(f"{kind}.toml")
     if place.suffix != ".toml":
         raise InputError(f"a problem file's name ends in .toml, got {place}")
+    there = InputError(f"{place} is there already, and nothing is written over it: name another file")
     if place.exists():
-        raise InputError(f"{place} is there already, and nothing is written over it: name another file")
+        raise there
     writing.check_place(place)
-    text = starter.text(_named(starter, answers), place)
+    text = starter.text(answers, place)
     try:
         with place.open("x", encoding="utf-8", newline="\n") as out:
             out.write(text)
     except FileExistsError:
-        raise InputError(f"{place} is there already, and nothing is written over it: name another file") from None
+        raise there from None
     show(f"{place}: look at it, change what you like, then run", f"optlaws {starter.run(place)}")
-
-
-def _named(starter: Starter, answers: Mapping[str, str]) -> dict[str, str]:
-    """The options with values, each of a given kind."""
-    from optlaws.suggest import unknown_key
-
-    names = [question.name for question in starter.questions]
-    for name in answers:
-        if name not in names:
-            raise InputError(f"{starter.kind}: {unknown_key(f'--{name}', [f'--{known}' for known in names], 'option')}")
-    return dict(answers)

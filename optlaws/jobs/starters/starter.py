@@ -1,20 +1,32 @@
-"""Starter problem files: their questions, and their text with the answers."""
+"""Starter problem files: their questions, whose answers are checked as entries are, and their text with the answers."""
 
 from __future__ import annotations
 
 import re
+import tomllib
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from math import ceil, floor, log10
 from pathlib import Path
 from shlex import quote
 from textwrap import fill
 from typing import Any
 
-from optlaws.entries.declared import Declared
+from optlaws.cams.followers.translating_roller import TranslatingRoller
+from optlaws.cycles.cycle import Cycle
+from optlaws.entries.declared import Declared, entries_of
 from optlaws.entries.reference import sentences
+from optlaws.entries.value_types import Choice, Measured, Number, ValueType, Whole
 from optlaws.errors import InputError, located
-from optlaws.motion.quantities import DIMENSIONS, either
-from optlaws.numbers import finite
+from optlaws.files.problem_file import convert
+from optlaws.jobs.cam_entries import CamProblemFile
+from optlaws.jobs.cycle_entries import CycleProblemFile, read_given
+from optlaws.jobs.machine_laws import MachineLawsProblemFile, Vibration
+from optlaws.jobs.solutions import SolutionsProblemFile
+from optlaws.laws.catalogue.catalogue import catalogue
+from optlaws.motion.quantities import DIMENSIONS, either, quantity
+from optlaws.studies.problem_entries import problem
+from optlaws.studies.specification import read_study
 from optlaws.suggest import unknown_key
 
 #: answers by the names of questions; None where an entry is left out
@@ -23,67 +35,57 @@ Answers = dict[str, str | None]
 #: a place in a text: the name of its answer and, behind a bar, what stands there where the entry is left out
 _PLACE = re.compile(r"\$\{([\w-]+)(?:\|([^}]*))?\}")
 _FOLDER = Path(__file__).parent
+_USUAL = "modified sine"
+_DIGITS = 5
+
+_STROKE, _DURATION = Measured("length", "angle", above=0.0), Measured("angle", "time", above=0.0)
+_DERIVATIVES = ("velocity", "acceleration", "jerk")
+_DECLARED = {
+    "speed": entries_of(Cycle)["speed"],
+    "roller": entries_of(TranslatingRoller)["radius"],
+    "offset": entries_of(TranslatingRoller)["offset"],
+    "pressure-angle": entries_of(CamProblemFile)["pressure_angle"],
+    "curvature": entries_of(CamProblemFile)["radius_of_curvature"],
+    "prime-radius": entries_of(CamProblemFile)["prime_radius"],
+    "spread": entries_of(Vibration)["spread"],
+}
+#: what answers may be, by the names of questions
+TYPES: dict[str, ValueType] = {
+    **{name: each.type for name, each in _DECLARED.items()},
+    **{name: Measured(name, f"angular {name}", above=0.0) for name in _DERIVATIVES},
+    **dict.fromkeys(("stroke", "sway"), _STROKE),
+    **dict.fromkeys(("rise", "dwell", "return"), _DURATION),
+    "duration": Measured("time", above=0.0),
+    "frequency": Measured("frequency", above=0.0),
+    "mass": Measured("mass", "moment of inertia", above=0.0),
+    "damping": Number(least=0.0),
+    **dict.fromkeys(("order", "degree", "steps"), Whole(1)),
+    **dict.fromkeys(("from", "to"), Number(above=1.0)),
+    "minimise": Choice("C", "D", "J", "rms_c", "rms_j"),
+}
 
 
-@dataclass(frozen=True)
-class Question:
-    """A number, or a text, that a starter needs.
+def read_answer(text: str, name: str) -> str:
+    """The answer to the question of a name as it was typed, checked as the entry that it is for.
 
-    Attributes
-    ----------
-    name
-        The name of the option, and of the place in the text.
-    default
-        The answer unless another is given; None where the entry is then left out.
-    dimensions
-        What its unit may be; a number without unit, or a text, where there are none.
-    choices
-        What a text may be.
-    whole
-        Whether a number is a whole one.
+    Raises
+    ------
+    InputError
+        If it is no such number, has no unit or the wrong one, or is out of range.
+
+    Examples
+    --------
+    >>> read_answer(" 35 mm", "stroke"), read_answer("3", "order")
+    ('35 mm', '3')
     """
-
-    name: str
-    default: str | None = None
-    dimensions: tuple[str, ...] = ()
-    choices: tuple[str, ...] = ()
-    whole: bool = False
-
-    def read(self, text: str) -> str:
-        """An answer as it was typed, checked.
-
-        Raises
-        ------
-        InputError
-            If it is no such number, has no unit or the wrong one, or is not above 0.
-
-        Examples
-        --------
-        >>> Question("stroke", dimensions=("length",)).read(" 35 mm")
-        '35 mm'
-        """
-        answer, name = text.strip(), f"--{self.name}"
-        if self.choices:
-            if answer not in self.choices:
-                raise InputError(f"{name}: {unknown_key(answer, self.choices, 'value')}")
-            return answer
-        number = either(answer, self.dimensions, name)[1] if self.dimensions else _number(answer, name)
-        if number < 0.0 or (number == 0.0 and self.name not in _MAY_BE_ZERO):
-            raise InputError(f"{name} must be above 0, got {answer}")
-        if self.whole and not answer.isdecimal():
-            raise InputError(f"{name} must be a whole number, got {answer}")
-        return answer
-
-
-#: what may be 0
-_MAY_BE_ZERO = ("damping", "offset", "spread")
-
-
-def _number(text: str, name: str) -> float:
-    try:
-        return finite(float(text), name)
-    except ValueError:
-        raise InputError(f"{name} must be a number, got {text!r}") from None
+    type_, answer, value = TYPES[name], text.strip(), None
+    if isinstance(type_, Number | Whole):
+        try:
+            value = int(answer) if isinstance(type_, Whole) else float(answer)
+        except ValueError:
+            raise InputError(f"--{name} must be {type_.words}, got {answer!r}") from None
+    type_.read(answer if value is None else value, f"--{name}")
+    return answer
 
 
 @dataclass(frozen=True)
@@ -95,9 +97,10 @@ class Starter:
     kind
         The name of the kind, and of the file with its text.
     command
-        What runs the file: `optlaws` and this.
+        What runs the file: `optlaws`, this, and the file.
     questions
-        What the file needs.
+        The numbers that the file needs, by the names of options: the answers unless others are given, None where the
+        entry is then left out.
     derived
         Further answers that follow from those given.
     check
@@ -108,14 +111,14 @@ class Starter:
 
     kind: str
     command: str
-    questions: tuple[Question, ...]
+    questions: Mapping[str, str | None]
     derived: Callable[[Answers], Answers]
     check: Callable[[Mapping[str, Any], Path], object]
     value: type[Declared] | None = None
 
     def run(self, file: Path) -> str:
         """The command behind `optlaws` that runs a file."""
-        return self.command.format(file=quote(file.as_posix()), folder=quote(file.stem))
+        return f"{self.command} {quote(file.as_posix())} --out {quote(file.stem)}"
 
     def text(self, given: Mapping[str, str], file: Path) -> str:
         """The text of the file: each place with its answer; the line of an entry that is left out as a comment.
@@ -123,17 +126,16 @@ class Starter:
         Raises
         ------
         InputError
-            If an answer is wrong, or the file with it could not be run.
+            If there is no such question, an answer is wrong, or the file with it could not be run.
         """
-        import tomllib
-
-        answers: Answers = {question.name: question.default for question in self.questions}
-        answers |= {
-            question.name: question.read(given[question.name]) for question in self.questions if question.name in given
-        }
+        for name in given:
+            if name not in self.questions:
+                known = [f"--{question}" for question in self.questions]
+                raise InputError(f"{self.kind}: {unknown_key(f'--{name}', known, 'option')}")
+        typed = {name: read_answer(text, name) for name, text in given.items()}
+        answers: Answers = {**self.questions, **typed}
         answers |= self.derived(answers) | {"run": self.run(file)}
-        lines = [self._line(line, answers) for line in self._template()]
-        text = "\n".join(lines) + "\n"
+        text = "\n".join(self._line(line, answers) for line in self._template()) + "\n"
         with located(str(file)):
             self.check(tomllib.loads(text), file)
         return text
@@ -155,7 +157,131 @@ class Starter:
         return f"# {filled}" if left_out and not line.startswith("#") else filled
 
     def _example(self, name: str, answers: Answers) -> str:
-        """An example value for an optional entry, of the dimension of the stroke."""
-        dimensions = next(question.dimensions for question in self.questions if question.name == name)
-        turns = len(dimensions) > 1 and either(answers["stroke"], ("length", "angle"), "--stroke")[0] == "angle"
-        return DIMENSIONS[dimensions[turns]][1]
+        """An example of a quantity that is left out, of the dimension of the stroke."""
+        type_, (axis, _) = TYPES[name], _si(answers, "stroke")
+        dimensions = type_.dimensions if isinstance(type_, Measured) else ()
+        return DIMENSIONS[dimensions[axis == "angle" and len(dimensions) > 1]][1]
+
+
+def _usual(constant: str) -> float:
+    return float(getattr(catalogue[_USUAL].law.constants, constant).value)
+
+
+def _at_least(value: float) -> str:
+    """A number in a few digits, not below its value."""
+    unit = 10.0 ** (floor(log10(value)) + 1 - _DIGITS)
+    return f"{ceil(value / unit) * unit:.12g}"
+
+
+def _si(answers: Answers, name: str) -> tuple[str, float]:
+    """The dimension of an answer, and its number in SI units."""
+    type_ = TYPES[name]
+    return either(answers[name], type_.dimensions if isinstance(type_, Measured) else (), f"--{name}")
+
+
+def _of_cycle(answers: Answers) -> Answers:
+    """Modified sine's jerk in the shorter motion, and the names of the quantities of an angle or a length."""
+    axis, stroke = _si(answers, "stroke")
+    speed, motions = _si(answers, "speed")[1], [_si(answers, name) for name in ("rise", "return")]
+    shorter = min(value / speed if kind == "angle" else value for kind, value in motions)
+    usual = f"{_at_least(_usual('J') * stroke / shorter**3)} {'rad' if axis == 'angle' else 'm'}/s^3"
+    name, inertia, dimension = {
+        "angle": ("table", "inertia", "moment of inertia"),
+        "length": ("slide", "mass", "mass"),
+    }[axis]
+    if answers["mass"] is not None:
+        quantity(answers["mass"], dimension, "--mass")
+    return {"modified_sine_jerk": usual, "jerk": answers["jerk"] or usual, "axis": name, "inertia": inertia}
+
+
+def _of_cam(answers: Answers) -> Answers:
+    quantity(answers["stroke"], "length", "--stroke")
+    return _of_cycle(answers)
+
+
+def _of_law(answers: Answers) -> Answers:
+    """Bounds without dimension, and factors that convert numbers to quantities."""
+    (axis, stroke), (_, duration) = _si(answers, "stroke"), _si(answers, "duration")
+    unit, turning = ("rad", "angular ") if axis == "angle" else ("m", "")
+    bounds: Answers = {"B": None, "C": None, "J": _at_least(_usual("J"))}
+    scales: Answers = {}
+    for nu, (name, constant) in enumerate(zip(_DERIVATIVES, bounds, strict=True), 1):
+        scale = stroke / duration**nu
+        scales[f"{name}_scale"] = f"{scale:.6g} {unit}/s{'²³'[nu - 2] if nu > 1 else ''}"
+        if answers[name] is not None:
+            bounds[constant] = f"{quantity(answers[name], turning + name, f'--{name}') / scale:.10g}"
+    if bounds["B"] is not None and float(bounds["B"]) <= 1.0:
+        raise InputError(
+            f"--velocity must be above the mean velocity, {scales['velocity_scale']}, got {answers['velocity']}"
+        )
+    return bounds | scales | {"modified_sine_J": f"{_usual('J'):.5g}"}
+
+
+def _of_machine(answers: Answers) -> Answers:
+    """The numbers in SI units, without them."""
+    axis, _ = _si(answers, "stroke")
+    quantity(answers["sway"], axis, "--sway")
+    numbers = {name: _si(answers, name)[1] for name in ("stroke", "duration", "frequency", "sway")}
+    units: Answers = {"si_unit": "rad" if axis == "angle" else "m"}
+    return units | {f"{name}_number": f"{value:.12g}" for name, value in numbers.items()}
+
+
+def _of_study(answers: Answers) -> Answers:
+    if not float(answers["from"] or 0.0) < float(answers["to"] or 0.0):
+        raise InputError(
+            f"--from and --to are peak velocities above 1, the lesser first, got {answers['from']} and {answers['to']}"
+        )
+    return {"modified_sine_J": f"{_usual('J'):.5g}", "J": None}
+
+
+def _check_cam(entries: Mapping[str, Any], file: Path) -> None:
+    CamProblemFile.read(entries, file).cycle  # noqa: B018 - a motion that is none is refused
+
+
+def _check_machine(entries: Mapping[str, Any], file: Path) -> None:
+    MachineLawsProblemFile.read(entries, file).machine.machine()
+
+
+def _check_law(entries: Mapping[str, Any], file: Path) -> None:
+    problem("problem", convert(entries, SolutionsProblemFile, file).problem.given())
+
+
+def _check_study(entries: Mapping[str, Any], _: Path) -> None:
+    read_study(entries)
+
+
+_LIMITS: Answers = dict.fromkeys(_DERIVATIVES)
+_CYCLE: Answers = {
+    "stroke": "35 mm",
+    "rise": "120 deg",
+    "dwell": "90 deg",
+    "return": "100 deg",
+    "speed": "200 rpm",
+    **_LIMITS,
+    "mass": None,
+}
+_CAM: Answers = {
+    "roller": "12 mm",
+    "offset": None,
+    "pressure-angle": "30 deg",
+    "curvature": "5 mm",
+    "prime-radius": None,
+}
+_MACHINE: Answers = {
+    "stroke": "300 mm",
+    "duration": "0.4 s",
+    "frequency": "8.5 Hz",
+    "damping": "0.02",
+    "spread": "0.1",
+    "sway": "1 mm",
+}
+_LAW: Answers = {"stroke": "35 mm", "duration": "0.1 s", "minimise": "C", "order": "3", **_LIMITS}
+_STUDY: Answers = {"minimise": "C", "from": "1.5", "to": "2", "steps": "11", "degree": "9"}
+
+STARTERS: dict[str, Starter] = {
+    "cycle": Starter("cycle", "cycle", _CYCLE, _of_cycle, read_given, CycleProblemFile),
+    "cam": Starter("cam", "run", {**_CYCLE, **_CAM}, _of_cam, _check_cam, CamProblemFile),
+    "machine": Starter("machine", "run", _MACHINE, _of_machine, _check_machine, MachineLawsProblemFile),
+    "law": Starter("law", "run", _LAW, _of_law, _check_law),
+    "study": Starter("study", "study", _STUDY, _of_study, _check_study),
+}
