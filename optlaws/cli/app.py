@@ -69,23 +69,11 @@ app = application()
 
 
 class NotProven(OptlawsError):  # noqa: N818
-    """A file claims something that is false or not proven; the message names the claim.
-
-    Examples
-    --------
-    >>> issubclass(NotProven, OptlawsError)
-    True
-    """
+    """A file claims something that is false or not proven; the message names the claim."""
 
 
 class PartlyChecked(OptlawsError):  # noqa: N818
-    """Nothing of a file is false, and some of it was only computed again in doubles; the message names that.
-
-    Examples
-    --------
-    >>> issubclass(PartlyChecked, OptlawsError)
-    True
-    """
+    """Nothing of a file is false, and some of it was only computed again in doubles; the message names that."""
 
 
 def exit_code(arguments: Sequence[str]) -> int:

@@ -1,4 +1,4 @@
-"""Options that name laws, and read them: a name, a file, a table of points, a member of a family, a frequency."""
+"""Options of several commands, and what reads them: laws by name or file, tables of points, frequencies, limits."""
 
 from __future__ import annotations
 
@@ -43,6 +43,23 @@ Frequencies = Annotated[list[float], Parameter(converter=_law_frequencies)]
 COLUMNS: dict[str, Any] = {"type": str, "read": _columns}
 #: how a table of points is read
 TABLE = options(reading.read_law, "tolerance", columns=COLUMNS)
+
+
+def _limits(texts: list[str]) -> dict[str, Any]:
+    """Limits by name from texts such as "velocity=1 m/s"; a comma separates a least and a greatest value."""
+    limits: dict[str, Any] = {}
+    for text in texts:
+        name, equals, value = (part.strip() for part in text.partition("="))
+        if not equals or name in limits:
+            what = "is given twice" if name in limits else 'is a name = a quantity, such as "velocity=1 m/s"'
+            raise InputError(f"--limit {shortened(text)}: a limit {what}")
+        parts = [part.strip() for part in value.split(",")]
+        limits[name] = parts[0] if len(parts) == 1 else parts
+    return limits
+
+
+#: of limits, each of which is an option of its own
+LIMITS: dict[str, Any] = {"name": "--limit", "type": list[str], "read": _limits, "signed": True}
 
 
 def read_law(

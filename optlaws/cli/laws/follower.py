@@ -15,14 +15,15 @@ from optlaws.motion.quantities import quantity, read_stroke
 from optlaws.shown.summary import Row, Summary
 
 _POINTS = 2001
-#: what says how long the rise takes, of a follower that has units
-_TIMES = options(optlaws.Follower.from_vibration, "duration", "speed", "rise", group="A follower with units")
+_UNITS = "A follower with units"
 
 
 @takes(
-    times=_TIMES,
-    machine=options(optlaws.Response.in_units, "stroke", group="A follower with units"),
-    damper=options(optlaws.Follower.from_vibration, "damping"),
+    times=options(optlaws.Follower.from_vibration, "duration", "speed", "rise", group=_UNITS),
+    machine={
+        **options(optlaws.Response.in_units, "stroke", group=_UNITS),
+        **options(optlaws.Follower.from_vibration, "damping"),
+    },
 )
 def follower(
     law: str,
@@ -32,9 +33,8 @@ def follower(
     frequency: FollowerFrequency | None = None,
     natural_frequency: str | None = None,
     natural_period: str | None = None,
-    times: dict[str, str | None],
-    machine: Mapping[str, str | None],
-    damper: Mapping[str, float],
+    times: Mapping[str, str | None],
+    machine: Mapping[str, Any],
     design_frequency: float | None = None,
     design_damping: float | None = None,
     spectrum: tuple[float, float] | None = None,
@@ -67,13 +67,13 @@ def follower(
     """
     if plot is None and spectrum is not None:
         raise InputError("--spectrum LOW HIGH gives the range of frequencies for --plot FILE: name the file too")
-    stroke, damping = machine["stroke"], damper["damping"]
-    if stroke is not None and not (times := given(times)):
+    stroke, damping, times = machine["stroke"], machine["damping"], given(times)
+    if stroke is not None and not times:
         raise InputError(
             "--stroke needs the time of the rise: give --natural-frequency with --speed and --rise, or --duration"
         )
     vibration = {"--natural-frequency": natural_frequency, "--natural-period": natural_period}
-    mass = _follower(frequency, given(vibration), given(times), damping)
+    mass = _follower(frequency, given(vibration), times, damping)
     if stroke is not None:
         read_stroke(stroke)
     reference = cam = read_law(law, alpha, by="--alpha")
@@ -159,16 +159,13 @@ def _show(results: Mapping[str, Any]) -> None:
             for name, peak in results["cam"]["constants"].items()
         ),
     ]
-    names = {
-        "frequency": "frequency",
-        "dynamic_factor": "dynamic factor",
-        "residual_acceleration": "residual acceleration",
-    }
+    names = ("frequency", "dynamic_factor", "residual_acceleration")
     rows = (
-        [f"{each['percent']:+g} %" if each["percent"] else "0 %", *(f"{each[key]:.6g}" for key in names)]
+        [f"{each['percent']:+g} %" if each["percent"] else "0 %", *(f"{each[name]:.6g}" for name in names)]
         for each in results["off_design"]
     )
-    show(Summary(facts, at="k"), table("frequency off by", *names.values(), rows=rows))
+    headings = (name.replace("_", " ") for name in names)
+    show(Summary(facts, at="k"), table("frequency off by", *headings, rows=rows))
 
 
 def _draw(

@@ -7,9 +7,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import optlaws
+from optlaws.cli.law_options import LIMITS
 from optlaws.cli.options import AsJson, Plot, Signed, Written, given, options, save, save_picture, takes
 from optlaws.cli.show import busy, number, print_json, show, table
-from optlaws.cli.timed_move import LIMITS
 from optlaws.cycles.specification.load import ElasticFollower
 from optlaws.errors import InputError
 from optlaws.motion.motion import motion_of_law

@@ -1,4 +1,4 @@
-"""The command `optlaws solve`: one problem, its law and its proof."""
+"""The command `optlaws solve`: one problem, its law and its proof; or the least time of a move within limits."""
 
 from __future__ import annotations
 
@@ -6,17 +6,23 @@ from collections.abc import Mapping
 from typing import Any, Literal
 
 import optlaws
-from optlaws.cli.options import AsJson, Plot, Written, save, save_picture, takes
+from optlaws.cli.law_options import LIMITS
+from optlaws.cli.options import AsJson, Plot, Written, given, options, save, save_figure, save_picture, takes
 from optlaws.cli.problem_options import asks_for_a_problem
 from optlaws.cli.show import print_json, show, summary_table, table
-from optlaws.cli.timed_move import MOVE, answer, check_move
+from optlaws.errors import InputError
 
 #: the law that most designers would take, and the followers it is compared for: two to five vibrations in the motion
 _USUAL, _FREQUENCIES = "modified sine", (12.0, 32.0)
+_KEYS = ("status", "objective", "lower_bound", "gap", "limit", "constants", "z", "law", "iterations", "seconds")
+_MOVE_KEYS = ("unit", "stroke", "limits", "duration", "limit")
+_MOVE = options(
+    optlaws.fastest, "stroke", "start_velocity", "end_velocity", group="The move of --fastest", limits=LIMITS
+)
 
 
 @asks_for_a_problem(given={"degree": 9, "basis": "chebyshev"})
-@takes(move=MOVE)
+@takes(move=_MOVE)
 def solve(
     entries: dict[str, Any],
     *,
@@ -40,30 +46,37 @@ def solve(
     output
         Write the whole solution, with its problem and certificate, to this JSON file.
     """
-    check_move(move, fastest=fastest)
+    if fastest and (move["stroke"] is None or not move["limits"]):
+        raise InputError('--fastest needs --stroke, such as "100 mm", and --limit, such as "jerk=300 m/s^3"')
+    for name in () if fastest else given(move):
+        raise InputError(f"{_MOVE[name].name} goes with --fastest")
+    problem = optlaws.Problem.from_dict(entries)
     if fastest:
-        answer(optlaws.Problem.from_dict(entries), move, as_json=as_json, output=output, plot=plot)
-        return
-    solution = optlaws.synthesize(optlaws.Problem.from_dict(entries), bound=bound)
-    save(output, solution.to_dict())
-    save_picture(plot, solution)
-    if as_json:
-        print_json(_summary(solution))
+        timed = optlaws.fastest(problem, **move)
+        whole = timed.to_dict()
+        if plot is not None:
+            from optlaws.plots.moves import motion_figure
+
+            save_figure(plot, motion_figure(timed, f"{move['stroke']} in {timed.duration:.6g} s"))
+        rest = {"none_below": timed.none_below, "binding": list(timed.binding), "gains": timed.gains()}
+        brief, shown = {name: whole[name] for name in _MOVE_KEYS} | rest, [timed.summary()]
     else:
-        _show(solution)
-
-
-def _summary(solution: optlaws.Solution) -> dict[str, Any]:
-    whole = solution.to_dict()
-    names = ("status", "objective", "lower_bound", "gap", "limit", "constants", "z", "law", "iterations", "seconds")
-    return {name: whole[name] for name in names}
+        solution = optlaws.synthesize(problem, bound=bound)
+        whole = solution.to_dict()
+        save_picture(plot, solution)
+        brief, shown = {name: whole[name] for name in _KEYS}, _shown(solution)
+    save(output, whole)
+    if as_json:
+        print_json(brief)
+    else:
+        show(*shown)
 
 
 #: how notes stand behind what they are of
 _NOTES = {"status": ": {}", "lower bound": " ({})", "Z(k)": "  ({})"}
 
 
-def _show(solution: optlaws.Solution) -> None:
+def _shown(solution: optlaws.Solution) -> list[Any]:
     facts, notes, constants = table(), [], solution.constants.summary()
     for row in solution.summary():
         if row.name == "note":
@@ -71,7 +84,7 @@ def _show(solution: optlaws.Solution) -> None:
         elif row not in constants:
             note = _NOTES.get(row.name, ", {}").format(row.note) if row.note else ""
             facts.add_row(row.name, f"{row.text()}{note}")
-    show(facts, summary_table(constants, "constant"), *notes, *_remarks(solution))
+    return [facts, summary_table(constants, "constant"), *notes, *_remarks(solution)]
 
 
 def _remarks(solution: optlaws.Solution) -> list[str]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -12,7 +12,7 @@ from optlaws.cli.show import print_json
 from optlaws.errors import InputError
 
 if TYPE_CHECKING:
-    from optlaws.verification import Verification
+    from optlaws.verification import Claim, Verification
 
 
 def verify(*files: Path, as_json: AsJson = False) -> None:
@@ -60,7 +60,8 @@ def _verified(file: Path) -> dict[str, Verification]:
     from optlaws.files import reading
     from optlaws.files.writing import MARK
     from optlaws.verification import verify_all
-    from optlaws.verification.file_entries import holds_proof, laws_within
+    from optlaws.verification.file_entries import contradictions, holds_proof, laws_within
+    from optlaws.verification.result import Claim
 
     try:
         return dict(verify_all(file))
@@ -71,31 +72,19 @@ def _verified(file: Path) -> dict[str, Verification]:
                 f"{file}: it has the entries of a cycle or of axes, and claims nothing of their laws: Cycle.from_json "
                 "or Axes.from_json solves them again; the solutions of a cycle are stored with their proofs"
             ) from None
-        written = (
-            isinstance(about, dict)
-            and MARK in str(about.get("about"))
-            and "problem" not in about
-            and not holds_proof(about)
-        )
-        if not written:
+        if (
+            not isinstance(about, dict)
+            or MARK not in str(about.get("about"))
+            or "problem" in about
+            or holds_proof(about)
+        ):
             text = str(error)
             raise InputError(text if str(file) in text else f"{file}: {text}") from None
-        return {**{place: _law(law) for place, law in laws_within(about)}, "": _without_proofs(about)}
-
-
-def _without_proofs(about: Mapping[str, Any]) -> Verification:
-    """Results whose numbers are not computed again: their entries by name, and what in them contradicts itself."""
-    from optlaws.verification import Verification
-    from optlaws.verification.file_entries import contradictions
-    from optlaws.verification.result import Claim
-
     names = ", ".join(name for name, value in about.items() if name not in {"about", "unit"} and value is not None)
     why = "results without proofs, which the file of --output, the explorer and to_dict() of a solution have"
-    unchecked = Claim(
-        "the file", proven=False, detail=f"{why}; nothing but laws is computed again of: {names}", checked=False
-    )
-    claims = tuple(Claim(place, proven=False, detail=detail) for place, detail in contradictions(about))
-    return Verification(problem=None, bound=None, claims=claims, unchecked=(unchecked,))
+    claims = [Claim(place, proven=False, detail=detail) for place, detail in contradictions(about)]
+    whole = _unchecked("the file", f"{why}; nothing but laws is computed again of: {names}", claims)
+    return {**{place: _law(law) for place, law in laws_within(about)}, "": whole}
 
 
 def _law(data: Mapping[str, Any]) -> Verification:
@@ -107,12 +96,13 @@ def _law(data: Mapping[str, Any]) -> Verification:
         return _unchecked("the law", str(error))
 
 
-def _unchecked(name: str, why: str) -> Verification:
+def _unchecked(name: str, why: str, claims: Sequence[Claim] = ()) -> Verification:
+    """A verification of what is not computed again, beside claims that contradict themselves."""
     from optlaws.verification import Verification
     from optlaws.verification.result import Claim
 
     claim = Claim(name, proven=False, detail=why, checked=False)
-    return Verification(problem=None, bound=None, unchecked=(claim,))
+    return Verification(problem=None, bound=None, claims=tuple(claims), unchecked=(claim,))
 
 
 def _line(name: str, word: str, verification: Verification) -> str:
