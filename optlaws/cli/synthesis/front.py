@@ -11,6 +11,7 @@ from optlaws.cli.problem_options import asks_for_a_problem
 from optlaws.cli.show import busy, print_json, show, show_export, table
 from optlaws.errors import InputError
 from optlaws.numbers import positive, whole
+from optlaws.synthesis.pareto import pareto_front
 from optlaws.synthesis.problem.named_constants import apart
 
 Rows = list[list[Any]]
@@ -19,7 +20,7 @@ Rows = list[list[Any]]
 @asks_for_a_problem(
     given={"degree": 9, "basis": "chebyshev"}, refused={"minimise": "the last constant of --over is minimised"}
 )
-@takes(curve=options(optlaws.pareto_front, "points", between={"type": tuple[float, float]}))
+@takes(curve=options(pareto_front, "points", between={"type": tuple[float, float]}))
 def front(
     entries: dict[str, Any],
     *,
