@@ -34,15 +34,17 @@ def _plain(value: Any) -> object:
     return str(value) if isinstance(value, str) else value.item()
 
 
-def table(*headings: str, rows: Iterable[Iterable[str]] = ()) -> Table:
-    """A table without lines; without headings, the first column names the facts."""
+def table(*headings: str, rows: Iterable[Iterable[str | float | None]] = (), digits: int = 7) -> Table:
+    """A table of texts and of numbers to some digits, without lines; without headings its first column never wraps."""
     from rich.table import Table
 
     new_table = Table(*headings, show_header=bool(headings), box=None, pad_edge=False)
     if not headings:
         new_table.add_column(no_wrap=True)
     for row in rows:
-        new_table.add_row(*row)
+        new_table.add_row(
+            *("" if cell is None else cell if isinstance(cell, str) else f"{cell:.{digits}g}" for cell in row)
+        )
     return new_table
 
 

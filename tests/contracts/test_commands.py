@@ -136,6 +136,14 @@ def test_a_file_that_cannot_be_written_is_refused(command: str, option: str, cap
 
 
 @pytest.mark.parametrize("command", COMMANDS)
+def test_every_option_has_a_sentence_in_the_help(command: str) -> None:
+    arguments = app.app[command].assemble_argument_collection(parse_docstring=True)
+    shown = {argument.name: argument.parameter.help or "" for argument in arguments if argument.show}
+    assert shown
+    assert [name for name, sentence in shown.items() if not sentence.rstrip().endswith(".")] == []
+
+
+@pytest.mark.parametrize("command", COMMANDS)
 def test_the_list_of_commands_says_what_each_does(command: str, capsys: Capture) -> None:
     does = inspect.getdoc(app.app[command].default_command)
     assert does is not None

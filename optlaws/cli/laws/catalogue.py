@@ -32,10 +32,10 @@ def catalogue(search: str | None = None, /, *, plot: Plot = None, as_json: AsJso
         print_json([{key: value for key, value in entry.to_dict().items() if key != "law"} for entry in entries])
         return
     rows = (
-        [entry.name, *(f"{getattr(entry.constants, name).value:.6g}" for name in "BCDJ"), continuous(entry.continuity)]
+        [entry.name, *(getattr(entry.constants, name).value for name in "BCDJ"), continuous(entry.continuity)]
         for entry in entries
     )
-    show(table("law", *"BCDJ", "continuous", rows=rows))
+    show(table("law", *"BCDJ", "continuous", rows=rows, digits=6))
 
 
 def continuous(order: int) -> str:

@@ -9,9 +9,8 @@ from typing import Any
 import optlaws
 from optlaws.cli.law_options import Frequencies
 from optlaws.cli.options import AsJson, Plot, Written, options, save_picture, takes
-from optlaws.cli.show import number, print_json, show, table
+from optlaws.cli.show import print_json, show, table
 from optlaws.errors import InputError
-from optlaws.tolerances import VALUE_ROUNDING
 
 _ONE, _INTERVAL = 1, 2
 
@@ -53,11 +52,7 @@ def compare(
     if as_json:
         print_json(comparison.to_dict())
         return
-    rows = (
-        [cell if isinstance(cell, str) else number(cell, VALUE_ROUNDING, ".7g") for cell in row.values()]
-        for row in comparison.rows
-    )
-    show(table(*comparison.rows[0], rows=rows), *comparison.remarks)
+    show(table(*comparison.rows[0], rows=(row.values() for row in comparison.rows)), *comparison.remarks)
 
 
 def _save(comparison: optlaws.Comparison, file: Path) -> None:

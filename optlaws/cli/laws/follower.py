@@ -161,11 +161,11 @@ def _show(results: Mapping[str, Any]) -> None:
     ]
     names = ("frequency", "dynamic_factor", "residual_acceleration")
     rows = (
-        [f"{each['percent']:+g} %" if each["percent"] else "0 %", *(f"{each[name]:.6g}" for name in names)]
+        [f"{each['percent']:+g} %" if each["percent"] else "0 %", *map(each.get, names)]
         for each in results["off_design"]
     )
     headings = (name.replace("_", " ") for name in names)
-    show(Summary(facts, at="k"), table("frequency off by", *headings, rows=rows))
+    show(Summary(facts, at="k"), table("frequency off by", *headings, rows=rows, digits=6))
 
 
 def _draw(

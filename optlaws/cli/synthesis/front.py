@@ -87,7 +87,9 @@ def front(
     elif as_json:
         print_json(front.to_dict())
     else:
-        show(table(*headings, rows=(map(_text, row, headings) for row in rows)), *_remarks(front))
+        gap = headings.index("gap")
+        shown = ([f"{cell:.0e}" if i == gap else cell for i, cell in enumerate(row)] for row in rows)
+        show(table(*headings, rows=shown), *_remarks(front))
 
 
 def _table(front: optlaws.Front | optlaws.ProvenFront, points: int) -> tuple[tuple[str, ...], Rows]:
@@ -99,12 +101,6 @@ def _table(front: optlaws.Front | optlaws.ProvenFront, points: int) -> tuple[tup
     return (*front.over, "lower bound", "gap"), [
         [point.value, point.objective, point.lower_bound, point.gap] for point in some
     ]
-
-
-def _text(cell: Any, heading: str) -> str:
-    if cell is None or isinstance(cell, str):
-        return cell or ""
-    return format(cell, ".0e" if heading == "gap" else ".7g")
 
 
 def _remarks(front: optlaws.Front | optlaws.ProvenFront) -> list[str]:
