@@ -81,8 +81,6 @@ def cycle(
         A format of `optlaws export --list`: the cycle is written in it, modernised where --modernise is given.
     save
         Write the cycle as a problem file (.toml), its laws beside it.
-    as_json
-        Print one line of JSON on stdout and nothing else; of all files only that of --plot is written.
     """
     cam: dict[str, Any] = {"speed": speed, "modernise": modernise, "export": export, "save": save}
     if file.suffix and file.suffix.lower() != ".toml":

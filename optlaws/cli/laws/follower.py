@@ -10,6 +10,7 @@ import optlaws
 from optlaws.cli.law_options import FollowerFrequency, read_law
 from optlaws.cli.options import AsJson, Plot, given, options, save_figure, save_picture, takes
 from optlaws.cli.show import print_json, show, table
+from optlaws.cycles.specification.load import ElasticFollower
 from optlaws.errors import InputError
 from optlaws.motion.quantities import quantity, read_stroke
 from optlaws.shown.summary import Row, Summary
@@ -22,7 +23,7 @@ _UNITS = "A follower with units"
     times=options(optlaws.Follower.from_vibration, "duration", "speed", "rise", group=_UNITS),
     machine={
         **options(optlaws.Response.in_units, "stroke", group=_UNITS),
-        **options(optlaws.Follower.from_vibration, "damping"),
+        **options(ElasticFollower, "damping"),
     },
 )
 def follower(
