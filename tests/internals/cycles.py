@@ -9,5 +9,6 @@ from optlaws.cycles.optimisation.search_spaces import halved
 from optlaws.cycles.optimisation.shared_limits import _SharedLimit as SharedLimit
 from optlaws.cycles.specification.drive import read_drive
 from optlaws.cycles.specification.limit_entries import LIMITS_OF_CYCLE, LIMITS_OF_MOVE
+from optlaws.cycles.specification.load import ElasticFollower
 from optlaws.mechanisms.drives.effort import size_of
 from optlaws.synthesis.least_time.move_objective import RATES as OBJECTIVES_OF_MOVES
