@@ -150,7 +150,7 @@ class Cycle(CycleInterchange):
     _: KW_ONLY
     speed: Quantity | None = entry(
         Measured("angular velocity", above=0.0),
-        "Speed of the master; it or the period.",
+        "Speed of the master; give it or the period.",
         default=None,
         example="200 rpm",
     )

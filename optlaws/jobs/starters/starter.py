@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import re
 import tomllib
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
 from math import ceil, floor, log10
 from pathlib import Path
 from shlex import quote
 from textwrap import fill
-from typing import Any
+from typing import Any, NamedTuple
 
 from optlaws.cams.followers.translating_roller import TranslatingRoller
 from optlaws.cycles.cycle import Cycle
@@ -38,30 +38,45 @@ _FOLDER = Path(__file__).parent
 _USUAL = "modified sine"
 _DIGITS = 5
 
+
+class Question(NamedTuple):
+    """What answers may be, and the answer unless another is given: None where the entry is then left out."""
+
+    type: ValueType
+    usual: str | None = None
+
+
+def _of_entry(values: type[Declared], name: str, usual: str | None = None) -> Question:
+    return Question(entries_of(values)[name].type, usual)
+
+
 _STROKE, _DURATION = Measured("length", "angle", above=0.0), Measured("angle", "time", above=0.0)
 _DERIVATIVES = ("velocity", "acceleration", "jerk")
-_DECLARED = {
-    "speed": entries_of(Cycle)["speed"],
-    "roller": entries_of(TranslatingRoller)["radius"],
-    "offset": entries_of(TranslatingRoller)["offset"],
-    "pressure-angle": entries_of(CamProblemFile)["pressure_angle"],
-    "curvature": entries_of(CamProblemFile)["radius_of_curvature"],
-    "prime-radius": entries_of(CamProblemFile)["prime_radius"],
-    "spread": entries_of(Vibration)["spread"],
-}
-#: what answers may be, by the names of questions
-TYPES: dict[str, ValueType] = {
-    **{name: each.type for name, each in _DECLARED.items()},
-    **{name: Measured(name, f"angular {name}", above=0.0) for name in _DERIVATIVES},
-    **dict.fromkeys(("stroke", "sway"), _STROKE),
-    **dict.fromkeys(("rise", "dwell", "return"), _DURATION),
-    "duration": Measured("time", above=0.0),
-    "frequency": Measured("frequency", above=0.0),
-    "mass": Measured("mass", "moment of inertia", above=0.0),
-    "damping": Number(least=0.0),
-    **dict.fromkeys(("order", "degree", "steps"), Whole(1)),
-    **dict.fromkeys(("from", "to"), Number(above=1.0)),
-    "minimise": Choice("C", "D", "J", "rms_c", "rms_j"),
+#: by the names of options
+QUESTIONS: dict[str, Question] = {
+    "stroke": Question(_STROKE, "35 mm"),
+    "rise": Question(_DURATION, "120 deg"),
+    "dwell": Question(_DURATION, "90 deg"),
+    "return": Question(_DURATION, "100 deg"),
+    "speed": _of_entry(Cycle, "speed", "200 rpm"),
+    **{name: Question(Measured(name, f"angular {name}", above=0.0)) for name in _DERIVATIVES},
+    "mass": Question(Measured("mass", "moment of inertia", above=0.0)),
+    "roller": _of_entry(TranslatingRoller, "radius", "12 mm"),
+    "offset": _of_entry(TranslatingRoller, "offset"),
+    "pressure-angle": _of_entry(CamProblemFile, "pressure_angle", "30 deg"),
+    "curvature": _of_entry(CamProblemFile, "radius_of_curvature", "5 mm"),
+    "prime-radius": _of_entry(CamProblemFile, "prime_radius"),
+    "duration": Question(Measured("time", above=0.0), "0.1 s"),
+    "frequency": Question(Measured("frequency", above=0.0), "8.5 Hz"),
+    "damping": Question(Number(least=0.0), "0.02"),
+    "spread": _of_entry(Vibration, "spread", "0.1"),
+    "sway": Question(_STROKE, "1 mm"),
+    "minimise": Question(Choice("C", "D", "J", "rms_c", "rms_j"), "C"),
+    "order": Question(Whole(1), "3"),
+    "degree": Question(Whole(1), "9"),
+    "from": Question(Number(above=1.0), "1.5"),
+    "to": Question(Number(above=1.0), "2"),
+    "steps": Question(Whole(1), "11"),
 }
 
 
@@ -78,7 +93,7 @@ def read_answer(text: str, name: str) -> str:
     >>> read_answer(" 35 mm", "stroke"), read_answer("3", "order")
     ('35 mm', '3')
     """
-    type_, answer, value = TYPES[name], text.strip(), None
+    type_, answer, value = QUESTIONS[name].type, text.strip(), None
     if isinstance(type_, Number | Whole):
         try:
             value = int(answer) if isinstance(type_, Whole) else float(answer)
@@ -99,22 +114,24 @@ class Starter:
     command
         What runs the file: `optlaws`, this, and the file.
     questions
-        The numbers that the file needs, by the names of options: the answers unless others are given, None where the
-        entry is then left out.
+        The names of those that the file has.
     derived
         Further answers that follow from those given.
     check
         Refuses the entries of a file that could not be run.
+    usual
+        Answers of its own unless others are given.
     value
         What the file is read as: above an entry a # alone in the text stands for what the entry says.
     """
 
     kind: str
     command: str
-    questions: Mapping[str, str | None]
+    questions: Sequence[str]
     derived: Callable[[Answers], Answers]
     check: Callable[[Mapping[str, Any], Path], object]
     value: type[Declared] | None = None
+    usual: Answers = field(default_factory=dict)
 
     def run(self, file: Path) -> str:
         """The command behind `optlaws` that runs a file."""
@@ -132,8 +149,8 @@ class Starter:
             if name not in self.questions:
                 known = [f"--{question}" for question in self.questions]
                 raise InputError(f"{self.kind}: {unknown_key(f'--{name}', known, 'option')}")
-        typed = {name: read_answer(text, name) for name, text in given.items()}
-        answers: Answers = {**self.questions, **typed}
+        typed: Answers = {name: read_answer(text, name) for name, text in given.items()}
+        answers: Answers = {name: QUESTIONS[name].usual for name in self.questions} | self.usual | typed
         answers |= self.derived(answers) | {"run": self.run(file)}
         text = "\n".join(self._line(line, answers) for line in self._template()) + "\n"
         with located(str(file)):
@@ -158,7 +175,7 @@ class Starter:
 
     def _example(self, name: str, answers: Answers) -> str:
         """An example of a quantity that is left out, of the dimension of the stroke."""
-        type_, (axis, _) = TYPES[name], _si(answers, "stroke")
+        type_, (axis, _) = QUESTIONS[name].type, _si(answers, "stroke")
         dimensions = type_.dimensions if isinstance(type_, Measured) else ()
         return DIMENSIONS[dimensions[axis == "angle" and len(dimensions) > 1]][1]
 
@@ -175,7 +192,7 @@ def _at_least(value: float) -> str:
 
 def _si(answers: Answers, name: str) -> tuple[str, float]:
     """The dimension of an answer, and its number in SI units."""
-    type_ = TYPES[name]
+    type_ = QUESTIONS[name].type
     return either(answers[name], type_.dimensions if isinstance(type_, Measured) else (), f"--{name}")
 
 
@@ -234,54 +251,34 @@ def _of_study(answers: Answers) -> Answers:
     return {"modified_sine_J": f"{_usual('J'):.5g}", "J": None}
 
 
-def _check_cam(entries: Mapping[str, Any], file: Path) -> None:
-    CamProblemFile.read(entries, file).cycle  # noqa: B018 - a motion that is none is refused
-
-
-def _check_machine(entries: Mapping[str, Any], file: Path) -> None:
-    MachineLawsProblemFile.read(entries, file).machine.machine()
-
-
 def _check_law(entries: Mapping[str, Any], file: Path) -> None:
     problem("problem", convert(entries, SolutionsProblemFile, file).problem.given())
 
 
-def _check_study(entries: Mapping[str, Any], _: Path) -> None:
-    read_study(entries)
-
-
-_LIMITS: Answers = dict.fromkeys(_DERIVATIVES)
-_CYCLE: Answers = {
-    "stroke": "35 mm",
-    "rise": "120 deg",
-    "dwell": "90 deg",
-    "return": "100 deg",
-    "speed": "200 rpm",
-    **_LIMITS,
-    "mass": None,
-}
-_CAM: Answers = {
-    "roller": "12 mm",
-    "offset": None,
-    "pressure-angle": "30 deg",
-    "curvature": "5 mm",
-    "prime-radius": None,
-}
-_MACHINE: Answers = {
-    "stroke": "300 mm",
-    "duration": "0.4 s",
-    "frequency": "8.5 Hz",
-    "damping": "0.02",
-    "spread": "0.1",
-    "sway": "1 mm",
-}
-_LAW: Answers = {"stroke": "35 mm", "duration": "0.1 s", "minimise": "C", "order": "3", **_LIMITS}
-_STUDY: Answers = {"minimise": "C", "from": "1.5", "to": "2", "steps": "11", "degree": "9"}
+_CYCLE = ("stroke", "rise", "dwell", "return", "speed", *_DERIVATIVES, "mass")
+_CAM = ("roller", "offset", "pressure-angle", "curvature", "prime-radius")
+_MACHINE = ("stroke", "duration", "frequency", "damping", "spread", "sway")
+_LAW = ("stroke", "duration", "minimise", "order", *_DERIVATIVES)
+_STUDY = ("minimise", "from", "to", "steps", "degree")
 
 STARTERS: dict[str, Starter] = {
     "cycle": Starter("cycle", "cycle", _CYCLE, _of_cycle, read_given, CycleProblemFile),
-    "cam": Starter("cam", "run", {**_CYCLE, **_CAM}, _of_cam, _check_cam, CamProblemFile),
-    "machine": Starter("machine", "run", _MACHINE, _of_machine, _check_machine, MachineLawsProblemFile),
+    "cam": Starter(
+        "cam",
+        "run",
+        (*_CYCLE, *_CAM),
+        _of_cam,
+        lambda entries, file: CamProblemFile.read(entries, file).cycle,
+        CamProblemFile,
+    ),
+    "machine": Starter(
+        "machine",
+        "run",
+        _MACHINE,
+        _of_machine,
+        lambda entries, file: MachineLawsProblemFile.read(entries, file).machine.machine(),
+        usual={"stroke": "300 mm", "duration": "0.4 s"},
+    ),
     "law": Starter("law", "run", _LAW, _of_law, _check_law),
-    "study": Starter("study", "study", _STUDY, _of_study, _check_study),
+    "study": Starter("study", "study", _STUDY, _of_study, lambda entries, _: read_study(entries)),
 }
