@@ -135,7 +135,7 @@ def options(
         about: dict[str, Any] = {
             "name": f"--{name.replace('_', '-')}",
             "type": _TYPES.get(annotation),
-            "about": sentences[name],
+            "about": sentences.get(name, ""),
             "default": None if parameter.default is inspect.Parameter.empty else parameter.default,
             "signed": annotation == "Quantity",
             "also": _OLDER.get(name, ()),
