@@ -35,8 +35,7 @@ def unknown_key(
     near = _nearest(name, names, words or {}) if isinstance(name, str) and len(name) <= _LONGEST_NAME else None
     if near is not None:
         return f"unknown {what} {name!r}; did you mean {near!r}?"
-    signs = (each if any(map(str.isalnum, each)) else repr(each) for each in names)
-    return f"unknown {what} {shortened(name)}; known are {', '.join(signs)}"
+    return f"unknown {what} {shortened(name)}; known are {', '.join(names)}"
 
 
 def keywords_of(options: type, **defaults: Any) -> Callable[[FunctionT], FunctionT]:

@@ -3,40 +3,62 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from typing import Any
 
-from optlaws.entries.declared import Declared, declared, entries_of, entry
-from optlaws.entries.value_types import Choice, Either, Text, Whole
+from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.lazy import Registry
 from optlaws.motion.motion import Motion
 from optlaws.motion.polynomials import PiecewiseMotion
+from optlaws.numbers import whole
 from optlaws.suggest import unknown_key
 
 MOST_POINTS = 65_536
 BEST = "best"
 
 
-@declared
-class Request(Declared, title="export"):
-    """The options of an export beside the motion; each format takes some of them."""
+@dataclass(frozen=True)
+class Request:
+    """The options of an export beside the motion; each format takes some of them.
 
-    name: str = entry(Text(empty=True), "Of the variable, the table or the joint.", default="Cam")
-    points: int | str | None = entry(
-        Either(Whole(2, MOST_POINTS), Choice(BEST), which=lambda value: int(isinstance(value, str))),
-        'How many points or segments; chosen unless given: of points, as with "best", for the least peak acceleration '
-        "of the run, of polynomials the fewest that are near enough.",
-        default=None,
-    )
-    counts: int | None = entry(
-        Whole(2), "Steps of the slave's encoder over the stroke, to which positions are rounded.", default=None
-    )
-    digits: int | None = entry(Whole(0, 17), "Digits behind the decimal sign, of tables as text.", default=None)
-    decimal: str = entry(Choice(".", ","), 'The decimal sign of tables as text: "." or ",".', default=".")
-    interpolation: str | None = entry(
-        Text(), "The interpolation that the file demands of the controller, where it can.", default=None
-    )
+    Parameters
+    ----------
+    name
+        Of the variable or table.
+    points
+        How many points or segments, of points "best" for the number whose run has the least peak of the acceleration;
+        None for what the format would take.
+    counts
+        Steps of the slave's encoder over the stroke, to which positions are rounded.
+    digits
+        Digits behind the decimal sign.
+    decimal
+        The decimal sign, "." or ",".
+    interpolation
+        The interpolation that the file demands of the controller, where it can.
+    """
+
+    name: str = "Cam"
+    points: int | str | None = None
+    counts: int | None = None
+    digits: int | None = None
+    decimal: str = "."
+    interpolation: str | None = None
+
+    def __post_init__(self) -> None:
+        if self.points is not None and self.points != BEST:
+            object.__setattr__(self, "points", whole(self.points, "points", least=2, most=MOST_POINTS))
+        if self.counts is not None:
+            object.__setattr__(self, "counts", whole(self.counts, "counts", least=2, most=2**53))
+        if self.digits is not None:
+            object.__setattr__(self, "digits", whole(self.digits, "digits", most=17))
+        for entry in ("name", "decimal", "interpolation"):
+            value: object = getattr(self, entry)
+            if not isinstance(value, str) and not (entry == "interpolation" and value is None):
+                raise InputError(f"{entry} must be text, got {shortened(value)}")
+        if self.decimal not in {".", ","}:
+            raise InputError(f"decimal must be '.' or ',', got {shortened(self.decimal)}")
 
     def interpolation_among(self, known: Collection[str], default: str = "cubic") -> str:
         """The interpolation, which must be among the target's interpolations."""
@@ -134,11 +156,11 @@ class Format:
         InputError
             If it is unknown, or means nothing to this format.
         """
-        known = entries_of(Request)
+        known = {field.name for field in fields(Request)}
         given = {name: value for name, value in options.items() if value is not None}
         for name in given:
             if name not in known:
-                raise InputError(f"export: {unknown_key(name, known, 'option')}")
+                raise InputError(f"export: {unknown_key(name, sorted(known), 'option')}")
             if name not in {"name", *self.takes}:
                 raise InputError(f"{self.name} takes no {name}; it takes {', '.join(('name', *self.takes))}")
         return Request(**given)

@@ -217,7 +217,7 @@ def test_a_law_whose_acceleration_jumps_keeps_its_jumps() -> None:
         ("rockwell-cam", {"interpolation": "akima"}, ["linear, cubic", "akima"]),
         ("rockwell-cam", {"points": 65536, "counts": 1}, ["counts"]),
         ("twincat-table", {"interpolation": "4POINT"}, ["linear, spline"]),
-        ("csv", {"decimal": ":"}, ["decimal", "known are ',', '.'"]),
+        ("csv", {"decimal": ":"}, ["decimal", "'.' or ','"]),
         ("csv", {"digits": -1}, ["digits"]),
         ("csv", {"digits": 0, "points": 361}, ["361 points", "more digits"]),
         ("isg", {"points": 361}, ["360", "361"]),
