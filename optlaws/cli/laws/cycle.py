@@ -88,7 +88,7 @@ def cycle(
             raise InputError(
                 "--fastest needs a problem file: --save writes one from the table, in which you enter the limits"
             )
-        _old_cam(file, how, **cam, out=out, plot=plot, as_json=as_json)
+        _old_cam(file, how, cam, out=out, plot=plot, as_json=as_json)
         return
     for name, value in given({**how, **cam}).items():
         raise InputError(f"--{name} is of the table of an old cam, got {shortened(value)} with a problem file")
@@ -161,21 +161,13 @@ def _main_picture(entries: Mapping[str, Any], results: Results, suffix: str) -> 
 
 
 def _old_cam(
-    file: Path,
-    how: Mapping[str, Any],
-    *,
-    speed: str | None,
-    modernise: str | None,
-    export: str | None,
-    save: Path | None,
-    out: Path | None,
-    plot: Path | None,
-    as_json: bool,
+    file: Path, how: Mapping[str, Any], cam: Mapping[str, Any], *, out: Path | None, plot: Path | None, as_json: bool
 ) -> None:
-    """Answer for the table of an old cam, read `how` the options say."""
+    """Answer for the table of an old cam, read `how` the options say, with a better one and files as `cam` says."""
     from optlaws.exports.format import format_of
     from optlaws.motion.quantities import positive_quantity
 
+    speed, export, save = cam["speed"], cam["export"], cam["save"]
     if speed is not None:
         positive_quantity(speed, "angular velocity", "--speed")
     if save is not None and save.suffix != ".toml":
@@ -183,7 +175,7 @@ def _old_cam(
     chosen = None if export is None else format_of(export)
     with busy(f"{file}"):
         old = read_cycle_table(file, **how)
-        new = None if modernise is None else old.bettered(_tolerance(modernise, old))
+        new = None if cam["modernise"] is None else old.bettered(_tolerance(cam["modernise"], old))
     latest = new or old
     written: dict[str, str] = {}
     if save is not None:

@@ -91,7 +91,9 @@ def advise(
         proofs = {name: each.proofs() for name, each in advice.items()}
         save(output, {"axes": proofs} if file is not None else {"move": proofs[""]})
     if as_json:
-        brief = {name: _without_solutions(each.report()) for name, each in advice.items()}
+        brief = {name: each.report() for name, each in advice.items()}
+        for law in (law for data in brief.values() for law in (*data["laws"], *data["front"])):
+            law.pop("solutions", None)  # which --output writes
         print_json(brief if file is not None else brief[""])
         return
     for name, each in advice.items():
@@ -127,15 +129,6 @@ def _of_file(file: Path, axis: str | None, wishes: Mapping[str, Any]) -> dict[st
         with located(f"{source}: axis {name}"):
             advice[name] = optlaws.advise(cycles[name], **wishes)
     return advice
-
-
-def _without_solutions(data: dict[str, Any]) -> dict[str, Any]:
-    """The advice without whole solutions, which --output writes."""
-    rows = {
-        name: [{key: value for key, value in law.items() if key != "solutions"} for law in data[name]]
-        for name in ("laws", "front")
-    }
-    return {**data, **rows}
 
 
 def _page(advice: Advice) -> Iterable[Any]:
