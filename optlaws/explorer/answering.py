@@ -9,6 +9,7 @@ from collections.abc import Callable
 from multiprocessing import parent_process
 from multiprocessing.connection import Connection, wait
 from threading import Thread
+from types import ModuleType
 from typing import Any
 
 import msgspec
@@ -30,31 +31,23 @@ from optlaws.explorer.views.machines import fastest_view, machine_view
 from optlaws.explorer.views.requests import Question, read, ready
 from optlaws.sentences import parts_of
 
+#: the views that show a study, by their names in the page; where none is given each shows its example
+_VIEWS: dict[str, ModuleType] = {
+    "cycle": cycle_view,
+    "cam": cam_view,
+    "axes": axes_view,
+    "machine": machine_view,
+    "fastest": fastest_view,
+    "old": old_cam_view,
+    "advice": advice_view,
+}
+_OTHERS: tuple[ModuleType, ...] = (law_view, front_view, residual_view, start, downloads)
 #: by the last part of the path: what a question is read as, and what answers it; each view names its own
 QUESTIONS: dict[str, Question] = {
-    **law_view.QUESTIONS,
-    **front_view.QUESTIONS,
-    **residual_view.QUESTIONS,
-    **cycle_view.QUESTIONS,
-    **cam_view.QUESTIONS,
-    **start.QUESTIONS,
-    **axes_view.QUESTIONS,
-    **machine_view.QUESTIONS,
-    **fastest_view.QUESTIONS,
-    **old_cam_view.QUESTIONS,
-    **advice_view.QUESTIONS,
-    **downloads.QUESTIONS,
+    name: question for each in (*_OTHERS, *_VIEWS.values()) for name, question in each.QUESTIONS.items()
 }
 #: by a view's name in the page: the study that it shows where none was given
-EXAMPLES: dict[str, Callable[[], dict[str, Any]]] = {
-    "cycle": cycle_view.example,
-    "cam": cam_view.example,
-    "axes": axes_view.example,
-    "machine": machine_view.example,
-    "fastest": fastest_view.example,
-    "old": old_cam_view.example,
-    "advice": advice_view.example,
-}
+EXAMPLES: dict[str, Callable[[], dict[str, Any]]] = {name: view.example for name, view in _VIEWS.items()}
 OK, UNREADABLE, FAULT = 200, 422, 500
 #: bytes that a process may take for its data, where the system can limit it
 _MOST_DATA = 1 << 30
@@ -108,7 +101,7 @@ def answer_from(connection: Connection) -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is the server's
     _limit_memory()
     Thread(target=_end_with_the_server, daemon=True).start()
-    ready(*(kind for kind, _ in QUESTIONS.values()))
+    ready(*(kind for kind, _ in QUESTIONS.values()), *(files.request for files in downloads.VIEWS.values()))
     while True:
         try:
             name, body, seconds = connection.recv()

@@ -1,4 +1,4 @@
-"""Files that the page offers: its state as Python, as a problem file, as laws and tables, for a controller."""
+"""Files that the page offers of what it shows: as Python, as a problem file, as laws and tables, for a controller."""
 
 from __future__ import annotations
 
@@ -7,22 +7,25 @@ import json
 import re
 from collections.abc import Callable, Mapping
 from dataclasses import fields, replace
+from functools import partial
+from pathlib import Path
 from pprint import pformat
 from textwrap import indent
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, NamedTuple
 
 import msgspec
 
 import optlaws
-from optlaws import Axes, Cycle, Drive, Mechanism, MotionLaw, Problem, Solution
+from optlaws import Drive, Mechanism, MotionLaw, Solution
 from optlaws.cams.curves import cam_files
 from optlaws.cams.curves.file_options import Cutting
-from optlaws.cycles.specification.load import ElasticFollower
+from optlaws.cycles.cycle import Cycle
+from optlaws.entries.declared import Declared
 from optlaws.errors import InputError
 from optlaws.explorer.views import axes_view, cam_view, cycle_view, old_cam_view
 from optlaws.explorer.views.law_view import digits, title
 from optlaws.explorer.views.machines import fastest_view
-from optlaws.explorer.views.requests import MOST_LAWS, LawRequest, Question, law_of, problem_of, solved
+from optlaws.explorer.views.requests import LawRequest, LawsRequest, Question, law_of, problem_of, read, solved
 from optlaws.exports.format import FORMATS
 from optlaws.files.tables import to_toml
 from optlaws.files.writing import MARK
@@ -31,27 +34,27 @@ from optlaws.jobs.cycle_entries import cycle_of
 from optlaws.laws.values import table_of_values
 from optlaws.suggest import unknown_key
 
-_NAMES = "abcd"
 _ROWS = 361
 _WIDTH = 116
-_CALLED = re.compile(r"\b([A-Za-z_]\w*)\(")
 _PUBLIC = frozenset(vars(optlaws)["__all__"])
+_TYPES = {".py": "text/x-python", ".toml": "application/toml", ".json": "application/json", ".csv": "text/csv"}
+_UNITS = "SI units but for mm and deg"
 
-#: what the text of a problem is made of, where it is Python
-_PLAIN = (
-    ast.Expression, ast.Call, ast.keyword, ast.Name, ast.Load, ast.Constant, ast.Tuple, ast.List, ast.Dict,
-    ast.UnaryOp, ast.USub,
-)  # fmt: skip
-
-File = dict[str, str]
+File = tuple[str, str]  #: its name and its text
 
 
-class SeenRequest(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
-    """Content of the page: laws, of which one is active, and a cycle."""
+class ViewFiles(NamedTuple):
+    """What a view is asked, the files of that by their kinds, and its motion for a controller."""
 
-    laws: Annotated[list[LawRequest], msgspec.Meta(min_length=1, max_length=MOST_LAWS)]
-    active: Annotated[int, msgspec.Meta(ge=0, lt=MOST_LAWS)] = 0
-    cycle: cycle_view.CycleRequest | None = None
+    request: type[msgspec.Struct]
+    kinds: Mapping[str, Callable[[Any], File]]
+    motion: Callable[[Any], Any] | None = None
+
+
+class ActiveRequest(LawsRequest, kw_only=True, forbid_unknown_fields=True):
+    """Laws, of which one is active."""
+
+    active: Annotated[int, msgspec.Meta(ge=0)] = 0
 
     @property
     def law(self) -> LawRequest:
@@ -59,75 +62,27 @@ class SeenRequest(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
         return self.laws[min(self.active, len(self.laws) - 1)]
 
 
-class FileRequest(SeenRequest, kw_only=True, forbid_unknown_fields=True):
-    """A file of the page's state."""
+class FileRequest(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+    """A file of a kind, of what a view is asked."""
 
-    kind: Literal["python", "problem", "law", "table", "cut", "proof"]
-    view: Literal["laws", "cycle", "axes", "cam", "machine", "fastest", "old"] = "laws"
-    axes: cycle_view.CycleRequest | None = None
-    old: old_cam_view.OldCycleRequest | None = None
-    cam: cam_view.CamRequest | None = None
-    machine: cycle_view.CycleRequest | None = None
-    fastest: fastest_view.FastestRequest | None = None
-    format: Annotated[str, msgspec.Meta(max_length=40)] = "dxf spline"
+    kind: str
+    view: str
+    request: msgspec.Raw
 
 
-def answer(request: FileRequest) -> File:
+def answer(question: FileRequest) -> dict[str, str]:
     """A file: its name, its type, its text."""
-    if request.kind == "proof":
-        return _proof(request)
-    if request.view in ("cycle", "axes", "machine"):
-        return _of_cycle(request, getattr(request, request.view))
-    of_view: Mapping[str, Callable[[FileRequest], File]] = {
-        "fastest": _of_fastest, "cam": _of_cam, "old": _of_old_cam,
-    }  # fmt: skip
-    if request.view in of_view:
-        return of_view[request.view](request)
-    law = request.law
-    makers: Mapping[str, Callable[[], File]] = {
-        "python": lambda: _file("study.py", "text/x-python", python(request.laws)),
-        "problem": lambda: _file("problem.toml", "application/toml", problem_file(law)),
-        "law": lambda: _file(f"{_stem(_title(law))}.json", "application/json", stored(law)),
-        "table": lambda: _file(f"{_stem(_title(law))}.csv", "text/csv", table_of_values(law_of(law), _title(law))),
-    }
-    if request.kind not in makers:
-        raise InputError("a law is cut by no tool: make a cam of it")
-    return makers[request.kind]()
+    files, request = _read(question)
+    if question.kind not in files.kinds:
+        raise InputError(unknown_key(question.kind, files.kinds, f"file of the view {question.view}"))
+    name, text = files.kinds[question.kind](request)
+    return {"name": name, "type": _TYPES.get(Path(name).suffix, "text/plain"), "text": text}
 
 
-def _proof(request: FileRequest) -> File:
-    """The stored proof of a result: a solution, or the solutions of all segments of a motion.
-
-    Examples
-    --------
-    >>> law = LawRequest(problem={"order": 3, "degree": 5, "B": 1.8}, weights={"C": 1.0})
-    >>> sorted(json.loads(answer(FileRequest(kind="proof", laws=[law]))["text"]))[:3]
-    ['about', 'certificate', 'constants']
-    """
-    if request.fastest is not None and request.view == "fastest":
-        stated = {"about": MARK, **fastest_view.proof_of(request.fastest)}
-        return _file("fastest.json", "application/json", json.dumps(stated) + "\n")
-    if request.old is not None and request.view == "old":
-        solutions = [law for law in request.old.laws if law is not None]
-        return _file("old_cam.json", "application/json", json.dumps({"about": MARK, "solutions": solutions}) + "\n")
-    if request.view not in ("cycle", "axes", "machine"):
-        return _file(f"{_stem(_title(request.law))}.json", "application/json", stored(request.law))
-    shown: cycle_view.CycleRequest | None = getattr(request, request.view)
-    if shown is None:
-        raise InputError("there is no motion whose laws could be checked")
-    motions = axes_view.axes_of(shown.study).values() if request.view == "axes" else [cycle_view.cycle(shown)]
-    solutions = [solution.to_dict() for motion in motions for solution in motion.solutions]
-    return _file("motion.json", "application/json", json.dumps({"about": MARK, "solutions": solutions}) + "\n")
-
-
-def _file(name: str, kind: str, text: str) -> File:
-    return {"name": name, "type": kind, "text": text}
-
-
-def _title(law: LawRequest) -> str:
-    if law.problem is None:
-        return law.title or law.name or "a stored law"
-    return law.title or title(problem_of(law))
+def _read(question: FileRequest | ExportRequest) -> tuple[ViewFiles, Any]:
+    if question.view not in VIEWS:
+        raise InputError(unknown_key(question.view, VIEWS, "view"))
+    return VIEWS[question.view], read(bytes(question.request), VIEWS[question.view].request)
 
 
 def _stem(name: str) -> str:
@@ -135,251 +90,226 @@ def _stem(name: str) -> str:
     return "_".join(re.findall(r"[A-Za-z0-9.]+", name))[:60].strip("._") or "law"
 
 
-def python(laws: list[LawRequest]) -> str:
-    """Python lines that compute the same laws with the same digits, and draw them.
+def _json(name: str, **entries: Any) -> File:
+    return f"{_stem(name)}.json", json.dumps({"about": MARK, **entries}, indent=1) + "\n"
 
-    Examples
-    --------
-    >>> print(python([LawRequest(name="cycloidal")]), end="")
-    from optlaws import compare_laws
-    <BLANKLINE>
-    comparison = compare_laws('cycloidal')
-    for row in comparison.rows:
-        print(row)
-    comparison.plot()[0].figure.savefig("laws.png")
-    """
-    lines, given = [], []
-    for name, law in zip(_NAMES, laws, strict=False):
-        text = _expression(law)
-        given.append(text if law.name is not None and law.problem is None else name)
-        if given[-1] == name:
-            lines.append(f"{name} = {text}")
-    lines = [
-        *lines,
+
+def _study(name: str) -> Callable[[Any], File]:
+    """What a view is asked, as a problem file."""
+    return lambda request: (name, to_toml(request.study))
+
+
+def _title(law: LawRequest) -> str:
+    return law.title or (title(problem_of(law)) if law.problem is not None else law.name or "a stored law")
+
+
+def _laws_python(request: ActiveRequest) -> File:
+    """Python lines that compute the same laws with the same digits, and draw them."""
+    given, lines = [], []
+    for name, law in zip("abcd", request.laws, strict=False):
+        if law.problem is None and law.law is None:
+            given.append(repr(law.name))
+            continue
+        given.append(name)
+        lines.append(f"{name} = {_law_source(law)}")
+    lines += [
         f"comparison = compare_laws({', '.join(given)})",
         "for row in comparison.rows:",
         "    print(row)",
         'comparison.plot()[0].figure.savefig("laws.png")',
     ]
-    return _with_imports(lines)
+    return _python("study", lines)
 
 
-def _expression(law: LawRequest) -> str:
-    if law.problem is not None:
-        return f"synthesize({_problem_text(problem_of(law))})"
-    if law.law is not None:
+def _law_source(law: LawRequest) -> str:
+    """A law as Python; a problem as it shows itself where that is made of public names, else from its entries."""
+    if law.problem is None:
         return f"MotionLaw.from_dict({pformat(law.law, width=_WIDTH, sort_dicts=False)})"
-    return repr(law.name)
-
-
-def _problem_text(problem: Problem) -> str:
-    """A problem as Python: as it shows itself where that is plain calls and values, else from its entries."""
-    text = repr(problem)
+    problem = problem_of(law)
     try:
-        plain = all(isinstance(node, _PLAIN) for node in ast.walk(ast.parse(text, mode="eval")))
+        known = _names(repr(problem)) <= _PUBLIC
     except SyntaxError:
-        plain = False
-    known = plain and set(_CALLED.findall(text)) <= _PUBLIC
-    return text if known else f"Problem.from_dict({problem.to_dict()!r})"
+        known = False
+    return f"synthesize({problem!r})" if known else f"synthesize(Problem.from_dict({problem.to_dict()!r}))"
 
 
-def _with_imports(lines: list[str]) -> str:
+def _names(text: str) -> set[str]:
+    return {node.id for node in ast.walk(ast.parse(text)) if isinstance(node, ast.Name)}
+
+
+def _python(name: str, lines: list[str]) -> File:
+    """Lines below the import of the public names in them."""
     body = "\n".join(lines)
-    names = {name for name in _CALLED.findall(body) if name in _PUBLIC}
-    names |= {name for name in ("Drive", "Mechanism", "MotionLaw", "Problem") if f"{name}." in body}
-    return f"from optlaws import {', '.join(sorted(names))}\n\n{body}\n"
+    return f"{name}.py", f"from optlaws import {', '.join(sorted(_names(body) & _PUBLIC))}\n\n{body}\n"
 
 
-def problem_file(law: LawRequest) -> str:
-    """The problem as a file for `optlaws run` and `optlaws explore`.
+def _source(value: Any) -> str:
+    """A declared value as Python, without the entries that are as they are by default; a list of them.
 
     Examples
     --------
-    >>> print(problem_file(LawRequest(problem={"order": 4, "B": 1.7, "J": [0, 60]})), end="")
-    job = "solutions"
-    title = "least C, J ≤ 60, B = 1.7, order 4, degree 9"
-    <BLANKLINE>
-    [problem]
-    minimise = "C"
-    order = 4
-    basis = "chebyshev"
-    degree = 9
-    monotone = false
-    symmetric = true
-    J = [0, 60]
-    <BLANKLINE>
-    [[sweep]]
-    B = [1.7]
+    >>> from optlaws import Dwell, Rise
+    >>> print(_source(Cycle([Rise("90 deg", "1 s"), Dwell()], period="2 s", advance="90 deg")))
+    Cycle(segments=[
+        Rise(by='90 deg', duration='1 s'),
+        Dwell(),
+    ], period='2 s', advance='90 deg')
     """
-    if law.problem is None:
+    if isinstance(value, tuple) and any(isinstance(each, Declared) for each in value):
+        return "[\n" + "".join(f"    {_source(each)},\n" for each in value) + "]"
+    if isinstance(value, Mechanism | Drive):
+        return f"{type(value).__name__}.from_dict({value.to_dict()!r})"
+    if not isinstance(value, Declared):
+        return repr(value)
+    entries = ((each.name, getattr(value, each.name), each.default) for each in fields(value) if each.init)  # type: ignore[arg-type] # its heirs are dataclasses
+    given = (f"{name}={_source(entry)}" for name, entry, default in entries if entry != default)
+    return f"{type(value).__name__}({', '.join(given)})"
+
+
+def _law_problem(request: ActiveRequest) -> File:
+    """The problem as a file for `optlaws run` and `optlaws explore`."""
+    if request.law.problem is None:
         raise InputError("a given law belongs to no problem: save it as a law, or request an optimal law in its place")
-    problem = problem_of(law)
+    problem = problem_of(request.law)
     entries = problem.to_dict()
     swept = "B" if isinstance(entries.get("B"), float) else "order"
-    value = entries.pop(swept)
-    entries = {name: _bounds(entry) for name, entry in entries.items()}
-    return to_toml({"job": "solutions", "title": title(problem), "problem": entries, "sweep": [{swept: [value]}]})
+    sweep = [{swept: [entries.pop(swept)]}]
+    study = {"job": "solutions", "title": title(problem), "problem": _with_ends(entries), "sweep": sweep}
+    return "problem.toml", to_toml(study)
 
 
-def _bounds(value: Any) -> Any:
+def _with_ends(value: Any) -> Any:
     """A range without an upper end: JSON has no number for it, a file has infinity."""
-    if isinstance(value, list) and len(value) == 2 and value[1] is None:
-        return [value[0], float("inf")]
+    if isinstance(value, dict):
+        return {name: _with_ends(entry) for name, entry in value.items()}
     if isinstance(value, list):
-        return [_bounds(entry) for entry in value]
-    return {name: _bounds(entry) for name, entry in value.items()} if isinstance(value, dict) else value
+        return [value[0], float("inf")] if len(value) == 2 and value[1] is None else list(map(_with_ends, value))
+    return value
 
 
-def stored(law: LawRequest) -> str:
+def _law_file(request: ActiveRequest) -> File:
     """The law as JSON; a solution with its problem and its proof, for `optlaws verify`."""
-    solution = solved(problem_of(law)) if law.problem is not None else None
-    data = solution.to_dict() if isinstance(solution, Solution) else law_of(law).to_dict()
-    return json.dumps({"about": MARK, **data} if isinstance(solution, Solution) else data, indent=1) + "\n"
+    law = request.law
+    solution = None if law.problem is None else solved(problem_of(law))
+    if isinstance(solution, Solution):
+        return _json(_title(law), **solution.to_dict())
+    return f"{_stem(_title(law))}.json", json.dumps(law_of(law).to_dict(), indent=1) + "\n"
 
 
-def _of_cycle(request: FileRequest, shown: cycle_view.CycleRequest | None) -> File:
-    if shown is None:
-        raise InputError("there is no cycle to save")
-    if request.kind == "problem":
-        return _file("cycle.toml", "application/toml", to_toml(shown.study))
-    if request.view == "axes" and request.kind == "python":
-        return _file("axes.py", "text/x-python", axes_python(axes_view.axes_of(shown.study)))
-    spec, axis = cycle_view.read(shown)
-    cycle = cycle_view.cycle(shown)
-    if request.kind == "table":
-        about = " ".join(f"{spec.title}: {axis.name}; SI units but for mm and deg".split())
-        return _file(f"{_stem(axis.name)}.csv", "text/csv", table_of_motion(cycle, _ROWS, about))
-    if request.kind == "python":
-        free = replace(axis, follower=None)
-        return _file("cycle.py", "text/x-python", cycle_python(cycle_of(free, spec.speed, spec.period), axis.follower))
-    raise InputError("a cycle has several laws: save it as a problem file or a table")
+def _law_table(request: ActiveRequest) -> File:
+    name = _title(request.law)
+    return f"{_stem(name)}.csv", table_of_values(law_of(request.law), name)
 
 
-def _of_fastest(request: FileRequest) -> File:
-    if request.fastest is None:
-        raise InputError("there is no move to save")
-    if request.kind == "problem":
-        return _file("fastest.toml", "application/toml", to_toml(request.fastest.study))
-    if request.kind == "law":
-        move = fastest_view.fastest_of(request.fastest)
-        return _file("fastest.json", "application/json", json.dumps({"about": MARK, **move.to_dict()}, indent=1) + "\n")
-    raise InputError("a least time is saved as a problem file, or as a law with its proof")
+def _cycle_table(request: cycle_view.CycleRequest) -> File:
+    spec, axis = cycle_view.read(request)
+    about = " ".join(f"{spec.title}: {axis.name}; {_UNITS}".split())
+    return f"{_stem(axis.name)}.csv", table_of_motion(cycle_view.cycle(request), _ROWS, about)
 
 
-def _of_old_cam(request: FileRequest) -> File:
-    """The cycle of a table: as a problem file where all its laws have names, as JSON with its laws, or as a table."""
-    if request.old is None:
-        raise InputError("there is no table to save")
-    cycle, name = old_cam_view.cycle(request.old), request.old.study.file
-    stem = _stem(name.rpartition(".")[0] or name)
-    if request.kind == "problem":
-        if any(isinstance(part.law, MotionLaw) for part in old_cam_view.with_laws(request.old).moves):
-            raise InputError("a problem file names laws, and some of these have no name: save the cycle with its laws")
-        return _file(f"{stem}.toml", "application/toml", cycle.to_toml(f"The cam of {_stem(name)}", axis="cam"))
-    if request.kind == "law":
-        return _file(f"{stem}.json", "application/json", cycle.to_json())
-    if request.kind == "table":
-        return _file(
-            f"{stem}_motion.csv", "text/csv", table_of_motion(cycle, _ROWS, f"{stem}; SI units but for mm and deg")
-        )
-    raise InputError("an old cam is saved as a problem file, a cycle or a table")
+def _proofs(*cycles: Cycle) -> File:
+    return _json("motion", solutions=[solution.to_dict() for cycle in cycles for solution in cycle.solutions])
 
 
-def _of_cam(request: FileRequest) -> File:
-    if request.cam is None:
-        raise InputError("there is no cam to save")
-    if request.kind == "problem":
-        return _file("cam.toml", "application/toml", to_toml(request.cam.study))
-    findings = cam_view.findings_of(request.cam)
-    if request.kind != "cut":
-        raise InputError("a cam is saved as a problem file or as a file that cuts it")
-    if request.format not in cam_files.FORMATS:
-        raise InputError(f"format: {unknown_key(request.format, cam_files.FORMATS, 'format')}")
-    ending = next(end for end, name in cam_files.ENDINGS.items() if name.split()[0] == request.format.split()[0])
-    return _file(
-        f"cam{ending}",
-        "text/plain",
-        cam_files.text(findings.cam.profile, request.format, Cutting(about=findings.spec.title)),
-    )
-
-
-def cycle_python(cycle: Cycle, follower: ElasticFollower | None = None) -> str:
+def _cycle_python(request: cycle_view.CycleRequest) -> File:
     """Python lines that compute the same cycle, or the cycle of the cam whose follower moves so."""
+    spec, axis = cycle_view.read(request)
+    cycle, follower = cycle_of(replace(axis, follower=None), spec.speed, spec.period), axis.follower
+    cam = "" if follower is None else f".cam({follower.period!r}, damping={follower.damping!r})"
     lines = [
-        f"cycle = {_cycle_text(cycle)}"
-        + ("" if follower is None else f".cam({follower.period!r}, damping={follower.damping!r})"),
+        f"cycle = {_source(cycle)}{cam}",
         "print(cycle.status.value, cycle.objective, cycle.lower_bound)",
         'cycle.plot()[0].figure.savefig("cycle.png")',
     ]
-    return _with_imports(lines)
+    return _python("cycle", lines)
 
 
-def axes_python(axes: Axes) -> str:
-    """Lines that make the same axes with their interlocks, and say what is clear.
-
-    Examples
-    --------
-    >>> from optlaws import Axes, Dwell, Rise
-    >>> table = {"segments": [Rise("90 deg", "1 s"), Dwell()], "advance": "90 deg"}
-    >>> print(axes_python(Axes({"table": table}, period="2 s")), end="")
-    from optlaws import Axes, Cycle, Dwell, Rise
-    <BLANKLINE>
-    axes = Axes({
-        'table': Cycle([
-            Rise(by='90 deg', duration='1 s'),
-            Dwell(),
-        ], period='2 s', minimise='acceleration', advance='90 deg', order=3, degree=9),
-    })
-    for least in axes.clearances:
-        print(least.interlock.label, least.status, least.clearance)
-    axes.plot(what="timing")[0].figure.savefig("axes.png")
-    """
-    cycles = "".join(f"    {name!r}: {indent(_cycle_text(cycle), '    ').lstrip()},\n" for name, cycle in axes.items())
-    rules = "".join(f"    {_plainly(rule)},\n" for rule in axes.rules)
+def _axes_python(request: cycle_view.CycleRequest) -> File:
+    """Python lines that make the same axes with their interlocks, and say what is clear."""
+    axes = axes_view.axes_of(request.study)
+    cycles = "".join(f"    {name!r}: {indent(_source(cycle), '    ').lstrip()},\n" for name, cycle in axes.items())
     lines = [
-        f"axes = Axes({{\n{cycles}}}" + (f", interlocks=[\n{rules}])" if rules else ")"),
+        f"axes = Axes({{\n{cycles}}}, interlocks={_source(axes.rules)})",
         "for least in axes.clearances:",
         "    print(least.interlock.label, least.status, least.clearance)",
         'axes.plot(what="timing")[0].figure.savefig("axes.png")',
     ]
-    return _with_imports(lines)
+    return _python("axes", lines)
 
 
-def _cycle_text(cycle: Cycle) -> str:
-    """A cycle as Python."""
-    entries = {name: getattr(cycle, name) for name in ("speed", "period", "minimise", "limits", "start", "advance")}
-    entries |= {"load": cycle.load, "order": cycle.order, "degree": cycle.degree}
-    given = "".join(f", {name}={value!r}" for name, value in entries.items() if value not in (None, {}))
-    given += "" if cycle.drive is None else f", drive={_drive_text(cycle.drive)}"
-    segments = "\n".join(f"    {_plainly(segment)}," for segment in cycle.segments)
-    return f"Cycle([\n{segments}\n]{given})"
+def _cut(form: str, request: cam_view.CamRequest) -> File:
+    findings = cam_view.findings_of(request)
+    kind = form.partition(" ")[0]
+    ending = next(end for end, name in cam_files.ENDINGS.items() if name.partition(" ")[0] == kind)
+    return f"cam{ending}", cam_files.text(findings.cam.profile, form, Cutting(about=findings.spec.title))
 
 
-def _plainly(value: Any) -> str:
-    """A segment or an interlock as Python, without what is as it is by default."""
-    usual = {each.name: each.default for each in fields(value) if each.init}
-    given = {name: getattr(value, name) for name in usual}
-    entries = [f"{name}={entry!r}" for name, entry in given.items() if entry != usual[name] and entry not in ({}, None)]
-    return f"{type(value).__name__}({', '.join(entries)})"
+def _old_problem(request: old_cam_view.OldCycleRequest) -> File:
+    if any(isinstance(part.law, MotionLaw) for part in old_cam_view.with_laws(request).moves):
+        raise InputError("a problem file names laws, and some of these have no name: save the cycle with its laws")
+    about = f"The cam of {_stem(request.study.file)}"
+    return f"{_old_name(request)}.toml", old_cam_view.cycle(request).to_toml(about, axis="cam")
 
 
-def _drive_text(drive: Mapping[str, Any] | Mechanism | Drive) -> str:
-    """The drive of a cycle as Python text."""
-    if isinstance(drive, Mapping):
-        return repr(drive)
-    return f"{type(drive).__name__}.from_dict({drive.to_dict()!r})"
+def _old_name(request: old_cam_view.OldCycleRequest) -> str:
+    return _stem(Path(request.study.file).stem)
 
+
+def _old_table(request: old_cam_view.OldCycleRequest) -> File:
+    name = _old_name(request)
+    return f"{name}_motion.csv", table_of_motion(old_cam_view.cycle(request), _ROWS, f"{name}; {_UNITS}")
+
+
+_CYCLE: dict[str, Callable[[Any], File]] = {
+    "python": _cycle_python,
+    "problem": _study("cycle.toml"),
+    "table": _cycle_table,
+    "proof": lambda request: _proofs(cycle_view.cycle(request)),
+}
+_AXES: dict[str, Callable[[Any], File]] = {
+    "python": _axes_python,
+    "proof": lambda request: _proofs(*axes_view.axes_of(request.study).values()),
+}
+_LAWS = {
+    "python": _laws_python,
+    "problem": _law_problem,
+    "law": _law_file,
+    "table": _law_table,
+    "proof": _law_file,
+}
+_FASTEST: dict[str, Callable[[Any], File]] = {
+    "problem": _study("fastest.toml"),
+    "law": lambda request: _json("fastest", **fastest_view.fastest_of(request).to_dict()),
+    "proof": lambda request: _json("fastest", **fastest_view.proof_of(request)),
+}
+_OLD: dict[str, Callable[[Any], File]] = {
+    "problem": _old_problem,
+    "law": lambda request: (f"{_old_name(request)}.json", old_cam_view.cycle(request).to_json()),
+    "table": _old_table,
+    "proof": lambda request: _json("old_cam", solutions=[law for law in request.laws if law is not None]),
+}
+_CUT = {form: partial(_cut, form) for form in cam_files.FORMATS}
+#: by the name of a view
+VIEWS = {
+    "laws": ViewFiles(ActiveRequest, _LAWS, lambda request: law_of(request.law)),
+    "cycle": ViewFiles(cycle_view.CycleRequest, _CYCLE, cycle_view.cycle),
+    "machine": ViewFiles(cycle_view.CycleRequest, _CYCLE, cycle_view.cycle),
+    "axes": ViewFiles(cycle_view.CycleRequest, _CYCLE | _AXES, cycle_view.cycle),
+    "cam": ViewFiles(cam_view.CamRequest, {"problem": _study("cam.toml"), **_CUT}),
+    "fastest": ViewFiles(fastest_view.FastestRequest, _FASTEST),
+    "old": ViewFiles(old_cam_view.OldCycleRequest, _OLD, old_cam_view.cycle),
+}
 
 Text = Annotated[str, msgspec.Meta(max_length=60)]
 _MOST_POINTS = 10_000
 
 
-class ExportRequest(SeenRequest, kw_only=True, forbid_unknown_fields=True):
-    """A law or a cycle in a format, with the machine it moves."""
+class ExportRequest(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+    """The motion of a view in a format; a law with the machine that it moves."""
 
     format: Text
-    view: Literal["laws", "cycle", "old"] = "laws"
-    old: old_cam_view.OldCycleRequest | None = None
+    view: str
+    request: msgspec.Raw
     stroke: Text = "35 mm"
     time: Text = "0.1 s"
     master: Text = "120 deg"
@@ -394,16 +324,15 @@ def formats() -> list[dict[str, Any]]:
     ]
 
 
-def exported(request: ExportRequest) -> dict[str, Any]:
-    """The file, and the peaks of the motion as the controller interpolates it beside the law's peaks.
-
-    Examples
-    --------
-    >>> file = exported(ExportRequest(format="codesys-xyva", laws=[LawRequest(name="cycloidal")], points=9))
-    >>> file["name"], file["rows"][1][0]
-    ('Cam.st', 'peak of acceleration, mm/s²')
-    """
-    export = _export(request)
+def exported(question: ExportRequest) -> dict[str, Any]:
+    """The file, and the peaks of the motion as the controller interpolates it beside the law's peaks."""
+    files, request = _read(question)
+    if files.motion is None:
+        raise InputError(f"the view {question.view} has no motion for a controller")
+    given: dict[str, Any] = {"points": question.points, "counts": question.counts}
+    if question.view == "laws":
+        given |= {"stroke": question.stroke, "duration": question.time, "master": question.master or None}
+    export = files.motion(request).export(question.format, **given)
     written = export.written
     return {
         "name": f"Cam{export.format.extension}",
@@ -413,20 +342,6 @@ def exported(request: ExportRequest) -> dict[str, Any]:
         "notes": list(written.notes),
         "rows": [[name, *map(_cell, numbers)] for name, *numbers in export.rows()],
     }
-
-
-def _export(request: ExportRequest) -> Any:
-    given: dict[str, Any] = {"points": request.points, "counts": request.counts}
-    if request.view == "cycle":
-        if request.cycle is None:
-            raise InputError("there is no cycle to export")
-        return cycle_view.cycle(request.cycle).export(request.format, **given)
-    if request.view == "old":
-        if request.old is None:
-            raise InputError("there is no table to export")
-        return old_cam_view.cycle(request.old).export(request.format, **given)
-    given |= {"stroke": request.stroke, "duration": request.time, "master": request.master or None}
-    return law_of(request.law).export(request.format, **given)
 
 
 def _cell(number: float | None) -> str:

@@ -23,6 +23,7 @@ from tests.internals.explorer import (
     LawRequest,
     LawsRequest,
     OpenRequest,
+    axes_view,
     cam_view,
     cycle_view,
     downloads,
@@ -194,8 +195,7 @@ def test_a_problem_file_with_a_view_is_opened_and_written(file: Path) -> None:
     state = opened_file(OpenRequest(name=file.name, text=text))["state"]
     view = state["view"]
     assert state[view] == data
-    asked = {"kind": "problem", "view": view, "laws": [STORED], view: {"study": state[view]}}
-    assert tomllib.loads(downloads.answer(msgspec.convert(asked, FileRequest))["text"]) == data
+    assert tomllib.loads(file_of("problem", view, study=state[view])["text"]) == data
 
 
 def test_a_file_that_is_opened_is_refused_in_words() -> None:
@@ -212,6 +212,11 @@ def test_a_file_that_is_opened_is_refused_in_words() -> None:
 # --- files ---
 
 
+def file_of(kind: str, view: str = "laws", **request: Any) -> dict[str, str]:
+    """A file that the page saves of a view."""
+    return downloads.answer(FileRequest(kind=kind, view=view, request=msgspec.Raw(msgspec.json.encode(request))))
+
+
 def run(code: str, folder: Path, monkeypatch: pytest.MonkeyPatch) -> dict[str, Any]:
     monkeypatch.chdir(folder)
     names: dict[str, Any] = {}
@@ -221,7 +226,7 @@ def run(code: str, folder: Path, monkeypatch: pytest.MonkeyPatch) -> dict[str, A
 
 def test_python_makes_the_same_laws_again(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     laws = [law(OPTIMAL), law(FORMULA), law(STORED), law({"name": "III(7.2)"})]
-    code = downloads.answer(FileRequest(kind="python", laws=laws))["text"]
+    code = file_of("python", laws=laws)["text"]
     made = run(code, tmp_path, monkeypatch)["comparison"]
     assert list(made.laws.values()) == [law_of(one) for one in laws]
     assert (tmp_path / "laws.png").stat().st_size > 1000
@@ -229,7 +234,7 @@ def test_python_makes_the_same_laws_again(tmp_path: Path, monkeypatch: pytest.Mo
 
 @pytest.mark.parametrize("entries", [OPTIMAL, FORMULA, ENDS, WINDOWS])
 def test_a_problem_is_written_as_python_that_is_the_same_problem(entries: dict[str, Any]) -> None:
-    text = downloads.python([law(entries)])
+    text = file_of("python", laws=[law(entries)])["text"]
     (line,) = (one for one in text.splitlines() if one.startswith("a = synthesize("))
     names: dict[str, Any] = {}
     exec(f"{text.splitlines()[0]}\nproblem = {line[len('a = synthesize(') : -1]}", names)  # noqa: S102 - our own
@@ -239,10 +244,10 @@ def test_a_problem_is_written_as_python_that_is_the_same_problem(entries: dict[s
 @pytest.mark.parametrize("entries", [OPTIMAL, FORMULA, ENDS])
 def test_a_problem_file_is_the_same_problem(entries: dict[str, Any], tmp_path: Path) -> None:
     file = tmp_path / "problem.toml"
-    file.write_text(downloads.answer(FileRequest(kind="problem", laws=[law(entries)]))["text"], "utf-8")
+    file.write_text(file_of("problem", laws=[law(entries)])["text"], "utf-8")
     assert problem_of(law(start(str(file))["laws"][0])) == problem_of(law(entries))
     with pytest.raises(InputError, match="belongs to no problem"):
-        downloads.answer(FileRequest(kind="problem", laws=[law(STORED)]))
+        file_of("problem", laws=[law(STORED)])
 
 
 def test_a_law_that_is_dragged_is_the_one_that_is_solved_alone() -> None:
@@ -259,10 +264,10 @@ def test_a_law_that_is_dragged_is_the_one_that_is_solved_alone() -> None:
 
 
 def test_laws_and_tables_are_those_of_the_command() -> None:
-    text = downloads.answer(FileRequest(kind="law", laws=[law(OPTIMAL)]))["text"]
+    text = file_of("law", laws=[law(OPTIMAL)])["text"]
     assert json.loads(text)["problem"] == Problem(order=4, B=1.7).to_dict()
-    assert json.loads(downloads.answer(FileRequest(kind="law", laws=[law(STORED)]))["text"]) == STORED["law"]
-    table = downloads.answer(FileRequest(kind="table", laws=[law({"name": "cubic"})]))["text"].splitlines()
+    assert json.loads(file_of("law", laws=[law(STORED)])["text"]) == STORED["law"]
+    table = file_of("table", laws=[law({"name": "cubic"})])["text"].splitlines()
     assert table[1] == "k,a,b,c,j,d"
     assert len(table) == 203
 
@@ -357,14 +362,10 @@ def test_a_cam_that_is_undercut_says_so_and_one_that_is_none_why() -> None:
 @pytest.mark.sample(4)
 @pytest.mark.parametrize("name", sorted(cam_files.FORMATS))
 def test_a_cam_is_saved_in_every_format(name: str) -> None:
-    asked = FileRequest(
-        kind="cut", view="cam", laws=[law(OPTIMAL)], cam=CamRequest(study=cam_view.example()), format=name
-    )
-    made = downloads.answer(asked)
+    made = file_of(name, "cam", study=cam_view.example())
     assert len(made["text"]) > 1000
     assert made["name"].startswith("cam.")
-    asked.kind = "problem"
-    assert tomllib.loads(downloads.answer(asked)["text"]) == cam_view.example()
+    assert tomllib.loads(file_of("problem", "cam", study=cam_view.example())["text"]) == cam_view.example()
 
 
 # --- pictures ---
@@ -423,14 +424,26 @@ def test_a_cycle_that_cannot_keep_its_limit_says_how_far_to_go_back() -> None:
 
 @pytest.mark.parametrize("file", ["cycle_press", "cycle_flying_shear", "cycle_savin_design"])
 def test_python_and_files_make_the_same_cycle(file: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    asked = CycleRequest(study=start(str(ROOT / "problems" / f"{file}.toml"))["cycle"])
-    one = FileRequest(kind="problem", view="cycle", laws=[law(OPTIMAL)], cycle=asked)
-    assert tomllib.loads(downloads.answer(one)["text"]) == asked.study
-    one.kind = "python"
-    made = run(downloads.answer(one)["text"], tmp_path, monkeypatch)["cycle"]
-    assert made.peak(2) == cycle_view.cycle(asked).peak(2)
-    one.kind = "table"
-    assert len(downloads.answer(one)["text"].splitlines()) == 363
+    study = start(str(ROOT / "problems" / f"{file}.toml"))["cycle"]
+    assert tomllib.loads(file_of("problem", "cycle", study=study)["text"]) == study
+    made = run(file_of("python", "cycle", study=study)["text"], tmp_path, monkeypatch)["cycle"]
+    assert made.peak(2) == cycle_view.cycle(CycleRequest(study=study)).peak(2)
+    assert len(file_of("table", "cycle", study=study)["text"].splitlines()) == 363
+
+
+def test_python_makes_the_same_axes(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    study = axes_view.example()
+    made = run(file_of("python", "axes", study=study)["text"], tmp_path, monkeypatch)["axes"]
+    assert made.rules == axes_view.axes_of(study).rules
+    assert {name: cycle.to_dict() for name, cycle in made.items()} == {
+        name: cycle.to_dict() for name, cycle in axes_view.axes_of(study).items()
+    }
+
+
+@pytest.mark.parametrize(("kind", "view", "named"), [("tabel", "cycle", "table"), ("table", "cycel", "cycle")])
+def test_a_file_that_there_is_not_is_refused_with_the_nearest(kind: str, view: str, named: str) -> None:
+    with pytest.raises(InputError, match=f"did you mean '{named}'"):
+        file_of(kind, view, study=example())
 
 
 def test_files_of_a_cycle_keep_its_load_and_have_no_folder_in_their_names(
@@ -438,15 +451,15 @@ def test_files_of_a_cycle_keep_its_load_and_have_no_folder_in_their_names(
 ) -> None:
     study = start(str(ROOT / "problems" / "cycle_elastic_load.toml"))["cycle"]
     asked = CycleRequest(study=study)
-    text = downloads.answer(FileRequest(kind="python", view="cycle", laws=[law(OPTIMAL)], cycle=asked))["text"]
+    text = file_of("python", "cycle", study=study)["text"]
     made = run(text, tmp_path, monkeypatch)["cycle"]
     assert made.load is not None
     assert made.objective == pytest.approx(cycle_view.cycle(asked).objective, rel=1e-9)
     named = example()
     named["axis"][0]["name"] = "../../x\ny"
-    table = FileRequest(kind="table", view="cycle", laws=[law(OPTIMAL)], cycle=CycleRequest(study=named))
-    assert downloads.answer(table)["name"] == "x_y.csv"
-    assert "\ny" not in downloads.answer(table)["text"]
+    table = file_of("table", "cycle", study=named)
+    assert table["name"] == "x_y.csv"
+    assert "\ny" not in table["text"]
 
 
 def test_a_bound_of_minus_infinity_is_no_bound() -> None:

@@ -55,14 +55,14 @@ SEEDS: dict[str, list[Any]] = {
     "cycle": [CYCLE],
     "cycle-nearest": [CYCLE],
     "export": [
-        {"format": "csv", "laws": [OPTIMAL], "points": 9},
-        {"format": "csv", "view": "old", "laws": [OPTIMAL], "old": OLD | {"laws": [None]}, "points": 9},
+        {"format": "csv", "view": "laws", "request": {"laws": [OPTIMAL]}, "points": 9},
+        {"format": "csv", "view": "old", "request": OLD | {"laws": [None]}, "points": 9},
     ],
     "save": [
-        {"kind": "python", "laws": [OPTIMAL]},
-        {"kind": "proof", "laws": [OPTIMAL]},
-        {"kind": "proof", "view": "fastest", "laws": [OPTIMAL], "fastest": {"study": fastest_view.example()}},
-        {"kind": "problem", "view": "cycle", "laws": [OPTIMAL], "cycle": CYCLE},
+        {"kind": "python", "view": "laws", "request": {"laws": [OPTIMAL]}},
+        {"kind": "proof", "view": "laws", "request": {"laws": [OPTIMAL]}},
+        {"kind": "proof", "view": "fastest", "request": {"study": fastest_view.example()}},
+        {"kind": "problem", "view": "cycle", "request": CYCLE},
     ],
     "open": [{"name": "a.toml", "text": TOML}, {"name": "a.csv", "text": "0;0\n1;0.2\n2;0.7\n3;1\n"}],
     "residual": [

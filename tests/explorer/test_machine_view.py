@@ -8,13 +8,14 @@ from math import hypot, pi
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import msgspec
 import numpy as np
 import pytest
 
 from optlaws import Cycle, Drive, InputError
 from tests.explorer.talk import Server
 from tests.explorer.test_page import go, saves, settle
-from tests.internals.explorer import FileRequest, LawRequest, cycle_view, downloads, law_view, machine_view, start
+from tests.internals.explorer import FileRequest, cycle_view, downloads, law_view, machine_view, start
 from tests.internals.jobs import read_of_cycle_entries
 
 if TYPE_CHECKING:
@@ -233,10 +234,12 @@ def test_while_the_gear_is_dragged_the_page_shows_the_law_before_and_then_the_op
 
 def test_files_of_a_machine_are_its_study_and_python_that_makes_it(tmp_path: Path) -> None:
     asked = cycle_view.CycleRequest(study=study("cycle_geared_table"), axis=0)
-    one = FileRequest(kind="problem", view="machine", laws=[LawRequest(name="cubic")], machine=asked)
-    assert tomllib.loads(downloads.answer(one)["text"]) == asked.study
-    one.kind = "python"
-    code = downloads.answer(one)["text"].replace("cycle.png", str(tmp_path / "cycle.png"))
+    files = {
+        kind: downloads.answer(FileRequest(kind=kind, view="machine", request=msgspec.Raw(msgspec.json.encode(asked))))
+        for kind in ("problem", "python")
+    }
+    assert tomllib.loads(files["problem"]["text"]) == asked.study
+    code = files["python"]["text"].replace("cycle.png", str(tmp_path / "cycle.png"))
     made: dict[str, Any] = {}
     exec(compile(code, "machine.py", "exec"), made)  # noqa: S102 - our own
     assert made["cycle"].sheet == cycle_view.cycle(asked).sheet

@@ -11,7 +11,7 @@ import pytest
 from optlaws import Cycle, catalogue, read_cycle_table
 from optlaws.verification import verify
 from tests.documents import ROOT
-from tests.explorer.talk import OPTIMAL, Server, written
+from tests.explorer.talk import Server, written
 from tests.explorer.test_page import go
 from tests.internals.explorer import OpenRequest, old_cam_view, opened_file, start
 
@@ -21,7 +21,6 @@ if TYPE_CHECKING:
     from playwright.sync_api import Page
 
 REAL = ROOT / "problems" / "data" / "rtmotion_cam.csv"
-LAWS = [OPTIMAL]
 ANGLES = np.arange(0.0, 361.0, 6.0)
 LIFT = 35.0 * catalogue["modified sine"].law(np.clip(ANGLES / 120.0, 0.0, 1.0))
 
@@ -84,19 +83,19 @@ def test_better_laws_are_the_library_s_and_so_are_their_files(served: Server, tu
         assert {**shown["law"], "seconds": 0.0} == {**stored, "seconds": 0.0}
     old = {"study": study, "laws": [shown["law"] for shown in moves]}
     cycle = better.cycle(speed="200 rpm")
-    results = served.ask("export", {"format": "csv", "view": "old", "laws": LAWS, "old": old, "points": 91})
+    results = served.ask("export", {"format": "csv", "view": "old", "request": old, "points": 91})
     assert results["text"] == cycle.export("csv", points=91).text
-    kept = served.ask("save", {"kind": "law", "view": "old", "laws": LAWS, "old": old})
+    kept = served.ask("save", {"kind": "law", "view": "old", "request": old})
     assert Cycle.from_json(kept["text"]).peak(2) == cycle.peak(2)
-    assert "have no name" in served.ask("save", {"kind": "problem", "view": "old", "laws": LAWS, "old": old})["error"]
-    proof = served.ask("save", {"kind": "proof", "view": "old", "laws": LAWS, "old": old})["text"]
+    assert "have no name" in served.ask("save", {"kind": "problem", "view": "old", "request": old})["error"]
+    proof = served.ask("save", {"kind": "proof", "view": "old", "request": old})["text"]
     (solution,) = json.loads(proof)["solutions"]
     assert verify(solution).proven
-    plain = served.ask("save", {"kind": "problem", "view": "old", "laws": LAWS, "old": {"study": STUDY}})
+    plain = served.ask("save", {"kind": "problem", "view": "old", "request": {"study": STUDY}})
     assert plain["name"] == "turn.toml"
     assert 'law = "modified sine"' in plain["text"]
     assert "speed of the master" in served.ask(
-        "export", {"format": "csv", "view": "old", "laws": LAWS, "old": {"study": {"text": STUDY["text"]}}}
+        "export", {"format": "csv", "view": "old", "request": {"study": {"text": STUDY["text"]}}}
     )["error"]  # fmt: skip
 
 

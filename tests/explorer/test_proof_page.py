@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import pytest
 
 from optlaws import Chebyshev, Problem, synthesize
-from tests.explorer.talk import OPTIMAL, Server
+from tests.explorer.talk import Server
 from tests.explorer.test_page import go, settle
 from tests.internals.explorer import CycleRequest, cycle_view, example, fastest_view
 
@@ -75,12 +75,12 @@ def test_a_dropped_file_is_checked_when_the_server_is_away(page: Page, served: S
 
 def test_proofs_of_a_motion_are_those_of_its_laws(served: Server) -> None:
     study = {"study": example()}
-    answered = served.ask("save", {"kind": "proof", "view": "cycle", "laws": [OPTIMAL], "cycle": study})
+    answered = served.ask("save", {"kind": "proof", "view": "cycle", "request": study})
     solutions = cycle_view.cycle(CycleRequest(study=example())).solutions
     bounds = [stored["certificate"]["bound"] for stored in json.loads(answered["text"])["solutions"]]
     assert bounds == pytest.approx([solution.certificate.bound for solution in solutions], rel=1e-12)
     moves: dict[str, Any] = {"study": fastest_view.example()}
-    question = {"kind": "proof", "view": "fastest", "laws": [OPTIMAL], "fastest": moves}
+    question = {"kind": "proof", "view": "fastest", "request": moves}
     stored = json.loads(served.ask("save", question)["text"])
     least = fastest_view.fastest_of(fastest_view.FastestRequest(**moves))
     assert stored["duration"] == least.duration

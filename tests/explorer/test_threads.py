@@ -13,7 +13,7 @@ from tests.internals.explorer import example
 QUESTIONS = {
     "laws": {"laws": [OPTIMAL, {"name": "cubic"}]},
     "front": {"law": OPTIMAL, "over": ["B", "C"]},
-    "export": {"format": "csv", "laws": [OPTIMAL], "points": 9},
+    "export": {"format": "csv", "view": "laws", "request": {"laws": [OPTIMAL]}, "points": 9},
     "cycle": {"study": example()},
     "residual": {"laws": [OPTIMAL]},
 }

@@ -100,7 +100,7 @@ async function begin() {
     if (key in examples) next[key] ??= structuredClone(examples[key]);
   }));
   const shown = () => views[named(study.state)];
-  const exporting = new Exporting(study, formats, (now) => shown()?.exported?.(now) ?? null);
+  const exporting = new Exporting(study, formats, (now) => (shown()?.moves ? { view: named(now), request: shown().request(now) } : null));
   const opened = (next) => {
     study.rest();
     study.change("open", (state) => {
@@ -131,7 +131,7 @@ async function begin() {
       view.show(now);
       exporting.show(now);
     } else if (view === undefined) during(load(name)).catch((error) => notice(error.message));
-    tools.show(study, Boolean(view?.exported?.(now)));
+    tools.show(study, Boolean(view?.moves));
     details.show(now);
   }
 

@@ -12,19 +12,19 @@ export function savings(view) {
 }
 
 /** Save a file of a view in a state. */
-export async function save(kind, view, state, format) {
+export async function save(kind, view, state) {
   if (kind === "picture") return download("optlaws.svg", "image/svg+xml", picture(view.drawings));
   if (kind === "document") return download("optlaws.json", "application/json", JSON.stringify({ about: DOCUMENT, state }, null, 1));
-  const answer = await fileOf(kind, view, state, format);
+  const answer = await fileOf(kind, view, state);
   return download(answer.name, answer.type, answer.text);
 }
 
 /** A file of a view in a state: its name, its type, its text. */
-export async function fileOf(kind, view, state, format) {
+export async function fileOf(kind, view, state) {
   const response = await fetch("api/save", {
     method: "POST",
     headers: { "Content-Type": "application/json" },
-    body: JSON.stringify({ kind, view: state.view, laws: state.laws, active: state.active, ...view.saved?.(state), ...(kind === "proof" && view.proof?.(state)), ...(format && { format }) }),
+    body: JSON.stringify({ kind, view: state.view, request: view.request(state) }),
   });
   const answer = await response.json();
   if (answer.error) throw new Error(answer.error);

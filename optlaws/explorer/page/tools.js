@@ -51,11 +51,11 @@ export class Tools {
 function saves(study, notice, shown) {
   const list = html("div", { class: "list", role: "menu" });
   return menu("Save", list, (close) => {
-    const items = (shown() ? savings(shown()) : []).map(({ kind, text, about, format }) => html("button", {
+    const items = (shown() ? savings(shown()) : []).map(({ kind, text, about }) => html("button", {
       type: "button", role: "menuitem", title: about, text, "data-kind": kind,
       onclick: () => {
         close();
-        save(kind, shown(), study.state, format).catch((error) => notice(error.message));
+        save(kind, shown(), study.state).catch((error) => notice(error.message));
       },
     }));
     list.replaceChildren(...items);

@@ -1,9 +1,9 @@
 // The views of the page: the name of each in a study, its title, what its part of a study must be, and its module.
 //
 // A module exports `View`: `new View(root, study, start)` fills its element; `show(state)` draws a state; `files(state)`
-// lists what can be saved as {kind, text, about, format}; `drawings` selects the pictures that are saved as one;
+// lists what can be saved as {kind, text, about}; `drawings` selects the pictures that are saved as one; `request(state)` is
+// what the view asks of the server, of which files are made; `moves` is whether that is a motion for a controller;
 // `dropped(file)` says whether the view takes a file that is dropped while it is shown; other files are opened.
-// `proof(state)` is what of the question for a file names the result whose proof is to be checked, where that is not `saved`;
 // `focus` selects where "Skip to the picture" leads. `start` is what the server tells of catalogues and formats.
 
 export const object = (value) => value !== null && typeof value === "object" && !Array.isArray(value);

@@ -52,11 +52,6 @@ export class View {
     this.#advice = new Latest("api/advice", (answer, question) => this.#answered(answer, question, question.points ? 3 : 2), failed);
   }
 
-  /** Nothing of this view is saved: a law that is taken is of the cycle or the machine. */
-  saved() {
-    return {};
-  }
-
   show(state) {
     this.#state = state;
     this.#form(state);

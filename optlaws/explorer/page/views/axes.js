@@ -24,6 +24,7 @@ const FILES = [
 
 export class View {
   files = FILES;
+  moves = true;
   drawings = "#axes-timing svg, #axes-plane svg, #axes-rooms svg";
   #study;
   #names;
@@ -74,13 +75,9 @@ export class View {
   }
 
   /** The part of a study that files are made of. */
-  saved({ axes, axis }) {
-    return { axes: { study: axes, axis } };
-  }
-
   /** The axis of the programme is the one that a controller is to run. */
-  exported({ laws, active, axes, axis }) {
-    return { view: "cycle", laws, active, cycle: { study: axes, axis } };
+  request({ axes, axis }) {
+    return { study: axes, axis };
   }
 
   show(state) {

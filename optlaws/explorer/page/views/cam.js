@@ -42,7 +42,7 @@ export class View {
     this.#study = study;
     this.#kinds = cam;
     const { choices } = named(named(cam.entries, "file").list.entries, "format");
-    const cut = choices.map((format) => ({ kind: "cut", format, text: `Profile (${format})`, about: "The cam's edge, within 1 µm" }));
+    const cut = choices.map((format) => ({ kind: format, text: `Profile (${format})`, about: "The cam's edge, within 1 µm" }));
     this.files = [{ kind: "problem", text: "Problem file (TOML)", about: "For optlaws run" }, ...cut];
     this.#form = new Form((what, alter) => study.change(what, (state) => alter(state.cam)), () => study.rest(), (one, _path, before) => this.#take(one, before));
     this.#programme = new Programme(element("cam-programme"), study, (state) => state.cam, programme);
@@ -59,8 +59,8 @@ export class View {
   }
 
   /** The part of a study that files are made of. */
-  saved({ cam }) {
-    return { cam: { study: cam } };
+  request({ cam }) {
+    return { study: cam };
   }
 
   show(state) {

@@ -27,6 +27,7 @@ const FILES = [
 
 export class View {
   files = FILES;
+  moves = true;
   drawings = "#motion svg";
   #study;
   #programme;
@@ -48,18 +49,13 @@ export class View {
   }
 
   /** The part of a study that files are made of. */
-  saved({ cycle, axis }) {
-    return { cycle: { study: cycle, axis } };
-  }
-
-  /** The cycle that a controller is to run. */
-  exported({ view, laws, active, cycle, axis }) {
-    return { view, laws, active, cycle: { study: cycle, axis } };
+  request({ cycle, axis }) {
+    return { study: cycle, axis };
   }
 
   show(state) {
     this.#programme.show(state);
-    this.#cycles.ask({ study: state.cycle, axis: state.axis });
+    this.#cycles.ask(this.request(state));
   }
 
   #answered(answer, question) {

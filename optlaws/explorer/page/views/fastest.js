@@ -57,8 +57,9 @@ export class View {
   }
 
   /** The part of a study that files are made of. */
-  saved({ fastest, move = 0, time }) {
-    return { fastest: { study: fastest, move, ...(time > 0 && { time }) } };
+  request(state) {
+    const { fastest: study, time, axis } = state;
+    return { study, move: Array.isArray(study.axis) ? axis : this.#number(state), ...(time > 0 && { time }) };
   }
 
   show(state) {
@@ -69,8 +70,8 @@ export class View {
     this.#at.programme.hidden = !cycle;
     if (cycle) this.#programme.show(state);
     else this.#form(study, this.#entries(state));
-    const question = { study, move: cycle ? state.axis : this.#number(state) };
-    this.#answers.ask({ ...question, ...(state.time > 0 && { time: state.time }) });
+    const { time: _, ...question } = this.request(state);
+    this.#answers.ask(this.request(state));
     if (told(question) !== told(this.#asked)) {
       this.#asked = question;
       this.#front = null;

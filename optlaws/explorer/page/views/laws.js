@@ -28,6 +28,7 @@ const FILES = [
 
 export class View {
   files = FILES;
+  moves = true;
   drawings = "#curves svg";
   #study;
   #state = null;
@@ -80,9 +81,9 @@ export class View {
     return this.#state.picture === "residual" && /\.(csv|txt|tsv|dat|tab)$/i.test(file.name) && this.#band.read(file);
   }
 
-  /** The law that a controller is to run. */
-  exported({ laws, active }) {
-    return { view: "laws", laws, active };
+  /** The active law is the one that a controller is to run. */
+  request({ laws, active }) {
+    return { laws, active };
   }
 
   show(state) {

@@ -31,6 +31,7 @@ const word = (value) => String(Number(value.toPrecision(4))).replace("-", "−")
 
 export class View {
   files = FILES;
+  moves = true;
   drawings = "#machine-curves svg";
   #study;
   #state = null;
@@ -77,13 +78,8 @@ export class View {
   }
 
   /** The part of a study that files are made of. */
-  saved({ machine, axis }) {
-    return { machine: { study: machine, axis } };
-  }
-
-  /** The cycle that a controller is to run. */
-  exported({ laws, active, machine, axis }) {
-    return { view: "cycle", laws, active, cycle: { study: machine, axis } };
+  request({ machine, axis }) {
+    return { study: machine, axis };
   }
 
   show(state) {

@@ -26,6 +26,7 @@ const MOVES = ["move", "from", "to", "by", "law"];
 
 export class View {
   files = FILES;
+  moves = true;
   drawings = "#old-curves svg";
   #study;
   #trust = html("div", { id: "old-trust", class: "panel", role: "status", "aria-live": "polite" });
@@ -61,13 +62,10 @@ export class View {
     return true;
   }
 
-  saved({ old }) {
-    return { old: this.#cycle(old) };
-  }
-
   /** The cycle with its better laws, as far as they are found. */
-  exported({ laws, active, old }) {
-    return { view: "old", laws, active, old: this.#cycle(old) };
+  request({ old }) {
+    const known = this.#asked && told(near(this.#asked)) === told(near(old));
+    return { study: old, laws: known ? this.#found.map((one) => one?.law ?? null) : [] };
   }
 
   show(state) {
@@ -77,11 +75,6 @@ export class View {
     // what the tolerance and the speed are changes nothing of what is read
     if (told(read(state.old)) !== told(this.#asked && read(this.#asked))) this.#tables.ask({ study: state.old });
     else this.#ask(state.old);
-  }
-
-  #cycle(old) {
-    const known = this.#asked && told(near(this.#asked)) === told(near(old));
-    return { study: old, laws: known ? this.#found.map((one) => one?.law ?? null) : [] };
   }
 
   #answered(answer, { study }) {
