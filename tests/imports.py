@@ -26,7 +26,13 @@ HANDED_UP = {
     "_plot": ("optlaws.plots.",),
     "export": ("optlaws.exports.", "optlaws.cams.curves.cam_files", "optlaws.synthesis.proven.fewest_laws"),
     "summary": ("optlaws.cycles.summary.", "optlaws.cams.summary."),
-    "report": ("optlaws.cycles.report.", "optlaws.cycles.moves.report.", "optlaws.cams.report."),
+    "report": (
+        "optlaws.cams.report.",
+        "optlaws.cycles.moves.report.",
+        "optlaws.cycles.report.",
+        "optlaws.laws.report.",
+        "optlaws.synthesis.report.",
+    ),
     "pieces": ("optlaws.exports.",),
     "polynomials": ("optlaws.exports.",),
 }

@@ -73,7 +73,7 @@ def solution() -> Solution:
 
 def test_a_solution_shows_what_is_proven_and_its_law(solution: Solution) -> None:
     html, text = checked(solution)
-    assert html.count("<svg") == 4
+    assert html.count("<svg") == 5
     for part in ("optimal", f"{solution.objective:.7g}", "lower bound", "b", "j"):
         assert part in text
     assert (

@@ -28,6 +28,20 @@ RESULTS: dict[str, Any] = {
     "cycle": CYCLE,
     "driven": DRIVEN,
     "cam": DiscCam(Cycle(CYCLE.segments, speed="300 rpm"), "60 mm", TranslatingRoller("12 mm", offset="6 mm")),
+    "law": optlaws.catalogue["modified trapezoid"].law,
+    "solution": optlaws.synthesize(
+        optlaws.Problem(
+            order=4,
+            B=1.7,
+            D=optlaws.at_most(8.0),
+            symmetric=False,
+            windows=(
+                optlaws.Window("b", high=1.2, start=0.1, stop=0.3),
+                optlaws.Window("c + 2*b", high=7.0, start=0.6, stop=0.9),
+                optlaws.via("a", 0.45, at=0.45),
+            ),
+        )
+    ),
     "move": optlaws.fastest(
         optlaws.Problem(order=4), stroke="300 mm", limits={"acceleration": "12 m/s^2", "snap": "60000 m/s^4"}
     ),
@@ -48,7 +62,7 @@ def test_curves_go_through_the_peaks_of_the_law_and_not_beyond_its_ends(kind: st
             assert high - 1e3 * room <= curve.values.max() <= high + room
 
 
-@pytest.mark.parametrize("kind", ["cycle", "driven", "cam", "move"])
+@pytest.mark.parametrize("kind", RESULTS)
 def test_every_output_renders_the_same_report(kind: str) -> None:
     report = RESULTS[kind].report()
     page, html = str(Page("a result").report(report)), report_page("a result", report)
@@ -62,9 +76,25 @@ def test_every_output_renders_the_same_report(kind: str) -> None:
     assert html.count("<svg") == len(report.panels)
     for panel, each in zip(report.panels, axes, strict=True):
         data = panel_data(panel)
-        assert panel.title == each.get_ylabel() == f"{data['name']}, {data['unit']}"
+        assert panel.title == each.get_ylabel() == ", ".join(filter(None, (data["name"], data["unit"])))
         drawn = np.array(data["series"][0]["values"], dtype=float)
         assert drawn == pytest.approx(np.asarray(each.lines[0].get_ydata()), rel=1e-6, abs=1e-6, nan_ok=True)
+
+
+def test_limits_of_a_problem_are_those_of_its_curves_and_not_of_its_formulas() -> None:
+    shown = {
+        panel.name: [(limit.name, limit.low, limit.high) for limit in panel.limits]
+        for panel in RESULTS["solution"].report().panels
+    }
+    assert shown == {
+        "displacement a": [("via point", 0.45, 0.45)],
+        "velocity b": [("B = 1.7", -1.7, 1.7), ("window", -np.inf, 1.2)],
+        "acceleration c": [],
+        "power d": [("D at most 8", -8.0, 8.0)],
+        "jerk j": [],
+    }
+    labels = [artist.get_label() for artist in RESULTS["solution"].plot()]
+    assert {"B = 1.7", "via point", "window"} <= set(labels)
 
 
 def test_a_limit_far_from_what_is_used_on_its_side_is_not_drawn() -> None:

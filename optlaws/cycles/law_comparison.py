@@ -119,11 +119,12 @@ class Comparison(JsonText):
         return draw_comparison(self, ax, **style)
 
     def _repr_html_(self) -> str:
-        from optlaws.laws.html import drawings
+        from optlaws.shown.report import panel_drawing
         from optlaws.shown.showing import Html, page, table
 
-        rows = [[*row.values(), Html(drawings(law))] for row, law in zip(self.rows, self.laws.values(), strict=True)]
-        return page("Comparison", table((*self.rows[0], "a, b, c, j"), rows))
+        shown = (Html("".join(map(panel_drawing, law.report().panels))) for law in self.laws.values())
+        rows = [[*row.values(), drawings] for row, drawings in zip(self.rows, shown, strict=True)]
+        return page("Comparison", table((*self.rows[0], "a, b, c, d, j"), rows))
 
     def _row(self, law: MotionLaw) -> dict[str, float]:
         constants = law.constants

@@ -39,26 +39,17 @@ def start(given: str | None) -> dict[str, Any]:
     if is_problem(given):
         file = problem_file(Path(given))[0]
         return _of_problem_file(_with_motors(reading.toml(file), file), str(file))
-    if is_file(given):
-        return _of_law_file(given)
-    read_law(given)
-    return _laws({"name": given})
+    if not is_file(given):
+        read_law(given)
+        return _laws({"name": given})
+    file = Path(given)
+    if file.suffix.lower() == ".json":
+        return _of_stored(reading.json_file(file), given)
+    return _of_table(given, reading.text(file, LARGEST_TABLE, legacy=True))
 
 
 def _laws(*laws: dict[str, Any]) -> dict[str, Any]:
     return {"view": "laws", "laws": list(laws)[:MOST_LAWS]}
-
-
-def _of_law_file(given: str) -> dict[str, Any]:
-    file = Path(given)
-    if file.suffix.lower() == ".json":
-        return _of_stored(reading.json_file(file), given)
-    try:
-        return _laws({"law": read_law(given).to_dict(), "title": _stem(given)})
-    except InputError:
-        if not reading.is_file(file):
-            raise
-        return _of_table(given, reading.text(file, LARGEST_TABLE, legacy=True))
 
 
 def _of_stored(data: Any, name: str) -> dict[str, Any]:

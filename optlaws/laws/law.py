@@ -153,17 +153,28 @@ class MotionLaw(Curve, LawExport, StoredLaw):
 
         return pieces_of_law(self, tolerance, stroke=stroke, duration=duration, master=master, start=start)
 
+    def report(self) -> Any:
+        """The constants, and the curves of a, b, c, d and j through their extremes, as values that outputs render.
+
+        Examples
+        --------
+        >>> from optlaws import smoothstep
+        >>> [(panel.name, panel.ends) for panel in smoothstep(2).report().panels][1:3]
+        [('velocity b', (0.0, 1.5)), ('acceleration c', (-6.0, 6.0))]
+        """
+        from optlaws.laws.report import LawReport
+
+        return LawReport(self)
+
     def __repr__(self) -> str:
         constants = self.constants
         shown = f"B={constants.B.value:g}, C={constants.C.value:g}, D={constants.D.value:g}, J={constants.J.value:g}"
         return f"{type(self).__name__}({self._summary()}, {shown})"
 
     def _repr_html_(self) -> str:
-        from optlaws.laws.html import drawings
-        from optlaws.shown.showing import page
+        from optlaws.shown.report import report_page
 
-        title = f"{type(self).__name__}, {self._summary()}"
-        return page(title, self.constants._repr_html_(), drawings(self))
+        return report_page(f"{type(self).__name__}, {self._summary()}", self.report())
 
     def _times(self, k: Any) -> Array:
         return times(k)

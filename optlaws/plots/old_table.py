@@ -8,9 +8,9 @@ import numpy as np
 
 from optlaws.cycles.old_tables.better_moves import law_of_move
 from optlaws.errors import InputError
+from optlaws.laws.report import broken
 from optlaws.motion.quantities import QUANTITIES
 from optlaws.numbers import Array
-from optlaws.plots.law import broken
 from optlaws.plots.style import BLUES, GREY, WARM, new_figure, plot_style
 
 if TYPE_CHECKING:

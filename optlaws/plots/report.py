@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from itertools import pairwise
+from math import isfinite
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -44,20 +45,21 @@ def draw_panel(panel: Panel, axes: Axes, *, per: float = MILLI, share: float = 1
     artists: list[Artist] = []
     for curve in panel.series:
         artists += axes.plot(per * curve.at, share * curve.values, **{"color": BLUES[3]} | style)
-    for start, stop, *limits in panel.limits:
-        for side, end, limit in zip((-1.0, 1.0), panel.ends, limits, strict=True):
+    for start, stop, low, high, name in panel.limits:
+        look: dict[str, Any] = {"color": WARM, "linewidth": 1.1, "linestyle": "--"} | ({"label": name} if name else {})
+        look |= {"marker": "D", "markersize": 5.0} if start == stop else {}
+        for limit, (side, end) in {low: (-1.0, panel.ends[0]), high: (1.0, panel.ends[1])}.items():
             # a limit far from what is used would flatten the curve
             if side * limit < _NEAR * max(side * end, np.finfo(float).tiny):
-                look: dict[str, Any] = {"color": WARM, "linewidth": 1.1, "linestyle": "--"}
                 artists += axes.plot([per * start, per * stop], [share * limit] * 2, **look)
     axes.set_ylabel(panel.title)
     return artists
 
 
 def draw_share(panel: Panel, axes: Axes, name: str, **style: Any) -> list[Artist]:
-    """Draw a panel divided by its peak, which the legend states."""
-    size = panel.peak or 1.0
-    label = f"{name} / {size:.6g} {panel.unit}"
+    """Draw a panel divided by its peak, or by the highest sample where it has none, which the legend states."""
+    size = (panel.peak if isfinite(panel.peak) else float(np.nanmax(np.abs(panel.series[0].values)))) or 1.0
+    label = f"{name} / {size:.6g} {panel.unit}".rstrip() if panel.unit or size != 1.0 else name
     return draw_panel(panel, axes, share=1.0 / size, **{"label": label} | style)
 
 

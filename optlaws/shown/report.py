@@ -33,6 +33,7 @@ class PanelLimit(NamedTuple):
     stop: float
     low: float
     high: float
+    name: str = ""
 
 
 class Series(NamedTuple):
@@ -72,7 +73,7 @@ class Panel:
     @property
     def title(self) -> str:
         """The name with its unit."""
-        return f"{self.name}, {self.unit}"
+        return f"{self.name}, {self.unit}" if self.unit else self.name
 
     @property
     def peak(self) -> float:
@@ -112,5 +113,11 @@ class Report(Protocol):
 
 def report_page(title: object, report: Report) -> str:
     """A report as HTML: its facts, its tables, and a small drawing of every panel."""
-    drawings = (drawing(panel.title, *(part.tolist() for part in panel.series[0][:2])) for panel in report.panels)
-    return page(title, report.facts._repr_html_(), *(table(*each) for each in report.tables), *drawings)
+    tables = (table(*each) for each in report.tables)
+    return page(title, report.facts._repr_html_(), *tables, *map(panel_drawing, report.panels))
+
+
+def panel_drawing(panel: Panel) -> str:
+    """A small drawing of the first curve of a panel, as HTML."""
+    at, values, *_ = panel.series[0]
+    return drawing(panel.title, at.tolist(), values.tolist())

@@ -193,6 +193,20 @@ class Solution(LawExport, JsonText):
         rows.append(Row("", f"{self.iterations} iterations, {1e3 * self.seconds:.0f} ms"))
         return Summary([*rows, *self.constants.summary(), *(Row("note", note) for note in self.notes)], at="k")
 
+    def report(self) -> Any:
+        """The summary, and the curves of the law with the limits of the problem, as values that outputs render.
+
+        Examples
+        --------
+        >>> import optlaws
+        >>> velocity = optlaws.synthesize(optlaws.Problem(B=1.859, order=4)).report().panels[1]
+        >>> velocity.limits[0].name, velocity.peak
+        ('B = 1.859', 1.859)
+        """
+        from optlaws.synthesis.report import SolutionReport
+
+        return SolutionReport(self)
+
     @property
     def _is_without_bound(self) -> bool:
         """Whether nothing is proven but that the objective, which is above 0, is not below it."""
@@ -281,10 +295,9 @@ class Solution(LawExport, JsonText):
         }
 
     def _repr_html_(self) -> str:
-        from optlaws.laws.html import drawings
-        from optlaws.shown.showing import page
+        from optlaws.shown.report import report_page
 
-        return page("Solution", self.summary()._repr_html_(), drawings(self.law))
+        return report_page("Solution", self.report())
 
     def __repr__(self) -> str:
         limit = "" if self.limit is None else f"limit={self.limit:.9g}, "

@@ -2,6 +2,5 @@
 
 from optlaws.plots.cam import animated, forces_figure
 from optlaws.plots.front import draw_front
-from optlaws.plots.law import broken
 from optlaws.plots.report import draw_panels
 from optlaws.plots.style import DISTINCT, WARM, empty_figure, plot_style, save_picture, shades

@@ -8,7 +8,7 @@ import pytest
 from matplotlib.figure import Figure
 
 from optlaws import Chebyshev, InputError, Problem, at_most, catalogue, pareto_front, smoothstep, synthesize, via
-from tests.internals.plots import broken
+from tests.internals.laws import broken
 
 
 def axes(count: int) -> np.ndarray:
@@ -36,8 +36,9 @@ def test_a_law_is_drawn_as_it_is_with_its_peaks_marked() -> None:
         k, values = panel.lines[0].get_data()
         assert panel.lines[0].get_color() == "red"
         assert np.allclose(values, law(k, nu), rtol=0.0, atol=1e-9)
-    (place,), (height,) = panels[2].lines[-1].get_data()
-    assert (place, height) == pytest.approx((0.125, law.constants.C.value))
+    places, heights = panels[2].lines[-1].get_data()
+    assert places == pytest.approx([0.875, 0.125])
+    assert heights == pytest.approx([-law.constants.C.value, law.constants.C.value])
 
 
 def test_a_jump_is_a_gap_with_both_its_sides() -> None:

@@ -301,10 +301,9 @@ class FastestMove(LawExport, JsonText):
         return MoveReport(self, self.law, self.duration)
 
     def _repr_html_(self) -> str:
-        from optlaws.laws.html import drawings
-        from optlaws.shown.showing import page
+        from optlaws.shown.report import report_page
 
-        return page("FastestMove", self.summary()._repr_html_(), drawings(self.law))
+        return report_page("FastestMove", self.report())
 
     def __repr__(self) -> str:
         limit = "" if self.limit is None else f", limit={self.limit:.9g}"

@@ -10,12 +10,12 @@ import msgspec
 import numpy as np
 
 from optlaws import (
+    FUNCTIONALS,
     MotionLaw,
     Problem,
     ProblemArray,
     SavinFamily,
     Solution,
-    SolutionArray,
     Status,
     at_most,
     catalogue,
@@ -26,7 +26,7 @@ from optlaws import (
 from optlaws.errors import InputError, OptlawsError
 from optlaws.explorer.views.law_view import digits, objective_title
 from optlaws.explorer.views.panel_data import drawn
-from optlaws.explorer.views.requests import LawRequest, Question, problem_of, solved, value, without
+from optlaws.explorer.views.requests import LawRequest, Question, problem_of, solved, without
 from optlaws.laws.savin import FAMILIES
 from optlaws.numbers import bounded
 from optlaws.synthesis.limits.of_problem import known_limit
@@ -42,7 +42,7 @@ _LONGEST = 80
 #: laws of lower order may have jumps of c at their ends, beside which no limit of J is known
 _JERK_ORDER = 2
 
-Place = list[float]
+_NO_FRONT: dict[str, Any] = {"line": [], "words": "", "limit": [], "proven": False}
 
 
 class FrontRequest(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
@@ -61,15 +61,14 @@ def answer(request: FrontRequest) -> dict[str, Any]:
     x, y = request.over
     if (x, y) not in PAIRS:
         raise InputError(f"over must be one of {', '.join('-'.join(pair) for pair in PAIRS)}, got {x}-{y}")
-    given = known_points(x, y), families(x, y)
-    beside = {"x": x, "y": y, "ranges": [RANGES[x], RANGES[y]], "known": given[0], "families": given[1]}
-    if request.law.problem is None:
-        return beside | {"line": [], "words": "", "limit": [], "swept": False, "proven": False}
-    try:
-        return beside | {"swept": True} | front(swept_problem(problem_of(request.law), x, y), x, y)
-    except OptlawsError as error:  # the view of the law says why at length
-        words = f"no front: {str(error.args[0])[:_LONGEST]}"
-        return beside | {"line": [], "words": words, "limit": [], "swept": False, "proven": False}
+    drawn_over = {"x": x, "y": y, "ranges": [RANGES[x], RANGES[y]], "known": known_points(x, y)}
+    line = _NO_FRONT
+    if request.law.problem is not None:
+        try:
+            line = front(swept_problem(problem_of(request.law), x, y), x, y)
+        except OptlawsError as error:  # the view of the law says why at length
+            line = _NO_FRONT | {"words": f"no front: {str(error.args[0])[:_LONGEST]}"}
+    return drawn_over | {"families": families(x, y)} | line
 
 
 def swept_problem(problem: Problem, x: str, y: str) -> Problem:
@@ -93,14 +92,29 @@ def front(problem: Problem, x: str, y: str) -> dict[str, Any]:
     >>> shown["words"], len(shown["line"]) > 30
     ('least C at each B: proven at every point', True)
     """
-    span = _span(problem, x)
+    span, limits = _span(problem, x), _limits(problem, x, y)
     if span is None:
-        words = f"no {x} has a law of this problem"
-        return {"line": [], "words": words, "limit": _limits(problem, x, y), "proven": False}
+        return _NO_FRONT | {"words": f"no {x} has a law of this problem", "limit": limits}
     alone = not problem.convex and problem.minimise != "D"
-    laws = along(problem, x, np.linspace(*span, _POINTS_ALONE if alone else _POINTS))
-    line = {"line": _places(laws, x, y), "words": _words(problem, x, laws), "proven": _proven(laws)}
-    return line | {"limit": _limits(problem, x, y)}
+    values: Any = np.linspace(*span, _POINTS_ALONE if alone else _POINTS)
+    entries = {name: getattr(problem, name) for name in problem.__dataclass_fields__}
+    laws = synthesize_array(ProblemArray(**entries | {x: values if x == "B" else map_arrays(at_most, values)}))
+    there = ~np.isnan(laws.objective)
+    # a law whose bound of x does not bind stands where its own x is
+    places = np.column_stack([getattr(laws, x), getattr(laws, y)])[there]
+    proven = set(laws.status[there].tolist()) == {Status.OPTIMAL.value}
+    room = 1.0 - laws.lower_bound[there] / laws.objective[there]
+    beyond = (
+        f": no law is below them by more than {100.0 * room.max(initial=0.0):.2g} %" if np.isfinite(room).all() else ""
+    )
+    at = "at each B" if x == "B" else f"for each bound of {x}"
+    quality = "proven at every point" if proven else f"local optima, not proven least{beyond}"
+    return {
+        "line": [drawn(place, 7) for place in places],
+        "words": f"least {objective_title(problem)} {at}: {quality}",
+        "proven": proven,
+        "limit": limits,
+    }
 
 
 def _span(problem: Problem, x: str) -> tuple[float, float] | None:
@@ -119,38 +133,7 @@ def _span(problem: Problem, x: str) -> tuple[float, float] | None:
     return ends if ends[0] < ends[1] else None
 
 
-def along(problem: Problem, x: str, values: Any) -> SolutionArray:
-    """The laws of a problem whose constant x takes many values: B is fixed, the others are bounded from above."""
-    entries = {name: getattr(problem, name) for name in problem.__dataclass_fields__}
-    entries[x] = values if x == "B" else map_arrays(at_most, values)
-    return synthesize_array(ProblemArray(**entries))
-
-
-def _places(laws: SolutionArray, x: str, y: str) -> list[Place]:
-    """Constants of the laws themselves; a law whose bound of x does not bind stands where its own x is."""
-    points = np.column_stack([getattr(laws, x), getattr(laws, y)])
-    return [[round(value, 7) for value in row] for row in points[~np.isnan(laws.objective)].tolist()]
-
-
-def _proven(laws: SolutionArray) -> bool:
-    """Whether every law of the line is proven to be optimal."""
-    return set(laws.status[~np.isnan(laws.objective)].tolist()) == {Status.OPTIMAL.value}
-
-
-def _room(laws: SolutionArray) -> str:
-    """The greatest gap of the front, if a bound is known at every point."""
-    there = ~np.isnan(laws.objective)
-    room = 1.0 - laws.lower_bound[there] / laws.objective[there]
-    return f": no law is below them by more than {100.0 * room.max():.2g} %" if np.isfinite(room).all() else ""
-
-
-def _words(problem: Problem, x: str, laws: SolutionArray) -> str:
-    proven = "proven at every point" if _proven(laws) else f"local optima, not proven least{_room(laws)}"
-    at = "at each B" if x == "B" else f"for each bound of {x}"
-    return f"least {objective_title(problem)} {at}: {proven}"
-
-
-def _limits(problem: Problem, x: str, y: str) -> list[Place]:
+def _limits(problem: Problem, x: str, y: str) -> list[list[float]]:
     """Limits for laws of any degree, where y alone is minimised over B."""
     if x != "B" or str(problem.minimise) != y:
         return []
@@ -185,7 +168,7 @@ def known_points(x: str, y: str) -> list[dict[str, Any]]:
 
 
 def _place(law: MotionLaw, x: str, y: str) -> tuple[float, float] | None:
-    pair = value(law, x), value(law, y)
+    pair = FUNCTIONALS[x].value(law), FUNCTIONALS[y].value(law)
     return pair if all(bounded(number) is not None for number in pair) and pair[1] > 0.0 else None
 
 
@@ -197,7 +180,7 @@ def families(x: str, y: str) -> list[dict[str, Any]]:
         family = SavinFamily.of(name)
         low, high = map(float, family.range)
         laws = [family.law(alpha) for alpha in np.linspace(low, high, _MEMBERS).tolist()]
-        columns = [drawn(np.array([value(law, constant) for law in laws]), 5) for constant in (x, y)]
+        columns = [drawn(np.array([FUNCTIONALS[constant].value(law) for law in laws]), 5) for constant in (x, y)]
         lines.append({"name": name, "line": [list(column) for column in zip(*columns, strict=True)]})
     return lines
 

@@ -3,27 +3,17 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from functools import lru_cache
 from math import ceil, floor, log10
 from typing import Annotated, Any
 
 import msgspec
-import numpy as np
 
-from optlaws import (
-    Chebyshev,
-    Cycle,
-    MotionLaw,
-    Peak,
-    Problem,
-    Rise,
-    Solution,
-    Status,
-)
+from optlaws import Chebyshev, MotionLaw, Problem, Range, Solution, Status
 from optlaws.errors import InfeasibleProblem, OptlawsError, SolverFailure
-from optlaws.explorer.views.panel_data import drawn
+from optlaws.explorer.views.panel_data import panel_data
 from optlaws.explorer.views.requests import (
     MOST_DEGREE,
     LawRequest,
@@ -36,18 +26,16 @@ from optlaws.explorer.views.requests import (
     without,
 )
 from optlaws.motion.display_units import UNITS
+from optlaws.motion.piece import factor
+from optlaws.motion.quantities import either, positive_quantity
 from optlaws.numbers import bounded
 from optlaws.sentences import Amount
-from optlaws.shown.curve_points import refined
 from optlaws.synthesis.limits.of_problem import limited_laws
 from optlaws.synthesis.proof.infeasible import possible_velocities
-from optlaws.tolerances import BOUND_SLACK, NO_MARK
+from optlaws.tolerances import BOUND_SLACK
 
 _GAP_ROUNDING = 1e-12  # of an objective: a gap below it is rounding
 
-LETTERS = ("a", "b", "c", "d", "j")
-_ORDERS = {"a": 0, "b": 1, "c": 2, "j": 3}
-_SAMPLES = 161
 TITLES = {Status.OPTIMAL: "proven optimal", Status.LOCAL: "local", Status.INACCURATE: "bound not met"}
 _LONG_NUMBER = re.compile(r"\d+\.\d{4,}")
 
@@ -61,13 +49,18 @@ def answer(request: LawsRequest) -> dict[str, Any]:
 def view(question: bytes) -> dict[str, Any]:
     """The view of a law that is requested as JSON; an error is reported in its place, so that other laws remain."""
     request = msgspec.json.decode(question, type=LawRequest)
+    name = request.title or request.name
     try:
-        if request.problem is not None:
-            return _optimal(request)
-        return {"title": request.title or request.name or "a stored law", "trust": None} | shown(given_law(request))
+        if request.problem is None:
+            return {"title": name or "a stored law", "trust": None} | shown(given_law(request))
+        problem = problem_of(request)
+        name = request.title or title(problem)
+        solution = solved(problem)
+        if not isinstance(solution, Solution):
+            raise solution.with_traceback(None)
+        return {"title": name, "trust": trust(solution)} | shown(solution)
     except OptlawsError as error:
-        name = request.title or request.name or "a problem"
-        return {"title": name, "refused": refusal(error)}
+        return {"title": name or "a problem", "refused": refusal(error)}
 
 
 def refusal(error: OptlawsError, word: str = "not understood") -> dict[str, str]:
@@ -78,15 +71,6 @@ def refusal(error: OptlawsError, word: str = "not understood") -> dict[str, str]
     return {"word": word, "reason": error.args[0], "tried": error.tried}
 
 
-def _optimal(request: LawRequest) -> dict[str, Any]:
-    problem = problem_of(request)
-    solution = solved(problem)
-    name = {"title": request.title or title(problem)}
-    if not isinstance(solution, Solution):
-        return name | {"refused": refusal(solution)}
-    return name | {"trust": trust(solution)} | shown(solution.law)
-
-
 def title(problem: Problem) -> str:
     """A short title of a problem.
 
@@ -95,9 +79,17 @@ def title(problem: Problem) -> str:
     >>> title(Problem(B=1.7, order=4, minimise="J"))
     'least J, B = 1.7, order 4, degree 9'
     """
-    bounds = [f"{name} = {r.high:g}" if r.fixed else _range(name, r.low, r.high) for name, r in _ranges(problem)]
+    bounds = [*((constant.title, bound) for constant, bound in problem.bounded), ("B", problem.range("B"))]
+    texts = [_bound_text(name, bound) for name, bound in bounds if bound is not None]
     size = problem.basis.to_dict().get("degree")
-    return ", ".join([f"least {objective_title(problem)}", *bounds, f"order {problem.order}", f"degree {size}"])
+    return ", ".join([f"least {objective_title(problem)}", *texts, f"order {problem.order}", f"degree {size}"])
+
+
+def _bound_text(name: str, bound: Range) -> str:
+    if bound.fixed:
+        return f"{name} = {bound.high:g}"
+    lower = f"{bound.low:g} ≤ " if bound.low > 0.0 else ""
+    return f"{lower}{name}" if bounded(bound.high) is None else f"{lower}{name} ≤ {bound.high:g}"
 
 
 def objective_title(problem: Problem) -> str:
@@ -111,34 +103,19 @@ def objective_title(problem: Problem) -> str:
     return _LONG_NUMBER.sub(lambda match: f"{float(match[0]):.4g}", problem.titled(str(problem.minimise)))
 
 
-def _ranges(problem: Problem) -> list[tuple[str, Any]]:
-    bounds = [(constant.title, bound) for constant, bound in problem.bounds.items()]
-    peaks = [(name, problem.range(name)) for name in ("J", "D", "C", "B")]
-    return [(name, bound) for name, bound in (*bounds, *peaks) if bound is not None]
-
-
-def _range(name: str, low: float, high: float) -> str:
-    upper = "" if bounded(high) is None else f"{name} ≤ {high:g}"
-    lower = f"{name} ≥ {low:g}" if low > 0.0 else ""
-    return " and ".join(part for part in (lower, upper) if part)
-
-
-def shown(law: MotionLaw) -> dict[str, Any]:
-    """Constants, curves and peaks of a law."""
-    return {"constants": constants(law), "curves": curves(law), "peaks": peaks(law)}
-
-
-def constants(law: MotionLaw) -> list[dict[str, Any]]:
-    """B, C, D, J and the root mean square of c, each as text and as a number, with its place."""
-    return [
+def shown(result: MotionLaw | Solution) -> dict[str, Any]:
+    """B, C, D, J and the root mean square of c, each as text and as a number, with its place, and the curves."""
+    constants = [
         {
             "name": "rms_c" if row.place is None else row.name,
             "text": digits(row.value),
             "value": bounded(row.value),
             "k": "" if row.place is None else f"k = {row.place:.6g}",
         }
-        for row in law.constants.summary()
+        for row in result.constants.summary()
     ]
+    panels = [panel_data(panel, 1.0) | {"symbol": panel.name[-1]} for panel in result.report().panels]
+    return {"constants": constants, "panels": panels}
 
 
 def digits(number: float, count: int = 7) -> str:
@@ -154,41 +131,9 @@ def digits(number: float, count: int = 7) -> str:
     return f"{number:.{count}g}".replace("-", "−")
 
 
-def curves(law: MotionLaw) -> dict[str, list[float | None]]:
-    """Values of a, b, c, d and j over k, as displayed; None where a value is not finite."""
-    values = {letter: law.samples(_SAMPLES, nu)[1] for letter, nu in _ORDERS.items()}
-    values["d"] = values["b"] * values["c"]
-    functions = {"a": law.a, "b": law.b, "c": law.c, "d": law.d, "j": law.j}
-    extremes = [*(extreme for nu in (1, 2, 3) for extreme in law.extrema(nu)), *law.power_extrema()]
-    k, curves = refined(
-        law.samples(_SAMPLES)[0],
-        [values[letter] for letter in LETTERS],
-        [functions[letter] for letter in LETTERS],
-        np.array([extreme.k for extreme in extremes]),
-    )
-    return {"k": drawn(k)} | {letter: drawn(curve) for letter, curve in zip(LETTERS, curves, strict=True)}
-
-
-def peaks(law: MotionLaw) -> dict[str, list[dict[str, Any]]]:
-    """The least and the greatest value of each curve but a, where they are finite and not 0."""
-    extremes = {letter: law.extrema(nu) for letter, nu in _ORDERS.items() if nu}
-    extremes["d"] = law.power_extrema()
-    return {letter: [_mark(extreme) for extreme in pair if _seen(extreme, pair)] for letter, pair in extremes.items()}
-
-
-def _seen(extreme: Peak, pair: tuple[Peak, Peak]) -> bool:
-    size = max(abs(other.value) for other in pair)
-    return bounded(extreme.value) is not None and abs(extreme.value) > NO_MARK * size
-
-
-def _mark(peak: Peak) -> dict[str, Any]:
-    return {"k": peak.k, "value": peak.value}
-
-
 def trust(solution: Solution) -> dict[str, Any]:
     """The status and the bounds of a solution as words."""
-    name = objective_title(solution.problem)
-    facts = [f"{name} = {digits(solution.objective)}"]
+    facts = [f"{objective_title(solution.problem)} = {digits(solution.objective)}"]
     if bounded(solution.lower_bound) is not None:
         facts.append(f"no law of this problem is below {digits(solution.lower_bound)}")
     if solution.limit is not None:
@@ -197,14 +142,13 @@ def trust(solution: Solution) -> dict[str, Any]:
             f"no {limited_laws(solution.problem)}, of any degree, is below {digits(solution.limit)}: this one is "
             f"{digits(above, 3)} % above"
         )
-    return {
-        "status": solution.status.value,
-        "word": TITLES[solution.status],
-        "advice": solution.status.advice,
-        "gap": gap_text(solution.gap),
-        "facts": facts,
-        "proof": True,
-    }
+    return verdict(solution.status, gap_text(solution.gap), facts)
+
+
+def verdict(status: Status, gap: str, facts: Sequence[str], advice: str = "") -> dict[str, Any]:
+    """A status with its advice, its gap and facts, of what has a proof."""
+    word, advice = TITLES.get(status, status.value), advice or status.advice
+    return {"status": status.value, "word": word, "advice": advice, "gap": gap, "facts": facts, "proof": True}
 
 
 def gap_text(gap: float) -> str:
@@ -294,7 +238,7 @@ def _way(entry: str, value: float, text: str) -> dict[str, Any]:
     return {"entry": entry, "value": value, "text": text}
 
 
-_INERTIAS = {"length": ("mass", "1 kg", "m/s²", "N"), "angle": ("inertia", "1 kg m^2", "rad/s²", "N m")}
+_INERTIAS = {"length": ("mass", "N"), "angle": ("moment of inertia", "N m")}
 Entry = Annotated[str, msgspec.Meta(max_length=60)]
 
 
@@ -318,26 +262,21 @@ def in_machine_units(request: MachineRequest) -> dict[str, Any]:
     40 mm in 0.2 s {'B': '300 mm/s', 'C': '6 m/s²', 'J': '60 m/s³', 'rms_c': '3.4641 m/s²'}
     3 kg {'C': '18 N', 'D': '2.0785 W', 'rms_c': '10.392 N'}
     """
-    law, stroke, time = law_of(request.law), request.stroke, request.time
-
-    def moved(**drive: Any) -> Cycle:
-        return Cycle([Rise(stroke, time, law=law)], period=time, advance=stroke, **drive)
-
-    motion = moved()
-    entry, unit, acceleration, force = _INERTIAS[motion.axis]
-    alone = moved(drive={entry: unit}).effort
-    peaks = [_in(motion.peak(nu) * factor, name) for nu, (name, factor) in enumerate(UNITS[motion.axis])]
-    cells = dict(zip(("B", "C", "J"), peaks[1:], strict=True)) | {"rms_c": _in(alone.rms_force, acceleration)}
-    rows = [{"name": f"{stroke} in {time}", "cells": cells}]
+    of, time = law_of(request.law).constants, positive_quantity(request.time, "time", "time")
+    axis, stroke = either(request.stroke, ("length", "angle"), "stroke")
+    sizes = {"B": (of.B.value, 1), "C": (of.C.value, 2), "J": (of.J.value, 3), "rms_c": (of.rms_c, 2)}
+    inertia, force = _INERTIAS[axis]
+    peaks = {name: value * factor(stroke, time, nu) for name, (value, nu) in sizes.items()}
+    units = {name: UNITS[axis][nu] for name, (_, nu) in sizes.items()}
+    cells = {name: Amount(abs(peak * units[name][1]), units[name][0], 5) for name, peak in peaks.items()}
+    rows = [{"name": f"{request.stroke} in {request.time}", "cells": cells}]
     if request.mass:
-        effort = moved(drive={entry: request.mass}).effort
-        forces = {"C": _in(effort.peak_force, force), "D": _in(effort.peak_power, "W")}
-        rows.append({"name": request.mass, "cells": forces | {"rms_c": _in(effort.rms_force, force)}})
+        mass = positive_quantity(request.mass, inertia, inertia)
+        power = of.D.value * factor(stroke, time, 1) * factor(stroke, time, 2)
+        forces = {"C": (peaks["C"], force), "D": (power, "W"), "rms_c": (peaks["rms_c"], force)}
+        moved = {name: Amount(mass * abs(size), unit, 5) for name, (size, unit) in forces.items()}
+        rows.append({"name": request.mass, "cells": moved})
     return {"rows": rows}
-
-
-def _in(value: float, unit: str) -> Amount:
-    return Amount(value, unit, 5)
 
 
 QUESTIONS: dict[str, Question] = {

@@ -22,9 +22,9 @@ from optlaws.explorer.views.law_view import digits, refusal
 from optlaws.explorer.views.panel_data import drawn
 from optlaws.explorer.views.requests import Question
 from optlaws.laws.catalogue.catalogue import catalogue
+from optlaws.laws.report import broken
 from optlaws.motion.quantities import QUANTITIES
 from optlaws.numbers import Array, bounded
-from optlaws.plots.law import broken
 from optlaws.sentences import Amount, sentence
 from optlaws.tolerances import AGREEMENT, NO_MARK
 

@@ -28,22 +28,25 @@ def drawn(values: Array, decimals: int = _DRAWN) -> list[float | None]:
 
 def panel_data(panel: Panel, per: float = MILLI) -> dict[str, Any]:
     """A panel as JSON, over so many units of time a second: its peaks or, where none are marked, its ends in words."""
+    places = _DRAWN if per == 1.0 else _PLACES  # dimensionless, from 0 to 1
     shown: dict[str, Any] = {
         "name": panel.name,
         "unit": panel.unit,
         "series": [
-            {"law": law, "at": drawn(per * at, _PLACES), "values": drawn(values)} | ({"name": name} if name else {})
+            {"law": law, "at": drawn(per * at, places), "values": drawn(values)} | ({"name": name} if name else {})
             for at, values, law, name in panel.series
         ],
         "limits": [
             {
-                "from": round(per * start, _PLACES),
-                "to": round(per * stop, _PLACES),
+                "from": round(per * start, places),
+                "to": round(per * stop, places),
                 "value": bounded(high),
                 "least": bounded(low),
             }
-            for start, stop, low, high in panel.limits
+            for start, stop, low, high, _ in panel.limits
         ],
-        "peaks": [{"at": round(per * at, _PLACES), "value": value} for at, value in panel.peaks],
+        "peaks": [{"at": round(per * at, places), "value": value} for at, value in panel.peaks],
     }
-    return shown if panel.peaks or not any(panel.ends) else shown | {"ends": list(panel.ends)}
+    return (
+        shown if panel.peaks or not any(panel.ends) or not isfinite(panel.peak) else shown | {"ends": list(panel.ends)}
+    )

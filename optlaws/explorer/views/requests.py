@@ -10,7 +10,7 @@ from typing import Annotated, Any, TypeVar
 
 import msgspec
 
-from optlaws import FUNCTIONALS, MotionLaw, Problem, Solution, synthesize
+from optlaws import MotionLaw, Problem, Solution, synthesize
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.laws.catalogue import reading
 from optlaws.numbers import whole
@@ -180,16 +180,4 @@ def law_of(request: LawRequest) -> MotionLaw:
     answer = solved(problem_of(request))
     if isinstance(answer, Solution):
         return answer.law
-    raise answer
-
-
-def value(law: MotionLaw, constant: str) -> float:
-    """A constant of a law by its name.
-
-    Examples
-    --------
-    >>> value(given_law(LawRequest(name="cubic")), "C")
-    6.0
-    """
-    number: float = FUNCTIONALS[constant].value(law)
-    return number
+    raise answer.with_traceback(None)

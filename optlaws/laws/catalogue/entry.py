@@ -113,11 +113,13 @@ class CatalogueEntry(JsonText):
         return f"CatalogueEntry({self.name!r}, {self.formula!r})"
 
     def _repr_html_(self) -> str:
-        from optlaws.laws.html import drawings
+        from optlaws.shown.report import panel_drawing
         from optlaws.shown.showing import facts, page
 
         known = {"also": ", ".join(self.aliases) or None, "built": self.formula, "source": self.source}
-        return page(self.name, facts(known), self.constants._repr_html_(), drawings(self.law))
+        return page(
+            self.name, facts(known), self.constants._repr_html_(), *map(panel_drawing, self.law.report().panels)
+        )
 
     @property
     def aliases(self) -> tuple[str, ...]:
