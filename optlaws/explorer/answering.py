@@ -28,7 +28,7 @@ from optlaws.explorer.views import (
     residual_view,
 )
 from optlaws.explorer.views.machines import fastest_view, machine_view
-from optlaws.explorer.views.requests import Question, read, ready
+from optlaws.explorer.views.requests import Question, read
 from optlaws.sentences import parts_of
 
 #: the views that show a study, by their names in the page; where none is given each shows its example
@@ -101,7 +101,6 @@ def answer_from(connection: Connection) -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is the server's
     _limit_memory()
     Thread(target=_end_with_the_server, daemon=True).start()
-    ready(*(kind for kind, _ in QUESTIONS.values()), *(files.request for files in downloads.VIEWS.values()))
     while True:
         try:
             name, body, seconds = connection.recv()

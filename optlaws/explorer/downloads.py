@@ -51,17 +51,6 @@ class ViewFiles(NamedTuple):
     motion: Callable[[Any], Any] | None = None
 
 
-class ActiveRequest(LawsRequest, kw_only=True, forbid_unknown_fields=True):
-    """Laws, of which one is active."""
-
-    active: Annotated[int, msgspec.Meta(ge=0)] = 0
-
-    @property
-    def law(self) -> LawRequest:
-        """The law that is active."""
-        return self.laws[min(self.active, len(self.laws) - 1)]
-
-
 class FileRequest(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     """A file of a kind, of what a view is asked."""
 
@@ -103,7 +92,7 @@ def _title(law: LawRequest) -> str:
     return law.title or (title(problem_of(law)) if law.problem is not None else law.name or "a stored law")
 
 
-def _laws_python(request: ActiveRequest) -> File:
+def _laws_python(request: LawsRequest) -> File:
     """Python lines that compute the same laws with the same digits, and draw them."""
     given, lines = [], []
     for name, law in zip("abcd", request.laws, strict=False):
@@ -166,7 +155,7 @@ def _source(value: Any) -> str:
     return f"{type(value).__name__}({', '.join(given)})"
 
 
-def _law_problem(request: ActiveRequest) -> File:
+def _law_problem(request: LawsRequest) -> File:
     """The problem as a file for `optlaws run` and `optlaws explore`."""
     if request.law.problem is None:
         raise InputError("a given law belongs to no problem: save it as a law, or request an optimal law in its place")
@@ -187,7 +176,7 @@ def _with_ends(value: Any) -> Any:
     return value
 
 
-def _law_file(request: ActiveRequest) -> File:
+def _law_file(request: LawsRequest) -> File:
     """The law as JSON; a solution with its problem and its proof, for `optlaws verify`."""
     law = request.law
     solution = None if law.problem is None else solved(problem_of(law))
@@ -196,7 +185,7 @@ def _law_file(request: ActiveRequest) -> File:
     return f"{_stem(_title(law))}.json", json.dumps(law_of(law).to_dict(), indent=1) + "\n"
 
 
-def _law_table(request: ActiveRequest) -> File:
+def _law_table(request: LawsRequest) -> File:
     name = _title(request.law)
     return f"{_stem(name)}.csv", table_of_values(law_of(request.law), name)
 
@@ -291,7 +280,7 @@ _OLD: dict[str, Callable[[Any], File]] = {
 _CUT = {form: partial(_cut, form) for form in cam_files.FORMATS}
 #: by the name of a view
 VIEWS = {
-    "laws": ViewFiles(ActiveRequest, _LAWS, lambda request: law_of(request.law)),
+    "laws": ViewFiles(LawsRequest, _LAWS, lambda request: law_of(request.law)),
     "cycle": ViewFiles(cycle_view.CycleRequest, _CYCLE, cycle_view.cycle),
     "machine": ViewFiles(cycle_view.CycleRequest, _CYCLE, cycle_view.cycle),
     "axes": ViewFiles(cycle_view.CycleRequest, _CYCLE | _AXES, cycle_view.cycle),

@@ -12,45 +12,43 @@ from optlaws.kept import kept_property
 from optlaws.laws.curve import Curve
 from optlaws.laws.law import MotionLaw
 from optlaws.numbers import Array, chop
+from optlaws.numerics.peaks import Peak
 from optlaws.shown.curve_points import refined
 from optlaws.shown.report import Panel, ReportSegment, ReportTable, Series
 from optlaws.shown.summary import Summary
 from optlaws.tolerances import NO_MARK
 
-#: the orders of what is shown of a law; the power d has none
-ORDERS = {"a": 0, "b": 1, "c": 2, "d": None, "j": 3}
 _NAMES = {"a": "displacement", "b": "velocity", "c": "acceleration", "d": "power", "j": "jerk"}
+#: the orders of the derivatives; of the power, that of the last of which it is made
+_ORDERS = {"a": 0, "b": 1, "c": 2, "d": 2, "j": 3}
 _SAMPLES = 161
 
 
-def law_panel(curve: Curve, letter: str) -> Panel:
-    """One of a, b, c, d and j of a law or of the motion of a mass, dimensionless over k.
+def law_panels(curve: Curve, letters: str = "abcdj") -> tuple[Panel, ...]:
+    """Curves of a law, or of the motion of a mass, dimensionless at the same places k.
 
     Examples
     --------
     >>> from optlaws import catalogue
-    >>> panel = law_panel(catalogue["constant acceleration"].law, "c")
+    >>> (panel,) = law_panels(catalogue["constant acceleration"].law, "c")
     >>> panel.title, panel.peaks
     ('acceleration c', ((0.5, -4.0), (0.0, 4.0)))
     """
-    nu, function = ORDERS[letter], getattr(curve, letter)
-    extremes = curve.power_extrema() if nu is None else curve.extrema(nu)
-    marked = [extreme for extreme in extremes if isfinite(extreme.value)]
-    k, values = _power(curve) if nu is None else broken(curve, nu)
-    k, (values,) = refined(k, [values], [function], np.array([extreme.k for extreme in marked]))
-    size = max((abs(extreme.value) for extreme in marked), default=0.0)
-    peaks = dict.fromkeys(
-        (extreme.k, extreme.value) for extreme in marked if nu != 0 and chop(extreme.value, size, NO_MARK)
-    )
+    jumps = _jumps(curve, 3)
+    k = _places(curve, jumps, _SAMPLES)
+    values = [_power(curve, k, jumps) if of == "d" else _values(curve, _ORDERS[of], k, jumps) for of in letters]
+    extremes = [curve.power_extrema() if of == "d" else curve.extrema(_ORDERS[of]) for of in letters]
+    marks = np.array([extreme.k for pair in extremes for extreme in pair if isfinite(extreme.value)])
+    k, values = refined(k, values, [getattr(curve, of) for of in letters], marks)
+    return tuple(_panel(*parts, k) for parts in zip(letters, extremes, values, strict=True))
+
+
+def _panel(letter: str, extremes: tuple[Peak, Peak], values: Array, k: Array) -> Panel:
+    size = max(abs(extreme.value) for extreme in extremes)
+    marked = (extreme for extreme in extremes if letter != "a" and chop(extreme.value, size, NO_MARK))
+    peaks = tuple(dict.fromkeys((extreme.k, extreme.value) for extreme in marked))
     least, most = (extreme.value for extreme in extremes)
-    return Panel(f"{_NAMES[letter]} {letter}", "", (Series(k, values),), peaks=tuple(peaks), ends=(least, most))
-
-
-def _power(curve: Curve) -> tuple[Array, Array]:
-    """Samples of the power, broken where it jumps or is infinite."""
-    (k, b), (_, c) = (curve.samples(_SAMPLES, nu) for nu in (1, 2))
-    with np.errstate(invalid="ignore"):
-        return _with_gaps(_jumps(curve, 2), k, np.where(np.isfinite(c), b * c, curve.d(k)))
+    return Panel(f"{_NAMES[letter]} {letter}", "", (Series(k, values),), peaks=peaks, ends=(least, most))
 
 
 def broken(curve: Curve, nu: int, count: int = _SAMPLES) -> tuple[Array, Array]:
@@ -63,19 +61,32 @@ def broken(curve: Curve, nu: int, count: int = _SAMPLES) -> tuple[Array, Array]:
     >>> k.tolist(), c.tolist()
     ([0.0, 0.5, 0.5, 0.5, 1.0], [4.0, 4.0, nan, -4.0, -4.0])
     """
-    return _with_gaps(_jumps(curve, nu), *curve.samples(count, nu))
+    jumps = _jumps(curve, nu)
+    k = _places(curve, jumps, count)
+    return k, _values(curve, nu, k, jumps)
 
 
-def _with_gaps(jumps: Array, k: Array, values: Array) -> tuple[Array, Array]:
-    values = np.where(np.isfinite(values), values, np.nan)
-    # at a break the value before it comes first, and the one after it at least twice
-    last = np.searchsorted(k, jumps, side="right") - 1
-    first = np.searchsorted(k, jumps, side="left")
-    keep = np.ones(len(k), dtype=bool)
-    for before, after in zip(first, last, strict=True):
-        keep[before + 2 : after] = False
-        values[before + 1] = np.nan
-    return k[keep], values[keep]
+def _places(curve: Curve, jumps: Array, count: int) -> Array:
+    """Even places and breaks; those of jumps three times, for the values before, between and after."""
+    even = np.union1d(np.linspace(*curve.interval, count), curve.breaks)
+    return np.sort(np.concatenate([even, jumps, jumps]))
+
+
+def _values(curve: Curve, nu: int, k: Array, jumps: Array) -> Array:
+    values = np.array(curve(k, nu))
+    first = np.searchsorted(k, jumps)
+    places, sides = curve.samples(2, nu)
+    values[first] = sides[np.searchsorted(places, jumps)]
+    values[first[np.isin(jumps, _jumps(curve, nu))] + 1] = np.nan
+    return np.where(np.isfinite(values), values, np.nan)
+
+
+def _power(curve: Curve, k: Array, jumps: Array) -> Array:
+    """The values of b c, between those of the sides of jumps; where c is infinite and b is 0, those of the power."""
+    b, c = (_values(curve, nu, k, jumps) for nu in (1, 2))
+    infinite = ~np.isfinite(np.asarray(curve(k, 2)))
+    power = np.where(infinite, curve.d(k), b * c)
+    return np.where(np.isfinite(power), power, np.nan)
 
 
 def _jumps(curve: Curve, nu: int) -> Array:
@@ -101,7 +112,7 @@ class LawReport:
     @kept_property
     def panels(self) -> tuple[Panel, ...]:
         """Displacement, velocity, acceleration, power and jerk."""
-        return tuple(law_panel(self.law, letter) for letter in ORDERS)
+        return law_panels(self.law)
 
     @property
     def data(self) -> dict[str, Any]:

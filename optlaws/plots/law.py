@@ -13,7 +13,7 @@ from optlaws.cycles.law_comparison import Comparison
 from optlaws.errors import InputError
 from optlaws.laws.curve import Curve
 from optlaws.laws.law import MotionLaw
-from optlaws.laws.report import law_panel
+from optlaws.laws.report import law_panels
 from optlaws.plots.report import draw_panel, draw_share
 from optlaws.plots.style import BLUES, BROWN, GREEN, GREY, VIOLET, WARM, new_figure, plot_style
 from optlaws.synthesis.limits.of_problem import limited_laws
@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 Panels = Sequence["Axes"]
 
 #: what is drawn of a law, and its peaks
-LETTERS = ("a", "b", "c", "j")
+LETTERS = "abcj"
 PEAKS = (None, "B", "C", "J")
 _MARGIN = 0.08
 #: of a sheet of laws
@@ -60,7 +60,7 @@ def draw_curve(curve: Curve, axes: Axes | Panels | None = None, **style: Any) ->
 
     Into one pair of axes each is divided by its peak; `style` is of the curves.
     """
-    drawn = [law_panel(curve, letter) for letter in LETTERS]
+    drawn = law_panels(curve, LETTERS)
     if axes is not None and not isinstance(axes, Sequence | np.ndarray):
         shares = zip(drawn, LETTERS, _COLOURS, strict=True)
         return [
@@ -151,8 +151,8 @@ def draw_comparison(comparison: Comparison, axes: Panels | None = None, **style:
     drawn = [
         [
             artist
-            for letter, each in zip(LETTERS, by_order, strict=True)
-            for artist in _with_peaks(law_panel(law, letter), each, look)
+            for panel, each in zip(law_panels(law, LETTERS), by_order, strict=True)
+            for artist in _with_peaks(panel, each, look)
         ]
         for law, look in zip(comparison.laws.values(), looks, strict=True)
     ]
@@ -171,7 +171,8 @@ def accelerations_figure(laws: Mapping[str, MotionLaw]) -> Figure:
         figure = new_figure(max(3.2, 1.9 * columns), 0.5 + 1.7 * rows)
         axes = figure.subplots(rows, columns, sharex=True, sharey=True, squeeze=False)
         for panel, (name, law) in zip(axes.flat, laws.items(), strict=False):
-            _with_peaks(law_panel(law, "c"), panel, {})
+            (acceleration,) = law_panels(law, "c")
+            _with_peaks(acceleration, panel, {})
             sizes = f"B {law.peak(1).value:.4g}, C {law.peak(2).value:.4g}"
             panel.set_title(f"{fill(name, _NAME_WIDTH)}\n{sizes}", fontsize=7.5)
             panel.set_ylabel("")

@@ -38,19 +38,23 @@ def test_the_cursor_reads_the_law_where_it_was_computed(page: Page, served: Serv
     page.keyboard.press("Home")
     for _ in range(4):
         page.keyboard.press("Shift+ArrowRight")
-    curves = view["curves"]
-    texts = [f"{letter} {curves[letter][40]:.6g}".replace("-", "−") for letter in "abcdj"]
-    assert cursor_text(page, "#curves") == f"k = {curves['k'][40]:.6g}: {', '.join(texts)}"
+    curves = [panel["series"][0] for panel in view["panels"]]
+    k = curves[0]["at"]
+    assert all(curve["at"] == k for curve in curves)
+    texts = [
+        f"{letter} {curve['values'][40]:.6g}".replace("-", "−") for letter, curve in zip("abcdj", curves, strict=True)
+    ]
+    assert cursor_text(page, "#curves") == f"k = {k[40]:.6g}: {', '.join(texts)}"
     page.keyboard.press("PageDown")
-    peaks = [mark["k"] for letter in "bcdj" for mark in view["peaks"][letter]]
-    first = max(k for k in peaks if k < curves["k"][40])
+    first = max(mark["at"] for panel in view["panels"] for mark in panel["peaks"] if mark["at"] < k[40])
     assert page.locator("#curves .cursor-value").inner_text() == f"k = {first:.6g}"
     box = page.locator("#curves svg").nth(1).bounding_box()
     assert box is not None
     page.mouse.move(box["x"] + 64 + 0.5 * (box["width"] - 78), box["y"] + 50)
     readings = page.locator("#curves .reading tspan").all_text_contents()
-    assert readings[2].strip() == f"A {view['curves']['b'][curves['k'].index(0.5)]:.6g}"
-    assert readings[3].strip() == f"B {other['curves']['b'][other['curves']['k'].index(0.5)]:.6g}"
+    for reading, shown in zip(readings[2:], (view, other), strict=False):
+        velocity = shown["panels"][1]["series"][0]
+        assert reading.strip()[2:] == f"{velocity['values'][velocity['at'].index(0.5)]:.6g}"
     page.mouse.move(5, 5)
     assert page.locator("#curves .cursor-value").inner_text() == f"k = {first:.6g}"
 

@@ -39,15 +39,15 @@ class LawRequest(msgspec.Struct, kw_only=True, forbid_unknown_fields=True, froze
 
 
 class LawsRequest(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
-    """Laws side by side."""
+    """Laws side by side, of which one is active."""
 
     laws: Annotated[list[LawRequest], msgspec.Meta(min_length=1, max_length=MOST_LAWS)]
+    active: Annotated[int, msgspec.Meta(ge=0)] = 0
 
-
-def ready(*kinds: type[msgspec.Struct]) -> None:
-    """Register kinds with msgspec before threads start: concurrent first uses have crashed it (0.22)."""
-    for kind in kinds:
-        msgspec.json.Decoder(kind)
+    @property
+    def law(self) -> LawRequest:
+        """The law that is active."""
+        return self.laws[min(self.active, len(self.laws) - 1)]
 
 
 def read(text: bytes, kind: type[Struct]) -> Struct:

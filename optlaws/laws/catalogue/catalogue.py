@@ -92,14 +92,14 @@ class Catalogue(Mapping[str, "CatalogueEntry"]):
         return f"<catalogue of {len(self)} laws: {', '.join(list(self)[:3])}, ...>"
 
     def _repr_html_(self) -> str:
-        from optlaws.laws.report import law_panel
+        from optlaws.laws.report import law_panels
         from optlaws.shown.report import panel_drawing
         from optlaws.shown.showing import Html, page, table
 
         rows = []
         for name, entry in self._entries.items():
             peaks = (row.value for row in entry.constants.summary()[:-1])
-            rows.append([name, *peaks, Html(panel_drawing(law_panel(entry.law, "c")))])
+            rows.append([name, *peaks, Html(*map(panel_drawing, law_panels(entry.law, "c")))])
         return page(f"{len(self)} standard laws", table(("law", "B", "C", "D", "J", "acceleration"), rows))
 
     def search(self, text: str) -> tuple[CatalogueEntry, ...]:

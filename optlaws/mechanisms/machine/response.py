@@ -84,11 +84,11 @@ class MassMotion(PanelCurve):
         return self._before_panels(nu)[np.searchsorted(self._grid[0], self._breaks[1:-1]) - 1]
 
     def _repr_html_(self) -> str:
-        from optlaws.laws.report import ORDERS, law_panel
+        from optlaws.laws.report import law_panels
         from optlaws.shown.report import panel_drawing
         from optlaws.shown.showing import page
 
-        return page(repr(self), *(panel_drawing(law_panel(self, letter)) for letter in ORDERS))
+        return page(repr(self), *map(panel_drawing, law_panels(self)))
 
     def _times(self, k: Any) -> Array:
         return real_times(k)
