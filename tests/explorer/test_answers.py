@@ -23,7 +23,6 @@ from tests.internals.explorer import (
     LawRequest,
     LawsRequest,
     OpenRequest,
-    axes_view,
     cam_view,
     cycle_view,
     downloads,
@@ -431,15 +430,6 @@ def test_python_and_files_make_the_same_cycle(file: str, tmp_path: Path, monkeyp
     made = run(file_of("python", "cycle", study=study)["text"], tmp_path, monkeypatch)["cycle"]
     assert made.peak(2) == cycle_view.cycle(CycleRequest(study=study)).peak(2)
     assert len(file_of("table", "cycle", study=study)["text"].splitlines()) == 363
-
-
-def test_python_makes_the_same_axes(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    study = axes_view.example()
-    made = run(file_of("python", "axes", study=study)["text"], tmp_path, monkeypatch)["axes"]
-    assert made.rules == axes_view.axes_of(study).rules
-    assert {name: cycle.to_dict() for name, cycle in made.items()} == {
-        name: cycle.to_dict() for name, cycle in axes_view.axes_of(study).items()
-    }
 
 
 @pytest.mark.parametrize(("kind", "view", "named"), [("tabel", "cycle", "table"), ("table", "cycel", "cycle")])

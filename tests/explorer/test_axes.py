@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from tests.documents import ROOT
-from tests.explorer.talk import OPTIMAL, Server, written
+from tests.explorer.talk import Server, written
 from tests.explorer.test_page import go, settle
 from tests.internals.explorer import axes_view, start
 from tests.internals.jobs import read_given
@@ -102,7 +102,7 @@ def test_moves_are_put_together_as_the_library_does(served: Server) -> None:
 def test_axes_open_and_save_as_a_problem_file(served: Server) -> None:
     found = start(str(FILE))
     assert found["view"] == "axes"
-    asked = {"kind": "problem", "view": "axes", "laws": [OPTIMAL], "axes": {"study": found["axes"]}}
+    asked = {"kind": "problem", "view": "axes", "request": {"study": found["axes"]}}
     assert tomllib.loads(served.ask("save", asked)["text"]) == tomllib.loads(FILE.read_text("utf-8"))
     shown = axes_of(found["axes"])
     made: dict[str, Any] = {}

@@ -108,14 +108,16 @@ export class Panel {
     this.element.append(inside, clip, lines, ...peakMarks(this.#panel.peaks ?? [], (peak) => [x(peak.at), y(peak.value)], box, this.#active?.law ?? 0), this.#cursor);
   }
 
-  /** The least and the greatest value in sight; of the whole also 0, limits that are near, and what the panel asks for. */
+  /** The least and the greatest value in sight; of the whole also 0, limits near what is used of them on their side, and what the panel asks for. */
   #reach(known) {
     const { span, limits = [] } = this.#panel;
-    const most = Math.max(0, ...known.map(Math.abs));
     if (this.#shown.zoomed && known.length) return [Math.min(...known), Math.max(...known)];
-    const near = limits.flatMap((limit) => edges(limit).map(Math.abs)).filter((value) => value <= NEAR * most);
-    const reach = near.length ? Math.max(...near) : 0;
-    return [Math.min(0, ...known, -reach, ...(span ?? [])), Math.max(0, ...known, reach, ...(span ?? []))];
+    const side = (sign, end) => {
+      const used = Math.max(0, ...known.map((value) => sign * value));
+      const near = limits.map((limit) => sign * edges(limit)[end]).filter((value) => value <= NEAR * used);
+      return sign * Math.max(used, ...near, ...(span ?? []).map((value) => sign * value));
+    };
+    return [side(-1, 0), side(1, 1)];
   }
 
   /** Where the motion must not go: above and below the limits of each segment. */
