@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from math import isfinite
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -101,8 +101,9 @@ class LawReport:
     """The report of a law; its panels are a, b, c, d and j over k, dimensionless."""
 
     law: MotionLaw
-    tables: tuple[ReportTable, ...] = ()
-    segments: tuple[ReportSegment, ...] = ()
+
+    tables: ClassVar[tuple[ReportTable, ...]] = ()
+    segments: ClassVar[tuple[ReportSegment, ...]] = ()
 
     @property
     def facts(self) -> Summary:

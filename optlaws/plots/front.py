@@ -10,6 +10,7 @@ import numpy as np
 from optlaws.motion.display_units import MILLI
 from optlaws.plots.style import BLUES, GREY, WARM, name_point, new_axes
 from optlaws.synthesis.problem.named_constants import title_of
+from optlaws.synthesis.proven.front import ProvenFront
 
 if TYPE_CHECKING:
     from matplotlib.artist import Artist
@@ -18,7 +19,6 @@ if TYPE_CHECKING:
     from optlaws.cycles.advising.advice import Advice
     from optlaws.cycles.moves.time_front import TimeFront
     from optlaws.synthesis.pareto import Front
-    from optlaws.synthesis.proven.front import ProvenFront
 
 _BESIDE_POINT = 1e-6  # of the time between two points of a front: so near to one what is drawn is what holds between
 
@@ -35,27 +35,19 @@ def _label(name: str) -> str:
     return title if title != name else f"{_AXES.get(name, name)} (dimensionless)"
 
 
-def draw_front(front: Front, axes: Axes | None = None, **style: Any) -> list[Artist]:
-    """Draw a front into axes, new ones by default, and return the artists; a third constant gives the colour."""
+def draw_front(front: Front | ProvenFront, axes: Axes | None = None, **style: Any) -> list[Artist]:
+    """Draw a front into axes, new ones by default, and return the artists: a third constant gives the colour."""
     axes = axes or new_axes()
     for axis, name in zip("xy", front.over, strict=False):
         axes.set(**{f"{axis}label": _label(name)})
+    if isinstance(front, ProvenFront) or len(front.over) == 2:
+        return list(axes.plot(*(front.curve if isinstance(front, ProvenFront) else front.values.T), **style))
     values = front.values
-    if len(front.over) == 2:
-        return list(axes.plot(*values.T, **style))
     style = {"s": 18.0, "c": values[:, 2], **{key: value for key, value in style.items() if key != "color"}}
     points = axes.scatter(values[:, 0], values[:, 1], **style)
     bar = axes.get_figure(root=True).colorbar(points, ax=axes)  # type: ignore[union-attr] # these axes have a figure
     bar.set_label(_label(front.over[2]))
     return [points]
-
-
-def draw_proven_front(front: ProvenFront, axes: Axes | None = None, **style: Any) -> list[Artist]:
-    """Draw a proven front as a continuous line into axes, new ones by default, and return the artists."""
-    axes = axes or new_axes()
-    for axis, name in zip("xy", front.over, strict=True):
-        axes.set(**{f"{axis}label": _label(name)})
-    return list(axes.plot(*front.curve, **style))
 
 
 def draw_time_front(front: TimeFront, axes: Axes | None = None, **style: Any) -> list[Artist]:

@@ -205,7 +205,7 @@ class Solution(LawExport, JsonText):
         """
         from optlaws.synthesis.report import SolutionReport
 
-        return SolutionReport(self)
+        return SolutionReport(self.law, self)
 
     @property
     def _is_without_bound(self) -> bool:

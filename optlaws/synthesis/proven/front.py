@@ -371,9 +371,9 @@ class ProvenFront(JsonText):
 
     def plot(self, ax: Any = None, **style: Any) -> list[Any]:
         """Draw the continuous front into matplotlib's axes, new ones by default; returns the artists."""
-        from optlaws.plots.front import draw_proven_front
+        from optlaws.plots.front import draw_front
 
-        return draw_proven_front(self, ax, **style)
+        return draw_front(self, ax, **style)
 
     def export(self, to: str, gap: float = 1e-3, *, name: str = "Front", points: int | None = None) -> Any:
         """The front as functions of a controller, which chooses a law for stroke, time and limits while it runs.
