@@ -74,7 +74,6 @@ export class View {
     this.#together = new Latest("api/axes-together", (answer, question) => this.#put(answer, question), (error) => this.#say([error.message]));
   }
 
-  /** The part of a study that files are made of. */
   /** The axis of the programme is the one that a controller is to run. */
   request({ axes, axis }) {
     return { study: axes, axis };

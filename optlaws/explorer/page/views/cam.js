@@ -58,7 +58,7 @@ export class View {
     this.#motion.cursor.watch((at) => this.#turn(at));
   }
 
-  /** The part of a study that files are made of. */
+  /** What is asked of the server, and what files are made of. */
   request({ cam }) {
     return { study: cam };
   }

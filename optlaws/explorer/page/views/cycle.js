@@ -48,7 +48,7 @@ export class View {
     this.#nearest = new Latest("api/cycle-nearest", ({ ways }) => this.#render(this.#answer, ways), () => this.#render(this.#answer, []));
   }
 
-  /** The part of a study that files are made of. */
+  /** What is asked of the server, and what files are made of. */
   request({ cycle, axis }) {
     return { study: cycle, axis };
   }

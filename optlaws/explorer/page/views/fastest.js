@@ -56,7 +56,7 @@ export class View {
     this.#timing();
   }
 
-  /** The part of a study that files are made of. */
+  /** What is asked of the server, and what files are made of. */
   request(state) {
     const { fastest: study, time, axis } = state;
     return { study, move: Array.isArray(study.axis) ? axis : this.#number(state), ...(time > 0 && { time }) };
