@@ -17,6 +17,7 @@ from tests.documents import ROOT
 from tests.explorer.talk import OPTIMAL
 from tests.internals.cams import cam_files
 from tests.internals.explorer import (
+    EXAMPLES,
     CamRequest,
     CycleRequest,
     FileRequest,
@@ -32,6 +33,7 @@ from tests.internals.explorer import (
     law_of,
     law_view,
     opened_file,
+    page,
     problem_of,
     solved,
     start,
@@ -430,6 +432,20 @@ def test_python_and_files_make_the_same_cycle(file: str, tmp_path: Path, monkeyp
     made = run(file_of("python", "cycle", study=study)["text"], tmp_path, monkeypatch)["cycle"]
     assert made.peak(2) == cycle_view.cycle(CycleRequest(study=study)).peak(2)
     assert len(file_of("table", "cycle", study=study)["text"].splitlines()) == 363
+
+
+@pytest.mark.parametrize("view", downloads.VIEWS)
+def test_the_page_offers_files_that_there_are_of_its_view(view: str) -> None:
+    offered = set(re.findall(r'\{ kind: "(\w+)"', page()[f"views/{view}.js"].decode()))
+    assert {"problem"} <= offered <= set(downloads.VIEWS[view].kinds)
+
+
+@pytest.mark.parametrize("view", ["cycle", "axes", "machine", "cam", "fastest", "old"])
+def test_every_kind_of_file_is_made_of_the_first_study_of_its_view(view: str) -> None:
+    for kind in downloads.VIEWS[view].kinds:
+        file = file_of(kind, view, study=EXAMPLES[view]())
+        assert file["text"]
+        assert Path(file["name"]).suffix
 
 
 @pytest.mark.parametrize(("kind", "view", "named"), [("tabel", "cycle", "table"), ("table", "cycel", "cycle")])

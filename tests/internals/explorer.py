@@ -1,7 +1,7 @@
 """Internals of `optlaws.explorer` that tests look at by themselves."""
 
 from optlaws.explorer import downloads
-from optlaws.explorer.answering import QUESTIONS
+from optlaws.explorer.answering import EXAMPLES, QUESTIONS
 from optlaws.explorer.application import MOST_BYTES, page
 from optlaws.explorer.downloads import FileRequest
 from optlaws.explorer.server import ADDRESS, opened, server
