@@ -43,7 +43,7 @@ def test_a_light_question_does_not_wait_for_heavy_ones(served: Server) -> None:
         connection.request("POST", "/api/laws", json.dumps(question), {"Content-Type": "application/json"})
     time.sleep(0.3)
     begin = time.monotonic()
-    assert "curves" in served.ask("laws", {"laws": [OPTIMAL | {"title": "light"}]})["laws"][0]
+    assert "panels" in served.ask("laws", {"laws": [OPTIMAL | {"title": "light"}]})["laws"][0]
     assert served.send("GET", "/main.js")[0].status == 200
     passed = time.monotonic() - begin
     for connection in connections:
