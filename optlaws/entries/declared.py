@@ -10,10 +10,9 @@ from textwrap import wrap
 from typing import Any, ClassVar, ForwardRef, Self, TypeVar, dataclass_transform, get_args, get_origin
 
 from optlaws.echo import shortened
-from optlaws.entries.value_types import Kept, ValueType
+from optlaws.entries.value_types import AnyTable, Kept, ValueType, check_names
 from optlaws.errors import InputError, located
 from optlaws.files.reading import JsonText
-from optlaws.suggest import unknown_key
 
 _ENTRY = "entry"
 _ENTRIES: dict[type, dict[str, Entry]] = {}
@@ -26,6 +25,7 @@ class Entry:
     """An entry of a value, from which every surface knows it."""
 
     name: str
+    field: str  #: the field that it is; its name, unless that is a word of Python
     type: ValueType
     about: str  #: what it says, in a sentence
     label: str  #: what a form calls it
@@ -59,7 +59,7 @@ class Entry:
         return {**schema, "description": self.about, **default}
 
     @property
-    def field(self) -> dict[str, Any]:
+    def form(self) -> dict[str, Any]:
         """The field of a form for it."""
         usual, default = self.plain_default if self.example is None else self.example, self.plain_default
         text = "" if usual is None else usual if isinstance(usual, str) else json.dumps(usual)
@@ -89,6 +89,7 @@ def entry(
     *,
     default: Any = MISSING,
     kw_only: bool | None = None,
+    name: str = "",
     label: str = "",
     example: Any = None,
     shown: bool = True,
@@ -105,6 +106,8 @@ def entry(
         Its value unless given; None says that it may be absent. Without a default it is needed.
     kw_only
         Whether the constructor takes it by its name alone; as all after a field of `KW_ONLY` unless given.
+    name
+        What files call it; as the field unless given.
     label
         What a form calls it; its name unless given.
     example
@@ -112,7 +115,7 @@ def entry(
     shown
         Whether forms and references show it.
     """
-    declaration = {"type": type_, "about": about, "label": label, "example": example, "shown": shown}
+    declaration = {"type": type_, "about": about, "name": name, "label": label, "example": example, "shown": shown}
     options: dict[str, Any] = {} if kw_only is None else {"kw_only": kw_only}
     return field(default=default, metadata={_ENTRY: declaration}, **options)
 
@@ -120,7 +123,7 @@ def entry(
 def same(cls: type[Declared], name: str, *, default: Any = ...) -> Any:
     """An entry that another class declares, in place of a field, perhaps with another default."""
     each = entries_of(cls)[name]
-    known = {"label": each.label, "example": each.example, "shown": each.shown}
+    known = {"name": name, "label": each.label, "example": each.example, "shown": each.shown}
     return entry(each.type, each.about, default=each.default if default is ... else default, **known)
 
 
@@ -209,7 +212,7 @@ class Declared(JsonText):
 
     def __post_init__(self) -> None:
         for each in entries_of(type(self)).values():
-            object.__setattr__(self, each.name, each.read(getattr(self, each.name)))
+            object.__setattr__(self, each.field, each.read(getattr(self, each.field)))
         self._check()
 
     @classmethod
@@ -226,7 +229,7 @@ class Declared(JsonText):
     @classmethod
     def form(cls) -> dict[str, Any]:
         """Its entries as a form shows them: name, label, what each asks, and what may be chosen."""
-        return {"entries": [each.field for each in entries_of(cls).values() if each.shown]}
+        return {"entries": [each.form for each in entries_of(cls).values() if each.shown]}
 
     @classmethod
     def tables(cls) -> Mapping[str, Mapping[str, Any]]:
@@ -245,7 +248,7 @@ class Declared(JsonText):
         """The entries as plain data, which `from_dict` takes back; those with their default are left out."""
         plain = {}
         for each in entries_of(type(self)).values():
-            value = getattr(self, each.name)
+            value = getattr(self, each.field)
             if (self.writes_defaults and each.name not in self.newer) or value != each.kept_default:
                 plain[each.name] = None if value is None else each.type.plain(value)
         return plain
@@ -265,14 +268,12 @@ class Declared(JsonText):
                 f"{cls.named} must be a table of {', '.join(known) or 'no entries'}, got {shortened(data)}"
             )
         given = cls._from_earlier(dict(data))
-        for name in given:
-            if name not in known:
-                raise InputError(unknown_key(name, known, f"entry of {cls.named}"))
+        check_names(given, known, f"entry of {cls.named}")
         for name, each in known.items():
             if each.needed and given.get(name) is None:
                 such = "" if each.example is None else f", such as {name} = {each.example!r}"
                 raise InputError(f"{cls.named} needs its {name}{such}")
-        return cls(**given)
+        return cls(**{known[name].field: value for name, value in given.items()})
 
 
 class Kinded(Declared):
@@ -350,8 +351,7 @@ class Kinded(Declared):
         kind = data.get("kind")
         if kind is None:
             raise InputError(f"{cls.named} needs its kind: give one of {', '.join(kinds)}")
-        if not isinstance(kind, str) or kind not in kinds:
-            raise InputError(unknown_key(kind, kinds, f"kind of {cls.named}"))
+        check_names([kind], kinds, f"kind of {cls.named}")
         read = super(Kinded, kinds[kind]).from_dict
         return read({name: value for name, value in data.items() if name != "kind"})
 
@@ -386,7 +386,7 @@ class ValueOf(ValueType):
 
 
 @dataclass(frozen=True, init=False)
-class TableOf(ValueType):
+class TableOf(AnyTable):
     """A table with a type for each of its entries, which stays a table; `what` is what errors call an entry.
 
     `elsewhere` says of names that belong to another table where they are to be given, `further` of what type those
@@ -419,26 +419,19 @@ class TableOf(ValueType):
         for name, value in given.items():
             object.__setattr__(self, name, value)
 
-    def _type(self, key: str) -> ValueType | None:
-        return self.entries[key].type if key in self.entries else self.further(key)
+    @property
+    def such(self) -> str:
+        given = {key: each.example for key, each in self.entries.items() if each.example is not None}
+        return next((f" such as {{{key} = {example!r}}}" for key, example in given.items()), "")
 
-    def read(self, value: Any, name: str) -> Any:
-        if not isinstance(value, Mapping) or not all(isinstance(key, str) for key in value):
-            such = next(f"{{{key} = {each.example!r}}}" for key, each in self.entries.items())
-            raise InputError(f"{name} must be a table such as {such}, got {shortened(value)}")
-        entries = {}
-        for key, part in value.items():
-            type_ = self._type(key)
-            if type_ is None:
-                where = self.elsewhere.get(key)
-                unknown = unknown_key(key, self.entries, self.what) if where is None else f"{key} {where}"
-                raise InputError(f"{name}: {unknown}")
-            entries[key] = type_.read(part, f"{name}: {key}")
-        return self.keep(entries)
-
-    def plain(self, value: Any) -> Any:
-        types = {key: self._type(key) for key in value}
-        return {key: part if (type_ := types[key]) is None else type_.plain(part) for key, part in value.items()}
+    def type_of(self, key: str) -> ValueType:
+        type_ = None if key in self.entries else self.further(key)
+        if type_ is not None:
+            return type_
+        if key in self.elsewhere:
+            raise InputError(f"{key} {self.elsewhere[key]}")
+        check_names([key], self.entries, self.what)
+        return self.entries[key].type
 
     @property
     def words(self) -> str:
@@ -449,7 +442,7 @@ class TableOf(ValueType):
         return {"type": "object", "properties": properties, "additionalProperties": False}
 
     def form(self) -> dict[str, Any]:
-        return {"entries": [each.field for each in self.entries.values() if each.shown]}
+        return {"entries": [each.form for each in self.entries.values() if each.shown]}
 
     def tables(self) -> Mapping[str, Mapping[str, Any]]:
         return {"": self.entries}
@@ -459,16 +452,14 @@ def entries_of(cls: type[Declared]) -> dict[str, Entry]:
     """The entries of a declared class by their names, in the order in which it declares them."""
     entries = _ENTRIES.get(cls)
     if entries is None:
-        entries = _ENTRIES[cls] = {
-            each.name: _entry_of(each.name, each)
-            for each in fields(cls)  # type: ignore[arg-type] # its heirs are dataclasses
-            if _ENTRY in each.metadata
-        }
+        known = [each for each in fields(cls) if _ENTRY in each.metadata]  # type: ignore[arg-type] # its heirs are dataclasses
+        entries = _ENTRIES[cls] = {each.name: each for each in (_entry_of(field.name, field) for field in known)}
     return entries
 
 
 def _entry_of(name: str, given: Any) -> Entry:
-    """The entry of a name that a field declares."""
+    """The entry that a field of this name declares."""
     declaration = given.metadata[_ENTRY]
-    label = declaration["label"] or name.replace("_", " ")
-    return Entry(name=name, default=given.default, **{**declaration, "label": label})
+    called = declaration["name"] or name
+    label = declaration["label"] or called.replace("_", " ")
+    return Entry(field=name, default=given.default, **{**declaration, "name": called, "label": label})

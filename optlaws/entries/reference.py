@@ -5,16 +5,16 @@ from __future__ import annotations
 import json
 from collections.abc import Collection, Iterator
 
-from optlaws.entries.declared import Declared, Entry, entries_of
+from optlaws.entries.declared import Declared, Entry, TableOf, entries_of
 
 
 def markdown_table(
-    cls: type[Declared],
+    of: type[Declared] | TableOf,
     heading: str = "what it says",
     apart: Collection[str] = (),
     without: type[Declared] | None = None,
 ) -> str:
-    """The entries of a declared class as a table of Markdown, a row for each, and for each entry of their tables.
+    """The entries of a declared class, or of a table, as one of Markdown: a row for each, and for those of its tables.
 
     Those of the entries `apart` have tables of their own elsewhere, and so have those of the class `without`.
 
@@ -33,7 +33,9 @@ def markdown_table(
     | `damper.damping` | The damping ratio. A number from 0 on; 0.0 unless given. |
     """
     left = {} if without is None else entries_of(without)
-    rows = [row for each in _shown(cls) if each.name not in left for row in _rows(each, "", apart)]
+    entries = of.entries if isinstance(of, TableOf) else entries_of(of)
+    shown = [each for each in entries.values() if each.shown and each.name not in left]
+    rows = [row for each in shown for row in _rows(each, "", apart)]
     return "\n".join([f"| entry | {heading} |", "|---|---|", *rows])
 
 
@@ -59,10 +61,6 @@ def _sentence(each: Entry) -> str:
     usual = "needed" if each.needed else "" if default is None else f"{json.dumps(default)} unless given"
     such = "" if each.example is None else f", such as `{json.dumps(each.example)}`"
     return f"{each.about} {words[:1].upper()}{words[1:]}{such}{'; ' if usual else ''}{usual}."
-
-
-def _shown(cls: type[Declared]) -> list[Entry]:
-    return [each for each in entries_of(cls).values() if each.shown]
 
 
 def sentences(cls: type[Declared]) -> dict[str, str]:

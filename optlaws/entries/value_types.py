@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from math import inf
@@ -36,6 +36,19 @@ class Kept(Generic[KeptT, GivenT]):
 SINumber: TypeAlias = Kept[float, "NumberOrQuantity"]
 #: likewise, of which None says that there is none
 SILimit: TypeAlias = Kept[float, "NumberOrQuantity | None"]
+
+
+def check_names(given: Iterable[object], known: Iterable[str], what: str) -> None:
+    """Refuse names that are not known; the error says what the nearest one is called.
+
+    >>> check_names(["lenght"], ["length"], "entry of a rod")
+    Traceback (most recent call last):
+    optlaws.errors.InputError: unknown entry of a rod 'lenght'; did you mean 'length'?
+    """
+    names = tuple(known)
+    for name in given:
+        if not isinstance(name, str) or name not in names:
+            raise InputError(unknown_key(name, names, what))
 
 
 class ValueType(ABC):
@@ -110,9 +123,8 @@ class Choice(ValueType):
         object.__setattr__(self, "names", names)
 
     def read(self, value: Any, name: str) -> str:
-        if not isinstance(value, str) or value not in self.names:
-            raise InputError(unknown_key(value, self.names, name))
-        return value
+        check_names([value], self.names, name)
+        return value  # type: ignore[no-any-return] # one of the names
 
     @property
     def words(self) -> str:
@@ -294,12 +306,14 @@ class Measured(_Physical):
 class InSI(_Physical):
     """A number in SI units, read from one or from a quantity; `absent` is what is kept where none is given.
 
+    What is kept is read again, where a value is replaced.
+
     >>> InSI("torque", above=0.0).read("2 kN m", "peak_torque"), InSI("mass", least=0.0).read(3, "mass")
     (2000.0, 3.0)
     """
 
-    def __init__(self, *dimensions: str, absent: float | None = None, bare: bool = True, **ends: float) -> None:
-        super().__init__(dimensions=dimensions, bare=bare, absent=absent, **ends)
+    def __init__(self, *dimensions: str, absent: float | None = None, **ends: float) -> None:
+        super().__init__(dimensions=dimensions, bare=True, absent=absent, **ends)
 
 
 @dataclass(frozen=True)
@@ -414,8 +428,35 @@ class Span(Together):
         return f"a list of two that ascend, each {self.of[0].words}"
 
 
+class AnyTable(ValueType):
+    """Values by their names, each of the type that its name has."""
+
+    keep: Callable[[dict[str, Any]], Any]
+
+    @property
+    def such(self) -> str:
+        """How an error goes on that asks for a table."""
+        return ""
+
+    @abstractmethod
+    def type_of(self, key: str) -> ValueType:
+        """The type of the value of a name; an unknown one is refused."""
+
+    def read(self, value: Any, name: str) -> Any:
+        if self.keep is pairs and isinstance(value, tuple):
+            value = dict(value)
+        if not isinstance(value, Mapping) or not all(isinstance(key, str) for key in value):
+            raise InputError(f"{name} must be a table{self.such}, got {shortened(value)}")
+        with located(name):
+            types = {key: self.type_of(key) for key in value}
+        return self.keep({key: types[key].read(part, f"{name}: {key}") for key, part in value.items()})
+
+    def plain(self, value: Any) -> Any:
+        return {key: self.type_of(key).plain(part) for key, part in dict(value).items()}
+
+
 @dataclass(frozen=True)
-class Table(ValueType):
+class Table(AnyTable):
     """Values of one type by their names; `names` are those that there may be, all unless given.
 
     >>> Table(Number(least=0.0), ("contact", "guide")).read({"guid": 0.1}, "friction")
@@ -427,18 +468,9 @@ class Table(ValueType):
     names: tuple[str, ...] | None = None
     keep: Callable[[dict[str, Any]], Any] = dict
 
-    def read(self, value: Any, name: str) -> Any:
-        if self.keep is pairs and isinstance(value, tuple):
-            value = dict(value)
-        if not isinstance(value, Mapping) or not all(isinstance(key, str) for key in value):
-            raise InputError(f"{name} must be a table, got {shortened(value)}")
-        for key in value:
-            if self.names is not None and key not in self.names:
-                raise InputError(f"{name}: {unknown_key(key, self.names, 'entry')}")
-        return self.keep({key: self.of.read(part, f"{name}: {key}") for key, part in value.items()})
-
-    def plain(self, value: Any) -> Any:
-        return {key: self.of.plain(part) for key, part in dict(value).items()}
+    def type_of(self, key: str) -> ValueType:
+        check_names([key], (key,) if self.names is None else self.names, "entry")
+        return self.of
 
     @property
     def words(self) -> str:

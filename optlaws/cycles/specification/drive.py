@@ -12,7 +12,7 @@ import numpy as np
 from optlaws.cycles.specification.process import ProcessForce
 from optlaws.echo import shortened
 from optlaws.entries.declared import TableOf, entry
-from optlaws.entries.value_types import InSI
+from optlaws.entries.value_types import Measured
 from optlaws.entries.value_types import Number as Share
 from optlaws.errors import InputError
 from optlaws.formulas.slopes import added, multiplied
@@ -30,13 +30,13 @@ REGENERATION = "regeneration"
 
 def _constants(weight: str, inertia: str, stiffness: str, force: str, viscous: str) -> TableOf:
     """The constants of a drive: the name of its weight, and the dimensions of that and of what acts on it."""
-    acting, against = InSI(force, bare=False), InSI(force, bare=False, least=0.0)
+    acting, against = Measured(force), Measured(force, least=0.0)
     types = {
-        weight: (InSI(inertia, bare=False, least=0.0), "What is moved."),
-        "stiffness": (InSI(stiffness, bare=False), "Of a spring without force at 0."),
+        weight: (Measured(inertia, least=0.0), "What is moved."),
+        "stiffness": (Measured(stiffness), "Of a spring without force at 0."),
         "preload": (acting, "A constant force against the motion to greater positions."),
         "gravity": (acting, "The weight, likewise."),
-        "viscous": (InSI(viscous, bare=False, least=0.0), "Friction in proportion to the speed."),
+        "viscous": (Measured(viscous, least=0.0), "Friction in proportion to the speed."),
         "dry": (against, "Friction that does not depend on the speed."),
         REGENERATION: (Share(least=0.0, most=1.0), "The share of the braking energy that is used again."),
     }
@@ -188,7 +188,8 @@ def read_drive(entries: Mapping[str, Any] | Mechanism | Drive, axis: str) -> Cyc
     if isinstance(entries, Mechanism | Drive):
         return CycleDrive(_on_axis(entries, axis))
     given = CONSTANTS[axis].read(entries, "drive")
-    of = {name: given.get(name, 0.0) for name in ("mass", "inertia", *CONSTANTS[axis].entries)}
+    types: Mapping[str, Any] = {name: each.type for name, each in CONSTANTS[axis].entries.items()}
+    of = {name: types[name].number(given[name], name) if name in given else 0.0 for name in ("mass", "inertia", *types)}
     mechanism = Mechanism(
         number(of["mass"] + of["inertia"]),
         added([multiplied([number(of["stiffness"]), Name("x")]), number(of["preload"] + of["gravity"])]),
