@@ -7,6 +7,7 @@ from pathlib import Path
 
 from optlaws.errors import InputError
 from optlaws.files.packaged import packaged
+from optlaws.plots.style import figures_for_files
 from optlaws.results import Entries, Results
 from optlaws.suggest import unknown_key
 
@@ -65,7 +66,8 @@ def done(file: Path) -> Results:
     if not isinstance(name, str) or name not in JOBS:
         raise InputError(f"{file}: {unknown_key(name, JOBS, 'job')}")
     try:
-        do(name, results)
+        with figures_for_files():
+            do(name, results)
     except InputError as error:
         text = str(error)
         raise InputError(text if str(file) in text else f"{file}: {text}") from None

@@ -6,6 +6,7 @@ import io
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
+from contextvars import ContextVar
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -50,6 +51,19 @@ STYLE: Any = {  # matplotlib's type lists every key there is
 }
 
 
+_FOR_FILES = ContextVar("whether figures are drawn for files", default=False)
+
+
+@contextmanager
+def figures_for_files() -> Iterator[None]:
+    """Draw for files alone: pyplot neither shows the figures of this `with` block nor keeps them."""
+    before = _FOR_FILES.set(True)
+    try:
+        yield
+    finally:
+        _FOR_FILES.reset(before)
+
+
 @contextmanager
 def plot_style() -> Iterator[None]:
     """The style of every picture of the project, for the time of a `with` block."""
@@ -71,7 +85,7 @@ def empty_figure(width: float = 7.2, height: float = 4.6) -> Figure:
 def new_figure(width: float = 7.2, height: float = 4.6) -> Figure:
     """An empty figure for a user's plot; a figure of pyplot's, to be shown, if the user has imported pyplot."""
     pyplot = sys.modules.get("matplotlib.pyplot")
-    if pyplot is None:
+    if pyplot is None or _FOR_FILES.get():
         return empty_figure(width, height)
     return pyplot.figure(figsize=(width, height), layout="constrained")  # type: ignore[no-any-return] # by name alone
 

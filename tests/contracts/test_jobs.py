@@ -8,6 +8,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from matplotlib import pyplot as plt
 
 from optlaws import InputError
 from tests.internals.files import tables, writing
@@ -62,6 +63,7 @@ def test_a_job_is_imported_when_it_runs() -> None:
 )
 def test_a_job_writes_marked_files_and_the_same_again(tmp_path: Path, name: str) -> None:
     written = done(tmp_path, name)
+    assert plt.get_fignums() == []  # which would keep the pictures of every job until its process ends
     first = {file: file.read_bytes() for file in (tmp_path / "out").iterdir()}
     assert sorted(written) == sorted(first)
     assert {file.suffix for file in written} >= {".md"}
