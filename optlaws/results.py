@@ -30,7 +30,7 @@ from optlaws.suggest import unknown_key
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from optlaws.shown.report import Report
+    from optlaws.shown.report import Report, Section
     from optlaws.shown.summary import Row
 
 __all__ = [
@@ -103,6 +103,19 @@ class Page:
             self.table(*table)
         columns = {heading.partition(",")[0] for table in report.tables for heading in table.headings}
         return self.facts(row for row in report.facts if row.name not in columns)
+
+    def section(self, section: Section) -> Page:
+        """A section of a report: its heading, picture, text, its table or else its facts, and its note."""
+        if section.heading:
+            self.heading(section.heading)
+        if section.figure is not None:
+            self.figure(*section.figure)
+        self.text(section.text)
+        if section.table is not None:
+            self.table(*section.table, digits=section.digits)
+        elif section.facts:
+            self.facts(section.facts, digits=section.digits)
+        return self.text(section.note)
 
     def _add(self, line: str) -> Page:
         self._parts.append(f"{line}\n")

@@ -91,6 +91,18 @@ def joined(separator: str, sentences: Any) -> Sentence:
     return sentence(separator.join(["{}"] * len(every)), *every)
 
 
+def capital(text: str) -> Sentence:
+    """A sentence with a capital at its start.
+
+    Examples
+    --------
+    >>> capital("no undercut.")
+    'No undercut.'
+    """
+    first, *rest = text.parts if isinstance(text, Sentence) else (text,)
+    return Sentence(first[:1].upper() + first[1:], *rest)
+
+
 def parts_of(text: object) -> Any:
     """A sentence as JSON has it: a text, or a list of texts and {value, unit, digits} where there are quantities.
 

@@ -25,7 +25,7 @@ HANDED_UP = {
     "plot": ("optlaws.plots.",),
     "_plot": ("optlaws.plots.",),
     "export": ("optlaws.exports.", "optlaws.cams.curves.cam_files", "optlaws.synthesis.proven.fewest_laws"),
-    "summary": ("optlaws.cycles.summary.", "optlaws.cams.summary."),
+    "summary": ("optlaws.cycles.summary.",),
     "report": (
         "optlaws.cams.report.",
         "optlaws.cycles.moves.report.",

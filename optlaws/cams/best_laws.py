@@ -10,23 +10,23 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from math import atan, sqrt, tan
+from math import sqrt
 from typing import Any, NamedTuple, TypeAlias
-
-import numpy as np
 
 from optlaws.cams.curved_limits import RollerCurvature, bound_under, curvature_of
 from optlaws.cams.curves.motion_by_angle import CamMotion, as_motion
 from optlaws.cams.disc import DiscCam, Turning, sense
 from optlaws.cams.followers.contact import CURVATURE, PRESSURE, FollowerContact, LinearLimit
 from optlaws.cams.followers.follower import CamFollower, Place, shown
-from optlaws.cams.least_sizes import LeastPrimeCircle, least_prime_circle, read_cam_limits
+from optlaws.cams.least_sizes import LeastPrimeCircle, least_prime_circle
+from optlaws.cams.limits import CamLimits
 from optlaws.cycles.cycle import Cycle
 from optlaws.cycles.optimisation.objectives import OBJECTIVES
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.motion.piece import Piece
 from optlaws.motion.quantities import TURN
 from optlaws.numbers import Quantity
+from optlaws.sentences import joined, sentence
 from optlaws.synthesis.problem.constants import Functional
 from optlaws.synthesis.problem.expression import maximum
 from optlaws.synthesis.problem.problem import Problem
@@ -138,18 +138,25 @@ def best_cam(
     >>> round(free.objective, 4), bound.status.value, round(bound.objective, 4)
     (21.8838, 'optimal', 23.5665)
     """
-    limits = read_cam_limits(pressure_angle, radius_of_curvature)
+    limits = CamLimits(pressure_angle, radius_of_curvature).of_one()
     given = DiscCam(cycle, prime_radius, follower, turning=turning)
     known = _with_solutions(cycle)
-    if _are_met(given, limits):  # the best laws without the limits keep them
+    if limits.proven(given.extremes):  # the best laws without the limits keep them
         bound = _bound(cycle, known)
         return BestCam(given, cycle.objective, bound, cycle.status, cycle.solutions)
-    inner = _solved(cycle, given, limits, below=True)
-    outer = _solved(cycle, given, limits, below=False) if not given.contact.linear else inner
-    inner, outer = _with_curvature(cycle, given, limits, inner, outer)
+    inner = _solved(cycle, given, limits.in_si, below=True)
+    outer = _solved(cycle, given, limits.in_si, below=False) if not given.contact.linear else inner
+    inner, outer = _with_curvature(cycle, given, limits.radius, inner, outer)
     pieces = tuple(solved.piece for solved in inner)
     cam = replace(given, motion=CamMotion.of_pieces(pieces, cycle.duration, cycle.axis))
-    _check_met(cam, limits)
+    if broken := limits.broken(cam.extremes):
+        raise SolverFailure(
+            sentence(
+                "the best laws go beyond limits that are not convex in them: {}; what a dwell or a given law has no "
+                "other law can mend: make the prime circle larger, or drop a limit",
+                joined("; ", broken.values()),
+            )
+        )
     objective, bound = _objective(cycle, inner), _bound(cycle, outer)
     solutions = tuple(best.solution for best in inner if best.solution is not None)
     proven = objective - bound <= 1e-6 * objective
@@ -193,7 +200,7 @@ def best_prime_circle(
     >>> round(1e3 * best.least.radius, 4), round(1e3 * best.lower_bound, 4)
     (10.1341, 10.1341)
     """
-    limits = read_cam_limits(pressure_angle, radius_of_curvature)
+    limits = CamLimits(pressure_angle, radius_of_curvature).of_one().in_si
     limit = follower.sizing_limit
     if limit is None:
         raise InputError("follower: the least prime circle of all laws is known of rollers and flat faces on slides")
@@ -265,14 +272,14 @@ def _solved(cycle: Cycle, cam: DiscCam, limits: dict[str, float], *, below: bool
 
 
 def _with_curvature(
-    cycle: Cycle, cam: DiscCam, limits: dict[str, float], inner: Solved, outer: Solved
+    cycle: Cycle, cam: DiscCam, radius: float | None, inner: Solved, outer: Solved
 ) -> tuple[Solved, Solved]:
-    """The pieces with laws whose profile keeps its curvature limit under a roller, and their lower bound."""
-    if CURVATURE not in limits:
+    """The pieces with laws whose profile keeps a least radius in m under a roller, and their lower bound."""
+    if radius is None:
         return inner, outer
     met, bounded = [], []
     for within, beyond in zip(inner, outer, strict=True):
-        curvature = curvature_of(within.piece, cam.contact, limits[CURVATURE], cycle.duration)
+        curvature = curvature_of(within.piece, cam.contact, radius, cycle.duration)
         if within.solution is None or beyond.solution is None or curvature is None or not curvature.broken():
             met.append(within)
             bounded.append(beyond)
@@ -324,29 +331,6 @@ def _problem(problem: Problem, windows: Sequence[Window], objectives: Sequence[F
         minimise = maximum(*objectives) if len(objectives) > 1 else objectives[0]
     inside = Window("a", 0.0, 1.0)
     return replace(problem, symmetric=False, minimise=minimise, windows=(*problem.windows, *windows, inside))
-
-
-def _are_met(cam: DiscCam, limits: dict[str, float]) -> bool:
-    """Whether the limits are proven to be satisfied."""
-    extremes = cam.extremes
-    return (PRESSURE not in limits or tan(extremes.greatest_pressure_angle.high) <= limits[PRESSURE]) and (
-        CURVATURE not in limits or extremes.least_convex_radius.low >= limits[CURVATURE]
-    )
-
-
-def _check_met(cam: DiscCam, limits: dict[str, float]) -> None:
-    """Refuse laws that break a limit which is not convex in them."""
-    extremes = cam.extremes
-    if PRESSURE in limits and not extremes.keeps_pressure_angle(atan(limits[PRESSURE])):
-        raise SolverFailure(
-            f"the best laws have a pressure angle of {np.degrees(extremes.greatest_pressure_angle.value):.6g} deg"
-        )
-    if CURVATURE in limits and not extremes.keeps_radius(limits[CURVATURE]):
-        raise SolverFailure(
-            f"the best laws under the other limits have a radius of curvature of "
-            f"{shown(extremes.least_convex_radius.value)}, and what a dwell or a given law has no other "
-            "law can mend: make the prime circle larger or drop the limit"
-        )
 
 
 def _objective(cycle: Cycle, solved: Solved) -> float:

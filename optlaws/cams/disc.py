@@ -207,9 +207,7 @@ class DiscCam:
         >>> [(row.name, row.text(6), row.unit, row.place is None) for row in cam.summary()][:2]
         [('undercut', 'free', '', True), ('radius of the prime circle', '50', 'mm', True)]
         """
-        from optlaws.cams.summary import summary
-
-        return summary(self)
+        return self.report().facts
 
     def report(self) -> Report:
         """The facts of the cam, its enclosed extremes, and its motion, pressure angle and curvature as curves.

@@ -8,7 +8,6 @@ every range of smaller prime circles one of them is proven to break its limit, w
 from __future__ import annotations
 
 from dataclasses import dataclass, fields, replace
-from math import tan
 from typing import Any, TypeVar
 
 import numpy as np
@@ -17,8 +16,8 @@ from optlaws.cams.curves.motion_by_angle import CamMotion, as_motion
 from optlaws.cams.disc import DiscCam, Turning, sense
 from optlaws.cams.followers.contact import CURVATURE, PRESSURE, FollowerContact
 from optlaws.cams.followers.follower import CamFollower, Place, shown
+from optlaws.cams.limits import CamLimits
 from optlaws.cycles.cycle import Cycle
-from optlaws.echo import shortened
 from optlaws.errors import InfeasibleProblem, InputError
 from optlaws.motion.quantities import in_degrees, quantity
 from optlaws.numbers import Quantity
@@ -26,7 +25,7 @@ from optlaws.numerics.interval import Interval, exact
 from optlaws.numerics.peaks import is_kept
 from optlaws.numerics.roots import bisect, bracketed_root, holds_throughout
 from optlaws.numerics.taylor import Jet
-from optlaws.sentences import joined, sentence
+from optlaws.sentences import sentence
 from optlaws.tolerances import ROUNDOFF, SIZE_BRACKET
 
 _SIZE_MARGIN = 1e-10  # of a radius: by how much more than needed it grows at last
@@ -111,7 +110,7 @@ def least_prime_circle(
     >>> round(1e3 * least.radius, 6), least.proven, least.limit
     (36.32799, True, 'radius of curvature')
     """
-    limits = read_cam_limits(pressure_angle, radius_of_curvature)
+    limits = CamLimits(pressure_angle, radius_of_curvature).of_one()
     sizes = _Sizes(as_motion(motion, follower.axis), follower, sense(turning), limits)
     radius = start = sizes.least
     witnesses: list[Witness] = []
@@ -126,7 +125,7 @@ def least_prime_circle(
             break
         radius *= 1.0 + _SIZE_NUDGE
     else:
-        raise InfeasibleProblem(f"no prime circle was found that keeps {_in_words(limits)}: give wider limits")
+        raise InfeasibleProblem(f"no prime circle was found that keeps {limits}: give wider limits")
     cam = DiscCam(motion, f"{radius!r} m", follower, turning=turning)
     last = witnesses[-1] if witnesses else Witness("mechanism", 0.0, 1.0, before=False)
     below = radius * (1.0 - SIZE_BRACKET)
@@ -189,31 +188,6 @@ def greatest_roller(cam: DiscCam, *, radius_of_curvature: Quantity = "0 mm") -> 
     return GreatestRoller(low - slack, high + slack, greatest.angle)
 
 
-def read_cam_limits(pressure_angle: Quantity | None, radius: Quantity | None) -> dict[str, float]:
-    """The limits of a cam: the tangent of the greatest pressure angle, and the least radius of curvature in metres."""
-    limits = {}
-    if pressure_angle is not None:
-        angle = quantity(pressure_angle, "angle", "pressure_angle")
-        if not 0.0 < angle < 0.5 * np.pi:
-            raise InputError(f"pressure_angle must be above 0 and below 90 deg, got {shortened(pressure_angle)}")
-        limits[PRESSURE] = tan(angle)
-    if radius is not None:
-        limits[CURVATURE] = quantity(radius, "length", "radius_of_curvature")
-        if limits[CURVATURE] < 0.0:
-            raise InputError(f"radius_of_curvature must be at least 0, got {shortened(radius)}")
-    if not limits:
-        raise InputError("give a limit of the cam: pressure_angle='30 deg', radius_of_curvature='5 mm', or both")
-    return limits
-
-
-def _in_words(limits: dict[str, float]) -> str:
-    texts = {
-        PRESSURE: lambda value: sentence("a pressure angle of {}", in_degrees(np.arctan(value))),
-        CURVATURE: lambda value: sentence("a radius of curvature of {}", shown(value)),
-    }
-    return joined(" and ", (texts[name](value) for name, value in limits.items()))
-
-
 @dataclass(frozen=True)
 class _Sizes:
     """Cams that differ by their prime circle, and the limits that they keep or break."""
@@ -221,7 +195,7 @@ class _Sizes:
     motion: CamMotion
     follower: CamFollower
     turning: float
-    limits: dict[str, float]
+    limits: CamLimits
 
     @property
     def least(self) -> float:
@@ -253,14 +227,14 @@ class _Sizes:
     def witnesses(self, radius: float, *, proven: bool = False) -> list[Witness]:
         """The places of the worst violations of limits; with `proven`, places where limits are not proven to hold."""
         contact, broken = self.contact(radius), []
-        if PRESSURE in self.limits:
+        if self.limits.pressure is not None:
             least, greatest = contact.pressure_angles(self.motion)
-            most = float(np.arctan(self.limits[PRESSURE]))
+            most = self.limits.pressure
             for side, sign in ((greatest, 1.0), (-least, -1.0)):
                 if not is_kept(side.high if proven else side.low, most, _SAME_ANGLE):
                     broken.append(self._seen(PRESSURE, side.angle, sign, radius))
-        if CURVATURE in self.limits:
-            margin, least_radius = contact.least_convex_radius(self.motion), self.limits[CURVATURE]
+        if self.limits.radius is not None:
+            margin, least_radius = contact.least_convex_radius(self.motion), self.limits.radius
             if (margin.low if proven else margin.high) < least_radius:
                 broken.append(self._seen(CURVATURE, margin.angle, 1.0, radius))
         return broken
@@ -294,7 +268,7 @@ class _Sizes:
             sentence(
                 "no prime circle keeps {}: at {} of the cam the {} breaks it with every one up to {}: give wider "
                 "limits, or spread the motion",
-                _in_words(self.limits), in_degrees(witness.angle), witness.limit, shown(last),
+                self.limits, in_degrees(witness.angle), witness.limit, shown(last),
             )
         )  # fmt: skip
 
@@ -313,7 +287,7 @@ class _Sizes:
 
     def _excess(self, contact: FollowerContact, witness: Witness, s: Jet) -> Interval:
         """The excess over a limit, above 0 where it is broken; multiplied out, so that nothing is divided by."""
-        limit = self.limits[witness.limit]
+        limit = self.limits.in_si[witness.limit]
         if witness.limit == CURVATURE:
             return contact.curvature_excess(s, limit)
         excess: Interval = contact.pressure(s).terms[0] * witness.sign - limit

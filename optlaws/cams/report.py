@@ -1,8 +1,8 @@
-"""The report of a disc cam: its facts, and over its angle its motion, pressure angle, curvature and forces."""
+"""The reports of cams: their facts, and over their angle motion, pressure angle, curvature and forces."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from itertools import pairwise
@@ -11,92 +11,148 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from optlaws.cams.barrel import SIDES, BarrelCam
+from optlaws.cams.curves.plane_curve import CurveByAngle
 from optlaws.cams.followers.follower import positive
-from optlaws.cams.summary import geometry, named_forces, summary
+from optlaws.cams.forces import CamForces
+from optlaws.cams.limits import CamLimits
+from optlaws.cycles.cycle import Cycle
+from optlaws.kept import kept_property
 from optlaws.motion.display_units import DEGREES, MILLI, TURN_DEG, UNITS
 from optlaws.motion.quantities import TURN
-from optlaws.numbers import Array, chop
+from optlaws.numbers import Array, Quantity, bounded, chop
+from optlaws.sentences import Sentence, sentence
 from optlaws.shown.curve_points import refined
-from optlaws.shown.report import Panel, PanelLimit, ReportSegment, ReportTable, Series
-from optlaws.shown.summary import Summary
+from optlaws.shown.report import Panel, PanelLimit, ReportSegment, ReportTable, Section, Series
+from optlaws.shown.summary import Row, Summary
 from optlaws.tolerances import CAM_FEASIBILITY, FORCE_ROUNDING, RADIUS_ROUNDING
 
 if TYPE_CHECKING:
     from optlaws.cams.curves.extremes import EnclosedExtreme
     from optlaws.cams.disc import DiscCam
-    from optlaws.cams.forces import CamForces
     from optlaws.numerics.branch_and_bound import Extremes
 
 _INSIDE = 1e-9  # of a smooth part: so near to its ends it is drawn
 _FAR = 4.0  # a radius of curvature beyond so many prime circles is a straight edge
+_SMALLEST_ANGLE = 1e-100  # a pressure angle below it is none
 
 Values = Callable[[Array], Array]
 
 
-EXTREMES = ("what", "at least", "at most", "unit", "at, deg")
-
-
-@dataclass(frozen=True)
-class Limits:
-    """Limits that the laws were optimised for, in SI units: the laws reach them at several angles."""
-
-    pressure: float | None = None
-    radius: float | None = None
-
-
 @dataclass(frozen=True)
 class CamReport:
-    """The report of a cam; its panels are over the cam's angle in radians, of which a page shows degrees.
+    """The report of a disc cam; its panels are over the cam's angle in radians, of which a page shows degrees.
 
     Attributes
     ----------
     cam
         The cam.
-    pressure
-        The limit of its pressure angle, rad; None without one.
+    limits
+        Limits that it is to keep.
     reached
-        Limits that its laws were optimised for.
+        Whether its laws were optimised for these, so that they reach them at several angles.
     """
 
     cam: DiscCam
-    pressure: float | None = None
-    reached: Limits = Limits()
+    limits: CamLimits = CamLimits()  # noqa: RUF009 - it is frozen
+    reached: bool = False
 
     @property
     def facts(self) -> Summary:
-        """The summary of the cam."""
-        return summary(self.cam)
+        """Undercut, sizes, enclosed extremes and, with a drive, forces; places are degrees of the cam."""
+        cam, undercut = self.cam, self.cam.extremes.undercut
+        rows = [
+            *(Row("beyond what is allowed", broken) for broken in self.beyond),
+            Row("undercut", undercut.status, note=str(undercut)),
+            Row("radius of the prime circle", MILLI * positive(cam.prime_radius, "prime_radius"), "mm"),
+            Row("radius of the base circle", MILLI * cam.base_radius, "mm"),
+            *self.extremes,
+        ]
+        if isinstance(cam.motion, Cycle) and cam.motion.drive is not None:
+            for name, extremes, unit, factor in named_forces(CamForces(cam)):
+                rows.append(Row(f"{name}, least", factor * extremes.least, unit, degrees(extremes.least_at)))
+                rows.append(Row(f"{name}, greatest", factor * extremes.most, unit, degrees(extremes.most_at)))
+        return Summary(rows, at="deg")
+
+    @property
+    def beyond(self) -> list[Sentence]:
+        """What of the cam is beyond its limits or those of its follower."""
+        extremes = self.cam.extremes
+        return [*(sentence("{}", size) for size in extremes.beyond), *self.limits.broken(extremes).values()]
+
+    @kept_property
+    def extremes(self) -> list[Row]:
+        """Extreme pressure angles, where there are any but 0, least radii of curvature, and sizes of the follower."""
+        extremes, (pressure, radius) = self.cam.extremes, self._reached
+        least, greatest = extremes.pressure_angles
+        pressed = [
+            extreme_row("greatest pressure angle", extremes.greatest_pressure_angle, "deg", pressure),
+            extreme_row("pressure angle, least", least, "deg", pressure),
+            extreme_row("pressure angle, greatest", greatest, "deg", pressure),
+        ]
+        hollow = extremes.least_concave_radius
+        return [
+            *(pressed if extremes.greatest_pressure_angle.value > _SMALLEST_ANGLE else []),
+            extreme_row("least radius of curvature, bulging", extremes.least_convex_radius, "mm", radius),
+            *([] if hollow is None else [extreme_row("least radius of curvature, hollow", hollow, "mm")]),
+            *(extreme_row(size.name, size.extreme, "mm") for size in extremes.sizes),
+        ]
+
+    @property
+    def _reached(self) -> tuple[float | None, float | None]:
+        return (self.limits.pressure, self.limits.radius) if self.reached else (None, None)
+
+    @property
+    def section(self) -> Section:
+        """The circles of the cam, its undercut, its enclosed extremes, and what is beyond a limit."""
+        base, roller = MILLI * self.cam.base_radius, MILLI * self.cam.contact.roller
+        return Section(
+            text=f"The radius of the prime circle is {base + roller:.7g} mm, that of the base circle {base:.7g} mm.\n\n"
+            f"Undercut: {self.cam.extremes.undercut}.",
+            facts=self.extremes,
+            table=self.tables[0],
+            note="\n".join(f"Beyond what is allowed: {broken}." for broken in self.beyond),
+            data=self.data,
+        )
 
     @property
     def tables(self) -> tuple[ReportTable, ...]:
         """Extreme pressure angles, radii of curvature, and sizes of the follower."""
-        touched = {"deg": self.reached.pressure, "mm": self.reached.radius}
-        extremes = self.cam.extremes
-        others = [extremes.least_concave_radius, *(size.extreme for size in extremes.sizes)]
-        rows = [
-            extreme_row(
-                name, extreme, factor, unit, None if any(extreme is other for other in others) else touched[unit]
-            )
-            for name, extreme, unit, factor in geometry(self.cam)
-        ]
-        return (ReportTable(EXTREMES, rows),)
+        return (ReportTable.of_pairs(self.extremes, "at least", "at most"),)
 
     @property
     def data(self) -> dict[str, Any]:
         """The cam for programs, in metres and radians: enclosures as pairs, with the angle of the cam."""
-        cam, extremes, limits = self.cam, self.cam.extremes, self.reached
+        cam, extremes, (pressure, radius) = self.cam, self.cam.extremes, self._reached
         hollow = extremes.least_concave_radius
         return {
             "prime_radius": positive(cam.prime_radius, "prime_radius"),
             "base_radius": cam.base_radius,
-            "greatest_pressure_angle": enclosure(extremes.greatest_pressure_angle, limits.pressure),
-            "least_pressure_angle": enclosure(extremes.pressure_angles[0], limits.pressure),
-            "largest_pressure_angle": enclosure(extremes.pressure_angles[1], limits.pressure),
-            "bulging_radius": enclosure(extremes.least_convex_radius, limits.radius),
+            "greatest_pressure_angle": enclosure(extremes.greatest_pressure_angle, pressure),
+            "least_pressure_angle": enclosure(extremes.pressure_angles[0], pressure),
+            "largest_pressure_angle": enclosure(extremes.pressure_angles[1], pressure),
+            "bulging_radius": enclosure(extremes.least_convex_radius, radius),
             "hollow_radius": None if hollow is None else enclosure(hollow),
             "undercut": {"status": extremes.undercut.status, "simple": extremes.undercut.simple},
             **{size.name.replace(" ", "_"): enclosure(size.extreme) | _limit(size) for size in extremes.sizes},
         }
+
+    def coordinates(self, count: int, cutter: Quantity | None = None, second: DiscCam | None = None) -> ReportTable:
+        """Displacement, points of the curves, pressure angle and curvature at equal steps of the turn.
+
+        With the path of a cutter of a radius, and with the curves of a second cam.
+        """
+        cam, curves, turns = self.cam, dict[str, CurveByAngle](), np.linspace(0.0, TURN_DEG, count)
+        for name, disc in {"": cam, "return ": second}.items():
+            if disc is not None:
+                curves |= {f"{name}pitch": disc.pitch_curve, f"{name}profile": disc.profile}
+                curves |= {} if cutter is None else {f"{name}cutter": disc.cutter_path(cutter)}
+        (unit, factor), angles = UNITS[cam.displacement.axis][0], np.radians(turns)
+        after = {
+            "pressure angle, deg": np.degrees(cam.pressure_angle(angles)),
+            "curvature, 1/mm": cam.profile.curvature(angles) / MILLI,
+        }
+        return _coordinates(turns, {f"displacement, {unit}": factor * cam.displacement(angles)}, curves, after)
 
     @property
     def segments(self) -> tuple[ReportSegment, ...]:
@@ -108,7 +164,7 @@ class CamReport:
         """Displacement, pressure angle, curvature and radius of curvature, each with its greatest or least value."""
         cam, pressed = self.cam, self.cam.extremes.greatest_pressure_angle
         unit, factor = UNITS[cam.displacement.axis][0]
-        steepest = None if self.pressure is None else DEGREES * self.pressure
+        steepest = None if self.limits.pressure is None else DEGREES * self.limits.pressure
         limits = () if steepest is None else (PanelLimit(0.0, TURN, -steepest, steepest),)
         bulging = _mark(cam.extremes.least_convex_radius, MILLI)
         steep = _mark(pressed, float(np.copysign(DEGREES, cam.pressure_angle(pressed.angle))))
@@ -170,6 +226,89 @@ class CamReport:
         )
 
 
+#: what is known of the cusps of a flank by the status of its undercut
+_CUSPS = {
+    "free": "no flank has a cusp, at any depth",
+    "undercut": "a flank has a cusp: make the roller smaller, the cylinder larger or the motion slower",
+    "undecided": "whether a flank has a cusp is not decided",
+}
+
+
+def barrel_section(cam: BarrelCam) -> Section:
+    """The undercut of a barrel cam, and its enclosed extremes."""
+    least, greatest = cam.pressure_angles
+    facts = [
+        extreme_row("pressure angle at the bottom, least", least, "deg"),
+        extreme_row("pressure angle at the bottom, greatest", greatest, "deg"),
+        extreme_row("way of a flank a radian, least", cam.margin, "mm"),
+    ]
+    data = {
+        "least_pressure_angle": enclosure(least),
+        "largest_pressure_angle": enclosure(greatest),
+        "margin": enclosure(cam.margin),
+        "undercut": {"status": cam.undercut},
+    }
+    table = ReportTable.of_pairs(facts, "at least", "at most")
+    return Section(text=f"Undercut: {_CUSPS[cam.undercut]}.", facts=facts, table=table, data=data)
+
+
+def barrel_coordinates(cam: BarrelCam, count: int, cutter: Quantity | None = None) -> ReportTable:
+    """Points of the roller's axis and of the flanks, and pressure angles, at equal steps of the turn."""
+    turns, places = np.linspace(0.0, TURN_DEG, count), dict(zip(("outside", "at the bottom"), cam.radii, strict=True))
+    curves = {"axis of the roller": cam.pitch_curve}
+    curves |= {f"{side} flank {place}": cam.flank(side, radius) for place, radius in places.items() for side in SIDES}
+    if cutter is not None:
+        curves |= {f"cutter, {side} flank": cam.cutter_path(cutter, side) for side in SIDES}
+    pressure = {
+        f"pressure angle {place}, deg": np.degrees(cam.pressure_angle(np.radians(turns), radius=radius))
+        for place, radius in places.items()
+    }
+    return _coordinates(turns, {}, curves, pressure)
+
+
+def _coordinates(
+    turns: Array, before: Mapping[str, Array], curves: Mapping[str, CurveByAngle], after: Mapping[str, Array]
+) -> ReportTable:
+    """A table over the cam's angle of points of curves in millimetres, between other columns."""
+    points = {
+        f"{name} {axis}, mm": column
+        for name, curve in curves.items()
+        for axis, column in zip("xyz", MILLI * curve(np.radians(turns)).T, strict=False)
+    }
+    columns = {"cam, deg": turns, **before, **points, **after}
+    return ReportTable.of_columns({name: map(plain, values.tolist()) for name, values in columns.items()})
+
+
+def named_forces(forces: CamForces) -> list[tuple[str, Extremes, str, float]]:
+    """Contact force, torque at the shaft and, where the contact has a width, pressure, with units and factors."""
+    named = [("contact force", forces.contact, "N", 1.0), ("torque at the shaft", forces.torque, "N m", 1.0)]
+    return named if forces.width is None else [*named, ("Hertz's pressure", forces.pressure, "MPa", 1e-6)]
+
+
+def forces_section(forces: CamForces) -> Section:
+    """The forces of a cam over its turn."""
+    mean = chop(0.5 * sum(forces.mean_torque), forces.torque.peak, FORCE_ROUNDING)
+    table, facts = [], []
+    for name, curve, unit, factor in named_forces(forces):
+        least, most = (chop(factor * value, factor * curve.peak, FORCE_ROUNDING) for value in (curve.least, curve.most))
+        first, last = (chop(degrees(at), TURN_DEG, FORCE_ROUNDING) for at in (curve.least_at, curve.most_at))
+        table.append([name, least, first, most, last, unit])
+        facts.append(Row(name, (least, most), unit))
+    facts.append(Row("root mean square of the torque", forces.rms_torque[1], "N m"))
+    if forces.lifts_off:
+        facts.insert(0, Row("the follower lifts off", place=degrees(forces.contact.least_at)))
+    return Section(
+        "Forces",
+        facts=facts,
+        table=ReportTable(("what", "least", "at, deg", "greatest", "at, deg", "unit"), table),
+        data={"forces": forces.results()},
+        figure=("forces", "Forces over the turn"),
+        note=f"Torque at the shaft: root mean square {forces.rms_torque[1]:.6g} N m, mean {mean:.6g} N m. "
+        + ("The follower lifts off." if forces.lifts_off else "The follower stays on the cam."),
+        digits=6,
+    )
+
+
 def _limit(size: Any) -> dict[str, Any]:
     return {} if size.limit is None else {"limit": size.limit, "kept": size.within}
 
@@ -188,24 +327,23 @@ def _ends(extremes: Extremes, factor: float) -> tuple[tuple[float, float], ...]:
     return tuple((at, factor * value) for at, value in ends if chop(value, extremes.peak, FORCE_ROUNDING))
 
 
-def extreme_row(name: str, extreme: EnclosedExtreme, factor: float, unit: str, limit: float | None = None) -> list[Any]:
-    """The row of an extreme, with a factor from the SI unit; without its angle where laws reach it as a limit.
+def extreme_row(name: str, extreme: EnclosedExtreme, unit: str, limit: float | None = None) -> Row:
+    """The row of an extreme, in degrees or millimetres; without its angle where laws reach it as a limit.
 
     Examples
     --------
     >>> from optlaws.cams.curves.extremes import EnclosedExtreme
-    >>> extreme_row("radius", EnclosedExtreme(0.01, 0.01, 0.0), 1e3, "mm")
-    ['radius', 10.0, 10.0, 'mm', 0.0]
+    >>> extreme_row("radius", EnclosedExtreme(0.01, 0.01, 0.0), "mm")
+    Row(name='radius', value=(10.0, 10.0), unit='mm', place=0.0, note='')
     """
-    low, high = (plain(factor * value) for value in (extreme.low, extreme.high))
-    angle = _angle(extreme, limit)
-    return [name, low, high if np.isfinite(high) else None, unit, None if angle is None else degrees(angle)]
+    factor, angle = {"deg": DEGREES, "mm": MILLI}[unit], _angle(extreme, limit)
+    ends = plain(factor * extreme.low), plain(factor * extreme.high)
+    return Row(name, ends, unit, None if angle is None else degrees(angle))
 
 
 def enclosure(extreme: EnclosedExtreme, limit: float | None = None) -> dict[str, float | None]:
     """The enclosure of an extreme for programs, in SI units."""
-    high = extreme.high if np.isfinite(extreme.high) else None
-    return {"low": extreme.low, "high": high, "angle": _angle(extreme, limit)}
+    return {"low": extreme.low, "high": bounded(extreme.high), "angle": _angle(extreme, limit)}
 
 
 def _angle(extreme: EnclosedExtreme, limit: float | None) -> float | None:

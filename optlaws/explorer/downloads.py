@@ -227,10 +227,10 @@ def _axes_python(request: cycle_view.CycleRequest) -> File:
 
 
 def _cut(form: str, request: cam_view.CamRequest) -> File:
-    findings = cam_view.findings_of(request)
+    result = cam_view.result_of(request)
     kind = form.partition(" ")[0]
     ending = next(end for end, name in cam_files.ENDINGS.items() if name.partition(" ")[0] == kind)
-    return f"cam{ending}", cam_files.text(findings.cam.profile, form, Cutting(about=findings.spec.title))
+    return f"cam{ending}", cam_files.text(result.cam.profile, form, Cutting(about=result.spec.title))
 
 
 def _old_problem(request: old_cam_view.OldCycleRequest) -> File:

@@ -13,6 +13,7 @@ from optlaws.cams.curves.file_options import DECIMALS, POINTS, Cutting
 from optlaws.cams.disc import CURVES, TURNINGS, CutCurve, DiscCam, Turning
 from optlaws.cams.followers.follower import CamFollower
 from optlaws.cams.forces import Surfaces
+from optlaws.cams.limits import CamLimits
 from optlaws.cams.sizing.springs import SoughtSpring
 from optlaws.cycles.cycle import Cycle
 from optlaws.cycles.specification.process import ProcessEntries
@@ -23,7 +24,6 @@ from optlaws.files import writing
 from optlaws.jobs.cycle_entries import AxisEntries, follower_cycle
 from optlaws.jobs.job_entries import ProblemFile
 from optlaws.kept import kept_property
-from optlaws.motion.quantities import quantity
 from optlaws.numbers import Quantity
 
 _LENGTH = Measured("length", above=0.0)
@@ -145,20 +145,8 @@ class CamProblemFile(CamOfMotion, title="a cam"):
     )
     #: the name that earlier files have for `prime_radius`
     base_radius: Quantity | None = entry(_LENGTH, "That of earlier files.", default=None, shown=False)
-    pressure_angle: str | None = entry(
-        Measured("angle"),
-        "The greatest magnitude of the pressure angle.",
-        default=None,
-        label="pressure ≤",
-        example="30 deg",
-    )
-    radius_of_curvature: str | None = entry(
-        Measured("length"),
-        "The least radius of curvature of the profile where it bulges.",
-        default=None,
-        label="radius ≥",
-        example="15 mm",
-    )
+    pressure_angle: Quantity | None = same(CamLimits, "pressure_angle")
+    radius_of_curvature: Quantity | None = same(CamLimits, "radius_of_curvature")
     best: str | None = entry(
         Choice("laws", "prime circle", "offset"),
         "What is optimised: the laws of the motion under the limits of the cam, at the given prime circle; the laws "
@@ -184,27 +172,14 @@ class CamProblemFile(CamOfMotion, title="a cam"):
         """The best "base circle" of earlier files is the prime circle."""
         return data | {"best": "prime circle"} if data.get("best") == "base circle" else data
 
-    @property
-    def limits(self) -> dict[str, Any]:
-        """The limits of the cam, and how it turns, as functions of sizes and of best laws take them."""
-        limits = {"pressure_angle": self.pressure_angle, "radius_of_curvature": self.radius_of_curvature}
-        return {**limits, "turning": self.turning}
+    @kept_property
+    def limits(self) -> CamLimits:
+        """The limits of the cam."""
+        return CamLimits(self.pressure_angle, self.radius_of_curvature)
 
-    @property
-    def limited(self) -> bool:
-        """Whether there are limits that a prime circle keeps."""
-        return bool(self.pressure_angle or self.radius_of_curvature)
-
-    @property
-    def steepest(self) -> float | None:
-        """The limit of the pressure angle, rad."""
-        return None if self.pressure_angle is None else quantity(self.pressure_angle, "angle", "pressure_angle")
-
-    @property
-    def least_radius(self) -> float | None:
-        """The limit of the radius of curvature, m."""
-        given = self.radius_of_curvature
-        return None if given is None else quantity(given, "length", "radius_of_curvature")
+    def _check(self) -> None:
+        super()._check()
+        _ = self.limits  # which checks them together
 
 
 @declared

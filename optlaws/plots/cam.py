@@ -7,13 +7,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from optlaws.cams.barrel import SIDES, BarrelCam, SpaceCurve
 from optlaws.cams.disc import DiscCam
 from optlaws.cams.followers.contact import FollowerContact
 from optlaws.cams.forces import CamForces
 from optlaws.cams.report import CamReport
 from optlaws.errors import InputError
 from optlaws.files.writing import MARK
-from optlaws.motion.display_units import DEGREES, MILLI
+from optlaws.motion.display_units import DEGREES, MILLI, TURN_DEG
 from optlaws.numbers import Array
 from optlaws.plots.report import draw_panels
 from optlaws.plots.style import BLUES, GREEN, GREY, WARM, new_figure, plot_style, titled
@@ -118,6 +119,36 @@ def _linked(first: DiscCam, second: DiscCam) -> Array:
         turned = _phase(first, 0.0)
         joints.insert(1, MILLI * first.contact.pivot * np.array([np.cos(turned), np.sin(turned)]))
     return np.array(joints)
+
+
+def barrel_figure(cam: BarrelCam, title: str) -> Figure:
+    """The groove unrolled at the outer radius, and the pressure angle at the top and at the bottom of the groove."""
+    angles = np.linspace(*cam.displacement.interval, _SAMPLES)
+    with plot_style():
+        figure = new_figure(8.6, 5.6)
+        groove, pressure = figure.subplots(2, 1, sharex=True, height_ratios=(1.4, 1.0))
+        for side, colour in zip(SIDES, (BLUES[3], WARM), strict=True):
+            groove.plot(*_unrolled(cam.flank(side), angles, cam.pitch_curve), color=colour, label=f"{side} flank")
+        centre = np.degrees(angles), MILLI * cam.pitch_curve(angles)[:, 2]
+        groove.plot(*centre, color=GREY, linestyle=":", label="axis of the roller")
+        for radius, colour in zip(cam.radii, (BLUES[3], WARM), strict=True):
+            values = np.degrees(cam.pressure_angle(angles, radius=radius))
+            pressure.plot(np.degrees(angles), values, color=colour, label=f"at the radius {MILLI * radius:g} mm")
+        pressure.axhline(0.0, color=GREY, linewidth=0.8)
+        groove.set(ylabel="along the shaft, mm")
+        pressure.set(xlabel="around the cam, deg", ylabel="pressure angle, deg", xlim=(0.0, TURN_DEG))
+        pressure.set_xticks(np.arange(0.0, TURN_DEG + 1.0, 60.0))
+        for axes in (groove, pressure):
+            axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0))
+        figure.align_ylabels()
+        return titled(figure, title)
+
+
+def _unrolled(curve: SpaceCurve, angles: Array, pitch: SpaceCurve) -> tuple[Array, Array]:
+    """A curve's angle around the cam in degrees, near the roller's angle, and its place along the shaft in mm."""
+    x, y, along = curve(angles).T
+    beside = np.angle((y + 1j * x) / (pitch(angles) @ np.array([1j, 1.0, 0.0])))
+    return np.degrees(angles + curve.turning * beside), MILLI * along
 
 
 def draw_cam(cam: DiscCam, axes: Any = None, **style: Any) -> list[Artist]:

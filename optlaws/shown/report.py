@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
-from typing import Any, NamedTuple, Protocol
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from typing import Any, NamedTuple, Protocol, Self
 
-from optlaws.numbers import Array
+from optlaws.numbers import Array, bounded
 from optlaws.shown.showing import drawing, page, table
-from optlaws.shown.summary import Summary
+from optlaws.shown.summary import Row, Summary
 
 
 class ReportTable(NamedTuple):
@@ -16,6 +16,59 @@ class ReportTable(NamedTuple):
 
     headings: Sequence[str]
     rows: Sequence[Sequence[Any]]
+
+    @classmethod
+    def of_columns(cls, columns: Mapping[str, Iterable[Any]]) -> Self:
+        """A table of columns by their headings."""
+        return cls(list(columns), [list(row) for row in zip(*columns.values(), strict=True)])
+
+    @classmethod
+    def of_pairs(cls, facts: Iterable[Row], first: str, second: str, last: str = "at, deg") -> Self:
+        """A table of facts whose values are pairs, each under a heading; the last column has places, or else notes.
+
+        Examples
+        --------
+        >>> from optlaws.shown.summary import Row
+        >>> ReportTable.of_pairs([Row("radius", (5.0, None), "mm", note="optimal")], "value", "bound", "status").rows
+        [['radius', 5.0, None, 'mm', 'optimal']]
+        """
+        rows = []
+        for row in facts:
+            ends = (None if end is None else bounded(end) for end in row.value)
+            rows.append([row.name, *ends, row.unit, row.place if last.startswith("at,") else row.note])
+        return cls(["what", first, second, "unit", last], rows)
+
+
+@dataclass(frozen=True)
+class Section:
+    """A part of a result's report.
+
+    Attributes
+    ----------
+    heading
+        What stands above it; nothing where it goes on with what is before.
+    facts
+        Its facts.
+    table
+        A table that says more than these.
+    data
+        Its entries for programs.
+    figure
+        The name of a picture, and its caption.
+    text, note
+        What stands above and below the table.
+    digits
+        Of its numbers.
+    """
+
+    heading: str = ""
+    facts: Sequence[Row] = ()
+    table: ReportTable | None = None
+    data: Mapping[str, Any] = field(default_factory=dict)
+    figure: tuple[str, str] | None = None
+    text: str = ""
+    note: str = ""
+    digits: int = 7
 
 
 class ReportSegment(NamedTuple):

@@ -299,7 +299,7 @@ def test_toml_has_no_other_values() -> None:
 def test_a_cam_is_drawn_where_its_follower_touches_it(file: str) -> None:
     study = start(str(ROOT / "problems" / f"{file}.toml"))["cam"]
     view = cam_view.answer(CamRequest(study=study))
-    cam = cam_view.findings_of(CamRequest(study=study)).cam
+    cam = cam_view.result_of(CamRequest(study=study)).cam
     frames, roller = view["frames"], view["follower"]["roller"]
     for centre, contact in zip(frames["centre"], frames["contact"], strict=True):
         assert hypot(centre[0] - contact[0], centre[1] - contact[1]) == pytest.approx(roller or 0.0, abs=1e-3)
@@ -318,7 +318,7 @@ def test_a_cam_is_drawn_where_its_follower_touches_it(file: str) -> None:
 def test_the_loads_of_a_cam_are_those_of_the_library() -> None:
     study = start(str(ROOT / "problems" / "cam_press.toml"))["cam"]
     results = cam_view.loads(CamRequest(study=study))
-    cam = cam_view.findings_of(CamRequest(study=study)).cam
+    cam = cam_view.result_of(CamRequest(study=study)).cam
     forces = CamForces(cam, width="20 mm", friction=study["forces"]["friction"])
     contact, torque, pressure = results["panels"]
     assert [one["name"] for one in results["panels"]] == ["contact force", "torque at the shaft", "Hertz's pressure"]
@@ -328,8 +328,9 @@ def test_the_loads_of_a_cam_are_those_of_the_library() -> None:
         forces.shaft_torque(np.radians(55.0)), abs=1e-6
     )
     assert max(pressure["series"][0]["values"]) <= 1e-6 * forces.pressure.high
-    assert f"root mean square {forces.rms_torque[1]:.6g} N m" in results["facts"][1]
-    assert "least spring without lift-off" in results["facts"][3]
+    assert f"root mean square of the torque {forces.rms_torque[1]:.6g} N m" in results["facts"]
+    (spring,) = (fact for fact in results["facts"] if fact.startswith("least spring without lift-off: stiffness "))
+    assert "preload 0.4 N" in spring
     light = study | {"motion": study["motion"] | {"drive": {"mass": "20 kg"}}}
     assert "the follower lifts off at" in cam_view.loads(CamRequest(study=light))["facts"][0]
     jammed = light | {"forces": {"friction": {"contact": 0, "guide": 0.9, "overhang": "90 mm", "length": "20 mm"}}}
@@ -345,8 +346,9 @@ def test_a_cam_beyond_its_limits_is_not_called_free_of_undercut() -> None:
 
 def test_a_cam_that_is_undercut_says_so_and_one_that_is_none_why() -> None:
     study = cam_view.example()
-    (results,) = cam_view.sizes(CamRequest(study=study))["facts"]
-    least = float(results.split(": ")[1].split()[0])
+    circle, roller = cam_view.sizes(CamRequest(study=study))["facts"]
+    least = float(circle.removeprefix("least prime circle, by the pressure angle ").split()[0])
+    assert roller.startswith("greatest roller ")
     for radius, beyond in ((least, False), (least * 0.999, True)):
         view = cam_view.answer(CamRequest(study=study | {"prime_radius": f"{radius + 1e-5} mm"}))
         assert view["panels"][1]["beyond"] == beyond

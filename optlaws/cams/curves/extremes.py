@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from math import atan, inf, nextafter, tan
+from math import atan, inf, nextafter
 from typing import Literal, TypeAlias
 
 from optlaws.cams.curves.motion_by_angle import CamMotion
@@ -171,14 +171,6 @@ class CamExtremes:
     def beyond(self) -> tuple[FollowerSize, ...]:
         """Sizes of the follower that are beyond their limits."""
         return tuple(size for size in self.sizes if not size.within)
-
-    def keeps_pressure_angle(self, limit: float) -> bool:
-        """Whether no pressure angle is beyond a limit in radians, but for the rounding of laws that reach it."""
-        return is_kept(tan(self.greatest_pressure_angle.low), tan(limit), CAM_FEASIBILITY)
-
-    def keeps_radius(self, limit: float) -> bool:
-        """Whether no convex radius is below a limit in metres, but for the rounding of laws that reach it."""
-        return is_kept(-self.least_convex_radius.high, -limit, CAM_FEASIBILITY)
 
 
 def angle_of_tangent(tangent: EnclosedExtreme) -> EnclosedExtreme:

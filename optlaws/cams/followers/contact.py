@@ -229,7 +229,7 @@ class FollowerContact(ABC):
     def linear_limits(
         self, piece: Piece, limits: Mapping[str, float], angle: float, *, below: bool
     ) -> list[LinearLimit]:
-        """Limits of a cam, as `read_cam_limits` gives them, as linear limits of a law over an angle of the cam in rad.
+        """Limits of a cam, as `CamLimits.in_si` has them, as linear limits of a law over an angle of the cam in rad.
 
         Those that are not convex have lines on the side where they hold (`below`) or do not, which touch them where the
         piece's law is; without such lines they are left out.

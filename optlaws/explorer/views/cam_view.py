@@ -4,31 +4,30 @@ from __future__ import annotations
 
 import json
 from functools import lru_cache
-from math import degrees
 from pathlib import Path
 from typing import Any
 
 import msgspec
 import numpy as np
 
-from optlaws.cams.curves.extremes import EnclosedExtreme
+from optlaws.cams.curves.extremes import UNDERCUT
 from optlaws.cams.disc import DiscCam
+from optlaws.cams.followers.contact import PRESSURE
 from optlaws.cams.followers.follower import CamFollower
-from optlaws.cams.forces import CamForces, Surfaces
-from optlaws.cams.report import CamReport
+from optlaws.cams.forces import Surfaces
+from optlaws.cams.report import CamReport, forces_section
 from optlaws.cycles.specification.drive import CONSTANTS
-from optlaws.errors import InfeasibleProblem, InputError, OptlawsError
+from optlaws.errors import InfeasibleProblem, InputError, OptlawsError, located
 from optlaws.explorer.views.cycle_view import SEGMENTS, check_axis
-from optlaws.explorer.views.law_view import digits, refusal
-from optlaws.explorer.views.panel_data import drawn, panel_data
+from optlaws.explorer.views.law_view import refusal
+from optlaws.explorer.views.panel_data import drawn, fact_sentences, panel_data
 from optlaws.explorer.views.requests import Question
 from optlaws.jobs.cam_entries import CamProblemFile
-from optlaws.jobs.cam_findings import FORCE, STIFFNESS, Findings
+from optlaws.jobs.cam_result import CamResult
 from optlaws.motion.display_units import DEGREES, MILLI
 from optlaws.motion.quantities import quantity
 from optlaws.numbers import Array
-from optlaws.sentences import Amount, Sentence, joined, sentence
-from optlaws.tolerances import FORCE_ROUNDING
+from optlaws.sentences import Sentence, capital, joined, sentence
 
 _STEPS = 360
 _WHERE = Path("the cam")
@@ -44,33 +43,37 @@ class CamRequest(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
 def answer(request: CamRequest) -> dict[str, Any]:
     """The view of a cam, or the reason why there is none."""
     try:
-        return _view(findings_of(request))
+        return _view(result_of(request))
     except OptlawsError as error:
         return {"refused": refusal(error, "no such cam")}
 
 
-def findings_of(request: CamRequest) -> Findings:
-    """The entries of the cam's problem file, and the cams that they describe."""
+def result_of(request: CamRequest) -> CamResult:
+    """The result of the cam's problem file, which is computed once."""
     return _solved(json.dumps(request.study, sort_keys=True))
 
 
 @lru_cache(maxsize=32)
-def _solved(question: str) -> Findings:
+def _solved(question: str) -> CamResult:
     data = json.loads(question)
     if "barrel" in data:
         raise InputError("the explorer shows disc cams: `optlaws run` computes barrel cams")
-    check_axis(CamProblemFile.read(data, _WHERE).motion)
-    return Findings.read(data, _WHERE)
+    spec = CamProblemFile.read(data, _WHERE)
+    check_axis(spec.motion)
+    with located(str(_WHERE)):
+        return CamResult.of_file(spec)
 
 
-def _view(findings: Findings) -> dict[str, Any]:
-    spec, cam = findings.spec, findings.cam
+def _view(result: CamResult) -> dict[str, Any]:
+    spec, cam, report = result.spec, result.cam, result.report
+    displacement, pressure, _, radius = (panel_data(panel, DEGREES) for panel in report.panels)
+    pressure["beyond"] = PRESSURE in spec.limits.broken(cam.extremes)
     return drawing(cam, spec.cutter_radius) | {
         "dimensions": _dimensions(spec, cam),
-        "panels": _panels(spec, cam),
+        "panels": [displacement, pressure, radius],
         "across": "angle of the cam, deg",
         "segments": [],
-        "trust": _trust(cam) | _broken_limits(spec, cam),
+        "trust": _trust(report),
     }
 
 
@@ -136,74 +139,44 @@ def _dimensions(spec: CamProblemFile, cam: DiscCam) -> list[dict[str, Any]]:
     return [{"name": name, "value": MILLI * length} for name, length in lengths.items()]
 
 
-def _panels(spec: CamProblemFile, cam: DiscCam) -> list[dict[str, Any]]:
-    limit = spec.steepest
-    displacement, pressure, _, radius = (panel_data(panel, DEGREES) for panel in CamReport(cam, limit).panels)
-    pressure["beyond"] = limit is not None and not cam.extremes.keeps_pressure_angle(limit)
-    return [displacement, pressure, radius]
-
-
-def _trust(cam: DiscCam) -> dict[str, Any]:
-    """Proven properties of the cam in words; extremes are enclosed over the whole turn."""
-    extremes = cam.extremes
-    word, status = _TITLES[extremes.undercut.status]
-    facts = [
-        sentence("greatest pressure angle {}", _located(extremes.greatest_pressure_angle, degrees(1.0), "deg")),
-        sentence("least radius of curvature {}", _located(extremes.least_convex_radius, MILLI, "mm")),
-    ]
-    if extremes.least_concave_radius is not None:
-        hollow = _located(extremes.least_concave_radius, MILLI, "mm")
-        facts.append(sentence("hollow with a radius of {}: a cutter must be smaller", hollow))
-    facts += [sentence("{} {}", size.name, _located(size.extreme, MILLI, "mm")) for size in extremes.sizes]
-    first, *rest = sentence("{}.", extremes.undercut).parts
-    advice = Sentence(first[0].upper() + first[1:], *rest)
-    return {"status": status, "word": word, "advice": advice, "gap": "", "facts": facts}
-
-
-def _broken_limits(spec: CamProblemFile, cam: DiscCam) -> dict[str, str]:
-    """A verdict on limits that the cam does not keep; nothing where it keeps all."""
-    extremes, broken = cam.extremes, [sentence("{}", size) for size in cam.extremes.beyond]
-    if spec.steepest is not None and not extremes.keeps_pressure_angle(spec.steepest):
-        taken = Amount(degrees(extremes.greatest_pressure_angle.value), "deg", 5)
-        broken.append(sentence("the pressure angle, {} of {}", taken, spec.pressure_angle))
-    if spec.least_radius is not None and not extremes.keeps_radius(spec.least_radius):
-        taken = Amount(MILLI * extremes.least_convex_radius.value, "mm", 5)
-        broken.append(sentence("the radius of curvature, {} of {}", taken, spec.radius_of_curvature))
-    if not broken or extremes.undercut.status == "undercut":
-        return {}
-    advice = sentence("Beyond what is allowed: {}.", joined("; ", broken))
-    return {"status": "refused", "word": "beyond a limit", "advice": advice}
-
-
-def _located(extreme: EnclosedExtreme, factor: float, unit: str) -> Sentence:
-    return sentence("{} at {}", Amount(extreme.value * factor, unit, 7), _at(extreme.angle))
-
-
-def _at(angle: float) -> Amount:
-    """An angle in degrees, to a millionth."""
-    return Amount(round(degrees(angle), 6) + 0.0, "deg", 5)
+def _trust(report: CamReport) -> dict[str, Any]:
+    """Whether the cam can be cut and keeps its limits, in words; extremes are enclosed over the whole turn."""
+    undercut, beyond = report.cam.extremes.undercut, report.beyond
+    word, status = _TITLES[undercut.status]
+    advice = sentence("{}.", undercut)
+    if beyond and undercut.status != UNDERCUT:
+        word, status, advice = (
+            "beyond a limit",
+            "refused",
+            sentence("beyond what is allowed: {}.", joined("; ", beyond)),
+        )
+    return {
+        "status": status,
+        "word": word,
+        "advice": capital(advice),
+        "gap": "",
+        "facts": fact_sentences(report.extremes),
+    }
 
 
 def sizes(request: CamRequest) -> dict[str, Any]:
-    """The least prime circle that keeps the limits, where some are given: it takes longer than the view.
+    """The least prime circle that keeps the limits, where some are given, and the greatest roller.
+
+    They take longer than the view.
 
     Examples
     --------
-    >>> sizes(CamRequest(study=example()))["facts"]
-    ['least prime circle that keeps these limits: 58.60757 mm (base circle 46.60757 mm), by the pressure angle']
+    >>> sizes(CamRequest(study=example()))["facts"][0]
+    'least prime circle, by the pressure angle 58.60757 mm at 264.38 deg'
     """
     others = {name: value for name, value in request.study.items() if name not in {"cutter_radius", "title", "text"}}
-    return {"facts": list(_least(json.dumps(others | {"title": "a cam"}, sort_keys=True)))}
+    return {"facts": _facts(json.dumps(others | {"title": "a cam"}, sort_keys=True))}
 
 
 @lru_cache(maxsize=32)
-def _least(question: str) -> tuple[Sentence, ...]:
-    least = _solved(question).least
-    if least is None or isinstance(least, str):
-        return () if least is None else (sentence("{}", least),)
-    radius, base = (Amount(MILLI * length, "mm", 7) for length in (least.radius, least.cam.base_radius))
-    inner = sentence(" (base circle {})", base) if least.cam.contact.roller else ""
-    return (sentence("least prime circle that keeps these limits: {}{}, by the {}", radius, inner, least.limit),)
+def _facts(question: str) -> list[Sentence]:
+    section = _solved(question).sizes
+    return [*fact_sentences(section.facts), *([sentence("{}", section.note)] if section.note else [])]
 
 
 def example() -> dict[str, Any]:
@@ -235,9 +208,6 @@ def form() -> dict[str, Any]:
     }
 
 
-_PER_MEGAPASCAL = 1e6
-
-
 def loads(request: CamRequest) -> dict[str, Any]:
     """Panels and words of a cam whose motion has a drive; none where it has none."""
     try:
@@ -248,49 +218,25 @@ def loads(request: CamRequest) -> dict[str, Any]:
 
 @lru_cache(maxsize=32)
 def _loads(question: str) -> dict[str, Any]:
-    findings = _solved(question)
-    if findings.spec.motion.drive is None:
+    result = _solved(question)
+    if result.spec.motion.drive is None:
         return {"panels": [], "facts": []}
-    forces = findings.forces_with(findings.spec.forces or Surfaces())
-    return {"panels": _load_panels(forces), "facts": [*_load_facts(forces), *_spring(findings)]}
-
-
-def _load_panels(forces: CamForces) -> list[dict[str, Any]]:
-    panels = [panel_data(panel, DEGREES) for panel in CamReport(forces.cam).loads(forces)]
+    forces = result.forces_of(result.spec.forces or Surfaces())
+    panels = [panel_data(panel, DEGREES) for panel in result.report.loads(forces)]
     for pressed in panels[2:]:
         pressed["peaks"] = pressed["peaks"][-1:]
-    return panels
+    section = forces_section(forces)
+    return {"panels": panels, "facts": [*fact_sentences(section.facts, section.digits), *_spring(result)]}
 
 
-def _load_facts(forces: CamForces) -> list[str]:
-    """Enclosed contact forces and torques over the whole turn, in words."""
-    contact, torque = forces.contact, forces.torque
-    lifted = sentence("the follower lifts off at {}: ", _at(contact.least_at)) if forces.lifts_off else ""
-    turned = f"torque at the shaft {digits(torque.least, 6)} to {digits(torque.most, 6)} N m"
-    facts = [
-        sentence("{}contact force {} to {} N", lifted, digits(contact.least, 6), digits(contact.most, 6)),
-        f"{turned}, root mean square {digits(forces.rms_torque[1], 6)} N m",
-    ]
-    if forces.width is not None:
-        facts.append(f"Hertz's pressure up to {digits(forces.pressure.most / _PER_MEGAPASCAL, 6)} MPa")
-    return facts
-
-
-def _spring(findings: Findings) -> list[str]:
-    """The least spring for the requested range of speeds; or the reason why there is none."""
+def _spring(result: CamResult) -> list[Sentence]:
+    """The least spring for the range of speeds; or the reason why there is none."""
     try:
-        spring = findings.spring
+        spring = result.spring
     except (InfeasibleProblem, InputError) as error:
         return [sentence("no spring: {}", error.args[0])]
-    if spring is None:
-        return []
-    axis = findings.cam.displacement.axis
-    preload = 0.0 if abs(spring.preload) <= FORCE_ROUNDING * spring.greatest else spring.preload
-    sizes = f"{digits(spring.stiffness, 6)} {STIFFNESS[axis]}, preload {digits(preload, 6)} {FORCE[axis]}"
-    pressed = findings.spec.spring is not None and findings.spec.spring.greatest == "contact"
-    greatest = f"{digits(spring.greatest, 6)} {'N of contact' if pressed else f'{FORCE[axis]} on the follower'}"
-    remark = [spring.remark] if spring.remark else []
-    return [f"least spring without lift-off: {sizes}, up to {greatest}", *remark]
+    sizes = joined(", ", fact_sentences(spring.facts, spring.digits))
+    return [sentence("least spring without lift-off: {}. {}", sizes, spring.note)] if spring.facts else []
 
 
 QUESTIONS: dict[str, Question] = {

@@ -19,7 +19,7 @@ MAKERS = {
     "balancing/dwells/dwell_machine.py": {"OscillatingRoller"},
     "cams/at_shaft.py": {"translating roller"},
     "cams/best_offset.py": {"TranslatingRoller"},
-    "jobs/cam_findings.py": {"TranslatingRoller"},
+    "jobs/cam_result.py": {"TranslatingRoller"},
     "explorer/views/cam_view.py": {"translating roller"},
 }
 

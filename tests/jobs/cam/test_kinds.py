@@ -27,6 +27,7 @@ from optlaws import (
     least_prime_circle,
     least_spring,
 )
+from tests.internals.explorer import CamRequest, cam_view
 from tests.internals.files import reading
 from tests.internals.jobs import answer, job
 
@@ -231,6 +232,23 @@ def test_a_cam_that_is_undercut_says_so_where_forces_are_asked_for(tmp_path: Pat
     assert "which it cannot on a cam that is undercut" in page
     with pytest.raises(InputError, match=r"no pressure: undercut at \d.* make the prime circle larger"):
         done(tmp_path, small + 'width = "20 mm"\n' + steep)
+
+
+def test_page_and_explorer_show_the_facts_of_one_report(tmp_path: Path) -> None:
+    """What is beyond a limit, extremes and sizes: each row of the page is a sentence of the view."""
+    text = HEAD + 'prime_radius = "45 mm"\npressure_angle = "25 deg"\nradius_of_curvature = "40 mm"\n' + ROLLER + MOTION
+    page, _, _ = done(tmp_path, text)
+    study = CamRequest(study=reading.toml(tmp_path / "small.toml"))
+    trust, sizes = cam_view.answer(study)["trust"], cam_view.sizes(study)["facts"]
+    (first, second) = (line for line in page.splitlines() if line.startswith("Beyond what is allowed: "))
+    assert trust["advice"] == f"{first.removesuffix('.')}; {second.removeprefix('Beyond what is allowed: ')}"
+    rows = [[cell.strip() for cell in line.split("|")[1:-1]] for line in page.splitlines() if line.startswith("| ")]
+    shown = [row for row in rows if row[0] != "what"]
+    assert len(shown) == len(trust["facts"]) + len(sizes) == 7
+    for (name, low, high, unit, place), fact in zip(shown, [*trust["facts"], *sizes], strict=True):
+        ends = " to ".join(dict.fromkeys([f"{low} {unit}", f"{high} {unit}"]))
+        assert fact.startswith(f"{name} {ends} at ")
+        assert float(fact.split(" at ")[1].split()[0]) == pytest.approx(float(place), abs=0.01)
 
 
 @pytest.mark.parametrize(("by", "unit"), [("35 mm", "mm"), ("20 deg", "deg")])
