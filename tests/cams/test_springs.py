@@ -3,6 +3,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from scipy.optimize import linprog
 
 from optlaws import CamForces, InfeasibleProblem, InputError, least_spring
 from tests.cams.placed import cam_of
@@ -86,3 +87,19 @@ def test_a_stiffness_or_a_preload_of_0_has_its_reason() -> None:
         spring = least_spring(cam, drive=heavy, speeds=("0 rpm", "10 rpm"), **arguments)
         assert (spring.stiffness, spring.preload) == (0.0, 0.0)
         assert spring.remark.startswith("no spring is needed")
+
+
+@pytest.mark.parametrize("greatest", ["force", "contact"])
+def test_the_greatest_force_is_that_of_a_linear_program(greatest: Any) -> None:
+    """scipy's program over a grid of angles, of preload, stiffness and greatest force."""
+    cam = cam_of("translating roller")
+    spring = least_spring(cam, drive={"mass": "2 kg"}, speeds=("0 rpm", "300 rpm"), greatest=greatest)
+    angles = np.linspace(0.0, 2.0 * pi, 2881)
+    y, inertia = cam.displacement(angles), 2.0 * (10.0 * pi) ** 2 * cam.displacement(angles, 2)
+    lever = np.cos(cam.pressure_angle(angles)) if greatest == "contact" else np.ones(len(angles))
+    low, high = np.minimum(inertia, 0.0), np.maximum(inertia, 0.0)
+    pressed = np.column_stack([-np.ones(len(y)), -y, 0.0 * y])
+    within = np.column_stack([1.0 / lever, y / lever, -np.ones(len(y))])
+    known: Any = linprog([0.0, 0.0, 1.0], np.vstack([pressed, within]), np.concatenate([low, -high / lever]))
+    assert spring.greatest == pytest.approx(known.fun, rel=1e-5)
+    assert spring.stiffness == pytest.approx(known.x[1], rel=1e-3)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from math import degrees
 from typing import Any, Literal, NoReturn
@@ -24,9 +24,10 @@ from optlaws.numbers import Array, Quantity
 from optlaws.numerics.branch_and_bound import Extremes, Function, extremes_of_each
 from optlaws.numerics.integral import integral
 from optlaws.numerics.interval import Interval, chosen
+from optlaws.numerics.roots import bisect
 from optlaws.numerics.taylor import Jet, variable
 from optlaws.sentences import sentence
-from optlaws.tolerances import BEFORE_BREAK, FORCE_EXTREMES, ROUNDOFF
+from optlaws.tolerances import BEFORE_BREAK, FORCE_EXTREMES
 
 _PROGRAM_ROUNDING = 1e-10  # of the forces: by so much the best spring for some angles may miss what these need
 _SPRING_SETTLED = 1e-9  # of a greatest force: that of the best spring for some angles is met everywhere to so much
@@ -332,7 +333,8 @@ def _program(task: _SpringTask, angles: Array, given: _KnownSpring) -> tuple[flo
     """The best preload and stiffness for some angles, and the least greatest force there.
 
     The preload that a stiffness needs, and with it the greatest force, are the greatest of linear functions of the
-    stiffness: what is least lies where two of them meet.
+    stiffness: what is least lies where the slope changes its sign. Where the greatest force does not change, the mean
+    force counts.
     """
     y, lever = task.displacement(angles), np.asarray(task.lever(angles, 0).terms[0])
     low, high = (np.asarray(task.without_spring(angles, side).terms[0]) for side in (1.0, -1.0))
@@ -344,67 +346,27 @@ def _program(task: _SpringTask, angles: Array, given: _KnownSpring) -> tuple[flo
         worst = int(np.argmax(values))
         return (float(values[worst]), -float(y[worst])) if values[worst] > 0.0 else (0.0, 0.0)
 
-    def greatest_of(stiffness: float) -> tuple[float, float]:
+    def falls(stiffness: float) -> bool:
         preload, slope = preload_of(stiffness)
-        values = (high + preload + stiffness * y) / lever
-        worst = int(np.argmax(values))
-        rise = slope + float(y[worst])
-        return float(values[worst]), rise / float(lever[worst]) if abs(rise) > _SPRING_LIFT * scale else 0.0
-
-    def mean_of(stiffness: float) -> tuple[float, float]:
-        (preload, slope), sums = preload_of(stiffness), task.sums
-        return sums[0] * preload + sums[1] * stiffness, sums[0] * slope + sums[1]
+        rise = slope + float(y[np.argmax((high + preload + stiffness * y) / lever)])
+        if abs(rise) <= _SPRING_LIFT * scale:
+            rise = task.sums[0] * slope + task.sums[1]
+        return rise < 0.0
 
     if given.stiffness is not None:
-        preload, stiffness = preload_of(given.stiffness)[0], given.stiffness
+        stiffness = given.stiffness
     elif given.preload is not None:
-        preload, missing, lifted = given.preload, needed - given.preload, y > _SPRING_LIFT * scale
+        missing, lifted = needed - given.preload, y > _SPRING_LIFT * scale
         if np.any(missing[~lifted] > _PROGRAM_ROUNDING * unit):
             _refuse(task, angles, given)
         stiffness = max(0.0, float((missing[lifted] / y[lifted]).max(initial=0.0)))
     else:
-        best = _lowest(greatest_of, unit / scale)
-        least = greatest_of(best)[0]
-        # of all that are as good the one of the least mean force
-        stiffness = _nearest(greatest_of, _lowest(mean_of, unit / scale), best)
-        return preload_of(stiffness)[0], stiffness, least
+        most = unit / scale
+        while falls(most):
+            most *= 2.0
+        stiffness = bisect(falls, 0.0, most)[1] if falls(0.0) else 0.0
+    preload = preload_of(stiffness)[0] if given.preload is None or given.stiffness is not None else given.preload
     return preload, stiffness, float(((high + preload + stiffness * y) / lever).max())
-
-
-def _lowest(convex: Callable[[float], tuple[float, float]], size: float) -> float:
-    """Where the greatest of linear functions is least, from 0 on, by its values and slopes: where two of them meet."""
-    low, high = 0.0, size
-    while convex(high)[1] < 0.0:
-        low, high = high, 2.0 * high
-    (first, falling), (last, rising) = convex(low), convex(high)
-    while falling < 0.0 < rising:
-        at = (first - last + rising * high - falling * low) / (rising - falling)
-        if not low < at < high:
-            return min(max(at, low), high)
-        value, slope = convex(at)
-        if value <= first + falling * (at - low) + 16.0 * ROUNDOFF * max(abs(first), abs(last)):
-            return at
-        if slope < 0.0:
-            low, first, falling = at, value, slope
-        else:
-            high, last, rising = at, value, slope
-    return low if falling >= 0.0 else high
-
-
-def _nearest(convex: Callable[[float], tuple[float, float]], sought: float, known: float) -> float:
-    """The place nearest to a sought one where the greatest of linear functions is as flat as where it is least."""
-    (value, slope), level = convex(sought), convex(known)[0]
-    for _ in range(_STEPS):
-        if slope * (sought - known) <= 0.0:
-            break
-        at = sought - (value - level) / slope
-        if (at - known) * (sought - known) <= 0.0:
-            return known
-        there, next_slope = convex(at)
-        if next_slope == 0.0:
-            return sought + (there - value) / slope
-        sought, value, slope = at, there, next_slope
-    return sought
 
 
 def _refuse(task: _SpringTask, angles: Array, given: _KnownSpring) -> NoReturn:
