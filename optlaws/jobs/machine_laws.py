@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import KW_ONLY, dataclass
-from typing import TYPE_CHECKING, Any, Literal
+from typing import Any, Literal
 
 import numpy as np
 
@@ -16,7 +16,6 @@ from optlaws.entries.value_types import Choice, Either, Listed, Number, ReadBy, 
 from optlaws.errors import InputError, located
 from optlaws.files import tables, writing
 from optlaws.jobs.job_entries import ProblemFile
-from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.laws.catalogue.catalogue import catalogue
 from optlaws.laws.making.input_shaping import Shaper, shaped_law
@@ -24,18 +23,14 @@ from optlaws.mechanisms.machine.machine import Machine
 from optlaws.mechanisms.machine.modes import mode
 from optlaws.mechanisms.transforms import velocity_transform
 from optlaws.numbers import Array, bounded
-from optlaws.plots.style import BLUES, GREEN, GREY, WARM, empty_figure, plot_style
+from optlaws.plots.machine import laws_figure
 from optlaws.results import Results
+from optlaws.shown.report import Panel, ReportTable, Section, Series
 from optlaws.studies.problem_entries import gap, record
 from optlaws.synthesis import Functional, Problem, Solution, at_most, synthesize
 from optlaws.synthesis.problem.fields import from_entries
 from optlaws.synthesis.problem.named_constants import named
 
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
-
-_SHOWN_RESIDUAL = 1e-4  # of the greatest residual: what a logarithmic picture still shows
 _RESIDUAL_ROUNDING = 1e-12  # of the vibration of a step: a residual that is less is rounding
 
 _PAIR = Together(Number(), Number())
@@ -223,33 +218,41 @@ class MachineLawsProblemFile(ProblemFile, title="a problem file"):
 
 @dataclass(frozen=True, eq=False)
 class Compared:
-    """A law for the machine; its solution if it is an optimum, nothing if it does not exist."""
+    """A law for the machine of a problem file; its solution if it is an optimum."""
 
-    name: str
+    spec: MachineLawsProblemFile
     machine: Machine
-    vibration: Vibration
-    law: MotionLaw | None
+    name: str
+    law: MotionLaw
     solution: Solution | None = None
 
     def left(self, number: int, factors: Array) -> Array:
         """Residual amplitudes of a mode when all frequencies are multiplied by given factors."""
-        assert self.law is not None  # noqa: S101 - only laws that are there are asked
-        vibration = self.machine.residual(number, self.vibration.output)
+        vibration = self.machine.residual(number, self.spec.vibration.output)
         roots = np.asarray(mode(self.machine, number).root * factors, dtype=np.complex128)
         amplitudes = np.abs(velocity_transform(self.law, roots))
         # the mode's share in the output is the same at every speed
         return np.where(amplitudes > _RESIDUAL_ROUNDING, vibration.share * amplitudes, 0.0)
 
-    @kept_property
-    def residuals(self) -> list[float]:
-        """Residuals of each chosen mode at a low, the nominal and a high frequency, and the greatest in between."""
-        spread = self.vibration.spread
-        residuals = []
-        for number in self.vibration.modes:
-            residuals += self.left(number, np.array([1.0 - spread, 1.0, 1.0 + spread])).tolist()
-            assert self.law is not None  # noqa: S101 - as above
-            residuals.append(self.machine.residual(number, self.vibration.output, spread=spread).value(self.law))
-        return residuals
+    def row(self) -> dict[str, tables.Cell]:
+        """Its peaks, what is left of each mode at a low, the nominal and a high frequency and at most, its proof."""
+        spec, spread, constants = self.spec, self.spec.vibration.spread, self.law.constants
+        row: dict[str, tables.Cell] = {"law": self.name, "B": constants.B.value, "C": constants.C.value}
+        row["J"] = bounded(constants.J.value)
+        response, percent = self.machine.response(self.law), f"{100.0 * spread:g} %"
+        row |= {f"peak {spec.titled(output)}": response.rise_peak(output).value for output in spec.report}
+        for number in spec.vibration.modes:
+            ends = self.left(number, np.array([1.0 - spread, 1.0, 1.0 + spread])).tolist()
+            greatest = self.machine.residual(number, spec.vibration.output, spread=spread).value(self.law)
+            names = (f"-{percent}", "nominal", f"+{percent}", f"greatest within {percent}")
+            row |= {f"mode {number} left, {name}": end for name, end in zip(names, [*ends, greatest], strict=True)}
+        known = self.solution
+        proof = (None,) * 3 if known is None else (known.lower_bound, gap(known), known.status.value)
+        return row | dict(zip(("lower bound", "gap", "status"), proof, strict=True))
+
+    def curve(self, at: Array, values: Array) -> Series:
+        """A curve of it for pictures."""
+        return Series(at, values, "known" if self.solution is None else "optimal", self.name)
 
 
 def run(results: Results) -> None:
@@ -259,13 +262,17 @@ def run(results: Results) -> None:
     machine = spec.machine.machine()
     _check(spec, machine)
     laws = list(compared(spec, machine))
-    headings, lines = _headings(spec), [_line(spec, law) for law in laws]
-    results.table("table", headings, lines)
+    rows = [{"law": law, "status": "no time for it"} if isinstance(law, str) else law.row() for law in laws]
+    headings = list(max(rows, key=len))
+    table = ReportTable(headings, [[row.get(heading) for heading in headings] for row in rows])
+    known = [law for law in laws if isinstance(law, Compared)]
+    results.table("table", *table)
     page = results.page("table").text(spec.text).figure("figure", spec.title)
-    page.heading("The machine's modes").table(*_modes(machine, spec.machine.duration))
-    page.heading("Laws").text(_about(spec)).table(headings, lines, digits=5)
-    results.text("laws.json", _laws(results.about, laws))
-    results.picture("figure", draw(spec, machine, laws))
+    page.section(Section("The machine's modes", table=_modes(machine, spec.machine.duration)))
+    page.section(Section("Laws", table=table, text=_about(spec), digits=5))
+    results.text("laws.json", _laws(results.about, known))
+    left, moved = _panels(spec, machine, known)
+    results.picture("figure", laws_figure(spec.title, left, moved, 100.0 * spec.vibration.spread))
 
 
 def _check(spec: MachineLawsProblemFile, machine: Machine) -> None:
@@ -280,7 +287,8 @@ def _check(spec: MachineLawsProblemFile, machine: Machine) -> None:
     for number in (*spec.vibration.modes, spec.vibration.shaped):
         with located("vibration"):
             mode(machine, number)
-    known = _names(spec)
+    shaped = [f"{name}, {shaper}" for name in spec.standard for shaper in SHAPERS]
+    known = [*spec.standard, *shaped, *(stated.name for stated in spec.sought)]
     for name in spec.figure.laws:
         if name not in known:
             raise InputError(f"figure: no law is called {name!r}; there are {', '.join(known)}")
@@ -288,46 +296,26 @@ def _check(spec: MachineLawsProblemFile, machine: Machine) -> None:
         stated.stated(machine)
 
 
-def _names(spec: MachineLawsProblemFile) -> list[str]:
-    shaped = [f"{name}, {shaper}" for name in spec.standard for shaper in SHAPERS]
-    return [*spec.standard, *shaped, *(stated.name for stated in spec.sought)]
+def compared(spec: MachineLawsProblemFile, machine: Machine) -> Iterator[Compared | str]:
+    """All laws, in the order of the table: standard ones, plain and shaped, and the optimised ones.
 
-
-def compared(spec: MachineLawsProblemFile, machine: Machine) -> Iterator[Compared]:
-    """All laws, in the order of the table: standard ones, plain and shaped, and the optimised ones."""
+    The name alone of a law that the vibration is too slow for.
+    """
     vibration = mode(machine, spec.vibration.shaped)
     for name in spec.standard:
         law = catalogue[name].law
-        yield Compared(name, machine, spec.vibration, law)
+        yield Compared(spec, machine, name, law)
         for shaper in SHAPERS:
+            called = f"{name}, {shaper}"
             try:
-                shaped: MotionLaw | None = shaped_law(law, vibration.frequency, vibration.damping, shaper)
+                shaped = shaped_law(law, vibration.frequency, vibration.damping, shaper)
             except InputError:
-                shaped = None  # the vibration is too slow for it: the table says so
-            yield Compared(f"{name}, {shaper}", machine, spec.vibration, shaped)
+                yield called
+            else:
+                yield Compared(spec, machine, called, shaped)
     for stated in spec.sought:
         solution = synthesize(stated.stated(machine))
-        yield Compared(stated.name, machine, spec.vibration, solution.law, solution)
-
-
-def _headings(spec: MachineLawsProblemFile) -> list[str]:
-    percent = f"{100.0 * spec.vibration.spread:g} %"
-    ends = (f"-{percent}", "nominal", f"+{percent}", f"greatest within {percent}")
-    residuals = [f"mode {number} left, {end}" for number in spec.vibration.modes for end in ends]
-    peaks = [f"peak {spec.titled(name)}" for name in spec.report]
-    return ["law", "B", "C", "J", *peaks, *residuals, "lower bound", "gap", "status"]
-
-
-def _line(spec: MachineLawsProblemFile, law: Compared) -> list[tables.Cell]:
-    if law.law is None:
-        return [law.name, *[None] * (len(_headings(spec)) - 2), "no time for it"]
-    constants, response = law.law.constants, law.machine.response(law.law)
-    peaks = [response.rise_peak(name).value for name in spec.report]
-    proof: list[tables.Cell] = [None, None, None]
-    if law.solution is not None:
-        proof = [law.solution.lower_bound, gap(law.solution), law.solution.status.value]
-    shown = [constants.B.value, constants.C.value, bounded(constants.J.value)]
-    return [law.name, *shown, *peaks, *law.residuals, *proof]
+        yield Compared(spec, machine, stated.name, solution.law, solution)
 
 
 def _laws(about: str, laws: Sequence[Compared]) -> str:
@@ -338,83 +326,42 @@ def _laws(about: str, laws: Sequence[Compared]) -> str:
 
 
 def _about(spec: MachineLawsProblemFile) -> str:
-    """Explanations of the columns of the laws' table."""
-    unit = f" ({spec.units[spec.vibration.output]})" if spec.vibration.output in spec.units else ""
+    """Explanations of the columns of the laws' table, and the dimensionless constants in the machine's units."""
+    output, stroke, duration = spec.vibration.output, spec.machine.stroke, spec.machine.duration
+    unit = f" ({spec.units[output]})" if output in spec.units else ""
+    units = ""
+    if (stroke, duration) != (1.0, 1.0):
+        units = (
+            f": the peak acceleration is C times {stroke / duration**2:.6g}, the peak jerk J times "
+            f"{stroke / duration**3:.6g}, in units of the stroke and seconds"
+        )
     return (
-        f"{_in_machine_units(spec.machine)} "
-        f"What is left of a mode is its amplitude in {spec.vibration.output!r}{unit} after the motion, "
-        "with all frequencies as they are and off by the share that is named. A law without a finite J has jumps of c."
+        f"C and J are dimensionless{units}. What is left of a mode is its amplitude in {output!r}{unit} after the "
+        "motion, with all frequencies as they are and off by the share that is named. A law without a finite J has "
+        "jumps of c."
     )
 
 
-def _modes(machine: Machine, duration: float) -> tuple[list[str], list[list[tables.Cell]]]:
-    """The machine's modes as a table; in Hz too where the duration is known."""
-    headings = ["mode", "radians in the rise", "periods in the rise", "damping"]
-    lines: list[list[tables.Cell]] = []
+def _modes(machine: Machine, duration: float) -> ReportTable:
+    """The machine's modes; in Hz too where the duration is known."""
+    headings = ("mode", "radians in the rise", "periods in the rise", "damping", "frequency, Hz")
+    columns, rows = len(headings) - (duration == 1.0), []
     for vibration in machine.modes:
         periods = vibration.frequency / (2.0 * np.pi)
-        hertz = [periods / duration] if duration != 1.0 else []
-        lines.append([vibration.number, vibration.frequency, periods, vibration.damping, *hertz])
-    return [*headings, *(["frequency, Hz"] if duration != 1.0 else [])], lines
+        row = [vibration.number, vibration.frequency, periods, vibration.damping, periods / duration]
+        rows.append(row[:columns])
+    return ReportTable(headings[:columns], rows)
 
 
-def _in_machine_units(machine: MachineTable) -> str:
-    """The dimensionless constants in the machine's units, in words."""
-    stroke, duration = machine.stroke, machine.duration
-    if (stroke, duration) == (1.0, 1.0):
-        return "C and J are dimensionless."
-    acceleration, jerk = (f"{stroke / duration**nu:.6g}" for nu in (2, 3))
-    return (
-        f"C and J are dimensionless: the peak acceleration is C times {acceleration}, the peak jerk J times {jerk}, in "
-        "units of the stroke and seconds."
-    )
-
-
-def draw(spec: MachineLawsProblemFile, machine: Machine, laws: Sequence[Compared]) -> Figure:
-    """The residual of each mode over its frequency, and an output over time."""
-    drawn = [law for name in spec.figure.laws for law in laws if law.name == name and law.law is not None]
-    with plot_style():
-        modes = spec.vibration.modes
-        figure = empty_figure(9.6 + 3.6 * (len(modes) - 1), 4.6)
-        *left, right = figure.subplots(1, len(modes) + 1)
-        for number, axes in zip(modes, left, strict=True):
-            _residuals(axes, spec, number, drawn)
-        _outputs(right, spec, machine, drawn)
-        handles, labels = right.get_legend_handles_labels()
-        figure.suptitle(spec.title, x=0.01, ha="left", fontsize=11.0)
-        figure.legend(handles, labels, loc="outside lower center", ncols=3)
-        return figure
-
-
-def _residuals(axes: Axes, spec: MachineLawsProblemFile, number: int, laws: Sequence[Compared]) -> None:
-    spread = spec.figure.spread
-    factors = np.linspace(1.0 - spread, 1.0 + spread, _POINTS)
-    courses = [law.left(number, factors) for law in laws]
-    least = _SHOWN_RESIDUAL * max(float(values.max()) for values in courses)
-    for course, style in zip(courses, _styles(laws), strict=True):
-        axes.semilogy(100.0 * (factors - 1.0), np.maximum(course, least), **style)
-    band = 100.0 * spec.vibration.spread
-    axes.axvspan(-band, band, color="#f2f2f2", zorder=0)
-    axes.set(xlim=(-100.0 * spread, 100.0 * spread), ylim=(least, None), xlabel="frequency off by, %")
-    axes.set(title=f"mode {number} left in {spec.titled(spec.vibration.output)}")
-
-
-def _outputs(axes: Axes, spec: MachineLawsProblemFile, machine: Machine, laws: Sequence[Compared]) -> None:
-    k = np.linspace(0.0, 1.0 + spec.figure.dwell, _POINTS)
-    for law, style in zip(laws, _styles(laws), strict=True):
-        assert law.law is not None  # noqa: S101 - only those that are there are drawn
-        axes.plot(k, machine.response(law.law, dwell=spec.figure.dwell)[spec.figure.output](k), label=law.name, **style)
-    axes.axvline(1.0, color="black", linewidth=0.7, linestyle=":")
-    axes.set(xlim=(0.0, k[-1]), xlabel="k", title=spec.titled(spec.figure.output))
-
-
-def _styles(laws: Sequence[Compared]) -> list[dict[str, Any]]:
-    ours = iter((BLUES[-1], GREEN, "#66c2a5", BLUES[1]))
-    known = iter((GREY, WARM, "#fdae61", "#8c8c8c", "#a6761d"))
-    styles = []
-    for law in laws:
-        if law.solution is None:
-            styles.append({"color": next(known, GREY), "linestyle": "--", "linewidth": 1.2})
-        else:
-            styles.append({"color": next(ours, BLUES[-1]), "linewidth": 1.6})
-    return styles
+def _panels(spec: MachineLawsProblemFile, machine: Machine, laws: Sequence[Compared]) -> tuple[list[Panel], Panel]:
+    """What is left of each mode over its frequency in percent, and an output over k."""
+    figure, output = spec.figure, spec.vibration.output
+    shown = [law for name in figure.laws for law in laws if law.name == name]
+    factors = np.linspace(1.0 - figure.spread, 1.0 + figure.spread, _POINTS)
+    k = np.linspace(0.0, 1.0 + figure.dwell, _POINTS)
+    left = []
+    for number in spec.vibration.modes:
+        curves = tuple(law.curve(100.0 * (factors - 1.0), law.left(number, factors)) for law in shown)
+        left.append(Panel(f"mode {number} left in {spec.titled(output)}", "", curves))
+    moved = (law.curve(k, machine.response(law.law, dwell=figure.dwell)[figure.output](k)) for law in shown)
+    return left, Panel(spec.titled(figure.output), "", tuple(moved))

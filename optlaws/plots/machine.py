@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
@@ -13,7 +14,19 @@ from optlaws.formulas.tree import Formula
 from optlaws.motion.derivative_panel import samples
 from optlaws.motion.display_units import DEGREES, MILLI, RPM
 from optlaws.numbers import Array
-from optlaws.plots.style import BLUES, DISTINCT, GREEN, GREY, WARM, name_point, new_axes, new_figure, plot_style, titled
+from optlaws.plots.style import (
+    BLUES,
+    DISTINCT,
+    GREEN,
+    GREY,
+    WARM,
+    empty_figure,
+    name_point,
+    new_axes,
+    new_figure,
+    plot_style,
+    titled,
+)
 from optlaws.tolerances import VALUE_ROUNDING
 
 if TYPE_CHECKING:
@@ -31,6 +44,7 @@ if TYPE_CHECKING:
     from optlaws.mechanisms.machine.parameters import MachineSpectrum
     from optlaws.mechanisms.spectrum import ResponseSpectrum
     from optlaws.numbers import Array
+    from optlaws.shown.report import Panel, Series
 
 
 def draw_spectrum(
@@ -246,3 +260,38 @@ def draw_best_ratio(best: BestRatio, axes: Axes | None = None, **style: Any) -> 
     axes.set_ylim(bottom=0.0)
     axes.legend(frameon=False)
     return artists
+
+
+_SHOWN_RESIDUAL = 1e-4  # of the greatest residual: what a logarithmic picture still shows
+
+
+def laws_figure(title: str, left: Sequence[Panel], moved: Panel, spread: float) -> Figure:
+    """What laws leave of modes over their frequencies, within a spread in percent, and an output over k."""
+    with plot_style():
+        figure = empty_figure(9.6 + 3.6 * (len(left) - 1), 4.6)
+        *before, last = figure.subplots(1, len(left) + 1)
+        for panel, axes in zip(left, before, strict=True):
+            least = _SHOWN_RESIDUAL * max(float(curve.values.max()) for curve in panel.series)
+            for curve, style in zip(panel.series, _styles(panel.series), strict=True):
+                axes.semilogy(curve.at, np.maximum(curve.values, least), **style)
+            axes.axvspan(-spread, spread, color="#f2f2f2", zorder=0)
+            ends = float(panel.series[0].at[0]), float(panel.series[0].at[-1])
+            axes.set(xlim=ends, ylim=(least, None), xlabel="frequency off by, %", title=panel.name)
+        for curve, style in zip(moved.series, _styles(moved.series), strict=True):
+            last.plot(curve.at, curve.values, label=curve.name, **style)
+        last.axvline(1.0, color="black", linewidth=0.7, linestyle=":")
+        last.set(xlim=(0.0, float(moved.series[0].at[-1])), xlabel="k", title=moved.name)
+        figure.suptitle(title, x=0.01, ha="left", fontsize=11.0)
+        figure.legend(*last.get_legend_handles_labels(), loc="outside lower center", ncols=3)
+        return figure
+
+
+def _styles(curves: Sequence[Series]) -> list[dict[str, Any]]:
+    """Full lines of optimal laws, broken ones of others."""
+    ours, known = iter((BLUES[-1], GREEN, "#66c2a5", BLUES[1])), iter((GREY, WARM, "#fdae61", "#8c8c8c", "#a6761d"))
+    return [
+        {"color": next(ours, BLUES[-1]), "linewidth": 1.6}
+        if curve.law == "optimal"
+        else {"color": next(known, GREY), "linestyle": "--", "linewidth": 1.2}
+        for curve in curves
+    ]
