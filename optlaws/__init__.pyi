@@ -24,11 +24,12 @@ from .cams.best_offset import best_offset as best_offset
 from .cams.conjugate import conjugate_cam as conjugate_cam
 from .cams.curves.motion_by_angle import CamMotion as CamMotion
 from .cams.disc import DiscCam as DiscCam
-from .cams.followers.inclined_flat import InclinedFlat as InclinedFlat
-from .cams.followers.oscillating_flat import OscillatingFlat as OscillatingFlat
-from .cams.followers.oscillating_roller import OscillatingRoller as OscillatingRoller
-from .cams.followers.translating_flat import TranslatingFlat as TranslatingFlat
-from .cams.followers.translating_roller import TranslatingRoller as TranslatingRoller
+from .cams.followers.faces import (
+    InclinedFlat as InclinedFlat,
+    OscillatingFlat as OscillatingFlat,
+    TranslatingFlat as TranslatingFlat,
+)
+from .cams.followers.rollers import OscillatingRoller as OscillatingRoller, TranslatingRoller as TranslatingRoller
 from .cams.forces import CamForces as CamForces
 from .cams.least_sizes import greatest_roller as greatest_roller, least_prime_circle as least_prime_circle
 from .cams.sizing.energy_fluctuation import (

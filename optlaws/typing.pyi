@@ -11,8 +11,9 @@ from .cams.curves.motion_by_angle import CamStretch as CamStretch, Direction as 
 from .cams.curves.plane_curve import PlaneCurve as PlaneCurve
 from .cams.curves.process_by_angle import ForceStretch as ForceStretch, ProcessByAngle as ProcessByAngle
 from .cams.disc import CutCurve as CutCurve, Turning as Turning
+from .cams.followers.faces import FaceContact as FaceContact
 from .cams.followers.follower import CamFollower as CamFollower, Place as Place
-from .cams.followers.rollers_and_faces import FaceContact as FaceContact, RollerContact as RollerContact
+from .cams.followers.rollers import RollerContact as RollerContact
 from .cams.least_sizes import GreatestRoller as GreatestRoller, LeastPrimeCircle as LeastPrimeCircle
 from .cycles.advising.advised_law import LawKind as LawKind, LawMeasure as LawMeasure, ProvenLeast as ProvenLeast
 from .cycles.interchange import PlotOver as PlotOver

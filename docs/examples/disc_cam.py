@@ -9,7 +9,7 @@ from matplotlib import pyplot as plt
 
 from optlaws import Cycle, Dwell, Return, Rise
 from optlaws.cams.disc import DiscCam
-from optlaws.cams.followers.translating_roller import TranslatingRoller
+from optlaws.cams.followers.rollers import TranslatingRoller
 
 cycle = Cycle([Rise("35 mm", "120 deg"), Dwell("90 deg"), Return("35 mm", "100 deg"), Dwell()], speed="200 rpm")
 cam = DiscCam(cycle, prime_radius="60 mm", follower=TranslatingRoller("12 mm"))

@@ -15,7 +15,7 @@ import numpy as np
 from optlaws.cams.curves.motion_by_angle import CamMotion, as_motion
 from optlaws.cams.disc import DiscCam, Turning, sense
 from optlaws.cams.followers.follower import positive
-from optlaws.cams.followers.translating_roller import TranslatingRoller
+from optlaws.cams.followers.rollers import TranslatingRoller
 from optlaws.cycles.cycle import Cycle
 from optlaws.echo import shortened
 from optlaws.errors import InputError

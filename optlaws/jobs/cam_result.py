@@ -16,7 +16,7 @@ from optlaws.cams.conjugate import conjugate_cam
 from optlaws.cams.curves.extremes import UNDERCUT
 from optlaws.cams.disc import DiscCam
 from optlaws.cams.followers.follower import stated_prime_radius
-from optlaws.cams.followers.translating_roller import TranslatingRoller
+from optlaws.cams.followers.rollers import TranslatingRoller
 from optlaws.cams.forces import CamForces, Surfaces
 from optlaws.cams.least_sizes import LeastPrimeCircle, greatest_roller, least_prime_circle
 from optlaws.cams.report import CamReport, barrel_coordinates, barrel_section, forces_section

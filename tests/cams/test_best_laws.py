@@ -160,8 +160,8 @@ def test_curvature_under_a_roller_is_imposed_and_bounded(monkeypatch: pytest.Mon
 def test_planes_are_nowhere_above_what_the_curvature_needs(kind: str, turning: float) -> None:
     """Where the pitch curve bends as much as it may, by the contact's own curvature, every plane says it may."""
     roller = {
-        "slide": SlidingRoller(turning, 0.0, 0.05, 0.006, 0.012),
-        "arm": SwingingRoller(turning, 0.0, 0.5, 0.11, 0.14, 0.014),
+        "slide": SlidingRoller(turning, 0.0, 0.05, 0.012, offset=0.006),
+        "arm": SwingingRoller(turning, 0.0, 0.5, 0.014, arm=0.11, distance=0.14),
     }[kind]
     stroke = 0.035 if kind == "slide" else 0.4
     piece = Piece(0.0, 0.3, 0.1 * stroke, -0.8 * stroke, smoothstep(3))
@@ -211,7 +211,7 @@ def test_what_has_no_best_law_says_the_remedy() -> None:
 @pytest.mark.parametrize("share", [0.4, 0.9, 1.6])
 @pytest.mark.parametrize("sign", [1.0, -1.0])
 def test_lines_lie_where_an_arm_keeps_its_limit_or_breaks_it(share: float, sign: float) -> None:
-    contact = SwingingRoller(1.0, 0.0, 0.5, 0.11, 0.14, 0.014)
+    contact = SwingingRoller(1.0, 0.0, 0.5, 0.014, arm=0.11, distance=0.14)
     piece = Piece(0.0, 0.3, 0.0, 0.4, smoothstep(3))
     angle, a = 2 * np.pi * 0.3, np.linspace(0.0, 1.0, 301)
     psi = 0.5 + 0.4 * a

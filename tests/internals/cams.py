@@ -12,8 +12,7 @@ from optlaws.cams.curves.outline import Outline
 from optlaws.cams.curves.plane_curve import CurveByJets, PlaneCurve
 from optlaws.cams.curves.spline import Spline, even, spline, through
 from optlaws.cams.followers.contact import PRESSURE
+from optlaws.cams.followers.faces import FaceContact
 from optlaws.cams.followers.follower import CamFollower
-from optlaws.cams.followers.oscillating_roller import SwingingRoller
-from optlaws.cams.followers.rollers_and_faces import FaceContact, RollerContact
-from optlaws.cams.followers.translating_roller import SlidingRoller
+from optlaws.cams.followers.rollers import RollerContact, SlidingRoller, SwingingRoller
 from optlaws.cams.forces import Surfaces

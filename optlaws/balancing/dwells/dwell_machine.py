@@ -10,7 +10,7 @@ from typing import Any, Self
 from optlaws.balancing.dwells.mechanism import DwellMechanism, DwellType, dwell_mechanism
 from optlaws.cams.curves.motion_by_angle import CamMotion
 from optlaws.cams.disc import DiscCam
-from optlaws.cams.followers.oscillating_roller import OscillatingRoller
+from optlaws.cams.followers.rollers import OscillatingRoller
 from optlaws.cycles.cycle import Cycle
 from optlaws.cycles.specification.segments import Dwell, Return, Rise
 from optlaws.echo import shortened

@@ -37,7 +37,7 @@ class Place:
 class CamFollower(Kinded, ABC, title="a follower"):
     """A follower of a disc cam, as a person gives it.
 
-    A kind is a declared class in a module of this folder, and named in its head: nothing else names it.
+    A kind is a declared class in a module of this folder, which is known by its kind: nothing else names it.
     """
 
     #: whether it moves by a "length" or an "angle"

@@ -12,7 +12,7 @@ from shlex import quote
 from textwrap import fill
 from typing import Any, NamedTuple
 
-from optlaws.cams.followers.translating_roller import TranslatingRoller
+from optlaws.cams.followers.rollers import TranslatingRoller
 from optlaws.cycles.cycle import Cycle
 from optlaws.entries.declared import Declared, entries_of
 from optlaws.entries.reference import sentences

@@ -1,10 +1,11 @@
-"""Rollers and flat faces on cams: pitch curves and envelopes, their curvature, rolling and sliding."""
+"""Flat faces on slides and on arms: envelopes and their curvature, sliding, and the limits of laws over them."""
 
 from __future__ import annotations
 
 from abc import abstractmethod
 from dataclasses import dataclass, field, replace
-from math import atan, cos, degrees, inf, pi, sin, tan
+from math import asin, atan, cos, degrees, pi, sin, tan
+from typing import ClassVar
 
 import numpy as np
 
@@ -18,16 +19,17 @@ from optlaws.cams.curves.extremes import (
 )
 from optlaws.cams.curves.motion_by_angle import CamMotion
 from optlaws.cams.followers.contact import (
+    CURVATURE,
     ContactState,
-    CurvatureTerms,
     Drag,
     FollowerContact,
     LinearLimit,
     Transmission,
     bearing,
-    shifted,
+    other_leg,
 )
-from optlaws.cams.followers.follower import CamFollower, Place
+from optlaws.cams.followers.follower import CamFollower, Place, positive, shown
+from optlaws.echo import shortened
 from optlaws.entries.declared import declared, entry
 from optlaws.entries.value_types import Measured
 from optlaws.errors import InputError
@@ -38,125 +40,6 @@ from optlaws.numerics.interval import Interval
 from optlaws.numerics.peaks import is_kept
 from optlaws.numerics.taylor import Jet, Pair, Term
 from optlaws.tolerances import CAM_FEASIBILITY
-
-_NO_CROSSING = 1e-3  # the support of a profile, whose sign is all that counts
-
-
-class RollerContact(FollowerContact):
-    """A roller: its centre runs along the pitch curve, `along` the follower's way and `across` it.
-
-    With p along and q across, both by the angle, tan(alpha) = p/q, and the curvature of the pitch curve, above 0 where
-    it bulges outward, is (w (p² + q²) + p q' - q p')/(p² + q²)^(3/2), where w is how fast the follower's way turns
-    against the cam.
-    """
-
-    @abstractmethod
-    def components(self, s: Jet) -> Pair:
-        """The velocity components of the centre along the follower's path and across it, relative to the cam."""
-
-    @abstractmethod
-    def rate(self, s: Jet) -> Jet | float:
-        """The rotation of the follower's path relative to the cam, per radian."""
-
-    @abstractmethod
-    def curvature_terms(self, displacement: str, slope: str) -> CurvatureTerms:
-        """The curvature of the pitch curve as texts of the displacement above the lowest and of s'."""
-
-    @property
-    def lost(self) -> int:
-        """Zero: a point of the profile takes no derivative of the displacement."""
-        return 0
-
-    def pressure(self, s: Jet) -> Jet:
-        """The tangent of the pressure angle: velocity along the follower's way over velocity across it."""
-        along, across = self.components(s)
-        return along / across
-
-    def curvature(self, s: Jet) -> Jet:
-        """The curvature of the pitch curve."""
-        p, q = self.components(s)
-        square = p * p + q * q
-        turned = p * q.slope() - q * p.slope()
-        return (square * self.rate(s) + turned) / (square * square.root())
-
-    def profile_curvature(self, s: Jet) -> Jet:
-        """Curvature of the profile, the parallel curve of the pitch curve at the roller's radius inward."""
-        curvature = self.curvature(s)
-        return curvature / (curvature * -self.roller + 1.0)
-
-    def radius_of_curvature(self, s: Jet) -> Term:
-        """Radius of curvature of the pitch curve less the roller's radius; infinite where the curve is straight."""
-        with np.errstate(divide="ignore"):
-            return 1.0 / self.curvature(s).terms[0] - self.roller
-
-    def curvature_excess(self, s: Jet, limit: float) -> Interval:
-        """The excess of the curvature of the pitch curve over its limit, 1/m."""
-        excess: Interval = self.curvature(s).terms[0] - 1.0 / (limit + self.roller)
-        return excess
-
-    def pitch_curvatures(self, motion: CamMotion) -> tuple[EnclosedExtreme, EnclosedExtreme]:
-        """The least and the greatest curvature of the pitch curve, 1/m."""
-        return enclosed_extremes(motion, self.curvature, 2)
-
-    def least_convex_radius(self, motion: CamMotion) -> EnclosedExtreme:
-        """The least radius of curvature of the profile where it bulges, m."""
-        return self._inside(self.pitch_curvatures(motion)[1])
-
-    def extremes(self, motion: CamMotion) -> CamExtremes:
-        """Enclosed extremes over the whole motion."""
-        pressure = self.pressure_angles(motion)
-        least, greatest = self.pitch_curvatures(motion)
-        roller, convex = self.roller, self._inside(greatest)
-        concave = None
-        if least.low < 0.0:
-            nearest = -1.0 / least.low + roller
-            farthest = -1.0 / least.high + roller if least.high < 0.0 else inf
-            concave = widened(nearest, farthest, least.angle, nearest)
-        simple = motion.closed and convex.low > 0.0 and self._is_star(motion)
-        return CamExtremes(pressure, convex, concave, Undercut.of(convex, simple=simple))
-
-    def _inside(self, curvature: EnclosedExtreme) -> EnclosedExtreme:
-        """The radius of curvature of the profile where the pitch curve bulges most."""
-        low, high = 1.0 / curvature.high, 1.0 / curvature.low
-        return widened(low - self.roller, high - self.roller, curvature.angle, high)
-
-    def _is_star(self, motion: CamMotion) -> bool:
-        """Whether pitch curve and profile are proven to run around the centre without turning back.
-
-        Both then are simple closed curves, and so is no place met twice by the parallel curves between them: the roller
-        cuts the profile nowhere else.
-        """
-
-        def support(s: Jet) -> Jet:
-            x, y = self.point(s)
-            turning = self.turning
-            return (y * (x.slope() + y * turning) - x * (y.slope() - x * turning)) / self._speed(s) * turning
-
-        # the distance of the tangent from the centre; that of the profile's is less by the roller's radius
-        return enclosed_extremes(motion, support, 1, _NO_CROSSING)[0].low > self.roller
-
-    def _speed(self, s: Jet) -> Jet:
-        along, across = self.components(s)
-        return (along * along + across * across).root()
-
-    def rolling(self, s: Jet) -> Jet:
-        """How fast the roller's surface runs past its centre: the centre's own way, less the cam's turning with it."""
-        return (self._speed(s) - self.roller).magnitude()
-
-    def state_at(self, displacement: Jet, point: Pair, normal: Pair) -> ContactState:
-        """The state whose displacement is known: seen from either side it is about the roller's centre."""
-        in_cam = bearing(*shifted(point, normal, self.roller))
-        return ContactState(displacement, bearing(*self.point(displacement)), in_cam)
-
-    def square_of_centre(self, point: Pair, normal: Pair) -> Jet:
-        """The squared distance between the roller's centre and the cam's centre, where the roller touches a profile."""
-        x, y = shifted(point, normal, self.roller)
-        return x * x + y * y
-
-
-def half_turn(angle: float) -> bool:
-    """Whether an angle is strictly within half a turn, where its sine is above 0."""
-    return 0.0 < angle < pi and sin(angle) > 0.0
 
 
 @declared
@@ -306,3 +189,176 @@ def sign(jet: Jet) -> Jet:
     signs: Array = np.where(first.low > 0.0, 1.0, np.where(first.high < 0.0, -1.0, 0.0))
     jump = Interval(np.zeros(signs.shape), np.where(signs == 0.0, np.inf, 0.0))
     return Jet((Interval(signs, np.where(signs == 0.0, 1.0, 0.0)), *(jump,) * jet.order))
+
+
+@declared
+class TranslatingFlat(FlatFollower, kind="translating flat"):
+    """A follower that slides and has a flat face square to its way.
+
+    Examples
+    --------
+    >>> TranslatingFlat().axis
+    'length'
+    """
+
+    axis: ClassVar[str] = "length"
+    sizing_limit: ClassVar[str | None] = CURVATURE
+
+    def face(self, place: Place) -> FaceContact:
+        return SlidingFace(place.turning, place.lowest, place.radius, 0.0)
+
+    def prime_radius(self, level: float) -> float:
+        """The height of the face."""
+        return level
+
+
+@declared
+class InclinedFlat(FlatFollower, kind="inclined flat"):
+    """A follower that slides and has a flat face which is not square to its way.
+
+    Its cam is that of a square face that moves cos(inclination) as far, turned by the inclination; the pressure angle
+    is the inclination at every angle of the cam.
+
+    Examples
+    --------
+    >>> InclinedFlat(inclination="10 deg").axis
+    'length'
+    """
+
+    inclination: Quantity = entry(
+        Measured("angle"),
+        "Between the face and the square of the way, above 0 where the face rises to the side to which the cam's top "
+        "moves when it turns clockwise; less than 90 deg.",
+        example="10 deg",
+    )
+    axis: ClassVar[str] = "length"
+    sizing_limit: ClassVar[str | None] = CURVATURE
+
+    @property
+    def angle(self) -> float:
+        """The inclination in rad."""
+        angle = quantity(self.inclination, "angle", "face: inclination")
+        if abs(angle) >= 0.5 * pi:
+            raise InputError(
+                f"face: inclination must be between -90 and 90 deg, got {shortened(self.inclination)}: beyond these no"
+                " cam lifts the face"
+            )
+        return angle
+
+    def face(self, place: Place) -> FaceContact:
+        return SlidingFace(place.turning, place.lowest, place.radius / cos(self.angle), self.angle)
+
+    def prime_radius(self, level: float) -> float:
+        """The distance of a face that meets the slide's way at a height."""
+        return level * cos(self.angle)
+
+
+@declared
+class OscillatingFlat(FlatFollower, kind="oscillating flat"):
+    """A follower that swings and has a flat face.
+
+    Examples
+    --------
+    >>> OscillatingFlat(pivot_distance="120 mm", face_offset="8 mm").axis
+    'angle'
+    """
+
+    pivot_distance: Quantity = entry(
+        Measured("length", above=0.0), "From the cam's centre to the pivot.", example="120 mm"
+    )
+    face_offset: Quantity = entry(
+        Measured("length"),
+        "From the pivot to the line of the face; above 0 where the face lies away from the cam.",
+        default="0 mm",
+    )
+    axis: ClassVar[str] = "angle"
+    lengths: ClassVar[tuple[str, ...]] = ("pivot_distance",)
+
+    def face(self, place: Place) -> FaceContact:
+        distance = positive(self.pivot_distance, "face: pivot_distance")
+        offset = quantity(self.face_offset, "length", "face: face_offset")
+        if abs(place.radius - offset) >= distance:
+            raise InputError(
+                f"face: a pivot {shown(distance)} away is too near for a prime circle of radius {shown(place.radius)}"
+                f" and a face_offset of {shown(offset)}: put it farther than {shown(abs(place.radius - offset))}"
+            )
+        first = asin((place.radius - offset) / distance)
+        last = first + place.highest - place.lowest
+        if last >= 0.5 * pi:
+            raise InputError(
+                f"face: it swings from {degrees(first):.6g} to {degrees(last):.6g} deg from the line to the cam's"
+                " centre, and touches nothing from 90 deg on: make the swing smaller or pivot_distance greater"
+            )
+        swiftest = -min(place.turning * slope for slope in place.slopes)
+        if swiftest >= 1.0:
+            raise InputError(
+                f"face: it swings {swiftest:.6g} times as fast as the cam turns, in the same sense: the cam cannot"
+                " touch it: spread the motion over more of the turn, or swing less"
+            )
+        return SwingingFace(place.turning, place.lowest, first, distance, offset)
+
+    def prime_radius(self, level: float) -> float:
+        """The distance of the face at an angle."""
+        offset = quantity(self.face_offset, "length", "face: face_offset")
+        return positive(self.pivot_distance, "face: pivot_distance") * sin(level) + offset
+
+    @property
+    def pivot(self) -> Quantity:
+        """The distance of the pivot from the cam's centre."""
+        return self.pivot_distance
+
+
+@dataclass(frozen=True)
+class SwingingFace(FaceContact):
+    """A swinging face in numbers: its pivot at x = distance, the face at phi = first + s from the line to the centre.
+
+    It is touched at distance cos(phi)/(1 ± phi') from the foot of the pivot.
+    """
+
+    distance: float
+    offset: float
+
+    @property
+    def pivot(self) -> float:
+        return self.distance
+
+    def point(self, s: Jet) -> Pair:
+        sine, cosine = self._waves(s)
+        reach = self.reach(s)
+        return sine * self.offset - reach * cosine + self.distance, reach * sine + cosine * self.offset
+
+    def normal(self, s: Jet) -> Pair:
+        return self._waves(s)
+
+    def pressure(self, s: Jet) -> Jet:
+        """The tangent of the pressure angle: the point touched moves square to the ray from the pivot."""
+        reach = self.reach(s)
+        return (reach * 0.0 + self.offset) / reach * self.turning
+
+    def radius(self, s: Jet) -> Jet:
+        sine, _ = self._waves(s)
+        rate = self._rate(s)
+        return (sine * self.distance - self.reach(s).slope() * self.turning) / rate + self.offset
+
+    def reach(self, s: Jet) -> Jet:
+        """The distance from the foot of the pivot towards the cam."""
+        _, cosine = self._waves(s)
+        return cosine * self.distance / self._rate(s)
+
+    def state(self, point: Pair, normal: Pair) -> ContactState:
+        sine = (point[0] * normal[0] + point[1] * normal[1] - self.offset) / self.distance
+        phi = (sine / other_leg(sine)).arctangent()
+        return ContactState(phi + (self.lowest - self.level), phi * -1.0 + 0.5 * pi, bearing(*normal))
+
+    def transmission(self, s: Jet) -> Transmission:
+        lever = self.reach(s).magnitude()
+        (x, y), (nx, ny) = self.point(s), self.normal(s)
+        sliding = (x * nx + y * ny) * self.turning + s.slope() * self.offset
+        none = lever * 0.0
+        return Transmission(lever, sliding.magnitude(), none, none, Drag(sign(sliding) * -self.offset))
+
+    def _waves(self, s: Jet) -> Pair:
+        return (s + (self.level - self.lowest)).waves()
+
+    def _rate(self, s: Jet) -> Jet:
+        return s.slope() * self.turning + 1.0
