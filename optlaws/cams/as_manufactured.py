@@ -8,13 +8,12 @@ from math import inf, pi, tau
 from typing import Any, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.cams.curves.arcs_and_chords import Arcs, arcs
 from optlaws.cams.curves.cam_files import polar
 from optlaws.cams.curves.file_options import Cutting
 from optlaws.cams.curves.outline import Outline
-from optlaws.cams.curves.plane_curve import CurveAlongNormals, CurveAtEachPlace, CurveByJets, PiecewiseCurve
+from optlaws.cams.curves.plane_curve import CurveAlongNormals, CurveByJets, PiecewiseCurve
 from optlaws.cams.curves.spline import spline
 from optlaws.cams.disc import DiscCam
 from optlaws.cams.followers.contact import FollowerContact, shifted
@@ -84,39 +83,22 @@ class ArcChain(CurveByJets):
 
 @dataclass(frozen=True)
 class WavyCurve(CurveAlongNormals):
-    """A curve with a waviness along its normals: periods per turn, amplitude in m, phase in rad.
-
-    Periods and shifts may be those of each place at which several such curves are looked at together.
-    """
+    """A curve with a waviness along its normals: periods per turn, amplitude in m, phase in rad."""
 
     amplitude: float
-    waves: int | NDArray[np.int_]
-    shift: float | Array
+    waves: int
+    shift: float | Array  #: of all places, or of each that is looked at
 
     @property
     def breaks(self) -> tuple[float, ...]:
         """Breaks of the curve, and every half wave, so that each part is simple."""
-        waves = np.linspace(*self.base.interval, 2 * int(self.waves) + 1)
+        waves = np.linspace(*self.base.interval, 2 * self.waves + 1)
         return tuple(np.unique(np.concatenate([self.base.breaks, waves])).tolist())
 
     def jets(self, angle: Array | Interval, order: int, *, before: bool = False) -> Pair:
-        (x, y), (along_x, along_y) = self._frame(angle, order, before=before)
-        _, wave = (variable(angle, order) * np.asarray(self.waves, dtype=np.float64) + self.shift).waves()
+        (x, y), (along_x, along_y) = self.base.frame_jets(angle, order, before=before)
+        _, wave = (variable(angle, order) * float(self.waves) + self.shift).waves()
         return x + along_x * wave * self.amplitude, y + along_y * wave * self.amplitude
-
-    def _frame(self, angle: Array | Interval, order: int, *, before: bool) -> tuple[Pair, Pair]:
-        """Points and normals of the curve without the error, of places that are looked at for several shifts once."""
-        if isinstance(self.shift, float) or not isinstance(angle, Interval):
-            return self.base.frame_jets(angle, order, before=before)
-        _, first, back = np.unique(angle.middle + 1j * angle.radius, return_index=True, return_inverse=True)
-        point, normal = self.base.frame_jets(angle[first], order, before=before)
-        return _at(point, back), _at(normal, back)
-
-
-def _at(pair: Pair, which: NDArray[np.intp]) -> Pair:
-    """A pair of jets at some of its places, in some order."""
-    x, y = (Jet(tuple(term[which] for term in jet.terms)) for jet in pair)
-    return x, y
 
 
 def spline_through(points: Array) -> PiecewiseCurve:
@@ -187,7 +169,7 @@ def _outward(curve: Outline) -> float:
 MADE_CURVES = ("profile", "pitch")
 ManufacturedFormat = Literal["csv", "csv polar", "dxf spline", "svg", "dxf arcs", "g-code arcs"]
 _CELLS = 128
-_SHIFTS = (0.0, 0.5 * pi, pi, 1.5 * pi)
+_SHIFTS = np.array([0.0, 0.5 * pi, pi, 1.5 * pi])
 WAVES = Whole(1, 100_000)
 _UNREACHED = (
     "the follower does not reach all of the cam as made: it has corners or hollows narrower than the roller; "
@@ -238,149 +220,54 @@ def run_against(cam: DiscCam, curve: Outline, outside: float = 0.0, *, jumps: bo
 
     With `jumps` those of the acceleration make the jerk infinite; without, it is the greatest between them.
     """
-    following = _following(cam, curve, outside)
-    return _reached(_runs(cam, [following], lambda _: following, jumps=jumps)[0])
-
-
-def _reached(peaks: AsMade | None) -> AsMade:
+    peaks = _peaks(cam, curve, outside, jumps=jumps)
     if peaks is None:
         raise UnreachedProfileError(_UNREACHED)
     return peaks
 
 
-def _following(cam: DiscCam, curve: Outline, outside: float = 0.0) -> Following:
+def _peaks(
+    cam: DiscCam, curve: Outline, outside: float = 0.0, shifts: Array | None = None, *, jumps: bool = True
+) -> AsMade | None:
+    """The same, or the greatest of a wavy curve with each of several shifts; None where not all of it is reached."""
     if not cam.displacement.closed:
         raise InputError(
             "a manufactured cam is evaluated over a whole turn: build it from a Cycle, with dwells and the return"
         )
-    return Following(cam.contact, curve, quantity(cam.phase, "angle", "phase"), outside)
+    first = Following(cam.contact, curve, quantity(cam.phase, "angle", "phase"), outside)
+    edges, count = np.array(curve.breaks), 1 if shifts is None else len(shifts)
 
+    def at(which: Any) -> Following:
+        wavy: Any = curve
+        return first if shifts is None else replace(first, curve=replace(wavy, shift=shifts[which]))
 
-def _runs(
-    cam: DiscCam, followings: Sequence[Following], at: Callable[[NDArray[np.intp]], Following], *, jumps: bool
-) -> list[AsMade | None]:
-    """The follower's motions on similar curves; `at` gives the motion of each place by the index of its curve.
+    inside = edges[:-1, None] + np.multiply.outer(np.diff(edges), np.linspace(0.1, 0.9, 5))
+    beside = 1e-9 * np.diff(edges)
+    jump = 0.0
+    for following in map(at, range(count)):
+        rates = np.asarray(following.jets(inside.ravel(), 1)[0].terms[1])
+        if rates.min() * rates.max() <= 0.0:  # it turns back, as a roller does in hollows narrower than itself
+            return None
+        before, after = (following.at(places, 2)[1] for places in (edges[1:] - beside, edges[:-1] + beside))
+        jump = max(jump, float(np.abs(np.roll(after, -1) - before).max()))
 
-    None for a curve that the follower does not reach all of. A step of the search takes as long for a thousand places
-    as for one: all curves share it.
-    """
-    edges = [np.array(following.curve.breaks) for following in followings]
+    def greatest(nu: int) -> float:
+        def size(places: Interval, order: int, which: Any) -> Jet:
+            angle, derivative = at(which).derivative(places, nu, order)
+            return derivative if nu else (derivative - cam.displacement.along(angle)).cut(order)
 
-    def greatest(pairs: Sequence[tuple[int, int]]) -> dict[tuple[int, int], float]:
-        orders, curves = np.array(pairs, dtype=np.intp).reshape(-1, 2).T
-        terms = _MotionTerms(cam, at)
-        known_extremes = extremes_of_each(
-            lambda places, order, which: terms.of_each(places, order, orders[which], curves[which]),
-            [edges[i] for i in curves],
-            share=[_MANUFACTURED_PEAKS if nu else DEVIATIONS for nu in orders],
-            parts=[max(1, _CELLS // len(edges[i])) for i in curves],
-            magnitude=True,
-        )
-        return {pair: each.bound for pair, each in zip(pairs, known_extremes, strict=True)}
+        share, parts = _MANUFACTURED_PEAKS if nu else DEVIATIONS, max(1, _CELLS // len(edges))
+        known = extremes_of_each(size, [edges] * count, share=share, parts=[parts] * count, magnitude=True)
+        return max(each.bound for each in known)
 
-    known = [i for i, reached in enumerate(_reached_each(edges, at)) if reached]
-    beside = dict(zip(known, _jumps(known, edges, at), strict=True))
-    smooth = [i for i in known if not jumps or beside[i][0] <= _MANUFACTURED_JUMP * beside[i][1]]
-    bounds = greatest([(0, i) for i in known] + [(2, i) for i in known] + [(3, i) for i in smooth])
-    known = [i for i in known if max(bounds[0, i], bounds[2, i]) < inf]
-    jumping = {i: jump if jump > _MANUFACTURED_JUMP * bounds[2, i] else 0.0 for i in known for jump in beside[i][:1]}
-    endless = [i for i in known if jumps and jumping[i]]
-    bounds |= greatest([(3, i) for i in known if (3, i) not in bounds and i not in endless])
-    jerks = {i: inf if i in endless else bounds[3, i] for i in known if i in endless or bounds[3, i] < inf}
-    means = [_meant(cam, nu) for nu in (2, 3)] if jerks else []
-    cases: list[AsMade | None] = [None] * len(edges)
-    for i, jerk in jerks.items():
-        ratios = bounds[2, i] / means[0], jerk / means[1]
-        cases[i] = AsMade(bounds[0, i], bounds[2, i], jerk, jumping[i], *ratios)
-    return cases
-
-
-@dataclass(frozen=True)
-class _MotionTerms:
-    """Deviations and derivatives of motions on similar curves at places that searches for their extremes look at."""
-
-    cam: DiscCam
-    at: Callable[[NDArray[np.intp]], Following]
-
-    def of_each(self, places: Interval, order: int, orders: NDArray[np.intp], curves: NDArray[np.intp]) -> Jet:
-        """The deviation where the order of a derivative is 0, else that derivative; places come by these orders."""
-        off, second, third = (np.flatnonzero(orders == nu) for nu in (0, 2, 3))
-        alike = [_same(places, curves, second, other) for other in (third, off)]
-        parts = [] if alike[1] or not len(off) else [self._off(*self._motion(places, order, curves, off), order)]
-        looked = second if alike[0] else np.concatenate([second, third])
-        if len(looked):
-            angle, displacement = self._motion(places, order + 3 if len(third) else order + 2, curves, looked)
-            if alike[1]:
-                parts.append(self._off(angle.cut(order), displacement.cut(order), order))
-            derivative, pace = displacement, angle.slope()
-            for nu in (1, 2):
-                derivative = derivative.slope() / pace
-                if nu == 2 and len(second):
-                    parts.append(_some(derivative.cut(order), slice(len(second))))
-            if len(third):
-                rest = slice(0 if alike[0] else len(second), None)
-                parts.append(_some(derivative, rest).slope() / _some(pace, rest))
-        return _one_after_another(parts)
-
-    def _motion(
-        self, places: Interval, order: int, curves: NDArray[np.intp], here: NDArray[np.intp]
-    ) -> tuple[Jet, Jet]:
-        return self.at(curves[here]).jets(places[here], order)
-
-    def _off(self, angle: Jet, displacement: Jet, order: int) -> Jet:
-        return (displacement - self.cam.displacement.along(angle)).cut(order)
-
-
-def _same(places: Interval, curves: NDArray[np.intp], some: NDArray[np.intp], others: NDArray[np.intp]) -> bool:
-    """Whether some of the places are the others too, as when a search begins."""
-    values = places.middle, places.radius, curves
-    return len(some) > 0 and all(np.array_equal(each[some], each[others]) for each in values)
-
-
-def _some(jet: Jet, places: Any) -> Jet:
-    return Jet([term[places] for term in jet.terms])
-
-
-def _one_after_another(jets: Sequence[Jet]) -> Jet:
-    """A jet at the places of all jets."""
-    columns = zip(*(jet.terms for jet in jets), strict=True)
-    return Jet(
-        [
-            Interval(*(np.concatenate([getattr(term, name) for term in column]) for name in ("middle", "radius")))
-            for column in columns
-        ]
-    )
-
-
-def _reached_each(edges: Sequence[Array], at: Callable[[NDArray[np.intp]], Following]) -> list[bool]:
-    """Whether the follower does not turn back along each curve, as a roller does in hollows narrower than itself."""
-    shares = np.linspace(0.1, 0.9, 5)
-    places = [(each[:-1, None] + np.multiply.outer(np.diff(each), shares)).ravel() for each in edges]
-    rates = np.asarray(at(_curves(range(len(edges)), places)).jets(np.concatenate(places), 1)[0].terms[1])
-    ends = np.cumsum([len(each) for each in places])[:-1]
-    return [bool(each.min() * each.max() > 0.0) for each in np.split(rates, ends)]
-
-
-def _jumps(
-    known: Sequence[int], edges: Sequence[Array], at: Callable[[NDArray[np.intp]], Following]
-) -> list[tuple[float, float]]:
-    """Of known curves the greatest jump of the second derivative where parts meet, and its greatest magnitude there."""
-    if not known:
-        return []
-    steps = [1e-9 * np.diff(edges[i]) for i in known]
-    places = [[edges[i][1:] - step for i, step in zip(known, steps, strict=True)]]
-    places += [[edges[i][:-1] + step for i, step in zip(known, steps, strict=True)]]
-    following, ends = at(_curves(known, steps)), np.cumsum([len(step) for step in steps])[:-1]
-    sides = [np.split(following.at(np.concatenate(side), 2)[1], ends) for side in places]
-    return [
-        (float(np.abs(np.roll(after, -1) - before).max()), float(np.abs([before, after]).max()))
-        for before, after in zip(*sides, strict=True)
-    ]
-
-
-def _curves(which: Sequence[int], places: Sequence[Array]) -> NDArray[np.intp]:
-    """The curve of each place, one after the other."""
-    return np.repeat(np.array(which, dtype=np.intp), [len(each) for each in places])
+    deviation, acceleration = greatest(0), greatest(2)
+    if max(deviation, acceleration) == inf:
+        return None
+    jump = jump if jump > _MANUFACTURED_JUMP * acceleration else 0.0
+    jerk = inf if jumps and jump else greatest(3)
+    if jerk == inf and not (jumps and jump):
+        return None
+    return AsMade(deviation, acceleration, jerk, jump, acceleration / _meant(cam, 2), jerk / _meant(cam, 3))
 
 
 def _meant(cam: DiscCam, nu: int) -> float:
@@ -441,14 +328,7 @@ def as_made(
 def manufactured_tables(cam: DiscCam, curve: str, tables: Sequence[Cutting]) -> list[AsMade | None]:
     """What `as_made` finds of tables of points, by their points and decimals; None of those that it refuses to run."""
     outline, outside = _cut(cam, curve)
-    curves = tuple(_points(outline, table) for table in tables)
-    followings = [_following(cam, each, outside) for each in curves]
-    outward = np.array([following.outward for following in followings])
-
-    def at(which: NDArray[np.intp]) -> Following:
-        return replace(followings[0], curve=CurveAtEachPlace(curves, which), outward=outward[which])
-
-    return _runs(cam, followings, at, jumps=True)
+    return [_peaks(cam, _points(outline, table), outside) for table in tables]
 
 
 def _cut(cam: DiscCam, curve: str) -> tuple[Outline, float]:
@@ -488,34 +368,17 @@ def with_profile_error(cam: DiscCam, error: Quantity, waves: Any) -> AsMade:
     >>> round(with_profile_error(cam, "0.01 mm", waves=3).acceleration_ratio, 3)
     1.002
     """
-    return _reached(profile_errors(cam, error, [waves])[0])
+    (peaks,) = profile_errors(cam, error, [waves])
+    if peaks is None:
+        raise UnreachedProfileError(_UNREACHED)
+    return peaks
 
 
 def profile_errors(cam: DiscCam, error: Quantity, waves: Sequence[Any]) -> list[AsMade | None]:
     """What `with_profile_error` finds of so many waves each; None where the follower does not reach all of the cam."""
     amplitude = positive_quantity(error, "length", "error")
-    counts = [WAVES.read(count, "waves") for count in waves]
-    curves = [WavyCurve(cam.profile, amplitude, count, shift) for count in counts for shift in _SHIFTS]
-    followings = [_following(cam, curve) for curve in curves]
-    numbers, shifts, outward = (
-        np.array([getattr(each, name) for each in some])
-        for some, name in ((curves, "waves"), (curves, "shift"), (followings, "outward"))
-    )
-
-    def at(which: NDArray[np.intp]) -> Following:
-        curve = replace(curves[0], waves=numbers[which], shift=shifts[which])
-        return replace(followings[0], curve=curve, outward=outward[which])
-
-    cases, each = _runs(cam, followings, at, jumps=False), len(_SHIFTS)
-    return [_greatest(cases[i : i + each]) for i in range(0, len(cases), each)]
-
-
-def _greatest(cases: Sequence[AsMade | None]) -> AsMade | None:
-    """The greatest peaks of several cases; None where one of them has none."""
-    known = [case for case in cases if case is not None]
-    if len(known) < len(cases):
-        return None
-    return AsMade(*(max(getattr(case, name) for case in known) for name in AsMade.__dataclass_fields__))
+    curves = (WavyCurve(cam.profile, amplitude, WAVES.read(count, "waves"), 0.0) for count in waves)
+    return [_peaks(cam, curve, shifts=_SHIFTS, jumps=False) for curve in curves]
 
 
 def _points(outline: Outline, options: Cutting) -> PiecewiseCurve:

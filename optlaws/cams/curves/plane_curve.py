@@ -8,7 +8,6 @@ from math import comb
 from typing import Any, Self
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.exports.interpolation import periodic_slopes
 from optlaws.numbers import Array, derivative, finite, number_or_array, real_times, whole
@@ -81,57 +80,20 @@ class PiecewiseCurve(CurveByJets):
 
     def jets(self, places: Array | Interval, order: int) -> Any:
         """The Taylor terms of each coordinate; intervals must lie between two knots."""
-        return _of_pieces((self.knots[:-1], self.knots[1:], self.powers), self.piece(places), places, order)
-
-    def piece(self, places: Array | Interval) -> NDArray[np.intp]:
-        """Between which knots places lie, counted from 0."""
         middle = places.middle if isinstance(places, Interval) else np.asarray(places)
-        return np.clip(np.searchsorted(self.knots, middle, side="right") - 1, 0, len(self.knots) - 2)
+        piece = np.clip(np.searchsorted(self.knots, middle, side="right") - 1, 0, len(self.knots) - 2)
+        low, high = self.knots[:-1], self.knots[1:]
+        half, powers = 0.5 * (high - low)[piece], self.powers[:, piece]
+        t = (places - 0.5 * (high + low)[piece]) / half
+        return [
+            Jet(tuple(_term(powers[..., i], t, half, nu) for nu in range(order + 1))) for i in range(powers.shape[2])
+        ]
 
 
 def closed_slopes(places: Array, values: Array) -> Array:
     """The slopes at its places of the closed cubic spline through rows of values; the last is the first again."""
     steps = np.diff(places)
     return np.column_stack([periodic_slopes(steps, np.diff(column) / steps) for column in values.T])
-
-
-@dataclass(frozen=True, eq=False)
-class CurveAtEachPlace(CurveByJets):
-    """One of several piecewise curves of one degree at each place: `each` says which of them it is."""
-
-    curves: tuple[PiecewiseCurve, ...]
-    each: NDArray[np.intp]
-
-    @property
-    def breaks(self) -> tuple[float, ...]:
-        """The places where pieces of any of them meet."""
-        return tuple(sorted({place for curve in self.curves for place in curve.breaks}))
-
-    def jets(self, places: Array | Interval, order: int) -> Any:
-        """The Taylor terms that each place has on its own curve."""
-        counts = [curve.powers.shape[1] for curve in self.curves]
-        pieces = np.zeros(len(self.each), dtype=np.intp)
-        for i, (curve, before) in enumerate(zip(self.curves, np.cumsum([0, *counts[:-1]]), strict=True)):
-            here = self.each == i
-            pieces[here] = before + curve.piece(places[here])
-        low, high = (np.concatenate([curve.knots[ends] for curve in self.curves]) for ends in _ENDS)
-        powers = np.concatenate([curve.powers for curve in self.curves], axis=1)
-        return _of_pieces((low, high, powers), pieces, places, order)
-
-
-_ENDS = slice(None, -1), slice(1, None)
-
-
-def _of_pieces(
-    table: tuple[Array, Array, Array], which: NDArray[np.intp], places: Array | Interval, order: int
-) -> list[Jet]:
-    """The Taylor terms of each coordinate at places of pieces: their first and last knots, and the powers between."""
-    low, high, powers = table
-    half = 0.5 * (high - low)[which]
-    t = (places - 0.5 * (high + low)[which]) / half
-    return [
-        Jet(tuple(_term(powers[:, which, i], t, half, nu) for nu in range(order + 1))) for i in range(powers.shape[2])
-    ]
 
 
 def _term(powers: Array, t: Any, half: Array, nu: int) -> Any:
