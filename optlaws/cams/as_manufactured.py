@@ -17,6 +17,7 @@ from optlaws.cams.curves.plane_curve import CurveAlongNormals, CurveByJets, Piec
 from optlaws.cams.curves.spline import spline
 from optlaws.cams.disc import DiscCam
 from optlaws.cams.followers.contact import FollowerContact, shifted
+from optlaws.entries.declared import documented_by
 from optlaws.entries.value_types import Whole
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
@@ -274,6 +275,7 @@ def _meant(cam: DiscCam, nu: int) -> float:
     return max(abs(value) for stretch in cam.displacement.stretches for value in stretch.extremes(nu))
 
 
+@documented_by(Cutting)
 def as_made(
     cam: DiscCam,
     form: ManufacturedFormat = "csv",
@@ -298,10 +300,6 @@ def as_made(
         The format: "csv", "csv polar", "dxf spline", "svg", "dxf arcs" or "g-code arcs".
     curve
         "profile", or "pitch", whose points a machine is given that offsets them itself.
-    points, decimals
-        Of tables: how many points over the turn, and how many decimals of a millimetre.
-    tolerance, degree
-        Of splines and arcs, as in `DiscCam.export`.
 
     Raises
     ------

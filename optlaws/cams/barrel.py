@@ -26,7 +26,7 @@ from optlaws.cams.curves.plane_curve import CurveByAngle
 from optlaws.cams.disc import Turning, sense
 from optlaws.cams.followers.follower import positive, shown
 from optlaws.cycles.cycle import Cycle
-from optlaws.entries.declared import Declared, declared, entry
+from optlaws.entries.declared import Declared, declared, documented_by, entry
 from optlaws.entries.value_types import Measured
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
@@ -68,6 +68,7 @@ class Groove(Declared, title="a barrel"):
             )
 
 
+@documented_by(Groove)
 @dataclass(frozen=True)
 class BarrelCam:
     """A groove around a cylinder with a cylindrical roller; metres and radians, derivatives by the cam's angle.
@@ -76,10 +77,6 @@ class BarrelCam:
     ----------
     motion
         A `Cycle`, which is a turn of the cam, or the law of a part of the turn.
-    outer_radius, depth
-        Of the cylinder, and how deep the groove is, such as "60 mm" and "12 mm".
-    roller_radius
-        Such as "8 mm".
     turning
         "counterclockwise" or "clockwise", seen against the axis along which the roller moves forwards.
 

@@ -22,6 +22,7 @@ from optlaws.cams.least_sizes import LeastPrimeCircle, least_prime_circle
 from optlaws.cams.limits import CamLimits
 from optlaws.cycles.cycle import Cycle
 from optlaws.cycles.optimisation.objectives import OBJECTIVES
+from optlaws.entries.declared import documented_by
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.motion.piece import Piece
 from optlaws.motion.quantities import TURN
@@ -95,6 +96,7 @@ class BestPrimeCircle:
     solutions: tuple[Solution, ...]
 
 
+@documented_by(CamLimits)
 def best_cam(
     cycle: Cycle,
     prime_radius: Quantity,
@@ -116,8 +118,6 @@ def best_cam(
         Its optimal motions are optimised again; its objective and its limits stay.
     prime_radius, follower, turning
         As of a `DiscCam`.
-    pressure_angle, radius_of_curvature
-        The limits.
 
     Raises
     ------
@@ -163,6 +163,7 @@ def best_cam(
     return BestCam(cam, objective, bound, Status.OPTIMAL if proven else Status.LOCAL, solutions)
 
 
+@documented_by(CamLimits)
 def best_prime_circle(
     cycle: Cycle,
     follower: CamFollower,
@@ -181,8 +182,8 @@ def best_prime_circle(
         Its limits and its given laws stay; its optimal motions are optimised again.
     follower
         A roller on a slide, with a limit of the pressure angle, or a flat face on a slide, with one of the radius.
-    pressure_angle, radius_of_curvature, turning
-        As of `least_prime_circle`.
+    turning
+        As of a `DiscCam`.
 
     Raises
     ------

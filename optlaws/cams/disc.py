@@ -9,13 +9,14 @@ from typing import Any, Literal, Unpack
 import numpy as np
 
 from optlaws.cams.curves.extremes import CamExtremes
-from optlaws.cams.curves.file_options import CutFormat, CuttingOptions
+from optlaws.cams.curves.file_options import CutFormat, Cutting, CuttingOptions
 from optlaws.cams.curves.motion_by_angle import CamMotion, as_motion
 from optlaws.cams.curves.plane_curve import PlaneCurve
 from optlaws.cams.followers.contact import FollowerContact
 from optlaws.cams.followers.follower import CamFollower, Place, follower_names, positive
 from optlaws.cycles.cycle import Cycle
 from optlaws.echo import shortened
+from optlaws.entries.declared import documented_by
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.motion.quantities import in_degrees, quantity
@@ -150,6 +151,7 @@ class DiscCam:
             return self.cutter_path(cutter_radius)
         return self.profile if chosen == "profile" else self.pitch_curve
 
+    @documented_by(Cutting)
     @keywords_of(CuttingOptions)
     def export(
         self,
@@ -171,16 +173,6 @@ class DiscCam:
             "dxf spline", "dxf polyline", "dxf arcs", "svg", "csv", "csv polar", "g-code" or "g-code arcs".
         curve, cutter_radius
             "profile", "pitch", or "cutter" with the cutter's radius, such as "10 mm"; the profile unless given.
-        tolerance
-            How far chords and arcs may be off, "1 um" unless given.
-        decimals
-            Of a millimetre, 6 unless given.
-        points
-            Of tables, 721 unless given.
-        degree
-            Of splines, 3 or 5; 3 unless given.
-        feed
-            Of a tool, such as "200 mm/min"; left to the machine unless given.
         about
             The comment in the file.
         force

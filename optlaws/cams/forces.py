@@ -15,7 +15,7 @@ from optlaws.cams.disc import DiscCam
 from optlaws.cams.followers.contact import Friction, Transmission
 from optlaws.cycles.cycle import Cycle
 from optlaws.cycles.specification.drive import read_linear_drive
-from optlaws.entries.declared import Declared, ValueOf, declared, entry
+from optlaws.entries.declared import Declared, ValueOf, declared, documented_by, entry
 from optlaws.entries.value_types import Measured, Number, ReadBy, Together
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
@@ -127,6 +127,7 @@ class LineContact:
 _PARTS = 12
 
 
+@documented_by(Surfaces)
 @dataclass(frozen=True)
 class CamForces:
     """The forces of a cam and its follower at a speed, over the cam's angle in radians; N, N m, Pa.
@@ -140,12 +141,6 @@ class CamForces:
     drive
         What the follower moves: entries of a cycle's drive, mass (or inertia), stiffness, preload, gravity, viscous and
         dry; the drive of its cycle unless given. Spring and preload press the follower on the cam.
-    friction
-        `contact`, the coefficient between cam and face or of a rolling roller; for slides `guide`, the coefficient in
-        the guide, with `overhang` and `length` of the guide.
-    width, materials
-        Of the contact, for Hertz's pressure: "20 mm", ("steel", "steel"). A material is one of `MATERIALS`, whose
-        values are those of a handbook, or {"young": "3 GPa", "poisson": 0.4} from a data sheet.
     process
         The force of a process on the follower, with the entries of a cycle's: `{"force": [("0 deg", "0 N"), ("90 deg",
         "-300 N"), ("360 deg", "0 N")], "over": "master"}`, above 0 where it pushes to greater displacements; over the

@@ -18,6 +18,7 @@ from optlaws.cams.followers.contact import CURVATURE, PRESSURE, FollowerContact
 from optlaws.cams.followers.follower import CamFollower, Place, shown
 from optlaws.cams.limits import CamLimits
 from optlaws.cycles.cycle import Cycle
+from optlaws.entries.declared import documented_by
 from optlaws.errors import InfeasibleProblem, InputError
 from optlaws.motion.quantities import in_degrees, quantity
 from optlaws.numbers import Quantity
@@ -76,6 +77,7 @@ class LeastPrimeCircle:
     cam: DiscCam
 
 
+@documented_by(CamLimits)
 def least_prime_circle(
     motion: Cycle | CamMotion,
     follower: CamFollower,
@@ -90,10 +92,6 @@ def least_prime_circle(
     ----------
     motion, follower, turning
         As of a `DiscCam`.
-    pressure_angle
-        The greatest magnitude, such as "30 deg".
-    radius_of_curvature
-        The least one where the profile bulges, such as "5 mm".
 
     Raises
     ------

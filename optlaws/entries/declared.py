@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import json
+import re
 import sys
 from collections.abc import Callable, Mapping
 from dataclasses import MISSING, dataclass, field, fields
+from inspect import signature
 from textwrap import wrap
 from typing import Any, ClassVar, ForwardRef, Self, TypeVar, dataclass_transform, get_args, get_origin
 
@@ -170,30 +172,50 @@ def _given_type(text: Any, known: Mapping[str, Any]) -> Any:
     return given.__forward_arg__ if isinstance(given, ForwardRef) else given
 
 
-def documented_by(values: type[Declared]) -> Callable[[type[T]], type[T]]:
-    """Write the entries of declared values into the docstring of a class whose constructor takes the same."""
+def documented_by(values: type[Declared]) -> Callable[[T], T]:
+    """Write the entries of declared values into the docstring of a class or a function that takes the same.
 
-    def document(cls: type[T]) -> type[T]:
-        _document(cls, values)
-        return cls
+    >>> from optlaws.entries.value_types import InSI
+    >>> @declared
+    ... class Rotor(Declared):
+    ...     inertia: float = entry(InSI("moment of inertia"), "Of the rotor.")
+    >>> @documented_by(Rotor)
+    ... def speed(power, inertia):
+    ...     "The speed of a rotor."
+    >>> speed.__doc__.splitlines()[-2:]
+    ['    inertia', '        Of the rotor. A moment of inertia.']
+    """
+
+    def document(documented: T) -> T:
+        _document(documented, values)
+        return documented
 
     return document
 
 
-def _document(cls: type, values: type[Declared]) -> None:
-    """Write the entries of declared values into the docstring of a class, before what else it says in sections."""
-    text, entries = cls.__doc__, entries_of(values).values()
-    if text is None or not entries or "\n    Parameters\n" in text:
+#: of a section of a docstring
+_HEADING = re.compile(r"^( *)([A-Z]\w+)\n\1-{3,}\n", re.MULTILINE)
+
+
+def _document(documented: Any, values: type[Declared]) -> None:
+    """Write entries into a docstring, those that a function takes, below the parameters that have their words there."""
+    if documented.__doc__ is None:
         return
-    lines = [line for each in entries for line in (f"    {each.name}", *_wrapped(f"{each.about} {each.sentence}"))]
-    section = "\n".join(["    Parameters", "    ----------", *lines])
-    head, examples, rest = text.partition("\n    Examples\n")
-    head, raises, errors = head.partition("\n    Raises\n")
-    cls.__doc__ = f"{head.rstrip()}\n\n{section}\n{raises}{errors}{examples}{rest}"
-
-
-def _wrapped(text: str) -> list[str]:
-    return wrap(text, 112, initial_indent=8 * " ", subsequent_indent=8 * " ")
+    text = documented.__doc__
+    headings = list(_HEADING.finditer(text))
+    indent = headings[0][1] if headings else "    "
+    place = next((each.start() for each in headings if each[2] != "Parameters"), len(text))
+    named = next((each.end() for each in headings if each[2] == "Parameters"), place)
+    known = re.findall(rf"^{indent}(\w[\w, ]*)$", text[named:place], re.MULTILINE)
+    taken = set(entries_of(values) if isinstance(documented, type) else signature(documented).parameters)
+    lines = []
+    for name, each in entries_of(values).items():
+        if name in taken.difference(*(line.split(", ") for line in known)):
+            about = wrap(f"{each.about} {each.sentence}", 108 - len(indent))
+            lines += [f"{indent}{name}", *(f"{indent}    {line}" for line in about)]
+    if lines:
+        head = [] if named < place else ["", f"{indent}Parameters", f"{indent}----------"]
+        documented.__doc__ = "\n".join([text[:place].rstrip(), *head, *lines, "", text[place:]]).rstrip(" \n")
 
 
 class Declared(JsonText):

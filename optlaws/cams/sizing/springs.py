@@ -14,7 +14,7 @@ from optlaws.cams.curves.process_by_angle import read_process_by_angle
 from optlaws.cams.disc import DiscCam
 from optlaws.cams.forces import CamForces
 from optlaws.echo import shortened
-from optlaws.entries.declared import Declared, declared, entry
+from optlaws.entries.declared import Declared, declared, documented_by, entry
 from optlaws.entries.value_types import Choice, Measured, Together
 from optlaws.errors import InfeasibleProblem, InputError
 from optlaws.kept import kept_property
@@ -146,6 +146,7 @@ class Spring(PlainNumbers):
         return ""
 
 
+@documented_by(SoughtSpring)
 def least_spring(
     cam: DiscCam,
     *,
@@ -170,17 +171,8 @@ def least_spring(
         The cam.
     drive
         What else the follower moves: mass or inertia, gravity, viscous, dry.
-    speeds
-        The least and the greatest speed of the cam, such as ("0 rpm", "300 rpm").
-    force
-        What the cam shall press with at least, along the follower's way: "20 N"; 0 unless given.
-    stiffness, preload
-        Of the spring, where it is known: "3 N/mm", "60 N".
     process
         The force of a process on the follower, as of `CamForces`; over the time only where both speeds are the same.
-    greatest
-        Which greatest force is least where neither stiffness nor preload is given: the "force" on the follower along
-        its way, or the "contact" force between cam and follower without friction.
 
     Raises
     ------
