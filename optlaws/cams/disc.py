@@ -251,17 +251,14 @@ class FollowerCurve(PlaneCurve):
 
     @property
     def breaks(self) -> tuple[float, ...]:
-        """Breaks of the motion, by the cam's angle."""
         return self.motion.breaks
 
     @property
     def closed(self) -> bool:
-        """Whether the motion is a whole turn."""
         return self.motion.closed
 
     @property
     def turning(self) -> float:
-        """How the cam turns."""
         return -self.contact.turning if self.mirrored else self.contact.turning
 
     def jets(self, angle: Array | Interval, order: int, *, before: bool = False) -> Pair:

@@ -235,17 +235,14 @@ class CurveAlongNormals(PlaneCurve):
 
     @property
     def breaks(self) -> tuple[float, ...]:
-        """Breaks of the other curve."""
         return self.base.breaks
 
     @property
     def closed(self) -> bool:
-        """Whether the other curve is closed."""
         return self.base.closed
 
     @property
     def turning(self) -> float:
-        """How the other curve turns."""
         return self.base.turning
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import ClassVar, NamedTuple
 
 import numpy as np
 
@@ -156,26 +156,18 @@ class FollowerContact(ABC):
     turning: float
     lowest: float
     level: float
+    #: the roller's radius; 0 for a face
+    roller: float
 
-    @property
-    @abstractmethod
-    def roller(self) -> float:
-        """The roller's radius; 0 for a face."""
+    #: how many derivatives of the displacement a point of the profile takes
+    lost: ClassVar[int]
+    #: whether its linear limits are the limits themselves, and not lines beside them
+    linear: ClassVar[bool] = True
 
     @property
     def pivot(self) -> float | None:
         """The distance of the pivot from the cam's centre; None on a slide."""
         return None
-
-    @property
-    def linear(self) -> bool:
-        """Whether its linear limits are the limits themselves, and not lines beside them."""
-        return True
-
-    @property
-    @abstractmethod
-    def lost(self) -> int:
-        """The number of derivatives that a point of the profile takes from the displacement."""
 
     @abstractmethod
     def point(self, s: Jet) -> Pair:

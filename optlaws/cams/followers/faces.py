@@ -69,16 +69,7 @@ class FaceContact(FollowerContact):
     """A flat face, of which the cam's profile is the envelope; its length in m where it is known."""
 
     length: float | None = field(default=None, kw_only=True)
-
-    @property
-    def roller(self) -> float:
-        """Zero, as a flat face has no roller."""
-        return 0.0
-
-    @property
-    def lost(self) -> int:
-        """One: the point of contact on the face is a derivative of the displacement."""
-        return 1
+    lost: ClassVar[int] = 1
 
     @abstractmethod
     def radius(self, s: Jet) -> Jet:
@@ -89,20 +80,16 @@ class FaceContact(FollowerContact):
         return 1.0 / self.radius(s)
 
     def radius_of_curvature(self, s: Jet) -> Term:
-        """The radius of curvature of the profile, above 0 where it bulges outward."""
         return self.radius(s).terms[0]
 
     def curvature_excess(self, s: Jet, limit: float) -> Interval:
-        """The excess of the least radius over the radius of the profile, m."""
         excess: Interval = -self.radius(s).terms[0] + limit
         return excess
 
     def least_convex_radius(self, motion: CamMotion) -> EnclosedExtreme:
-        """The least radius of curvature of the profile, m."""
         return enclosed_extremes(motion, self.radius, 2)[0]
 
     def extremes(self, motion: CamMotion) -> CamExtremes:
-        """Enclosed extremes over the whole motion."""
         pressure, least = self.pressure_angles(motion), self.least_convex_radius(motion)
         # a face turns with the cam all the way, so that its envelope is convex where its radius is above 0
         undercut = Undercut.of(least, simple=motion.closed)
@@ -205,7 +192,7 @@ class TranslatingFlat(FlatFollower, kind="translating flat"):
     sizing_limit: ClassVar[str | None] = CURVATURE
 
     def face(self, place: Place) -> FaceContact:
-        return SlidingFace(place.turning, place.lowest, place.radius, 0.0)
+        return SlidingFace(place.turning, place.lowest, place.radius, 0.0, angle=0.0)
 
     def prime_radius(self, level: float) -> float:
         """The height of the face."""
@@ -246,7 +233,7 @@ class InclinedFlat(FlatFollower, kind="inclined flat"):
         return angle
 
     def face(self, place: Place) -> FaceContact:
-        return SlidingFace(place.turning, place.lowest, place.radius / cos(self.angle), self.angle)
+        return SlidingFace(place.turning, place.lowest, place.radius / cos(self.angle), 0.0, self.angle)
 
     def prime_radius(self, level: float) -> float:
         """The distance of a face that meets the slide's way at a height."""
@@ -295,7 +282,7 @@ class OscillatingFlat(FlatFollower, kind="oscillating flat"):
                 f"face: it swings {swiftest:.6g} times as fast as the cam turns, in the same sense: the cam cannot"
                 " touch it: spread the motion over more of the turn, or swing less"
             )
-        return SwingingFace(place.turning, place.lowest, first, distance, offset)
+        return SwingingFace(place.turning, place.lowest, first, 0.0, distance, offset)
 
     def prime_radius(self, level: float) -> float:
         """The distance of the face at an angle."""
@@ -304,7 +291,6 @@ class OscillatingFlat(FlatFollower, kind="oscillating flat"):
 
     @property
     def pivot(self) -> Quantity:
-        """The distance of the pivot from the cam's centre."""
         return self.pivot_distance
 
 

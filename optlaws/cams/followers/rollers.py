@@ -37,7 +37,6 @@ from optlaws.numerics.taylor import Jet, Pair, Term
 _NO_CROSSING = 1e-3  # the support of a profile, whose sign is all that counts
 
 
-@dataclass(frozen=True)
 class RollerContact(FollowerContact):
     """A roller: its centre runs along the pitch curve, `along` the follower's way and `across` it.
 
@@ -46,12 +45,7 @@ class RollerContact(FollowerContact):
     against the cam.
     """
 
-    radius: float
-
-    @property
-    def roller(self) -> float:
-        """The radius of the roller in metres."""
-        return self.radius
+    lost: ClassVar[int] = 0
 
     @abstractmethod
     def components(self, s: Jet) -> Pair:
@@ -64,11 +58,6 @@ class RollerContact(FollowerContact):
     @abstractmethod
     def curvature_terms(self, displacement: str, slope: str) -> CurvatureTerms:
         """The curvature of the pitch curve as texts of the displacement above the lowest and of s'."""
-
-    @property
-    def lost(self) -> int:
-        """Zero: a point of the profile takes no derivative of the displacement."""
-        return 0
 
     def pressure(self, s: Jet) -> Jet:
         """The tangent of the pressure angle: velocity along the follower's way over velocity across it."""
@@ -93,20 +82,16 @@ class RollerContact(FollowerContact):
             return 1.0 / self.curvature(s).terms[0] - self.roller
 
     def curvature_excess(self, s: Jet, limit: float) -> Interval:
-        """The excess of the curvature of the pitch curve over its limit, 1/m."""
         excess: Interval = self.curvature(s).terms[0] - 1.0 / (limit + self.roller)
         return excess
 
     def pitch_curvatures(self, motion: CamMotion) -> tuple[EnclosedExtreme, EnclosedExtreme]:
-        """The least and the greatest curvature of the pitch curve, 1/m."""
         return enclosed_extremes(motion, self.curvature, 2)
 
     def least_convex_radius(self, motion: CamMotion) -> EnclosedExtreme:
-        """The least radius of curvature of the profile where it bulges, m."""
         return self._inside(self.pitch_curvatures(motion)[1])
 
     def extremes(self, motion: CamMotion) -> CamExtremes:
-        """Enclosed extremes over the whole motion."""
         pressure = self.pressure_angles(motion)
         least, greatest = self.pitch_curvatures(motion)
         roller, convex = self.roller, self._inside(greatest)
@@ -297,7 +282,6 @@ class OscillatingRoller(CamFollower, kind="oscillating roller"):
 
     @property
     def pivot(self) -> Quantity:
-        """The distance of the pivot from the cam's centre."""
         return self.pivot_distance
 
 
@@ -307,15 +291,12 @@ class SwingingRoller(RollerContact):
 
     arm: float
     distance: float
+    #: the limit of the pressure angle is a sine of the arm's angle, with lines below and above it
+    linear: ClassVar[bool] = False
 
     @property
     def pivot(self) -> float:
         return self.distance
-
-    @property
-    def linear(self) -> bool:
-        """False, as the limit of the pressure angle is a sine of the arm's angle, with lines below and above it."""
-        return False
 
     def point(self, s: Jet) -> Pair:
         sine, cosine = self._psi(s).waves()
