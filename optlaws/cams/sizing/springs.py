@@ -45,7 +45,7 @@ _SPEED = Measured("angular velocity", least=0.0)
 #: what is sought by the greatest force that is to be least
 GREATEST = {"force": "greatest", CONTACT: CONTACT}
 #: what is sought by itself
-_SOLE = ("preload", "stiffness")
+_SOLE = ("stiffness", "preload")
 _UNITS = {"length": ("force", "stiffness"), "angle": ("torque", "torsional stiffness")}
 
 
@@ -58,7 +58,7 @@ class SoughtSpring(Declared, title="a spring"):
     )
     force: Quantity | None = entry(
         Measured("force", "torque"),
-        "What the cam shall press with at least, along the follower's way; 0 unless given.",
+        "What the cam shall press with at least, along the follower's way; 0 unless task.",
         default=None,
         example="20 N",
     )
@@ -192,36 +192,37 @@ def least_spring(
     (2273.443, 0.0, 91.667)
     """
     sought = SoughtSpring(speeds, force, stiffness, preload, greatest)  # type: ignore[arg-type] # which it checks
-    task = _task(cam, {"drive": drive, "process": process}, sought)
-    force_unit, stiffness_unit = _UNITS[cam.displacement.axis]
-    known = _known(preload, force_unit, "preload"), _known(stiffness, stiffness_unit, "stiffness")
-    return _exchange(task, _KnownSpring(*known, GREATEST[greatest]))
-
-
-@dataclass(frozen=True)
-class _KnownSpring:
-    """Preload and stiffness of a spring, as far as the user gives them."""
-
-    preload: float | None
-    stiffness: float | None
-    greatest: str
-
-    @property
-    def objective(self) -> str:
-        if self.stiffness is not None:
-            return "preload"
-        return self.greatest if self.preload is None else "stiffness"
+    for key in _SOLE:
+        if key in drive:
+            raise InputError(f"drive: the {key} is sought with the spring: to fix it give {key}=... beside the drive")
+    if sought.range[0] < sought.range[1]:  # a force over time, which is another at each speed, is refused
+        read_process_by_angle(process, cam.displacement, None)
+    forces, units = CamForces(cam, sought.speeds[1], drive, process=process), _UNITS[cam.displacement.axis]
+    given = {"force": force, "preload": preload, "stiffness": stiffness}
+    least, *known = (
+        None if value is None else quantity(value, units[name == "stiffness"], name) for name, value in given.items()
+    )
+    return _exchange(_SpringTask(forces, sought.range, least or 0.0, (known[0], known[1]), GREATEST[greatest]))
 
 
 @dataclass(frozen=True)
 class _SpringTask:
-    """A cam, the masses its follower moves, the range of speeds, and the required contact force."""
+    """A cam, the masses its follower moves, the range of speeds, the required contact force, and what is known."""
 
     forces: CamForces
-    slow: float
-    fast: float
+    speeds: tuple[float, float]
     least: float
-    contact: bool
+    known: tuple[float | None, float | None]  #: the preload and the stiffness
+    greatest: str
+
+    @property
+    def objective(self) -> str:
+        preload, stiffness = self.known
+        return "preload" if stiffness is not None else self.greatest if preload is None else "stiffness"
+
+    @property
+    def contact(self) -> bool:
+        return self.greatest == CONTACT
 
     def lever(self, angle: Array | Interval, order: int) -> Jet:
         """The force on the follower for 1 N of the force that is least where it is greatest."""
@@ -233,17 +234,18 @@ class _SpringTask:
     def rate(self, angle: float, side: float) -> float:
         """The speed at which the force is least (side 1) or greatest (-1): an end of the range, or between."""
         square, linear = (side * float(part.terms[0]) for part in self._moved(np.array(angle), 0))
-        inner = min(max(-0.5 * linear / square, self.slow), self.fast) if square > 0.0 else self.slow
-        return min((self.slow, self.fast, inner), key=lambda rate: square * rate**2 + linear * rate)
+        slow, fast = self.speeds
+        inner = min(max(-0.5 * linear / square, slow), fast) if square > 0.0 else slow
+        return min((slow, fast, inner), key=lambda rate: square * rate**2 + linear * rate)
 
     def without_spring(self, angle: Array | Interval, side: float | Array, order: int = 0) -> Jet:
         """The least (side 1) or greatest (-1) force on the follower at any speed, without the spring's force."""
         square, linear = (part * side for part in self._moved(angle, order))
-        forces = [square * rate**2 + linear * rate for rate in (self.slow, self.fast)]
+        forces = [square * rate**2 + linear * rate for rate in self.speeds]
         if self.forces.load.viscous:
             # where the force bends up with the speed it is least where its slope vanishes, or at an end
             with np.errstate(divide="ignore", invalid="ignore"):
-                rate = (linear / square * -0.5).clipped(self.slow, self.fast)
+                rate = (linear / square * -0.5).clipped(*self.speeds)
             forces.append((square * rate + linear) * rate)
         load, least = self.forces.load, forces[0]
         for force in forces[1:]:
@@ -274,35 +276,19 @@ class _SpringTask:
         return s.slope().slope() * load.inertia, s.slope() * load.viscous
 
 
-def _task(cam: DiscCam, moved: dict[str, Any], sought: SoughtSpring) -> _SpringTask:
-    for key in ("stiffness", "preload"):
-        if key in moved["drive"]:
-            raise InputError(f"drive: the {key} is sought with the spring: to fix it give {key}=... beside the drive")
-    slow, fast = sought.range
-    least = _known(sought.force, _UNITS[cam.displacement.axis][0], "force") or 0.0
-    if slow < fast:  # a force over time, which is another at each speed, is refused
-        read_process_by_angle(moved["process"], cam.displacement, None)
-    forces = CamForces(cam, speed=sought.speeds[1], **moved)
-    return _SpringTask(forces, slow, fast, least, sought.greatest == CONTACT)
-
-
-def _known(value: Quantity | None, dimension: str, name: str) -> float | None:
-    return None if value is None else quantity(value, dimension, name)
-
-
-def _exchange(task: _SpringTask, given: _KnownSpring) -> Spring:
+def _exchange(task: _SpringTask) -> Spring:
     """The best spring by exchange: for some angles first, then also for each angle at which it is too weak."""
     edges = task.forces.edges
     angles = np.concatenate([np.linspace(edges[0], edges[-1], _FIRST), task.sides])
     for _ in range(_STEPS):
-        best = _program(task, angles, given)
+        best = _program(task, angles)
         force, pushed = _extremes(task, best)
         slack = _PROGRAM_SLACK * max(pushed.peak, task.least)
-        settled = given.objective in _SOLE or pushed.high <= best[2] * (1.0 + _SPRING_SETTLED)
+        settled = task.objective in _SOLE or pushed.high <= best[2] * (1.0 + _SPRING_SETTLED)
         if force.low >= task.least - slack and settled:
             break
         angles = np.append(angles, [force.least_at, pushed.most_at])
-    return _strengthened(task, given, best, force)
+    return _strengthened(task, best, force)
 
 
 def _extremes(task: _SpringTask, spring: tuple[float, float, float]) -> tuple[Extremes, Extremes]:
@@ -321,7 +307,7 @@ def _extremes(task: _SpringTask, spring: tuple[float, float, float]) -> tuple[Ex
     return least, greatest
 
 
-def _program(task: _SpringTask, angles: Array, given: _KnownSpring) -> tuple[float, float, float]:
+def _program(task: _SpringTask, angles: Array) -> tuple[float, float, float]:
     """The best preload and stiffness for some angles, and the least greatest force there.
 
     The preload that a stiffness needs, and with it the greatest force, are the greatest of linear functions of the
@@ -345,24 +331,25 @@ def _program(task: _SpringTask, angles: Array, given: _KnownSpring) -> tuple[flo
             rise = task.sums[0] * slope + task.sums[1]
         return rise < 0.0
 
-    if given.stiffness is not None:
-        stiffness = given.stiffness
-    elif given.preload is not None:
-        missing, lifted = needed - given.preload, y > _SPRING_LIFT * scale
+    fixed, known = task.known
+    if known is not None:
+        stiffness = known
+    elif fixed is not None:
+        missing, lifted = needed - fixed, y > _SPRING_LIFT * scale
         if np.any(missing[~lifted] > _PROGRAM_ROUNDING * unit):
-            _refuse(task, angles, given)
+            _refuse(task, angles)
         stiffness = max(0.0, float((missing[lifted] / y[lifted]).max(initial=0.0)))
     else:
         most = unit / scale
         while falls(most):
             most *= 2.0
         stiffness = bisect(falls, 0.0, most)[1] if falls(0.0) else 0.0
-    preload = preload_of(stiffness)[0] if given.preload is None or given.stiffness is not None else given.preload
+    preload = preload_of(stiffness)[0] if fixed is None or known is not None else fixed
     return preload, stiffness, float(((high + preload + stiffness * y) / lever).max())
 
 
-def _refuse(task: _SpringTask, angles: Array, given: _KnownSpring) -> NoReturn:
-    missing = task.least - np.asarray(task.without_spring(angles, 1.0).terms[0]) - (given.preload or 0.0)
+def _refuse(task: _SpringTask, angles: Array) -> NoReturn:
+    missing = task.least - np.asarray(task.without_spring(angles, 1.0).terms[0]) - (task.known[0] or 0.0)
     worst = int(np.argmax(np.where(task.displacement(angles) <= 0.0, missing, -np.inf)))
     raise InfeasibleProblem(
         sentence(
@@ -373,12 +360,12 @@ def _refuse(task: _SpringTask, angles: Array, given: _KnownSpring) -> NoReturn:
     )  # fmt: skip
 
 
-def _strengthened(task: _SpringTask, given: _KnownSpring, best: tuple[float, float, float], force: Extremes) -> Spring:
+def _strengthened(task: _SpringTask, best: tuple[float, float, float], force: Extremes) -> Spring:
     """The spring strengthened by its greatest possible shortfall, and the force that remains everywhere."""
     preload, stiffness, greatest = best
-    bound = {"preload": preload, "stiffness": stiffness}.get(given.objective, greatest)
+    bound = {"preload": preload, "stiffness": stiffness}.get(task.objective, greatest)
     missing = max(task.least - force.low, 0.0)
-    if given.preload is None:
+    if task.known[0] is None:
         preload += missing
     elif (up := float(task.displacement(np.array(force.least_at)))) > _LIFTED * task.forces.cam.displacement.range[1]:
         stiffness += missing / up
@@ -387,7 +374,7 @@ def _strengthened(task: _SpringTask, given: _KnownSpring, best: tuple[float, flo
         stiffness=stiffness,
         preload=preload,
         greatest=pushed.high,
-        objective=given.objective,
+        objective=task.objective,
         lower_bound=bound,
         margin=least.low,
         critical=(degrees(least.least_at), task.rate(least.least_at, 1.0)),
