@@ -6,7 +6,7 @@ from .cams.as_manufactured import ManufacturedFormat as ManufacturedFormat
 from .cams.barrel import Side as Side, SpaceCurve as SpaceCurve
 from .cams.best_laws import BestCam as BestCam, BestPrimeCircle as BestPrimeCircle
 from .cams.best_offset import BestOffset as BestOffset
-from .cams.curves.file_options import CutFormat as CutFormat
+from .cams.curves.cam_files import CutFormat as CutFormat
 from .cams.curves.motion_by_angle import CamStretch as CamStretch, Direction as Direction
 from .cams.curves.plane_curve import PlaneCurve as PlaneCurve
 from .cams.curves.process_by_angle import ForceStretch as ForceStretch, ProcessByAngle as ProcessByAngle

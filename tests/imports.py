@@ -24,7 +24,7 @@ class Import:
 HANDED_UP = {
     "plot": ("optlaws.plots.",),
     "_plot": ("optlaws.plots.",),
-    "export": ("optlaws.exports.", "optlaws.cams.curves.cam_files", "optlaws.synthesis.proven.fewest_laws"),
+    "export": ("optlaws.exports.", "optlaws.synthesis.proven.fewest_laws"),
     "summary": ("optlaws.cycles.summary.",),
     "report": (
         "optlaws.cams.report.",

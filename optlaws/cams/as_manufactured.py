@@ -9,12 +9,9 @@ from typing import Any, Literal
 
 import numpy as np
 
-from optlaws.cams.curves.arcs_and_chords import Arcs, arcs
-from optlaws.cams.curves.cam_files import polar
-from optlaws.cams.curves.file_options import Cutting
-from optlaws.cams.curves.outline import Outline
-from optlaws.cams.curves.plane_curve import CurveAlongNormals, CurveByJets, PiecewiseCurve
-from optlaws.cams.curves.spline import spline
+from optlaws.cams.curves.approximations import Arcs, arcs, spline
+from optlaws.cams.curves.cam_files import Cutting, polar
+from optlaws.cams.curves.plane_curve import CurveAlongNormals, Outline, PiecewiseCurve
 from optlaws.cams.disc import DiscCam
 from optlaws.cams.followers.contact import FollowerContact, shifted
 from optlaws.entries.declared import documented_by
@@ -35,7 +32,7 @@ _MANUFACTURED_JUMP = 1e-6  # of a derivative's greatest value: a smaller jump of
 
 
 @dataclass(frozen=True, eq=False)
-class PolarSpline(CurveByJets):
+class PolarSpline(Outline):
     """The curve whose radius is the closed cubic spline through radii at even angles around the centre."""
 
     radii: Array
@@ -56,7 +53,7 @@ class PolarSpline(CurveByJets):
 
 
 @dataclass(frozen=True, eq=False)
-class ArcChain(CurveByJets):
+class ArcChain(Outline):
     """Arcs as a curve: its parameter grows by one along each."""
 
     arcs: Arcs

@@ -18,7 +18,7 @@ import msgspec
 import optlaws
 from optlaws import Drive, Mechanism, MotionLaw, Solution
 from optlaws.cams.curves import cam_files
-from optlaws.cams.curves.file_options import Cutting
+from optlaws.cams.curves.cam_files import Cutting
 from optlaws.cycles.cycle import Cycle
 from optlaws.entries.declared import Declared
 from optlaws.errors import InputError

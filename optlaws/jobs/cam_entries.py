@@ -8,8 +8,7 @@ from typing import Any
 
 from optlaws.cams.as_manufactured import MADE_CURVES, WAVES, AsMade, manufactured_tables, profile_errors
 from optlaws.cams.barrel import Groove
-from optlaws.cams.curves.cam_files import FORMATS, format_of
-from optlaws.cams.curves.file_options import DECIMALS, POINTS, Cutting
+from optlaws.cams.curves.cam_files import DECIMALS, FORMATS, POINTS, Cutting, format_of
 from optlaws.cams.disc import CURVES, TURNINGS, CutCurve, DiscCam, Turning
 from optlaws.cams.followers.follower import CamFollower
 from optlaws.cams.forces import Surfaces

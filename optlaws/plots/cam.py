@@ -242,8 +242,8 @@ _MARGIN = 6.0
 
 def animated(cam: DiscCam, seconds: float = 4.0) -> str:
     """The picture of a turn in a number of seconds, repeated, in millimetres; y points up."""
+    from optlaws.cams.curves.approximations import spline
     from optlaws.cams.curves.cam_files import beziers
-    from optlaws.cams.curves.spline import spline
 
     outline = beziers(spline(cam.profile, _OUTLINE_DRAWN)) * [MILLI, -MILLI]
     curves = " ".join(f"C {_pair(a)} {_pair(b)} {_pair(c)}" for _, a, b, c in outline)

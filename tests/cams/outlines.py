@@ -6,14 +6,14 @@ from math import pi, tau
 import numpy as np
 from numpy.typing import NDArray
 
-from tests.internals.cams import CurveByJets
+from tests.internals.cams import Outline
 from tests.internals.numerics import Interval, Pair, variable
 
 Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
-class Ellipse:
+class Ellipse(Outline):
     """An ellipse around the cam's centre, counterclockwise; half axes in metres."""
 
     a: float
@@ -30,7 +30,7 @@ class Ellipse:
 
 
 @dataclass(frozen=True)
-class Bumped(CurveByJets):
+class Bumped(Outline):
     """A circle with a bump height/(1 + ((angle - centre)/width)²) upon it, counterclockwise; metres and radians."""
 
     radius: float

@@ -21,20 +21,29 @@ _CONTROL_POINT_BLUR = 128.0 * ROUNDOFF  # of the greatest control point: values 
 _MOST = 1_000_000
 
 
-class CurveByJets(ABC):
-    """A closed plane curve that is known by its jets, over a parameter of its own."""
+class Outline(ABC):
+    """A closed plane curve that is known by its jets, over a parameter of its own or over the cam's angle.
+
+    Between `breaks`, which increase, over the cam's angle from 0 to 2 pi, it is smooth. In intervals of places `jets`
+    encloses it: statements on deviations rest on that.
+    """
+
+    @property
+    @abstractmethod
+    def breaks(self) -> tuple[float, ...]:
+        """Places between which it is smooth, both ends included."""
 
     @abstractmethod
-    def jets(self, places: Array | Interval, order: int) -> Pair:
-        """Both coordinates with their Taylor terms by the parameter."""
+    def jets(self, places: Array | Interval, order: int, /) -> Pair:
+        """Both coordinates with their Taylor terms by the parameter, at places or in intervals between breaks."""
 
     def __call__(self, places: Array, nu: int = 0) -> Array:
-        """Points, or derivatives by the parameter, shape of `places` and two more."""
+        """Points in metres, or derivatives by the parameter, shape of `places` and two more."""
         return np.stack([jet.derivative(nu) for jet in self.jets(np.asarray(places, dtype=np.float64), nu)], axis=-1)
 
 
 @dataclass(frozen=True, eq=False)
-class PiecewiseCurve(CurveByJets):
+class PiecewiseCurve(Outline):
     """Polynomials between knots, a row of coordinates each: what is enclosed are these, which are splines to rounding.
 
     `powers` are ascending in t, |t| <= 1 between two knots, shape (degree + 1, n, coordinates); coordinates may be
@@ -75,7 +84,6 @@ class PiecewiseCurve(CurveByJets):
 
     @property
     def breaks(self) -> tuple[float, ...]:
-        """The places where its pieces meet."""
         return tuple(self.knots.tolist())
 
     def jets(self, places: Array | Interval, order: int) -> Any:
@@ -141,7 +149,7 @@ class CurveByAngle(ABC):
         return np.stack([jet.derivative(nu) for jet in jets], axis=-1)
 
 
-class PlaneCurve(CurveByAngle):
+class PlaneCurve(CurveByAngle, Outline):
     """A curve around a cam's centre, as a function of the cam's angle; call it for points or derivatives by the angle.
 
     Coordinates are those of the cam, in metres, with the follower's at the angle 0; angles are in radians. Curves are
