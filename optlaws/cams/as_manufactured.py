@@ -380,19 +380,6 @@ def _points(outline: Outline, options: Cutting) -> PiecewiseCurve:
     return spline_through(_rounded(outline(np.linspace(0.0, tau, options.points)), options.decimals))
 
 
-def _radii(outline: Outline, options: Cutting) -> Outline:
-    return PolarSpline(_rounded(polar(outline, options.points), options.decimals))
-
-
-def _splined(outline: Outline, options: Cutting) -> Outline:
-    return spline(outline, options.metres, options.degree)
-
-
-def _chain(outline: Outline, options: Cutting) -> Outline:
-    cases = arcs(outline, options.metres)
-    return ArcChain(Arcs(cases.points, cases.bulges, cases.deviation))
-
-
 def _rounded(values: Array, decimals: int) -> Array:
     """Points or radii of a turn with so many decimals of a millimetre; the last is the first again."""
     rounded = 1e-3 * np.round(1e3 * values, decimals)
@@ -400,11 +387,15 @@ def _rounded(values: Array, decimals: int) -> Array:
     return np.asarray(rounded)
 
 
+def _splined(outline: Outline, options: Cutting) -> Outline:
+    return spline(outline, options.metres, options.degree)
+
+
 _CURVES_OF: dict[str, Callable[[Outline, Cutting], Outline]] = {
     "csv": _points,
-    "csv polar": _radii,
+    "csv polar": lambda outline, options: PolarSpline(_rounded(polar(outline, options.points), options.decimals)),
     "dxf spline": _splined,
     "svg": _splined,
-    "dxf arcs": _chain,
-    "g-code arcs": _chain,
+    "dxf arcs": lambda outline, options: ArcChain(arcs(outline, options.metres)),
+    "g-code arcs": lambda outline, options: ArcChain(arcs(outline, options.metres)),
 }

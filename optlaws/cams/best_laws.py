@@ -142,7 +142,7 @@ def best_cam(
     given = DiscCam(cycle, prime_radius, follower, turning=turning)
     known = _with_solutions(cycle)
     if limits.proven(given.extremes):  # the best laws without the limits keep them
-        bound = _bound(cycle, known)
+        bound = _total(cycle, known)
         return BestCam(given, cycle.objective, bound, cycle.status, cycle.solutions)
     inner = _solved(cycle, given, limits.in_si, below=True)
     outer = _solved(cycle, given, limits.in_si, below=False) if not given.contact.linear else inner
@@ -157,7 +157,7 @@ def best_cam(
                 joined("; ", broken.values()),
             )
         )
-    objective, bound = _objective(cycle, inner), _bound(cycle, outer)
+    objective, bound = _objective(cycle, inner), _total(cycle, outer)
     solutions = tuple(best.solution for best in inner if best.solution is not None)
     proven = objective - bound <= 1e-6 * objective
     return BestCam(cam, objective, bound, Status.OPTIMAL if proven else Status.LOCAL, solutions)
@@ -335,27 +335,17 @@ def _problem(problem: Problem, windows: Sequence[Window], objectives: Sequence[F
 
 
 def _objective(cycle: Cycle, solved: Solved) -> float:
-    nu, mean = OBJECTIVES[cycle.minimise]
-    if mean:
-        return sqrt(sum(best.piece.duration * best.piece.mean_square(nu) for best in solved) / cycle.duration)
-    return max(abs(best.piece.stroke) / best.piece.duration**nu * best.piece.law.peak(nu).value for best in solved)
+    return _total(cycle, [best._replace(solution=None, bound=None) for best in solved])
 
 
-def _bound(cycle: Cycle, solved: Solved) -> float:
-    nu, mean = OBJECTIVES[cycle.minimise]
-    sizes = [
-        (best.piece.duration, abs(best.piece.stroke) / best.piece.duration**nu * _least(best, nu, mean=mean))
-        for best in solved
-    ]
+def _total(cycle: Cycle, solved: Solved) -> float:
+    """The objective of a cycle whose pieces have their lower bounds, or else the constants of their laws."""
+    (nu, mean), sizes = OBJECTIVES[cycle.minimise], []
+    for piece, solution, bound in solved:
+        constant = solution.lower_bound if solution is not None and bound is None else bound
+        if constant is None:
+            constant = 0.0 if piece.stroke == 0.0 else piece.law.rms(nu) if mean else piece.law.peak(nu).value
+        sizes.append((piece.duration, abs(piece.stroke) / piece.duration**nu * constant))
     if mean:
         return sqrt(sum(time * size**2 for time, size in sizes) / cycle.duration)
     return max(size for _, size in sizes)
-
-
-def _least(best: SolvedPiece, nu: int, *, mean: bool) -> float:
-    """The lower bound of the constant of a piece's law; its value where the law is given."""
-    if best.solution is not None:
-        return best.solution.lower_bound if best.bound is None else best.bound
-    if best.piece.stroke == 0.0:
-        return 0.0
-    return best.piece.law.rms(nu) if mean else best.piece.law.peak(nu).value

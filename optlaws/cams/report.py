@@ -80,27 +80,29 @@ class CamReport:
         extremes = self.cam.extremes
         return [*(sentence("{}", size) for size in extremes.beyond), *self.limits.broken(extremes).values()]
 
+    @property
+    def _enclosed(self) -> list[tuple[str, str, EnclosedExtreme | None, str, float | None]]:
+        """Extremes by their names in tables and for programs, with their units and the limits that laws reach."""
+        limits, extremes = self.limits if self.reached else CamLimits(), self.cam.extremes
+        (least, most), greatest = extremes.pressure_angles, extremes.greatest_pressure_angle
+        return [
+            ("greatest pressure angle", "greatest_pressure_angle", greatest, "deg", limits.pressure),
+            ("pressure angle, least", "least_pressure_angle", least, "deg", limits.pressure),
+            ("pressure angle, greatest", "largest_pressure_angle", most, "deg", limits.pressure),
+            ("least radius of curvature, bulging", "bulging_radius", extremes.least_convex_radius, "mm", limits.radius),
+            ("least radius of curvature, hollow", "hollow_radius", extremes.least_concave_radius, "mm", None),
+        ]
+
     @kept_property
     def extremes(self) -> list[Row]:
         """Extreme pressure angles, where there are any but 0, least radii of curvature, and sizes of the follower."""
-        extremes, (pressure, radius) = self.cam.extremes, self._reached
-        least, greatest = extremes.pressure_angles
-        pressed = [
-            extreme_row("greatest pressure angle", extremes.greatest_pressure_angle, "deg", pressure),
-            extreme_row("pressure angle, least", least, "deg", pressure),
-            extreme_row("pressure angle, greatest", greatest, "deg", pressure),
+        pressed = self.cam.extremes.greatest_pressure_angle.value > _SMALLEST_ANGLE
+        rows = [
+            extreme_row(name, extreme, unit, limit)
+            for name, _, extreme, unit, limit in self._enclosed
+            if extreme is not None and (pressed or unit != "deg")
         ]
-        hollow = extremes.least_concave_radius
-        return [
-            *(pressed if extremes.greatest_pressure_angle.value > _SMALLEST_ANGLE else []),
-            extreme_row("least radius of curvature, bulging", extremes.least_convex_radius, "mm", radius),
-            *([] if hollow is None else [extreme_row("least radius of curvature, hollow", hollow, "mm")]),
-            *(extreme_row(size.name, size.extreme, "mm") for size in extremes.sizes),
-        ]
-
-    @property
-    def _reached(self) -> tuple[float | None, float | None]:
-        return (self.limits.pressure, self.limits.radius) if self.reached else (None, None)
+        return rows + [extreme_row(size.name, size.extreme, "mm") for size in self.cam.extremes.sizes]
 
     @property
     def section(self) -> Section:
@@ -123,18 +125,15 @@ class CamReport:
     @property
     def data(self) -> dict[str, Any]:
         """The cam for programs, in metres and radians: enclosures as pairs, with the angle of the cam."""
-        cam, extremes, (pressure, radius) = self.cam, self.cam.extremes, self._reached
-        hollow = extremes.least_concave_radius
+        cam, extremes = self.cam, self.cam.extremes
+        enclosed = {key: each and enclosure(each, limit) for _, key, each, _, limit in self._enclosed}
+        sizes = {size.name.replace(" ", "_"): enclosure(size.extreme) | _limit(size) for size in extremes.sizes}
         return {
             "prime_radius": positive(cam.prime_radius, "prime_radius"),
             "base_radius": cam.base_radius,
-            "greatest_pressure_angle": enclosure(extremes.greatest_pressure_angle, pressure),
-            "least_pressure_angle": enclosure(extremes.pressure_angles[0], pressure),
-            "largest_pressure_angle": enclosure(extremes.pressure_angles[1], pressure),
-            "bulging_radius": enclosure(extremes.least_convex_radius, radius),
-            "hollow_radius": None if hollow is None else enclosure(hollow),
+            **enclosed,
             "undercut": {"status": extremes.undercut.status, "simple": extremes.undercut.simple},
-            **{size.name.replace(" ", "_"): enclosure(size.extreme) | _limit(size) for size in extremes.sizes},
+            **sizes,
         }
 
     def coordinates(self, count: int, cutter: Quantity | None = None, second: DiscCam | None = None) -> ReportTable:
@@ -162,38 +161,36 @@ class CamReport:
     @property
     def panels(self) -> tuple[Panel, ...]:
         """Displacement, pressure angle, curvature and radius of curvature, each with its greatest or least value."""
-        cam, pressed = self.cam, self.cam.extremes.greatest_pressure_angle
-        unit, factor = UNITS[cam.displacement.axis][0]
-        steepest = None if self.limits.pressure is None else DEGREES * self.limits.pressure
-        limits = () if steepest is None else (PanelLimit(0.0, TURN, -steepest, steepest),)
-        bulging = _mark(cam.extremes.least_convex_radius, MILLI)
-        steep = _mark(pressed, float(np.copysign(DEGREES, cam.pressure_angle(pressed.angle))))
+        cam, (unit, factor) = self.cam, UNITS[self.cam.displacement.axis][0]
+        steepest, bulging = cam.extremes.greatest_pressure_angle, cam.extremes.least_convex_radius
+        limit = np.inf if self.limits.pressure is None else DEGREES * self.limits.pressure
+        steep = DEGREES * float(np.copysign(steepest.value, cam.pressure_angle(steepest.angle)))
         far = _FAR * positive(cam.prime_radius, "prime_radius")
-
-        def pressure(at: Array) -> Array:
-            return DEGREES * np.asarray(cam.pressure_angle(at))
 
         def radius(at: Array) -> Array:
             values = np.asarray(cam.radius_of_curvature(at))
             return MILLI * np.where(np.abs(values) < far, values, np.nan)
 
+        pressure = self._panel(
+            "pressure angle", "deg", lambda at: np.degrees(cam.pressure_angle(at)), ((steepest.angle, steep),)
+        )
         return (
             self._panel("displacement", unit, lambda at: factor * np.asarray(cam.displacement(at))),
-            replace(
-                self._panel("pressure angle", "deg", lambda at: np.degrees(cam.pressure_angle(at)), steep),
-                limits=limits,
-            ),
+            replace(pressure, limits=(PanelLimit(0.0, TURN, -limit, limit),) if limit < np.inf else ()),
             self._panel("curvature", "1/mm", lambda at: np.asarray(cam.profile.curvature(at)) / MILLI),
-            self._panel("radius of curvature", "mm", radius, bulging),
+            self._panel("radius of curvature", "mm", radius, ((bulging.angle, MILLI * bulging.value),)),
         )
 
     def loads(self, forces: CamForces) -> tuple[Panel, ...]:
         """Contact force, torque at the shaft and, where the contact has a width, Hertz's pressure."""
+        panels = []
         curves: tuple[Values, ...] = (forces.contact_force, forces.shaft_torque, forces.contact_pressure)
-        return tuple(
-            self._panel(name, unit, partial(_scaled, curve, size), _ends(each, size), forces.edges)
-            for (name, each, unit, size), curve in zip(named_forces(forces), curves, strict=False)
-        )
+        for (name, each, unit, factor), curve in zip(named_forces(forces), curves, strict=False):
+            # the least and the greatest value, but what is rounding
+            ends = (each.least_at, each.least), (each.most_at, each.most)
+            peaks = tuple((at, factor * value) for at, value in ends if chop(value, each.peak, FORCE_ROUNDING))
+            panels.append(self._panel(name, unit, partial(_scaled, curve, factor), peaks, forces.edges))
+        return tuple(panels)
 
     def process(self, forces: CamForces) -> tuple[Panel, ...]:
         """The force of the process; none where there is no process."""
@@ -315,16 +312,6 @@ def _limit(size: Any) -> dict[str, Any]:
 
 def _scaled(curve: Values, size: float, at: Array) -> Array:
     return size * np.asarray(curve(at))
-
-
-def _mark(extreme: EnclosedExtreme, factor: float) -> tuple[tuple[float, float], ...]:
-    return ((extreme.angle, factor * extreme.value),)
-
-
-def _ends(extremes: Extremes, factor: float) -> tuple[tuple[float, float], ...]:
-    """The least and the greatest value with their angles, but what is rounding."""
-    ends = (extremes.least_at, extremes.least), (extremes.most_at, extremes.most)
-    return tuple((at, factor * value) for at, value in ends if chop(value, extremes.peak, FORCE_ROUNDING))
 
 
 def extreme_row(name: str, extreme: EnclosedExtreme, unit: str, limit: float | None = None) -> Row:

@@ -230,7 +230,7 @@ def _cut(form: str, request: cam_view.CamRequest) -> File:
     result = cam_view.result_of(request)
     kind = form.partition(" ")[0]
     ending = next(end for end, name in cam_files.ENDINGS.items() if name.partition(" ")[0] == kind)
-    return f"cam{ending}", cam_files.text(result.cam.profile, form, Cutting(about=result.spec.title))
+    return f"cam{ending}", cam_files.FORMATS[form](result.cam.profile, Cutting(about=result.spec.title))
 
 
 def _old_problem(request: old_cam_view.OldCycleRequest) -> File:

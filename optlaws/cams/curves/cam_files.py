@@ -355,11 +355,6 @@ def format_of(file: Path, name: str | None = None) -> str:
     return known
 
 
-def text(outline: Outline, name: str, options: Cutting) -> str:
-    """The text of a file in a format."""
-    return FORMATS[name](outline, options)
-
-
 def write_outline(
     outline: Outline,
     file: str | Path,
@@ -381,4 +376,4 @@ def write_outline(
             raise InputError(unknown_key(key, Cutting.__dataclass_fields__, "entry"))
     cutting = Cutting(**given)
     writing.check_place(place)
-    return writing.write(place, text(outline, name, cutting), exact=True, force=force)
+    return writing.write(place, FORMATS[name](outline, cutting), exact=True, force=force)
