@@ -6,13 +6,33 @@ from math import degrees, pi
 
 from optlaws.cams.disc import TURNINGS, DiscCam
 from optlaws.cams.followers.follower import CamFollower, positive, shown
+from optlaws.entries.declared import Declared, ValueOf, declared, documented_by, entries_of, entry
+from optlaws.entries.value_types import Measured
 from optlaws.errors import InputError
 from optlaws.motion.quantities import quantity
 from optlaws.numbers import Quantity
 
-_ENTRIES = {"length": ("distance", "distance='170 mm'"), "angle": ("angle", "angle='110 deg'")}
+#: what gives a pair by what its follower's way is
+_GIVEN_BY = {"length": "distance", "angle": "angle"}
 
 
+@declared
+class ReturnFollower(Declared, title="a pair"):
+    """The second follower of a pair of cams: how it is fixed to the first one, and what it is where it is another."""
+
+    distance: Quantity | None = entry(
+        Measured("length", above=0.0),
+        "Between rollers or faces along a slide's way.",
+        default=None,
+        example="170 mm",
+    )
+    angle: Quantity | None = entry(
+        Measured("angle"), "Between the two arms on a pivot.", default=None, example="110 deg"
+    )
+    follower: CamFollower | None = entry(ValueOf(CamFollower), "The first one's unless given.", default=None)
+
+
+@documented_by(ReturnFollower)
 def conjugate_cam(
     cam: DiscCam,
     follower: CamFollower | None = None,
@@ -29,12 +49,6 @@ def conjugate_cam(
     ----------
     cam
         The first cam.
-    follower
-        The second follower, of the kind of the first; the same unless given.
-    distance
-        On a slide: between the rollers' centres along the slide's way, or between the two faces, such as "170 mm".
-    angle
-        On a pivot: between the two arms, or faces, such as "110 deg".
 
     Raises
     ------
@@ -56,11 +70,11 @@ def conjugate_cam(
         raise InputError(f"follower: the second one of a pair must be a {type(cam.follower).__name__}, as the first")
     if second.pivot != cam.follower.pivot:
         raise InputError("follower: the second one of a pair is on the pivot of the first: give it its pivot_distance")
-    entry, example = _ENTRIES[second.axis]
-    given = {"distance": distance, "angle": angle}
-    if given[entry] is None or sum(value is not None for value in given.values()) != 1:
-        raise InputError(f"a pair of {type(second).__name__} is given by its {entry} alone, such as {example}")
-    if entry == "distance":
+    name, given = _GIVEN_BY[second.axis], {"distance": distance, "angle": angle}
+    if given[name] is None or sum(value is not None for value in given.values()) != 1:
+        such = f"{name}={entries_of(ReturnFollower)[name].example!r}"
+        raise InputError(f"a pair of {type(second).__name__} is given by its {name} alone, such as {such}")
+    if name == "distance":
         return _on_slide(cam, second, positive(distance, "distance"))
     return _on_pivot(cam, second, quantity(angle, "angle", "angle"))
 

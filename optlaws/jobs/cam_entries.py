@@ -8,6 +8,7 @@ from typing import Any
 
 from optlaws.cams.as_manufactured import MADE_CURVES, WAVES, AsMade, manufactured_tables, profile_errors
 from optlaws.cams.barrel import Groove
+from optlaws.cams.conjugate import ReturnFollower
 from optlaws.cams.curves.cam_files import DECIMALS, FORMATS, POINTS, Cutting, format_of
 from optlaws.cams.disc import CURVES, TURNINGS, CutCurve, DiscCam, Turning
 from optlaws.cams.followers.follower import CamFollower
@@ -94,17 +95,6 @@ class CutFile(Cutting, title="a file"):
 
 
 @declared
-class PairEntries(Declared, title="a pair"):
-    """The return cam: how its follower is fixed to the first one, and the follower where it is another."""
-
-    distance: str | None = entry(
-        _LENGTH, "Between rollers or faces along a slide's way.", default=None, example="170 mm"
-    )
-    angle: str | None = entry(Measured("angle"), "Between the two arms on a pivot.", default=None, example="110 deg")
-    follower: CamFollower | None = entry(ValueOf(CamFollower), "The first one's unless given.", default=None)
-
-
-@declared
 class CamOfMotion(ProblemFile, title="a cam"):
     """What the problem files of disc cams and of barrel cams have."""
 
@@ -152,7 +142,7 @@ class CamProblemFile(CamOfMotion, title="a cam"):
         "with the least prime circle; or the offset of a slide with a roller whose greatest pressure angle is least.",
         default=None,
     )
-    pair: PairEntries | None = entry(ValueOf(PairEntries), "A return cam.", default=None)
+    pair: ReturnFollower | None = entry(ValueOf(ReturnFollower), "A return cam.", default=None)
     process: ProcessEntries | None = entry(
         ValueOf(ProcessEntries), "A process force on the follower, in forces and spring.", default=None
     )

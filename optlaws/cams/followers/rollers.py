@@ -55,10 +55,6 @@ class RollerContact(FollowerContact):
     def rate(self, s: Jet) -> Jet | float:
         """The rotation of the follower's path relative to the cam, per radian."""
 
-    @abstractmethod
-    def curvature_terms(self, displacement: str, slope: str) -> CurvatureTerms:
-        """The curvature of the pitch curve as texts of the displacement above the lowest and of s'."""
-
     def pressure(self, s: Jet) -> Jet:
         """The tangent of the pressure angle: velocity along the follower's way over velocity across it."""
         along, across = self.components(s)
