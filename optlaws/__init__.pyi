@@ -20,7 +20,6 @@ from .cams.as_manufactured import AsMade as AsMade, as_made as as_made, with_pro
 from .cams.at_shaft import cam_mechanism as cam_mechanism
 from .cams.barrel import BarrelCam as BarrelCam
 from .cams.best_laws import best_cam as best_cam, best_prime_circle as best_prime_circle
-from .cams.best_offset import best_offset as best_offset
 from .cams.conjugate import conjugate_cam as conjugate_cam
 from .cams.curves.motion_by_angle import CamMotion as CamMotion
 from .cams.disc import DiscCam as DiscCam
@@ -31,7 +30,11 @@ from .cams.followers.faces import (
 )
 from .cams.followers.rollers import OscillatingRoller as OscillatingRoller, TranslatingRoller as TranslatingRoller
 from .cams.forces import CamForces as CamForces
-from .cams.least_sizes import greatest_roller as greatest_roller, least_prime_circle as least_prime_circle
+from .cams.least_sizes import (
+    best_offset as best_offset,
+    greatest_roller as greatest_roller,
+    least_prime_circle as least_prime_circle,
+)
 from .cams.sizing.energy_fluctuation import (
     EnergyFluctuation as EnergyFluctuation,
     energy_fluctuation as energy_fluctuation,

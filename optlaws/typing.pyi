@@ -5,16 +5,19 @@ from .balancing.levers.design import Span as Span
 from .cams.as_manufactured import ManufacturedFormat as ManufacturedFormat
 from .cams.barrel import Side as Side, SpaceCurve as SpaceCurve
 from .cams.best_laws import BestCam as BestCam, BestPrimeCircle as BestPrimeCircle
-from .cams.best_offset import BestOffset as BestOffset
 from .cams.curves.cam_files import CutFormat as CutFormat
 from .cams.curves.motion_by_angle import CamStretch as CamStretch, Direction as Direction
 from .cams.curves.plane_curve import PlaneCurve as PlaneCurve
-from .cams.curves.process_by_angle import ForceStretch as ForceStretch, ProcessByAngle as ProcessByAngle
 from .cams.disc import CutCurve as CutCurve, Turning as Turning
 from .cams.followers.faces import FaceContact as FaceContact
 from .cams.followers.follower import CamFollower as CamFollower, Place as Place
 from .cams.followers.rollers import RollerContact as RollerContact
-from .cams.least_sizes import GreatestRoller as GreatestRoller, LeastPrimeCircle as LeastPrimeCircle
+from .cams.forces import ForceStretch as ForceStretch, ProcessByAngle as ProcessByAngle
+from .cams.least_sizes import (
+    BestOffset as BestOffset,
+    GreatestRoller as GreatestRoller,
+    LeastPrimeCircle as LeastPrimeCircle,
+)
 from .cycles.advising.advised_law import LawKind as LawKind, LawMeasure as LawMeasure, ProvenLeast as ProvenLeast
 from .cycles.interchange import PlotOver as PlotOver
 from .cycles.interlocks.enclosed_axis import Way as Way

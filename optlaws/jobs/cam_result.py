@@ -11,14 +11,19 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 from optlaws.cams.barrel import BarrelCam
 from optlaws.cams.best_laws import BestCam, BestPrimeCircle, best_cam, best_prime_circle
-from optlaws.cams.best_offset import BestOffset, best_offset
 from optlaws.cams.conjugate import conjugate_cam
 from optlaws.cams.curves.extremes import UNDERCUT
 from optlaws.cams.disc import DiscCam
 from optlaws.cams.followers.follower import stated_prime_radius
 from optlaws.cams.followers.rollers import TranslatingRoller
 from optlaws.cams.forces import CamForces, Surfaces
-from optlaws.cams.least_sizes import LeastPrimeCircle, greatest_roller, least_prime_circle
+from optlaws.cams.least_sizes import (
+    BestOffset,
+    LeastPrimeCircle,
+    best_offset,
+    greatest_roller,
+    least_prime_circle,
+)
 from optlaws.cams.report import CamReport, barrel_coordinates, barrel_section, forces_section
 from optlaws.cams.sizing.energy_fluctuation import EnergyFluctuation, energy_fluctuation
 from optlaws.cams.sizing.springs import CONTACT, GREATEST, least_spring

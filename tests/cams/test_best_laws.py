@@ -25,7 +25,7 @@ from optlaws import (
     best_prime_circle,
     smoothstep,
 )
-from tests.internals.cams import PRESSURE, SlidingRoller, SwingingRoller, curvature_of, curved_limits, linear_limits
+from tests.internals.cams import PRESSURE, SlidingRoller, SwingingRoller, best_laws, curvature_of, linear_limits
 from tests.internals.formulas import NUMPY, evaluate
 from tests.internals.motion import Piece
 from tests.internals.numerics import Jet
@@ -143,7 +143,7 @@ BENT = {
 )
 def test_curvature_under_a_roller_is_imposed_and_bounded(monkeypatch: pytest.MonkeyPatch, case: str) -> None:
     if case == "short":
-        monkeypatch.setattr(curved_limits, "_PARTS", 8)
+        monkeypatch.setattr(best_laws, "_PARTS", 8)
     cycle, base, follower, limits = BENT[case]
     best = best_cam(cycle, base, follower, **limits)  # type: ignore[arg-type]
     expected = 1e-3 * float(limits["radius_of_curvature"].split()[0])

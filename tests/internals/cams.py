@@ -1,9 +1,8 @@
 """Internals of `optlaws.cams` that tests look at by themselves."""
 
-from optlaws.cams import curved_limits
+from optlaws.cams import best_laws
 from optlaws.cams.as_manufactured import ArcChain, Following, PolarSpline, run_against, spline_through
-from optlaws.cams.best_laws import linear_limits
-from optlaws.cams.curved_limits import curvature_of
+from optlaws.cams.best_laws import curvature_of, linear_limits
 from optlaws.cams.curves import cam_files
 from optlaws.cams.curves.approximations import Arcs, Spline, arcs, even, polygon, spline, through
 from optlaws.cams.curves.cam_files import ENDINGS, FORMATS, polar, write_outline

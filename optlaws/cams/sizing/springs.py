@@ -10,9 +10,8 @@ from typing import Any, Literal, NoReturn
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.cams.curves.process_by_angle import read_process_by_angle
 from optlaws.cams.disc import DiscCam
-from optlaws.cams.forces import CamForces
+from optlaws.cams.forces import CamForces, read_process_by_angle
 from optlaws.echo import shortened
 from optlaws.entries.declared import Declared, declared, documented_by, entry
 from optlaws.entries.value_types import Choice, Measured, Together
@@ -58,7 +57,7 @@ class SoughtSpring(Declared, title="a spring"):
     )
     force: Quantity | None = entry(
         Measured("force", "torque"),
-        "What the cam shall press with at least, along the follower's way; 0 unless task.",
+        "What the cam shall press with at least, along the follower's way; 0 unless given.",
         default=None,
         example="20 N",
     )

@@ -18,7 +18,7 @@ FOLDER = PACKAGE / "cams" / "followers"
 MAKERS = {
     "balancing/dwells/dwell_machine.py": {"OscillatingRoller"},
     "cams/at_shaft.py": {"translating roller"},
-    "cams/best_offset.py": {"TranslatingRoller"},
+    "cams/least_sizes.py": {"TranslatingRoller"},
     "jobs/cam_result.py": {"TranslatingRoller"},
     "explorer/views/cam_view.py": {"translating roller"},
     "jobs/starters/starter.py": {"TranslatingRoller"},
