@@ -35,11 +35,12 @@ from .cams.least_sizes import (
     greatest_roller as greatest_roller,
     least_prime_circle as least_prime_circle,
 )
-from .cams.sizing.energy_fluctuation import (
+from .cams.springs_and_flywheels import (
     EnergyFluctuation as EnergyFluctuation,
+    Spring as Spring,
     energy_fluctuation as energy_fluctuation,
+    least_spring as least_spring,
 )
-from .cams.sizing.springs import Spring as Spring, least_spring as least_spring
 from .cycles.advising.advice import Advice as Advice
 from .cycles.advising.advised_law import AdvisedLaw as AdvisedLaw
 from .cycles.advising.advised_motion import advise as advise

@@ -8,7 +8,7 @@ from typing import Any, Literal, Unpack
 
 import numpy as np
 
-from optlaws.cams.curves.cam_files import CutFormat, Cutting, CuttingOptions, format_of, write_outline
+from optlaws.cams.curves.cam_files import CutFormat, Cutting, CuttingOptions, write_outline
 from optlaws.cams.curves.extremes import CamExtremes
 from optlaws.cams.curves.motion_by_angle import CamMotion, as_motion
 from optlaws.cams.curves.plane_curve import PlaneCurve
@@ -183,7 +183,6 @@ class DiscCam:
         InputError
             If an entry is unknown or out of its range, the motion is no whole turn, or the file cannot be written.
         """
-        format_of(Path(file), as_)
         return write_outline(self.outline(curve, cutter_radius), file, as_, force=force, **options)
 
     def summary(self) -> Summary:

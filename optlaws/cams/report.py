@@ -15,7 +15,7 @@ from optlaws.cams.barrel import SIDES, BarrelCam
 from optlaws.cams.curves.plane_curve import CurveByAngle
 from optlaws.cams.followers.follower import positive
 from optlaws.cams.forces import CamForces
-from optlaws.cams.limits import CamLimits
+from optlaws.cams.least_sizes import CamLimits
 from optlaws.cycles.cycle import Cycle
 from optlaws.kept import kept_property
 from optlaws.motion.display_units import DEGREES, MILLI, TURN_DEG, UNITS

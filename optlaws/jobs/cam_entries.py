@@ -13,8 +13,8 @@ from optlaws.cams.curves.cam_files import DECIMALS, FORMATS, POINTS, Cutting, fo
 from optlaws.cams.disc import CURVES, TURNINGS, CutCurve, DiscCam, Turning
 from optlaws.cams.followers.follower import CamFollower
 from optlaws.cams.forces import Surfaces
-from optlaws.cams.limits import CamLimits
-from optlaws.cams.sizing.springs import SoughtSpring
+from optlaws.cams.least_sizes import CamLimits
+from optlaws.cams.springs_and_flywheels import SoughtSpring
 from optlaws.cycles.cycle import Cycle
 from optlaws.cycles.specification.process import ProcessEntries
 from optlaws.entries.declared import Declared, ValueOf, declared, entries_of, entry, same

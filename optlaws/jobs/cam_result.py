@@ -25,8 +25,13 @@ from optlaws.cams.least_sizes import (
     least_prime_circle,
 )
 from optlaws.cams.report import CamReport, barrel_coordinates, barrel_section, forces_section
-from optlaws.cams.sizing.energy_fluctuation import EnergyFluctuation, energy_fluctuation
-from optlaws.cams.sizing.springs import CONTACT, GREATEST, least_spring
+from optlaws.cams.springs_and_flywheels import (
+    CONTACT,
+    GREATEST,
+    EnergyFluctuation,
+    energy_fluctuation,
+    least_spring,
+)
 from optlaws.cycles.summary import objective_unit
 from optlaws.entries.declared import entries_of
 from optlaws.errors import InfeasibleProblem, InputError, located

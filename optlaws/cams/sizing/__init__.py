@@ -1,1 +1,0 @@
-"""Springs and flywheels of cams, sized by their forces over the turn."""
