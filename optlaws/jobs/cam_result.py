@@ -216,14 +216,10 @@ class CamResult:
         if not isinstance(best, BestOffset):
             return Section()
         status = "optimal" if best.proven else "local"
+        angles = degrees(best.pressure_angle), degrees(best.lower_bound)
         rows = [
             Row("best offset", (MILLI * best.offset, None), "mm", note=status),
-            Row(
-                "greatest pressure angle with it",
-                (degrees(best.pressure_angle), degrees(best.lower_bound)),
-                "deg",
-                note=status,
-            ),
+            Row("greatest pressure angle with it", angles, "deg", note=status),
         ]
         table = ReportTable.of_pairs(rows, "value", "no offset is below", "status")
         known = ("offset", "pressure_angle", "lower_bound", "proven")

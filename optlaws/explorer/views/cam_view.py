@@ -31,6 +31,7 @@ from optlaws.sentences import Sentence, capital, joined, sentence
 
 _STEPS = 360
 _WHERE = Path("the cam")
+_BEYOND = "beyond a limit", "refused"
 _TITLES = {"free": ("no undercut", "optimal"), "undercut": ("undercut", "refused"), "undecided": ("undecided", "local")}
 
 
@@ -142,21 +143,11 @@ def _dimensions(spec: CamProblemFile, cam: DiscCam) -> list[dict[str, Any]]:
 def _trust(report: CamReport) -> dict[str, Any]:
     """Whether the cam can be cut and keeps its limits, in words; extremes are enclosed over the whole turn."""
     undercut, beyond = report.cam.extremes.undercut, report.beyond
-    word, status = _TITLES[undercut.status]
-    advice = sentence("{}.", undercut)
+    (word, status), advice = _TITLES[undercut.status], sentence("{}.", undercut)
     if beyond and undercut.status != UNDERCUT:
-        word, status, advice = (
-            "beyond a limit",
-            "refused",
-            sentence("beyond what is allowed: {}.", joined("; ", beyond)),
-        )
-    return {
-        "status": status,
-        "word": word,
-        "advice": capital(advice),
-        "gap": "",
-        "facts": fact_sentences(report.extremes),
-    }
+        (word, status), advice = _BEYOND, sentence("beyond what is allowed: {}.", joined("; ", beyond))
+    facts = fact_sentences(report.extremes)
+    return {"status": status, "word": word, "advice": capital(advice), "gap": "", "facts": facts}
 
 
 def sizes(request: CamRequest) -> dict[str, Any]:
@@ -170,13 +161,8 @@ def sizes(request: CamRequest) -> dict[str, Any]:
     'least prime circle, by the pressure angle 58.60757 mm at 264.38 deg'
     """
     others = {name: value for name, value in request.study.items() if name not in {"cutter_radius", "title", "text"}}
-    return {"facts": _facts(json.dumps(others | {"title": "a cam"}, sort_keys=True))}
-
-
-@lru_cache(maxsize=32)
-def _facts(question: str) -> list[Sentence]:
-    section = _solved(question).sizes
-    return [*fact_sentences(section.facts), *([sentence("{}", section.note)] if section.note else [])]
+    section = result_of(CamRequest(study=others | {"title": "a cam"})).sizes
+    return {"facts": [*fact_sentences(section.facts), *([section.note] if section.note else [])]}
 
 
 def example() -> dict[str, Any]:
@@ -211,22 +197,16 @@ def form() -> dict[str, Any]:
 def loads(request: CamRequest) -> dict[str, Any]:
     """Panels and words of a cam whose motion has a drive; none where it has none."""
     try:
-        return _loads(json.dumps(request.study, sort_keys=True))
+        result = result_of(request)
+        if result.spec.motion.drive is None:
+            return {"panels": [], "facts": []}
+        forces = result.forces or result.forces_of(Surfaces())
+        panels, section = [panel_data(panel, DEGREES) for panel in result.report.loads(forces)], forces_section(forces)
+        for pressed in panels[2:]:
+            pressed["peaks"] = pressed["peaks"][-1:]
+        return {"panels": panels, "facts": [*fact_sentences(section.facts, section.digits), *_spring(result)]}
     except OptlawsError as error:
         return {"panels": [], "facts": [sentence("{}", error.args[0])]}
-
-
-@lru_cache(maxsize=32)
-def _loads(question: str) -> dict[str, Any]:
-    result = _solved(question)
-    if result.spec.motion.drive is None:
-        return {"panels": [], "facts": []}
-    forces = result.forces_of(result.spec.forces or Surfaces())
-    panels = [panel_data(panel, DEGREES) for panel in result.report.loads(forces)]
-    for pressed in panels[2:]:
-        pressed["peaks"] = pressed["peaks"][-1:]
-    section = forces_section(forces)
-    return {"panels": panels, "facts": [*fact_sentences(section.facts, section.digits), *_spring(result)]}
 
 
 def _spring(result: CamResult) -> list[Sentence]:
