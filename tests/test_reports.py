@@ -8,9 +8,9 @@ import pytest
 import optlaws
 from optlaws import Cycle, DiscCam, Drive, Dwell, Mechanism, Motor, Return, Rise, TranslatingRoller
 from optlaws.results import Page
-from tests.internals.explorer import panel_data
+from tests.internals.explorer import fact_sentences, panel_data
 from tests.internals.plots import draw_panels, empty_figure
-from tests.internals.shown import report_page
+from tests.internals.shown import Section, report_page
 
 CYCLE = Cycle(
     [Rise("25 mm", "150 deg", law="3-4-5"), Dwell("30 deg"), Return(law="modified trapezoid")],
@@ -104,3 +104,17 @@ def test_a_limit_far_from_what_is_used_on_its_side_is_not_drawn() -> None:
     draw_panels([velocity, acceleration], [], axes)
     assert [line.get_ydata()[0] for line in axes[1].lines[1:]] == [-12.0, 12.0]
     assert len(axes[0].lines) == 1
+
+
+def test_a_section_is_a_part_of_a_page_and_a_list_of_sentences() -> None:
+    section = RESULTS["cam"].report().section
+    page, sentences = str(Page("a result").section(section)), fact_sentences(section.facts)
+    for row, words in zip(section.facts, sentences, strict=True):
+        assert f"| {row.name} " in page
+        assert words.startswith(f"{row.name} {row.value[0]:.7g} {row.unit}")
+        assert words.endswith("deg")
+    assert page.index(section.text[:20]) < page.index("| what")
+    assert str(Page("a result").section(Section())) == str(Page("a result"))
+    named = Section("Sizes", section.facts[:1], figure=("cam", "A cam"), note="That is all.", digits=3)
+    parts = [part for part in str(Page("a result").section(named)).split("\n\n")[2:] if part]
+    assert [part.partition(" ")[0] for part in parts] == ["##", "![A", "|", "That"]

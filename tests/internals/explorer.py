@@ -12,5 +12,5 @@ from optlaws.explorer.views.cam_view import CamRequest
 from optlaws.explorer.views.cycle_view import CycleRequest, example
 from optlaws.explorer.views.law_view import answer
 from optlaws.explorer.views.machines import fastest_view, machine_view
-from optlaws.explorer.views.panel_data import panel_data
+from optlaws.explorer.views.panel_data import fact_sentences, panel_data
 from optlaws.explorer.views.requests import LawRequest, LawsRequest, given_law, law_of, problem_of, solved
