@@ -17,10 +17,9 @@ from optlaws.cams.followers.contact import Friction, Transmission
 from optlaws.cycles.cycle import Cycle
 from optlaws.cycles.specification.drive import read_linear_drive
 from optlaws.cycles.specification.process import FORCES, ProcessEntries, rescaled
-from optlaws.echo import shortened
 from optlaws.entries.declared import Declared, ValueOf, declared, documented_by, entry
 from optlaws.entries.value_types import Measured, Number, ReadBy, Together
-from optlaws.errors import InputError, located
+from optlaws.errors import InputError
 from optlaws.formulas.arithmetic import pieces
 from optlaws.formulas.slopes import added, multiplied
 from optlaws.formulas.tree import Formula, Name, Table, number, rebuilt, table_places
@@ -428,7 +427,9 @@ class ProcessByAngle:
         return jet_of_parts(self.stretches, along, angle)
 
 
-def read_process_by_angle(given: Mapping[str, Any] | None, motion: CamMotion, rate: float | None) -> ProcessByAngle:
+def read_process_by_angle(
+    given: ProcessEntries | Mapping[str, Any] | None, motion: CamMotion, rate: float | None
+) -> ProcessByAngle:
     """A process force from its entries, as cycles have it on mechanisms; none without entries.
 
     `force`, or `torque` on a follower that swings, is a table, a formula or a quantity, above 0 where it pushes to
@@ -451,12 +452,7 @@ def read_process_by_angle(given: Mapping[str, Any] | None, motion: CamMotion, ra
     """
     if given is None:
         return ProcessByAngle(motion)
-    if not isinstance(given, Mapping):
-        raise InputError(
-            f"process must be entries such as {{'force': '-300 N', 'over': 'master'}}, got {shortened(given)}"
-        )
-    with located("process"):
-        process = ProcessEntries.from_dict(given)
+    process = ValueOf(ProcessEntries).read(given, "process")
     kind, over, interpolation = process.kind, process.over, process.interpolation
     if FORCES[kind] != motion.axis:
         right = next(name for name, axis in FORCES.items() if axis == motion.axis)

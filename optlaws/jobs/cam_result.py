@@ -160,11 +160,11 @@ class CamResult:
         if self.cam.motion is not cycle:  # laws that were found for a cam are no cycle, but go as fast
             beside = {"speed": f"{TURN / cycle.duration!r} rad/s", "drive": cycle.drive}
         options = {name: getattr(surfaces, name) for name in entries_of(Surfaces)}
-        return CamForces(self.cam, process=self._process, **options, **beside)
+        return CamForces(self.cam, **options, **beside, **self._process)
 
     @property
-    def _process(self) -> dict[str, Any] | None:
-        return None if self.spec.process is None else self.spec.process.to_dict()
+    def _process(self) -> dict[str, Any]:
+        return {"process": self.spec.process}
 
     @kept_property
     def fluctuation(self) -> tuple[EnergyFluctuation, float] | None:
@@ -316,7 +316,7 @@ class CamResult:
             return Section()
         given = self.spec.cycle.drive if isinstance(self.spec.cycle.drive, Mapping) else {}
         load = {key: value for key, value in given.items() if key not in {"stiffness", "preload"}}
-        spring = least_spring(self.cam, drive=load, process=self._process, **entries.to_dict())
+        spring = least_spring(self.cam, drive=load, **self._process, **entries.to_dict())
         force, stiffness = _SPRING_UNITS[self.cam.displacement.axis]
         contact = entries.greatest == CONTACT
         greatest = "greatest contact force" if contact else "greatest force on the follower"

@@ -133,7 +133,7 @@ def test_a_spring_under_a_process_holds_at_every_speed_and_no_lesser_does() -> N
 @pytest.mark.parametrize(
     ("process", "says"),
     [
-        ("3 N", "process must be entries"),
+        ("3 N", "process: a process must be a table of force"),
         ({}, "give a force or a torque"),
         ({"force": "3 N", "torque": "1 N m"}, "not both"),
         ({"torque": "1 N m"}, "give force in place of torque"),
