@@ -153,11 +153,11 @@ class TranslatingRoller(CamFollower, kind="translating roller"):
     'length'
     """
 
-    radius: Quantity = entry(Measured("length", above=0.0), "Of the roller.", example="12 mm")
+    radius: Quantity = entry(Measured("length", above=0.0), "Radius of the roller.", example="12 mm")
     offset: Quantity = entry(
         Measured("length"),
-        "Of the slide's way from the cam's centre; above 0 on the side to which the cam's top moves when it turns "
-        "clockwise, so that with a cam that turns counterclockwise it lessens the pressure angle of the rise.",
+        "Distance of the slide's way from the cam's centre; above 0 on the side to which the cam's top moves when it "
+        "turns clockwise, so that with a cam that turns counterclockwise it lessens the pressure angle of the rise.",
         default="0 mm",
     )
     axis: ClassVar[str] = "length"
@@ -241,7 +241,7 @@ class OscillatingRoller(CamFollower, kind="oscillating roller"):
     'angle'
     """
 
-    radius: Quantity = entry(Measured("length", above=0.0), "Of the roller.", example="14 mm")
+    radius: Quantity = entry(Measured("length", above=0.0), "Radius of the roller.", example="14 mm")
     arm: Quantity = entry(Measured("length", above=0.0), "From the pivot to the roller's centre.", example="110 mm")
     pivot_distance: Quantity = entry(
         Measured("length", above=0.0), "From the cam's centre to the pivot.", example="140 mm"
