@@ -206,13 +206,13 @@ def _document(documented: Any, values: type[Declared]) -> None:
     indent = headings[0][1] if headings else "    "
     place = next((each.start() for each in headings if each[2] != "Parameters"), len(text))
     named = next((each.end() for each in headings if each[2] == "Parameters"), place)
-    known = re.findall(rf"^{indent}(\w[\w, ]*)$", text[named:place], re.MULTILINE)
-    taken = set(entries_of(values) if isinstance(documented, type) else signature(documented).parameters)
+    known = [line.split(", ") for line in re.findall(rf"^{indent}(\w[\w, ]*)$", text[named:place], re.MULTILINE)]
+    takes = None if isinstance(documented, type) else signature(documented).parameters
     lines = []
-    for name, each in entries_of(values).items():
-        if name in taken.difference(*(line.split(", ") for line in known)):
+    for each in entries_of(values).values():
+        if (takes is None or each.field in takes) and not any(each.field in names for names in known):
             about = wrap(f"{each.about} {each.sentence}", 108 - len(indent))
-            lines += [f"{indent}{name}", *(f"{indent}    {line}" for line in about)]
+            lines += [f"{indent}{each.field}", *(f"{indent}    {line}" for line in about)]
     if lines:
         head = [] if named < place else ["", f"{indent}Parameters", f"{indent}----------"]
         documented.__doc__ = "\n".join([text[:place].rstrip(), *head, *lines, "", text[place:]]).rstrip(" \n")
