@@ -250,8 +250,8 @@ def form() -> dict[str, Any]:
     """
     kinds = CycleSegment.form()["kinds"]
     return {
-        "objectives": entries_of(Cycle)["minimise"].field["choices"],
-        "limits": {kind: [LIMITS_OF_CYCLE.entries[name].field for name in names] for kind, names in _LIMITS.items()},
+        "objectives": entries_of(Cycle)["minimise"].form["choices"],
+        "limits": {kind: [LIMITS_OF_CYCLE.entries[name].form for name in names] for kind, names in _LIMITS.items()},
         "interlocks": Interlock.form()["kinds"],
         "segments": {kind: [each for each in shown if "entries" not in each] for kind, shown in kinds.items()},
     }
