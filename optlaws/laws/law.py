@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from math import inf
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -20,6 +20,9 @@ from optlaws.numerics.peaks import Peak as Peak  # noqa: PLC0414 - a name of opt
 from optlaws.tolerances import JUMP
 
 _JUMP_OF_LOWER = 1e-13  # the same as a share of a lower derivative: uniform motion has c = 0 but for it
+
+if TYPE_CHECKING:
+    from optlaws.shown.report import Report
 
 Jumps = tuple[tuple[float, float], ...]
 
@@ -153,7 +156,7 @@ class MotionLaw(Curve, LawExport, StoredLaw):
 
         return pieces_of_law(self, tolerance, stroke=stroke, duration=duration, master=master, start=start)
 
-    def report(self) -> Any:
+    def report(self) -> Report:
         """The constants, and the curves of a, b, c, d and j through their extremes, as values that outputs render.
 
         Examples

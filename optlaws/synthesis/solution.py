@@ -23,6 +23,7 @@ from optlaws.synthesis.spaces.splines import PiecewiseBasis
 from optlaws.synthesis.status import Status, measure
 
 if TYPE_CHECKING:
+    from optlaws.shown.report import Report
     from optlaws.synthesis.limits.drive_limits import DriveLimit
 
 _MAY_TURN_BACK = (
@@ -193,7 +194,7 @@ class Solution(LawExport, JsonText):
         rows.append(Row("", f"{self.iterations} iterations, {1e3 * self.seconds:.0f} ms"))
         return Summary([*rows, *self.constants.summary(), *(Row("note", note) for note in self.notes)], at="k")
 
-    def report(self) -> Any:
+    def report(self) -> Report:
         """The summary, and the curves of the law with the limits of the problem, as values that outputs render.
 
         Examples
