@@ -14,14 +14,20 @@ from optlaws.jobs.cam_entries import CamProblemFile
 from optlaws.jobs.cycle_entries import AxisEntries, CycleProblemFile
 from optlaws.jobs.machine_laws import MachineLawsProblemFile
 from optlaws.jobs.moves.move_entries import FastestProblemFile
+from optlaws.jobs.solutions import SolutionsProblemFile
 from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.mechanisms.drives.motor import Motor
 from optlaws.mechanisms.linkages.bodies import Body, Loads
 from optlaws.mechanisms.linkages.mechanism_kinds import MechanismKind
+from optlaws.synthesis.problem.fields import PROBLEM
 
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "reference" / "problem-files.md"
 #: tables of declared values by their names; of some entries the entries stand elsewhere
 TABLES: dict[str, Callable[[], str]] = {
+    "a table of solutions": partial(
+        markdown_table, SolutionsProblemFile, apart=("problem", "sweep", "compare.problem")
+    ),
+    "a problem": partial(markdown_table, PROBLEM),
     "a cycle": partial(markdown_table, CycleProblemFile, apart=("axis",)),
     "an axis": partial(markdown_table, AxisEntries, apart=("run_out", "segment.limits")),
     "a least time": partial(markdown_table, FastestProblemFile),

@@ -10,9 +10,12 @@ from typing import Any, Literal
 
 from optlaws.cli.options import Command, Option, Whole, takes
 from optlaws.echo import shortened
+from optlaws.entries import value_types
+from optlaws.entries.declared import Entry
+from optlaws.entries.value_types import Either, Listed, Switch, Text, ValueType
 from optlaws.errors import InputError
 from optlaws.synthesis import Basis, BoundaryConditions
-from optlaws.synthesis.problem.fields import ENTRIES, Entry, Kind
+from optlaws.synthesis.problem.fields import ENTRIES, ConstantBounds
 from optlaws.synthesis.problem.ranges import as_range, read_bounds
 from optlaws.synthesis.spaces.bases import read_breaks
 
@@ -24,25 +27,26 @@ def _numbers(text: str) -> list[float]:
         raise InputError(f'start and end are numbers such as "0, 0.5", got {shortened(text)}') from None
 
 
-#: type and reader of each kind of entry
-_KINDS: dict[Kind, tuple[Any, Callable[[Any], Any] | None]] = {
-    Kind.CONSTANT: (float, None),
-    Kind.WHOLE: (Whole, None),
-    Kind.NUMBER: (float, None),
-    Kind.NUMBERS: (str, _numbers),
-    Kind.TEXT: (str, None),
-    Kind.SWITCH: (bool, None),
-    Kind.BASIS: (Literal[tuple(Basis.kinds)], None),
-    Kind.BREAKS: (str, read_breaks),
-    Kind.WINDOWS: (list[str], None),
+#: type and reader of an option for each type of an entry
+_KINDS: dict[type[ValueType], tuple[Any, Callable[[Any], Any] | None]] = {
+    ConstantBounds: (float, None),
+    Switch: (bool, None),
+    Text: (str, None),
+    value_types.Number: (float, None),
+    value_types.Whole: (Whole, None),
+    Listed: (str, _numbers),
+    Either: (str, read_breaks),
 }
 
 
-def _option(name: str, entry: str, about: str | None = None, read: Callable[[Any], Any] | None = None) -> Option:
-    known = ENTRIES[entry]
-    kind, plain = _KINDS[known.kind]
-    signed = known.kind in {Kind.NUMBERS, Kind.WINDOWS}
-    return Option(name, kind, about or known.about, read=read or plain, signed=signed)
+def _option(
+    name: str, entry: str, about: str = "", read: Callable[[Any], Any] | None = None, kind: Any = None
+) -> Option:
+    each = ENTRIES[entry]
+    known, plain = (kind, None) if kind is not None else _KINDS[type(each.type)]
+    such = f' Numbers such as "{", ".join(map(str, each.example))}".' if plain is not None else ""
+    signed = isinstance(each.type, Listed)
+    return Option(name, known, about or each.about + such, read=read or plain, signed=signed)
 
 
 def _at_most(name: str) -> Callable[[float], Any]:
@@ -60,7 +64,8 @@ _OWN: dict[str, tuple[Option, ...]] = {
         Option("--most", list[str], "Any constant at most a value, such as rms_c=4; may be repeated."),
         Option("--least", list[str], "Any constant at least a value; may be repeated."),
     ),
-    "windows": (_option("--window", "windows"),),
+    "basis": (_option("--basis", "basis", kind=Literal[tuple(Basis.kinds)]),),
+    "windows": (_option("--window", "windows", kind=list[str]),),
 }
 
 
@@ -112,7 +117,7 @@ def _default(entry: Entry, option: Option, given: Mapping[str, Any], refused: Ma
         return False
     if entry.name in refused:
         return None
-    return given.get(entry.name, entry.default if entry.kind is Kind.TEXT else None)
+    return given.get(entry.name, entry.default if entry.name == "minimise" else None)
 
 
 def _entries(typed: Mapping[str, Any], refused: Mapping[str, str]) -> dict[str, Any]:

@@ -13,7 +13,6 @@ from optlaws.explorer.views import old_cam_view
 from optlaws.explorer.views.requests import MOST_LAWS, LawRequest, Question, problem_of
 from optlaws.files import reading
 from optlaws.files.packaged import is_problem, problem_file
-from optlaws.files.problem_file import convert
 from optlaws.jobs.cycle_entries import CycleProblemFile
 from optlaws.jobs.solutions import SolutionsProblemFile, swept_entries
 from optlaws.laws.catalogue.reading import LARGEST_TABLE, is_file, is_table, law_of_points, read_law
@@ -107,9 +106,9 @@ def _of_problem_file(data: dict[str, Any], name: str) -> dict[str, Any]:
 def _single_problem(data: dict[str, Any], name: str) -> Problem | None:
     """The problem of a file that has one."""
     if data.get("job") == "solutions":
-        spec = convert(data, SolutionsProblemFile, Path(name))
+        spec = SolutionsProblemFile.read(data, Path(name))
         swept = [*swept_entries(spec)]
-        return problem("problem", spec.problem.given(), swept[0]) if len(swept) == 1 else None
+        return problem("problem", spec.problem, swept[0]) if len(swept) == 1 else None
     single = isinstance(data.get("problem"), dict) and "job" not in data and "vary" not in data
     return problem("problem", data["problem"]) if single else None
 

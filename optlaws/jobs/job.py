@@ -8,7 +8,7 @@ from pathlib import Path
 from optlaws.errors import InputError
 from optlaws.files.packaged import packaged
 from optlaws.plots.style import figures_for_files
-from optlaws.results import Entries, Results
+from optlaws.results import Results
 from optlaws.suggest import unknown_key
 
 #: the job of a problem file is the function `run` of the module of its name
@@ -25,12 +25,6 @@ RETIRED = {
 _ROOMS = {"fastest": "moves.fastest"}
 #: the job of the problem files that come with optlaws and have a script beside them
 SCRIPT = "script"
-
-
-class JobFile(Entries, kw_only=True, forbid_unknown_fields=True):
-    """The entries that the problem file of every job has."""
-
-    job: str
 
 
 def do(name: str, results: Results) -> None:

@@ -4,53 +4,65 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import KW_ONLY, dataclass
 from itertools import product
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import Any
 
-import msgspec
-
-from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
+from optlaws.entries.declared import Declared, ValueOf, declared, entry
+from optlaws.entries.value_types import Choice, Listed, Text, check_names
+from optlaws.errors import InfeasibleProblem, InputError, SolverFailure, located
 from optlaws.files import printed, tables, writing
-from optlaws.files.problem_file import Text
-from optlaws.jobs.job import JobFile
+from optlaws.jobs.job_entries import ProblemFile
 from optlaws.results import Results
-from optlaws.studies.problem_entries import EntryLists, ProblemEntries, Some, gap, problem, record, shown
-from optlaws.suggest import unknown_key
+from optlaws.studies.problem_entries import gap, problem, record, shown
 from optlaws.synthesis import FUNCTIONALS, Certificate, Problem, Solution, Status, synthesize
-from optlaws.synthesis.problem.fields import ENTRIES
+from optlaws.synthesis.problem.fields import CONSTANTS, ENTRIES, PROBLEM, SWEPT
+from optlaws.synthesis.solve import Bound
 
 RESULTS = ("objective", "lower bound", "gap", "limit", "above limit, %", "status")
 COLUMNS = (*FUNCTIONALS, *RESULTS)
+_NAMES = Listed(Text(), least=1)
 
 
-class Compare(msgspec.Struct, forbid_unknown_fields=True):
-    """Another problem for each row, for example `minimise = "C"`, and which of its columns to show."""
+@declared
+class Compare(Declared, title="a comparison"):
+    """Another problem for each row, and which of its columns to show."""
 
-    name: Text
-    columns: Annotated[list[str], Some]
-    problem: ProblemEntries
-
-
-class Beside(msgspec.Struct, forbid_unknown_fields=True):
-    """Printed data to stand beside: a CSV file, the swept entry that finds its row, and which columns to show."""
-
-    file: Text
-    name: Text
-    match: Literal["B", "C", "D", "J"]
-    columns: Annotated[list[str], Some]
+    name: str = entry(Text(), "What headings call it.", example="law of least C")
+    columns: tuple[str, ...] = entry(_NAMES, "Of `columns`, those that are shown.", example=["C"])
+    problem: Mapping[str, Any] = entry(PROBLEM, "What differs in each row, as in `problem`.", example={"minimise": "C"})
 
 
-class SolutionsProblemFile(JobFile, kw_only=True, forbid_unknown_fields=True):
+@declared
+class Beside(Declared, title="printed data"):
+    """Printed data to stand beside."""
+
+    file: str = entry(Text(), "A CSV file beside this one.", example="printed.csv")
+    name: str = entry(Text(), "What headings call it.", example="printed")
+    match: str = entry(Choice(*CONSTANTS), "The swept entry that finds its row.", example="B")
+    columns: tuple[str, ...] = entry(_NAMES, "Which of its columns are shown.", example=["C"])
+
+
+@declared
+class SolutionsProblemFile(ProblemFile, title="a problem file"):
     """The problem file of a table of solutions."""
 
-    problem: ProblemEntries
-    sweep: Annotated[list[EntryLists], Some]
-    bound: Literal["quick", "tight"] = "quick"
-    columns: Annotated[list[str], Some] = msgspec.field(default_factory=lambda: ["B", "C", "D", "J", *RESULTS[1:]])
-    compare: list[Compare] = msgspec.field(default_factory=list)
-    beside: Beside | None = None
+    _: KW_ONLY
+    problem: Mapping[str, Any] = entry(PROBLEM, "What all rows share.", example={"minimise": "J", "order": 4})
+    sweep: tuple[Mapping[str, Any], ...] = entry(
+        Listed(SWEPT, least=1),
+        "Tables of lists that go together, each of one length; the last table varies fastest.",
+        example=[{"B": [1.6, 1.8, "free"]}],
+    )
+    bound: Bound = entry(Choice("quick", "tight"), "That of `synthesize`.", default="quick")
+    columns: tuple[str, ...] = entry(
+        _NAMES, "Constants of the law, or of what was found.", default=(*CONSTANTS, *RESULTS[1:])
+    )
+    compare: tuple[Compare, ...] = entry(
+        Listed(ValueOf(Compare), named=True), "Other problems in the same rows.", default=()
+    )
+    beside: Beside | None = entry(ValueOf(Beside), "Printed data in the same rows.", default=None)
 
 
 @dataclass(frozen=True)
@@ -67,10 +79,9 @@ class SolvedRow:
 
 def run(results: Results) -> None:
     """Put the table, its page and the laws with their proofs into results."""
-    spec = results.read(SolutionsProblemFile)
-    for name in [*spec.columns, *(name for compared in spec.compare for name in compared.columns)]:
-        if name not in COLUMNS:
-            raise InputError(unknown_key(name, COLUMNS, "column"))
+    spec = SolutionsProblemFile.read(results.entries, results.file)
+    results.title = spec.title
+    check_names([*spec.columns, *(name for compared in spec.compare for name in compared.columns)], COLUMNS, "column")
     entries = list(swept_entries(spec))
     beside = _beside(spec, results.file, entries)
     problems = [_problems(spec, i, entry) for i, entry in enumerate(entries, 1)]
@@ -85,8 +96,7 @@ def swept_entries(spec: SolutionsProblemFile) -> Iterator[dict[str, Any]]:
     """The swept entries of each row; the last table of `sweep` varies fastest."""
     parts = []
     names: list[str] = []
-    for i, swept in enumerate(spec.sweep):
-        values = swept.given()
+    for i, values in enumerate(spec.sweep):
         lengths = {len(value) for value in values.values()}
         if len(lengths) != 1:
             raise InputError(f"sweep[{i}]: needs one or more lists of one length, got lengths {sorted(lengths)}")
@@ -100,12 +110,11 @@ def swept_entries(spec: SolutionsProblemFile) -> Iterator[dict[str, Any]]:
 
 
 def _problems(spec: SolutionsProblemFile, number: int, entries: Mapping[str, Any]) -> tuple[Problem, list[Problem]]:
-    base = spec.problem.given()
     others = [
-        problem(f"compare, {compared.name}, row {number}", base, entries, compared.problem.given())
+        problem(f"compare, {compared.name}, row {number}", spec.problem, entries, compared.problem)
         for compared in spec.compare
     ]
-    return problem(f"row {number}", base, entries), others
+    return problem(f"row {number}", spec.problem, entries), others
 
 
 def _solved(
@@ -138,13 +147,12 @@ def _beside(spec: SolutionsProblemFile, file: Path, entries: Sequence[Mapping[st
     lines = printed.rows(source)
     if not lines:
         raise InputError(f"beside: {source} has no rows")
-    for name in (spec.beside.match, *spec.beside.columns):
-        if name not in lines[0]:
-            raise InputError(f"beside: {source}: {unknown_key(name, lines[0], 'column')}")
+    with located(f"beside: {source}"):
+        check_names((spec.beside.match, *spec.beside.columns), lines[0], "column")
     by_value = {printed.number(line[spec.beside.match], str(source)): line for line in lines}
     table: list[list[tables.Cell]] = []
-    for entry in entries:
-        value = entry.get(spec.beside.match)
+    for row in entries:
+        value = row.get(spec.beside.match)
         line = by_value.get(value, {}) if isinstance(value, float) else {}
         table.append([line.get(name) for name in spec.beside.columns])
     return table
@@ -154,7 +162,7 @@ def _cells(
     spec: SolutionsProblemFile, rows: Sequence[SolvedRow], beside: Sequence[Sequence[tables.Cell]]
 ) -> tuple[list[str], list[list[tables.Cell]]]:
     swept = list(rows[0].entries)
-    headings = [ENTRIES[name].heading for name in swept] + spec.columns
+    headings = [*(ENTRIES[name].label for name in swept), *spec.columns]
     headings += [f"{column}, {compared.name}" for compared in spec.compare for column in compared.columns]
     if spec.beside is not None:
         headings += [f"{column}, {spec.beside.name}" for column in spec.beside.columns]

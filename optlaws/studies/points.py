@@ -14,17 +14,17 @@ from numpy.typing import NDArray
 
 from optlaws import numbers
 from optlaws.echo import shortened
+from optlaws.entries.value_types import Number, Switch, Text, ValueType, Whole
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.studies.specification import Sample, SampleSpan, SteppedRange, StudyFile, constant_of, entries
 from optlaws.synthesis import FUNCTIONALS, Problem
 from optlaws.synthesis.arrays.lines import least_count
 from optlaws.synthesis.arrays.powers import least_power
-from optlaws.synthesis.problem.fields import ENTRIES, Kind
+from optlaws.synthesis.problem.fields import ENTRIES, ConstantBounds
 
-#: kinds of entries that a range can run through; also numbers that fill a place in text
-_NUMBERS = (Kind.CONSTANT, Kind.NUMBER, Kind.WHOLE)
-_TYPES: dict[Kind, type] = {Kind.TEXT: str, Kind.BASIS: str, Kind.SWITCH: bool}
+#: types of entries that a range can run through; also numbers that fill a place in text
+_NUMBERS = (ConstantBounds, Number, Whole)
 # a cold start costs some warm ones; proofs of tight bounds cost more than any start
 _CHUNK, _TIGHT_CHUNK, _CHUNKS = 64, 4, 16
 #: of problems that are solved as arrays, where what many share costs most
@@ -54,17 +54,17 @@ def axes(study: StudyFile) -> list[StudyAxis]:
     return sorted(factors, key=lambda axis: list(axis.columns) == ["B"])
 
 
-def kind_of(name: str) -> Kind:
-    """The kind of a varying quantity's values: of an entry, of a bound ("at_most.NAME"), or of a placeholder in text.
+def type_of(name: str) -> ValueType:
+    """The type of a varying quantity's values: of an entry, of a bound ("at_most.NAME"), or of a placeholder in text.
 
     Examples
     --------
-    >>> kind_of("degree").name, kind_of("at_most.rms_c").name, kind_of("w").name
-    ('WHOLE', 'CONSTANT', 'NUMBER')
+    >>> type_of("degree").words, type_of("at_most.rms_c").words, type_of("w").words
+    ('a whole number from 0 to 200', 'a number, a pair [low, high] or "free"', 'a number')
     """
     if name in ENTRIES:
-        return ENTRIES[name].kind
-    return Kind.NUMBER if constant_of(name) is None else Kind.CONSTANT
+        return ENTRIES[name].type
+    return Number() if constant_of(name) is None else ConstantBounds()
 
 
 class _Lazy(Sequence[Any]):
@@ -81,24 +81,24 @@ class _Lazy(Sequence[Any]):
         return [self._value(i) for i in places] if isinstance(place, slice) else self._value(places)
 
 
-def _column(name: str, values: list[Any] | SteppedRange) -> Sequence[Any]:
+def _column(name: str, values: Sequence[Any] | SteppedRange) -> Sequence[Any]:
     """The values of an entry, checked and of its type."""
-    kind = kind_of(name)
+    type_ = type_of(name)
     if isinstance(values, SteppedRange):
         return _stepped(name, values)
-    if kind is Kind.WHOLE:
+    if isinstance(type_, Whole):
         return [_whole(name, value) for value in values]
-    for value in values:
-        if kind in _TYPES and not isinstance(value, _TYPES[kind]):
-            raise InputError(f"{name} must be {kind.value}, got {shortened(value)}")
-    return [float(value) if kind in _NUMBERS and numbers.real(value) is not None else value for value in values]
+    if isinstance(type_, Text | Switch):
+        return [type_.read(value, name) for value in values]
+    known = isinstance(type_, _NUMBERS)
+    return [float(value) if known and numbers.real(value) is not None else value for value in values]
 
 
 def _stepped(name: str, span: SteppedRange) -> _Lazy:
     """The values of a range."""
     _check_span(name, span)
     last = max(1, span.steps - 1)
-    if kind_of(name) is not Kind.WHOLE:
+    if not isinstance(type_of(name), Whole):
         return _Lazy(span.steps, lambda place: scaled(span, place / last))
     numbers.whole(span.steps, f"{name}: steps", most=numbers.MOST_DEGREE)
     values = _Lazy(span.steps, lambda place: _whole(name, scaled(span, place / last)))
@@ -126,7 +126,7 @@ def _sampled(sample: Sample) -> dict[str, _Lazy]:
 
 def _spread(name: str, span: SampleSpan, shares: NDArray[np.float64]) -> _Lazy:
     """Values at shares of a span; each whole number of the span has the same share."""
-    if kind_of(name) is not Kind.WHOLE:
+    if not isinstance(type_of(name), Whole):
         return _Lazy(len(shares), lambda place: scaled(span, float(shares[place])))
     low, high = int(span.low), int(span.high)
     return _Lazy(len(shares), lambda place: low + int(float(shares[place]) * (high - low + 1)))
@@ -153,11 +153,9 @@ def scaled(span: SteppedRange | SampleSpan, share: float) -> float:
 
 
 def _check_span(name: str, span: SteppedRange | SampleSpan) -> None:
-    """Refuse spans without values: infinite ends, logs of what is not above 0, entries that are no numbers."""
-    if kind_of(name) not in _NUMBERS:
+    """Refuse spans without values: logs of what is not above 0, entries that are no numbers."""
+    if not isinstance(type_of(name), _NUMBERS):
         raise InputError(f"{name} is no number: give a list of its values, not a range")
-    if not (np.isfinite(span.low) and np.isfinite(span.high)):
-        raise InputError(f"{name}: from and to must be finite, got {span.low!r} and {span.high!r}")
     if span.scale == "log" and min(span.low, span.high) <= 0.0:
         raise InputError(f"{name}: a log scale needs from and to above 0, got {span.low!r} and {span.high!r}")
 
@@ -225,7 +223,7 @@ class StudyPoints:
         """Whether every point is of a problem of which many are solved as arrays."""
         if not all(map(_only_numbers, self.columns)):
             return False
-        base, first = self.study.problem.given(), self.inputs(0)
+        base, first = self.study.problem, self.inputs(0)
         objectives = self.columns.get("minimise") or [base.get("minimise", "C")]
         try:
             problems = (Problem.from_dict(entries(base, {**first, "minimise": objective})) for objective in objectives)

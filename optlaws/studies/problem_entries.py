@@ -4,85 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from math import ceil, isfinite, log10
-from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import Any
 
-import msgspec
-
-from optlaws.entries.value_types import ReadBy
 from optlaws.errors import located
-from optlaws.files.problem_file import Text, convert
 from optlaws.synthesis import Problem, Range, Solution, Status
-from optlaws.synthesis.problem.fields import ENTRIES, Kind
+from optlaws.synthesis.problem.fields import ENTRIES, FREE, ConstantBounds
 from optlaws.synthesis.problem.windows import Window
-
-Count = Annotated[int, msgspec.Meta(ge=1, le=100)]
-Positive = Annotated[float, msgspec.Meta(gt=0.0, le=1e100)]
-Number = Annotated[float, msgspec.Meta(ge=-1e100, le=1e100)]
-Bound = Annotated[float, msgspec.Meta(ge=0.0)]
-Asking = Positive | Annotated[list[Bound], msgspec.Meta(min_length=2, max_length=2)] | Literal["free"]
-
-Some = msgspec.Meta(min_length=1)
-
-#: what files hold for each kind of entry
-TYPES: dict[Kind, Any] = {
-    Kind.CONSTANT: Asking,
-    Kind.CONSTANTS: dict[str, Asking],
-    Kind.WHOLE: Count,
-    Kind.NUMBER: Number,
-    Kind.NUMBERS: list[Number],
-    Kind.TEXT: Text,
-    Kind.SWITCH: bool,
-    Kind.BASIS: Text,
-    Kind.BREAKS: Count | Annotated[list[Bound], msgspec.Meta(min_length=2)],
-    Kind.WINDOWS: list[dict[str, Any] | str],
-}
-
-
-class OptionalEntries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
-    """Entries of a problem that a file may hold; what is left out is None."""
-
-    def given(self) -> dict[str, Any]:
-        """The given entries of a problem, in the order of the table."""
-        return {name: getattr(self, name) for name in ENTRIES if getattr(self, name) is not None}
-
-
-def _struct(name: str, doc: str, types: Mapping[str, Any]) -> Any:
-    members = [(entry, types[entry] | None, None) for entry in ENTRIES]
-    return msgspec.defstruct(name, members, bases=(OptionalEntries,), namespace={"__doc__": doc}, module=__name__)
-
-
-if TYPE_CHECKING:
-
-    class ProblemEntries(OptionalEntries):
-        """The entries of one problem."""
-
-    class EntryLists(OptionalEntries):
-        """Lists of values, one for each entry that varies."""
-
-else:
-    ProblemEntries = _struct(
-        "ProblemEntries",
-        'Entries of a problem; those left out are as in the base problem or `Problem`. "free" takes a constant away.',
-        {name: TYPES[entry.kind] for name, entry in ENTRIES.items()},
-    )
-    EntryLists = _struct(
-        "EntryLists",
-        "Values that entries take in turn; lists in one table go together and are of one length.",
-        {name: Annotated[list[TYPES[entry.kind]], Some] for name, entry in ENTRIES.items()},
-    )
-
-
-class ProblemTable(ReadBy):
-    """The table of a problem, of which the given entries are kept."""
-
-    entries = ProblemEntries
-
-
-#: the space of laws in files that look for laws in it
-PROBLEM = ProblemTable(
-    lambda data: convert(data, ProblemEntries, Path("its entries")).given(), "a table of the entries of a `Problem`"
-)
 
 
 def problem(where: str, *parts: Mapping[str, Any]) -> Problem:
@@ -94,9 +21,9 @@ def problem(where: str, *parts: Mapping[str, Any]) -> Problem:
     Problem(B=None, order=4, basis=Chebyshev(degree=9), minimise='D')
     """
     entries = {name: value for part in parts for name, value in part.items()}
-    entries = {name: value for name, value in entries.items() if value != "free"}
+    entries = {name: value for name, value in entries.items() if value != FREE}
     if "bounds" in entries:
-        entries["bounds"] = {name: value for name, value in entries["bounds"].items() if value != "free"}
+        entries["bounds"] = {name: value for name, value in entries["bounds"].items() if value != FREE}
     with located(where):
         return Problem.from_dict(entries)
 
@@ -111,8 +38,8 @@ def shown(name: str, value: Any) -> str | float | int:
     """
     if isinstance(value, dict):
         return "; ".join(f"{key} {shown('B', item)}" for key, item in value.items())
-    if isinstance(value, list) and ENTRIES[name].kind not in {Kind.CONSTANT, Kind.CONSTANTS}:
-        return ("; " if ENTRIES[name].kind is Kind.WINDOWS else ", ").join(_brief(item) for item in value)
+    if isinstance(value, list) and not isinstance(ENTRIES[name].type, ConstantBounds):
+        return ("; " if name == "windows" else ", ").join(_brief(item) for item in value)
     if isinstance(value, Range):
         value = [value.low, value.high]
     if isinstance(value, list):

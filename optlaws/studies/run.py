@@ -95,11 +95,11 @@ def task(study: StudyFile, points: StudyPoints, number: int) -> dict[str, Any]:
     """A chunk as plain data."""
     return {
         "chunk": number,
-        "problem": study.problem.given(),
+        "problem": study.problem,
         "points": list(points.of_chunk(number).items()),
         "bound": study.bound,
         "time_limit": study.time_limit,
-        "imports": study.imports,
+        "imports": list(study.imports),
     }
 
 
@@ -112,7 +112,7 @@ def check(study: StudyFile, points: StudyPoints) -> None:
             raise InputError(f"imports: {module}: {error}") from None
     first = points.inputs(0)
     try:
-        Problem.from_dict(entries(study.problem.given(), first))
+        Problem.from_dict(entries(study.problem, first))
     except InputError as error:
         shown = ", ".join(f"{name} = {shortened(value)}" for name, value in first.items())
         raise InputError(f"the first point, {shown}, is no problem: {error}") from None

@@ -4,92 +4,128 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
+from dataclasses import KW_ONLY
 from itertools import chain
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import Any
 
-import msgspec
-
-from optlaws.errors import InputError
+from optlaws.cycles.specification.frozen import FrozenTable
+from optlaws.entries.declared import Declared, ValueOf, declared, entry, same
+from optlaws.entries.value_types import (
+    Choice,
+    Either,
+    Listed,
+    Number,
+    ReadBy,
+    Table,
+    Text,
+    Whole,
+    check_names,
+    is_list,
+)
+from optlaws.errors import InputError, located
 from optlaws.files import reading
-from optlaws.files.problem_file import Text, convert
 from optlaws.numbers import finite
-from optlaws.studies.problem_entries import ProblemEntries
-from optlaws.suggest import unknown_key
-from optlaws.synthesis.problem.fields import CONSTANTS, ENTRIES
+from optlaws.synthesis.problem.fields import CONSTANTS, ENTRIES, FREE, PROBLEM
+from optlaws.synthesis.solve import Bound
 
 #: what varies of the bounds of a constant: what `Problem` takes, the greatest value or the least
 BOUNDS, AT_MOST, _ = PREFIXES = ("bounds.", "at_most.", "at_least.")
-FREE = "free"
 _PLACE = re.compile(r"\{(?:1-)?(\w+)\}")
-
-Count = Annotated[int, msgspec.Meta(ge=1, le=10_000_000)]
-Values = Annotated[list[Any], msgspec.Meta(min_length=1)]
-
-
-# the order of the fields of these classes is part of the hash of a study
+_COUNT = Whole(1, 10_000_000)
+_VALUES = Listed(ReadBy(lambda value: value, "a value"), least=1, most=_COUNT.most)
 
 
-class SteppedRange(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
-    """A range: `steps` values from end to end, at equal differences or, on a log scale, at equal ratios."""
-
-    low: float = msgspec.field(name="from")
-    high: float = msgspec.field(name="to")
-    steps: Count
-    scale: Literal["linear", "log"] = "linear"
+# the order of the entries of these classes is part of the hash of a study
 
 
-class SampleSpan(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+@declared
+class SampleSpan(Declared, title="a span"):
     """A range that a sample fills."""
 
-    low: float = msgspec.field(name="from")
-    high: float = msgspec.field(name="to")
-    scale: Literal["linear", "log"] = "linear"
+    writes_defaults = True
+
+    _: KW_ONLY
+    low: float = entry(Number(), "The least value, or the greatest.", name="from", example=1.5)
+    high: float = entry(Number(), "The value at the other end.", name="to", example=2.5)
+    scale: str = entry(Choice("linear", "log"), "Whether differences or ratios are equal.", default="linear")
 
 
-class Sample(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+@declared
+class SteppedRange(Declared, title="a range"):
+    """A range: `steps` values from end to end, at equal differences or, on a log scale, at equal ratios."""
+
+    writes_defaults = True
+
+    _: KW_ONLY
+    low: float = same(SampleSpan, "from")
+    high: float = same(SampleSpan, "to")
+    steps: int = entry(_COUNT, "How many values there are.", example=11)
+    scale: str = same(SampleSpan, "scale")
+
+
+@declared
+class Sample(Declared, title="a sample"):
     """Points spread over the product of spans: Sobol's sequence (scrambled) or a Latin hypercube."""
 
-    kind: Literal["sobol", "latin hypercube"]
-    points: Count
-    seed: Annotated[int, msgspec.Meta(ge=0)]
-    over: Annotated[dict[str, SampleSpan], msgspec.Meta(min_length=1)]
+    writes_defaults = True
+
+    _: KW_ONLY
+    kind: str = entry(Choice("sobol", "latin hypercube"), "How they are spread.", example="sobol")
+    points: int = entry(_COUNT, "How many there are; of Sobol's sequence a power of 2.", example=64)
+    seed: int = entry(Whole(), "Of its random numbers.", example=1)
+    over: Mapping[str, SampleSpan] = entry(Table(ValueOf(SampleSpan)), "The span of each entry that varies.")
 
 
-class StudyFile(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
-    """A study: the problem at every point of the product of all that varies.
+@declared
+class StudyFile(Declared, title="a study"):
+    """A study: the problem at every point of the product of all that varies."""
 
-    `problem` has the entries shared by all points; its text may hold places such as {w} or {1-w}. `vary` has a list or
-    a range for each entry, `together` tables of lists that are run through together, `sample` samples, each one factor
-    of the product. `bound` is that of `synthesize`, `time_limit` in seconds a point, `chunk` the points that one worker
-    solves in turn (chosen by their number unless given), `imports` the modules that register constants or bases.
-    """
+    writes_defaults = True
 
-    job: Literal["script", "atlas"] | None = None
-    title: Text = "study"
-    problem: ProblemEntries
-    vary: dict[str, Values | SteppedRange] = {}
-    together: list[dict[str, Values]] = []
-    sample: list[Sample] = []
-    bound: Literal["quick", "tight"] = "quick"
-    time_limit: Annotated[float, msgspec.Meta(gt=0.0, le=1e7)] = 60.0
-    chunk: Annotated[int, msgspec.Meta(ge=1, le=10_000)] | None = None
-    imports: list[Text] = []
+    _: KW_ONLY
+    job: str | None = entry(Choice("script", "atlas"), "Of a file that comes with optlaws.", default=None, shown=False)
+    title: str = entry(Text(), "What results call it.", default="study")
+    problem: Mapping[str, Any] = entry(PROBLEM, "What all points share; its text may hold places such as {w} or {1-w}.")
+    vary: Mapping[str, tuple[Any, ...] | SteppedRange] = entry(
+        Table(Either(ValueOf(SteppedRange), _VALUES, which=is_list)),
+        "A list or a range of values for each entry.",
+        default=FrozenTable(),
+        example={"B": {"from": 1.5, "to": 2.5, "steps": 11}},
+    )
+    together: tuple[Mapping[str, tuple[Any, ...]], ...] = entry(
+        Listed(Table(_VALUES)), "Tables of lists that are run through together.", default=()
+    )
+    sample: tuple[Sample, ...] = entry(Listed(ValueOf(Sample)), "Samples of the product.", default=())
+    bound: Bound = entry(Choice("quick", "tight"), "That of `synthesize`.", default="quick")
+    time_limit: float = entry(Number(above=0.0, most=1e7), "Of a point, in seconds.", default=60.0)
+    chunk: int | None = entry(
+        Whole(1, 10_000), "The points that a worker solves in turn; by their number unless given.", default=None
+    )
+    imports: tuple[str, ...] = entry(
+        Listed(Text(), each="module"), "Modules that register constants or bases.", default=()
+    )
+
+    def to_dict(self) -> dict[str, Any]:
+        """All entries, and all of the problem: None where one is not given."""
+        return super().to_dict() | {"problem": {name: self.problem.get(name) for name in ENTRIES}}
 
     def names(self) -> list[str]:
         """The entries that vary, in the order of the file."""
         return list(chain(self.vary, *self.together, *(sample.over for sample in self.sample)))
 
-    def lists(self) -> list[tuple[str, list[Any]]]:
+    def lists(self) -> list[tuple[str, tuple[Any, ...]]]:
         """The lists of values, each with its entry."""
         columns = chain(self.vary.items(), *(table.items() for table in self.together))
-        return [(name, values) for name, values in columns if isinstance(values, list)]
+        return [(name, values) for name, values in columns if isinstance(values, tuple)]
 
     def places(self) -> set[str]:
         """The names in braces within text of the problem and of what varies."""
-        base = self.problem.given()
         texts = chain(
-            [base.get("minimise")], base.get("bounds", {}), self.names(), *(list_ for _, list_ in self.lists())
+            [self.problem.get("minimise")],
+            self.problem.get("bounds", {}),
+            self.names(),
+            *(values for _, values in self.lists()),
         )
         return {name for text in texts if isinstance(text, str) for name in _PLACE.findall(text)}
 
@@ -103,49 +139,40 @@ def read_study(source: Path | str | Mapping[str, Any]) -> StudyFile:
     ['B']
     """
     if isinstance(source, Mapping):
-        file, data = Path("the study"), dict(reading.checked(source, "the study"))
+        name, data = "the study", reading.checked(source, "the study")
     else:
-        file = Path(source)
-        data = reading.toml(file)
-    varied = data.get("vary")
-    for name, values in varied.items() if isinstance(varied, Mapping) else ():
-        if isinstance(values, Mapping):
-            # by itself, for an error that names the entry
-            convert(values, SteppedRange, Path(f"{file}, vary, {name}"))
-    study = convert(data, StudyFile, file)
-    _check_names(study, file)
-    _check_places(study, file)
+        name, data = str(source), reading.toml(Path(source))
+    with located(name):
+        study = StudyFile.from_dict(data)
+        _check_names(study)
+        _check_places(study)
     return study
 
 
-def _check_names(study: StudyFile, file: Path) -> None:
+def _check_names(study: StudyFile) -> None:
     """Refuse a study in which nothing varies, or something that is no entry, or something twice."""
     names = study.names()
     if not names:
-        raise InputError(
-            f"{file}: nothing varies: add a table [vary], such as B = {{ from = 1.5, to = 2.5, steps = 11 }}"
-        )
+        raise InputError("nothing varies: add a table [vary], such as B = { from = 1.5, to = 2.5, steps = 11 }")
     known = {*ENTRIES} - {"bounds"} | study.places()
     for name in names:
         if name == "bounds":
-            raise InputError(
-                f'{file}: bounds vary one by one: name the constant, as in "bounds.rms_c" or "at_most.rms_c"'
-            )
+            raise InputError('bounds vary one by one: name the constant, as in "bounds.rms_c" or "at_most.rms_c"')
         constant = constant_of(name)
-        if name not in known and constant is None:
-            raise InputError(f"{file}: {unknown_key(name, known | {f'{prefix}NAME' for prefix in PREFIXES}, 'entry')}")
+        if constant is None:
+            check_names([name], known | {f"{prefix}NAME" for prefix in PREFIXES}, "entry")
         if names.count(name) > 1 or (constant is not None and {constant, f"{BOUNDS}{constant}"} & {*names} - {name}):
-            raise InputError(f"{file}: {constant or name} varies twice")
+            raise InputError(f"{constant or name} varies twice")
 
 
-def _check_places(study: StudyFile, file: Path) -> None:
+def _check_places(study: StudyFile) -> None:
     """Refuse places in text that nothing fills, or that no numbers fill."""
     lists = dict(study.lists())
     for name in study.places():
         if name not in study.names():
-            raise InputError(f"{file}: nothing fills the place {{{name}}}: vary {name}")
+            raise InputError(f"nothing fills the place {{{name}}}: vary {name}")
         for value in lists.get(name, ()):
-            finite(value, f"{file}: {name}, which fills a place in text,")
+            finite(value, f"{name}, which fills a place in text,")
 
 
 def constant_of(name: str) -> str | None:

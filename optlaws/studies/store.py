@@ -188,7 +188,7 @@ class StudyDirectory:
         mine: dict[str, Any] = {"format": FORMAT, "hash": digest(study), "versions": versions()}
         if not self.about.exists():
             about = {"about": writing.MARK, "title": study.title, **mine, "points": len(points), "chunk": points.chunk}
-            text = json.dumps({**about, "study": msgspec.to_builtins(study)}, indent=1) + "\n"
+            text = json.dumps({**about, "study": study.to_dict()}, indent=1) + "\n"
             writing.write(self.about, _with_digest(text), exact=True, force=True)
             return points.chunk
         about, known = self.read()
@@ -362,7 +362,7 @@ def digest(study: StudyFile) -> str:
     >>> digest(first) == digest(read_study({"vary": {"B": [1.6]}, "problem": {"order": 4}}))
     True
     """
-    return hashlib.sha256(json.dumps(msgspec.to_builtins(study), sort_keys=False).encode()).hexdigest()
+    return hashlib.sha256(json.dumps(study.to_dict()).encode()).hexdigest()
 
 
 def _listed(numbers: dict[str, str]) -> str:

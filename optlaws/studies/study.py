@@ -45,7 +45,7 @@ class Study:
     def __init__(self, path: Path | str) -> None:
         self._directory = StudyDirectory(Path(path))
         self._about, self.file = self._directory.read()
-        self._shared = self.file.problem.given()
+        self._shared = dict(self.file.problem)
         self._checked: tuple[int, ...] = ()
 
     @property

@@ -9,13 +9,13 @@ from typing import TYPE_CHECKING, Any
 import msgspec
 import numpy as np
 
+from optlaws.entries.value_types import Switch, Text, Whole
 from optlaws.files.writing import MARK
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
-from optlaws.studies.points import StudyPoints, kind_of
+from optlaws.studies.points import StudyPoints, type_of
 from optlaws.studies.specification import entries
 from optlaws.synthesis import Problem, Status
-from optlaws.synthesis.problem.fields import Kind
 
 if TYPE_CHECKING:
     import pyarrow as pa
@@ -26,7 +26,7 @@ NUMBERS = ("objective", "lower_bound", "gap", "limit", *CONSTANTS, "seconds")
 OTHERS = ("index", "key", "status", "iterations", "law", "error")
 #: a law stays the JSON text that it is until it is read
 NO_LAW = msgspec.Raw(b"null")
-_COLUMNS = {Kind.WHOLE: "int64", Kind.TEXT: "string", Kind.BASIS: "string", Kind.SWITCH: "bool"}
+_COLUMNS = {Whole: "int64", Text: "string", Switch: "bool"}
 
 
 class StudyPoint(msgspec.Struct, kw_only=True, omit_defaults=True, dict=True):
@@ -114,7 +114,7 @@ def column(name: str) -> str:
 def _kind(name: str, values: Sequence[Any]) -> str:
     """The type of a column: mixed numbers and texts, or pairs, become text (JSON)."""
     numbers = not isinstance(values, list) or all(isinstance(value, float) for value in values)
-    return _COLUMNS.get(kind_of(name), "float64" if numbers else "string")
+    return _COLUMNS.get(type(type_of(name)), "float64" if numbers else "string")
 
 
 def _texts(values: Iterable[Any]) -> list[str]:

@@ -11,16 +11,15 @@ from enum import EnumType
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from types import NoneType, UnionType
-from typing import Annotated, Any, Union, get_args, get_origin, get_type_hints
+from typing import Annotated, Any, Union, get_args, get_origin
 from unittest.mock import patch
 
-import msgspec
 from cyclopts import App
 
 import optlaws
 from optlaws.results import Results
 from tests.internals.cli import app_of_app as app
-from tests.internals.entries import Declared, Kinded, entries_of
+from tests.internals.entries import Kinded, entries_of
 from tests.internals.jobs import JOBS, ProblemFile, do
 
 FROZEN = Path(__file__).with_name("frozen.json")
@@ -103,11 +102,10 @@ def jobs() -> Table:
 def spec_of(job: str) -> Any:
     """What a job reads its problem file as."""
 
-    def stop(_data: object, spec: Any, **_options: object) -> None:
-        raise Asked(spec)
+    def stop(cls: type[ProblemFile], *_: object) -> None:
+        raise Asked(cls)
 
-    declared = patch.object(ProblemFile, "read", classmethod(lambda cls, *_: stop(None, cls)))
-    with patch.object(msgspec, "convert", stop), declared, TemporaryDirectory() as folder:
+    with patch.object(ProblemFile, "read", classmethod(stop)), TemporaryDirectory() as folder:
         file = Path(folder, "problem.toml")
         file.write_text(f'job = "{job}"\n', "utf-8")
         try:
@@ -118,21 +116,12 @@ def spec_of(job: str) -> Any:
 
 
 def entries(spec: Any, where: str) -> Iterator[tuple[str, str]]:
-    """Entries below one, each with its type and default."""
-    if issubclass(spec, Declared):
-        yield from declared_entries(spec, where)
+    """Entries of a declared value, or of any of its kinds, or of a table, below one, each with its type and default."""
+    if hasattr(spec, "entries"):
+        # of a table, which has what is given and no more
+        for each in spec.entries.values():
+            yield f"{where}{each.name}", f"{kind_of_value(each.type)} | None = None"
         return
-    hints = get_type_hints(spec, include_extras=True)
-    for field in msgspec.structs.fields(spec):
-        hint, path = hints[field.name], where + field.encode_name
-        default = "" if field.required else f" = {text_of(default_of(field))}"
-        yield path, kind_of(hint) + default
-        for inner, suffix in structs(hint):
-            yield from entries(inner, f"{path}{suffix}.")
-
-
-def declared_entries(spec: type[Declared], where: str) -> Iterator[tuple[str, str]]:
-    """Entries of a declared value, or of any of its kinds, below one."""
     kinds = spec.kinds() if issubclass(spec, Kinded) and not spec.kind else {}
     if kinds:
         yield f"{where}kind", f"Literal[{', '.join(map(repr, kinds))}]"
@@ -144,12 +133,8 @@ def declared_entries(spec: type[Declared], where: str) -> Iterator[tuple[str, st
                 yield from entries(inner, f"{where}{each.name}{suffix}.")
 
 
-def is_declared(one: object) -> bool:
-    """Whether it is a class that declares its entries."""
-    return isinstance(one, type) and issubclass(one, Declared)
-
-
 KINDS = {"Text": "str", "Measured": "str", "Switch": "bool", "Whole": "int", "Number": "float", "ValueOf": "table"}
+KINDS |= {"ProblemTable": "table"}
 PARTED = {"Together", "Either", "TableOf", "Listed", "Table", "Choice", "InSI", "ReadBy"}
 
 
@@ -179,8 +164,8 @@ def kind_of_value(values: Any) -> str:
 def tables_of(values: Any) -> Iterator[tuple[Any, str]]:
     """Declared values in the type of an entry, and how they are addressed."""
     name = type_name(values)
-    if hasattr(values, "entries") and name == "ReadBy":
-        yield values.entries, ""
+    if name == "ProblemTable":
+        yield values, ""
     elif name == "ValueOf":
         yield values.of, ""
     elif name in {"Listed", "Table"}:
@@ -191,33 +176,13 @@ def tables_of(values: Any) -> Iterator[tuple[Any, str]]:
             yield from tables_of(part)
 
 
-def default_of(field: msgspec.structs.FieldInfo) -> object:
-    """What an entry is unless given."""
-    return field.default if field.default is not msgspec.NODEFAULT else field.default_factory()
-
-
-def structs(hint: Any) -> Iterator[tuple[Any, str]]:
-    """Tables in a type, and how they are addressed."""
-    if isinstance(hint, type) and issubclass(hint, msgspec.Struct):
-        yield hint, ""
-    origin = get_origin(hint)
-    if origin is Annotated:
-        yield from ((one, "") for one in get_args(hint)[1:] if is_declared(one))
-    suffix = "[]" if origin in {list, tuple} else ".*" if origin is dict else ""
-    for part in get_args(hint):
-        for inner, deeper in structs(part):
-            yield inner, suffix + deeper
-
-
 def kind_of(hint: Any) -> str:
-    """A type in words; whatever class stands for a table is one."""
-    if isinstance(hint, type) and issubclass(hint, msgspec.Struct):
-        return "table"
+    """A type in words."""
     origin, parts = get_origin(hint), get_args(hint)
     if origin in {Union, UnionType}:
         return " | ".join(map(kind_of, parts))
     if origin is Annotated:
-        return "table" if any(map(is_declared, parts[1:])) else kind_of(parts[0])
+        return kind_of(parts[0])
     if origin in {list, dict, tuple}:
         return f"{origin.__name__}[{', '.join(map(kind_of, parts))}]"
     return "None" if hint is NoneType else hint.__name__ if isinstance(hint, type) else text_of(hint)

@@ -97,7 +97,7 @@ def in_a_sweep(base: Mapping[str, Any], one: Mapping[str, Any], asked: list[Prob
 def studied(data: Mapping[str, Any], asked: list[Problem]) -> None:
     study = read_study(data)
     inputs = StudyPoints.of(study).inputs(0)
-    asked.append(Problem.from_dict(entries_of_point(study.problem.given(), inputs)))
+    asked.append(Problem.from_dict(entries_of_point(study.problem, inputs)))
 
 
 def in_a_study(base: Mapping[str, Any], one: Mapping[str, Any], asked: list[Problem], _: Path) -> None:
@@ -286,7 +286,7 @@ def test_warm_starts_run_along_numbers(entries: dict[str, Any], near: bool) -> N
 
 def test_a_study_takes_a_basis_of_ones_own() -> None:
     study = read_study({"problem": {"order": 3, "basis": "my own"}, "vary": {"B": [1.8]}})
-    assert study.problem.given()["basis"] == "my own"
+    assert study.problem["basis"] == "my own"
 
 
 def test_a_sweep_over_numbers_of_pieces(caught: list[Problem]) -> None:

@@ -3,7 +3,7 @@
 from optlaws.studies.chunk import Task, along_B, array_along_B, blocks
 from optlaws.studies.executor import Serial
 from optlaws.studies.points import StudyPoints, axes, key
-from optlaws.studies.problem_entries import ProblemEntries, problem
+from optlaws.studies.problem_entries import problem
 from optlaws.studies.progress import Bar, Silent, watching
 from optlaws.studies.run import check, task
 from optlaws.studies.specification import entries, filled, read_study

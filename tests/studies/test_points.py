@@ -140,7 +140,7 @@ def test_upper_bounds_vary_along_spans_samples_and_lists_together() -> None:
 def test_a_key_depends_on_the_problem_alone() -> None:
     first = points(vary={"B": [1.5, 1.6], "degree": [5, 9]})
     second = StudyPoints.of(read_study({"problem": {"degree": 9}, "vary": {"order": [4], "B": [1.6]}}))
-    given_first, given_second = first.study.problem.given(), second.study.problem.given()
+    given_first, given_second = first.study.problem, second.study.problem
     assert key(entries(given_first, first.inputs(3))) == key(entries(given_second, second.inputs(0)))
     assert len({key(entries(given_first, first.inputs(i))) for i in range(4)}) == 4
 
@@ -148,22 +148,25 @@ def test_a_key_depends_on_the_problem_alone() -> None:
 @pytest.mark.parametrize(
     ("study", "message"),
     [
-        ({"vari": {"B": [1.5]}}, "unknown key 'vari'; did you mean 'vary'"),
+        ({"vari": {"B": [1.5]}}, "unknown entry of a study 'vari'; did you mean 'vary'"),
         ({"vary": {"degre": [5]}}, "unknown entry 'degre'; did you mean 'degree'"),
         ({}, "nothing varies"),
         ({"vary": {"at_mots.J": [5.0]}}, "unknown entry 'at_mots.J'; did you mean 'at_most.NAME'"),
         ({"vary": {"J": [60.0], "at_most.J": [50.0]}}, "J varies twice"),
         ({"vary": {"bounds.rms_c": [4.0], "at_most.rms_c": [5.0]}}, "rms_c varies twice"),
-        ({"vary": {"B": {"from": 1.5, "to": 2.0, "step": 3}}}, "unknown key 'step'; did you mean 'steps'"),
+        (
+            {"vary": {"B": {"from": 1.5, "to": 2.0, "step": 3}}},
+            "vary: B: unknown entry of a range 'step'; did you mean 'steps'",
+        ),
         ({"vary": {"B": {"from": 1.5, "to": 2.0}}}, "steps"),
-        ({"vary": {"B": []}}, "length"),
+        ({"vary": {"B": []}}, "vary: B must be a list of 1 at least"),
         ({"vary": {"J": {"from": 0, "to": 9, "steps": 2, "scale": "log"}}}, "a log scale needs from and to above 0"),
         (
             {"vary": {"degree": {"from": 3, "to": 6, "steps": 3}}},
             "degree must be a whole number at every point, got 4.5",
         ),
         ({"vary": {"minimise": {"from": 3, "to": 6, "steps": 3}}}, "minimise is no number"),
-        ({"vary": {"minimise": [3]}}, "minimise must be text"),
+        ({"vary": {"minimise": [3]}}, "minimise must be a text, got 3"),
         ({"vary": {"monotone": ["yes"]}}, "monotone must be true or false"),
         ({"vary": {"B": [1.5]}, "together": [{"B": [1.5]}]}, "B varies twice"),
         ({"together": [{"B": [1.5], "degree": [3, 4]}]}, "lists of one table must be of one length"),

@@ -23,9 +23,10 @@ from optlaws.jobs.cycle_entries import AxisEntries
 from optlaws.jobs.job_entries import ProblemFile
 from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.numbers import Quantity
-from optlaws.studies.problem_entries import PROBLEM, problem
+from optlaws.studies.problem_entries import problem
 from optlaws.synthesis.least_time.follower_residual import RESIDUAL
 from optlaws.synthesis.least_time.move_objective import AT_MOTOR
+from optlaws.synthesis.problem.fields import PROBLEM
 from optlaws.synthesis.problem.problem import Problem
 
 _STROKE = Measured("length", "angle")

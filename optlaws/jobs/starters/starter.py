@@ -18,7 +18,6 @@ from optlaws.entries.declared import Declared, entries_of
 from optlaws.entries.reference import sentences
 from optlaws.entries.value_types import Choice, Measured, Number, ValueType, Whole
 from optlaws.errors import InputError, located
-from optlaws.files.problem_file import convert
 from optlaws.jobs.cam_entries import CamProblemFile
 from optlaws.jobs.cycle_entries import CycleProblemFile, read_given
 from optlaws.jobs.machine_laws import MachineLawsProblemFile, Vibration
@@ -252,7 +251,7 @@ def _of_study(answers: Answers) -> Answers:
 
 
 def _check_law(entries: Mapping[str, Any], file: Path) -> None:
-    problem("problem", convert(entries, SolutionsProblemFile, file).problem.given())
+    problem("problem", SolutionsProblemFile.read(entries, file).problem)
 
 
 _CYCLE = ("stroke", "rise", "dwell", "return", "speed", *_DERIVATIVES, "mass")
