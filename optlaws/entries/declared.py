@@ -12,8 +12,8 @@ from textwrap import wrap
 from typing import Any, ClassVar, ForwardRef, Self, TypeVar, dataclass_transform, get_args, get_origin
 
 from optlaws.echo import shortened
-from optlaws.entries.value_types import AnyTable, Kept, ValueType, check_names
-from optlaws.errors import InputError, located
+from optlaws.entries.value_types import AnyTable, Kept, Stored, ValueType, check_names
+from optlaws.errors import InputError
 from optlaws.files.reading import JsonText
 
 _ENTRY = "entry"
@@ -379,23 +379,10 @@ class Kinded(Declared):
 
 
 @dataclass(frozen=True)
-class ValueOf(ValueType):
+class ValueOf(Stored):
     """A declared value, or a table of its entries."""
 
     of: type[Declared]
-
-    def read(self, value: Any, name: str) -> Any:
-        if isinstance(value, self.of):
-            return value
-        with located(name):
-            return self.of.from_dict(value)
-
-    def plain(self, value: Any) -> Any:
-        return value.to_dict()
-
-    @property
-    def words(self) -> str:
-        return f"{self.of.named}, a table"
 
     def schema(self) -> dict[str, Any]:
         return self.of.json_schema()

@@ -2,39 +2,25 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass
 from math import inf, nextafter, sqrt
-from typing import Any
 
+from optlaws.entries.declared import Declared, declared, entry
+from optlaws.entries.value_types import Number
 from optlaws.errors import InputError
-from optlaws.files.reading import JsonText, all_entries_of
-from optlaws.numbers import not_negative, positive
 from optlaws.synthesis.least_time.motor_torque import TimedLimit
 from optlaws.synthesis.problem.named_constants import named
 from optlaws.tolerances import LIMIT_ROUNDING
 
 #: the name of the limit
 RESIDUAL = "residual acceleration"
-_KEYS = ("lowest", "highest", "damping", "most")
 
 
-@dataclass(frozen=True)
-class FollowerResidual(JsonText):
+_POSITIVE = Number(above=0.0)
+
+
+@declared
+class FollowerResidual(Declared, title="the residual vibration of a move"):
     """The residual acceleration of an elastic follower after a move, with its limit.
-
-    Attributes
-    ----------
-    lowest, highest
-        Between which its natural circular frequency is, rad/s.
-    damping
-        Its damping ratio, below 1.
-    most
-        The greatest amplitude of its acceleration after the move, in units of the stroke a square second.
-
-    Raises
-    ------
-    InputError
-        If a number is out of range.
 
     Examples
     --------
@@ -42,17 +28,14 @@ class FollowerResidual(JsonText):
     TimedLimit(name='residual acceleration', constant=residual(frequency=(19.0, 21.0), damping=0.05), bound=0.16)
     """
 
-    lowest: float
-    highest: float
-    damping: float
-    most: float
+    lowest: float = entry(_POSITIVE, "Its least natural circular frequency, rad/s.")
+    highest: float = entry(_POSITIVE, "The greatest.")
+    damping: float = entry(Number(least=0.0), "Its damping ratio, below 1.")
+    most: float = entry(
+        _POSITIVE, "The greatest amplitude of its acceleration after the move, in units of the stroke a square second."
+    )
 
-    _json_name = "the residual vibration of a move"
-
-    def __post_init__(self) -> None:
-        for name in ("lowest", "highest", "most"):
-            object.__setattr__(self, name, positive(getattr(self, name), name))
-        object.__setattr__(self, "damping", not_negative(self.damping, "damping"))
+    def _check(self) -> None:
         if self.lowest > self.highest or self.damping >= 1.0:
             raise InputError("the frequencies of a follower must be in order, and its damping below 1")
 
@@ -96,18 +79,3 @@ class FollowerResidual(JsonText):
     def _limit(self, low: float, high: float, bound: float) -> TimedLimit:
         spread = repr(low) if low == high else f"({low!r}, {high!r})"
         return TimedLimit(RESIDUAL, named(f"residual(frequency={spread}, damping={self.damping!r})"), bound)
-
-    def to_dict(self) -> dict[str, Any]:
-        """The follower and the limit as plain data."""
-        return asdict(self)
-
-    @classmethod
-    def from_dict(cls, data: Any) -> FollowerResidual:
-        """The limit that `to_dict` described.
-
-        Raises
-        ------
-        InputError
-            If an entry is missing or wrong.
-        """
-        return cls(**all_entries_of(data, _KEYS, cls._json_name))

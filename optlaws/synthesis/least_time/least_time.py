@@ -174,7 +174,7 @@ class LeastTime(JsonText):
         move = TimedMove(
             problem_of(entries["space"]),
             positive(entries["stroke"], "stroke"),
-            MoveLimits() if torque is not None and entries["limits"] == {} else MoveLimits.from_dict(entries["limits"]),
+            MoveLimits.from_dict(entries["limits"]),
             finite(entries["start_velocity"], "start_velocity"),
             finite(entries["end_velocity"], "end_velocity"),
             None if torque is None else MotorTorque.from_dict(torque),

@@ -2,62 +2,47 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Sequence
+from dataclasses import replace
 from math import inf
 from typing import Any, NamedTuple
 
+from optlaws.echo import shortened
+from optlaws.entries.declared import Declared, ValueOf, declared, entry
+from optlaws.entries.value_types import Listed, Number, ReadBy, Together
 from optlaws.errors import InputError
-from optlaws.files.reading import JsonText, all_entries_of
 from optlaws.formulas.reading import read
 from optlaws.formulas.slopes import constant
 from optlaws.laws import smoothstep
-from optlaws.numbers import finite, listed, not_negative, numbers, positive
 from optlaws.synthesis.functionals.makers import drive_torque, peak, rms
 from optlaws.synthesis.problem.constants import Functional
 from optlaws.tolerances import AGREEMENT
 
 #: the name of the limit of a motor's curve
 CURVE_LIMIT = "motor's curve"
-_KEYS = ("inertia", "friction", "load", "unit", "peak", "rms")
-_GEAR_KEYS = ("to_load", "back", "inertia", "friction", "load")
 #: a law that passes every position, in which a load over the position is as great as it ever is
 _PASSING = smoothstep(2)
 _MOST_LINES = 100
 
 
-@dataclass(frozen=True)
-class LossyGear(JsonText):
+_NOT_NEGATIVE = Number(least=0.0)
+
+
+@declared
+class LossyGear(Declared, title="a gear with losses"):
     """A gear with losses, with the load J c + g b + Q on its motor side, and the load X behind it.
 
-    The torque at the motor is J c + g b + Q + max(X/eta_1, X eta_2).
-
-    Attributes
-    ----------
-    to_load, back
-        1/eta_1, at least 1, and eta_2, at most 1: what a torque behind the gear is before it, by the way of the power.
-    inertia, friction, load
-        J, g and Q, at least 0, in the units of the load behind the gear.
-
-    Raises
-    ------
-    InputError
-        If a number is out of range.
+    The torque at the motor is J c + g b + Q + max(X/eta_1, X eta_2), in the units of the load behind the gear. A torque
+    behind the gear is 1/eta_1 times as great before it, or eta_2 times, by the way of the power.
     """
 
-    to_load: float
-    back: float
-    inertia: float = 0.0
-    friction: float = 0.0
-    load: float = 0.0
+    writes_defaults = True
 
-    _json_name = "a gear with losses"
-
-    def __post_init__(self) -> None:
-        for name in _GEAR_KEYS:
-            object.__setattr__(self, name, not_negative(getattr(self, name), name))
-        if not 0.0 < self.back <= 1.0 <= self.to_load:
-            raise InputError("of a gear with losses to_load must be at least 1, and back above 0 and at most 1")
+    to_load: float = entry(Number(least=1.0), "1/eta_1.")
+    back: float = entry(Number(above=0.0, most=1.0), "eta_2.")
+    inertia: float = entry(_NOT_NEGATIVE, "J.", default=0.0)
+    friction: float = entry(_NOT_NEGATIVE, "g.", default=0.0)
+    load: float = entry(_NOT_NEGATIVE, "Q.", default=0.0)
 
     def text(self, load: str, duration: float) -> str:
         """T² times the torque at the motor, from T² times the load behind the gear."""
@@ -78,21 +63,6 @@ class LossyGear(JsonText):
         )
         return [f"{size!r}{name}" for size, name in parts if size]
 
-    def to_dict(self) -> dict[str, float]:
-        """The numbers of the torque by their names."""
-        return {name: getattr(self, name) for name in _GEAR_KEYS}
-
-    @classmethod
-    def from_dict(cls, data: Any) -> LossyGear:
-        """The gear that `to_dict` described.
-
-        Raises
-        ------
-        InputError
-            If an entry is missing or wrong.
-        """
-        return cls(**all_entries_of(data, _GEAR_KEYS, cls._json_name))
-
 
 class TimedLimit(NamedTuple):
     """A limit of a law in a time: its name, the constant of the law and the greatest allowed value."""
@@ -102,27 +72,23 @@ class TimedLimit(NamedTuple):
     bound: float
 
 
-@dataclass(frozen=True)
-class MotorTorque(JsonText):
+def _formula(value: Any) -> str:
+    if not isinstance(value, str):
+        raise InputError(f"it must be the text of a formula of a, got {shortened(value)}")
+    read(value, ("a",))
+    return value
+
+
+_FORMULA = ReadBy(_formula, "a formula of a", json={"type": "string"})
+_LINE = Together(Number(above=0.0), Number(), names=("torque", "fall"))
+
+
+@declared
+class MotorTorque(Declared, title="the torque of a move"):
     """The torque I(a) c + I'(a) b²/2 + f b + L(a) at the motor of a move that takes 1 s, and its limits.
 
     In the time T the inertia's part is that over T², the friction's that over T, and the load stays. Friction that does
     not depend on the speed is part of the load: laws never turn back. Behind a gear with losses it is the load alone.
-
-    Attributes
-    ----------
-    inertia, load
-        I and L as formulas of a.
-    friction
-        f, of the viscous friction, at least 0.
-    unit
-        Of the torque, N m.
-    peak, rms
-        Limits of its greatest magnitude and of its root mean square over the move, N m; None where there is none.
-    gear
-        With losses, and the motor before it; None where nothing is lost.
-    curve
-        Lines of the motor's curve: its torque is at most the first number less the second times b, N m.
 
     Raises
     ------
@@ -135,29 +101,23 @@ class MotorTorque(JsonText):
     (TimedLimit(name='torque', constant=peak((1 + 0.3*a)*c + 0.15*b^2 + 0.25*0.2), bound=0.375),)
     """
 
-    inertia: str
-    friction: float
-    load: str
-    unit: float
-    peak: float | None = None
-    rms: float | None = None
-    gear: LossyGear | None = None
-    curve: tuple[tuple[float, float], ...] = ()
+    writes_defaults = True
+    newer = ("gear", "curve")
 
-    _json_name = "the torque of a move"
+    inertia: str = entry(_FORMULA, "I.")
+    friction: float = entry(_NOT_NEGATIVE, "f, of the viscous friction.")
+    load: str = entry(_FORMULA, "L.")
+    unit: float = entry(Number(above=0.0), "Of the torque, N m.")
+    peak: float | None = entry(Number(above=0.0), "The limit of its greatest magnitude, N m.", default=None)
+    rms: float | None = entry(Number(above=0.0), "That of its root mean square over the move, N m.", default=None)
+    gear: LossyGear | None = entry(ValueOf(LossyGear), "With losses, and the motor before it.", default=None)
+    curve: tuple[tuple[float, float], ...] = entry(
+        Listed(_LINE, most=_MOST_LINES),
+        "Lines of the motor's curve: its torque is at most the first number less the second times b, N m.",
+        default=(),
+    )
 
-    def __post_init__(self) -> None:
-        for name in ("inertia", "load"):
-            text = getattr(self, name)
-            if not isinstance(text, str):
-                raise InputError(f"{name} must be the text of a formula of a, got {text!r}")
-            read(text, ("a",))
-        object.__setattr__(self, "friction", not_negative(self.friction, "friction"))
-        for name in ("unit", "peak", "rms"):
-            if name == "unit" or getattr(self, name) is not None:
-                object.__setattr__(self, name, positive(getattr(self, name), name))
-        lines = tuple((positive(most, "curve"), finite(fall, "curve")) for most, fall in self.curve)
-        object.__setattr__(self, "curve", lines)
+    def _check(self) -> None:
         if not self.lines and self.rms is None:
             raise InputError("the torque of a move needs a limit: of its peak or its root mean square")
         most = min((torque for torque, _ in self.lines), default=inf)
@@ -272,30 +232,3 @@ class MotorTorque(JsonText):
             for sign, torque in (*((1.0, each) for each in driving), (-1.0, driving[-1]))
         ]
         return peak(f"max({', '.join(shares)})", side="high")
-
-    def to_dict(self) -> dict[str, Any]:
-        """The formulas, the unit and the limits as plain data."""
-        further: dict[str, Any] = {} if self.gear is None else {"gear": self.gear.to_dict()}
-        if self.curve:
-            further["curve"] = [list(line) for line in self.curve]
-        return {name: getattr(self, name) for name in _KEYS} | further
-
-    @classmethod
-    def from_dict(cls, data: Any) -> MotorTorque:
-        """The torque that `to_dict` described.
-
-        Raises
-        ------
-        InputError
-            If an entry is missing or wrong.
-        """
-        further = [key for key in ("gear", "curve") if isinstance(data, Mapping) and key in data]
-        entries = dict(all_entries_of(data, (*_KEYS, *further), cls._json_name))
-        if "gear" in entries:
-            entries["gear"] = LossyGear.from_dict(entries["gear"])
-        if "curve" in entries:
-            lines = tuple(numbers(line, "curve", 2) for line in listed(entries["curve"], "curve", _MOST_LINES))
-            if not lines or any(len(line) != 2 for line in lines):
-                raise InputError("a curve has lines, each a torque at rest and how much it falls with the velocity")
-            entries["curve"] = lines
-        return cls(**entries)

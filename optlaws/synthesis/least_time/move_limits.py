@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import asdict, dataclass, fields, replace
+from dataclasses import dataclass, replace
 from math import comb, factorial, inf, nextafter
 from typing import Any, NamedTuple
 
 from optlaws.echo import shortened
+from optlaws.entries.declared import Declared, declared, entry
+from optlaws.entries.value_types import Number
 from optlaws.errors import InputError
-from optlaws.files.reading import JsonText
 from optlaws.numbers import finite, positive
-from optlaws.suggest import unknown_key
 from optlaws.synthesis.least_time.follower_residual import FollowerResidual
 from optlaws.synthesis.least_time.motor_torque import MotorTorque, TimedLimit
 from optlaws.synthesis.problem.constants import B, C, C_minus, C_plus, Functional, J, snap
@@ -36,21 +35,12 @@ class RateLimit(NamedTuple):
     rate: float
 
 
-@dataclass(frozen=True)
-class MoveLimits(JsonText):
-    """Limits of a move, in units of the stroke and seconds; None for no limit.
+_LIMIT = Number(above=0.0)
 
-    Attributes
-    ----------
-    velocity, jerk, snap
-        Greatest magnitudes.
-    acceleration, deceleration
-        Greatest acceleration in the direction of the stroke, and greatest against it.
 
-    Raises
-    ------
-    InputError
-        If one is not a finite number above 0.
+@declared
+class MoveLimits(Declared, title="limits of a move"):
+    """Limits of a move, in units of the stroke and seconds.
 
     Examples
     --------
@@ -58,19 +48,11 @@ class MoveLimits(JsonText):
     False
     """
 
-    _json_name = "limits of a move"
-
-    velocity: float | None = None
-    acceleration: float | None = None
-    deceleration: float | None = None
-    jerk: float | None = None
-    snap: float | None = None
-
-    def __post_init__(self) -> None:
-        for entry in fields(self):
-            value = getattr(self, entry.name)
-            if value is not None:
-                object.__setattr__(self, entry.name, positive(value, f"the limit of the {entry.name}"))
+    velocity: float | None = entry(_LIMIT, "The greatest magnitude.", default=None)
+    acceleration: float | None = entry(_LIMIT, "The greatest in the direction of the stroke.", default=None)
+    deceleration: float | None = entry(_LIMIT, "The greatest against it.", default=None)
+    jerk: float | None = entry(_LIMIT, "The greatest magnitude.", default=None)
+    snap: float | None = entry(_LIMIT, "The greatest magnitude.", default=None)
 
     @property
     def symmetric(self) -> bool:
@@ -108,27 +90,6 @@ class MoveLimits(JsonText):
         """
         names = ("acceleration", "deceleration") if name == "acceleration" and self.symmetric else (name,)
         return replace(self, **{each: factor * getattr(self, each) for each in names})
-
-    def to_dict(self) -> dict[str, float]:
-        """The limits by name, without those that there are not."""
-        return {name: value for name, value in asdict(self).items() if value is not None}
-
-    @classmethod
-    def from_dict(cls, data: Any) -> MoveLimits:
-        """The limits that `to_dict` described.
-
-        Raises
-        ------
-        InputError
-            If the data is no table of limits, it is empty, or one is not a number above 0.
-        """
-        if not isinstance(data, Mapping) or not data:
-            raise InputError(f"limits must be a table such as {_EXAMPLE}, got {shortened(data)}")
-        known = [entry.name for entry in fields(cls)]
-        for name in data:
-            if name not in known:
-                raise InputError(unknown_key(name, known, "limit"))
-        return cls(**data)
 
 
 @dataclass(frozen=True)

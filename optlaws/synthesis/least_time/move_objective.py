@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-from typing import Any
+from dataclasses import replace
 
+from optlaws.entries.declared import Declared, ValueOf, declared, entry
+from optlaws.entries.value_types import Choice, Number
 from optlaws.errors import InputError
-from optlaws.files.reading import JsonText, all_entries_of
 from optlaws.formulas.reading import read
 from optlaws.formulas.slopes import constant
-from optlaws.numbers import positive, real
-from optlaws.suggest import unknown_key
 from optlaws.synthesis.functionals.makers import integral, peak, rms
 from optlaws.synthesis.least_time.follower_residual import RESIDUAL, FollowerResidual
 from optlaws.synthesis.least_time.motor_torque import MotorTorque, TimedLimit
@@ -32,25 +30,12 @@ RATES: dict[str, tuple[int, Functional]] = {
 AT_MOTOR = {"torque": "N m", "rms torque": "N m", "energy": "J"}
 #: what is left vibrating in a follower
 OBJECTIVES = (*RATES, *AT_MOTOR, RESIDUAL)
-_KEYS = ("name", "torque", "way", "regeneration", "residual")
 _SMOOTH = 3
 
 
-@dataclass(frozen=True)
-class MoveObjective(JsonText):
+@declared
+class MoveObjective(Declared, title="what is least in a move"):
     """An objective of a move of given time.
-
-    Attributes
-    ----------
-    name
-        One of "velocity", "acceleration", "jerk", "snap", "rms acceleration", "rms jerk", "rms snap", "torque", "rms
-        torque", "energy" and "residual acceleration".
-    torque
-        That at the motor, where its torque or energy is least; its limit is 1 N m and says nothing.
-    way, regeneration
-        Of an energy: how far the motor turns, rad, and the share of the braking energy that is fed back.
-    residual
-        The follower, where what is left vibrating is least; its limit is 1 and says nothing.
 
     Raises
     ------
@@ -63,29 +48,30 @@ class MoveObjective(JsonText):
     TimedLimit(name='acceleration', constant=C, bound=0.4)
     """
 
-    name: str
-    torque: MotorTorque | None = None
-    way: float | None = None
-    regeneration: float = 0.0
-    residual: FollowerResidual | None = None
+    writes_defaults = True
 
-    _json_name = "what is least in a move"
+    name: str = entry(Choice(*OBJECTIVES), "What is least.")
+    torque: MotorTorque | None = entry(
+        ValueOf(MotorTorque), "At the motor; its limit is 1 N m and says nothing.", default=None
+    )
+    way: float | None = entry(Number(above=0.0), "Of an energy: how far the motor turns, rad.", default=None)
+    regeneration: float = entry(
+        Number(least=0.0, most=1.0), "Of an energy: the share of the braking energy that is fed back.", default=0.0
+    )
+    residual: FollowerResidual | None = entry(
+        ValueOf(FollowerResidual), "What is left vibrating; its limit is 1 and says nothing.", default=None
+    )
 
-    def __post_init__(self) -> None:
-        if self.name not in OBJECTIVES:
-            raise InputError(f"minimise: {unknown_key(self.name, OBJECTIVES, 'objective of a move')}")
+    def _check(self) -> None:
         needs = (self.name in AT_MOTOR, self.name == "energy", self.name == RESIDUAL)
         if needs != (self.torque is not None, self.way is not None, self.residual is not None):
-            raise InputError(f"{self._json_name}: the {self.name} needs its motor or its follower, and nothing else")
+            raise InputError(f"{self.named}: the {self.name} needs its motor or its follower, and nothing else")
         if self.torque is not None and (self.torque.peak, self.torque.rms) != (None, 1.0):
-            raise InputError(f"{self._json_name}: its torque has the limit 1 N m of its root mean square alone")
+            raise InputError(f"{self.named}: its torque has the limit 1 N m of its root mean square alone")
         if self.residual is not None and self.residual.most != 1.0:
-            raise InputError(f"{self._json_name}: its residual has the limit 1")
-        if self.way is not None:
-            object.__setattr__(self, "way", positive(self.way, "way"))
-        share = real(self.regeneration)
-        if share is None or not 0.0 <= share <= 1.0 or (share and self.way is None):
-            raise InputError(f"{self._json_name}: regeneration must be a share from 0 to 1 of an energy, got {share!r}")
+            raise InputError(f"{self.named}: its residual has the limit 1")
+        if self.regeneration and self.way is None:
+            raise InputError(f"{self.named}: regeneration is a share of an energy, got {self.regeneration!r}")
 
     def in_time(self, duration: float, stroke: float) -> TimedLimit:
         """The constant of the law that is minimised, and its unit in SI."""
@@ -126,26 +112,3 @@ class MoveObjective(JsonText):
         if self.name == "torque":
             return self.torque.friction == 0.0 or load >= 0.0 or move.problem.order >= _SMOOTH
         return self.torque.friction == 0.0 or load >= 0.0
-
-    def to_dict(self) -> dict[str, Any]:
-        """Name, motor and follower as plain data."""
-        parts = {"torque": self.torque, "residual": self.residual}
-        plain = {name: None if part is None else part.to_dict() for name, part in parts.items()}
-        return {"name": self.name, "way": self.way, "regeneration": self.regeneration, **plain}
-
-    @classmethod
-    def from_dict(cls, data: Any) -> MoveObjective:
-        """The objective that `to_dict` described.
-
-        Raises
-        ------
-        InputError
-            If an entry is missing or wrong.
-        """
-        entries = all_entries_of(data, _KEYS, cls._json_name)
-        torque, residual = entries["torque"], entries["residual"]
-        known = {
-            "torque": None if torque is None else MotorTorque.from_dict(torque),
-            "residual": None if residual is None else FollowerResidual.from_dict(residual),
-        }
-        return cls(**entries | known)

@@ -12,13 +12,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from math import inf
-from typing import Any
 
 from numpy.polynomial.polynomial import polyroots
 
+from optlaws.entries.declared import Declared, declared, entry
+from optlaws.entries.value_types import Number, Stored
 from optlaws.errors import InputError, SolverFailure
-from optlaws.files.reading import JsonText, all_entries_of
-from optlaws.numbers import not_negative, positive
 from optlaws.synthesis.families import names
 from optlaws.synthesis.least_time.move_limits import TimedMove, control_point, power, powers_of
 from optlaws.synthesis.proof.certificate import VIOLATION, Certificate
@@ -26,31 +25,27 @@ from optlaws.synthesis.proof.nodes import Contact
 from optlaws.synthesis.solution import Solution
 from optlaws.tolerances import AGREEMENT, LEAST_TIME_GAP
 
-_KEYS = ("shortest", "longest", "certificate")
 #: how much of the overlap of two intervals is left to the one before
 _OVERLAP = 0.25
 _DOUBLINGS = 1000
 
 
-@dataclass(frozen=True)
-class TimeProof(JsonText):
-    """The proof that no law keeps the limits in any time from the shortest to the longest.
+@declared
+class TimeProof(Declared, title="a proof of a least time"):
+    """The proof that no law keeps the limits in any time from the shortest to the longest."""
 
-    Attributes
-    ----------
-    shortest, longest
-        The ends of the interval, s; the shortest is 0 where limits that hold in a time hold in every longer one.
-    certificate
-        That no law keeps the limits in the longest time. The same multipliers prove it of all others. Where a
-        vibration that is left is limited: that no law keeps what every law keeps that keeps the limits in some time
-        of the interval.
-    """
+    shortest: float = entry(Number(least=0.0), "In s; 0 where limits that hold in a time hold in every longer one.")
+    longest: float = entry(Number(above=0.0), "In s.")
+    certificate: Certificate = entry(
+        Stored(Certificate),
+        "That no law keeps the limits in the longest time. The same multipliers prove it of all others. Where a "
+        "vibration that is left is limited: that no law keeps what every law keeps that keeps the limits in some time "
+        "of the interval.",
+    )
 
-    shortest: float
-    longest: float
-    certificate: Certificate
-
-    _json_name = "a proof of a least time"
+    def _check(self) -> None:
+        if self.shortest > self.longest:
+            raise InputError(f"the shortest time, {self.shortest!r}, is above the longest, {self.longest!r}")
 
     def stands(self, move: TimedMove) -> bool:
         """Whether the multipliers prove the stated time of the move, with numpy alone."""
@@ -77,25 +72,6 @@ class TimeProof(JsonText):
             between = move.within_control_points(self.shortest, self.longest)[:-1]
             return [self.certificate, *(replace(self.certificate, problem=problem) for problem in between)]
         return [self.certificate, replace(self.certificate, problem=move.within(self.shortest))]
-
-    def to_dict(self) -> dict[str, Any]:
-        """The proof as plain data."""
-        return {"shortest": self.shortest, "longest": self.longest, "certificate": self.certificate.to_dict()}
-
-    @classmethod
-    def from_dict(cls, data: Any) -> TimeProof:
-        """The proof that `to_dict` described.
-
-        Raises
-        ------
-        InputError
-            If an entry is missing or wrong.
-        """
-        entries = all_entries_of(data, _KEYS, cls._json_name)
-        shortest, longest = not_negative(entries["shortest"], "shortest"), positive(entries["longest"], "longest")
-        if shortest > longest:
-            raise InputError(f"the shortest time, {shortest!r}, is above the longest, {longest!r}")
-        return cls(shortest, longest, Certificate.from_dict(entries["certificate"]))
 
 
 @dataclass(frozen=True)
