@@ -57,7 +57,9 @@ class Entry:
     def schema(self) -> dict[str, Any]:
         """The JSON Schema of the entry."""
         default = {} if self.plain_default is None else {"default": self.plain_default}
-        schema = {"anyOf": [self.type.schema(), {"type": "null"}]} if self.default is None else self.type.schema()
+        schema = self.type.schema()
+        if self.default is None or self.type.absent is not None:
+            schema = {"anyOf": [schema, {"type": "null"}]}
         return {**schema, "description": self.about, **default}
 
     @property
@@ -80,7 +82,7 @@ class Entry:
 
     def read(self, value: Any) -> Any:
         """What is kept of a value; None where it may be absent and is."""
-        if value is None and self.default is None and getattr(self.type, "absent", None) is None:
+        if value is None and self.default is None and self.type.absent is None:
             return None
         return self.type.read(value, self.name)
 
@@ -292,7 +294,7 @@ class Declared(JsonText):
         given = cls._from_earlier(dict(data))
         check_names(given, known, f"entry of {cls.named}")
         for name, each in known.items():
-            if each.needed and given.get(name) is None:
+            if each.needed and (name not in given or given[name] is each.type.absent is None):
                 such = "" if each.example is None else f", such as {name} = {each.example!r}"
                 raise InputError(f"{cls.named} needs its {name}{such}")
         return cls(**{known[name].field: value for name, value in given.items()})

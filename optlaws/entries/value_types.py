@@ -13,7 +13,7 @@ from optlaws.echo import shortened
 from optlaws.errors import InputError, located
 from optlaws.files.reading import JsonText
 from optlaws.motion.quantities import DIMENSIONS, either, written
-from optlaws.numbers import bounded, finite, real, whole
+from optlaws.numbers import MOST_VALUES, bounded, finite, numbers, real, whole
 from optlaws.suggest import unknown_key
 
 if TYPE_CHECKING:
@@ -54,6 +54,8 @@ def check_names(given: Iterable[object], known: Iterable[str], what: str) -> Non
 
 class ValueType(ABC):
     """The type of an entry's values."""
+
+    absent: Any = None  #: what is kept where plain data have none; None where they need one
 
     @abstractmethod
     def read(self, value: Any, name: str) -> Any:
@@ -362,6 +364,30 @@ class Listed(ValueType):
 
     def tables(self) -> Mapping[str, Mapping[str, Any]]:
         return self.of.tables()
+
+
+@dataclass(frozen=True)
+class Numbers(ValueType):
+    """Numbers without a unit, kept as a tuple: as a `Listed` of them, in a tenth of the time.
+
+    >>> Numbers().read([0, 0.5], "s")
+    (0.0, 0.5)
+    """
+
+    most: int = MOST_VALUES
+
+    def read(self, value: Any, name: str) -> tuple[float, ...]:
+        return numbers(value, name, self.most)
+
+    def plain(self, value: Any) -> Any:
+        return list(value)
+
+    @property
+    def words(self) -> str:
+        return "a list of numbers"
+
+    def schema(self) -> dict[str, Any]:
+        return {"type": "array", "items": {"type": "number"}}
 
 
 @dataclass(frozen=True, init=False)

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import lru_cache
 from itertools import pairwise
 from math import inf, isinf, nextafter, sqrt
@@ -13,13 +13,16 @@ from typing import Any, Literal, TypeAlias, get_args
 import numpy as np
 
 from optlaws.echo import shortened
+from optlaws.entries import value_types as types
+from optlaws.entries.declared import Declared, ValueOf, declared, entry
+from optlaws.entries.value_types import Choice, Listed, Numbers
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
-from optlaws.files.reading import JsonText, of_known_format
+from optlaws.files.reading import of_known_format
 from optlaws.formulas.reading import read
 from optlaws.formulas.slopes import constant
 from optlaws.formulas.tree import Call, Exponentiation, Formula, Number, Product, Sum, product
 from optlaws.kept import kept_property
-from optlaws.numbers import Array, bounded, finite, not_negative, numbers, positive, power_of_two
+from optlaws.numbers import Array, not_negative, positive, power_of_two
 from optlaws.suggest import unknown_key
 from optlaws.synthesis.functionals.kinds import FormulaIntegral, FormulaPeak, FormulaRms, OfFormula
 from optlaws.synthesis.limits.motions.integrated import value_of
@@ -38,8 +41,6 @@ _SMALL_PHASE_GAP = 1e-6  # of a limit: more is looked for on finer elements
 #: what a drive is to take as little of
 DriveObjective: TypeAlias = Literal["peak torque", "rms torque", "energy", "time"]
 
-_CERTIFICATE = ("weight", "edges", "potential", "s", "b", "level", "price", "near")
-_KEYS = ("minimise", "value", "attained", "plane", "unit", *_CERTIFICATE)
 #: by which shares of its size a potential falls more where it proves little
 _STEEPER = (0.0, 1e-8, 1e-6, 1e-4)
 #: of the level about which a torque is squared, where that of the load proves little
@@ -52,33 +53,9 @@ _LOOKS = 512
 LONG = 2.0**20
 
 
-@dataclass(frozen=True)
-class DriveLimit(JsonText):
+@declared
+class DriveLimit(Declared, title="a drive's limit"):
     """A limit for laws from rest to rest that never turn back, of any degree and kind.
-
-    Attributes
-    ----------
-    minimise
-        Of what.
-    value
-        The proven lower bound, dimensionless, rounded down; minus infinity of an energy that nothing bounds.
-    attained
-        The value of the motion of the limit, by integration; the infimum is between both. Infinite where no motion
-        within the bounds is known.
-    plane
-        The torques and the bounds, divided by `unit`.
-    unit
-        A power of 2, by which torques are divided; of the least time, one by which times are.
-    weight, edges, potential
-        The certificate: the multiplier of the time and the potential of the equation of motion, by the Bernstein
-        coefficients of its pieces.
-    s, b
-        Places of the best motion, where a = sin²(pi s/2), and its velocities there.
-    level, price
-        Of the certificate, what the mean torque adds: the level about which a torque is squared, and the price of the
-        mean where a peak is minimised.
-    near
-        The peak, dimensionless, at which the inner minimum is taken; 0 where none is minimised.
 
     Examples
     --------
@@ -87,21 +64,37 @@ class DriveLimit(JsonText):
     (4.05, True, True)
     """
 
-    minimise: DriveObjective
-    value: float
-    attained: float
-    plane: PhasePlane
-    unit: float
-    weight: float
-    edges: tuple[float, ...]
-    potential: tuple[tuple[float, ...], ...]
-    s: tuple[float, ...]
-    b: tuple[float, ...]
-    level: float = 0.0
-    price: float = 0.0
-    near: float = 0.0
+    writes_defaults = True
 
-    _json_name = "a drive's limit"
+    minimise: DriveObjective = entry(Choice(*get_args(DriveObjective)), "Of what.")
+    value: float = entry(
+        types.Number(absent=-inf),
+        "The proven lower bound, dimensionless, rounded down; minus infinity of an energy that nothing bounds.",
+    )
+    attained: float = entry(
+        types.Number(absent=inf),
+        "The value of the motion of the limit, by integration; the infimum is between both. Infinite where no motion "
+        "within the bounds is known.",
+    )
+    plane: PhasePlane = entry(ValueOf(PhasePlane), "The torques and the bounds, divided by `unit`.")
+    unit: float = entry(
+        types.Number(above=0.0),
+        "A power of 2, by which torques are divided; of the least time, one by which times are.",
+    )
+    weight: float = entry(types.Number(least=0.0), "Of the certificate: the multiplier of the time.")
+    edges: tuple[float, ...] = entry(Numbers(), "The ends of the pieces of the potential of the equation of motion.")
+    potential: tuple[tuple[float, ...], ...] = entry(Listed(Numbers()), "The Bernstein coefficients of these pieces.")
+    s: tuple[float, ...] = entry(Numbers(), "Places of the best motion, where a = sin²(pi s/2).")
+    b: tuple[float, ...] = entry(Numbers(), "Its velocities there.")
+    level: float = entry(
+        types.Number(), "What the mean torque adds: the level about which a torque is squared.", default=0.0
+    )
+    price: float = entry(types.Number(), "The price of the mean where a peak is minimised.", default=0.0)
+    near: float = entry(
+        types.Number(least=0.0),
+        "The peak, dimensionless, at which the inner minimum is taken; 0 where none is minimised.",
+        default=0.0,
+    )
 
     @property
     def gap(self) -> float:
@@ -153,24 +146,6 @@ class DriveLimit(JsonText):
         share = (rate(s) - rate(0.0)) / (rate(1.0) - rate(0.0))
         return np.asarray(share), np.sin(0.5 * np.pi * s) ** 2, np.concatenate([[0.0], b, [0.0]])
 
-    def to_dict(self) -> dict[str, Any]:
-        """The limit and its certificate as plain data."""
-        return {
-            "minimise": self.minimise,
-            "value": bounded(self.value),
-            "attained": bounded(self.attained),
-            "plane": self.plane.to_dict(),
-            "unit": self.unit,
-            "weight": self.weight,
-            "edges": list(self.edges),
-            "potential": [list(row) for row in self.potential],
-            "s": list(self.s),
-            "b": list(self.b),
-            "level": self.level,
-            "price": self.price,
-            "near": self.near,
-        }
-
     @classmethod
     def from_dict(cls, data: Any) -> DriveLimit:
         """The limit that `to_dict` described, its bound computed again.
@@ -194,25 +169,13 @@ class DriveLimit(JsonText):
         InputError
             If the data is no such limit.
         """
-        data = of_known_format(data, cls._json_name) if isinstance(data, Mapping) else data
-        if not isinstance(data, Mapping) or set(data) != set(_KEYS):
-            raise InputError(f"a drive's limit has the keys {', '.join(_KEYS)}, got {shortened(data)}")
-        if data["minimise"] not in get_args(DriveObjective):
-            raise InputError(unknown_key(data["minimise"], get_args(DriveObjective), "minimise"))
-        if not isinstance(data["potential"], list | tuple):
-            raise InputError(f"potential must be rows of numbers, got {shortened(data['potential'])}")
-        rows = tuple(numbers(row, f"potential[{i}]") for i, row in enumerate(data["potential"]))
-        edges, s, b = (numbers(data[key], key) for key in ("edges", "s", "b"))
-        value, attained = (
-            unknown if data[key] is None else finite(data[key], key)
-            for key, unknown in (("value", -inf), ("attained", inf))
-        )
-        weight, near = not_negative(data["weight"], "weight"), not_negative(data["near"], "near")
-        level, price = finite(data["level"], "level"), finite(data["price"], "price")
-        plane, unit = PhasePlane.from_dict(data["plane"]), positive(data["unit"], "unit")
-        limit = cls(*(data["minimise"], value, attained, plane, unit, weight, edges, rows, s, b, level, price, near))
+        limit = super().from_dict(data)
         _check(limit)
         return limit
+
+    @classmethod
+    def _from_earlier(cls, data: dict[str, Any]) -> dict[str, Any]:
+        return of_known_format(data, cls.named)
 
     def contradiction(self) -> str:
         """What is stated that the certificate or the motion does not have; empty where all of it agrees."""

@@ -7,21 +7,21 @@ time are convex in w. What is minimised over the plane is what no law from rest 
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import astuple, dataclass, replace
 from math import inf, nextafter, sqrt
 from typing import Any, Literal, TypeAlias
 
 import numpy as np
 
 from optlaws.echo import shortened
+from optlaws.entries.declared import Declared, declared, entry
+from optlaws.entries.value_types import Listed, Number, ReadBy, Together
 from optlaws.errors import InputError
-from optlaws.files.reading import JsonText
 from optlaws.formulas.arithmetic import NUMPY, evaluate
 from optlaws.formulas.reading import read
 from optlaws.formulas.tree import Formula
 from optlaws.kept import kept_property
-from optlaws.numbers import Array, bounded, finite, numbers, positive
+from optlaws.numbers import Array, finite, positive
 from optlaws.synthesis.limits.phase_torque import ACCELERATION, AnyTorque, GearTorque, PhaseTorque, torque_from
 from optlaws.tolerances import VALUE_ROUNDING, WINDOW_EDGE
 
@@ -95,26 +95,33 @@ def _check_window(start: float, stop: float) -> None:
         raise InputError(f"a window has two positions that ascend from 0 to 1, got {start!r} and {stop!r}")
 
 
-@dataclass(frozen=True)
-class PhasePlane(JsonText):
+def _torque(value: Any) -> AnyTorque:
+    return value if isinstance(value, PhaseTorque | GearTorque) else torque_from(value)
+
+
+def _torque_limit(value: Any) -> TorqueLimit:
+    return value if isinstance(value, TorqueLimit) else TorqueLimit.from_data(value)
+
+
+def _velocity_limit(value: Any) -> VelocityLimit:
+    if isinstance(value, VelocityLimit):
+        return value
+    numbers = Together(Number(), Number(), Number(), names=("start", "stop", "B"))
+    return VelocityLimit(*numbers.read(value, "a limit of the velocity"))
+
+
+def _formula(value: Any) -> Formula:
+    return value if isinstance(value, Formula) else read(value, ("a",))
+
+
+_TORQUE = ReadBy(_torque, "a torque, as the texts of I, S, R and T", lambda torque: torque.to_data())
+
+
+@declared
+class PhasePlane(Declared, title="a phase plane"):
     """An objective with bounds over all motions from rest to rest that never turn back.
 
-    Attributes
-    ----------
-    squared, heat
-        A torque whose mean square is minimised, and the factor of that.
-    maxima
-        Powers that are minimised in the mean: each is b times the greater of two torques.
-    peak
-        A torque whose greatest magnitude is minimised; alone. With nothing to minimise it is the time that is least.
-    limits
-        Bounds of torques.
-    B, C
-        The greatest velocity and the greatest acceleration; infinite where they are free.
-    velocities
-        Bounds of the velocity over parts of the stroke.
-    holding
-        The torque that holds the load at rest; None where it is that of a slow motion.
+    With nothing to minimise it is the time that is least.
 
     Examples
     --------
@@ -123,19 +130,35 @@ class PhasePlane(JsonText):
     ('peak', True)
     """
 
-    squared: AnyTorque | None = None
-    maxima: tuple[tuple[AnyTorque, AnyTorque], ...] = ()
-    peak: AnyTorque | None = None
-    limits: tuple[TorqueLimit, ...] = ()
-    B: float = inf
-    C: float = inf
-    heat: float = 1.0
-    velocities: tuple[VelocityLimit, ...] = ()
-    holding: Formula | None = None
+    writes_defaults = True
 
-    _json_name = "a phase plane"
+    squared: AnyTorque | None = entry(_TORQUE, "A torque whose mean square is minimised.", default=None)
+    maxima: tuple[tuple[AnyTorque, AnyTorque], ...] = entry(
+        Listed(Together(_TORQUE, _TORQUE)),
+        "Powers that are minimised in the mean: each is b times the greater of two torques.",
+        default=(),
+    )
+    peak: AnyTorque | None = entry(_TORQUE, "A torque whose greatest magnitude is minimised; alone.", default=None)
+    limits: tuple[TorqueLimit, ...] = entry(
+        Listed(ReadBy(_torque_limit, "a torque, a value at rest, a fall, and a window", TorqueLimit.to_data)),
+        "Bounds of torques.",
+        default=(),
+    )
+    B: float = entry(Number(above=0.0, absent=inf), "The greatest velocity; infinite where it is free.", default=inf)
+    C: float = entry(Number(above=0.0, absent=inf), "The greatest acceleration, likewise.", default=inf)
+    heat: float = entry(Number(above=0.0), "The factor of the mean square.", default=1.0)
+    velocities: tuple[VelocityLimit, ...] = entry(
+        Listed(ReadBy(_velocity_limit, "two positions and a velocity", lambda limit: list(astuple(limit)))),
+        "Bounds of the velocity over parts of the stroke.",
+        default=(),
+    )
+    holding: Formula | None = entry(
+        ReadBy(_formula, "a formula of a", str),
+        "The torque that holds the load at rest; that of a slow motion unless given.",
+        default=None,
+    )
 
-    def __post_init__(self) -> None:
+    def _check(self) -> None:
         if self.peak is not None and (self.squared is not None or self.maxima):
             raise InputError("a peak is minimised alone: leave out what else is minimised")
         if self.kind != "time" and self.B <= 1.0:
@@ -257,45 +280,3 @@ class PhasePlane(JsonText):
         )
         velocities = tuple(replace(limit, B=limit.B * time) for limit in self.velocities)
         return PhasePlane(limits=limits, B=self.B * time, C=self.C * time**2, velocities=velocities)
-
-    def to_dict(self) -> dict[str, Any]:
-        """The plane as plain data: torques as the texts of I, S, R and T."""
-        return {
-            "squared": None if self.squared is None else self.squared.to_data(),
-            "maxima": [[torque.to_data() for torque in torques] for torques in self.maxima],
-            "peak": None if self.peak is None else self.peak.to_data(),
-            "limits": [limit.to_data() for limit in self.limits],
-            "B": bounded(self.B),
-            "C": bounded(self.C),
-            "heat": self.heat,
-            "velocities": [[limit.start, limit.stop, limit.B] for limit in self.velocities],
-            "holding": None if self.holding is None else str(self.holding),
-        }
-
-    @classmethod
-    def from_dict(cls, data: Any) -> PhasePlane:
-        """The plane that `to_dict` described."""
-        keys = {"squared", "maxima", "peak", "limits", "B", "C", "heat"}
-        if not isinstance(data, Mapping) or set(data) - {"velocities", "holding"} != keys:
-            raise InputError(
-                "a phase plane has the keys squared, maxima, peak, limits, B, C, heat, velocities and holding"
-            )
-        squared, peak = (None if data[key] is None else torque_from(data[key]) for key in ("squared", "peak"))
-        maxima = tuple((torque_from(first), torque_from(second)) for first, second in _rows(data, "maxima", 2))
-        limits = tuple(map(TorqueLimit.from_data, _rows(data, "limits")))
-        several = (numbers(row, "velocities") for row in _rows(data, "velocities", 3))
-        velocities = tuple(VelocityLimit(start, stop, most) for start, stop, most in several)
-        B, C = (inf if data[key] is None else positive(data[key], key) for key in ("B", "C"))
-        holding = None if data.get("holding") is None else read(data["holding"], ("a",))
-        return cls(squared, maxima, peak, limits, B, C, positive(data["heat"], "heat"), velocities, holding)
-
-
-def _rows(data: Mapping[str, Any], name: str, count: int | None = None) -> Sequence[Any]:
-    """The rows of an entry of a plane, each of so many values."""
-    rows = data.get(name, [])
-    many = f" of {count}" if count else ""
-    if not isinstance(rows, list | tuple) or any(
-        not isinstance(row, list | tuple) or len(row) != (count or len(row)) for row in rows
-    ):
-        raise InputError(f"{name} of a phase plane must be rows{many}, got {shortened(rows)}")
-    return rows
