@@ -25,7 +25,7 @@ from optlaws.entries.value_types import (
     check_names,
     is_list,
 )
-from optlaws.errors import InputError
+from optlaws.errors import InputError, located
 from optlaws.numbers import MOST_DEGREE, MOST_ORDER, bounded
 from optlaws.synthesis.problem import checks
 from optlaws.synthesis.problem.ranges import Bounds, Range
@@ -203,7 +203,8 @@ def _plain_ends(boundary: BoundaryConditions | None) -> dict[str, Any]:
 
 def _read_windows(windows: Any) -> tuple[Window, ...]:
     given = checks.listed(windows, "windows")
-    return tuple(read_window(window) if isinstance(window, str) else Window.from_dict(window) for window in given)
+    with located("windows"):
+        return tuple(read_window(window) if isinstance(window, str) else Window.from_dict(window) for window in given)
 
 
 #: in the order in which problems are written: first those that each of them has

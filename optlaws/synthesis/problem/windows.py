@@ -3,18 +3,16 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
-from dataclasses import dataclass
 from math import inf, isfinite
 from typing import Any
 
 from optlaws.echo import shortened
+from optlaws.entries.declared import Declared, declared, entry
+from optlaws.entries.value_types import Number, Text
 from optlaws.errors import InputError
-from optlaws.files.reading import JsonText
 from optlaws.formulas.of_motion import MotionFormula, of_text
 from optlaws.formulas.scanner import FormulaError
 from optlaws.kept import kept_property
-from optlaws.numbers import bounded, finite, real
 from optlaws.suggest import unknown_key
 
 QUANTITIES = {"a": 0, "b": 1, "c": 2, "j": 3}
@@ -27,18 +25,9 @@ _TEXT = re.compile(
 _LONGEST = 200
 
 
-@dataclass(frozen=True, repr=False)
-class Window(JsonText):
+@declared
+class Window(Declared, title="a window"):
     """A quantity of the law stays between two values at one k or over an interval (dimensionless).
-
-    Parameters
-    ----------
-    quantity
-        "a", "b", "c" or "j", or a formula of these and k such as "c + 0.2*b".
-    low, high
-        The least and the greatest value; infinite where there is none, equal for a given value.
-    start, stop
-        The interval of k in [0, 1]; equal for one k.
 
     Raises
     ------
@@ -54,17 +43,17 @@ class Window(JsonText):
     via('a', 0.3, at=0.4)
     """
 
-    _json_name = "a window"
+    writes_defaults = True
 
-    quantity: str
-    low: float = -inf
-    high: float = inf
-    start: float = 0.0
-    stop: float = 1.0
+    quantity: str = entry(Text(), '"a", "b", "c" or "j", or a formula of these and k such as "c + 0.2*b".', example="a")
+    low: float = entry(Number(absent=-inf), "The least value, if there is one.", default=-inf, example=0.4)
+    high: float = entry(
+        Number(absent=inf), "The greatest value, if there is one; equal to `low` for a given value.", default=inf
+    )
+    start: float = entry(Number(), "Where it begins, k in [0, 1].", default=0.0)
+    stop: float = entry(Number(), "Where it ends; at `start` for one k.", default=1.0)
 
-    def __post_init__(self) -> None:
-        for name in ("low", "high", "start", "stop"):
-            object.__setattr__(self, name, _number(getattr(self, name), name))
+    def _check(self) -> None:
         if (
             self.low > self.high
             or self.low == inf
@@ -155,40 +144,12 @@ class Window(JsonText):
         right = Window(self.quantity, self.low, self.high, 0.5, self.stop)
         return left, right.mirrored()
 
-    def to_dict(self) -> dict[str, Any]:
-        """Plain JSON-able dict; None for infinite values.
-
-        Examples
-        --------
-        >>> Window.from_dict(Window("b", high=1.5).to_dict()) == Window("b", high=1.5)
-        True
-        """
-        ends = {"low": bounded(self.low), "high": bounded(self.high)}
-        return {"quantity": self.quantity, **ends, "start": self.start, "stop": self.stop}
-
     @classmethod
-    def from_dict(cls, data: Mapping[str, Any]) -> Window:
-        """Read what `to_dict` wrote, or a part of it: `at` may stand for start and stop, `value` for low and high.
-
-        Raises
-        ------
-        InputError
-            If a key is unknown, the quantity is missing, or a value is out of range.
-        """
-        if not isinstance(data, Mapping):
-            raise InputError(f"a window must be a table with a quantity and values, got {shortened(data)}")
-        given = {name: value for name, value in data.items() if value is not None}
+    def _from_earlier(cls, data: dict[str, Any]) -> dict[str, Any]:
         for key, pair in (("at", ("start", "stop")), ("value", ("low", "high"))):
-            if key in given:
-                both = given.pop(key)
-                given |= dict.fromkeys(pair, both)
-        known = ("quantity", "low", "high", "start", "stop")
-        for key in given:
-            if key not in known:
-                raise InputError(unknown_key(key, (*known, "at", "value")))
-        if "quantity" not in given:
-            raise InputError("a window needs a quantity: a, b, c or j")
-        return cls(**given)
+            if key in data:
+                data |= dict.fromkeys(pair, data.pop(key))
+        return data
 
 
 def via(quantity: str, value: float, *, at: float) -> Window:
@@ -227,10 +188,3 @@ def read_window(text: str) -> Window:
     low = number.get("value", -inf) if parts["sign"] in {">=", "="} else number.get("low", -inf)
     high = number.get("value", inf) if parts["sign"] in {"<=", "="} else inf
     return Window(parts["quantity"], low, high, start, stop)
-
-
-def _number(value: Any, name: str) -> float:
-    number = real(value)
-    if number is None:
-        raise InputError(f"{name} of a window must be a number, got {shortened(value)}")
-    return finite(number, f"{name} of a window") if isfinite(number) else number

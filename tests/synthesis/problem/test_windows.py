@@ -94,9 +94,9 @@ def test_problems_with_windows_survive_dicts_and_text(problem: Problem) -> None:
         (("a",), "finite"),
         (("a", 0.0, 1.0, 0.6, 0.4), "start <= stop"),
         (("a", 0.0, 1.0, -0.1, 0.4), "0 <= start"),
-        (("a", float("nan"), 1.0), "low of a window"),
-        (("a", "0", 1.0), "low of a window"),
-        (("a", True, 1.0), "low of a window"),
+        (("a", float("nan"), 1.0), "low must be a finite real number"),
+        (("a", "0", 1.0), "low must be a finite real number"),
+        (("a", True, 1.0), "low must be a finite real number"),
     ],
 )
 def test_windows_that_make_no_sense_are_refused(arguments: tuple[object, ...], text: str) -> None:
