@@ -228,6 +228,8 @@ class Declared(JsonText):
     writes_defaults: ClassVar[bool] = False
     #: of these not even then, as versions before do not know them
     newer: ClassVar[tuple[str, ...]] = ()
+    #: whether plain data have more, which is computed and not read
+    computes: ClassVar[bool] = False
 
     def __init_subclass__(cls, *, title: str = "", **keywords: Any) -> None:
         super().__init_subclass__(**keywords)
@@ -247,7 +249,7 @@ class Declared(JsonText):
             "type": "object",
             "properties": {name: each.schema for name, each in entries.items()},
             "required": [name for name, each in entries.items() if each.needed],
-            "additionalProperties": False,
+            "additionalProperties": cls.computes,
         }
 
     @classmethod
@@ -292,6 +294,8 @@ class Declared(JsonText):
                 f"{cls.named} must be a table of {', '.join(known) or 'no entries'}, got {shortened(data)}"
             )
         given = cls._from_earlier(dict(data))
+        if cls.computes:
+            given = {name: value for name, value in given.items() if name in known}
         check_names(given, known, f"entry of {cls.named}")
         for name, each in known.items():
             if each.needed and (name not in given or given[name] is each.type.absent is None):

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from math import tau
-from typing import Any, Self
+from typing import Any
 
 from optlaws.balancing.dwells.mechanism import DwellMechanism, DwellType, dwell_mechanism
 from optlaws.cams.curves.motion_by_angle import CamMotion
@@ -14,31 +13,24 @@ from optlaws.cams.followers.rollers import OscillatingRoller
 from optlaws.cycles.cycle import Cycle
 from optlaws.cycles.specification.segments import Dwell, Return, Rise
 from optlaws.echo import shortened
+from optlaws.entries.declared import Declared, declared, entry
+from optlaws.entries.value_types import Number, Stored
 from optlaws.errors import InputError
-from optlaws.files.reading import JsonText, entries_of
 from optlaws.laws import MotionLaw
 from optlaws.motion.piece import Piece
 from optlaws.motion.quantities import positive_quantity, quantity
-from optlaws.numbers import Quantity, positive
+from optlaws.numbers import Quantity
 
 _DWELL = ("run-out", "reverse", "run-up")
 _SIZES = ("inertia", "loader_inertia", "arm", "prime_radius")
 
 
-@dataclass(frozen=True)
-class DwellMachine(JsonText):
-    """A balancing dwell mechanism at a speed; built by `dwell_machine`.
+_POSITIVE = Number(above=0.0)
 
-    Attributes
-    ----------
-    mechanism
-        The mechanism, dimensionless.
-    rate
-        Of the cam's shaft, rad/s.
-    inertia, loader_inertia
-        Of everything the executive rocker moves, and of the loader's rocker alone, kg m².
-    arm, prime_radius
-        Length of both rockers, and least radius of both pitch curves, m.
+
+@declared
+class DwellMachine(Declared, title="a dwell machine"):
+    """A balancing dwell mechanism at a speed; built by `dwell_machine`.
 
     Examples
     --------
@@ -50,14 +42,14 @@ class DwellMachine(JsonText):
     (0.668101, 0.0)
     """
 
-    _json_name = "a dwell machine"
+    computes = True
 
-    mechanism: DwellMechanism
-    rate: float
-    inertia: float
-    loader_inertia: float
-    arm: float
-    prime_radius: float
+    mechanism: DwellMechanism = entry(Stored(DwellMechanism), "The mechanism, dimensionless.")
+    rate: float = entry(_POSITIVE, "Of the cam's shaft, rad/s.")
+    inertia: float = entry(_POSITIVE, "Of everything the executive rocker moves, kg m².")
+    loader_inertia: float = entry(_POSITIVE, "Of the loader's rocker alone, kg m².")
+    arm: float = entry(_POSITIVE, "Length of both rockers, m.")
+    prime_radius: float = entry(_POSITIVE, "The least radius of both pitch curves, m.")
 
     @property
     def clutch_angle(self) -> float:
@@ -142,19 +134,6 @@ class DwellMachine(JsonText):
         torques = ("balanced_torque", "driven_torque", "residual_torque", "loader_driven_torque")
         names = ("rate", *_SIZES, "clutch_angle", *torques)
         return {name: getattr(self, name) for name in names} | {"mechanism": self.mechanism.to_dict()}
-
-    @classmethod
-    def from_dict(cls, data: Mapping[str, Any]) -> Self:
-        """The machine that `to_dict` described; torques are computed, not read.
-
-        Raises
-        ------
-        InputError
-            If an entry is missing or wrong.
-        """
-        numbers = entries_of(data, ("rate", *_SIZES, "mechanism"), cls._json_name)
-        mechanism = DwellMechanism.from_dict(numbers.pop("mechanism"))
-        return cls(mechanism, **{name: positive(value, name) for name, value in numbers.items()})
 
     @property
     def _sections(self) -> list[tuple[MotionLaw, float, float]]:

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
-from math import degrees, inf, tau
-from typing import Any, Literal, Self, TypedDict, Unpack
+from dataclasses import KW_ONLY
+from math import degrees, tau
+from typing import Any, Literal, TypedDict, Unpack, get_args
 
 from optlaws.balancing.dwells.sections import (
     Section,
@@ -18,13 +18,13 @@ from optlaws.balancing.dwells.sections import (
 )
 from optlaws.balancing.loaders.loader import Loader
 from optlaws.echo import shortened
+from optlaws.entries.declared import Declared, declared, documented_by, entry
+from optlaws.entries.value_types import Choice, InSI, Kept, Number, ReadBy, SINumber
 from optlaws.errors import InputError
-from optlaws.files.reading import JsonText, entries_of
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.laws.segments.piecewise import PiecewiseLaw
-from optlaws.motion.quantities import si_number
-from optlaws.numbers import NumberOrQuantity, finite, real
+from optlaws.numbers import NumberOrQuantity
 from optlaws.suggest import keywords_of
 from optlaws.tolerances import AGREEMENT
 
@@ -32,8 +32,6 @@ DwellType = Literal["I", "II", "III"]
 
 KINDS: tuple[DwellType, ...] = ("I", "II", "III")
 LAWS = ("law", "law_1", "law_2", "return_law")
-POSITIVE = ("dwell", "rise", "return_angle", "swing", "radius_ratio", "inertia_ratio")
-NOT_NEGATIVE = ("clutch_angle", "lower_dwell", "standstill")
 ANGLES = ("dwell", "rise", "return_angle", "lower_dwell", "clutch_angle", "standstill", "swing")
 RATIOS = ("radius_ratio", "inertia_ratio", "reverse_share")
 #: what stands for a quantity that is not given
@@ -41,11 +39,18 @@ INSTEAD = {"law_1": "law", "law_2": "law", "return_law": "law", "return_angle": 
 COMPUTED = ("speed", "phi1", "phi2", "S_sp", "S1", "S2", "a", "b")
 
 
-_UNLESS_GIVEN: Any = None  # in no mechanism that was made: there INSTEAD stands for it
+def _law(given: Any) -> MotionLaw:
+    law: MotionLaw = law_of(MotionLaw.from_dict(given) if isinstance(given, Mapping) else given)
+    check_law("it", law)
+    return law
 
 
-@dataclass(frozen=True, repr=False, kw_only=True)
-class DwellMechanism(JsonText):
+_LAW = ReadBy(_law, "a `MotionLaw` from rest to rest over a stroke of 1", MotionLaw.to_dict, {"type": "object"})
+_ANGLE, _FROM_0, _ABOVE_0 = InSI("angle", above=0.0), InSI("angle", least=0.0), Number(above=0.0)
+
+
+@declared
+class DwellMechanism(Declared, title="a dwell mechanism"):
     """A balancing cam mechanism for an executive rocker that dwells; `dwell_mechanism` builds it from its data.
 
     Angles are in radians, ways in strokes S of the executive link.
@@ -67,32 +72,55 @@ class DwellMechanism(JsonText):
     (DwellMechanism(III, a=1.59434, b=0.15, S1=0, S2=0.666667), ['rise', 'clutch', 'run-out', 'run-up', 'clutch', ...])
     """
 
-    _json_name = "a dwell mechanism"
+    computes = True
 
-    kind: DwellType
-    law: MotionLaw
-    dwell: float
-    rise: float
-    swing: float
-    radius_ratio: float
-    inertia_ratio: float
-    clutch_angle: float = 0.0
-    law_1: MotionLaw = _UNLESS_GIVEN
-    law_2: MotionLaw = _UNLESS_GIVEN
-    return_angle: float = _UNLESS_GIVEN
-    return_law: MotionLaw = _UNLESS_GIVEN
-    lower_dwell: float = _UNLESS_GIVEN
-    standstill: float = 0.0
-    reverse_share: float = 0.5
+    _: KW_ONLY
+    kind: DwellType = entry(Choice(*get_args(DwellType)), "How its loader runs in the dwells.", name="type")
+    law: MotionLaw = entry(_LAW, "Executive law of the rise; its loader is that of `inertial_loader`.")
+    dwell: SINumber = entry(_ANGLE, "Angle of the upper dwell.")
+    rise: SINumber = entry(_ANGLE, "Angle of the rise.")
+    swing: SINumber = entry(_ANGLE, "Swing of the executive rocker; the rocker of the loader is as long.")
+    radius_ratio: float = entry(_ABOVE_0, "Least radius of either cam over S.")
+    inertia_ratio: float = entry(
+        _ABOVE_0,
+        "Moment of inertia of the loader's rocker alone over that of everything the executive rocker moves.",
+    )
+    clutch_angle: SINumber = entry(
+        _FROM_0,
+        "Angle in which the clutch acts at either end of the dwell, at uniform speed; not used by type I.",
+        default=0.0,
+    )
+    law_1: MotionLaw = entry(
+        _LAW, "Law of run-out and run-up of type II; the executive law unless given.", default=None
+    )
+    law_2: MotionLaw = entry(
+        _LAW,
+        "Law of the reverse motion of type II, of run-out and run-up of type III; the executive law unless given.",
+        default=None,
+    )
+    return_angle: Kept[float, NumberOrQuantity | None] = entry(
+        _ANGLE, "Angle of the return; that of the rise unless given.", default=None
+    )
+    return_law: MotionLaw = entry(_LAW, "Executive law of the return; that of the rise unless given.", default=None)
+    lower_dwell: Kept[float, NumberOrQuantity | None] = entry(
+        _FROM_0, "Angle of the lower dwell, 0 for none; that of the upper dwell unless given.", default=None
+    )
+    standstill: SINumber = entry(
+        _FROM_0,
+        "Angle in which the rocker of type III stands still in the upper dwell; in the lower one it stands still for "
+        "as much longer as that dwell is longer.",
+        default=0.0,
+    )
+    reverse_share: float = entry(
+        Number(above=0.0),
+        "Share of the reverse motion in the angle of type II between the clutch angles.",
+        default=0.5,
+    )
 
-    def __post_init__(self) -> None:
-        for name in LAWS:
-            object.__setattr__(self, name, law_of(getattr(self, name)))
+    def _check(self) -> None:
         for name, other in INSTEAD.items():
             if getattr(self, name) is None:
                 object.__setattr__(self, name, getattr(self, other))
-        for name in ANGLES:
-            object.__setattr__(self, name, si_number(getattr(self, name), ("angle",), name))
         _check(self)
 
     @property
@@ -186,19 +214,6 @@ class DwellMechanism(JsonText):
             "remarks": list(self.remarks),
         }
 
-    @classmethod
-    def from_dict(cls, data: Mapping[str, Any]) -> Self:
-        """The mechanism that `to_dict` described; ways, criteria and sections are computed, not read.
-
-        Raises
-        ------
-        InputError
-            If an entry is missing or wrong.
-        """
-        entries = entries_of(data, ("type", "law", *ANGLES, *RATIOS), cls._json_name)
-        laws = {name: MotionLaw.from_dict(data[name]) for name in LAWS if name in data}
-        return cls(kind=entries.pop("type"), **entries | laws)
-
     def __repr__(self) -> str:
         return f"DwellMechanism({self.kind}, a={self.a:g}, b={self.b:g}, S1={self.S1:g}, S2={self.S2:g})"
 
@@ -236,17 +251,8 @@ class DwellMechanism(JsonText):
 
 def _check(mechanism: DwellMechanism) -> None:
     """Refuse what cannot be built."""
-    if mechanism.kind not in KINDS:
-        raise InputError(f"kind must be one of {', '.join(KINDS)}, got {shortened(mechanism.kind)}")
-    for name in (*POSITIVE, *NOT_NEGATIVE):
-        number = real(getattr(mechanism, name))
-        if number is None or not (0.0 < number < inf or (name in NOT_NEGATIVE and number == 0.0)):
-            least = "at least 0" if name in NOT_NEGATIVE else "positive"
-            raise InputError(f"{name} must be {least} and finite, got {shortened(getattr(mechanism, name))}")
-    if not 0.0 < finite(mechanism.reverse_share, "reverse_share") < 1.0:
+    if mechanism.reverse_share >= 1.0:
         raise InputError(f"reverse_share must be between 0 and 1, got {shortened(mechanism.reverse_share)}")
-    for name in LAWS:
-        check_law(name, getattr(mechanism, name))
     _speeds(mechanism)
     if mechanism.kind == "I":
         _equal_dwells(mechanism)
@@ -314,6 +320,7 @@ class DwellEntries(_DwellData, total=False):
 DEFAULTS: dict[str, float] = {"clutch_angle": 0.0, "standstill": 0.0, "reverse_share": 0.5}
 
 
+@documented_by(DwellMechanism)
 @keywords_of(DwellEntries, **DEFAULTS)
 def dwell_mechanism(kind: DwellType, **entries: Unpack[DwellEntries]) -> DwellMechanism:
     """A balancing cam mechanism with an inertial loader, for an executive rocker that dwells.
@@ -324,40 +331,6 @@ def dwell_mechanism(kind: DwellType, **entries: Unpack[DwellEntries]) -> DwellMe
 
     Angles have a unit, "90 deg", or are numbers in radians (`optlaws.deg` turns degrees into radians); ways are in
     strokes S of the executive link.
-
-    Parameters
-    ----------
-    kind
-        "I", "II" or "III".
-    law
-        Executive law of the rise, from rest to rest; its loader is that of `inertial_loader`.
-    dwell
-        Angle of the upper dwell.
-    rise
-        Angle of the rise.
-    clutch_angle
-        Angle in which the clutch acts at either end of the dwell, at uniform speed; not used by type I.
-    swing
-        Swing of the executive rocker; the rocker of the loader is as long.
-    radius_ratio
-        Least radius of either cam over S.
-    inertia_ratio
-        Moment of inertia of the loader's rocker alone over that of everything the executive rocker moves.
-    law_1
-        Law of run-out and run-up of type II; the executive law unless given.
-    law_2
-        Law of the reverse motion of type II, of run-out and run-up of type III; the executive law unless given.
-    return_angle
-        Angle of the return; that of the rise unless given.
-    return_law
-        Executive law of the return; that of the rise unless given.
-    lower_dwell
-        Angle of the lower dwell, 0 for none; that of the upper dwell unless given.
-    standstill
-        Angle in which the rocker of type III stands still in the upper dwell; in the lower one it stands still for as
-        much longer as that dwell is longer.
-    reverse_share
-        Share of the reverse motion in the angle of type II between the clutch angles.
 
     Raises
     ------

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from math import degrees, pi, sqrt
 from typing import Any
 
@@ -12,11 +11,12 @@ import numpy as np
 from optlaws.balancing.levers.linkage import FourBar
 from optlaws.balancing.levers.motion import LeverMotion
 from optlaws.balancing.levers.sizing import LEAST_TRANSMISSION, MOST_ROCKER_SWING, Sizing, sized
+from optlaws.entries.declared import Declared, declared, entry
+from optlaws.entries.value_types import InSI, Number, SINumber
 from optlaws.errors import InputError, SolverFailure
 from optlaws.kept import kept_property
 from optlaws.laws import PolynomialLaw
-from optlaws.motion.quantities import si_number
-from optlaws.numbers import Array, NumberOrQuantity, finite
+from optlaws.numbers import Array
 
 _SWING_SETTLED = 1e-14  # of a swing: a step of Newton's method that is the last
 _SWING_RESOLVED = 1e-15  # of a swing: what its last amplitudes leave
@@ -135,30 +135,17 @@ def _settled(
 _ANGLE_LIMIT = 1e-9  # rad: an angle so far beyond its limit is still within
 
 
-@dataclass(frozen=True, init=False)
-class TorsionLever:
+_ANGLE = InSI("angle")
+
+
+@declared
+class TorsionLever(Declared, title="a torsion lever"):
     """A driven mass that swings between two pre-twisted torsion bars through a four-bar linkage.
 
     Bar 1, of stiffness c1, holds the cam's rocker, bar 2, of stiffness xi c1, the driven link; they pull against each
     other, which takes up the clearances, and carry the mass from one extreme to the other, which unloads the cam.
     Angles have a unit, "60 deg", or are numbers in radians (`deg` turns degrees into radians); lengths are in units of
     the rocker, moments in units of c1, times in units of sqrt(I / c1).
-
-    Parameters
-    ----------
-    beta
-        Length of the driven link.
-    lam
-        Length of the coupler, lambda.
-    rho, nu
-        Pre-twists: bar 1 is twisted by gamma01 (1 + rho) at rest, bar 2 by |chi02| (1 + nu), so that rho and nu say
-        what is left of them at the extremes.
-    swing
-        Swing of the driven link from extreme to extreme.
-    least_transmission
-        The angles between the coupler and both links must stay between this and its supplement; 30 degrees.
-    most_rocker_swing
-        The rocker must not swing farther; 60 degrees.
 
     Raises
     ------
@@ -175,31 +162,24 @@ class TorsionLever:
     (0.537689, 6.100747, 6.091704)
     """
 
-    beta: float
-    lam: float
-    rho: float
-    nu: float
-    swing: float
-    least_transmission: float = LEAST_TRANSMISSION
-    most_rocker_swing: float = MOST_ROCKER_SWING
+    beta: float = entry(Number(above=0.0), "Length of the driven link.")
+    lam: float = entry(Number(above=0.0), "Length of the coupler, lambda.")
+    rho: float = entry(
+        Number(),
+        "Of the pre-twist of bar 1, which is twisted by gamma01 (1 + rho) at rest: what is left at the extreme.",
+    )
+    nu: float = entry(Number(), "Of that of bar 2, likewise, which is twisted by |chi02| (1 + nu).")
+    swing: SINumber = entry(_ANGLE, "Of the driven link, from extreme to extreme.")
+    least_transmission: SINumber = entry(
+        _ANGLE,
+        "The angles between the coupler and both links must stay between this and its supplement; 30 degrees.",
+        default=LEAST_TRANSMISSION,
+    )
+    most_rocker_swing: SINumber = entry(
+        _ANGLE, "The rocker must not swing farther; 60 degrees.", default=MOST_ROCKER_SWING
+    )
 
-    def __init__(
-        self,
-        beta: float,
-        lam: float,
-        rho: float,
-        nu: float,
-        swing: NumberOrQuantity,
-        least_transmission: NumberOrQuantity = LEAST_TRANSMISSION,
-        most_rocker_swing: NumberOrQuantity = MOST_ROCKER_SWING,
-    ) -> None:
-        angles = {"swing": swing, "least_transmission": least_transmission, "most_rocker_swing": most_rocker_swing}
-        turned = {name: si_number(angle, ("angle",), name) for name, angle in angles.items()}
-        for name, value in {"beta": beta, "lam": lam, "rho": rho, "nu": nu, **turned}.items():
-            object.__setattr__(self, name, finite(value, name))
-        for name in ("beta", "lam"):
-            if getattr(self, name) <= 0.0:
-                raise InputError(f"{name} must be above 0, got {getattr(self, name)!r}")
+    def _check(self) -> None:
         for name in ("rho", "nu"):
             if getattr(self, name) < 0.0:
                 raise InputError(f"{name} must be at least 0, or the bar goes slack, got {getattr(self, name)!r}")
