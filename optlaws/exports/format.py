@@ -3,60 +3,42 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field
 from typing import Any
 
 from optlaws.echo import shortened
-from optlaws.errors import InputError
+from optlaws.entries.declared import Declared, declared, entries_of, entry
+from optlaws.entries.value_types import Choice, Either, Text, Whole, check_names
+from optlaws.errors import InputError, located
 from optlaws.lazy import Registry
 from optlaws.motion.motion import Motion
 from optlaws.motion.polynomials import PiecewiseMotion
-from optlaws.numbers import whole
 from optlaws.suggest import unknown_key
 
 MOST_POINTS = 65_536
 BEST = "best"
 
 
-@dataclass(frozen=True)
-class Request:
-    """The options of an export beside the motion; each format takes some of them.
+@declared
+class Request(Declared, title="an export"):
+    """The options of an export beside the motion; each format takes some of them."""
 
-    Parameters
-    ----------
-    name
-        Of the variable or table.
-    points
-        How many points or segments, of points "best" for the number whose run has the least peak of the acceleration;
-        None for what the format would take.
-    counts
-        Steps of the slave's encoder over the stroke, to which positions are rounded.
-    digits
-        Digits behind the decimal sign.
-    decimal
-        The decimal sign, "." or ",".
-    interpolation
-        The interpolation that the file demands of the controller, where it can.
-    """
+    name: str = entry(Text(), "Of the variable or the table.", default="Cam")
+    points: int | str | None = entry(
+        Either(Whole(2, MOST_POINTS), Choice(BEST), which=lambda value: int(isinstance(value, str))),
+        'How many points or segments, or "best", the fewest points whose run is as good as that of any number; what '
+        "the format takes unless given.",
+        default=None,
+        example=361,
+    )
+    counts: int | None = entry(
+        Whole(2), "Steps of the slave's encoder over the stroke, to which positions are rounded.", default=None
+    )
+    digits: int | None = entry(Whole(most=17), "Behind the decimal sign of tables as text.", default=None)
+    decimal: str = entry(Text(), "The sign, a point or a comma.", default=".")
+    interpolation: str | None = entry(Text(), "That of the controller, where the format states it.", default=None)
 
-    name: str = "Cam"
-    points: int | str | None = None
-    counts: int | None = None
-    digits: int | None = None
-    decimal: str = "."
-    interpolation: str | None = None
-
-    def __post_init__(self) -> None:
-        if self.points is not None and self.points != BEST:
-            object.__setattr__(self, "points", whole(self.points, "points", least=2, most=MOST_POINTS))
-        if self.counts is not None:
-            object.__setattr__(self, "counts", whole(self.counts, "counts", least=2, most=2**53))
-        if self.digits is not None:
-            object.__setattr__(self, "digits", whole(self.digits, "digits", most=17))
-        for entry in ("name", "decimal", "interpolation"):
-            value: object = getattr(self, entry)
-            if not isinstance(value, str) and not (entry == "interpolation" and value is None):
-                raise InputError(f"{entry} must be text, got {shortened(value)}")
+    def _check(self) -> None:
         if self.decimal not in {".", ","}:
             raise InputError(f"decimal must be '.' or ',', got {shortened(self.decimal)}")
 
@@ -156,11 +138,10 @@ class Format:
         InputError
             If it is unknown, or means nothing to this format.
         """
-        known = {field.name for field in fields(Request)}
         given = {name: value for name, value in options.items() if value is not None}
+        with located("export"):
+            check_names(given, entries_of(Request), "option")
         for name in given:
-            if name not in known:
-                raise InputError(f"export: {unknown_key(name, sorted(known), 'option')}")
             if name not in {"name", *self.takes}:
                 raise InputError(f"{self.name} takes no {name}; it takes {', '.join(('name', *self.takes))}")
         return Request(**given)

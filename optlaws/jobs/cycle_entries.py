@@ -15,8 +15,9 @@ from optlaws.cycles.specification.load import ElasticFollower
 from optlaws.cycles.specification.segments import CycleSegment
 from optlaws.echo import shortened
 from optlaws.entries.declared import Declared, ValueOf, declared, entries_of, entry, same
-from optlaws.entries.value_types import Choice, Either, Listed, ReadBy, Switch, Text, Whole
+from optlaws.entries.value_types import Choice, Listed, ReadBy, Switch, Text, Whole
 from optlaws.errors import InputError, located
+from optlaws.exports.format import Request
 from optlaws.jobs.axes.axis_transitions import TransitionEntries
 from optlaws.jobs.axes.drive_entries import drive_of
 from optlaws.jobs.axes.entry_sweep import SweepEntries, SweptCycle, swept
@@ -42,22 +43,18 @@ class OverlapEntries(Declared, title="an overlap"):
 class ExportEntries(Declared, title="an export"):
     """An export of an axis: its format, its file, and the format's options."""
 
+    _: KW_ONLY
     to: str = entry(Text(), "A format of `optlaws export --list`.", example="rockwell-cam")
     file: str | None = entry(Text(), "The name of its file.", default=None)
     master: str = entry(Text(), "How far the master goes in a cycle.", default="360 deg")
     unit: str | None = entry(Text(), "Of positions.", default=None, example="mm")
-    points: int | str | None = entry(
-        Either(Whole(), Text(), which=lambda value: int(isinstance(value, str))),
-        'How many points, or "best", the fewest whose run is as good as that of any number.',
-        default=None,
-        example=361,
-    )
-    counts: int | None = entry(Whole(), "Steps of the encoder, to which positions are rounded.", default=None)
-    digits: int | None = entry(Whole(), "Behind the decimal sign of tables as text.", default=None)
-    decimal: str | None = entry(Text(), "The sign, a point or a comma.", default=None)
-    interpolation: str | None = entry(Text(), "That of the controller, where the format states it.", default=None)
+    points: int | str | None = same(Request, "points")
+    counts: int | None = same(Request, "counts")
+    digits: int | None = same(Request, "digits")
+    decimal: str | None = same(Request, "decimal", default=None)
+    interpolation: str | None = same(Request, "interpolation")
     task: str | None = entry(Text(), "Time of the drive's task, whose samples are reported.", default=None)
-    name: str | None = entry(Text(), "Of the variable or the table; that of the axis unless given.", default=None)
+    name: str | None = same(Request, "name", default=None)
 
 
 def _constants(value: Any) -> Any:

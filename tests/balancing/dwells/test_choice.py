@@ -68,5 +68,5 @@ def test_wrong_data_are_refused() -> None:
         compared(60, most_torque=0.0)
     with pytest.raises(InputError, match="most_torque must be positive, got '1'"):
         compared(60, most_torque="1")  # type: ignore[arg-type]
-    with pytest.raises(InputError, match="swing must be above 0, got -1.0"):
+    with pytest.raises(InputError, match=r"swing must be above 0, got -1\.0"):
         compared(60, swing=-1.0)
