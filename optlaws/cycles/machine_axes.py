@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import KW_ONLY, dataclass, field, replace
 from typing import Any, Literal, TypeAlias, Unpack
 
 from optlaws.cycles.cycle import Cycle
@@ -13,13 +13,15 @@ from optlaws.cycles.interlocks.interlock_kinds import checked
 from optlaws.cycles.specification.programme import is_optimal, period_of
 from optlaws.cycles.specification.segments import CycleSegment, Dwell
 from optlaws.echo import shortened
+from optlaws.entries.declared import Declared, declared, entry
+from optlaws.entries.value_types import Choice, Listed, Number, ReadBy, Text, check_names
 from optlaws.errors import InfeasibleProblem, InputError, located
 from optlaws.extras import needed
-from optlaws.files.reading import JsonText, all_entries_of
+from optlaws.files.reading import JsonText
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.laws.exporting import AxesExportOptions
-from optlaws.numbers import Quantity, positive
+from optlaws.numbers import Quantity
 from optlaws.suggest import keywords_of, unknown_key
 from optlaws.synthesis.status import Status
 from optlaws.tolerances import CLOSURE, CYCLE_OPTIMALITY
@@ -28,7 +30,6 @@ from optlaws.tolerances import CLOSURE, CYCLE_OPTIMALITY
 AxesPicture: TypeAlias = Literal["motion", "timing", "plane", "clearance"]
 
 FORMAT = "optlaws axes 1"
-_GOALS = ("period", "acceleration")
 
 
 @dataclass(frozen=True, repr=False, eq=False)
@@ -210,7 +211,8 @@ class Axes(JsonText, Mapping[str, Cycle]):
         }
         value = best.period if goal == "period" else 1.0 / best.pace**2
         axes = Axes(cycles, interlocks=self.rules)
-        overlap = Overlap(axes, goal, value, best.bound, (), self, tuple(longer))
+        numbers: dict[str, Any] = {"goal": goal, "objective": value, "lower_bound": best.bound}
+        overlap = Overlap(**numbers, of=tuple(longer), binding=(), axes=axes, given=self)
         return replace(overlap, binding=overlap.bound_by())
 
     @kept_property
@@ -294,9 +296,7 @@ class Axes(JsonText, Mapping[str, Cycle]):
         stored = data.get("axes") if isinstance(data, Mapping) else None
         if not isinstance(stored, Mapping) or data.get("format", FORMAT) != FORMAT:
             raise InputError(f"stored axes have format {FORMAT!r} and a table of axes, got {shortened(data)}")
-        for name in data:
-            if name not in {"format", "axes", "interlocks"}:
-                raise InputError(f"stored axes: {unknown_key(name, ('format', 'axes', 'interlocks'))}")
+        check_names(data, ("format", "axes", "interlocks"), "key of stored axes")
         cycles = {str(name): Cycle.from_dict(cycle) for name, cycle in stored.items()}
         return cls(cycles, interlocks=data.get("interlocks", ()))
 
@@ -416,39 +416,49 @@ class Axes(JsonText, Mapping[str, Cycle]):
         return {"speed": self.speed, "period": self.period}
 
 
-@dataclass(frozen=True, eq=False)
-class Overlap(JsonText):
-    """Axes with the best overlap of the search, and the bound that no other overlap passes.
+def _axes(value: Any) -> Axes:
+    return value if isinstance(value, Axes) else Axes.from_dict(value)
 
-    Attributes
-    ----------
-    axes
-        The machine with its new durations; laws that were given and strokes are those it had.
-    goal
-        "period" or "acceleration".
-    objective
-        The period in seconds, or the greatest acceleration as a share of what it was.
-    lower_bound
-        No instants and durations of the laws that the moves of `axes` have give less, in the order of the segments,
-        with all axes at rest when the cycle begins and each move of an axis around one rest of the other axis. Other
-        laws may have less.
-    binding
-        What leaves no room where the objective is least: limits of moves, dwells and interlocks, by their names.
-    given
-        The machine as it was.
-    of
-        The axes whose moves may take other times.
-    """
 
-    axes: Axes
-    goal: str
-    objective: float
-    lower_bound: float
-    binding: tuple[str, ...]
-    given: Axes
-    of: tuple[str, ...]
+def _stored(axes: Axes) -> dict[str, Any]:
+    """The axes as plain data, without names of formats of specifications."""
+    plain = axes.to_dict()
+    cycles = {name: {key: value for key, value in cycle.items() if key != "format"} for name, cycle in
+              plain["axes"].items()}  # fmt: skip
+    return {"axes": cycles, **({"interlocks": plain["interlocks"]} if axes.rules else {})}
 
-    _json_name = "axes that overlap"
+
+@declared
+class Overlap(Declared, title="axes that overlap"):
+    """Axes with the best overlap of the search, and the bound that no other overlap passes."""
+
+    writes_defaults = True
+    __eq__, __hash__ = object.__eq__, object.__hash__
+
+    _: KW_ONLY
+    goal: Literal["period", "acceleration"] = entry(Choice("period", "acceleration"), "What is least.")
+    objective: float = entry(
+        Number(above=0.0), "The period in seconds, or the greatest acceleration as a share of what it was."
+    )
+    lower_bound: float = entry(
+        Number(above=0.0),
+        "No instants and durations of the laws that the moves of `axes` have give less, in the order of the segments, "
+        "with all axes at rest when the cycle begins and each move of an axis around one rest of the other axis. Other "
+        "laws may have less.",
+    )
+    of: tuple[str, ...] = entry(Listed(Text()), "The axes whose moves may take other times.")
+    binding: tuple[str, ...] = entry(
+        Listed(Text()),
+        "What leaves no room where the objective is least: limits of moves, dwells and interlocks, by their names.",
+    )
+    axes: Axes = entry(
+        ReadBy(_axes, "axes", _stored), "The machine with its new durations; given laws and strokes are those it had."
+    )
+    given: Axes = entry(ReadBy(_axes, "axes", _stored), "The machine as it was.")
+
+    def _check(self) -> None:
+        for name in self.of:
+            self.given[name]
 
     @property
     def status(self) -> Status:
@@ -482,9 +492,7 @@ class Overlap(JsonText):
         >>> Overlap.from_json(best.to_json()).objective == best.objective, round(best.objective, 6)
         (True, 0.4)
         """
-        results = {name: getattr(self, name) for name in ("goal", "objective", "lower_bound")}
-        listed = {"of": list(self.of), "binding": list(self.binding)}
-        return results | listed | {"axes": _stored(self.axes), "given": _stored(self.given)}
+        return super().to_dict()
 
     @classmethod
     def from_dict(cls, data: Any) -> Overlap:
@@ -497,7 +505,7 @@ class Overlap(JsonText):
         """
         overlap = cls.stated(data)
         if wrong := overlap.contradiction():
-            raise InputError(f"{cls._json_name}: {wrong}")
+            raise InputError(f"{cls.named}: {wrong}")
         return overlap
 
     @classmethod
@@ -509,18 +517,7 @@ class Overlap(JsonText):
         InputError
             If an entry is missing, unknown or wrong.
         """
-        names = ("goal", "objective", "lower_bound", "of", "binding", "axes", "given")
-        read = all_entries_of(data, names, cls._json_name)
-        if read["goal"] not in _GOALS:
-            raise InputError(unknown_key(read["goal"], _GOALS, "goal"))
-        for name in ("of", "binding"):
-            if not isinstance(read[name], list) or not all(isinstance(each, str) for each in read[name]):
-                raise InputError(f"{name} must be a list of names, got {shortened(read[name])}")
-        axes, given = (Axes.from_dict(read[name]) for name in ("axes", "given"))
-        for name in read["of"]:
-            given[name]
-        objective, bound = (positive(read[name], name) for name in ("objective", "lower_bound"))
-        return cls(axes, read["goal"], objective, bound, tuple(read["binding"]), given, tuple(read["of"]))
+        return super().from_dict(data)
 
     def contradiction(self) -> str:
         """What is stated that the axes do not have; empty where all of it agrees."""
@@ -602,14 +599,6 @@ def _kept_segments(cycle: Cycle, other: Cycle) -> Iterator[tuple[CycleSegment, i
         else:
             yield segment, place
             place += 1
-
-
-def _stored(axes: Axes) -> dict[str, Any]:
-    """The axes as plain data, without names of formats of specifications."""
-    plain = axes.to_dict()
-    cycles = {name: {key: value for key, value in cycle.items() if key != "format"} for name, cycle in
-              plain["axes"].items()}  # fmt: skip
-    return {"axes": cycles, **({"interlocks": plain["interlocks"]} if axes.rules else {})}
 
 
 def _entries(given: Any) -> dict[str, Any]:

@@ -10,7 +10,19 @@ from typing import Any, NamedTuple, Protocol, Self, TypeAlias, cast, get_args
 
 from optlaws.echo import shortened
 from optlaws.entries.declared import Declared, declared, entry
-from optlaws.entries.value_types import Choice, Either, Kept, Listed, Number, ReadBy, Table, Together, is_list, pairs
+from optlaws.entries.value_types import (
+    Choice,
+    Either,
+    Kept,
+    Listed,
+    Number,
+    ReadBy,
+    Table,
+    Together,
+    check_names,
+    is_list,
+    pairs,
+)
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.files.reading import JsonText, entries_of
 from optlaws.formulas.reading import read
@@ -140,9 +152,7 @@ class MoveLimit(JsonText):
                 "without which its unit cannot be checked: compute it again with this version and write a new file"
             )
         known = entries_of(data, _ENTRIES, "the limit of a move")
-        for name in data:
-            if name not in _ENTRIES:
-                raise InputError(unknown_key(name, _ENTRIES, "entry of the limit of a move"))
+        check_names(data, _ENTRIES, "entry of the limit of a move")
         limit = cls(DriveLimit.stated(known["drive_limit"]), LimitedMove.from_dict(known["move"]))
         unit = positive(known["unit"], "unit")
         if known["dimension"] != limit.dimension:
