@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from math import isfinite
 from typing import Any, Self
 
 from optlaws.echo import shortened
+from optlaws.entries.declared import Declared, declared, entry
+from optlaws.entries.value_types import Either, Number, Stored, Table, Text, Together, is_list
 from optlaws.errors import InputError
 from optlaws.extras import needed
-from optlaws.files.reading import JsonText, entries_of
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.laws.catalogue.reading import read_law
@@ -25,24 +25,12 @@ from optlaws.tolerances import AGREEMENT
 FAR = 1.5
 CONSTANTS = ("B", "C", "D", "J", "rms_c")
 _MACHINE = {1: "velocity, {}/s", 2: "acceleration, {}/s²", 3: "jerk, {}/s³"}
-_GIVEN = ("stroke", "duration", "unit", "frequency", "damping")
 _PEAKS = {"D": "power", "J": "jerk"}
 
 
-@dataclass(frozen=True)
-class Comparison(JsonText):
+@declared
+class Comparison(Declared, title="a comparison"):
     """Laws with their constants, computed by `compare_laws`; a row for each law.
-
-    Attributes
-    ----------
-    laws
-        The laws by their names, in the order given.
-    stroke, duration
-        Stroke (m or rad) and duration (s) of the machine; None where peaks stay dimensionless.
-    unit
-        That of the stroke, "m" or "rad".
-    frequency, damping
-        Of the follower whose residual acceleration is listed, in units of a''; the frequency may be a range, or None.
 
     Examples
     --------
@@ -52,14 +40,21 @@ class Comparison(JsonText):
     (['modified sine', 'cycloidal'], [5.528, 6.2832])
     """
 
-    _json_name = "a comparison"
+    writes_defaults = True
+    computes = True
 
-    laws: Mapping[str, MotionLaw]
-    stroke: float | None = None
-    duration: float | None = None
-    unit: str = "m"
-    frequency: float | tuple[float, float] | None = None
-    damping: float = 0.0
+    laws: Mapping[str, MotionLaw] = entry(Table(Stored(MotionLaw)), "The laws by their names, in the order given.")
+    stroke: float | None = entry(
+        Number(), "Of the machine, m or rad; peaks stay dimensionless unless given.", default=None
+    )
+    duration: float | None = entry(Number(), "Of the machine, s.", default=None)
+    unit: str = entry(Text(), 'That of the stroke, "m" or "rad".', default="m")
+    frequency: float | tuple[float, float] | None = entry(
+        Either(Number(), Together(Number(), Number(), names=("low", "high")), which=is_list),
+        "Of the follower whose residual acceleration is listed, in units of a''.",
+        default=None,
+    )
+    damping: float = entry(Number(), "Its damping ratio.", default=0.0)
 
     @kept_property
     def rows(self) -> list[dict[str, float | str]]:
@@ -83,10 +78,7 @@ class Comparison(JsonText):
             {key: value if isinstance(value, str) else bounded(value) for key, value in row.items()}
             for row in self.rows
         ]
-        frequency = list(self.frequency) if isinstance(self.frequency, tuple) else self.frequency
-        given = {name: getattr(self, name) for name in _GIVEN} | {"frequency": frequency}
-        laws = {name: law.to_dict() for name, law in self.laws.items()}
-        return {"rows": rows, "remarks": list(self.remarks), "laws": laws, **given}
+        return {"rows": rows, "remarks": list(self.remarks), **super().to_dict()}
 
     @classmethod
     def from_dict(cls, data: Mapping[str, Any]) -> Self:
@@ -97,13 +89,7 @@ class Comparison(JsonText):
         InputError
             If an entry is missing or wrong.
         """
-        given = entries_of(data, ("laws", *_GIVEN), cls._json_name)
-        laws = given.pop("laws")
-        if not isinstance(laws, Mapping):
-            raise InputError(f"the laws of a comparison must be a table, got {shortened(laws)}")
-        if isinstance(given["frequency"], list):
-            given["frequency"] = tuple(given["frequency"])
-        comparison = cls({name: MotionLaw.from_dict(law) for name, law in laws.items()}, **given)
+        comparison = super().from_dict(data)
         comparison.rows  # noqa: B018 - what is wrong is refused at once
         return comparison
 

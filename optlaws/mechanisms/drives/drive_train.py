@@ -307,7 +307,6 @@ class Drive(Declared, title="a drive"):
         dimensions = DIMENSIONS[self.mechanism.axis]
         bounds = MoveBounds.read(limits, dimensions).plain(dimensions["load"])
         time = None if duration is None else way.duration
-        heat = MoveCosts.read(self.regeneration, heat).heat
         return move_limit(LimitedMove(self, minimise, way.start, way.stroke, time, bounds, heat=heat))
 
     def sheet(
@@ -501,7 +500,7 @@ def phase_move_of(move: LimitedMove) -> PhaseMove:
     lines = [] if move.minimise == "peak torque" else drive.motor.peak_lines
     bounds = MoveBounds.read(dict(move.limits), DIMENSIONS[drive.mechanism.axis]).over(way.start, way.stroke)
     bounds = bounds.within(drive.motor.greatest_speed / drive.ratio, [(top, fall * drive.ratio) for top, fall in lines])
-    return PhaseMove(moved.torque, scales, bounds, MoveCosts.read(drive.regeneration, move.heat), way.holding)
+    return PhaseMove(moved.torque, scales, bounds, MoveCosts(drive.regeneration, move.heat), way.holding)
 
 
 MOVED["drive"] = MovedKind(Drive, phase_move_of)

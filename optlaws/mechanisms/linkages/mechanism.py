@@ -443,8 +443,7 @@ class Mechanism(JsonText):
         moved = self.dimensionless(start, stroke, duration_of(minimise, duration))
         bounds = MoveBounds.read(limits, DIMENSIONS[self.axis]).plain(DIMENSIONS[self.axis]["load"])
         time = None if duration is None else moved.duration
-        costs = MoveCosts.read(recovered, heat)
-        return move_limit(LimitedMove(self, minimise, moved.start, moved.stroke, time, bounds, *costs))
+        return move_limit(LimitedMove(self, minimise, moved.start, moved.stroke, time, bounds, recovered, heat))
 
     def with_friction(self, *, coulomb: NumberOrQuantity = 0.0, viscous: NumberOrQuantity = 0.0) -> Self:
         """The mechanism with this friction at its input in place of its own."""
@@ -574,7 +573,7 @@ def phase_move_of(move: LimitedMove) -> PhaseMove:
     velocity, dimension = abs(moved.stroke) / moved.duration, "N m" if mechanism.axis == "angle" else "N"
     scales = MoveScales(moved.unit, moved.energy_unit, velocity, moved.duration, dimension)
     bounds = MoveBounds.read(dict(move.limits), DIMENSIONS[mechanism.axis]).over(moved.start, moved.stroke)
-    return PhaseMove(moved.torque, scales, bounds, MoveCosts.read(move.recovered, move.heat), moved.holding)
+    return PhaseMove(moved.torque, scales, bounds, MoveCosts(move.recovered, move.heat), moved.holding)
 
 
 MOVED["mechanism"] = MovedKind(Mechanism, phase_move_of)

@@ -9,10 +9,11 @@ from math import fsum, inf, nextafter
 from typing import Any, NamedTuple, Protocol, Self, TypeAlias, cast, get_args
 
 from optlaws.echo import shortened
-from optlaws.entries.declared import Declared, declared, entry
+from optlaws.entries.declared import Declared, TableOf, declared, entry
 from optlaws.entries.value_types import (
     Choice,
     Either,
+    InSI,
     Kept,
     Listed,
     Number,
@@ -29,9 +30,7 @@ from optlaws.formulas.reading import read
 from optlaws.formulas.slopes import scaled
 from optlaws.kept import kept_property
 from optlaws.lazy import Registry
-from optlaws.motion.quantities import si_number
-from optlaws.numbers import finite, not_negative, positive
-from optlaws.suggest import unknown_key
+from optlaws.numbers import positive
 from optlaws.synthesis.limits.drive_limits import (
     LONG,
     DriveLimit,
@@ -264,6 +263,13 @@ class LimitedMove(Declared, title="a move with its limits"):
         return {"driven": MOVED[kinds[0]].source.from_dict(data.pop(kinds[0])), **data}
 
 
+def _bound(axis: str, dimension: str) -> Any:
+    """The entry of a bound of a move, or of bounds over parts of its way."""
+    position, bound = InSI(axis), InSI(dimension, above=0.0)
+    parts = Listed(Together(position, position, bound, names=("from", "to", "bound")))
+    return entry(Either(bound, parts, which=is_list), "The greatest.", default=None, example=bound.example)
+
+
 class MoveBounds(NamedTuple):
     """Bounds of a move, in SI units.
 
@@ -295,21 +301,13 @@ class MoveBounds(NamedTuple):
         """
         axis, load = ("angle", "torque") if dimensions["load"] == "torque" else ("length", "force")
         known = {"velocity": "velocity", "acceleration": "acceleration", load: "load"}
+        table = TableOf("limit of a move", {name: _bound(axis, dimensions[kind]) for name, kind in known.items()})
         given, windows = dict[str, float](), list[tuple[str, float, float, float]]()
-        for name, value in (limits or {}).items():
-            if name not in known:
-                raise InputError(unknown_key(name, known, "limit of a move"))
-            for part in value if isinstance(value, list | tuple) else [(None, None, value)]:
-                if not isinstance(part, list | tuple) or len(part) != _PART:
-                    raise InputError(
-                        f"{name} must be one bound, or a list of two positions with a bound, got {shortened(value)}"
-                    )
-                bound = positive(si_number(part[2], (dimensions[known[name]],), name), name)
-                if part[0] is None:
-                    given[name] = bound
-                else:
-                    ends = sorted(finite(si_number(end, (axis,), f"{name}: position"), name) for end in part[:2])
-                    windows.append((known[name], ends[0], ends[1], bound))
+        for name, value in table.read(limits or {}, "limits").items():
+            if isinstance(value, tuple):
+                windows += [(known[name], *sorted((first, last)), bound) for first, last, bound in value]
+            else:
+                given[name] = value
         torques = ((given[load], 0.0),) if load in given else ()
         return cls(given.get("velocity", inf), given.get("acceleration", inf), torques, tuple(windows))
 
@@ -387,20 +385,6 @@ class MoveCosts(NamedTuple):
 
     recovered: float = 0.0
     heat: float = 0.0
-
-    @classmethod
-    def read(cls, recovered: Any, heat: Any) -> MoveCosts:
-        """The costs of a move's energy, from the share of regeneration and the heat as numbers.
-
-        Raises
-        ------
-        InputError
-            If the share is not from 0 to 1, or the heat is below 0.
-        """
-        share = finite(recovered, "recovered")
-        if not 0.0 <= share <= 1.0:
-            raise InputError(f"recovered must be a share from 0 to 1, got {shortened(recovered)}")
-        return cls(share, not_negative(heat, "heat"))
 
 
 class PhaseMove(NamedTuple):

@@ -139,7 +139,7 @@ def test_a_motor_that_is_too_weak_is_told_what_is_reachable() -> None:
         ({"limits": {"speed": 3.0}}, "velocity"),
         ({"limits": {"torque": -1.0}}, "torque must be above 0"),
         ({"limits": {"velocity": "3 m/s"}}, "velocity"),
-        ({"recovered": 1.5, "minimise": "energy"}, "from 0 to 1"),
+        ({"recovered": 1.5, "minimise": "energy"}, "recovered must be at most 1, got 1.5"),
         ({"recovered": nan, "minimise": "energy"}, "recovered"),
         ({"heat": 1.0}, "minimise='energy'"),
         ({"duration": None}, "duration is missing"),
