@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import json
+import re
 from functools import cache
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -11,6 +13,7 @@ from optlaws.errors import InputError
 from optlaws.suggest import unknown_key
 
 _PACKAGE = Path(__file__).resolve().parent
+_REFERENCE = re.compile(r'"#/\$defs/(\w+)"')
 #: a file of a proof alone, which has a schema of its own
 _CERTIFICATE = "certificate"
 _KINDS = (
@@ -63,8 +66,14 @@ def json_schema(kind: str) -> dict[str, Any]:
     if kind not in _KINDS:
         raise InputError(unknown_key(kind, _KINDS, "kind of file"))
     formats, proofs = _read("files", "formats"), _read("verification", "proof")
-    declared = {"cycle": _cycle()} if kind in {"cycle", "axes"} else {}
-    definitions = {**proofs["$defs"], **formats["$defs"], **declared, _CERTIFICATE: {"oneOf": proofs["oneOf"]}}
+    known = {**proofs["$defs"], **formats["$defs"], _CERTIFICATE: {"oneOf": proofs["oneOf"]}}
+    definitions: dict[str, Any] = {}
+    missing = [kind]
+    while missing:
+        name = missing.pop()
+        if name not in definitions:
+            definitions[name] = _defined(known[name])
+            missing += _REFERENCE.findall(json.dumps(definitions[name]))
     return {
         "$schema": formats["$schema"],
         "title": f"{kind} of optlaws",
@@ -73,14 +82,18 @@ def json_schema(kind: str) -> dict[str, Any]:
     }
 
 
-def _cycle() -> dict[str, Any]:
-    """The schema of a cycle, whose laws are looked for again when it is read, from the entries that it declares."""
-    from optlaws.cycles.cycle import Cycle
-    from optlaws.cycles.interchange import FORMAT
-
-    schema = Cycle.json_schema()
-    more = {"format": {"const": FORMAT}, "about": {"$ref": "#/$defs/about"}}
-    return {**schema, "properties": {**more, **schema["properties"]}, "required": ["format", *schema["required"]]}
+def _defined(definition: dict[str, Any]) -> dict[str, Any]:
+    """A definition, with the entries of the class that it names as `declared`."""
+    if "declared" not in definition:
+        return definition
+    module, _, name = definition["declared"].rpartition(".")
+    schema = getattr(import_module(module), name).json_schema()
+    return {
+        **schema,
+        **{key: value for key, value in definition.items() if key != "declared"},
+        "properties": {**definition.get("properties", {}), **schema.get("properties", {})},
+        "required": [*definition.get("required", []), *schema.get("required", [])],
+    }
 
 
 @cache

@@ -11,12 +11,13 @@ import json
 import os
 import stat
 from codecs import BOM_UTF16_BE, BOM_UTF16_LE
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, ClassVar, Self
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError
+from optlaws.suggest import unknown_key
 
 LARGEST_TOML = 1_000_000
 LARGEST_JSON = 64_000_000
@@ -129,13 +130,13 @@ def of_known_format(data: Mapping[str, Any], name: str) -> dict[str, Any]:
     return entries
 
 
-def entries_of(data: Any, names: Iterable[str], what: str) -> dict[str, Any]:
-    """The named entries of a stored value, from which the others are computed; errors call it `what`.
+def entries_of(data: Any, names: Sequence[str], what: str, *, alone: bool = False) -> dict[str, Any]:
+    """The named entries of a stored value, from which others are computed, unless they stand `alone`.
 
     Raises
     ------
     InputError
-        If it is no table, or one is missing.
+        If it is no table, one is missing, or there is another though they stand alone; errors call the value `what`.
 
     Examples
     --------
@@ -147,26 +148,10 @@ def entries_of(data: Any, names: Iterable[str], what: str) -> dict[str, Any]:
     missing = [name for name in names if name not in data]
     if missing:
         raise InputError(f"{what} needs {', '.join(missing)}")
+    for name in data if alone else ():
+        if name not in names:
+            raise InputError(unknown_key(name, names, f"entry of {what}"))
     return {name: data[name] for name in names}
-
-
-def all_entries_of(data: Any, names: Sequence[str], what: str) -> dict[str, Any]:
-    """The entries of a stored value that has exactly these; errors call it `what`.
-
-    Raises
-    ------
-    InputError
-        If it is no table, one is missing, or there is another.
-
-    Examples
-    --------
-    >>> all_entries_of({"B": 1.5}, ["B"], "a loader")
-    {'B': 1.5}
-    """
-    entries = entries_of(data, names, what)
-    if len(data) > len(names):
-        raise InputError(f"{what} has the entries {', '.join(names)} and no other")
-    return entries
 
 
 class JsonText:

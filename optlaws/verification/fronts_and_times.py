@@ -9,7 +9,7 @@ from itertools import pairwise
 from typing import Any
 
 from optlaws.errors import OptlawsError
-from optlaws.files.reading import all_entries_of
+from optlaws.files.reading import entries_of
 from optlaws.lazy import imported
 from optlaws.numbers import real
 from optlaws.synthesis.least_time.least_time import LeastTime
@@ -193,7 +193,7 @@ def time_front(data: Mapping[str, Any], of_least: Verification, of_points: Seque
     """
     least = _stated(data["fastest"])
     objective = built(MoveObjective.from_dict, data["minimise"], "what is least")
-    rows = [all_entries_of(row, _KEYS, f"points[{i}]") for i, row in enumerate(data["points"])]
+    rows = [entries_of(row, _KEYS, f"points[{i}]", alone=True) for i, row in enumerate(data["points"])]
     durations = [number(row, "duration") for row in rows]
     ascending = bool(rows) and durations[0] >= least.duration and all(low < high for low, high in pairwise(durations))
     detail = "they ascend, none below the least time" if ascending else "they do not ascend from the least time on"

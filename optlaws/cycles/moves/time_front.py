@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 from optlaws.cycles.moves.fastest_move import AXES, FastestMove
 from optlaws.echo import shortened
 from optlaws.errors import InputError
-from optlaws.files.reading import JsonText, all_entries_of
+from optlaws.files.reading import JsonText, entries_of
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.motion.piece import unit_of
@@ -254,9 +254,9 @@ class TimeFront(JsonText):
         InputError
             If an entry is missing or wrong, or states what does not follow from laws and proofs.
         """
-        entries = all_entries_of(data, _KEYS, cls._json_name)
+        entries = entries_of(data, _KEYS, cls._json_name, alone=True)
         rows = [
-            all_entries_of(row, _POINT_KEYS, f"points[{i}]")
+            entries_of(row, _POINT_KEYS, f"points[{i}]", alone=True)
             for i, row in enumerate(listed(entries["points"], "points", MOST_POINTS))
         ]
         with meant():

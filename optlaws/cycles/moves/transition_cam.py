@@ -3,21 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from math import sqrt
 from typing import Any, Literal, Unpack, get_args
 
 from optlaws.cycles.moves.fastest_move import AXES, FastestMove
 from optlaws.echo import shortened
+from optlaws.entries.declared import Declared, declared, entry
+from optlaws.entries.value_types import Choice, Number, ReadBy, Stored, Together, check_names
 from optlaws.errors import InputError
-from optlaws.files.reading import JsonText, all_entries_of
 from optlaws.kept import kept_property
 from optlaws.laws.exporting import ExportOptions
 from optlaws.laws.making.transform import mirrored_law
 from optlaws.motion.motion import MASTERS, Motion, motion_of_pieces
 from optlaws.motion.piece import Piece, unit_of
 from optlaws.motion.quantities import QUANTITIES, given_quantity
-from optlaws.numbers import Quantity, derivative, finite, listed, number_or_array, positive, real_times
+from optlaws.numbers import Quantity, derivative, number_or_array, real_times
 from optlaws.shown.summary import Row, Summary
 from optlaws.suggest import keywords_of
 from optlaws.synthesis.solution import Solution
@@ -25,36 +26,21 @@ from optlaws.synthesis.status import Status
 from optlaws.tolerances import JUMP, STORED_VALUE
 
 TransitionKind = Literal["run-in", "run-out"]
-_KEYS = ("kind", "unit", "period", "at", "rest", "state", "duration", "best", "least")
+_POSITIVE, _NUMBER = Number(above=0.0), Number()
+_UNITS = {axis: unit for unit, axis in AXES.items()}
 
 
-@dataclass(frozen=True, repr=False)
-class TransitionCam(JsonText):
+def _axis(value: Any) -> str:
+    check_names([value], [*AXES, *_UNITS], "unit of positions")
+    return str(AXES.get(value, value))
+
+
+@declared
+class TransitionCam(Declared, title="a transition cam"):
     """A cam beside a cycle's cam: it starts the axis from rest, or stops it, while the master keeps turning.
 
     Where it meets the cycle position, velocity and acceleration are those of the cycle, from order 4 on the jerk too.
     Call it for the motion in SI units over the time since it began.
-
-    Attributes
-    ----------
-    kind
-        "run-in" from rest into the cycle, "run-out" from the cycle to rest.
-    axis
-        Whether positions are a "length" or an "angle".
-    period
-        Of the cycle, s.
-    at
-        The time in the cycle at which it meets the cycle, s.
-    rest
-        The position of rest, m or rad.
-    state
-        Position, velocity, acceleration and jerk of the cycle where they meet, in SI units.
-    duration
-        How long it takes, s.
-    solution
-        The law from rest to this state, dimensionless, with its proof; that of a run-out runs backwards in time.
-    least
-        The proof that no law of its space takes less time; None where the time was given.
 
     Examples
     --------
@@ -67,17 +53,30 @@ class TransitionCam(JsonText):
     (True, 0.14, 0.0)
     """
 
-    kind: TransitionKind
-    axis: str
-    period: float
-    at: float
-    rest: float
-    state: tuple[float, float, float, float]
-    duration: float
-    solution: Solution
-    least: FastestMove | None = None
+    writes_defaults = True
 
-    _json_name = "a transition cam"
+    kind: TransitionKind = entry(
+        Choice(*get_args(TransitionKind)), "From rest into the cycle, or from the cycle to rest."
+    )
+    axis: str = entry(
+        ReadBy(_axis, '"m" or "rad"', _UNITS.__getitem__), 'Positions are a "length" or an "angle".', name="unit"
+    )
+    period: float = entry(_POSITIVE, "Of the cycle, s.")
+    at: float = entry(_NUMBER, "The time in the cycle at which it meets the cycle, s.")
+    rest: float = entry(_NUMBER, "The position of rest, m or rad.")
+    state: tuple[float, float, float, float] = entry(
+        Together(*(_NUMBER,) * len(QUANTITIES), names=QUANTITIES), "Of the cycle where they meet, in SI units."
+    )
+    duration: float = entry(_POSITIVE, "How long it takes, s.")
+    solution: Solution = entry(
+        Stored(Solution),
+        "The law from rest to this state, dimensionless, with its proof; that of a run-out runs backwards in time.",
+        name="best",
+        default=None,
+    )
+    least: FastestMove | None = entry(
+        Stored(FastestMove), "The proof that no law of its space takes less time, where none was given.", default=None
+    )
 
     @property
     def status(self) -> Status:
@@ -217,11 +216,7 @@ class TransitionCam(JsonText):
 
     def to_dict(self) -> dict[str, Any]:
         """Plain JSON-able dict in SI units, with the law and its proof."""
-        unit = next(unit for unit, axis in AXES.items() if axis == self.axis)
-        origin = {"best": self.solution.to_dict()} if self.least is None else {"least": self.least.to_dict()}
-        numbers = {name: getattr(self, name) for name in ("period", "at", "rest", "duration")}
-        entries = {"kind": self.kind, "unit": unit, **numbers, "state": list(self.state)}
-        return entries | {"best": None, "least": None} | origin
+        return super().to_dict() | ({} if self.least is None else {"best": None})
 
     def claims(self) -> dict[str, Any]:
         """The law and its proof as `optlaws verify` takes them; of a run-out it runs backwards in time.
@@ -246,33 +241,21 @@ class TransitionCam(JsonText):
         InputError
             If an entry is missing or wrong, or the law does not meet the cycle.
         """
-        entries = all_entries_of(data, _KEYS, cls._json_name)
-        kinds = {"kind": get_args(TransitionKind), "unit": tuple(AXES)}
-        for name, known in kinds.items():
-            if entries[name] not in known:
-                raise InputError(f"{name} of {cls._json_name} is {' or '.join(known)}, got {shortened(entries[name])}")
-        if (entries["least"] is None) == (entries["best"] is None):
-            raise InputError(f"{cls._json_name} has either the best law of its time or a least time")
-        least = None if entries["least"] is None else FastestMove.from_dict(entries["least"])
-        listed_state = listed(entries["state"], "state", len(QUANTITIES))
-        if len(listed_state) != len(QUANTITIES):
-            raise InputError(f"state must be {len(QUANTITIES)} numbers, got {shortened(entries['state'])}")
-        position, velocity, acceleration, jerk = (finite(value, "state") for value in listed_state)
-        read = cls(
-            entries["kind"],
-            AXES[entries["unit"]],
-            positive(entries["period"], "period"),
-            finite(entries["at"], "at"),
-            finite(entries["rest"], "rest"),
-            (position, velocity, acceleration, jerk),
-            positive(entries["duration"], "duration"),
-            Solution.from_dict(entries["best"]) if least is None else least.least.solution,
-            least,
-        )
-        read._check()
+        read = super().from_dict(data)
+        read._check_law()  # noqa: SLF001 - a method of its own
         return read
 
-    def _check(self) -> None:
+    @classmethod
+    def _from_earlier(cls, data: dict[str, Any]) -> dict[str, Any]:
+        least = data.get("least")
+        if (least is None) == (data.get("best") is None):
+            raise InputError(f"{cls.named} has either the best law of its time or a least time")
+        if least is None:
+            return data
+        read = FastestMove.from_dict(least)
+        return data | {"least": read, "best": read.least.solution}
+
+    def _check_law(self) -> None:
         """Refuse a law that does not meet the cycle, or a least time of another move."""
         order = self.solution.problem.order
         side = 1 if self.kind == "run-in" else 0
@@ -280,9 +263,9 @@ class TransitionCam(JsonText):
             size = self._size(nu)
             still = abs(self.piece.end(nu, 1 - side) - (self.rest if nu == 0 else 0.0))
             if max(abs(jump), still) > sqrt(STORED_VALUE) * size:
-                raise InputError(f"the law of {self._json_name} does not meet its state or its rest")
+                raise InputError(f"the law of {self.named} does not meet its state or its rest")
         if self.least is not None and self.least.duration != self.duration:
-            raise InputError(f"{self._json_name} takes {self.duration!r} s, but its least time is another")
+            raise InputError(f"{self.named} takes {self.duration!r} s, but its least time is another")
 
     def __repr__(self) -> str:
         first, last = self.master

@@ -20,7 +20,6 @@ from optlaws.entries.value_types import (
     ReadBy,
     Table,
     Together,
-    check_names,
     is_list,
     pairs,
 )
@@ -150,8 +149,7 @@ class MoveLimit(JsonText):
                 f"{cls._json_name} was written by a version of optlaws that did not store its mechanism and its move, "
                 "without which its unit cannot be checked: compute it again with this version and write a new file"
             )
-        known = entries_of(data, _ENTRIES, "the limit of a move")
-        check_names(data, _ENTRIES, "entry of the limit of a move")
+        known = entries_of(data, _ENTRIES, cls._json_name, alone=True)
         limit = cls(DriveLimit.stated(known["drive_limit"]), LimitedMove.from_dict(known["move"]))
         unit = positive(known["unit"], "unit")
         if known["dimension"] != limit.dimension:

@@ -72,6 +72,10 @@ class ProblemTable(TableOf):
     def words(self) -> str:
         return "a table of entries of a problem"
 
+    def schema(self) -> dict[str, Any]:
+        types = {key: {"anyOf": [each.type.schema(), {"type": "null"}]} for key, each in self.entries.items()}
+        return {**super().schema(), "properties": types}
+
 
 def _entry(type_: Any, about: str, label: str = "", *, default: Any = None, example: Any = None) -> Any:
     return entry(type_, about, label=label, default=default, example=example)
