@@ -70,8 +70,9 @@ def _remedy(error: str) -> str:
 
 
 def _check_keys(data: Any, spec: Any, where: str) -> None:
-    spec = next((part for part in get_args(spec) if part is not type(None)), spec) if _optional(spec) else spec
     origin, inner = get_origin(spec), get_args(spec)
+    for part in inner if origin is UnionType else ():
+        _check_keys(data, part, where)
     if origin is Literal and isinstance(data, str) and data not in inner:
         raise InputError(f"{where}: {unknown_key(data, map(str, inner), 'value')}")
     if origin is list and isinstance(data, list):
@@ -87,7 +88,3 @@ def _check_keys(data: Any, spec: Any, where: str) -> None:
             if key not in names:
                 raise InputError(f"{where}: {unknown_key(key, names)}")
             _check_keys(item, names[key], f"{where}, {key}")
-
-
-def _optional(spec: Any) -> bool:
-    return isinstance(spec, UnionType) and type(None) in get_args(spec)

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from optlaws.cycles.specification.frozen import FrozenTable
+from optlaws.echo import shortened
 from optlaws.entries.declared import Declared, ValueOf, declared, entry, same
 from optlaws.entries.value_types import (
     Choice,
@@ -33,7 +34,15 @@ from optlaws.synthesis.solve import Bound
 BOUNDS, AT_MOST, _ = PREFIXES = ("bounds.", "at_most.", "at_least.")
 _PLACE = re.compile(r"\{(?:1-)?(\w+)\}")
 _COUNT = Whole(1, 10_000_000)
-_VALUES = Listed(ReadBy(lambda value: value, "a value"), least=1, most=_COUNT.most)
+
+
+def _values(given: Any) -> tuple[Any, ...]:
+    if not isinstance(given, list | tuple) or not given:
+        raise InputError(f"it must be a list of one value at least, got {shortened(given)}")
+    return tuple(given)
+
+
+_VALUES = ReadBy(_values, "a list of values", list, {"type": "array", "minItems": 1})
 
 
 # the order of the entries of these classes is part of the hash of a study

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import msgspec
 
+from optlaws.entries.value_types import check_names
 from optlaws.errors import InputError
 from optlaws.extras import needed
 from optlaws.kept import kept_property
@@ -17,7 +18,6 @@ from optlaws.laws import MotionLaw
 from optlaws.studies.points import StudyPoints
 from optlaws.studies.store import GROUP, Chunks, StudyDirectory
 from optlaws.studies.tables import CONSTANTS, StudyPoint, arrow, dataset, row_of, schema
-from optlaws.suggest import unknown_key
 from optlaws.synthesis import Status
 
 if TYPE_CHECKING:
@@ -141,11 +141,8 @@ class Study:
             If the constant or an entry is unknown, or no point with a law has these values.
         """
         known, condition = (*CONSTANTS, "objective"), dict(where or {})
-        if constant not in known:
-            raise InputError(unknown_key(constant, known, "constant"))
-        for name in condition:
-            if name not in self.file.names():
-                raise InputError(unknown_key(name, self.file.names(), "entry that varies"))
+        check_names([constant], known, "constant")
+        check_names(condition, self.file.names(), "entry that varies")
         points = (
             point
             for point in self

@@ -322,7 +322,7 @@ def test_run_of_what_is_not_text(capsys: Capture, tmp_path: Path) -> None:
         ("degree = [3, 9]", "degree = 3", "degree"),
         ("degree = [3, 9]", "degree = [0, 9]", "degree"),
         ('minimise = "J"', "minimise = nan", "minimise"),
-        ("[1.5, 1.8]", "[1.5, nan]", "B[1]"),
+        ("[1.5, 1.8]", "[1.5, nan]", "sweep 1: B 2: high must be a finite real number, got nan"),
         ("printed.csv", "missing.csv", "missing.csv"),
         ("printed.csv", "..", "cannot read"),
     ],

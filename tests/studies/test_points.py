@@ -159,7 +159,7 @@ def test_a_key_depends_on_the_problem_alone() -> None:
             "vary: B: unknown entry of a range 'step'; did you mean 'steps'",
         ),
         ({"vary": {"B": {"from": 1.5, "to": 2.0}}}, "steps"),
-        ({"vary": {"B": []}}, "vary: B must be a list of 1 at least"),
+        ({"vary": {"B": []}}, "vary: B: it must be a list of one value at least"),
         ({"vary": {"J": {"from": 0, "to": 9, "steps": 2, "scale": "log"}}}, "a log scale needs from and to above 0"),
         (
             {"vary": {"degree": {"from": 3, "to": 6, "steps": 3}}},

@@ -13,11 +13,10 @@ import numpy as np
 
 from optlaws.echo import shortened
 from optlaws.entries.declared import Declared, declared, entry
-from optlaws.entries.value_types import InSI, Kept, Listed, Number, SILimit, SINumber, Text, Together
+from optlaws.entries.value_types import InSI, Kept, Listed, Number, SILimit, SINumber, Text, Together, check_names
 from optlaws.errors import InputError, located
 from optlaws.files.reading import toml
 from optlaws.numbers import Array, NumberOrQuantity
-from optlaws.suggest import unknown_key
 
 #: what a motor's torque depends on; all else limits it
 OF_TORQUE = ("inertia", "coulomb", "viscous", "constant")
@@ -87,9 +86,8 @@ class Motor(Declared, title="a motor"):
     friction: InitVar[Mapping[str, NumberOrQuantity] | None] = None
 
     def __post_init__(self, friction: Mapping[str, NumberOrQuantity] | None) -> None:
+        check_names(friction or {}, ("coulomb", "viscous"), "friction of a motor")
         for name, value in (friction or {}).items():
-            if name not in ("coulomb", "viscous"):
-                raise InputError(unknown_key(name, ("coulomb", "viscous"), "friction of a motor"))
             object.__setattr__(self, name, value)
         super().__post_init__()
 

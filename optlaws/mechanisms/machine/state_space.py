@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.echo import shortened
+from optlaws.entries.value_types import check_names
 from optlaws.errors import InputError
 from optlaws.files.reading import JsonText
 from optlaws.kept import kept_property
@@ -176,9 +177,7 @@ class StateSpace(JsonText):
         """The machine that `to_dict` wrote."""
         if not isinstance(data, Mapping):
             raise InputError(f"a machine must be a table of A, B, C, D, inputs and outputs, got {shortened(data)}")
-        for name in data:
-            if name not in _ENTRIES:
-                raise InputError(unknown_key(name, _ENTRIES, "entry of a machine"))
+        check_names(data, _ENTRIES, "entry of a machine")
         for name in "ABC":
             if name not in data:
                 raise InputError(f"a machine needs its matrix {name}")

@@ -15,7 +15,7 @@ import numpy as np
 from optlaws.echo import shortened
 from optlaws.entries import value_types as types
 from optlaws.entries.declared import Declared, ValueOf, declared, entry
-from optlaws.entries.value_types import Choice, Listed, Numbers
+from optlaws.entries.value_types import Choice, Listed, Numbers, check_names
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.files.reading import of_known_format
 from optlaws.formulas.reading import read
@@ -23,7 +23,6 @@ from optlaws.formulas.slopes import constant
 from optlaws.formulas.tree import Call, Exponentiation, Formula, Number, Product, Sum, product
 from optlaws.kept import kept_property
 from optlaws.numbers import Array, not_negative, positive, power_of_two
-from optlaws.suggest import unknown_key
 from optlaws.synthesis.functionals.kinds import FormulaIntegral, FormulaPeak, FormulaRms, OfFormula
 from optlaws.synthesis.limits.motions.integrated import value_of
 from optlaws.synthesis.limits.motions.standing import Standing, least_energy, standing_level, standing_sign
@@ -226,8 +225,7 @@ def drive_limit(
     >>> round(limit.value, 5), limit.gap < 1e-6
     (3.40484, True)
     """
-    if minimise not in get_args(DriveObjective):
-        raise InputError(unknown_key(minimise, get_args(DriveObjective), "minimise"))
+    check_names([minimise], get_args(DriveObjective), "minimise")
     form = phase_torque(torque)
     share = not_negative(recovered, "recovered")
     if share > 1.0:
