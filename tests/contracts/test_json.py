@@ -120,6 +120,9 @@ def values(jumping: Solution) -> dict[str, Any]:
         "BalancedLaw": optlaws.balanced_law(order=4, B=1.8, basis=Chebyshev(3)),
         "DwellMechanism": replace(mechanism, law_1=optlaws.smoothstep(3)),
         "TorsionLever": optlaws.TorsionLever(0.75, 1, 0.15, 0.15, "60 deg"),
+        "LeverCam": optlaws.LeverCam(
+            optlaws.TorsionLever(0.75, 1, 0.15, 0.15, "60 deg"), "0.05 kg m^2", "120 deg", "150 rpm"
+        ),
         "DwellMachine": DwellMachine(mechanism, 10.0, 0.05, 0.005, 0.1, 0.035),
         "Comparison": optlaws.compare_laws(
             "0050", "cycloidal", stroke="35 mm", duration="0.1 s", frequency=(18.0, 20.0)

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import pi
-from typing import Any
 
 import numpy as np
 
@@ -12,11 +10,13 @@ from optlaws.balancing.levers.lever import TorsionLever
 from optlaws.cycles.cycle import Cycle
 from optlaws.cycles.specification.segments import Dwell, Return, Rise
 from optlaws.echo import shortened
+from optlaws.entries.declared import Declared, ValueOf, declared, entry
+from optlaws.entries.value_types import Measured
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.laws import PolynomialLaw
-from optlaws.motion.quantities import TURN, positive_quantity, quantity
-from optlaws.numbers import Array, positive
+from optlaws.motion.quantities import TURN, quantity
+from optlaws.numbers import Array, Quantity, positive
 from optlaws.numerics import chebyshev
 from optlaws.numerics.branch_and_bound import Extremes, extremes
 from optlaws.numerics.interval import Interval
@@ -53,23 +53,12 @@ def rocker_law(lever: TorsionLever) -> PolynomialLaw:
     return PolynomialLaw(tuple(chebyshev.interpolated(c, "acceleration of the rocker").tolist()))
 
 
-@dataclass(frozen=True)
-class LeverCam:
+@declared
+class LeverCam(Declared, title="a torsion lever in a machine"):
     """A torsion lever in a machine: bars designed for the cam's speed, and the torque at the cam's shaft.
 
     At the speed for which the bars are designed they swing the link by themselves, and the cam only keeps the time. At
     another the difference of the inertia is left: (w²/w0² - 1) I chi'', and without bars all of it.
-
-    Parameters
-    ----------
-    lever
-        The lever.
-    inertia
-        Moment of inertia of what the driven link moves, such as "0.05 kg m^2".
-    stroke
-        Angle of the cam in which the link swings from one extreme to the other, such as "120 deg".
-    speed
-        Of the cam, for which the bars are designed, such as "150 rpm".
 
     Raises
     ------
@@ -87,31 +76,33 @@ class LeverCam:
     5.89438
     """
 
-    lever: TorsionLever
-    inertia: Any
-    stroke: Any
-    speed: Any
+    lever: TorsionLever = entry(ValueOf(TorsionLever), "The lever.")
+    inertia: Quantity = entry(Measured("moment of inertia", above=0.0), "Of what the driven link moves.")
+    stroke: Quantity = entry(
+        Measured("angle", above=0.0), "Angle of the cam in which the link swings from one extreme to the other."
+    )
+    speed: Quantity = entry(Measured("angular velocity", above=0.0), "Of the cam, for which the bars are designed.")
 
-    def __post_init__(self) -> None:
-        self.moved, self.angle, self.rate  # noqa: B018 - what is wrong is refused at once
+    def _check(self) -> None:
+        self.angle  # noqa: B018 - beyond half a turn it is refused at once
 
     @kept_property
     def moved(self) -> float:
         """The moment of inertia, kg m²."""
-        return positive_quantity(self.inertia, "moment of inertia", "inertia")
+        return quantity(self.inertia, "moment of inertia", "inertia")
 
     @kept_property
     def angle(self) -> float:
         """The angle of the cam during the stroke, rad."""
         angle = quantity(self.stroke, "angle", "stroke")
-        if not 0.0 < angle <= pi:
+        if angle > pi:
             raise InputError(f"stroke must be above 0 and at most 180 deg, got {shortened(self.stroke)}")
         return angle
 
     @kept_property
     def rate(self) -> float:
         """The cam's angular velocity, rad/s."""
-        return positive_quantity(self.speed, "angular velocity", "speed")
+        return quantity(self.speed, "angular velocity", "speed")
 
     @property
     def stiffness(self) -> float:
