@@ -95,7 +95,7 @@ def _of_problem_file(data: dict[str, Any], name: str) -> dict[str, Any]:
     if job in _SHOWN:
         return {"view": job, job: data}
     with located(name):
-        stated = _single_problem(data, name)
+        stated = _single_problem(data)
     if stated is None:
         raise InputError(
             f"{name}: the page shows a law, a cycle, a cam or a move; `optlaws run` does what this file says"
@@ -103,10 +103,10 @@ def _of_problem_file(data: dict[str, Any], name: str) -> dict[str, Any]:
     return _laws(_law_entries(stated))
 
 
-def _single_problem(data: dict[str, Any], name: str) -> Problem | None:
+def _single_problem(data: dict[str, Any]) -> Problem | None:
     """The problem of a file that has one."""
     if data.get("job") == "solutions":
-        spec = SolutionsProblemFile.read(data, Path(name))
+        spec = SolutionsProblemFile.from_dict(data)
         swept = [*swept_entries(spec)]
         return problem("problem", spec.problem, swept[0]) if len(swept) == 1 else None
     single = isinstance(data.get("problem"), dict) and "job" not in data and "vary" not in data
