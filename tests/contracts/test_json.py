@@ -201,6 +201,12 @@ def test_every_value_is_read_again_as_it_was(values: dict[str, Any]) -> None:
             assert again == value, name
 
 
+def test_what_a_declared_value_keeps_is_taken_again(values: dict[str, Any]) -> None:
+    for name, value in values.items():
+        if hasattr(value, "json_schema"):
+            assert strict(replace(value).to_json()) == strict(value.to_json()), name
+
+
 def test_plain_data_is_what_its_schema_says(values: dict[str, Any]) -> None:
     declared = {name: value for name, value in values.items() if hasattr(value, "json_schema")}
     assert {"Motor", "Drive", "Body", "Loads", "LimitedMove", "TranslatingRoller"} <= declared.keys()
