@@ -318,7 +318,8 @@ def _with_digest(text: str) -> str:
 def _is_as_written(text: str) -> bool:
     """Whether a text is what was written, whatever its line ends."""
     plain = text.replace("\r\n", "\n")
-    return plain == _with_digest(_DIGEST.sub(writing.MARK, plain, count=1))
+    # a text without a mark would be its own
+    return writing.MARK in plain and plain == _with_digest(_DIGEST.sub(writing.MARK, plain, count=1))
 
 
 def _checksum(text: bytes) -> bytes:
