@@ -5,7 +5,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Self
 
 from optlaws.cycles.interlocks.enclosed_axis import ClockedMotion, EnclosedAxis
 from optlaws.cycles.specification.segments import Dwell, Move
@@ -106,6 +106,11 @@ class Interlock(Kinded, ABC, title="an interlock"):
     """A condition on the positions of two axes of one clock; subclasses define the condition."""
 
     name: str
+
+    @classmethod
+    def kinds(cls) -> dict[str, type[Self]]:
+        """The kinds by their names, whichever was imported first."""
+        return dict(sorted(super().kinds().items()))
 
     @property
     @abstractmethod
