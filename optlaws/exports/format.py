@@ -23,7 +23,7 @@ BEST = "best"
 class Request(Declared, title="an export"):
     """The options of an export beside the motion; each format takes some of them."""
 
-    name: str = entry(Text(), "Of the variable or the table.", default="Cam")
+    name: str = entry(Text(), "Name of the variable, the table or the joint.", default="Cam")
     points: int | str | None = entry(
         Either(Whole(2, MOST_POINTS), Choice(BEST), which=lambda value: int(isinstance(value, str))),
         'How many points or segments, or "best", the fewest points whose run is as good as that of any number; what '
@@ -34,8 +34,8 @@ class Request(Declared, title="an export"):
     counts: int | None = entry(
         Whole(2), "Steps of the slave's encoder over the stroke, to which positions are rounded.", default=None
     )
-    digits: int | None = entry(Whole(most=17), "Behind the decimal sign of tables as text.", default=None)
-    decimal: str = entry(Text(), "The sign, a point or a comma.", default=".")
+    digits: int | None = entry(Whole(most=17), "Digits behind the decimal sign, of tables as text.", default=None)
+    decimal: str = entry(Text(), 'The decimal sign of tables as text: "." or ",".', default=".")
     interpolation: str | None = entry(Text(), "That of the controller, where the format states it.", default=None)
 
     def _check(self) -> None:
