@@ -87,7 +87,7 @@ def test_what_is_no_cycle_is_refused(says: str, x: list[float], y: list[float]) 
     ("law", "what"),
     [
         ("constant velocity", "at constant velocity, without acceleration or jerk"),
-        ("modified sine", ""),
+        pytest.param("modified sine", "", marks=pytest.mark.long),
     ],
 )
 def test_a_move_without_acceleration_keeps_its_law(law: str, what: str) -> None:

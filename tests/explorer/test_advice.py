@@ -152,6 +152,7 @@ def test_standard_laws_are_there_before_those_that_are_searched_for(page: Page, 
     assert page.get_by_label("steps of the advice").get_attribute("max") == "3"
 
 
+@pytest.mark.long
 def test_the_laws_of_a_driven_machine_fit_beside_their_picture(page: Page, served: Server) -> None:
     go(page, served.link(view="machine", machine=machine_view.example(), axis=1))
     page.get_by_role("tab", name="Advice").click()
