@@ -70,8 +70,9 @@ class Page:
     | Co  | 6.28 |
     """
 
-    def __init__(self, title: str) -> None:
+    def __init__(self, title: str, results: Results | None = None) -> None:
         self._parts = [f"# {title}\n", f"<!-- {MARK} -->\n"]
+        self._results = results
 
     def heading(self, text: str) -> Page:
         """A heading below the title."""
@@ -84,6 +85,12 @@ class Page:
     def figure(self, name: str, caption: str) -> Page:
         """The picture `name`.svg beside the page."""
         return self._add(f"![{caption}]({name}.svg)")
+
+    def picture(self, name: str, caption: str, figure: Figure, of: str = "a picture") -> Page:
+        """A picture `name`.svg, which is put into the results of the page."""
+        if self._results is not None:
+            self._results.picture(name, figure, of)
+        return self.figure(name, caption)
 
     def table(self, headings: Sequence[str], rows: Sequence[Sequence[Cell]], *, digits: int = 7) -> Page:
         """A table with aligned columns and a given number of digits."""
@@ -233,7 +240,7 @@ class Results:
 
     def page(self, name: str, title: str | None = None) -> Page:
         """A page `name`.md, to be filled, under the title of the problem file or another."""
-        page = Page(self.title if title is None else title)
+        page = Page(self.title if title is None else title, self)
         self._put(f"{name}.md", page, "the page")
         return page
 

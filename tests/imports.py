@@ -25,7 +25,6 @@ HANDED_UP = {
     "plot": ("optlaws.plots.",),
     "_plot": ("optlaws.plots.",),
     "export": ("optlaws.exports.", "optlaws.synthesis.proven.fewest_laws"),
-    "summary": ("optlaws.cycles.summary.",),
     "report": (
         "optlaws.cams.report.",
         "optlaws.cycles.moves.report.",

@@ -12,8 +12,8 @@ from optlaws.cams.barrel import Groove
 from optlaws.entries.reference import markdown_table
 from optlaws.jobs.cam_entries import CamProblemFile
 from optlaws.jobs.cycle_entries import AxisEntries, CycleProblemFile
+from optlaws.jobs.fastest import FastestProblemFile
 from optlaws.jobs.machine_laws import MachineLawsProblemFile
-from optlaws.jobs.moves.move_entries import FastestProblemFile
 from optlaws.jobs.solutions import SolutionsProblemFile
 from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.mechanisms.drives.motor import Motor

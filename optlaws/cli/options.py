@@ -13,9 +13,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from cyclopts import Parameter, Token
 
-from optlaws.entries import value_types
-from optlaws.entries.declared import Declared, Entry, entries_of
-from optlaws.entries.value_types import ValueType
+from optlaws.entries.declared import Declared, entries_of
 from optlaws.errors import InputError
 
 if TYPE_CHECKING:
@@ -98,19 +96,8 @@ class Option:
         return typed if typed is None or self.read is None else self.read(typed)
 
 
-#: types of options by those of entries, and by the annotations of parameters
-_TYPES: dict[type[ValueType] | str, Any] = {
-    value_types.Choice: str,
-    value_types.Measured: str,
-    value_types.Number: float,
-    value_types.Switch: bool,
-    value_types.Text: str,
-    value_types.Whole: Whole,
-    "Quantity": str,
-    "float": float,
-    "int": Whole,
-    "str": str,
-}
+#: of parameters by their annotations
+_TYPES = {"Quantity": str, "str": str, "float": float, "int": Whole}
 #: how long a motion takes is its time in older scripts
 _OLDER = {"duration": ("--time",)}
 _PARAMETERS = "Parameters\n----------\n"
@@ -118,23 +105,20 @@ _PARAMETER = re.compile(r"^(\w[\w, ]*)\n((?: +.*\n?)+)", re.MULTILINE)
 
 
 def options(
-    source: Mapping[str, Entry] | Callable[..., Any],
-    *names: str,
-    group: str | None = None,
-    **changed: Mapping[str, Any],
+    source: Callable[..., Any], *names: str, group: str | None = None, **changed: Mapping[str, Any]
 ) -> dict[str, Option]:
-    """The options that give entries of a table or a declared value, or parameters of a function, with their sentences.
+    """The options that give parameters of a function, or entries of a declared value: by its sentences and defaults.
 
     Parameters
     ----------
     source
-        The entries by their names, or the class that declares them, or a function with a docstring.
+        The function, or the class.
     names
-        Of the entries or parameters whose options have their names.
+        Of parameters whose options have their names.
     group
         What heads them in the help of a command.
     changed
-        By name of an entry or parameter: what of `Option` is another.
+        By name of a parameter: what of `Option` is another.
 
     Examples
     --------
@@ -143,28 +127,30 @@ def options(
     >>> stroke.name, stroke.about, stroke.signed
     ('--stroke', 'How far, above 0: "100 mm" or "90 deg".', True)
     """
+    sentences, parameters = _sentences(source), inspect.signature(source).parameters
     known = {}
     for name in (*names, *changed):
-        usual = {"name": f"--{name.replace('_', '-')}", "also": _OLDER.get(name, ()), "group": group}
-        known[name] = Option(**{**usual, **_described(source, name), **changed.get(name, {})})
+        parameter = parameters[name]
+        annotation = str(parameter.annotation).removesuffix(" | None")
+        about: dict[str, Any] = {
+            "name": f"--{name.replace('_', '-')}",
+            "type": _TYPES.get(annotation),
+            "about": sentences.get(name, ""),
+            "default": None if parameter.default is inspect.Parameter.empty else parameter.default,
+            "signed": annotation == "Quantity",
+            "also": _OLDER.get(name, ()),
+            "group": group,
+        }
+        known[name] = Option(**{**about, **changed.get(name, {})})
     return known
 
 
-def _described(source: Any, name: str) -> dict[str, Any]:
-    """Sentence, type and default of an entry or a parameter, and whether it is a quantity, which may be below 0."""
+def _sentences(source: Callable[..., Any]) -> dict[str, str]:
+    """What a declaration or a docstring says of each parameter."""
     if isinstance(source, type) and issubclass(source, Declared):
-        source = entries_of(source)
-    if isinstance(source, Mapping):
-        each = source[name]
-        kind, signed = _TYPES.get(type(each.type)), isinstance(each.type, value_types.Measured)
-        return {"about": each.about, "type": kind, "default": each.plain_default, "signed": signed}
-    parameter = inspect.signature(source).parameters[name]
+        return {name: each.about for name, each in entries_of(source).items()}
     section = (inspect.getdoc(source) or "").partition(_PARAMETERS)[2].partition("\n\n")[0]
-    about = next((text for several, text in _PARAMETER.findall(section) if name in several.split(", ")), "")
-    annotation = str(parameter.annotation).removesuffix(" | None")
-    default = None if parameter.default is inspect.Parameter.empty else parameter.default
-    signed = annotation == "Quantity"
-    return {"about": " ".join(about.split()), "type": _TYPES.get(annotation), "default": default, "signed": signed}
+    return {name: " ".join(text.split()) for names, text in _PARAMETER.findall(section) for name in names.split(", ")}
 
 
 def takes(**groups: Mapping[str, Option]) -> Callable[[Command], Command]:

@@ -14,12 +14,12 @@ import numpy as np
 from optlaws.cycles.interchange import CycleInterchange
 from optlaws.cycles.jerk_comparison import jerk_limit, usual_jerk
 from optlaws.cycles.kinematics import SegmentPeaks, TimedCycle
-from optlaws.cycles.limit_rows import LimitTaken, limits_taken, refuse_beyond
+from optlaws.cycles.limit_rows import limits_taken, refuse_beyond
 from optlaws.cycles.optimisation.bounds import bound_of, is_exact
 from optlaws.cycles.optimisation.drive_formulas import known_drive
 from optlaws.cycles.optimisation.durations import durations
 from optlaws.cycles.optimisation.joint_limits import check_limits_at_joints
-from optlaws.cycles.optimisation.motion_limits import FORCE, POWER, both_sides, read_limits, tightest
+from optlaws.cycles.optimisation.motion_limits import FORCE, POWER, LimitTaken, both_sides, read_limits, tightest
 from optlaws.cycles.optimisation.motor_limits import MOTOR, motor_limits
 from optlaws.cycles.optimisation.objectives import (
     LOADED,
@@ -479,6 +479,19 @@ class Cycle(CycleInterchange):
             raise InputError("the cycle has no drive: give one, such as drive={'mass': '2 kg', 'gravity': '20 N'}")
         return effort(self._along, self.duration)
 
+    @property
+    def geared_motor(self) -> Drive:
+        """The drive, if it has a motor.
+
+        Raises
+        ------
+        InputError
+            If it has none.
+        """
+        if not isinstance(self.drive, Drive):
+            raise InputError("the cycle has no motor: give one, as drive=Drive(mechanism, Motor(...), ratio=20)")
+        return self.drive
+
     @kept_property
     def sheet(self) -> CycleSheet:
         """The motor sheet of the cycle: torques, speed, powers, energies, and margins to the motor's limits.
@@ -490,9 +503,7 @@ class Cycle(CycleInterchange):
         """
         from optlaws.mechanisms.drives.sheet import sheet_of
 
-        source = None if self._drive is None else self._drive.source
-        if not isinstance(source, Drive):
-            raise InputError("the cycle has no motor: give one, as drive=Drive(mechanism, Motor(...), ratio=20)")
+        source = self.geared_motor
         return sheet_of(self._along, self.duration, source.mechanism, source.motor, source.train)
 
     @kept_property
@@ -605,9 +616,7 @@ class Cycle(CycleInterchange):
         >>> [round(each.sheet.margins[0].use, 6) for each in (cycle, weak)]
         [0.729259, 1.458518]
         """
-        source, known = self.drive, self._drive
-        if not isinstance(source, Drive) or known is None:
-            raise InputError("the cycle has no motor: give one, as drive=Drive(mechanism, Motor(...), ratio=20)")
+        source = self.geared_motor
         if self.limits.get(MOTOR):
             raise InputError("the laws keep the limits of the motor: make the cycle anew with the other motor")
         if any(getattr(motor, name) != getattr(source.motor, name) for name in OF_TORQUE):
@@ -618,7 +627,8 @@ class Cycle(CycleInterchange):
         other = replace(self, drive=driven)
         same = ("durations", "_layout", "_best", "_reports", "pieces", "_timed", "peaks", "effort")
         vars(other).update({name: getattr(self, name) for name in same})
-        vars(other)["_along"] = tuple(each.of_drive(replace(known, source=driven)) for each in self._along)
+        known = replace(known_drive(self._drive), source=driven)
+        vars(other)["_along"] = tuple(each.of_drive(known) for each in self._along)
         return other
 
     def fastest(self) -> FastestCycle:

@@ -165,20 +165,20 @@ class FastestCycle:
         >>> [row.name for row in slide.fastest().summary()][:4]
         ['status', 'greatest speed', 'least period', 'proven: none below']
         """
-        rows = [
-            Row("status", self.status.value),
-            Row("greatest speed", self.rpm, "rpm"),
-            Row("least period", self.period, "s"),
-        ]
-        if self.lower_bound is not None:
-            rows.append(Row("proven: none below", self.lower_bound, "s"))
-        rows += [Row("binds", text) for text in self.binding]
+        rows = [Row("status", self.status.value), *self.proof_rows()]
         rows += [Row("would give", str(gain)) for gain in self.gains]
         rows += [
             Row(f"{each.name} needs", each.least, "s", note=f"has {each.duration:.9g} s: {_margin(each)}")
             for each in self.segments
         ]
         return Summary(rows)
+
+    def proof_rows(self) -> Summary:
+        """The speed and the period, with what is proven of them, and what binds."""
+        rows = [Row("greatest speed", self.rpm, "rpm"), Row("least period", self.period, "s")]
+        if self.lower_bound is not None:
+            rows.append(Row("proven: none below", self.lower_bound, "s"))
+        return Summary([*rows, *(Row("binds", text) for text in self.binding)])
 
     def claims(self) -> dict[str, Any]:
         """The proofs as `optlaws verify` takes them: each problem with the certificate that it has no law.

@@ -218,9 +218,7 @@ class CycleInterchange(Declared, title="a stored cycle"):
             raise InputError(unknown_key(over, get_args(PlotOver), "over"))
         if over == "time":
             return draw_cycle(cycle, ax, **style)
-        if not isinstance(cycle.drive, Drive):
-            raise InputError("the cycle has no motor: give one, as drive=Drive(mechanism, Motor(...), ratio=20)")
-        return draw_motor_of_cycle(cycle, cycle.drive, ax, **style)
+        return draw_motor_of_cycle(cycle, ax, **style)
 
     def summary(self) -> Summary:
         """The proof of the cycle, its peaks, its drive and its joints, as rows in SI units.
@@ -232,9 +230,7 @@ class CycleInterchange(Declared, title="a stored cycle"):
         >>> [f"{row.name} {row.text(4)} {row.unit} at {row.place:g} s" for row in cycle.summary()[:2]]
         ['peak velocity 0.7 m/s at 0.05 s', 'peak acceleration 21.99 m/s² at 0.075 s']
         """
-        from optlaws.cycles.summary import summary
-
-        return summary(self._cycle)
+        return self.report().facts
 
     def report(self) -> Report:
         """The facts of the cycle, the table of its segments and its curves, as tables, pictures and pages show them.

@@ -16,6 +16,7 @@ from optlaws.cycles.optimisation.motion_limits import (
     FORCES,
     POWER,
     LimitKey,
+    LimitTaken,
     OneSided,
     amount,
     limits_of_segment,
@@ -44,45 +45,6 @@ AnyCycle: TypeAlias = Any
 _JERK, _SNAP = 3, 4
 _DRIVEN = (FORCE, POWER, CURVE)
 _OF_MOTOR = {"speed": "rad/s", "torque-speed curve": ""}
-
-
-class LimitTaken(NamedTuple):
-    """The use of a limit by a motion, in SI units.
-
-    Attributes
-    ----------
-    name
-        What is limited, such as "velocity".
-    where
-        The segment that takes most of it; empty of a limit of the whole.
-    value, limit
-        What is taken at most, everywhere in the segment or the cycle, and what is allowed.
-    text
-        The limit in the unit that machines have it in.
-    value_text
-        The value in that unit.
-    """
-
-    name: str
-    where: str
-    value: float
-    limit: float
-    text: str
-    value_text: str = ""
-
-    @property
-    def share(self) -> float:
-        """The share that is taken: above 1 where the limit is broken."""
-        return self.value / self.limit
-
-    @property
-    def is_kept(self) -> bool:
-        """Whether the limit is satisfied, up to rounding: one that is reached is kept."""
-        return is_kept(self.value, self.limit)
-
-    def __str__(self) -> str:
-        value, limit = self.value_text or f"{self.value:.6g}", self.text or f"{self.limit:.6g}"
-        return sentence("{}{}, {} of {}", f"{self.where}: " if self.where else "", self.name, value, limit)
 
 
 class _Taken(NamedTuple):

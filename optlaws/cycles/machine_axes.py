@@ -22,6 +22,7 @@ from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.laws.exporting import AxesExportOptions
 from optlaws.numbers import Quantity
+from optlaws.shown.summary import Row, Summary
 from optlaws.suggest import keywords_of, unknown_key
 from optlaws.synthesis.status import Status
 from optlaws.tolerances import CLOSURE, CYCLE_OPTIMALITY
@@ -480,6 +481,19 @@ class Overlap(Declared, title="axes that overlap"):
     def gain(self) -> float:
         """The objective before over the objective after: the gain in speed, or the reduction of the acceleration."""
         return (self.given.duration if self.goal == "period" else 1.0) / self.objective
+
+    def summary(self) -> Summary:
+        """Status, objective and bound, the gain, and what leaves no room."""
+        what, unit = "greatest acceleration, as a share of the given one", ""
+        if self.goal == "period":
+            what, unit = "least period", "s"
+        rows = [
+            Row("status", self.status.value),
+            Row(what, self.objective, unit),
+            Row("proven lower bound", self.lower_bound, unit),
+            Row("gain", self.gain, "times as fast" if unit else "times lower"),
+        ]
+        return Summary([*rows, *(Row("bound by", name) for name in self.binding)])
 
     def to_dict(self) -> dict[str, Any]:
         """Both machines with what was sought and found, plain and JSON-able, which `optlaws verify` checks.

@@ -3,17 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from dataclasses import replace
+from math import inf
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 import numpy as np
 
 from optlaws.cycles.kinematics import Place
+from optlaws.cycles.limit_rows import limit_rows
+from optlaws.cycles.optimisation.motion_limits import LimitTaken
 from optlaws.cycles.specification.process import is_process
-from optlaws.cycles.summary import force_name, force_unit, summary
+from optlaws.cycles.summary import drive_rows, force_name, force_unit, jerk_rows, joint_rows, peak_rows, proof_rows
+from optlaws.errors import OptlawsError
 from optlaws.kept import kept_property
 from optlaws.mechanisms.drives.drive_train import Drive
-from optlaws.motion.derivative_panel import display_unit, motion_panel, times_in
+from optlaws.mechanisms.linkages.mechanism import Mechanism
+from optlaws.motion.derivative_panel import DERIVATIVES, display_unit, motion_panel, samples, times_in
 from optlaws.motion.display_units import MILLI, RPM, TURN_DEG, UNITS
+from optlaws.motion.piece import Piece
 from optlaws.motion.quantities import QUANTITIES
 from optlaws.numbers import Array, chop
 from optlaws.shown.curve_points import refined
@@ -23,8 +30,20 @@ from optlaws.tolerances import CYCLE_ROUNDING, INSIDE_PIECE
 
 if TYPE_CHECKING:
     from optlaws.cycles.cycle import Cycle
+    from optlaws.cycles.moves.transition_cam import TransitionCam
 
 _EACH = 60  # samples of a piece, to which those are added that its curve needs
+
+
+class LeastEffort(NamedTuple):
+    """Peak and root mean square of the force (or torque) in a move, each with what no law that never turns back beats.
+
+    None is where that is not known, or the motor is too weak for any law.
+    """
+
+    segment: ReportSegment
+    peak: tuple[float, float | None]
+    rms: tuple[float, float | None]
 
 
 class CycleReport:
@@ -36,8 +55,9 @@ class CycleReport:
 
     @kept_property
     def facts(self) -> Summary:
-        """The summary of the cycle."""
-        return summary(self.cycle)
+        """The proof of the cycle, its peaks, its limits, its drive and its joints, with places as times in seconds."""
+        parts = (proof_rows, peak_rows, jerk_rows, limit_rows, drive_rows, joint_rows)
+        return Summary([row for rows in parts for row in rows(self.cycle)], at="s")
 
     @kept_property
     def tables(self) -> tuple[ReportTable, ...]:
@@ -65,16 +85,7 @@ class CycleReport:
 
         With a drive force (or torque) and power, with a motor its speed too.
         """
-        cycle = self.cycle
-        degrees = np.linspace(0.0, TURN_DEG, count)
-        times = degrees * (cycle.duration / TURN_DEG)
-        columns = {"master, deg": degrees.tolist(), "time, s": times.tolist()}
-        for nu, (name, (unit, factor)) in enumerate(zip(QUANTITIES, self.units, strict=True)):
-            values, size = np.asarray(cycle(times, nu)).tolist(), cycle.peak(nu) * factor
-            columns[f"{name}, {unit}"] = [chop(value * factor, size, CYCLE_ROUNDING) for value in values]
-        for name, values in self._of_drive(times).items():
-            columns[name] = [chop(value, float(np.abs(values).max()), CYCLE_ROUNDING) for value in values.tolist()]
-        return ReportTable(list(columns), [list(row) for row in zip(*columns.values(), strict=True)])
+        return motion_table(self.cycle, self.cycle, (0.0, TURN_DEG), count, self._of_drive)
 
     def _of_drive(self, times: Array) -> dict[str, Array]:
         cycle = self.cycle
@@ -111,6 +122,55 @@ class CycleReport:
         return force, Panel("power", "W", (self._driven(cycle.power),), ends=ends)
 
     @property
+    def of_input(self) -> tuple[Panel, ...]:
+        """Force (or torque) and power of the drive, the speed of its motor or its input, and the input's position."""
+        speed, unit = "velocity of the input", self.unit(1)
+        if isinstance(self.cycle.drive, Drive):
+            speed, unit = "speed of the motor", ("rpm", RPM * self.cycle.drive.ratio)
+        motion = {speed: self.panel(1, unit), "position of the input": self.panel(0)}
+        return (*self.driven, *(replace(each, name=name, limits=(), peaks=()) for name, each in motion.items()))
+
+    def over_speed(self, count: int) -> tuple[Array, Array]:
+        """Speeds of the motor, rad/s, and torques, N m, at points in each piece and at its breaks."""
+        speeds, ratio = samples(self.cycle.pieces, 1, count)[1], self.cycle.geared_motor.ratio
+        return ratio * speeds, self._samples_of_drive(self.cycle.force, count)[1]
+
+    def least_efforts(self) -> list[LeastEffort]:
+        """Of each move from rest to rest on a mechanism what it takes of the drive, and what no law takes less.
+
+        Empty of a process, which acts on the whole cycle: no move has a limit of its own.
+        """
+        cycle, efforts = self.cycle, []
+        if is_process(cycle.load) or not isinstance(cycle.drive, Mechanism | Drive):
+            return []
+        moves = zip(self.segments, self._inside(), cycle.efforts, cycle.programme.stretches, strict=True)
+        for segment, piece, effort, stretch in moves:
+            ends = np.abs(piece.values(np.array(segment[1:]), 1)).max()
+            if stretch.displacement and ends <= CYCLE_ROUNDING * cycle.peak(1):
+                move = float(cycle(segment.start)), stretch.displacement, segment.stop - segment.start
+                peak, rms = (_infimum(cycle.drive, name, move) for name in ("peak torque", "rms torque"))
+                efforts.append(LeastEffort(segment, (effort.peak_force, peak), (effort.rms_force, rms)))
+        return efforts
+
+    @property
+    def limits_taken(self) -> tuple[LimitTaken, ...]:
+        """The use of each limit of the cycle, in SI units."""
+        return self.cycle.limits_taken
+
+    def shares(self, times: Array) -> dict[str, Array]:
+        """The share of the limits of derivatives in each segment that is taken at each time."""
+        taken: dict[str, Array] = {}
+        for nu in self.orders[1:]:
+            share, values = np.zeros(len(times)), np.asarray(self.cycle(times, nu))
+            for (_, start, stop), limits in zip(self.segments, self.cycle.limits_of_segments, strict=True):
+                low, high = limits.get(nu, (-inf, inf))
+                inside = (times >= start) & (times <= stop)
+                share = np.where(inside, np.maximum(share, np.maximum(values / high, values / low)), share)
+            if share.any():
+                taken[DERIVATIVES[nu]] = share
+        return taken
+
+    @property
     def orders(self) -> range:
         """The orders of the derivatives that are shown: up to the jerk, or to the one of highest order with a limit."""
         limited = (nu + 1 for limits in self.cycle.limits_of_segments for nu in limits)
@@ -124,9 +184,12 @@ class CycleReport:
         """The least and the greatest value of a derivative in each segment, with their times."""
         if nu < len(QUANTITIES):
             return [peaks.extremes[nu] for peaks in self.cycle.peaks]
-        pieces = self.cycle.pieces
-        inside = (next(piece for piece in reversed(pieces) if piece.start <= start) for _, start, _ in self.segments)
-        return [piece.extremes(nu, *times) for piece, (_, *times) in zip(inside, self.segments, strict=True)]
+        return [piece.extremes(nu, *times) for piece, (_, *times) in zip(self._inside(), self.segments, strict=True)]
+
+    def _inside(self) -> list[Piece]:
+        """The piece in which each segment is."""
+        pieces = self.cycle.pieces[::-1]
+        return [next(piece for piece in pieces if piece.start <= start) for _, start, _ in self.segments]
 
     def panel(self, nu: int, unit: tuple[str, float] | None = None) -> Panel:
         """A derivative of the motion, through its extremes, with the limits of the segments."""
@@ -141,10 +204,19 @@ class CycleReport:
     def _driven(self, function: Callable[[Array], Array]) -> Series:
         """Force or power through the peak of the force, and its kinks."""
         cycle = self.cycle
-        times, values = samples_of_drive(cycle, function, _EACH)
+        times, values = self._samples_of_drive(function, _EACH)
         marks = np.array([cycle.effort.peak_force_at])
         times, (values,) = refined(times, [values], [lambda inside: np.asarray(function(inside))], marks)
         return Series(times, values)
+
+    def _samples_of_drive(self, function: Callable[[Array], Array], count: int) -> tuple[Array, Array]:
+        """Times and values of the drive's force or power, in the same form as for a derivative."""
+        pieces = self.cycle.pieces
+        times = [times_in(piece, count) for piece in pieces]
+        # the end of a piece has its values, not those of the next
+        ends = [piece.stop - INSIDE_PIECE * self.cycle.duration for piece in pieces]
+        values = [function(np.minimum(inside, end)) for inside, end in zip(times, ends, strict=True)]
+        return np.concatenate(times), np.concatenate(values)
 
     @kept_property
     def data(self) -> dict[str, Any]:
@@ -174,10 +246,33 @@ class CycleReport:
         }
 
 
-def samples_of_drive(cycle: Cycle, function: Callable[[Array], Array], count: int) -> tuple[Array, Array]:
-    """Times and values of the drive's force or power, in the same form as for a derivative."""
-    times = [times_in(piece, count) for piece in cycle.pieces]
-    # the end of a piece has its values, not those of the next
-    ends = [piece.stop - INSIDE_PIECE * cycle.duration for piece in cycle.pieces]
-    values = [function(np.minimum(inside, end)) for inside, end in zip(times, ends, strict=True)]
-    return np.concatenate(times), np.concatenate(values)
+def _infimum(drive: Mechanism | Drive, name: Literal["peak torque", "rms torque"], move: Any) -> float | None:
+    try:
+        least = drive.limit(name, *move).value
+    except OptlawsError:
+        return None
+    return least if least > 0.0 else None
+
+
+def motion_table(
+    values: Callable[[Array, int], Any],
+    motion: Cycle | TransitionCam,
+    master: tuple[float, float],
+    count: int,
+    more: Callable[[Array], dict[str, Array]] = lambda _: {},
+) -> ReportTable:
+    """Angle, time, position, velocity, acceleration and jerk at equal steps over a motion, and more over the time.
+
+    What is rounding beside the greatest value of its column is 0.
+    """
+    degrees = np.linspace(*master, count)
+    times = (degrees - master[0]) * (motion.duration / (master[1] - master[0]))
+    columns = {"master, deg": degrees.tolist(), "time, s": times.tolist()}
+    for nu, (name, (unit, factor)) in enumerate(zip(QUANTITIES, UNITS[motion.axis], strict=True)):
+        size = motion.peak(nu) * factor
+        columns[f"{name}, {unit}"] = [
+            chop(value * factor, size, CYCLE_ROUNDING) for value in np.asarray(values(times, nu)).tolist()
+        ]
+    for name, driven in more(times).items():
+        columns[name] = [chop(value, float(np.abs(driven).max()), CYCLE_ROUNDING) for value in driven.tolist()]
+    return ReportTable(list(columns), [list(row) for row in zip(*columns.values(), strict=True)])

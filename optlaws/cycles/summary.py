@@ -5,7 +5,6 @@ from __future__ import annotations
 from math import pi
 from typing import TYPE_CHECKING
 
-from optlaws.cycles.limit_rows import limit_rows
 from optlaws.cycles.optimisation.motion_limits import FORCE, POWER
 from optlaws.cycles.optimisation.objectives import LOADED, SUMS, kind_of
 from optlaws.cycles.specification.load import LOAD, read_load
@@ -15,7 +14,7 @@ from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.mechanisms.linkages.mechanism import Mechanism
 from optlaws.motion.piece import unit_of
 from optlaws.motion.quantities import QUANTITIES
-from optlaws.shown.summary import Row, Summary
+from optlaws.shown.summary import Row
 
 if TYPE_CHECKING:
     from optlaws.cycles.cycle import Cycle
@@ -31,11 +30,12 @@ _LOAD_UNITS = {
 }
 
 
-def objective_unit(cycle: Cycle) -> str:
-    """The SI unit of a cycle's objective."""
-    nu, _ = kind_of(cycle.minimise)
+def objective_unit(cycle: Cycle, name: str = "") -> str:
+    """The SI unit of a cycle's objective, or of another value that may be one."""
+    name = name or cycle.minimise
+    nu, _ = kind_of(name)
     if nu == LOADED:
-        return load_unit(cycle, cycle.minimise.removeprefix("rms ").removeprefix(LOAD))
+        return load_unit(cycle, name.removeprefix("rms ").removeprefix(LOAD))
     if nu == POWER or nu in SUMS:
         return "W" if nu == POWER else "J"
     return force_unit(cycle) if nu == FORCE else unit_of(cycle.axis, nu)
@@ -140,21 +140,6 @@ def joint_rows(cycle: Cycle) -> list[Row]:
         )
         for nu, name in enumerate(QUANTITIES[1:3], 1)
     ]
-
-
-def summary(cycle: Cycle) -> Summary:
-    """The summary of a cycle: all rows of this module, with places as times in seconds."""
-    return Summary(
-        [
-            *proof_rows(cycle),
-            *peak_rows(cycle),
-            *jerk_rows(cycle),
-            *limit_rows(cycle),
-            *drive_rows(cycle),
-            *joint_rows(cycle),
-        ],
-        at="s",
-    )
 
 
 def load_unit(cycle: Cycle, output: str) -> str:

@@ -22,12 +22,13 @@ from optlaws.explorer.views import (
     axes_view,
     cam_view,
     cycle_view,
+    fastest_view,
     front_view,
     law_view,
+    machine_view,
     old_cam_view,
     residual_view,
 )
-from optlaws.explorer.views.machines import fastest_view, machine_view
 from optlaws.explorer.views.requests import Question, read
 from optlaws.sentences import parts_of
 

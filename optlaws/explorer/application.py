@@ -23,10 +23,9 @@ from starlette.routing import Route
 from optlaws import Drive, __version__, catalogue
 from optlaws.explorer import downloads
 from optlaws.explorer.answering import EXAMPLES, QUESTIONS, message
-from optlaws.explorer.views import cam_view, cycle_view
-from optlaws.explorer.views.machines import machine_view
+from optlaws.explorer.views import cam_view, cycle_view, machine_view
 from optlaws.explorer.workers import MOST, SLICE, USUAL, Workers
-from optlaws.jobs.moves.move_entries import MoveEntries
+from optlaws.jobs.fastest import MoveEntries
 
 if TYPE_CHECKING:
     from starlette.types import ASGIApp, Message, Receive, Scope, Send

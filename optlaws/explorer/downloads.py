@@ -22,9 +22,8 @@ from optlaws.cams.curves.cam_files import Cutting
 from optlaws.cycles.cycle import Cycle
 from optlaws.entries.declared import Declared
 from optlaws.errors import InputError
-from optlaws.explorer.views import axes_view, cam_view, cycle_view, old_cam_view
+from optlaws.explorer.views import axes_view, cam_view, cycle_view, fastest_view, old_cam_view
 from optlaws.explorer.views.law_view import digits, title
-from optlaws.explorer.views.machines import fastest_view
 from optlaws.explorer.views.requests import LawRequest, LawsRequest, Question, law_of, problem_of, read, solved
 from optlaws.exports.format import FORMATS
 from optlaws.files.tables import to_toml
@@ -233,18 +232,18 @@ def _cut(form: str, request: cam_view.CamRequest) -> File:
     return f"cam{ending}", cam_files.FORMATS[form](result.cam.profile, Cutting(about=result.spec.title))
 
 
-def _old_problem(request: old_cam_view.OldCycleRequest) -> File:
+def _old_problem(request: old_cam_view.OldCamRequest) -> File:
     if any(isinstance(part.law, MotionLaw) for part in old_cam_view.with_laws(request).moves):
         raise InputError("a problem file names laws, and some of these have no name: save the cycle with its laws")
     about = f"The cam of {_stem(request.study.file)}"
     return f"{_old_name(request)}.toml", old_cam_view.cycle(request).to_toml(about, axis="cam")
 
 
-def _old_name(request: old_cam_view.OldCycleRequest) -> str:
+def _old_name(request: old_cam_view.OldCamRequest) -> str:
     return _stem(Path(request.study.file).stem)
 
 
-def _old_table(request: old_cam_view.OldCycleRequest) -> File:
+def _old_table(request: old_cam_view.OldCamRequest) -> File:
     name = _old_name(request)
     return f"{name}_motion.csv", table_of_motion(old_cam_view.cycle(request), _ROWS, f"{name}; {_UNITS}")
 
@@ -285,8 +284,8 @@ VIEWS = {
     "machine": ViewFiles(cycle_view.CycleRequest, _CYCLE, cycle_view.cycle),
     "axes": ViewFiles(cycle_view.CycleRequest, _CYCLE | _AXES, cycle_view.cycle),
     "cam": ViewFiles(cam_view.CamRequest, {"problem": _study("cam.toml"), **_CUT}),
-    "fastest": ViewFiles(fastest_view.FastestRequest, _FASTEST),
-    "old": ViewFiles(old_cam_view.OldCycleRequest, _OLD, old_cam_view.cycle),
+    "fastest": ViewFiles(cycle_view.CycleRequest, _FASTEST),
+    "old": ViewFiles(old_cam_view.OldCamRequest, _OLD, old_cam_view.cycle),
 }
 
 Text = Annotated[str, msgspec.Meta(max_length=60)]

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-from functools import partial
+from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 from optlaws.cycles.cycle import Cycle
 from optlaws.cycles.report import CycleReport
@@ -13,39 +12,30 @@ from optlaws.errors import InputError, located
 from optlaws.exports.format import FORMATS, format_of
 from optlaws.exports.text import variable_names
 from optlaws.files import tables, writing
-from optlaws.jobs.axes.axis_transitions import (
+from optlaws.jobs.cycle_entries import CycleProblemFile, ExportEntries, overlap_of, read_given, sweeps_of
+from optlaws.jobs.cycle_pages import (
     AxisTransition,
-    Named,
-    TransitionEntries,
+    add_interlocks,
     add_transitions,
-    transition_facts,
-    transition_names,
-    transitions_of,
-    write_transitions,
-)
-from optlaws.jobs.axes.entry_sweep import SweptCycle, sweep_table
-from optlaws.jobs.axes.fastest_page import (
     at_greatest_speed,
     fastest_facts,
     fastest_of,
+    interlock_facts,
+    plain_name,
     slowest,
+    sweep_table,
+    transition_facts,
+    transitions_of,
 )
-from optlaws.jobs.axes.interlock_page import CLEARANCES, GIVEN, TIMING, add_interlocks, interlock_facts
-from optlaws.jobs.cycle_entries import CycleProblemFile, ExportEntries, overlap_of, read_given, sweeps_of
 from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.mechanisms.linkages.mechanism import Mechanism
-from optlaws.plots.cycle import axes_figure, cycle_figure
-from optlaws.plots.interlocks import clearance_figure, timing_figure
-from optlaws.plots.machine import mechanism_figure, motor_figure
+from optlaws.plots.style import figure_of, plot_style
 from optlaws.plots.sweep import sweep_figure
 from optlaws.results import Page, Results
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
     from optlaws.cycles.fastest_cycle import FastestCycle
-    from optlaws.cycles.machine_axes import Axes, Overlap
-    from optlaws.cycles.moves.transition_cam import TransitionCam, TransitionKind
+    from optlaws.cycles.moves.transition_cam import TransitionCam
     from optlaws.exports.export import Export
 
 #: the exports of each axis by the names of their files
@@ -53,8 +43,6 @@ Exports: TypeAlias = "dict[str, dict[str, Export]]"
 
 #: what the picture of all axes is called
 TOGETHER = "axes"
-#: what tables and pictures of sweeps are called, before their numbers
-SWEEP = "sweep_"
 _PEAKS = ("peak velocity", "peak acceleration", "peak jerk")
 _EXPORT_HEADINGS = ("file", "format", "points", *_PEAKS, "greatest deviation, unit")
 
@@ -80,19 +68,6 @@ def _exports_of(
                 results.add(file, export.write, of)
             exports[axis.name] |= moved
     return exports
-
-
-def plain_name(axis: str) -> str:
-    """The name of an axis as files have it."""
-    return "".join(letter if letter.isalnum() else "_" for letter in axis.lower())
-
-
-def _transition_names(spec: CycleProblemFile) -> Named:
-    """The file names of run-ins and run-outs, each with its entries in the file."""
-    given: dict[str, Mapping[TransitionKind, Sequence[TransitionEntries]]] = {
-        axis.name: {"run-in": axis.run_in, "run-out": axis.run_out} for axis in spec.axis
-    }
-    return transition_names(given, {name: plain_name(name) for name in given})
 
 
 def _export(cycle: Cycle | TransitionCam, entry: ExportEntries, variable: str) -> Export:
@@ -126,63 +101,56 @@ def run(results: Results) -> None:
     overlap = overlap_of(spec, given, results.file)
     fastest = fastest_of(given, results.file) if spec.fastest else {}
     cycles = at_greatest_speed(given if overlap is None else overlap.axes, fastest)
-    transitions = transitions_of(_transition_names(spec), cycles, results.file)
+    transitions = transitions_of(spec.axis, cycles, results.file)
     exports = _exports_of(spec, cycles, transitions, results)
     sweeps = sweeps_of(spec, results.file)
     results.title = spec.title
-    shown = page(spec, cycles, exports, sweeps=sweeps, fastest=fastest, overlap=overlap, transitions=transitions)
-    results.text("cycle.md", str(shown))
+    page = slowest(results.page("cycle").text(spec.text), fastest)
+    if len(cycles) > 1:
+        figure = figure_of(cycles.plot(), spec.title)
+        page.picture(TOGETHER, f"{spec.title}: all axes over one time", figure, "the picture of all axes")
+    add_interlocks(page, spec.title, cycles, overlap)
+    drawn: list[Mechanism] = []
+    for name, cycle in cycles.items():
+        table = table_of_motion(cycle, spec.rows, results.about)
+        results.text(f"{plain_name(name)}.csv", table, f"axis {name}: its table")
+        _add_axis(page, f"{spec.title}: {name}", name, cycle, fastest.get(name), drawn)
+        if exports[name]:
+            page.text("What controllers will run: peaks of the exported files as interpolated, over the law's.")
+            page.table(_EXPORT_HEADINGS, [_export_row(*item) for item in exports[name].items()], digits=7)
+    add_transitions(page, results, transitions, spec.rows)
     for number, (sweep, rows) in enumerate(zip(spec.sweep, sweeps, strict=True), 1):
-        headings, cells = sweep_table(sweep, rows)
-        results.table(f"{SWEEP}{number}", headings, cells)
-        results.picture(f"{SWEEP}{number}", sweep_figure(headings, cells, f"{spec.title}: {sweep.axis}"))
+        cells, by = sweep_table(sweep, rows), f"{sweep.axis} by {sweep.entry}"
+        results.table(f"sweep_{number}", *cells)
+        figure = sweep_figure(*cells, f"{spec.title}: {sweep.axis}")
+        page.heading(by).picture(f"sweep_{number}", by, figure).table(*cells, digits=7)
     facts = {"unit": "SI", "axes": {name: _stored(cycle) for name, cycle in cycles.items()}}
     results.data("cycle.json", facts | interlock_facts(cycles, overlap) | transition_facts(transitions))
     if fastest:
         results.data("fastest.json", {name: axis.claims() for name, axis in fastest.items()})
-    pictures = _drive_pictures(cycles)
-    for name, cycle in cycles.items():
-        table = table_of_motion(cycle, spec.rows, results.about)
-        results.text(f"{plain_name(name)}.csv", table, f"axis {name}: its table")
-        results.picture(plain_name(name), cycle_figure(cycle, f"{spec.title}: {name}"), f"axis {name}: its picture")
-        for picture in pictures[name]:
-            results.picture(picture.name, picture.draw(f"{spec.title}: {name}, {picture.caption}"))
-    write_transitions(results, spec.title, transitions, spec.rows)
-    if len(cycles) > 1:
-        results.picture(TOGETHER, axes_figure(cycles, spec.title), "the picture of all axes")
-    if cycles.rules:
-        results.picture(TIMING, timing_figure(cycles, cycles.rules, spec.title))
-    if overlap is not None:
-        results.picture(GIVEN, timing_figure(given, given.rules, f"{spec.title}, as it was given"))
-        results.picture(CLEARANCES, clearance_figure(cycles, cycles.rules, spec.title))
 
 
-class _DrivePicture(NamedTuple):
-    """A picture of a mechanism or of what drives it: its name, its caption, and what draws it under a title."""
-
-    name: str
-    caption: str
-    draw: Callable[[str], Figure]
-
-
-def _drive_pictures(cycles: Mapping[str, Cycle]) -> dict[str, list[_DrivePicture]]:
-    """The pictures of each axis: of its motor, and of its mechanism where that is the first of its kind and varies."""
-    pictures: dict[str, list[_DrivePicture]] = {}
-    drawn: list[Mechanism] = []
-    for name, cycle in cycles.items():
-        pictures[name] = []
-        if not isinstance(cycle.drive, Mechanism | Drive):
-            continue
-        if isinstance(cycle.drive, Drive):
-            draw = partial(motor_figure, cycle, cycle.drive)
-            pictures[name].append(_DrivePicture(f"{plain_name(name)}_motor", "torque over speed at the motor", draw))
-        mechanism = cycle.drive.mechanism if isinstance(cycle.drive, Drive) else cycle.drive
-        varies = mechanism.inertia_formula.names() | mechanism.load_formula.names()
-        if varies and mechanism not in drawn:
-            drawn.append(mechanism)
-            picture = partial(mechanism_figure, mechanism)
-            pictures[name].append(_DrivePicture(f"{plain_name(name)}_mechanism", f"the {mechanism.name}", picture))
-    return pictures
+def _add_axis(
+    page: Page, title: str, name: str, cycle: Cycle, fastest: FastestCycle | None, drawn: list[Mechanism]
+) -> None:
+    """Put an axis on a page: its motion, its motor, and its mechanism where that varies and is not `drawn` yet."""
+    plain = plain_name(name)
+    page.heading(name).picture(plain, title, figure_of(cycle.plot(), title), f"axis {name}: its picture")
+    if fastest is not None:
+        page.facts(fastest.summary())
+    page.report(cycle.report())
+    if isinstance(cycle.drive, Drive):
+        caption = f"{title}, torque over speed at the motor"
+        with plot_style():
+            figure = figure_of(cycle.plot(over="speed"), caption)
+        page.picture(f"{plain}_motor", caption, figure)
+    mechanism = cycle.drive.mechanism if isinstance(cycle.drive, Drive) else cycle.drive
+    if not isinstance(mechanism, Mechanism) or mechanism in drawn:
+        return
+    if mechanism.inertia_formula.names() | mechanism.load_formula.names():
+        drawn.append(mechanism)
+        caption = f"{title}, the {mechanism.name}"
+        page.picture(f"{plain}_mechanism", caption, figure_of(mechanism.plot(), caption))
 
 
 def table_of_motion(cycle: Cycle, rows: int, about: str) -> str:
@@ -200,41 +168,8 @@ def answer(entries: Mapping[str, Any], file: Path) -> dict[str, Any]:
         return {name: fastest_facts(fastest) for name, fastest in fastest_of(given, file).items()}
     overlap = overlap_of(spec, given, file)
     axes = given if overlap is None else overlap.axes
-    known = interlock_facts(axes, overlap) | transition_facts(transitions_of(_transition_names(spec), axes, file))
+    known = interlock_facts(axes, overlap) | transition_facts(transitions_of(spec.axis, axes, file))
     return {name: cycle.report().data for name, cycle in axes.items()} | known
-
-
-def page(
-    spec: CycleProblemFile,
-    axes: Axes,
-    exports: Exports,
-    *,
-    sweeps: Sequence[list[SweptCycle]],
-    fastest: Mapping[str, FastestCycle],
-    overlap: Overlap | None,
-    transitions: Sequence[AxisTransition],
-) -> Page:
-    """The page of the cycles' results."""
-    result = slowest(Page(spec.title).text(spec.text), fastest)
-    if len(axes) > 1:
-        result.figure(TOGETHER, f"{spec.title}: all axes over one time")
-    add_interlocks(result, spec.title, axes, overlap)
-    pictures = _drive_pictures(axes)
-    for name, cycle in axes.items():
-        result.heading(name).figure(plain_name(name), f"{spec.title}: {name}")
-        if name in fastest:
-            result.facts(fastest[name].summary())
-        result.report(cycle.report())
-        for picture in pictures[name]:
-            result.figure(picture.name, f"{spec.title}: {name}, {picture.caption}")
-        if exports[name]:
-            result.text("What controllers will run: peaks of the exported files as interpolated, over the law's.")
-            result.table(_EXPORT_HEADINGS, [_export_row(*item) for item in exports[name].items()], digits=7)
-    add_transitions(result, spec.title, transitions)
-    for number, (sweep, swept_cycles) in enumerate(zip(spec.sweep, sweeps, strict=True), 1):
-        result.heading(f"{sweep.axis} by {sweep.entry}").figure(f"{SWEEP}{number}", f"{sweep.axis} by {sweep.entry}")
-        result.table(*sweep_table(sweep, swept_cycles), digits=7)
-    return result
 
 
 def _stored(cycle: Cycle) -> dict[str, Any]:

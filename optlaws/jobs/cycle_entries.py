@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import KW_ONLY, replace
+from copy import deepcopy
+from dataclasses import KW_ONLY, dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from optlaws.cams import at_shaft  # noqa: F401 - by which the kind "cam" is known
 from optlaws.cycles.cycle import Cycle
 from optlaws.cycles.interlocks.interlock import Interlock
 from optlaws.cycles.interlocks.interlock_kinds import INTERLOCKS
@@ -15,15 +17,17 @@ from optlaws.cycles.specification.load import ElasticFollower
 from optlaws.cycles.specification.segments import CycleSegment
 from optlaws.echo import shortened
 from optlaws.entries.declared import Declared, ValueOf, declared, entries_of, entry, same
-from optlaws.entries.value_types import Choice, Listed, ReadBy, Switch, Text, Whole
-from optlaws.errors import InputError, located
+from optlaws.entries.value_types import Choice, Either, Listed, Measured, Number, ReadBy, Switch, Text, Whole
+from optlaws.errors import InfeasibleProblem, InputError, SolverFailure, located
 from optlaws.exports.format import Request
-from optlaws.jobs.axes.axis_transitions import TransitionEntries
-from optlaws.jobs.axes.drive_entries import drive_of
-from optlaws.jobs.axes.entry_sweep import SweepEntries, SweptCycle, swept
 from optlaws.jobs.job_entries import ProblemFile
+from optlaws.mechanisms.drives.drive_train import Drive
+from optlaws.mechanisms.drives.motor import read_motors
+from optlaws.mechanisms.linkages.mechanism import Mechanism
+from optlaws.mechanisms.linkages.mechanism_kinds import MechanismKind
 from optlaws.numbers import Quantity
 from optlaws.suggest import unknown_key
+from optlaws.synthesis.status import Status
 
 if TYPE_CHECKING:
     from optlaws.cycles.machine_axes import Axes, Overlap
@@ -55,6 +59,50 @@ class ExportEntries(Declared, title="an export"):
     interpolation: str | None = same(Request, "interpolation")
     task: str | None = entry(Text(), "Time of the drive's task, whose samples are reported.", default=None)
     name: str | None = same(Request, "name", default=None)
+
+
+@declared
+class TransitionEntries(Declared, title="a run-in or run-out"):
+    """A cam from rest into the cycle of an axis, or out of it."""
+
+    at: Quantity = entry(
+        Measured("angle", "time"), "The angle of the master, or time, at which it meets the cycle.", example="60 deg"
+    )
+    rest: Quantity | None = entry(
+        Measured("length", "angle"), "The position of rest; where the cycle starts unless given.", default=None
+    )
+    over: Quantity | None = entry(
+        Measured("angle", "time"),
+        "The angle of the master, or time, that it takes; the least within the limits unless given.",
+        default=None,
+    )
+    order: int | None = entry(
+        Whole(), "How much is continuous where they meet; that of the axis unless given.", default=None
+    )
+
+
+@declared
+class SweepEntries(Declared, title="a sweep"):
+    """An entry of an axis, such as "drive.ratio" or "mechanism.crank", and the values that it takes."""
+
+    axis: str = entry(Text(), "The axis.", example="slide")
+    values: tuple[str | float, ...] = entry(
+        Listed(Either(Number(), Text(), which=lambda value: int(isinstance(value, str))), least=2, most=50),
+        "What the entry is in turn.",
+        example=[10, 20, 30],
+    )
+    entry: str = entry(
+        Text(), 'Of the axis, such as "drive.ratio", "mechanism.crank" or "segment.1.duration".', example="drive.ratio"
+    )
+
+
+@dataclass(frozen=True)
+class SweptCycle:
+    """The cycle of an axis with a value of its entry; None without a motion, with the reason as its status."""
+
+    value: str | float
+    cycle: Cycle | None
+    status: Status
 
 
 def _constants(value: Any) -> Any:
@@ -198,17 +246,57 @@ def sweeps_of(spec: CycleProblemFile, file: Path) -> list[list[SweptCycle]]:
         If a sweep names an axis or an entry that is not there, or a value is wrong; the error names the file.
     """
     axes = {axis.name: axis.to_dict() for axis in spec.axis}
-
-    def changed(data: dict[str, Any]) -> Cycle:
-        return cycle_of(AxisEntries.from_dict(data), spec.speed, spec.period, file.parent)
-
     rows = []
     with located(str(file)):
         for sweep in spec.sweep:
             if sweep.axis not in axes:
                 raise InputError(f"sweep of {sweep.entry}: {unknown_key(sweep.axis, axes, 'axis')}")
-            rows.append(swept(sweep, axes[sweep.axis], changed))
+            rows.append([_swept(spec, axes[sweep.axis], sweep.entry, value, file.parent) for value in sweep.values])
     return rows
+
+
+def _swept(spec: CycleProblemFile, axis: dict[str, Any], entry: str, value: str | float, folder: Path) -> SweptCycle:
+    """The cycle of an axis with another value of an entry, with its laws."""
+    try:
+        with located(f"sweep of {entry}, {value}"):
+            changed = AxisEntries.from_dict(with_entry(axis, entry, value))
+            cycle = cycle_of(changed, spec.speed, spec.period, folder)
+            _ = cycle.peaks  # laws are looked for now
+            return SweptCycle(value, cycle, cycle.status)
+    except InfeasibleProblem:
+        return SweptCycle(value, None, Status.INFEASIBLE)
+    except SolverFailure:
+        return SweptCycle(value, None, Status.FAILED)
+
+
+def with_entry(axis: dict[str, Any], entry: str, value: str | float) -> dict[str, Any]:
+    """The entries of an axis with another value of a single entry; parts of a list are counted from 1.
+
+    Examples
+    --------
+    >>> with_entry({"drive": {"ratio": 20}, "segment": [{"by": "3 mm"}]}, "drive.ratio", 30.0)
+    {'drive': {'ratio': 30.0}, 'segment': [{'by': '3 mm'}]}
+    >>> with_entry({"segment": [{"by": "3 mm"}]}, "segment.1.by", "5 mm")
+    {'segment': [{'by': '5 mm'}]}
+    >>> with_entry({"drive": {"ratio": 20}}, "drvie.ratio", 30.0)
+    Traceback (most recent call last):
+    optlaws.errors.InputError: entry 'drvie.ratio': unknown entry 'drvie'; did you mean 'drive'?
+    """
+    changed = deepcopy(axis)
+    place: Any = changed
+    *way, last = entry.split(".")
+    for part in way:
+        if isinstance(place, list) and part.isdigit() and 1 <= int(part) <= len(place):
+            place = place[int(part) - 1]
+        elif isinstance(place, dict) and part in place:
+            place = place[part]
+        else:
+            known = place if isinstance(place, dict) else [str(i + 1) for i in range(len(place))]
+            raise InputError(f"entry {entry!r}: {unknown_key(part, known, 'entry')}")
+    if not isinstance(place, dict):
+        raise InputError(f"entry {entry!r} must end in the name of an entry, such as drive.ratio")
+    place[last] = value
+    return changed
 
 
 def cycle_of(axis: AxisEntries, speed: Quantity | None, period: Quantity | None, folder: Path = Path()) -> Cycle:
@@ -234,3 +322,68 @@ def follower_cycle(given: AxisEntries | Mapping[str, Any], speed: Quantity | Non
             "what this cam's shaft feels"
         )
     return cycle_of(motion, speed, period)
+
+
+def drive_of(
+    mechanism: Mapping[str, Any] | None, drive: Mapping[str, Any] | None, folder: Path
+) -> Mapping[str, Any] | Mechanism | Drive | None:
+    """The drive of a cycle as an argument of `Cycle`: constants of a table, a mechanism, or a motor with one.
+
+    Parameters
+    ----------
+    mechanism
+        The table of a mechanism.
+    drive
+        The table of a drive: constants, or beside a mechanism its motor and gear.
+    folder
+        To which the path of the catalogue of motors is relative.
+
+    Raises
+    ------
+    InputError
+        If an entry is unknown, missing or wrong; the error names it.
+
+    Examples
+    --------
+    >>> table = {"kind": "table", "inertia": "0.8 kg m^2"}
+    >>> motor = {"inertia": "3e-4 kg m^2", "peak_torque": "6 N m"}
+    >>> drive_of(table, {"motor": motor, "ratio": 20}, Path()).motor.peak_torque
+    6.0
+    """
+    if mechanism is None:
+        if drive is not None and {"motor", "motors", "ratio"} & drive.keys():
+            raise InputError(
+                "drive: a motor drives a mechanism: give the axis its table mechanism too, such as mechanism = "
+                "{ kind = 'table', inertia = '0.8 kg m^2' }"
+            )
+        return drive
+    with located("mechanism"):
+        driven = MechanismKind.from_dict(mechanism).mechanism
+    if drive is None:
+        return driven
+    if "motor" not in drive:
+        raise InputError(
+            "drive: beside a mechanism it has a motor, such as motor = { inertia = '3e-4 kg m^2' }; masses, springs "
+            "and friction of the load are the mechanism's"
+        )
+    given = dict(drive)
+    with located("drive"):
+        given["motor"] = _motor(given["motor"], given.pop("motors", None), folder)
+        return Drive.from_dict({"mechanism": driven, **given})
+
+
+def _motor(motor: Any, catalogue: Any, folder: Path) -> Any:
+    """The table of a motor, or the motor of a catalogue that its name says."""
+    if not isinstance(motor, str):
+        if catalogue is not None:
+            raise InputError("motors: the motor is given as a table: leave the catalogue out, or name a motor of it")
+        return motor
+    if catalogue is None:
+        raise InputError(
+            f"motor: {motor!r} is one of a catalogue: give its file, such as motors = 'motors.toml', or give the motor "
+            "as a table"
+        )
+    motors = read_motors(folder / Text().read(catalogue, "motors"))
+    if motor not in motors:
+        raise InputError(f"motor: {catalogue}: {unknown_key(motor, motors, 'motor')}")
+    return motors[motor]

@@ -21,15 +21,13 @@ RETIRED = {
     "fronts": "take `optlaws front`, or pareto_front(...) by Python, as problems/fronts.py does; `optlaws run fronts` "
     "computes its results",
 }
-#: in a room of its own
-_ROOMS = {"fastest": "moves.fastest"}
 #: the job of the problem files that come with optlaws and have a script beside them
 SCRIPT = "script"
 
 
 def do(name: str, results: Results) -> None:
     """Run the job of a problem file and collect its results; the job's module, and matplotlib, are imported here."""
-    import_module(f"optlaws.jobs.{_ROOMS.get(name, name.replace(' ', '_'))}").run(results)
+    import_module(f"optlaws.jobs.{name.replace(' ', '_')}").run(results)
 
 
 def run(file: Path, out: Path | None = None) -> list[Path]:

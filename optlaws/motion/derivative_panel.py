@@ -17,6 +17,8 @@ from optlaws.tolerances import CYCLE_ROUNDING
 _EACH = 60  # samples of a piece, to which those are added that its curve needs
 
 Place = tuple[float, float]
+#: the names of derivatives by their order
+DERIVATIVES = (*QUANTITIES, "snap")
 
 
 def display_unit(axis: str, nu: int) -> tuple[str, float]:
@@ -46,7 +48,7 @@ def motion_panel(
     peaks = tuple((time, value * factor) for value, time in (least, most) if chop(value, size, CYCLE_ROUNDING))
     shown = tuple(limit._replace(low=factor * limit.low, high=factor * limit.high) for limit in limits)
     ends = factor * least[0], factor * most[0]
-    return Panel((*QUANTITIES, "snap")[nu], name, (Series(times, factor * values),), shown, peaks, ends)
+    return Panel(DERIVATIVES[nu], name, (Series(times, factor * values),), shown, peaks, ends)
 
 
 def samples(pieces: Sequence[Piece], nu: int, count: int) -> tuple[Array, Array]:

@@ -5,35 +5,24 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
 from optlaws.cycles.cycle import Cycle
 from optlaws.cycles.report import CycleReport
 from optlaws.errors import InputError
 from optlaws.motion.quantities import QUANTITIES
 from optlaws.numbers import derivative
 from optlaws.plots.report import draw_panels, draw_share, mark_segments, set_range
-from optlaws.plots.style import BLUES, GREEN, GREY, WARM, new_figure, plot_style, titled
+from optlaws.plots.style import BLUES, GREEN, GREY, WARM, one_below_the_other
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from matplotlib.artist import Artist
     from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
 
 
 _ABOVE: Any = {"loc": "lower left", "bbox_to_anchor": (0.0, 1.0), "ncols": 2, "frameon": False, "fontsize": 8.0}
 _MOTION = len(QUANTITIES)
 _WITH_DRIVE = 6
-
-
-def cycle_figure(cycle: Cycle, title: str) -> Figure:
-    """The motion of one cycle, as a figure."""
-    figure: Figure = draw_cycle(cycle)[0].get_figure()  # type: ignore[assignment] # a figure of our own
-    with plot_style():
-        figure.align_ylabels()
-        return titled(figure, title)
 
 
 def draw_cycle(cycle: Cycle, axes: Any = None, **style: Any) -> list[Artist]:
@@ -46,11 +35,8 @@ def draw_cycle(cycle: Cycle, axes: Any = None, **style: Any) -> list[Artist]:
     from optlaws.plots.law import four
 
     report = CycleReport(cycle)
-    if axes is None:
-        count = len(report.panels)
-        with plot_style():
-            axes = new_figure(8.6, 11.6 if count > _MOTION else 8.2).subplots(count, 1, sharex=True)
-    several = list(np.ravel(np.asarray(axes, dtype=object)))
+    count = _MOTION if cycle.drive is None else _WITH_DRIVE
+    several = one_below_the_other(axes, count, 8.2 if cycle.drive is None else 11.6)
     driven = len(several) == _WITH_DRIVE and cycle.drive is not None
     into = several if driven else four(several)
     for axis in into[_MOTION:]:
@@ -75,13 +61,6 @@ _COLOURS = (BLUES[3], WARM, GREEN, GREY, *BLUES[:3])
 _HEIGHT = 1.6
 
 
-def axes_figure(cycles: Mapping[str, Cycle], title: str) -> Figure:
-    """The positions of all axes, as a figure."""
-    figure: Figure = draw_axes(cycles)[0].get_figure()  # type: ignore[assignment] # a figure of our own
-    with plot_style():
-        return titled(figure, title)
-
-
 def draw_axes(
     cycles: Mapping[str, Cycle],
     axes: Any = None,
@@ -103,15 +82,11 @@ def draw_axes(
         axes.legend(**_ABOVE)
         set_range(axes, panels)
         return artists
-    if axes is None:
-        with plot_style():
-            figure = new_figure(8.6, 0.8 + _HEIGHT * len(cycles))
-            axes = figure.subplots(len(cycles), 1, sharex=True, squeeze=False)[:, 0]
-    if len(axes) != len(cycles):
-        raise InputError(f"{len(cycles)} axes are drawn into one pair of axes or into as many, got {len(axes)}")
-    for each, panel, (name, report) in zip(axes, panels, shown.items(), strict=True):
+    several = one_below_the_other(axes, len(cycles), 0.8 + _HEIGHT * len(cycles))
+    if len(several) != len(cycles):
+        raise InputError(f"{len(cycles)} axes are drawn into one pair of axes or into as many, got {len(several)}")
+    for each, panel, (name, report) in zip(several, panels, shown.items(), strict=True):
         artists += draw_panels([panel], report.segments, [each], **style)
         each.set(xlabel="", ylabel=f"{name}\n{panel.title}")
-    set_range(axes[-1], panels)
-    axes[0].figure.align_ylabels()
+    set_range(several[-1], panels)
     return artists

@@ -16,7 +16,17 @@ from optlaws.errors import InputError
 from optlaws.motion.derivative_panel import samples
 from optlaws.motion.display_units import TURN_DEG, UNITS
 from optlaws.numbers import Array
-from optlaws.plots.style import BLUES, DISTINCT, GREEN, GREY, WARM, name_point, new_figure, plot_style, titled
+from optlaws.plots.style import (
+    BLUES,
+    DISTINCT,
+    GREEN,
+    GREY,
+    WARM,
+    name_point,
+    new_figure,
+    one_below_the_other,
+    plot_style,
+)
 from optlaws.suggest import unknown_key
 
 if TYPE_CHECKING:
@@ -24,27 +34,12 @@ if TYPE_CHECKING:
 
     from matplotlib.artist import Artist
     from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
 
     from optlaws.cycles.cycle import Cycle
     from optlaws.cycles.interlocks.interlock import Interlock, LeastClearance
 
 _COUNT = 2401
 _HALF = 0.34  # of a bar's height; rows are 1 apart
-
-
-def timing_figure(cycles: Mapping[str, Cycle], interlocks: Sequence[Interlock], title: str) -> Figure:
-    """The timing diagram of all axes, as a figure."""
-    figure: Figure = _timing(cycles, interlocks, None, {})[0].get_figure()  # type: ignore[assignment] # of our own
-    with plot_style():
-        return titled(figure, title)
-
-
-def clearance_figure(cycles: Mapping[str, Cycle], interlocks: Sequence[Interlock], title: str) -> Figure:
-    """The clearance of every interlock over the master, as a figure."""
-    figure: Figure = _clearances(cycles, interlocks, None, {})[0].get_figure()  # type: ignore[assignment] # of our own
-    with plot_style():
-        return titled(figure, title)
 
 
 def draw_interlocked(
@@ -160,7 +155,7 @@ def _plane(
     x, y = (size * cycles[name](times) for name, (_, size) in zip((across, up), sizes, strict=True))
     artists: list[Artist] = list(axes.plot(x, y, **{"color": BLUES[3]} | style))
     # before axes are widened by what is forbidden
-    limits = [_wider(float(values.min()), float(values.max())) for values in (x, y)]
+    limits = [wider([values]) for values in (x, y)]
     for each in interlocks:
         if set(each.axes) == {across, up}:
             artists += _forbidden(axes, cycles, each, (across, up), limits)
@@ -186,15 +181,14 @@ def plane_axes(rule: Interlock) -> tuple[str, str]:
 def _forbidden(
     axes: Axes, cycles: Mapping[str, Cycle], rule: Interlock, plane: tuple[str, str], limits: Sequence[Any]
 ) -> list[Artist]:
-    """Regions that an interlock forbids, in the units of the picture."""
+    """Regions that an interlock forbids, in the units of the picture; of an `After` the wall that is not passed."""
     region = forbidden_region(cycles, rule, plane, limits)
-    if region is not None:
-        look: Any = {"color": WARM, "alpha": 0.25, "linewidth": 0.0}
-        return list(axes.fill(*region.T, **look))
+    if region is None:
+        return []
     if isinstance(rule, After):
-        marks = passed_and_level(cycles, rule, plane)
-        return [axes.axvline(marks[0], color=WARM, linestyle=":"), axes.axhline(marks[1], color=WARM, linestyle=":")]
-    return []
+        return list(axes.plot(*region.T, color=WARM, linestyle=":"))
+    look: Any = {"color": WARM, "alpha": 0.25, "linewidth": 0.0}
+    return list(axes.fill(*region.T, **look))
 
 
 def forbidden_region(
@@ -202,18 +196,23 @@ def forbidden_region(
 ) -> Array | None:
     """The corners of an interlock's forbidden region in the plane of two axes, shape (n, 2), small units; or None.
 
-    `limits` are the least and the greatest position to the right and up, up to which the forbidden side of a bound
-    reaches.
+    Of an `After` they are the two ends of a wall. `limits` are the least and the greatest position to the right and up,
+    up to which the forbidden side of a bound, or a wall, reaches.
     """
     sizes = [UNITS[cycles[name].axis][0][1] for name in plane]
-    turned = rule.axes[0] != plane[0]
+    along, across = (0, 1) if rule.axes[0] != plane[0] else (1, 0)
     if isinstance(rule, Forbidden):
         corners = corners_of(rule, *(cycles[name].axis for name in rule.axes))
-        return np.array([corner[::-1] if turned else corner for corner in corners]) * sizes
+        return np.array([corner[::-1] if along == 0 else corner for corner in corners]) * sizes
+    if isinstance(rule, After):
+        passed, level = rule.positions(cycles)
+        wall = np.empty((2, 2))
+        wall[:, across] = passed * sizes[across]
+        wall[:, along] = level * sizes[along], limits[along][0 if rule.sign > 0.0 else 1]
+        return wall
     if not isinstance(rule, Clearance):
         return None
     bound = bound_of(rule, *(cycles[name].axis for name in rule.axes))
-    along, across = (0, 1) if turned else (1, 0)
     places = np.linspace(*limits[along], _COUNT)
     edge = bound(places / sizes[along]) * sizes[across]
     side = limits[across][0 if rule.sign > 0.0 else 1]
@@ -223,15 +222,10 @@ def forbidden_region(
     return region
 
 
-def passed_and_level(cycles: Mapping[str, Cycle], rule: After, plane: tuple[str, str]) -> tuple[float, float]:
-    """Where an `After` is in a plane of two axes, in small units: to the right, and up."""
-    pair = rule.positions(cycles) if rule.axes[0] == plane[0] else rule.positions(cycles)[::-1]
-    x, y = (UNITS[cycles[name].axis][0][1] * place for name, place in zip(plane, pair, strict=True))
-    return x, y
-
-
-def _wider(low: float, high: float) -> tuple[float, float]:
-    room = 0.06 * (high - low)
+def wider(values: Sequence[Array]) -> tuple[float, float]:
+    """The range of positions with a little room on both sides."""
+    low, high = min(float(each.min()) for each in values), max(float(each.max()) for each in values)
+    room = 0.06 * ((high - low) or 1.0)
     return low - room, high + room
 
 
@@ -242,11 +236,7 @@ def _clearances(
     style: dict[str, Any],
 ) -> list[Artist]:
     """The clearance of every interlock over the master, with the least of each."""
-    if axes is None:
-        with plot_style():
-            figure = new_figure(8.6, 0.9 + 1.7 * len(interlocks))
-            axes = figure.subplots(len(interlocks), 1, sharex=True, squeeze=False)[:, 0]
-    panels = [axes] if hasattr(axes, "plot") else list(axes)
+    panels = one_below_the_other(axes, len(interlocks), 0.9 + 1.7 * len(interlocks))
     if len(panels) != len(interlocks):
         raise InputError(f"{len(interlocks)} interlocks are drawn into as many axes, got {len(panels)}")
     artists: list[Artist] = []
@@ -257,7 +247,6 @@ def _clearances(
         artists += _clearance(panel, cycles, rule, least, times, style)
     panels[-1].set(xlabel="master, deg", xlim=(0.0, TURN_DEG))
     panels[-1].set_xticks(np.arange(0.0, TURN_DEG + 1.0, 30.0))
-    panels[0].figure.align_ylabels()
     return artists
 
 

@@ -7,11 +7,10 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from optlaws.cycles.report import samples_of_drive
+from optlaws.cycles.report import CycleReport
 from optlaws.errors import InputError
 from optlaws.formulas.arithmetic import NUMPY, evaluate
 from optlaws.formulas.tree import Formula
-from optlaws.motion.derivative_panel import samples
 from optlaws.motion.display_units import DEGREES, MILLI, RPM
 from optlaws.numbers import Array
 from optlaws.plots.style import (
@@ -25,7 +24,6 @@ from optlaws.plots.style import (
     new_axes,
     new_figure,
     plot_style,
-    titled,
 )
 from optlaws.tolerances import VALUE_ROUNDING
 
@@ -35,7 +33,6 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from optlaws.cycles.cycle import Cycle
-    from optlaws.mechanisms.drives.drive_train import Drive
     from optlaws.mechanisms.drives.effort import PieceEffort
     from optlaws.mechanisms.drives.motor import Motor
     from optlaws.mechanisms.drives.sheet import BestRatio
@@ -122,13 +119,6 @@ def draw_mechanism(mechanism: Mechanism, axes: Any = None, **style: Any) -> list
         return artists + _curves(mechanism, panels, style)
 
 
-def mechanism_figure(mechanism: Mechanism, title: str) -> Figure:
-    """A mechanism with its inertia and load, as a figure."""
-    figure: Figure = draw_mechanism(mechanism)[0].get_figure()  # type: ignore[assignment] # a figure of our own
-    with plot_style():
-        return titled(figure, title)
-
-
 def _new_panels(linked: bool) -> list[Axes]:  # noqa: FBT001
     if not linked:
         return list(np.ravel(new_figure(7.2, 6.0).subplots(3, 1, sharex=True)))
@@ -170,7 +160,7 @@ def _linkage(mechanism: Mechanism, axes: Axes) -> list[Artist]:
     artists: list[Artist] = []
     axes.set_aspect("equal")
     for chain in mechanism.linkage.chains:
-        joints = [_placed(point, x) for point in chain]
+        joints = [placed(point, x) for point in chain]
         for path in joints:
             if np.ptp(path, axis=1).max() > 0.0:
                 artists += axes.plot(*path, color=GREY, linewidth=0.8, linestyle=":", zorder=1)
@@ -181,9 +171,9 @@ def _linkage(mechanism: Mechanism, axes: Axes) -> list[Artist]:
                 "color": GREY if fixed else WARM,
                 "markersize": 7.0 + 2.0 * fixed,
             }
-            artists += axes.plot(*_placed(chain[0], shown[:1]), linestyle="", zorder=5, **marker)
+            artists += axes.plot(*placed(chain[0], shown[:1]), linestyle="", zorder=5, **marker)
             continue
-        places = np.array([_placed(point, shown) for point in chain])
+        places = np.array([placed(point, shown) for point in chain])
         for i in range(len(shown))[::-1]:
             line: dict[str, Any] = (
                 {"color": BLUES[4], "linewidth": 2.2} if i == 0 else {"color": BLUES[1], "linewidth": 1.0}
@@ -193,8 +183,8 @@ def _linkage(mechanism: Mechanism, axes: Axes) -> list[Artist]:
     return artists
 
 
-def _placed(point: tuple[Formula, Formula], x: Array) -> Array:
-    """A joint's coordinates in millimetres."""
+def placed(point: tuple[Formula, Formula], x: Array) -> Array:
+    """A joint's coordinates in millimetres, shape (2, n); one that is fixed has the same for all positions."""
     return MILLI * np.array([evaluate(part, {"x": x}, NUMPY) + 0.0 * x for part in point])
 
 
@@ -209,19 +199,10 @@ def draw_move(along: PieceEffort, motor: Motor, axes: Axes | None = None, **styl
     return draw_torque_over_speed(course, motor, axes, **{"label": "move", **style})
 
 
-def draw_motor_of_cycle(cycle: Cycle, drive: Drive, axes: Axes | None = None, **style: Any) -> list[Artist]:
+def draw_motor_of_cycle(cycle: Cycle, axes: Axes | None = None, **style: Any) -> list[Artist]:
     """Draw torque over speed at the motor during a cycle, within the motor's curves."""
-    _, speeds = samples(cycle.pieces, 1, _SAMPLES)
-    _, torques = samples_of_drive(cycle, cycle.force, _SAMPLES)
-    return draw_torque_over_speed((drive.ratio * speeds, torques), drive.motor, axes, **{"label": "cycle", **style})
-
-
-def motor_figure(cycle: Cycle, drive: Drive, title: str) -> Figure:
-    """Torque over speed at the motor during a cycle, under a title."""
-    with plot_style():
-        figure = new_figure(7.2, 4.6)
-        draw_motor_of_cycle(cycle, drive, figure.add_subplot())
-        return titled(figure, title)
+    course = CycleReport(cycle).over_speed(_SAMPLES)
+    return draw_torque_over_speed(course, cycle.geared_motor.motor, axes, **{"label": "cycle", **style})
 
 
 def draw_torque_over_speed(
@@ -231,16 +212,13 @@ def draw_torque_over_speed(
     axes = axes or new_axes()
     artists: list[Artist] = []
     goes_back = course[0].min() < -VALUE_ROUNDING * np.abs(course[0]).max()
-    fastest = min(motor.greatest_speed, 1.5 * float(np.abs(course[0]).max()))
-    speeds = np.unique([*np.linspace(0.0, fastest, _SAMPLES), *(speed for speed, _ in motor.curve if speed <= fastest)])
-    limits = (motor.peak_at(speeds), "peak torque", "-"), (motor.continuous_at(speeds), "continuous torque", "--")
-    for values, name, dashes in limits:
-        if np.isfinite(values).all():
-            look: dict[str, Any] = {"color": GREY, "linestyle": dashes, "linewidth": 1.1}
-            for side, label in ((1.0, name), (-1.0, None)):
-                for way in (1.0, -1.0) if goes_back else (1.0,):
-                    shown = label if way > 0.0 else None
-                    artists += axes.plot(way * RPM * speeds, side * values, **look, label=shown)
+    speeds, limits = motor.limits_up_to(1.5 * float(np.abs(course[0]).max()), _SAMPLES)
+    for name, values in limits.items():
+        look: dict[str, Any] = {"color": GREY, "linestyle": "-" if name == "peak torque" else "--", "linewidth": 1.1}
+        for side, label in ((1.0, name), (-1.0, None)):
+            for way in (1.0, -1.0) if goes_back else (1.0,):
+                shown = label if way > 0.0 else None
+                artists += axes.plot(way * RPM * speeds, side * values, **look, label=shown)
     artists += axes.plot(RPM * course[0], course[1], **{"color": BLUES[3], **style})
     axes.axhline(0.0, color=GREY, linewidth=0.8)
     axes.set(xlabel="speed of the motor, rpm", ylabel="torque at the motor, N m")

@@ -13,7 +13,7 @@ from optlaws.motion.quantities import QUANTITIES
 from optlaws.plots.front import draw_time_front
 from optlaws.plots.law import four
 from optlaws.plots.report import draw_panels
-from optlaws.plots.style import BLUES, GREY, WARM, empty_figure, new_figure, plot_style, titled
+from optlaws.plots.style import BLUES, GREY, WARM, empty_figure, one_below_the_other, plot_style, titled
 from optlaws.synthesis.status import Status
 from optlaws.tolerances import INSIDE_PIECE
 
@@ -81,15 +81,6 @@ _BESIDE = 0.5  # of a turn of the cycle, and of the cam's own angle at rest, dra
 _STILL = 0.2
 
 
-def transition_figure(cam: TransitionCam, cycle: Cycle, title: str) -> Figure:
-    """A run-in or run-out beside its cycle, as a figure."""
-    artists = draw_transition(cam, cycle=cycle)
-    figure: Figure = artists[0].axes.figure  # type: ignore[union-attr, assignment] # of our own
-    with plot_style():
-        figure.align_ylabels()
-        return titled(figure, title)
-
-
 def draw_transition(
     cam: TransitionCam,
     axes: Any = None,
@@ -98,10 +89,7 @@ def draw_transition(
     **style: Any,
 ) -> list[Artist]:
     """Draw position, velocity, acceleration and jerk over the master's angle into four axes; return the artists."""
-    if axes is None:
-        with plot_style():
-            axes = list(new_figure(8.6, 8.2).subplots(4, 1, sharex=True))
-    panels = four(list(np.ravel(np.asarray(axes, dtype=object))))
+    panels = four(one_below_the_other(axes, 4, 8.2))
     first, last = cam.master
     breaks = cam.duration * np.array(cam.piece.law.breaks)
     times = np.unique(np.concatenate([np.linspace(0.0, cam.duration, _COUNT), breaks]))
@@ -137,10 +125,7 @@ _INSIDE_RUN = 25
 
 def draw_export(export: Export, axes: Any = None, **style: Any) -> list[Artist]:
     """Draw the exported motion and the executed motion over the master into four axes; return the artists."""
-    if axes is None:
-        with plot_style():
-            axes = list(new_figure(8.6, 8.2).subplots(4, 1, sharex=True))
-    panels = four(axes)
+    panels = four(one_below_the_other(axes, 4, 8.2))
     motion, run, units = export.motion, export.run, export.motion.units
     rate, by = (1.0, units.master) if units.rate is None else (units.rate, "s")
     joints = np.unique(np.clip([*run.breaks, *motion.breaks], motion.start, motion.stop))

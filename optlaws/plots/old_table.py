@@ -11,11 +11,12 @@ from optlaws.errors import InputError
 from optlaws.laws.report import broken
 from optlaws.motion.quantities import QUANTITIES
 from optlaws.numbers import Array
-from optlaws.plots.style import BLUES, GREY, WARM, new_figure, plot_style
+from optlaws.plots.style import BLUES, GREY, WARM, one_below_the_other
 
 if TYPE_CHECKING:
     from matplotlib.artist import Artist
 
+    from optlaws.cycles.old_tables.stretches import Stretch
     from optlaws.cycles.old_tables.table import OldTable
 
 _EACH = 400  # samples in a move
@@ -27,10 +28,7 @@ def draw_old_table(table: OldTable, axes: Any = None, new: OldTable | None = Non
     Points are those of the table. New axes unless given.
     """
     count = 4 if new is None else 5
-    if axes is None:
-        with plot_style():
-            axes = new_figure(8.6, 2.0 * count + 0.4).subplots(count, 1, sharex=True)
-    panels = list(np.ravel(np.asarray(axes, dtype=object)))
+    panels = one_below_the_other(axes, count, 2.0 * count + 0.4)
     if len(panels) != count:
         raise InputError(f"ax must be {count} pairs of axes for this, got {len(panels)}")
     points: dict[str, Any] = {"linestyle": "", "marker": ".", "markersize": 2.0, "color": GREY, "label": "points"}
@@ -44,14 +42,12 @@ def draw_old_table(table: OldTable, axes: Any = None, new: OldTable | None = Non
     if new is not None:
         artists += _difference(table, new, panels[1])
     for nu, panel in enumerate(shown):
-        power = {0: "", 1: f"/{table.master}", 2: f"/{table.master}²", 3: f"/{table.master}³"}[nu]
-        panel.set_ylabel(f"{QUANTITIES[nu]},\n{table.unit}{power}")
+        panel.set_ylabel(f"{QUANTITIES[nu]},\n{table.unit_of(nu)}")
     for panel in panels:
         for part in table.stretches[1:]:
             panel.axvline(part.start, color=GREY, linewidth=0.7, linestyle=":")
     panels[0].legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=3, frameon=False, fontsize=8.0)
     panels[-1].set(xlabel=f"master, {table.master}", xlim=(table.places[0], table.places[-1]))
-    panels[0].get_figure().align_ylabels()
     return artists
 
 
@@ -65,16 +61,22 @@ def _difference(table: OldTable, new: OldTable, panel: Any) -> list[Artist]:
     return artists
 
 
-def curve(table: OldTable, nu: int) -> tuple[Array, Array]:
+def curve(table: OldTable, nu: int, count: int = _EACH) -> tuple[Array, Array]:
     """Places of the master and values of a derivative by it, broken by nan where it jumps."""
-    places, values = [], []
-    for part in table.stretches:
-        length = part.stop - part.start
-        if part.law is None:
-            places.append(np.array([part.start, part.stop]))
-            values.append(np.full(2, part.low if nu == 0 else 0.0))
-            continue
-        k, value = broken(law_of_move(part), nu, _EACH)
-        places.append(part.start + length * k)
-        values.append((part.low if nu == 0 else 0.0) + part.stroke / length**nu * value)
-    return np.concatenate(places), np.concatenate(values)
+    parts = [curve_of_part(part, nu, count) for part in table.stretches]
+    places, values = (np.concatenate(row) for row in zip(*parts, strict=True))
+    return places, values
+
+
+def curve_of_part(part: Stretch, nu: int, count: int = _EACH) -> tuple[Array, Array]:
+    """Places of the master in a stretch and values of a derivative by it, through its extremes."""
+    length, base = part.stop - part.start, part.low if nu == 0 else 0.0
+    if part.law is None:
+        return np.array([part.start, part.stop]), np.full(2, base)
+    law = law_of_move(part)
+    k, values = broken(law, nu, count)
+    peaks = [] if nu == 0 else [peak.k for peak in law.extrema(nu) if np.isfinite(peak.value)]
+    more = np.setdiff1d(peaks, k)
+    k, values = np.concatenate([k, more]), np.concatenate([values, np.asarray(law(more, nu))])
+    order = np.argsort(k, kind="stable")
+    return part.start + length * k[order], base + part.stroke / length**nu * values[order]

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import io
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
+
+import numpy as np
 
 from optlaws.extras import NotInstalled
 from optlaws.files import writing
@@ -96,10 +98,26 @@ def new_axes() -> Axes:
         return new_figure().subplots()
 
 
+def one_below_the_other(axes: Any, count: int, height: float) -> list[Axes]:
+    """Axes that are given, or so many new ones in a column over one abscissa; the height in inches."""
+    if axes is None:
+        with plot_style():
+            figure = new_figure(8.6, height)
+            axes = figure.subplots(count, 1, sharex=True, squeeze=False)
+            figure.align_ylabels()
+    return list(np.ravel(np.asarray(axes, dtype=object)))
+
+
 def titled(figure: Figure, title: str) -> Figure:
     """The figure with a title above its left edge."""
     figure.suptitle(title, x=0.01, ha="left", fontsize=11.0)
     return figure
+
+
+def figure_of(artists: Sequence[Artist], title: str) -> Figure:
+    """The figure in which artists are, with a title."""
+    with plot_style():
+        return titled(cast("Figure", artists[0].get_figure()), title)
 
 
 def shades(count: int) -> list[str]:

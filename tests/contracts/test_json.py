@@ -107,7 +107,7 @@ def values(jumping: Solution) -> dict[str, Any]:
         "TransitionCam": slide.run_in("90 deg", rest="-1 mm", over="0.1 s"),
         "TransitionCam of least time": replace(slide, limits={"jerk": "4000 m/s^3"}).run_out("90 deg", rest="40 mm"),
         "TimeFront": optlaws.time_front(fastest, "rms jerk", points=2),
-        "MoveObjective": MoveObjective("torque", MotorTorque("1 + 0.3*a", 0.1, "0.2", 2.0, rms=1.0)),
+        "MoveObjective": MoveObjective("torque", torque=MotorTorque("1 + 0.3*a", 0.1, "0.2", 2.0, rms=1.0)),
         "FollowerResidual": FollowerResidual(95.0, 105.0, 0.05, most=0.4),
         "MotorTorque": MotorTorque("1 + 0.3*a", 0.1, "0.2", 2.0, peak=3.0),
         "MoveLimits": fastest.least.move.limits,

@@ -10,7 +10,7 @@ import pytest
 import optlaws
 from optlaws import BSplines, InputError, Problem, SolverFailure, Window, via
 from optlaws.results import Results
-from tests.internals.cli import PROBLEM_OPTIONS, exit_code
+from tests.internals.cli import exit_code, options_of
 from tests.internals.jobs import solutions
 from tests.internals.studies import StudyPoints, read_study
 from tests.internals.studies import entries as entries_of_point
@@ -197,7 +197,7 @@ def test_the_command_front_takes_every_entry_but_the_objective(
 
 @pytest.mark.parametrize("name", EXAMPLES)
 def test_the_commands_tell_of_misspelt_options(name: str, capsys: pytest.CaptureFixture[str]) -> None:
-    option = PROBLEM_OPTIONS.get(name, PROBLEM_OPTIONS["most"]).name
+    option = options_of(ENTRIES[name])[0].name
     assert exit_code(["solve", "--order", "4", "--degree", "5", f"{option}x", "1"]) == 2
     assert option in capsys.readouterr().err
 

@@ -8,6 +8,7 @@ from itertools import pairwise
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+import numpy as np
 import pytest
 
 from optlaws import Problem, fastest, time_front
@@ -46,7 +47,8 @@ def test_the_least_time_and_what_is_least_in_longer_ones_are_the_library_s(serve
 
 
 def test_the_curve_is_drawn_once_by_the_limit_of_which_most_is_taken(served: Server) -> None:
-    answer = served.ask("fastest", {"study": STUDY, "move": 1, "time": 0.3})
+    table = STUDY["move"][1] | {"front": {"minimise": ["rms torque"]}}
+    answer = served.ask("fastest", {"study": STUDY | {"move": [table]}, "time": 0.3})
     assert answer["names"] == ["velocity", "torque"]
     for panel in answer["panels"]:
         whole, *parts = panel["series"]
@@ -58,14 +60,14 @@ def test_the_curve_is_drawn_once_by_the_limit_of_which_most_is_taken(served: Ser
         }
         assert drawn == dict(zip(whole["at"], whole["values"], strict=True))
     motor = {row["name"]: row for row in answer["rows"]}
-    assert motor["torque"]["use"] == "92.23"
+    assert motor["torque"]["text"] == "92.23"
     assert {share["name"]: share["text"] for share in answer["shares"]} == {
-        name: motor[name]["use"] for name in answer["names"]
+        name: motor[name]["text"] for name in answer["names"]
     }
     # the curve goes through its greatest value
     torque = [abs(value) for value in answer["panels"][4]["series"][0]["values"]]
-    assert law_view.digits(max(torque), 5) == law_view.digits(motor["torque"]["value"], 5)
-    least = f"least rms torque in this time {motor['rms torque']['value']:.7g}"
+    assert law_view.digits(max(torque), 5) == law_view.digits(motor["torque"]["value"]["value"], 5)
+    least = f"least rms torque in this time {motor['RMS torque']['value']['value']:.7g}"
     assert written(answer["trust"]["facts"][0]).startswith(least)
 
 
@@ -131,3 +133,18 @@ def test_a_time_is_given_by_slider_picture_and_number_and_stops_at_the_least(pag
     assert saved["move"][0]["limits"]["jerk"] == "1200 m/s^3"
     assert saved["move"][0]["front"]["minimise"] == ["jerk", "residual acceleration"]
     assert verify(json.loads(saves(page, "law"))).proven
+
+
+@pytest.mark.parametrize("unit", [1e-12, 1e9])
+def test_curves_of_any_size_are_drawn(served: Server, unit: float) -> None:
+    limits = {"velocity": f"{1.5 * unit!r} m/s", "jerk": f"{600.0 * unit!r} m/s^3"}
+    plain, scaled = (
+        served.ask("fastest", {"study": {"job": "fastest", "title": "one", "move": [move]}})["panels"]
+        for move in (
+            {"name": "one", "stroke": "300 mm", "limits": {"velocity": "1.5 m/s", "jerk": "600 m/s^3"}},
+            {"name": "one", "stroke": f"{300.0 * unit!r} mm", "limits": limits},
+        )
+    )
+    for one, other in zip(plain, scaled, strict=True):
+        values, drawn = (np.array(panel["series"][0]["values"]) for panel in (one, other))
+        assert drawn / unit == pytest.approx(values, abs=1e-5 * np.abs(values).max())

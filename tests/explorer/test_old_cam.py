@@ -46,7 +46,7 @@ def test_a_table_is_what_the_library_reads(served: Server, turn: Path) -> None:
     rows = [[part.kind, f"{part.start:g}", f"{part.stop:g}"] for part in table.stretches]
     assert [row[:3] for row in shown["rows"]] == rows
     assert written(shown["rows"][0][4]) == table.law_in_words(table.stretches[0])
-    assert written(shown["trust"]["facts"][0]) == f"laws keep within {table.room:.3g} mm of the points"
+    assert written(shown["trust"]["facts"][0]) == f"within {table.room:.3g} mm of the points"
     off = next(one for one in shown["panels"][1]["series"] if one["name"] == "points")
     assert off["values"] == pytest.approx(table.heights - table.at(table.places), abs=1e-7)
     for panel, nu in zip(shown["panels"][2:], (1, 2, 3), strict=True):

@@ -82,6 +82,6 @@ def test_proofs_of_a_motion_are_those_of_its_laws(served: Server) -> None:
     moves: dict[str, Any] = {"study": fastest_view.example()}
     question = {"kind": "proof", "view": "fastest", "request": moves}
     stored = json.loads(served.ask("save", question)["text"])
-    least = fastest_view.fastest_of(fastest_view.FastestRequest(**moves))
+    least = fastest_view.fastest_of(CycleRequest(**moves))
     assert stored["duration"] == least.duration
     assert stored["proofs"] == json.loads(json.dumps(least.to_dict()["proofs"]))

@@ -4,7 +4,7 @@ from optlaws.cli import app as app_of_cli
 from optlaws.cli.app import BAD_INPUT, COMMANDS, RETIRED, NotProven, PartlyChecked, exit_code
 from optlaws.cli.app import app as app_of_app
 from optlaws.cli.options import Option, options, takes
-from optlaws.cli.problem_options import PROBLEM as PROBLEM_OPTIONS
+from optlaws.cli.problem_options import options_of
 from optlaws.cli.show import show
 from optlaws.cli.synthesis.new import new
 from optlaws.cli.synthesis.verify import verify

@@ -7,10 +7,18 @@ from optlaws.explorer.downloads import FileRequest
 from optlaws.explorer.server import ADDRESS, opened, server
 from optlaws.explorer.start import OpenRequest, start
 from optlaws.explorer.start import opened as opened_file
-from optlaws.explorer.views import axes_view, cam_view, cycle_view, front_view, law_view, old_cam_view
+from optlaws.explorer.views import (
+    axes_view,
+    cam_view,
+    cycle_view,
+    fastest_view,
+    front_view,
+    law_view,
+    machine_view,
+    old_cam_view,
+)
 from optlaws.explorer.views.cam_view import CamRequest
 from optlaws.explorer.views.cycle_view import CycleRequest, example
 from optlaws.explorer.views.law_view import answer
-from optlaws.explorer.views.machines import fastest_view, machine_view
 from optlaws.explorer.views.panel_data import fact_sentences, panel_data
 from optlaws.explorer.views.requests import LawRequest, LawsRequest, given_law, law_of, problem_of, solved

@@ -197,6 +197,11 @@ EXAMPLES = {
         (
             ("degree = 7", "degre = 7", "did you mean 'degree'"),
             ("degree = 7", "degree = 7\nB = 1.8", "the problem of a least time leaves B free"),
+            (
+                "degree = 7",
+                'degree = 7\nwindows = [{ quantity = "b", high = 0.9 }]',
+                r"(^|toml: )move \w+: no time is long enough",
+            ),
             ('stroke = "45 deg"', 'stroke = "45 mm"', "move table: .*limits|move table: .*angle"),
             ('stroke = "45 deg"', 'strok = "45 deg"', "did you mean 'stroke'"),
             ('name = "slide"', 'name = "Table"', "names must differ as files have them"),

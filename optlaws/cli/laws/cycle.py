@@ -102,8 +102,8 @@ def _greatest_speed(file: Path, out: Path | None, plot: Path | None, *, as_json:
     """The greatest speed of each axis of a problem file."""
     from optlaws.files.packaged import problem_of_job
     from optlaws.jobs import cycle as job
-    from optlaws.jobs.axes.fastest_page import fastest_facts, fastest_of, fastest_page
     from optlaws.jobs.cycle_entries import read
+    from optlaws.jobs.cycle_pages import fastest_facts, fastest_of, fastest_page
     from optlaws.results import Results
 
     source, _, entries = problem_of_job(file, "cycle")
@@ -116,11 +116,12 @@ def _greatest_speed(file: Path, out: Path | None, plot: Path | None, *, as_json:
             job.run(results)
             results.write(out)
     if plot is not None:
-        from optlaws.plots.cycle import axes_figure, cycle_figure
+        from optlaws.plots.cycle import draw_axes, draw_cycle
+        from optlaws.plots.style import figure_of
 
         at_best = {name: speed.cycle for name, speed in speeds.items()}
-        alone = next(iter(at_best.values())) if len(at_best) == 1 else None
-        save_figure(plot, axes_figure(at_best, spec.title) if alone is None else cycle_figure(alone, spec.title))
+        artists = draw_axes(at_best) if len(at_best) > 1 else draw_cycle(next(iter(at_best.values())))
+        save_figure(plot, figure_of(artists, spec.title))
     if as_json:
         print_json({name: fastest_facts(speed) for name, speed in speeds.items()})
     else:
@@ -154,7 +155,8 @@ def _job(file: Path, out: Path | None, plot: Path | None, *, as_json: bool) -> N
 
 def _main_picture(entries: Mapping[str, Any], results: Results, suffix: str) -> bytes:
     """The most informative picture among the results of a cycle: the single axis, or all axes."""
-    from optlaws.jobs.cycle import TOGETHER, plain_name
+    from optlaws.jobs.cycle import TOGETHER
+    from optlaws.jobs.cycle_pages import plain_name
 
     names = [plain_name(axis["name"]) for axis in entries["axis"]]
     return results.drawn(names[0] if len(names) == 1 else TOGETHER, suffix[1:])

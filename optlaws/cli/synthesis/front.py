@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
 from typing import Any, Literal
 
 import optlaws
 from optlaws.cli.options import AsJson, Plot, Written, options, save_picture, takes
-from optlaws.cli.problem_options import PROBLEM, problem_of
+from optlaws.cli.problem_options import asks_for_a_problem
 from optlaws.cli.show import busy, print_json, show, show_export, table
 from optlaws.errors import InputError
 from optlaws.numbers import positive, whole
@@ -18,17 +17,13 @@ from optlaws.synthesis.problem.named_constants import apart
 Rows = list[list[Any]]
 
 
-#: the last of its constants is minimised
-_MINIMISED = {"minimise": replace(PROBLEM["minimise"], default=None, shown=False)}
-
-
-@takes(
-    entries={**PROBLEM, **_MINIMISED},
-    curve=options(pareto_front, "points", between={"type": tuple[float, float]}),
+@asks_for_a_problem(
+    given={"degree": 9, "basis": "chebyshev"}, refused={"minimise": "the last constant of --over is minimised"}
 )
+@takes(curve=options(pareto_front, "points", between={"type": tuple[float, float]}))
 def front(
+    entries: dict[str, Any],
     *,
-    entries: Mapping[str, Any],
     over: str | None = None,
     curve: Mapping[str, Any],
     bound: Literal["quick", "tight"] = "quick",
@@ -67,14 +62,12 @@ def front(
     output
         The file of the functions.
     """
-    if entries["minimise"] is not None:
-        raise InputError("--minimise is not for this command: the last constant of --over is minimised")
     if gap is not None and bound != "quick":
         raise InputError("--bound tight proves the points of a front, --gap every value between: give one of them")
     if output is not None and to is None:
         raise InputError("--output is where functions of a controller go: say --to c99 or --to iec-st")
     proven_to = positive(within, "within") / 10.0 if to and gap is None else gap
-    problem, names = problem_of(entries), tuple(apart(over or ("at_most.B,C" if to else "B,C")))
+    problem, names = optlaws.Problem.from_dict(entries), tuple(apart(over or ("at_most.B,C" if to else "B,C")))
     front: optlaws.Front | optlaws.ProvenFront
     if proven_to is None:  # which shows its steps itself
         front = optlaws.pareto_front(problem, names, **curve, bound=bound)

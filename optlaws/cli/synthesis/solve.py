@@ -8,7 +8,7 @@ from typing import Any, Literal
 import optlaws
 from optlaws.cli.law_options import LIMITS
 from optlaws.cli.options import AsJson, Plot, Written, given, options, save, save_figure, save_picture, takes
-from optlaws.cli.problem_options import PROBLEM, problem_of
+from optlaws.cli.problem_options import asks_for_a_problem
 from optlaws.cli.show import print_json, show, summary_table, table
 from optlaws.errors import InputError
 
@@ -21,10 +21,11 @@ _MOVE = options(
 )
 
 
-@takes(entries=PROBLEM, move=_MOVE)
+@asks_for_a_problem(given={"degree": 9, "basis": "chebyshev"})
+@takes(move=_MOVE)
 def solve(
+    entries: dict[str, Any],
     *,
-    entries: Mapping[str, Any],
     bound: Literal["quick", "tight"] = "quick",
     fastest: bool = False,
     move: Mapping[str, Any],
@@ -49,7 +50,7 @@ def solve(
         raise InputError('--fastest needs --stroke, such as "100 mm", and --limit, such as "jerk=300 m/s^3"')
     for name in () if fastest else given(move):
         raise InputError(f"{_MOVE[name].name} goes with --fastest")
-    problem = problem_of(entries)
+    problem = optlaws.Problem.from_dict(entries)
     if fastest:
         timed = optlaws.fastest(problem, **move)
         whole = timed.to_dict()

@@ -11,10 +11,11 @@ from typing import Any
 from optlaws.cycles.advising.advised_law import AdvisedLaw, LawMeasure, ProvenLeast
 from optlaws.cycles.advising.further_bounds import least_near, with_most
 from optlaws.cycles.cycle import Cycle
-from optlaws.cycles.limit_rows import LimitTaken, limits_taken
+from optlaws.cycles.limit_rows import limits_taken
 from optlaws.cycles.optimisation.motion_limits import (
     DECELERATION,
     LIMITS,
+    LimitTaken,
     OneSided,
     limits_of_segment,
     name_of,
@@ -25,7 +26,7 @@ from optlaws.cycles.specification.load import LOAD
 from optlaws.cycles.specification.process import is_process
 from optlaws.cycles.specification.programme import AXES, is_optimal
 from optlaws.cycles.specification.segments import OPTIMAL, CycleSegment, Free, Move
-from optlaws.cycles.summary import force_name, force_unit, load_unit
+from optlaws.cycles.summary import force_name, force_unit, load_unit, objective_unit
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
@@ -81,7 +82,7 @@ class AdvisedCycle:
             measures += [LawMeasure(name, force_unit(cycle)) for name in (force, f"rms {force}")]
             measures += [LawMeasure("power", "W"), LawMeasure("energy", "J")]
         if all(measure.name != self.minimise for measure in measures):
-            measures.append(LawMeasure(self.minimise, _unit(cycle, self.minimise)))
+            measures.append(LawMeasure(self.minimise, objective_unit(cycle, self.minimise)))
         return tuple(measures)
 
     @kept_property
@@ -263,12 +264,10 @@ class AdvisedCycle:
 
     def _tighter(self, limits: Mapping[str, Any], name: str, most: float) -> dict[str, Any]:
         """A limit that is no wider than a value in SI units, in addition to existing limits."""
-        axis = self.cycle.axis
-        if name.startswith(LOAD):
-            unit = _unit(self.cycle, name)
-            return {name: most if unit == "SI" else f"{most!r} {_ASCII.get(unit, unit)}"}
-        unit = _unit(self.cycle, name)
+        axis, unit = self.cycle.axis, objective_unit(self.cycle, name)
         text = f"{most!r} {_ASCII.get(unit, unit)}"
+        if name.startswith(LOAD):
+            return {name: most if unit == "SI" else text}
         given = limits.get(name)
         dimension = AXES[axis][LIMITS[name]] if LIMITS.get(name, 0) > 0 else None
         if dimension is None:
@@ -335,13 +334,3 @@ def _of_any_degree(cycle: Cycle) -> float | None:
         if solution.limit is not None
     ]
     return max(limits, default=None)
-
-
-def _unit(cycle: Cycle, name: str) -> str:
-    """The SI unit of a measure."""
-    nu, _ = kind_of(name)
-    if nu > 0:
-        return unit_of(cycle.axis, nu)
-    return {-1: force_unit(cycle), -3: "W", -4: "J", -5: "J"}.get(nu, "") or load_unit(
-        cycle, name.removeprefix("rms ").removeprefix(LOAD)
-    )

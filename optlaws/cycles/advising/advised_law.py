@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
-from optlaws.cycles.limit_rows import LimitTaken
+from optlaws.cycles.optimisation.motion_limits import LimitTaken
 from optlaws.errors import InputError
 from optlaws.laws import MotionLaw
 from optlaws.numbers import bounded

@@ -78,6 +78,13 @@ class LeastClearance:
         return {"interlock": self.interlock.label} | {name: getattr(self, name) for name in names}
 
     @property
+    def cells(self) -> list[Any]:
+        """Label, status, clearance, bound, the small unit of both, angle in degrees, margin in milliseconds."""
+        unit, size = SMALL_UNITS.get(self.unit, (self.unit, 1.0))
+        margin = None if self.margin is None else 1e3 * self.margin
+        return [self.interlock.label, self.status, size * self.clearance, size * self.bound, unit, self.angle, margin]
+
+    @property
     def text(self) -> str:
         """The condition as text, in millimetres or degrees."""
         unit, small = SMALL_UNITS.get(self.unit, (self.unit, 1.0))

@@ -13,14 +13,12 @@ from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.laws.exporting import ExportOptions, LawExport
 from optlaws.motion.display_units import DEGREES
-from optlaws.motion.piece import factor, unit_of
 from optlaws.motion.quantities import positive_quantity
 from optlaws.numbers import Quantity, positive
 from optlaws.shown.report import Report
 from optlaws.shown.summary import Row, Summary
 from optlaws.suggest import keywords_of
 from optlaws.synthesis.least_time.least_time import LeastTime
-from optlaws.synthesis.least_time.motor_torque import CURVE_LIMIT
 from optlaws.synthesis.least_time.time_search import least_time
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.status import Status
@@ -194,33 +192,16 @@ class FastestMove(LawExport, JsonText):
         >>> [(row.name, row.text(5), row.unit) for row in move.summary()][:3]
         [('least time', '0.22533', 's'), ('limit', '0.22013', 's'), ('velocity', '0.88481', 'm/s')]
         """
+        return self.report().facts
+
+    def proof_rows(self) -> Summary:
+        """The least time and the limit of all laws, with what is proven of them."""
         rows = [Row("least time", self.duration, "s", note=f"{self._word}: {self._proven}")]
         if self.limit is not None and self.price is not None:
             laws = "of any degree" if self.least.move.torque is None else "that never turns back"
             note = f"that no law {laws} beats: the space costs {100.0 * max(self.price, 0.0):.2g} %"
             rows.append(Row("limit", self.limit, "s", note=note))
-        axis, move = AXES[self.unit], self.least.move
-        for limit in move.rates:
-            peak = limit.constant.value(self.law) * factor(self.stroke, self.duration, limit.nu)
-            rows.append(Row(limit.name, peak, unit_of(axis, limit.nu), note=self._use(limit.name)))
-        if move.torque is not None:
-            torques = {"torque": move.torque.peak, "rms torque": move.torque.rms}
-            for name, most in torques.items():
-                if most is not None:
-                    rows.append(Row(name, most * self.least.used[name], "N m", note=self._use(name)))
-            if move.torque.curve:
-                rows.append(Row(CURVE_LIMIT, self.least.used[CURVE_LIMIT], "", note=self._use(CURVE_LIMIT)))
-        if move.residual is not None:
-            left = move.residual.most * self.least.used["residual acceleration"]
-            rows.append(Row("residual acceleration", left, unit_of(axis, 2), note=self._use("residual acceleration")))
         return Summary(rows)
-
-    def _use(self, name: str) -> str:
-        """The law's use of a limit, and the time saved by a higher limit."""
-        if name not in self.binding:
-            return f"{100.0 * self.least.used[name]:.3g} % of the limit"
-        gain = self.gains().get(name)
-        return "binds" if gain is None else f"binds: 10 % more saves {100.0 * gain:.2g} % of the time"
 
     @keywords_of(ExportOptions)
     def export(

@@ -141,8 +141,8 @@ def _at_motor(name: str, move: TimedMove, drive: Drive | None, start: NumberOrQu
     if move.torque is not None and free != replace(move.torque, peak=None, rms=1.0):
         raise InputError("drive: it is another than that of the move, or begins at another position")
     if drive is None or name != "energy":
-        return MoveObjective(name, free)
-    return MoveObjective(name, free, drive.ratio * move.stroke, float(drive.regeneration))
+        return MoveObjective(name, torque=free)
+    return MoveObjective(name, free, drive.ratio * move.stroke, drive.regeneration)
 
 
 def _left(move: TimedMove, unit: str, follower: Mapping[str, Any] | None) -> FollowerResidual:

@@ -202,6 +202,10 @@ class OldTable:
             y[inside] = part.low + (0.0 if part.law is None else part.stroke * np.asarray(law_of_move(part)(k)))
         return y
 
+    def unit_of(self, nu: int) -> str:
+        """The unit of the derivative of order nu by the master, up to 3."""
+        return f"{self.unit}/{self.master}{('', '', '²', '³')[nu]}" if nu else self.unit
+
     @property
     def off(self) -> tuple[float, float]:
         """The greatest deviation of the laws from the points, in units of the table, and its place; recomputed."""
@@ -239,16 +243,20 @@ class OldTable:
             + ("" if part.law is None else f", {part.stroke:+g} {self.unit}: {self.law_in_words(part)}")
             for part in self.stretches
         ]
-        lines.append(
-            f"within {self.room:.3g} {self.unit} of the points"
-            + (f", which scatter by {self.scatter:.2g}" if self.scatter else "")
-        )
+        return "\n".join([*lines, *self.remarks])
+
+    @property
+    def remarks(self) -> tuple[str, ...]:
+        """How near the laws are to the points, what noise these show, and whether the end meets the beginning."""
+        scatter = sentence(", which scatter by {}", Amount(self.scatter, self.unit, 2)) if self.scatter else ""
+        remarks = [sentence("within {} of the points{}", Amount(self.room, self.unit, 3), scatter)]
         off, place = self.off
         if off > self.room * (1.0 + AGREEMENT):
-            lines.append(f"but {off:.3g} {self.unit} off the point at {place:g} {self.master}")
+            away, at = Amount(off, self.unit, 3), Amount(place, self.master)
+            remarks.append(sentence("but {} off the point at {}", away, at))
         if self.seam:
-            lines.append(f"the last position is {self.seam:+.3g} {self.unit} from the first one")
-        return "\n".join(lines)
+            remarks.append(sentence("the last position is {} from the first one", Amount(self.seam, self.unit, 3)))
+        return tuple(remarks)
 
     def law_in_words(self, part: Stretch) -> str:
         """The standard law of a move, or the nearest standard law, with the deviation of the points from it."""

@@ -12,6 +12,7 @@ from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.motion.piece import unit_of
 from optlaws.motion.quantities import in_small_units, positive_quantity, quantity
+from optlaws.numerics.peaks import is_kept
 from optlaws.sentences import Amount, sentence
 
 FORCE, POWER, CURVE = -1, -3, -6
@@ -42,6 +43,48 @@ class OneSided(NamedTuple):
 #: what has a limit: the magnitude of a derivative, of force or power, or one side of a derivative
 LimitKey = int | OneSided
 Limits = dict[LimitKey, float]
+
+
+class LimitTaken(NamedTuple):
+    """The use of a limit by a motion, in SI units.
+
+    Attributes
+    ----------
+    name
+        What is limited, such as "velocity".
+    where
+        The segment that takes most of it; empty of a limit of the whole.
+    value, limit
+        What is taken at most, everywhere in the segment or the cycle, and what is allowed.
+    text
+        The limit in the unit that machines have it in.
+    value_text
+        The value in that unit.
+    unit
+        That of value and limit, where there are no texts.
+    """
+
+    name: str
+    where: str
+    value: float
+    limit: float
+    text: str
+    value_text: str = ""
+    unit: str = ""
+
+    @property
+    def share(self) -> float:
+        """The share that is taken: above 1 where the limit is broken."""
+        return self.value / self.limit
+
+    @property
+    def is_kept(self) -> bool:
+        """Whether the limit is satisfied, up to rounding: one that is reached is kept."""
+        return is_kept(self.value, self.limit)
+
+    def __str__(self) -> str:
+        value, limit = self.value_text or f"{self.value:.6g}", self.text or f"{self.limit:.6g}"
+        return sentence("{}{}, {} of {}", f"{self.where}: " if self.where else "", self.name, value, limit)
 
 
 def read_limits(entries: Mapping[str, Any], axis: str, where: str) -> Limits:

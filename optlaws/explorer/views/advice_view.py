@@ -6,7 +6,7 @@ import json
 from collections.abc import Sequence
 from dataclasses import replace
 from functools import lru_cache
-from typing import Annotated, Any
+from typing import Any
 
 import msgspec
 
@@ -16,51 +16,33 @@ from optlaws.cycles.advising.advised_motion import advice_from, standard_candida
 from optlaws.cycles.advising.candidates import Candidates
 from optlaws.cycles.report import CycleReport
 from optlaws.cycles.specification.segments import OPTIMAL, Move
-from optlaws.errors import OptlawsError
 from optlaws.explorer.views import cycle_view
-from optlaws.explorer.views.cycle_view import CycleRequest
-from optlaws.explorer.views.law_view import refusal
-from optlaws.explorer.views.panel_data import panel_data
+from optlaws.explorer.views.cycle_view import MOST_POINTS, CycleRequest
+from optlaws.explorer.views.law_view import refusing
+from optlaws.explorer.views.panel_data import beside_each_other, over_time, panel_data
 from optlaws.explorer.views.requests import Question
-from optlaws.motion.display_units import MILLI
 from optlaws.numbers import bounded
 
-_POINTS = 6
 
-ShortText = Annotated[str, msgspec.Meta(max_length=40)]
-
-
-class AdviceRequest(CycleRequest, kw_only=True, forbid_unknown_fields=True):
-    """A cycle or a machine, the objective, and the elastic follower."""
-
-    minimise: ShortText | None = None
-    follower: dict[str, Any] | None = None
-    points: Annotated[int, msgspec.Meta(ge=0, le=_POINTS)] = _POINTS
-
-
-def standard(request: AdviceRequest) -> dict[str, Any]:
+@refusing()
+def standard(request: CycleRequest) -> dict[str, Any]:
     """The standard laws side by side, which take no search; or the reason why there is none.
 
     Examples
     --------
     >>> from optlaws.explorer.views import cycle_view
-    >>> [row["name"] for row in standard(AdviceRequest(study=cycle_view.example()))["rows"]][:2]
+    >>> [row["name"] for row in standard(CycleRequest(study=cycle_view.example()))["rows"]][:2]
     ['modified sine', 'modified trapezoid']
     """
-    try:
-        cycle, candidates = _standard(_question(request))
-    except OptlawsError as error:
-        return {"refused": refusal(error)}
+    cycle, candidates = _standard(_question(request))
     return _side_by_side(cycle, candidates, [candidates.usual], ())
 
 
-def answer(request: AdviceRequest) -> dict[str, Any]:
+@refusing()
+def answer(request: CycleRequest) -> dict[str, Any]:
     """The laws side by side with the recommended one, or the reason why there is none."""
-    try:
-        cycle, candidates = _all(_question(request))
-        advice = advice_from(_copy(candidates), request.points)
-    except OptlawsError as error:
-        return {"refused": refusal(error)}
+    cycle, candidates = _all(_question(request))
+    advice = advice_from(_copy(candidates), request.points)
     chosen = advice.recommendation
     unchanged = chosen.usual is chosen.law
     return {
@@ -72,14 +54,14 @@ def answer(request: AdviceRequest) -> dict[str, Any]:
     }
 
 
-def _question(request: AdviceRequest) -> bytes:
+def _question(request: CycleRequest) -> bytes:
     """What the laws depend on: not the points of the front."""
-    return msgspec.json.encode(msgspec.structs.replace(request, points=_POINTS))
+    return msgspec.json.encode(msgspec.structs.replace(request, points=MOST_POINTS))
 
 
 @lru_cache(maxsize=16)
 def _standard(question: bytes) -> tuple[Cycle, Candidates]:
-    request = msgspec.json.decode(question, type=AdviceRequest)
+    request = msgspec.json.decode(question, type=CycleRequest)
     cycle = cycle_view.stored(*cycle_view.read(request))
     return cycle, standard_candidates(cycle, minimise=request.minimise or None, follower=request.follower)
 
@@ -175,17 +157,14 @@ def _picture(candidates: Candidates, front: Sequence[AdvisedLaw]) -> dict[str, A
 
 def _curves(laws: Sequence[AdvisedLaw]) -> dict[str, Any]:
     """Velocity, acceleration and jerk of the usual law and of the recommended one, over the time."""
-    cycles = [law.motion for law in laws]
-    if not cycles:
+    if not laws:
         return {"panels": []}
-    duration = cycles[0].duration
-    reports, panels = [CycleReport(cycle) for cycle in cycles], []
-    for nu in (1, 2, 3):
-        curves = [report.panel(nu) for report in reports]
-        panel = replace(curves[0].with_curves(list(enumerate(curves))), limits=(), peaks=(), ends=(0.0, 0.0))
-        named = (curve._replace(name=law.name) for curve, law in zip(panel.series, laws, strict=True))
-        panels.append(panel_data(replace(panel, series=tuple(named))))
-    return {"across": "time, ms", "symbol": "t, ms", "range": [0.0, MILLI * duration], "panels": panels}
+    motions = [(i, [CycleReport(law.motion).panel(nu) for nu in (1, 2, 3)]) for i, law in enumerate(laws)]
+    panels = []
+    for panel in beside_each_other(motions[0][1], motions):
+        series = tuple(curve._replace(name=law.name) for curve, law in zip(panel.series, laws, strict=True))
+        panels.append(panel_data(replace(panel, series=series, limits=(), peaks=(), ends=(0.0, 0.0))))
+    return over_time(panels, laws[0].motion.duration)
 
 
 def example() -> dict[str, Any]:
@@ -193,4 +172,4 @@ def example() -> dict[str, Any]:
     return {"of": "", "minimise": "", "follower": {"on": False, "low": "27 Hz", "high": "33 Hz", "damping": 0.05}}
 
 
-QUESTIONS: dict[str, Question] = {"advice": (AdviceRequest, answer), "advice-standard": (AdviceRequest, standard)}
+QUESTIONS: dict[str, Question] = {"advice": (CycleRequest, answer), "advice-standard": (CycleRequest, standard)}

@@ -18,22 +18,21 @@ from optlaws.cycles.interlocks.synchronous import Synchronous
 from optlaws.cycles.machine_axes import Axes
 from optlaws.cycles.specification.programme import is_optimal
 from optlaws.cycles.specification.segments import Dwell
-from optlaws.errors import InputError, OptlawsError
+from optlaws.errors import InputError
 from optlaws.explorer.views import cycle_view
-from optlaws.explorer.views.cycle_view import CycleRequest
-from optlaws.explorer.views.law_view import TITLES, digits, refusal
+from optlaws.explorer.views.cycle_view import CycleRequest, packaged_study, stated
+from optlaws.explorer.views.law_view import TITLES, digits, refusing
 from optlaws.explorer.views.panel_data import drawn
 from optlaws.explorer.views.requests import Question
 from optlaws.jobs.cycle_entries import CycleProblemFile, overlap_of
 from optlaws.motion.display_units import TURN_DEG, UNITS
 from optlaws.numbers import Array
-from optlaws.plots.interlocks import forbidden_region, passed_and_level, plane_axes
+from optlaws.plots.interlocks import forbidden_region, plane_axes, wider
 from optlaws.sentences import Amount, joined, sentence
 from optlaws.shown.curve_points import refined
 
 _PLACES = 241
 _WHERE = Path("the machine")
-_ROOM = 0.06  # of the range of a plane, beside the path
 _PASS = 0.75  # degrees to either side of a pass, in which a clearance is to be above 0
 _WORDS = {
     "clear": ("optimal", "interlocks clear", "Every clearance is proven over the whole cycle, as the table says."),
@@ -43,12 +42,20 @@ _WORDS = {
 _FIGURES = 12  # of durations that are put into a study
 
 
+@refusing()
 def answer(request: CycleRequest) -> dict[str, Any]:
     """The bars of every axis, and its interlocks in the timing diagram and in planes; or the reason for a refusal."""
-    try:
-        return _view(axes_of(request.study))
-    except OptlawsError as error:
-        return {"refused": refusal(error)}
+    axes = axes_of(request.study)
+    times, positions = _positions(axes)
+    return {
+        "across": f"master, deg ({digits(1e3 * axes.duration)} ms a turn)",
+        "period": axes.duration,
+        "at": drawn(TURN_DEG / axes.duration * times, 4),
+        "rows": [_row(name, cycle, values) for (name, cycle), values in zip(axes.items(), positions, strict=True)],
+        "arrows": [arrow for number, rule in enumerate(axes.rules) for arrow in _arrows(axes, number, rule)],
+        "planes": list(_planes(axes, dict(zip(axes, positions, strict=True)))),
+        "panels": [_room(axes, rule, times) for rule in axes.rules],
+    }
 
 
 def axes_of(study: dict[str, Any]) -> Axes:
@@ -72,20 +79,6 @@ def _read(question: str) -> Axes:
         cycle_view.check_axis(axis)
         cycles[axis.name] = cycle_view.stored(spec, axis)
     return Axes(cycles, interlocks=spec.interlocks)
-
-
-def _view(axes: Axes) -> dict[str, Any]:
-    times, positions = _positions(axes)
-    degrees = drawn(TURN_DEG / axes.duration * times, 4)
-    return {
-        "across": f"master, deg ({digits(1e3 * axes.duration)} ms a turn)",
-        "period": axes.duration,
-        "at": degrees,
-        "rows": [_row(name, cycle, values) for (name, cycle), values in zip(axes.items(), positions, strict=True)],
-        "arrows": [arrow for number, rule in enumerate(axes.rules) for arrow in _arrows(axes, number, rule)],
-        "planes": list(_planes(axes, dict(zip(axes, positions, strict=True)))),
-        "panels": [_room(axes, rule, times) for rule in axes.rules],
-    }
 
 
 def _positions(axes: Axes) -> tuple[Array, list[Array]]:
@@ -116,8 +109,8 @@ def _row(name: str, cycle: Cycle, values: Array) -> dict[str, Any]:
             }
             for segment, peaks in zip(cycle.segments, cycle.peaks, strict=True)
         ],
-        "stroke": _with_unit(float(np.ptp(values)), units[0][0]),
-        "peaks": [_with_unit(cycle.peak(nu) * size, unit) for nu, (unit, size) in enumerate(units) if nu > 0],
+        "stroke": Amount(float(np.ptp(values)), units[0][0]),
+        "peaks": [Amount(cycle.peak(nu) * size, unit) for nu, (unit, size) in enumerate(units) if nu > 0],
         "law": "given" if not cycle.solutions else TITLES[cycle.status],
     }
 
@@ -163,7 +156,7 @@ def _planes(axes: Axes, positions: dict[str, Array]) -> Iterator[dict[str, Any]]
             if isinstance(rule, Forbidden)
         ]
         limits = [
-            _wider([positions[name], *(corner[:, i] for corner in corners if corner is not None)])
+            wider([positions[name], *(corner[:, i] for corner in corners if corner is not None)])
             for i, name in enumerate(plane)
         ]
         yield {
@@ -174,38 +167,25 @@ def _planes(axes: Axes, positions: dict[str, Array]) -> Iterator[dict[str, Any]]
         }
 
 
-def _wider(values: Sequence[Array]) -> tuple[float, float]:
-    low, high = min(float(each.min()) for each in values), max(float(each.max()) for each in values)
-    room = _ROOM * ((high - low) or 1.0)
-    return low - room, high + room
-
-
 def _region(
     axes: Axes, number: int, rule: Interlock, plane: tuple[str, str], limits: Sequence[tuple[float, float]]
 ) -> Iterator[dict[str, Any]]:
     """The part of a plane that an interlock forbids: the corners of a region, or a wall."""
-    shown: dict[str, Any] = {"rule": number, "name": rule.label}
-    if isinstance(rule, After):
-        x, y = passed_and_level(axes, rule, plane)
-        turned = rule.axes[0] != plane[0]
-        passed, level = (y, x) if turned else (x, y)
-        far = limits[0 if turned else 1][0 if rule.sign > 0.0 else 1]
-        wall = [[passed, level], [passed, far]]
-        yield shown | {"wall": [point[::-1] for point in wall] if turned else wall}
-        return
     region = forbidden_region(axes, rule, plane, limits)
-    if region is not None:
-        turned = rule.axes[0] != plane[0]
-        yield shown | {
-            "corners": [drawn(point, 5) for point in region],
-            "free": isinstance(rule, Forbidden),
-            "turned": turned,
-        }
+    if region is None:
+        return
+    shown: dict[str, Any] = {"rule": number, "name": rule.label}
+    corners = [drawn(point, 5) for point in region]
+    if isinstance(rule, After):
+        yield shown | {"wall": corners}
+    else:
+        yield shown | {"corners": corners, "free": isinstance(rule, Forbidden), "turned": rule.axes[0] != plane[0]}
 
 
 def _room(axes: Axes, rule: Interlock, times: Array) -> dict[str, Any]:
     """The clearance of an interlock over the master, as a panel."""
-    unit, size = _unit(rule.unit(*(axes[name].axis for name in rule.axes)))
+    of = rule.unit(*(axes[name].axis for name in rule.axes))
+    unit, size = SMALL_UNITS.get(of, (of, 1.0))
     scale = TURN_DEG / axes.duration
 
     def room(at: Array) -> Array:
@@ -222,10 +202,7 @@ def _room(axes: Axes, rule: Interlock, times: Array) -> dict[str, Any]:
     return {"name": f"clearance of {rule.label}", "unit": unit, "series": [curve], "limits": limits, "peaks": []}
 
 
-def _unit(of: str) -> tuple[str, float]:
-    return SMALL_UNITS.get(of, (of, 1.0))
-
-
+@refusing()
 def clearances(request: CycleRequest) -> dict[str, Any]:
     """The proven clearances of the interlocks over the whole cycle, and the use of the limits of each axis.
 
@@ -234,36 +211,15 @@ def clearances(request: CycleRequest) -> dict[str, Any]:
     >>> clearances(CycleRequest(study=example()))["trust"]["word"]
     'interlocks clear'
     """
-    try:
-        axes = axes_of(request.study)
-        return {"rows": [_clearance(least) for least in axes.clearances], "trust": _trust(axes)}
-    except OptlawsError as error:
-        return {"rows": [], "trust": None, "refused": refusal(error)}
+    axes = axes_of(request.study)
+    return {"rows": [_clearance(least) for least in axes.clearances], "trust": _trust(axes)}
 
 
 def _clearance(least: LeastClearance) -> dict[str, Any]:
-    unit, size = _unit(least.unit)
-    return {
-        "name": least.interlock.label,
-        "status": least.status,
-        "value": size * least.clearance,
-        "at": least.angle,
-        "cells": [
-            _with_unit(size * least.clearance, unit),
-            _with_unit(size * least.bound, unit),
-            digits(least.angle, 6),
-            "" if least.margin is None else digits(_read_of(1e3 * least.margin), 6),
-        ],
-    }
-
-
-def _with_unit(value: float, unit: str) -> Amount:
-    return Amount(_read_of(value), unit)
-
-
-def _read_of(value: float) -> float:
-    """A value to a millionth, as displayed."""
-    return round(value, 6) + 0.0
+    name, status, value, bound, unit, angle, margin = least.cells
+    early = "" if margin is None else digits(margin, 6)
+    cells = [Amount(value, unit), Amount(bound, unit), digits(angle, 6), early]
+    return {"name": name, "status": status, "value": value, "at": angle, "cells": cells}
 
 
 def _trust(axes: Axes) -> dict[str, Any]:
@@ -290,38 +246,24 @@ def _trust(axes: Axes) -> dict[str, Any]:
     return {"status": status, "word": word, "advice": text, "gap": "", "facts": facts, "proof": proof}
 
 
+@refusing()
 def together(request: CycleRequest) -> dict[str, Any]:
     """The study with its moves overlapped, and the gain; or the reason for a refusal.
 
     Examples
     --------
     >>> answered = together(CycleRequest(study=example() | {"overlap": {"goal": "acceleration", "of": ["die"]}}))
-    >>> answered["facts"][0]
-    'greatest acceleration 0.193894 of the given one, 5.157 times lower'
+    >>> answered["facts"][1]
+    'greatest acceleration, as a share of the given one 0.1938937'
     """
-    try:
-        return _together(request.study)
-    except OptlawsError as error:
-        return {"refused": refusal(error)}
-
-
-def _together(study: dict[str, Any]) -> dict[str, Any]:
-    spec, axes = CycleProblemFile.read(study, _WHERE), axes_of(study)
-    if spec.overlap is None:
+    study, axes = request.study, axes_of(request.study)
+    overlap = overlap_of(CycleProblemFile.read(study, _WHERE), axes, _WHERE)
+    if overlap is None:
         raise InputError("say what the moves are to be put together for: the least period or the least acceleration")
-    overlap = overlap_of(spec, axes, _WHERE)
-    assert overlap is not None  # noqa: S101 - there is one since the study has its entries
-    period = overlap.goal == "period"
-    value = f"least period {digits(1e3 * overlap.objective, 6)} ms" if period else (
-        f"greatest acceleration {digits(overlap.objective, 6)} of the given one"
-    )  # fmt: skip
-    facts = [f"{value}, {digits(overlap.gain, 4)} times {'as fast' if period else 'lower'}"]
-    facts.append(f"{TITLES[overlap.status]}; none below {digits((1e3 if period else 1.0) * overlap.lower_bound, 6)}")
-    if overlap.binding:
-        facts.append(f"bound by {', '.join(overlap.binding)}")
-    free = [
-        is_optimal(segment) for cycle in axes.values() for segment in cycle.segments if not isinstance(segment, Dwell)
-    ]
+    facts: list[str] = [*stated(overlap.summary())]
+    free = (
+        not isinstance(segment, Dwell) and is_optimal(segment) for axis in axes.values() for segment in axis.segments
+    )
     if any(free):
         facts.append("the laws of its moves stand in the study as they are")
     return {"facts": facts, "study": _timed(study, overlap.axes)}
@@ -346,44 +288,7 @@ def _timed(study: dict[str, Any], axes: Axes) -> dict[str, Any]:
 
 def example() -> dict[str, Any]:
     """The axes that the page shows where none were given: a table that indexes, and a die that waits for it."""
-    return {
-        "job": "cycle",
-        "title": "A die and its table",
-        "speed": "60 rpm",
-        "interlocks": [
-            {"kind": "after", "name": "index", "axis": "table", "position": "0.65 mm", "of": "die", "above": "31 mm"},
-            {
-                "kind": "after",
-                "name": "close",
-                "axis": "die",
-                "position": "31 mm",
-                "way": "down",
-                "of": "table",
-                "above": "99.35 mm",
-            },
-        ],
-        "axis": [
-            {
-                "name": "table",
-                "advance": "100 mm",
-                "segment": [
-                    {"kind": "dwell", "duration": "105 deg"},
-                    {"kind": "rise", "name": "index", "by": "100 mm", "duration": "150 deg", "law": "cycloidal"},
-                    {"kind": "dwell"},
-                ],
-            },
-            {
-                "name": "die",
-                "segment": [
-                    {"kind": "dwell", "duration": "50 deg"},
-                    {"kind": "rise", "name": "open", "by": "50 mm", "duration": "55 deg", "law": "cycloidal"},
-                    {"kind": "dwell"},
-                    {"kind": "return", "name": "close", "by": "50 mm", "duration": "55 deg", "law": "cycloidal"},
-                    {"kind": "dwell", "duration": "50 deg"},
-                ],
-            },
-        ],
-    }
+    return packaged_study("cycle_die_and_table", "overlap")
 
 
 QUESTIONS: dict[str, Question] = {

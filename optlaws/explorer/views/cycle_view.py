@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import fields, replace
 from functools import lru_cache
 from math import inf
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, TypeAlias
 
 import msgspec
 
@@ -19,12 +19,14 @@ from optlaws.cycles.optimisation.objectives import OBJECTIVES
 from optlaws.cycles.report import CycleReport
 from optlaws.cycles.specification.limit_entries import LIMITS_OF_CYCLE
 from optlaws.cycles.specification.segments import CycleSegment
-from optlaws.cycles.summary import drive_rows, joint_rows, objective_unit
+from optlaws.cycles.summary import drive_rows, joint_rows, objective_unit, proof_rows
 from optlaws.entries.declared import entries_of
-from optlaws.errors import InfeasibleProblem, InputError, OptlawsError, SolverFailure, located
-from optlaws.explorer.views.law_view import TITLES, digits, gap_text, refusal
+from optlaws.errors import InfeasibleProblem, InputError, SolverFailure, located
+from optlaws.explorer.views.law_view import TITLES, digits, gap_text, refusing
 from optlaws.explorer.views.panel_data import panel_data
-from optlaws.explorer.views.requests import MOST_DEGREE, MOST_ORDER, Question
+from optlaws.explorer.views.requests import MOST_DEGREE, MOST_LAWS, MOST_ORDER, Question
+from optlaws.files import reading as reading_of_files
+from optlaws.files.packaged import packaged
 from optlaws.jobs.cycle_entries import AxisEntries, CycleProblemFile, cycle_of
 from optlaws.laws.catalogue import reading
 from optlaws.mechanisms.drives.drive_train import Drive
@@ -33,28 +35,52 @@ from optlaws.motion.display_units import MILLI, TURN_DEG, UNITS
 from optlaws.numbers import Quantity, bounded, chop
 from optlaws.numerics.peaks import is_kept
 from optlaws.sentences import Amount, Sentence, joined, sentence
+from optlaws.shown.summary import Row
 from optlaws.tolerances import BOUND_SLACK, CYCLE_ROUNDING
 
 _MOTION = ("velocity", "acceleration", "deceleration", "jerk", "snap")
 _LIMITS = {"motion": _MOTION, "machine": (*_MOTION, "torque", "rms torque", "power", "energy", "motor")}
 _WHERE = Path("the cycle")
+MOST_POINTS = 6
+Ratio: TypeAlias = Annotated[float, msgspec.Meta(gt=0.0, le=1e6)]
+Laws: TypeAlias = Annotated[list[dict[str, Any]], msgspec.Meta(max_length=100)]
 #: entries of a motor that change no torque
 LIMITING = {entry.name for entry in fields(Motor)} - {*OF_TORQUE, "name"}
 
 
 class CycleRequest(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
-    """A cycle, as in its problem file, and the axis on display."""
+    """A machine document, as its problem file, the axis or move on display, and what a view computes of it.
+
+    Of least times the time; of machines, for each law, the laws of optimised moves that are evaluated without any
+    optimisation, and the ratios of the gear between which torque is drawn; of advice the objective, the elastic
+    follower and the points of the front.
+    """
 
     study: dict[str, Any]
     axis: Annotated[int, msgspec.Meta(ge=0, le=7)] = 0
+    time: Annotated[float, msgspec.Meta(gt=0.0, le=1e5)] | None = None
+    laws: Annotated[list[Laws], msgspec.Meta(max_length=MOST_LAWS)] | None = None
+    low: Ratio = 1.0
+    high: Ratio = 1.0
+    minimise: Annotated[str, msgspec.Meta(max_length=40)] | None = None
+    follower: dict[str, Any] | None = None
+    points: Annotated[int, msgspec.Meta(ge=0, le=MOST_POINTS)] = MOST_POINTS
 
 
+@refusing()
 def answer(request: CycleRequest) -> dict[str, Any]:
     """The view of an axis, or the reason why there is none."""
-    try:
-        return _view(cycle(request))
-    except OptlawsError as error:
-        return {"refused": refusal(error)}
+    shown = cycle(request)
+    report = CycleReport(shown)
+    return {
+        "across": f"master, deg ({digits(MILLI * shown.duration)} ms a turn)",
+        "turn": MILLI * shown.duration,
+        "symbol": "master",
+        "panels": [panel_data(report.panel(nu), TURN_DEG / shown.duration) for nu in report.orders],
+        "segments": list(_segments(report)),
+        "trust": trust(shown),
+        "facts": stated([*drive_rows(shown), *joint_rows(shown)]),
+    }
 
 
 def nearest(request: CycleRequest) -> dict[str, Any]:
@@ -81,13 +107,18 @@ def check_axis(axis: AxisEntries) -> None:
     """Refuse what is larger than the explorer takes, and laws and motors that are named by files."""
     if axis.order > MOST_ORDER or axis.degree > MOST_DEGREE:
         raise InputError(f"the explorer takes cycles of order up to {MOST_ORDER} and degree up to {MOST_DEGREE}")
-    if axis.drive is not None and axis.drive.get("motors") is not None:
-        raise InputError("motors: the page reads no catalogue: give the motor as a table, or start with the file")
+    check_drive(axis.drive)
     of_cam = (axis.mechanism or {}).get("segment")
     inner = [entry.get("law") for entry in of_cam if isinstance(entry, Mapping)] if isinstance(of_cam, tuple) else []
     for law in (*(getattr(segment, "law", None) for segment in axis.segment), *inner):
         if isinstance(law, str) and reading.is_file(law):
             raise InputError(f"law: {law} names a file, and the page reads none: take a law of the catalogue")
+
+
+def check_drive(drive: Mapping[str, Any] | None) -> None:
+    """Refuse a motor of a catalogue."""
+    if drive is not None and drive.get("motors") is not None:
+        raise InputError("motors: the page reads no catalogue: give the motor as a table, or start with the file")
 
 
 def cycle(request: CycleRequest) -> Cycle:
@@ -113,19 +144,6 @@ def _solved(axis: AxisEntries, speed: Quantity | None, period: Quantity | None) 
     cycle_of_axis = cycle_of(axis, speed, period).unchecked()
     _ = cycle_of_axis.peaks  # what cannot be found is told here
     return cycle_of_axis
-
-
-def _view(shown: Cycle) -> dict[str, Any]:
-    report = CycleReport(shown)
-    return {
-        "across": f"master, deg ({digits(MILLI * shown.duration)} ms a turn)",
-        "turn": MILLI * shown.duration,
-        "symbol": "master",
-        "panels": [panel_data(report.panel(nu), TURN_DEG / shown.duration) for nu in report.orders],
-        "segments": list(_segments(report)),
-        "trust": trust(shown),
-        "facts": _facts(shown),
-    }
 
 
 def _degrees(shown: Cycle, time: float) -> float:
@@ -163,29 +181,38 @@ def _beyond(extremes: tuple[tuple[float, float], tuple[float, float]], limits: t
     return not (is_kept(-least, -limits[0]) and is_kept(most, limits[1]))
 
 
+def stated(rows: Iterable[Row]) -> list[Sentence]:
+    """Rows of facts as sentences, each with its note.
+
+    Examples
+    --------
+    >>> stated([Row("least time", 0.25, "s", note="proven"), Row("binds", "jerk")])
+    ['least time 0.25 s: proven', 'binds: jerk']
+    """
+    sentences = []
+    for row in rows:
+        between = ": " if isinstance(row.value, str) else " "
+        value = row.value if isinstance(row.value, str) else Amount(row.value, row.unit, 7)
+        sentences.append(sentence("{}{}{}{}", row.name, between, value, f": {row.note}" if row.note else ""))
+    return sentences
+
+
+def verdict(status: Status, optimal: str, gap: str, facts: Iterable[str], *, proof: bool = True) -> dict[str, Any]:
+    """How far a result can be trusted, with the advice of its status or, of an optimum, other words."""
+    advice = optimal if status is Status.OPTIMAL else status.advice
+    word = TITLES.get(status, status.value)
+    return {"status": status.value, "word": word, "advice": advice, "gap": gap, "facts": list(facts), "proof": proof}
+
+
 def trust(shown: Cycle) -> dict[str, Any] | None:
     """The status of the laws and what is proven of them, and which limits they do not keep; None of laws as given."""
+    broken = broken_limits(shown)
     if not shown.solutions:
-        broken = broken_limits(shown)
         return {"gap": "", "facts": []} | broken if broken else None
-    unit = objective_unit(shown)
-    facts = [sentence("least {} = {}", shown.minimise, Amount(shown.objective, unit, 7))]
-    gap = ""
-    if shown.lower_bound is not None:
-        facts.append(sentence("none below {}, of {}", Amount(shown.lower_bound, unit, 7), shown.search_space))
-        gap = gap_text(1.0 - shown.lower_bound / shown.objective)
-    facts += (sentence("{}", remark) for remark in shown.remarks)
-    advice = {Status.OPTIMAL: f"The lower bound meets the objective: none is better of {shown.search_space}."}
-    status = shown.status
-    trust = {
-        "status": status.value,
-        "word": TITLES.get(status, status.value),
-        "advice": advice.get(status, status.advice),
-        "gap": gap,
-        "facts": facts,
-        "proof": True,
-    }
-    return trust | broken_limits(shown)
+    facts = stated(row for row in proof_rows(shown) if row.name != "status")
+    gap = "" if shown.lower_bound is None else gap_text(1.0 - shown.lower_bound / shown.objective)
+    optimal = f"The lower bound meets the objective: none is better of {shown.search_space}."
+    return verdict(shown.status, optimal, gap, facts) | broken
 
 
 def broken_limits(shown: Cycle) -> dict[str, str]:
@@ -205,12 +232,6 @@ def _too_weak(shown: Cycle) -> Iterator[Sentence]:
         for margin in shown.sheet.margins:
             if not margin.is_kept:
                 yield sentence("the motor's {}, {} % of it", margin.name, digits(100.0 * margin.use, 4))
-
-
-def _facts(shown: Cycle) -> list[str]:
-    """Effort of the drive, and jumps at the joints."""
-    rows = [*drive_rows(shown), *joint_rows(shown)]
-    return [sentence("{} {}", row.name, Amount(row.value, row.unit)) for row in rows]
 
 
 def _ways(spec: CycleProblemFile, axis: AxisEntries) -> Iterator[dict[str, Any]]:
@@ -255,6 +276,12 @@ def form() -> dict[str, Any]:
         "interlocks": Interlock.form()["kinds"],
         "segments": {kind: [each for each in shown if "entries" not in each] for kind, shown in kinds.items()},
     }
+
+
+def packaged_study(name: str, *without: str) -> dict[str, Any]:
+    """A problem file that comes with optlaws as a study of the page, without its text and some entries."""
+    entries = reading_of_files.toml(packaged(f"problems/{name}.toml"))
+    return {entry: value for entry, value in entries.items() if entry not in {"text", *without}}
 
 
 def example() -> dict[str, Any]:

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
-from functools import lru_cache
+from functools import lru_cache, wraps
 from math import ceil, floor, log10
-from typing import Annotated, Any
+from typing import Annotated, Any, TypeAlias
 
 import msgspec
 
@@ -33,6 +33,8 @@ from optlaws.sentences import Amount
 from optlaws.synthesis.limits.of_problem import limited_laws
 from optlaws.synthesis.proof.infeasible import possible_velocities
 from optlaws.tolerances import BOUND_SLACK
+
+Answer: TypeAlias = Callable[[Any], dict[str, Any]]
 
 _GAP_ROUNDING = 1e-12  # of an objective: a gap below it is rounding
 
@@ -69,6 +71,22 @@ def refusal(error: OptlawsError, word: str = "not understood") -> dict[str, str]
         return {"word": word, "reason": error.args[0], "tried": ""}
     word = "no such law" if isinstance(error, InfeasibleProblem) else "no law found"
     return {"word": word, "reason": error.args[0], "tried": error.tried}
+
+
+def refusing(word: str = "not understood") -> Callable[[Answer], Answer]:
+    """Let what answers a question say why there is no answer, in place of an error."""
+
+    def stated(answer: Answer) -> Answer:
+        @wraps(answer)
+        def answer_or_refusal(request: Any) -> dict[str, Any]:
+            try:
+                return answer(request)
+            except OptlawsError as error:
+                return {"refused": refusal(error, word)}
+
+        return answer_or_refusal
+
+    return stated
 
 
 def title(problem: Problem) -> str:

@@ -17,22 +17,22 @@ from optlaws.cycles.old_tables.better_moves import better, gain, law_of_move
 from optlaws.cycles.old_tables.reading import points_in
 from optlaws.cycles.old_tables.stretches import Stretch
 from optlaws.cycles.old_tables.table import OldTable, table_of
-from optlaws.errors import InputError, OptlawsError
-from optlaws.explorer.views.law_view import digits, refusal
+from optlaws.errors import InputError
+from optlaws.explorer.views.law_view import digits, refusing
 from optlaws.explorer.views.panel_data import drawn
 from optlaws.explorer.views.requests import Question
 from optlaws.laws.catalogue.catalogue import catalogue
-from optlaws.laws.report import broken
 from optlaws.motion.quantities import QUANTITIES
 from optlaws.numbers import Array, bounded
-from optlaws.sentences import Amount, sentence
+from optlaws.plots.old_table import curve, curve_of_part
+from optlaws.sentences import Amount
 from optlaws.tolerances import AGREEMENT, NO_MARK
 
 _EACH = 120  # samples in a move
 _MOST_DRAWN = 1500  # points
 _MOST_MOVES = 100
 _ORDER, _DEGREE = 3, 15
-_POWERS = ("", "", "²", "³")
+_OLD = {"law": 0, "name": "old law"}
 _PARTS = 500.0  # of a stroke: one is the tolerance where none was given
 Name = Annotated[str, msgspec.Meta(max_length=200)]
 Word = Annotated[str, msgspec.Meta(max_length=60)]
@@ -53,29 +53,11 @@ class OldCamEntries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True, fr
 
 
 class OldCamRequest(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
-    """The table of an old cam."""
+    """The table of an old cam, a move of it, and the laws that its moves are to have; None where one keeps its own."""
 
     study: OldCamEntries
-
-
-class MoveRequest(OldCamRequest, kw_only=True, forbid_unknown_fields=True):
-    """A move of the table, by its number."""
-
-    move: Annotated[int, msgspec.Meta(ge=0, lt=_MOST_MOVES)]
-
-
-class OldCycleRequest(OldCamRequest, kw_only=True, forbid_unknown_fields=True):
-    """The cycle of the table, and the laws that its moves are to have; None where one keeps its own."""
-
+    move: Annotated[int, msgspec.Meta(ge=0, lt=_MOST_MOVES)] = 0
     laws: Annotated[list[dict[str, Any] | None], msgspec.Meta(max_length=_MOST_MOVES)] = []
-
-
-def answer(request: OldCamRequest) -> dict[str, Any]:
-    """The recognised moves of the table, or the reason why it cannot be read."""
-    try:
-        return _view(table(request.study), request.study)
-    except OptlawsError as error:
-        return {"refused": refusal(error, "not read")}
 
 
 def table(entries: OldCamEntries) -> OldTable:
@@ -98,9 +80,12 @@ def _table(question: bytes) -> OldTable:
     return table_of(points, path, entries.room)
 
 
-def _view(old: OldTable, entries: OldCamEntries) -> dict[str, Any]:
+@refusing("not read")
+def answer(request: OldCamRequest) -> dict[str, Any]:
+    """The recognised moves of the table, or the reason why it cannot be read."""
+    old = table(request.study)
+    within = _within(old, request.study)
     first, last = float(old.places[0]), float(old.places[-1])
-    within = _within(old, entries)
     stride = max(1, len(old.places) // _MOST_DRAWN)
     places, heights = old.places[::stride], old.heights[::stride]
     points = {"at": drawn(places, 6), "law": 2, "name": "points", "dots": True}
@@ -115,9 +100,9 @@ def _view(old: OldTable, entries: OldCamEntries) -> dict[str, Any]:
         "unit": old.unit,
         "drawn": "" if stride == 1 else f"every {stride}th point is drawn",
         "panels": [
-            _panel(old, 0, [_curve(old, 0), points | {"values": drawn(heights, 8)}]),
+            _panel(old, 0, [_drawn(curve(old, 0, _EACH)) | _OLD, points | {"values": drawn(heights, 8)}]),
             {"name": "off the old law", "unit": old.unit, "series": [off], "limits": limits, "peaks": []},
-            *(_panel(old, nu, [_curve(old, nu)]) for nu in (1, 2, 3)),
+            *(_panel(old, nu, [_drawn(curve(old, nu, _EACH)) | _OLD]) for nu in (1, 2, 3)),
         ],
         "segments": [{"name": part.kind, "at": [part.start, part.stop]} for part in old.stretches],
         "rows": [
@@ -126,6 +111,11 @@ def _view(old: OldTable, entries: OldCamEntries) -> dict[str, Any]:
         "moves": [index for index, part in enumerate(old.stretches) if part.law is not None],
         "trust": _trust(old),
     }
+
+
+def _drawn(places_and_values: tuple[Array, Array]) -> dict[str, Any]:
+    places, values = places_and_values
+    return {"at": drawn(places, 6), "values": drawn(values, 8)}
 
 
 def _within(old: OldTable, entries: OldCamEntries) -> float:
@@ -143,13 +133,9 @@ def _words(old: OldTable, part: Stretch) -> list[str]:
     return [Amount(part.stroke, old.unit), old.law_in_words(part)]
 
 
-def _unit(old: OldTable, nu: int) -> str:
-    return old.unit if nu == 0 else f"{old.unit}/{old.master}{_POWERS[nu]}"
-
-
 def _panel(old: OldTable, nu: int, series: list[dict[str, Any]]) -> dict[str, Any]:
     peaks = [mark for part in old.moves for mark in _peak(part, nu)] if nu else []
-    return {"name": QUANTITIES[nu], "unit": _unit(old, nu), "series": series, "peaks": peaks}
+    return {"name": QUANTITIES[nu], "unit": old.unit_of(nu), "series": series, "peaks": peaks}
 
 
 def _peak(part: Stretch, nu: int) -> Iterator[dict[str, Any]]:
@@ -161,59 +147,22 @@ def _peak(part: Stretch, nu: int) -> Iterator[dict[str, Any]]:
         yield {"at": round(part.start + length * peak.k, 6), "value": value}
 
 
-def _curve(old: OldTable, nu: int) -> dict[str, Any]:
-    """A derivative of the old laws by the master, broken where it jumps."""
-    parts = [_of_part(part, nu) for part in old.stretches]
-    at, values = (np.concatenate(row) for row in zip(*parts, strict=True))
-    return {"at": drawn(at, 6), "values": drawn(values, 8), "law": 0, "name": "old law"}
-
-
-def _of_part(part: Stretch, nu: int) -> tuple[Array, Array]:
-    length = part.stop - part.start
-    base = part.low if nu == 0 else 0.0
-    if part.law is None:
-        return np.array([part.start, part.stop]), np.full(2, base)
-    law = law_of_move(part)
-    k, values = broken(law, nu, _EACH)
-    peaks = [] if nu == 0 else [peak.k for peak in law.extrema(nu) if np.isfinite(peak.value)]
-    more = np.setdiff1d(peaks, k)
-    k, values = np.concatenate([k, more]), np.concatenate([values, np.asarray(law(more, nu))])
-    order = np.argsort(k, kind="stable")
-    return part.start + length * k[order], base + part.stroke / length**nu * values[order]
-
-
 def _trust(old: OldTable) -> dict[str, Any]:
-    """How near the laws are to the points, what noise these show, and whether the end meets the beginning."""
-    off, place = old.off
-    near = off <= old.room * (1.0 + AGREEMENT)
-    at = Amount(place, old.master)
-    facts = [
-        sentence("laws keep within {} of the points", Amount(old.room, old.unit, 3))
-        if near
-        else sentence("laws are {} off the point at {}", Amount(off, old.unit, 3), at),
-        sentence("the points scatter by {} (standard deviation)", Amount(old.scatter, old.unit, 2))
-        if old.scatter
-        else "no noise is seen beyond the last digit",
-        sentence("the last position is {} from the first one", Amount(old.seam, old.unit, 3))
-        if old.seam
-        else "the end meets the beginning",
-    ]
-    named = sum(isinstance(part.law, str) for part in old.moves)
+    """How near the laws are to the points, and what of these is seen."""
+    near, named = old.off[0] <= old.room * (1.0 + AGREEMENT), sum(isinstance(part.law, str) for part in old.moves)
     return {
         "status": "given" if near else "local",
         "word": "read" if near else "off a point",
         "advice": f"{old.layout}, {len(old.places)} points: {len(old.moves)} moves, {named} of them standard laws.",
         "gap": "",
-        "facts": facts,
+        "facts": old.remarks,
     }
 
 
-def move(request: MoveRequest) -> dict[str, Any]:
+@refusing("no better law")
+def move(request: OldCamRequest) -> dict[str, Any]:
     """A law of least acceleration within the tolerance of a move's old law, and its gain; or a reason."""
-    try:
-        return _better(msgspec.json.encode(request.study), request.move)
-    except OptlawsError as error:
-        return {"refused": refusal(error, "no better law")}
+    return _better(msgspec.json.encode(request.study), request.move)
 
 
 _LAST: dict[bytes, Solution] = {}
@@ -237,11 +186,12 @@ def _better(study: bytes, number: int) -> dict[str, Any]:
         return {"law": None, "curves": [], "kept": "keeps its law: none of degree 15 so near has less acceleration"}
     result = gain(new, part)
     assert isinstance(new.law, MotionLaw)  # noqa: S101 - a better law has no name
-    places, heights = _of_part(new, 0)
-    curves = [(places, heights), (places, heights - old.at(places)), *(_of_part(new, nu) for nu in (1, 2, 3))]
+    places, heights = curve_of_part(new, 0, _EACH)
+    curves = [(places, heights), (places, heights - old.at(places))]
+    curves += [curve_of_part(new, nu, _EACH) for nu in (1, 2, 3)]
     return {
         "law": None if new.solution is None else new.solution.to_dict(),
-        "curves": [{"at": drawn(at, 6), "values": drawn(values, 8)} for at, values in curves],
+        "curves": [*map(_drawn, curves)],
         "peaks": [list(_peak(new, nu)) for nu in (1, 2, 3)],
         "gains": [
             [bounded(result.old[nu - 1]), bounded(result.new[nu - 1]), _share(result.share(nu))] for nu in (1, 2, 3)
@@ -254,7 +204,7 @@ def _share(share: float) -> str:
     return "" if np.isnan(share) else f" ({100.0 * share:+.1f} %)".replace("-", "−")
 
 
-def cycle(request: OldCycleRequest) -> Cycle:
+def cycle(request: OldCamRequest) -> Cycle:
     """The cycle of the table with the laws that are given, at the speed of the study or of the file.
 
     Raises
@@ -268,7 +218,7 @@ def cycle(request: OldCycleRequest) -> Cycle:
     return old.cycle(speed=request.study.speed)
 
 
-def with_laws(request: OldCycleRequest) -> OldTable:
+def with_laws(request: OldCamRequest) -> OldTable:
     """The table with the laws that are given in place of its own."""
     old, laws = table(request.study), request.laws
     if len(laws) > len(old.moves):
@@ -295,4 +245,4 @@ def example() -> dict[str, Any]:
     return {"file": "turn.csv", "text": "\n".join(["degree;mm", *lines]) + "\n", "speed": "200 rpm"}
 
 
-QUESTIONS: dict[str, Question] = {"old": (OldCamRequest, answer), "old-move": (MoveRequest, move)}
+QUESTIONS: dict[str, Question] = {"old": (OldCamRequest, answer), "old-move": (OldCamRequest, move)}

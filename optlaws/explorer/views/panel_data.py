@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from math import isfinite
+from collections.abc import Iterable, Sequence
+from math import floor, isfinite, log10
 from typing import Any
 
 import numpy as np
@@ -18,15 +18,25 @@ _DRAWN = 6  # decimals of what is drawn; what is read is a text of its own
 _PLACES = 4  # decimals of where
 
 
+def _decimals(values: Sequence[Array], usual: int) -> int:
+    """So many decimals of values, more where all are small."""
+    size = max(float(np.abs(each[np.isfinite(each)]).max(initial=0.0)) for each in values)
+    return usual - min(0, floor(log10(size))) if size else usual
+
+
+def _rounded(values: Array, decimals: int) -> list[float | None]:
+    return [value if isfinite(value) else None for value in np.round(values, decimals).tolist()]
+
+
 def drawn(values: Array, decimals: int = _DRAWN) -> list[float | None]:
-    """Values to draw: rounded, None where they are missing.
+    """Values to draw: rounded, small ones to more decimals, None where they are missing.
 
     Examples
     --------
-    >>> drawn(np.array([1.23456789, np.inf]))
-    [1.234568, None]
+    >>> drawn(np.array([1.23456789, np.inf])), drawn(np.array([1.23456789e-9]))
+    ([1.234568, None], [1.234568e-09])
     """
-    return [value if isfinite(value) else None for value in np.round(values, decimals).tolist()]
+    return _rounded(values, _decimals([values], decimals))
 
 
 def fact_sentences(facts: Iterable[Row], digits: int = 7) -> list[Sentence]:
@@ -48,12 +58,14 @@ def fact_sentences(facts: Iterable[Row], digits: int = 7) -> list[Sentence]:
 
 def panel_data(panel: Panel, per: float = MILLI) -> dict[str, Any]:
     """A panel as JSON, over so many units of time a second: its peaks or, where none are marked, its ends in words."""
-    places = _DRAWN if per == 1.0 else _PLACES  # dimensionless, from 0 to 1
+    places = _decimals([per * curve.at for curve in panel.series], _DRAWN if per == 1.0 else _PLACES)
+    digits = _decimals([curve.values for curve in panel.series], _DRAWN)
     shown: dict[str, Any] = {
         "name": panel.name,
         "unit": panel.unit,
         "series": [
-            {"law": law, "at": drawn(per * at, places), "values": drawn(values)} | ({"name": name} if name else {})
+            {"law": law, "at": _rounded(per * at, places), "values": _rounded(values, digits)}
+            | ({"name": name} if name else {})
             for at, values, law, name in panel.series
         ],
         "limits": [
@@ -70,3 +82,13 @@ def panel_data(panel: Panel, per: float = MILLI) -> dict[str, Any]:
     return (
         shown if panel.peaks or not any(panel.ends) or not isfinite(panel.peak) else shown | {"ends": list(panel.ends)}
     )
+
+
+def over_time(panels: Sequence[dict[str, Any]], duration: float, of: str = "") -> dict[str, Any]:
+    """Panels as JSON over the time in milliseconds, and what they are of."""
+    return {"across": f"time, ms{of}", "symbol": "t, ms", "range": [0.0, MILLI * duration], "panels": panels}
+
+
+def beside_each_other(shown: Sequence[Panel], laws: Sequence[tuple[int, Sequence[Panel]]]) -> list[Panel]:
+    """The panels of what is shown, each with the curves of all laws in their colours."""
+    return [panel.with_curves([(law, panels[i]) for law, panels in laws]) for i, panel in enumerate(shown)]

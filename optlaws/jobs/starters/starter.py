@@ -27,7 +27,6 @@ from optlaws.motion.quantities import DIMENSIONS, either, quantity
 from optlaws.studies.problem_entries import problem
 from optlaws.studies.specification import read_study
 from optlaws.suggest import unknown_key
-from optlaws.synthesis.problem.fields import ENTRIES
 
 #: answers by the names of questions; None where an entry is left out
 Answers = dict[str, str | None]
@@ -72,8 +71,8 @@ QUESTIONS: dict[str, Question] = {
     "spread": _of_entry(Vibration, "spread", "0.1"),
     "sway": Question(_STROKE, "1 mm"),
     "minimise": Question(Choice("C", "D", "J", "rms_c", "rms_j"), "C"),
-    "order": Question(ENTRIES["order"].type, "3"),
-    "degree": Question(ENTRIES["degree"].type, "9"),
+    "order": Question(Whole(1), "3"),
+    "degree": Question(Whole(1), "9"),
     "from": Question(Number(above=1.0), "1.5"),
     "to": Question(Number(above=1.0), "2"),
     "steps": Question(Whole(1), "11"),

@@ -106,6 +106,13 @@ class Motor(Declared, title="a motor"):
         """The torque that the motor bears for ever at speeds in rad/s, N m."""
         return np.minimum(self._along(self.continuous, speed), self.rated_torque)
 
+    def limits_up_to(self, speed: float, count: int) -> tuple[Array, dict[str, Array]]:
+        """Speeds up to one, in rad/s, and the torques that are allowed there: "peak torque", "continuous torque"."""
+        end = min(self.greatest_speed, speed)
+        speeds = np.unique([*np.linspace(0.0, end, count), *(corner for corner, _ in self.curve if corner <= end)])
+        known = {"peak torque": self.peak_at(speeds), "continuous torque": self.continuous_at(speeds)}
+        return speeds, {name: values for name, values in known.items() if np.isfinite(values).all()}
+
     @property
     def peak_lines(self) -> tuple[tuple[float, float], ...]:
         """Straight lines over the speed that bound the peak torque from above: a torque at rest, and its slope.

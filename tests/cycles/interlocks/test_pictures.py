@@ -1,6 +1,7 @@
 """Pictures of interlocked axes, and what a problem file's results say of them."""
 
 import json
+import re
 from pathlib import Path
 from typing import Any
 
@@ -9,6 +10,7 @@ import pytest
 from matplotlib.figure import Figure
 
 from optlaws import After, Axes, Clearance, Dwell, Forbidden, InputError, Return, Rise, Synchronous
+from optlaws.results import Results
 from tests.documents import ROOT
 from tests.internals.files import reading
 from tests.internals.jobs import cycle_job
@@ -103,3 +105,14 @@ def test_axes_with_interlocks_are_a_problem_file(tmp_path: Path) -> None:
     file.write_text(PAIR.to_toml("Pair").replace("40 mm", "40 deg"), "utf-8")
     with pytest.raises(InputError, match=r"machine\.toml: interlock .*must be a length"):
         read(reading.toml(file), file)
+
+
+@pytest.mark.parametrize("without", [[], ["overlap"], ["overlap", "interlocks"]])
+def test_a_page_names_the_pictures_that_are_drawn(tmp_path: Path, without: list[str]) -> None:
+    results = Results(FILE)
+    for name in without:
+        del results.entries[name]
+    cycle_job.run(results)
+    results.write(tmp_path)
+    page = (tmp_path / "cycle.md").read_text("utf-8")
+    assert set(re.findall(r"\]\((.*?)\)", page)) == {file.name for file in tmp_path.glob("*.svg")}

@@ -70,7 +70,7 @@ export class View {
     this.#cursor.watch((at) => this.#turn(at));
     choice.addEventListener("change", () => study.change("plane", (state) => (state.plane = Number(choice.value))));
     this.#answers = new Latest("api/axes", (answer, question) => this.#answered(answer, question), (error, question) => this.#answered(unanswered(error), question));
-    this.#clearances = new Latest("api/axes-clearances", (known, question) => told(question) === told(this.#asked) && this.#know(known), (error) => this.#know({ rows: [], trust: null, ...unanswered(error) }));
+    this.#clearances = new Latest("api/axes-clearances", (known, question) => told(question) === told(this.#asked) && this.#know(known), (error) => this.#know(unanswered(error)));
     this.#together = new Latest("api/axes-together", (answer, question) => this.#put(answer, question), (error) => this.#say([error.message]));
   }
 
@@ -91,7 +91,7 @@ export class View {
   #answered(answer, question) {
     this.#answer = answer;
     this.#asked = question;
-    if (answer.refused) this.#know({ rows: [], trust: null, refused: answer.refused });
+    if (answer.refused) this.#know({ refused: answer.refused });
     else {
       this.#clearances.ask(question);
       this.#draw();
@@ -101,7 +101,7 @@ export class View {
 
   /** What is proven of the answer that is drawn. */
   #know(known) {
-    this.#known = { ...known, of: told(this.#asked) };
+    this.#known = { rows: [], ...known, of: told(this.#asked) };
     showTrust(this.#parts.trust, known, [], () => {});
     this.#draw();
     this.#facts();

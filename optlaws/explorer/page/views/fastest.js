@@ -11,7 +11,7 @@ import { Programme } from "../programme.js";
 import { Strip } from "../strip.js";
 import { html, renew, svg } from "../svg.js";
 import { showTrust, unanswered } from "../trust.js";
-import { headed, number, shownUnit } from "../units.js";
+import { headed, number, shownUnit, written } from "../units.js";
 
 const told = (value) => JSON.stringify(value);
 const word = (value, digits = 5) => String(Number(value.toPrecision(digits))).replace("-", "−");
@@ -59,7 +59,7 @@ export class View {
   /** What is asked of the server, and what files are made of. */
   request(state) {
     const { fastest: study, time, axis } = state;
-    return { study, move: Array.isArray(study.axis) ? axis : this.#number(state), ...(time > 0 && { time }) };
+    return { study, axis: Array.isArray(study.axis) ? axis : this.#number(state), ...(time > 0 && { time }) };
   }
 
   show(state) {
@@ -238,12 +238,12 @@ export class View {
       ...(least.limit === null ? [] : [{ name: "limit", title: "no law of any degree is faster", points: [[1000 * least.limit, y.range[0]], [1000 * least.limit, top]] }]),
     ];
     const labels = [{ at: [1000 * from, top], text: "proven least time", up: -4 }, ...(least.limit === null || from - least.limit < 0.09 * (to - first) ? [] : [{ at: [1000 * least.limit, top], text: "no law", up: -4 }])].map((one) => ({ ...one, at: [one.at[0] + 0.008 * (x.range[1] - x.range[0]), one.at[1]] }));
-    const row = rows.find((one) => one.name === minimise);
-    const here = row ? number(row.value, row.unit) : word(value);
+    const row = rows.find((one) => one.name.toLowerCase() === minimise);
+    const here = row ? written(row.value) : `${word(value)} ${shown}`;
     return {
       x, y, lines, labels,
       marks: known.map(([at, one]) => ({ at: [1000 * at, one], name: "front-point", title: `${word(1000 * at)} ms: ${word(one)} ${shown}` })),
-      handles: [{ key: "time", at: [1000 * time, value], along: "x", low: 1000 * from, high: 1000 * LONGEST * to, step: 1000 * FINEST, label: "Time of the motion", text: `${word(1000 * time)} ms, ${name} ${here} ${shown}`, name: "law-0" }],
+      handles: [{ key: "time", at: [1000 * time, value], along: "x", low: 1000 * from, high: 1000 * LONGEST * to, step: 1000 * FINEST, label: "Time of the motion", text: `${word(1000 * time)} ms, ${name} ${here}`, name: "law-0" }],
       told: `${name} over the time: from ${word(values[0] ?? 0)} ${shown} in ${least.text} ms to ${word(values.at(-1) ?? 0)} ${shown} in ${word(1000 * to)} ms; now ${word(1000 * time)} ms`,
     };
   }
@@ -288,6 +288,6 @@ function legend({ names, shares }) {
 
 function table({ rows }) {
   const head = html("tr", {}, ...["", "value", "of the limit"].map((text, i) => html("th", { scope: "col", class: i ? "number" : null, text })));
-  const body = rows.map(({ name, unit, value, use, full }) => html("tr", {}, html("th", { scope: "row", text: headed(name, unit) }), html("td", { class: "number", text: number(value, unit) }), html("td", { class: `number${full ? " best" : ""}`, text: use === null ? "" : `${use} %${full ? " binds" : ""}` })));
+  const body = rows.map(({ name, value, text, full }) => html("tr", {}, html("th", { scope: "row", text: headed(name, value.unit) }), html("td", { class: "number", text: value.unit ? number(value.value, value.unit, value.digits) : value }), html("td", { class: `number${full ? " best" : ""}`, text: text && `${text} %${full ? " binds" : ""}` })));
   return html("table", { "aria-label": "What is taken of each limit" }, html("thead", {}, head), html("tbody", {}, ...body));
 }

@@ -179,10 +179,10 @@ export class View {
 
   /** The least peak of each move, on both sides, as lines over its time. */
   #leastLines() {
-    const known = this.#least.filter(({ peak }) => peak.least !== null);
+    const known = this.#least.filter(({ peak: [, least] }) => least !== null);
     return [1, -1].filter(() => known.length).map((side) => ({
       law: "limit", name: "no law that never turns back has a lower peak in this move",
-      at: known.flatMap(({ at }) => [...at, at[1]]), values: known.flatMap(({ peak }) => [side * peak.least, side * peak.least, null]),
+      at: known.flatMap(({ at }) => [...at, at[1]]), values: known.flatMap(({ peak: [, least] }) => [side * least, side * least, null]),
     }));
   }
 
@@ -435,6 +435,6 @@ function table({ rows, active }, names) {
 /** What no law beats in each move, beside what the law that is shown takes. */
 function limitsTable(moves) {
   const head = html("tr", {}, ...["in the move", "peak", "no law below", "RMS", "no law below"].map((text, i) => html("th", { scope: "col", class: i ? "number" : null, text })));
-  const rows = moves.map(({ name, peak, rms }) => html("tr", {}, html("th", { scope: "row", text: name }), ...[peak.text, peak.least_text ?? "—", rms.text, rms.least_text ?? "—"].map((text) => html("td", { class: "number", text }))));
+  const rows = moves.map(({ name, peak, rms }) => html("tr", {}, html("th", { scope: "row", text: name }), ...[...peak, ...rms].map((value) => html("td", { class: "number", text: value === null ? "—" : number(value) }))));
   return html("table", { id: "machine-least", "aria-label": "What no law that never turns back can beat in each move" }, html("thead", {}, head), html("tbody", {}, ...rows));
 }

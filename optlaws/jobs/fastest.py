@@ -1,13 +1,14 @@
-"""The problem file of the job "fastest": moves with their limits and machines, every number with its unit."""
+"""The job "fastest": moves of problem files, their least times, and what less speed saves; tabled, drawn and proven."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import json
+from collections.abc import Mapping, Sequence
 from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Any
 
-from optlaws.cycles.moves.fastest_move import FastestMove
+from optlaws.cycles.moves.fastest_move import AXES, FastestMove
 from optlaws.cycles.moves.front_over_time import time_front
 from optlaws.cycles.moves.time_front import TimeFront
 from optlaws.cycles.moves.timed_moves import fastest, fastest_moves
@@ -18,17 +19,26 @@ from optlaws.cycles.specification.segments import Move
 from optlaws.entries.declared import Declared, ValueOf, declared, entry, same
 from optlaws.entries.value_types import Either, Listed, Measured, Text, Whole, is_list
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure, located
-from optlaws.jobs.axes.drive_entries import drive_of
-from optlaws.jobs.cycle_entries import AxisEntries
+from optlaws.files import writing
+from optlaws.files.tables import Cell
+from optlaws.jobs.cycle_entries import AxisEntries, drive_of
+from optlaws.jobs.cycle_pages import plain_name
 from optlaws.jobs.job_entries import ProblemFile
 from optlaws.mechanisms.drives.drive_train import Drive
+from optlaws.motion.display_units import UNITS
 from optlaws.numbers import Quantity
-from optlaws.studies.problem_entries import problem
+from optlaws.plots.moves import fronts_figure, motion_figure, strokes_figure
+from optlaws.results import Page, Results
+from optlaws.studies.problem_entries import gap, problem
 from optlaws.synthesis.least_time.follower_residual import RESIDUAL
 from optlaws.synthesis.least_time.move_objective import AT_MOTOR
 from optlaws.synthesis.problem.fields import PROBLEM
 from optlaws.synthesis.problem.problem import Problem
+from optlaws.synthesis.status import Status
 
+HEADINGS = ("move", "stroke", "least time, s", "no law below, s", "limit of all laws, s", "above it, %", "status")
+_FEW = 7
+_PERCENT = 100.0
 _STROKE = Measured("length", "angle")
 
 
@@ -109,7 +119,7 @@ def sought(spec: FastestProblemFile, file: Path) -> list[SoughtMove]:
             with located(f"move {move.name}"):
                 moves.append(_sought(move, space, file.parent))
         except (InfeasibleProblem, SolverFailure) as error:
-            raise InputError(f"move {move.name}: {error.args[0]}") from error
+            raise InputError(error.args[0]) from error
     return moves
 
 
@@ -175,3 +185,97 @@ def _motor(move: MoveEntries, folder: Path) -> Drive | None:
             "'3e-4 kg m^2', peak_torque = '6 N m' }, ratio = 20 }"
         )
     return driven
+
+
+def run(results: Results) -> None:
+    """Put the tables, the page, the pictures, and laws with their proofs into results."""
+    spec = FastestProblemFile.read(results.entries, results.file)
+    results.title = spec.title
+    files = [plain_name(move.name) for move in spec.move]
+    if len(set(files)) < len(files) or {"about", "fastest"} & set(files):
+        raise InputError(
+            f"move: names must differ as files have them, and none is about or fastest: {', '.join(files)}"
+        )
+    moves = sought(spec, results.file)
+    results.table("fastest", (*HEADINGS, "binds"), [_line(each.name, move) for each in moves for move in each.moves])
+    page = results.page("fastest").text(spec.text)
+    for each in moves:
+        _add_move(page, f"{spec.title}: {each.name}", each)
+        for front in each.fronts:
+            name = f"{plain_name(each.name)}_{plain_name(front.minimise)}"
+            results.table(name, front.headings, _points(front))
+    results.text("fastest.json", _json(results.about, moves))
+
+
+def _line(name: str, move: FastestMove) -> list[Cell]:
+    unit, factor = UNITS[AXES[move.unit]][0]
+    # what is sought time by time is known to six digits, and where it is proven the bound is a millionth below
+    below = move.none_below if move.status is Status.OPTIMAL else float(f"{move.none_below:.5g}")
+    limit = move.limit if move.limit is None or move.least.move.torque is None else float(f"{move.limit:.5g}")
+    price = None if limit is None else f"{_PERCENT * (move.duration / limit - 1.0):.2f}"
+    stroke = f"{factor * move.stroke:.9g} {unit}"
+    return [name, stroke, move.duration, below, limit, price, move.status.value, ", ".join(move.binding)]
+
+
+def _add_move(page: Page, title: str, each: SoughtMove) -> None:
+    """Put the tables and the pictures of one move on a page."""
+    name, move = plain_name(each.name), each.moves[0]
+    page.heading(each.name)
+    if len(each.moves) > 1:
+        page.picture(name, f"{each.name}: least time over the stroke", strokes_figure(each.moves, title))
+        last = len(each.moves) - 1
+        few = sorted({round(last * step / (_FEW - 1)) for step in range(_FEW)})
+        page.table((*HEADINGS[1:], "binds"), [_line(each.name, each.moves[i])[1:] for i in few], digits=6)
+        return
+    page.picture(name, f"{each.name}: the fastest motion", motion_figure(move, title)).facts(move.summary(), digits=6)
+    if each.fronts:
+        figure = fronts_figure(each.fronts, title)
+        page.picture(f"{name}_front", f"{each.name}: what is least over the time", figure)
+    for front in each.fronts:
+        page.text(_in_words(front)).table(front.headings, _points(front), digits=6)
+
+
+def _in_words(front: TimeFront) -> str:
+    """The saving from a tenth more time, in words."""
+    first, last = front[0], front[-1]
+    later = next((point for point in front if point.duration >= 1.1 * first.duration), last)
+    saved = 1.0 - later.value / first.value if first.value else 0.0
+    more = later.duration / first.duration - 1.0
+    proven = (
+        "Every point is proven." if front.status is Status.OPTIMAL else "The bounds hold for all laws of the space."
+    )
+    return (
+        f"The least {front.minimise}: {_PERCENT * more:.0f} % more time than the least saves {_PERCENT * saved:.0f} % "
+        f"of it. {proven}"
+    )
+
+
+def _points(front: TimeFront) -> list[list[Cell]]:
+    rows: list[list[Cell]] = []
+    for point, solution in zip(front, front.solutions, strict=True):
+        # what of a search or of a phase plane differs between machines is not shown
+        sure = solution.status is Status.OPTIMAL
+        bound = point.lower_bound if sure else float(f"{point.lower_bound:.3g}")
+        rows.append([point.duration, point.value, bound, gap(solution) if sure else None, solution.status.value])
+    return rows
+
+
+def _json(about: str, moves: Sequence[SoughtMove]) -> str:
+    """Laws and proofs for `optlaws verify`, a line for each least time or front."""
+    head = json.dumps({"about": f"{about}; {writing.MARK}"})[:-1]
+    parts = []
+    for each in moves:
+        kind, values = ("fronts", each.fronts) if each.fronts else ("moves", each.moves)
+        lines = ",\n".join(json.dumps(_stable(value.to_dict())) for value in values)
+        parts.append(f"{json.dumps(each.name)}: {{{json.dumps(kind)}: [\n{lines}\n]}}")
+    return f"{head},\n" + ",\n".join(parts) + "}\n"
+
+
+def _stable(data: Any) -> Any:
+    """Stored laws and proofs without what differs from run to run: versions, and how long was searched."""
+    if isinstance(data, list):
+        return [_stable(part) for part in data]
+    if not isinstance(data, dict):
+        return data
+    stable = {name: _stable(part) for name, part in data.items() if name != "versions"}
+    return stable | {name: type(stable[name])() for name in ("seconds", "iterations") if name in stable}
