@@ -10,8 +10,6 @@ from contextvars import ContextVar
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, cast
 
-import numpy as np
-
 from optlaws.extras import NotInstalled
 from optlaws.files import writing
 from optlaws.files.writing import MARK
@@ -100,6 +98,8 @@ def new_axes() -> Axes:
 
 def one_below_the_other(axes: Any, count: int, height: float) -> list[Axes]:
     """Axes that are given, or so many new ones in a column over one abscissa; the height in inches."""
+    import numpy as np
+
     if axes is None:
         with plot_style():
             figure = new_figure(8.6, height)
