@@ -20,9 +20,9 @@ from optlaws.cycles.specification.programme import is_optimal
 from optlaws.cycles.specification.segments import Dwell
 from optlaws.errors import InputError
 from optlaws.explorer.views import cycle_view
-from optlaws.explorer.views.cycle_view import CycleRequest, packaged_study, stated
+from optlaws.explorer.views.cycle_view import CycleRequest, packaged_study
 from optlaws.explorer.views.law_view import TITLES, digits, refusing
-from optlaws.explorer.views.panel_data import drawn
+from optlaws.explorer.views.panel_data import drawn, fact_sentences
 from optlaws.explorer.views.requests import Question
 from optlaws.jobs.cycle_entries import CycleProblemFile, overlap_of
 from optlaws.motion.display_units import TURN_DEG, UNITS
@@ -260,7 +260,7 @@ def together(request: CycleRequest) -> dict[str, Any]:
     overlap = overlap_of(CycleProblemFile.read(study, _WHERE), axes, _WHERE)
     if overlap is None:
         raise InputError("say what the moves are to be put together for: the least period or the least acceleration")
-    facts: list[str] = [*stated(overlap.summary())]
+    facts: list[str] = [*fact_sentences(overlap.summary())]
     free = (
         not isinstance(segment, Dwell) and is_optimal(segment) for axis in axes.values() for segment in axis.segments
     )

@@ -23,7 +23,7 @@ from optlaws.cycles.summary import drive_rows, joint_rows, objective_unit, proof
 from optlaws.entries.declared import entries_of
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure, located
 from optlaws.explorer.views.law_view import TITLES, digits, gap_text, refusing
-from optlaws.explorer.views.panel_data import panel_data
+from optlaws.explorer.views.panel_data import fact_sentences, panel_data
 from optlaws.explorer.views.requests import MOST_DEGREE, MOST_LAWS, MOST_ORDER, Question
 from optlaws.files import reading as reading_of_files
 from optlaws.files.packaged import packaged
@@ -35,7 +35,6 @@ from optlaws.motion.display_units import MILLI, TURN_DEG, UNITS
 from optlaws.numbers import Quantity, bounded, chop
 from optlaws.numerics.peaks import is_kept
 from optlaws.sentences import Amount, Sentence, joined, sentence
-from optlaws.shown.summary import Row
 from optlaws.tolerances import BOUND_SLACK, CYCLE_ROUNDING
 
 _MOTION = ("velocity", "acceleration", "deceleration", "jerk", "snap")
@@ -79,7 +78,7 @@ def answer(request: CycleRequest) -> dict[str, Any]:
         "panels": [panel_data(report.panel(nu), TURN_DEG / shown.duration) for nu in report.orders],
         "segments": list(_segments(report)),
         "trust": trust(shown),
-        "facts": stated([*drive_rows(shown), *joint_rows(shown)]),
+        "facts": fact_sentences([*drive_rows(shown), *joint_rows(shown)]),
     }
 
 
@@ -181,22 +180,6 @@ def _beyond(extremes: tuple[tuple[float, float], tuple[float, float]], limits: t
     return not (is_kept(-least, -limits[0]) and is_kept(most, limits[1]))
 
 
-def stated(rows: Iterable[Row]) -> list[Sentence]:
-    """Rows of facts as sentences, each with its note.
-
-    Examples
-    --------
-    >>> stated([Row("least time", 0.25, "s", note="proven"), Row("binds", "jerk")])
-    ['least time 0.25 s: proven', 'binds: jerk']
-    """
-    sentences = []
-    for row in rows:
-        between = ": " if isinstance(row.value, str) else " "
-        value = row.value if isinstance(row.value, str) else Amount(row.value, row.unit, 7)
-        sentences.append(sentence("{}{}{}{}", row.name, between, value, f": {row.note}" if row.note else ""))
-    return sentences
-
-
 def verdict(status: Status, optimal: str, gap: str, facts: Iterable[str], *, proof: bool = True) -> dict[str, Any]:
     """How far a result can be trusted, with the advice of its status or, of an optimum, other words."""
     advice = optimal if status is Status.OPTIMAL else status.advice
@@ -209,7 +192,7 @@ def trust(shown: Cycle) -> dict[str, Any] | None:
     broken = broken_limits(shown)
     if not shown.solutions:
         return {"gap": "", "facts": []} | broken if broken else None
-    facts = stated(row for row in proof_rows(shown) if row.name != "status")
+    facts = fact_sentences(row for row in proof_rows(shown) if row.name != "status")
     gap = "" if shown.lower_bound is None else gap_text(1.0 - shown.lower_bound / shown.objective)
     optimal = f"The lower bound meets the objective: none is better of {shown.search_space}."
     return verdict(shown.status, optimal, gap, facts) | broken

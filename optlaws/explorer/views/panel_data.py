@@ -40,19 +40,23 @@ def drawn(values: Array, decimals: int = _DRAWN) -> list[float | None]:
 
 
 def fact_sentences(facts: Iterable[Row], digits: int = 7) -> list[Sentence]:
-    """Facts in words: the name of each, its value or both its ends, and where it is, which is in degrees.
+    """Facts in words: the name of each, its value or both its ends, where it is, which is in degrees, and its note.
 
     Examples
     --------
     >>> fact_sentences([Row("contact force", (78.0, 151.5), "N"), Row("radius", (5.0, 5.0), "mm", 30.0)])
     ['contact force 78 N to 151.5 N', 'radius 5 mm at 30 deg']
+    >>> fact_sentences([Row("least time", 0.25, "s", note="proven"), Row("binds", "jerk")])
+    ['least time 0.25 s: proven', 'binds: jerk']
     """
     sentences = []
     for row in facts:
         ends = row.value if isinstance(row.value, tuple) else (row.value,)
-        values = joined(" to ", dict.fromkeys(Amount(end, row.unit, digits) for end in ends if end is not None))
+        known = [end if isinstance(end, str) else Amount(end, row.unit, digits) for end in ends if end is not None]
+        between = ": " if isinstance(row.value, str) else " " if known else ""
         place = "" if row.place is None else sentence(" at {}", Amount(round(row.place, _DRAWN) + 0.0, "deg", 5))
-        sentences.append(sentence("{}{}{}{}", row.name, " " if values else "", values, place))
+        note = f": {row.note}" if row.note else ""
+        sentences.append(sentence("{}{}{}{}{}", row.name, between, joined(" to ", dict.fromkeys(known)), place, note))
     return sentences
 
 
