@@ -153,6 +153,24 @@ def _sentences(source: Callable[..., Any]) -> dict[str, str]:
     return {name: " ".join(text.split()) for names, text in _PARAMETER.findall(section) for name in names.split(", ")}
 
 
+def head_of(place: str) -> Callable[..., Any]:
+    """A function without its body, from the file of its module: to import this may take longer than a command does.
+
+    Examples
+    --------
+    >>> options(head_of("optlaws.cycles.moves.timed_moves:fastest"), "stroke")["stroke"].signed
+    True
+    """
+    module, _, name = place.partition(":")
+    file = Path(__file__).parents[1].joinpath(*module.split(".")[1:]).with_suffix(".py")
+    signature, quotes, text = file.read_text("utf-8").partition(f"\ndef {name}(")[2].partition('"""')
+    found: dict[str, Any] = {}
+    program = f"from __future__ import annotations\ndef {name}({signature}{quotes}{text.partition(quotes)[0]}{quotes}"
+    exec(program, found)  # noqa: S102 - the text is the package's own
+    function: Callable[..., Any] = found[name]
+    return function
+
+
 def takes(**groups: Mapping[str, Option]) -> Callable[[Command], Command]:
     """Give a command options in place of parameters, each of which takes the values of its options as a table."""
 

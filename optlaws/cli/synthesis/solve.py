@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from pathlib import Path
 from typing import Any, Literal
 
 import optlaws
 from optlaws.cli.law_options import LIMITS
-from optlaws.cli.options import AsJson, Plot, Written, given, options, save, save_figure, save_picture, takes
+from optlaws.cli.options import AsJson, Plot, Written, given, head_of, options, save, save_figure, save_picture, takes
 from optlaws.cli.problem_options import asks_for_a_problem
 from optlaws.cli.show import print_json, show, summary_table, table
 from optlaws.errors import InputError
@@ -17,7 +18,12 @@ _USUAL, _FREQUENCIES = "modified sine", (12.0, 32.0)
 _KEYS = ("status", "objective", "lower_bound", "gap", "limit", "constants", "z", "law", "iterations", "seconds")
 _MOVE_KEYS = ("unit", "stroke", "limits", "duration", "limit")
 _MOVE = options(
-    optlaws.fastest, "stroke", "start_velocity", "end_velocity", group="The move of --fastest", limits=LIMITS
+    head_of("optlaws.cycles.moves.timed_moves:fastest"),
+    "stroke",
+    "start_velocity",
+    "end_velocity",
+    group="The move of --fastest",
+    limits=LIMITS,
 )
 
 
@@ -53,23 +59,29 @@ def solve(
     problem = optlaws.Problem.from_dict(entries)
     if fastest:
         timed = optlaws.fastest(problem, **move)
-        whole = timed.to_dict()
         if plot is not None:
             from optlaws.plots.moves import motion_figure
 
             save_figure(plot, motion_figure(timed, f"{move['stroke']} in {timed.duration:.6g} s"))
-        rest = {"none_below": timed.none_below, "binding": list(timed.binding), "gains": timed.gains()}
-        brief, shown = {name: whole[name] for name in _MOVE_KEYS} | rest, [timed.summary()]
+        _answer(timed, output, as_json=as_json)
     else:
         solution = optlaws.synthesize(problem, bound=bound)
-        whole = solution.to_dict()
         save_picture(plot, solution)
-        brief, shown = {name: whole[name] for name in _KEYS}, _shown(solution)
-    save(output, whole)
-    if as_json:
-        print_json(brief)
+        _answer(solution, output, as_json=as_json)
+
+
+def _answer(found: optlaws.Solution | optlaws.FastestMove, output: Path | None, *, as_json: bool) -> None:
+    """Write what was found to a file, and print it; its plain data, with their proofs, take a tenth of a second."""
+    if as_json or output is not None:
+        whole = found.to_dict()
+        save(output, whole)
+    if not as_json:
+        show(*(_shown(found) if isinstance(found, optlaws.Solution) else [found.summary()]))
+    elif isinstance(found, optlaws.Solution):
+        print_json({name: whole[name] for name in _KEYS})
     else:
-        show(*shown)
+        rest = {"none_below": found.none_below, "binding": list(found.binding), "gains": found.gains()}
+        print_json({name: whole[name] for name in _MOVE_KEYS} | rest)
 
 
 #: how notes stand behind what they are of

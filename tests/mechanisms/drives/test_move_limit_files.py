@@ -45,8 +45,8 @@ MADE: dict[str, Callable[[], MoveLimit]] = {
 
 
 @cache
-def limits() -> dict[str, MoveLimit]:
-    return {name: make() for name, make in MADE.items()}
+def limit_of(name: str) -> MoveLimit:
+    return MADE[name]()
 
 
 def changed(data: dict[str, Any], path: tuple[Any, ...], value: object) -> dict[str, Any]:
@@ -65,40 +65,44 @@ def noticed(data: dict[str, Any]) -> bool:
         return True
 
 
-def test_each_limit_is_verified_and_read_again() -> None:
-    for name, limit in limits().items():
-        data = limit.to_dict()
-        again = verify(data)
-        assert again.proven, (name, *map(str, again.claims))
-        assert again.bound == pytest.approx(limit.value, rel=1e-12), name
-        assert MoveLimit.from_json(limit.to_json()) == limit, name
+@pytest.mark.sample(3)
+@pytest.mark.parametrize("name", MADE)
+def test_each_limit_is_verified_and_read_again(name: str) -> None:
+    limit = limit_of(name)
+    data = limit.to_dict()
+    again = verify(data)
+    assert again.proven, (name, *map(str, again.claims))
+    assert again.bound == pytest.approx(limit.value, rel=1e-12), name
+    assert MoveLimit.from_json(limit.to_json()) == limit, name
 
 
-def test_each_statement_of_a_file_is_that_of_its_move() -> None:
-    for name, limit in limits().items():
-        data = limit.to_dict()
-        wrong = {"unit": data["unit"] * 1.001, "dimension": "banana", "move": {}}
-        for key, value in wrong.items():
-            assert noticed(changed(data, (key,), value)), (name, key)
-        move = data["move"]
-        for key in ("stroke", "duration"):
-            if move[key] is not None:
-                assert noticed(changed(data, ("move", key), move[key] * 1.001)), (name, key)
-        drive = ("drive", "mechanism") if "drive" in move else ("mechanism",)
-        moved = move[drive[0]]["mechanism"] if len(drive) == 2 else move[drive[0]]
-        assert noticed(changed(data, ("move", *drive, "inertia"), f"1.001*({moved['inertia']})")), name
-        for key, other in (("value", 1.001), ("attained", 0.999)):
-            if data["drive_limit"][key] is not None:
-                assert noticed(changed(data, ("drive_limit", key), data["drive_limit"][key] * other)), (name, key)
+@pytest.mark.sample(3)
+@pytest.mark.parametrize("name", MADE)
+def test_each_statement_of_a_file_is_that_of_its_move(name: str) -> None:
+    limit = limit_of(name)
+    data = limit.to_dict()
+    wrong = {"unit": data["unit"] * 1.001, "dimension": "banana", "move": {}}
+    for key, value in wrong.items():
+        assert noticed(changed(data, (key,), value)), (name, key)
+    move = data["move"]
+    for key in ("stroke", "duration"):
+        if move[key] is not None:
+            assert noticed(changed(data, ("move", key), move[key] * 1.001)), (name, key)
+    drive = ("drive", "mechanism") if "drive" in move else ("mechanism",)
+    moved = move[drive[0]]["mechanism"] if len(drive) == 2 else move[drive[0]]
+    assert noticed(changed(data, ("move", *drive, "inertia"), f"1.001*({moved['inertia']})")), name
+    for key, other in (("value", 1.001), ("attained", 0.999)):
+        if data["drive_limit"][key] is not None:
+            assert noticed(changed(data, ("drive_limit", key), data["drive_limit"][key] * other)), (name, key)
 
 
 def test_a_limit_of_another_drive_is_not_proven() -> None:
-    one, other = (limits()[name].to_dict() for name in ("peak torque of a drive", "energy of a drive"))
+    one, other = (limit_of(name).to_dict() for name in ("peak torque of a drive", "energy of a drive"))
     assert not verify({**one, "move": other["move"]}).proven
 
 
 def test_what_a_limit_does_not_use_is_not_in_its_file() -> None:
-    for name, limit in limits().items():
+    for name, limit in zip(MADE, map(limit_of, MADE), strict=True):
         data = limit.to_dict()
         beside = {"heat", "recovered"} & data["move"].keys()
         of_drive = "drive" in data["move"]
@@ -109,16 +113,16 @@ def test_what_a_limit_does_not_use_is_not_in_its_file() -> None:
     with pytest.raises(InputError, match="recovered is a part of the energy that is minimised"):
         TABLE.limit("rms torque", *MOVE, recovered=0.5)
     with pytest.raises(InputError, match="recovered of a drive is its regeneration"):
-        replace(limits()["energy of a drive"].move, recovered=0.5)
+        replace(limit_of("energy of a drive").move, recovered=0.5)
 
 
 @pytest.mark.parametrize("name", ["peak torque of a drive", "energy with heat", "time of a drive"])
 def test_no_number_stands_beside_a_certificate_that_proves_nothing(name: str) -> None:
-    data = limits()[name].to_dict()
+    data = limit_of(name).to_dict()
     for key in ("level", "price", "near"):
         for value in (1e-3, 7.0):
             wrong = changed(data, ("drive_limit", key), data["drive_limit"][key] + value)
-            assert noticed(wrong) or (verify(wrong).bound or 0.0) <= limits()[name].attained, (name, key)
+            assert noticed(wrong) or (verify(wrong).bound or 0.0) <= limit_of(name).attained, (name, key)
     pieces = len(data["drive_limit"]["edges"]) - 1
     broken = changed(data, ("drive_limit", "potential"), [[0.0] * 5] * pieces)
     assert noticed(broken), name
@@ -126,7 +130,7 @@ def test_no_number_stands_beside_a_certificate_that_proves_nothing(name: str) ->
 
 
 def test_a_file_without_its_move_is_refused_with_a_remedy() -> None:
-    for name, limit in limits().items():
+    for name, limit in zip(MADE, map(limit_of, MADE), strict=True):
         data = {key: value for key, value in limit.to_dict().items() if key != "move"}
         for read in (verify, MoveLimit.from_dict):
             with pytest.raises(

@@ -123,7 +123,9 @@ def check(seed: int) -> str:
     return "bound" if limit.value not in {0.0, -np.inf} else "nothing known"
 
 
-@pytest.mark.parametrize("seed", [*range(20), 290, 586, 950])
+@pytest.mark.parametrize(
+    "seed", [*range(20), *(pytest.param(seed, marks=pytest.mark.long) for seed in (290, 950)), 586]
+)
 def test_a_random_drive_takes_no_less_than_its_limit(seed: int) -> None:
     assert check(seed) in {"bound", "infeasible", "nothing known"}
 
