@@ -200,7 +200,7 @@ EXAMPLES = {
             (
                 "degree = 7",
                 'degree = 7\nwindows = [{ quantity = "b", high = 0.9 }]',
-                r"(^|toml: )move \w+: no time is long enough",
+                r"(?<!table: )move table: no time is long enough",
             ),
             ('stroke = "45 deg"', 'stroke = "45 mm"', "move table: .*limits|move table: .*angle"),
             ('stroke = "45 deg"', 'strok = "45 deg"', "did you mean 'stroke'"),

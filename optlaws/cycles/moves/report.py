@@ -136,7 +136,7 @@ class MoveReport:
         """Position, velocity, acceleration and jerk; the snap where it is limited, and the torque of a motor."""
         piece, axis = replace(self.piece, offset=0.0), AXES[self.move.unit]
         panels = []
-        for nu in range(1 + max(len(QUANTITIES) - 1, *self.limits)):
+        for nu in range(1 + max((len(QUANTITIES) - 1, *self.limits))):
             limits = [PanelLimit(0.0, self.duration, *self.limits[nu])] if nu in self.limits else ()
             extremes = piece.extremes(nu, 0.0, self.duration)
             panels.append(motion_panel([piece], nu, display_unit(axis, nu), extremes, limits))

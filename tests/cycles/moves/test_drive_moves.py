@@ -37,6 +37,8 @@ def test_a_torque_of_inertia_alone_is_a_limit_of_the_acceleration() -> None:
     assert by_torque.limit == pytest.approx(by_acceleration.limit, rel=1e-6)
     assert by_torque.status is Status.OPTIMAL
     assert by_torque.binding == ("torque",)
+    names = [panel.name for panel in by_torque.report().panels]  # no limit of the motion itself
+    assert names == ["position", "velocity", "acceleration", "jerk"]
 
 
 def test_a_constant_load_makes_the_acceleration_one_sided() -> None:
