@@ -76,6 +76,8 @@ def problem_of_job(given: Path, job: str) -> GivenProblem:
     file, results = problem_file(given)
     entries = reading.toml(file)
     named = entries.get("job", job)
+    if not isinstance(named, str):
+        raise InputError(f"{given}: job must be a text such as {job!r}, got {shortened(named)}")
     if named != job:
         raise InputError(f"{given} is of the job {shortened(named)}, not {job!r}: `optlaws run {given}` does it")
     return GivenProblem(file, results, entries)

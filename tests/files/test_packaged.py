@@ -97,3 +97,10 @@ def test_what_answers_leaves_a_closed_pipe_to_the_command(monkeypatch: pytest.Mo
     monkeypatch.setattr("sys.stdout", Closed())
     with pytest.raises(BrokenPipeError):
         show("an answer")
+
+
+def test_a_job_that_is_no_text_is_refused_without_a_remedy_that_fails(tmp_path: Path) -> None:
+    file = tmp_path / "own.toml"
+    file.write_text('job = ["cycle"]', "utf-8")
+    with pytest.raises(InputError, match="job must be a text such as 'cycle'"):
+        packaged.problem_of_job(file, "cycle")
