@@ -61,6 +61,8 @@ def test_an_axis_of_a_problem_file_is_chosen(capsys: Capture) -> None:
     [
         ((), 2, "give a problem file, or --stroke"),
         (("--stroke", "35mm"), 2, "give a problem file, or --stroke"),
+        (("--stroke", "35kg", "--duration", "0.1s"), 2, "--stroke must be a length such as"),
+        (("--stroke", "35mm", "--duration", "3mm"), 2, "--duration must be a time such as"),
         (("cycle_press", "--stroke", "35mm"), 2, "are of a single move"),
         (("cycle_press", "--axis", "nobody"), 2, "nobody"),
         (("lever_tables",), 2, "lever_tables"),

@@ -105,12 +105,11 @@ def _of_move(
 ) -> dict[str, Advice]:
     if stroke is None or duration is None:
         raise InputError("give a problem file, or --stroke such as 35mm and --duration such as 0.1s")
-    drive = None
-    if mass is not None:
-        from optlaws.motion.quantities import either
+    from optlaws.motion.quantities import either, quantity
 
-        dimension, _ = either(stroke, ("length", "angle"), "--stroke")
-        drive = {"mass" if dimension == "length" else "inertia": mass}
+    dimension, _ = either(stroke, ("length", "angle"), "--stroke")
+    quantity(duration, "time", "--duration")
+    drive = None if mass is None else {"mass" if dimension == "length" else "inertia": mass}
     return {"": optlaws.advise(optlaws.Rise(stroke, duration), drive=drive, **wishes)}
 
 
