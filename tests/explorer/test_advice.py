@@ -156,6 +156,6 @@ def test_standard_laws_are_there_before_those_that_are_searched_for(page: Page, 
 def test_the_laws_of_a_driven_machine_fit_beside_their_picture(page: Page, served: Server) -> None:
     go(page, served.link(view="machine", machine=machine_view.example(), axis=1))
     page.get_by_role("tab", name="Advice").click()
-    page.locator("#advice-table [data-ends=proof]").first.wait_for()
+    page.locator("#advice-table [data-ends=proof]").first.wait_for(timeout=120_000)
     width, room = page.locator("#advice-table").evaluate("(one) => [one.scrollWidth, one.clientWidth]")
     assert width <= room
