@@ -164,10 +164,10 @@ def head_of(place: str) -> Callable[..., Any]:
     module, _, name = place.partition(":")
     file = Path(__file__).parents[1].joinpath(*module.split(".")[1:]).with_suffix(".py")
     signature, quotes, text = file.read_text("utf-8").partition(f"\ndef {name}(")[2].partition('"""')
-    found: dict[str, Any] = {}
+    namespace: dict[str, Any] = {}
     program = f"from __future__ import annotations\ndef {name}({signature}{quotes}{text.partition(quotes)[0]}{quotes}"
-    exec(program, found)  # noqa: S102 - the text is the package's own
-    function: Callable[..., Any] = found[name]
+    exec(program, namespace)  # noqa: S102 - the text is the package's own
+    function: Callable[..., Any] = namespace[name]
     return function
 
 

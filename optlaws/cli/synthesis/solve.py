@@ -70,17 +70,17 @@ def solve(
         _answer(solution, output, as_json=as_json)
 
 
-def _answer(found: optlaws.Solution | optlaws.FastestMove, output: Path | None, *, as_json: bool) -> None:
-    """Write what was found to a file, and print it; its plain data, with their proofs, take a tenth of a second."""
+def _answer(result: optlaws.Solution | optlaws.FastestMove, output: Path | None, *, as_json: bool) -> None:
+    """Write a result to a file, and print it; its plain data, with their proofs, take a tenth of a second."""
     if as_json or output is not None:
-        whole = found.to_dict()
+        whole = result.to_dict()
         save(output, whole)
     if not as_json:
-        show(*(_shown(found) if isinstance(found, optlaws.Solution) else [found.summary()]))
-    elif isinstance(found, optlaws.Solution):
+        show(*(_shown(result) if isinstance(result, optlaws.Solution) else [result.summary()]))
+    elif isinstance(result, optlaws.Solution):
         print_json({name: whole[name] for name in _KEYS})
     else:
-        rest = {"none_below": found.none_below, "binding": list(found.binding), "gains": found.gains()}
+        rest = {"none_below": result.none_below, "binding": list(result.binding), "gains": result.gains()}
         print_json({name: whole[name] for name in _MOVE_KEYS} | rest)
 
 
