@@ -275,4 +275,4 @@ def motion_table(
         ]
     for name, driven in more(times).items():
         columns[name] = [chop(value, float(np.abs(driven).max()), CYCLE_ROUNDING) for value in driven.tolist()]
-    return ReportTable(list(columns), [list(row) for row in zip(*columns.values(), strict=True)])
+    return ReportTable.of_columns(columns)

@@ -298,7 +298,8 @@ class Declared(JsonText):
             given = {name: value for name, value in given.items() if name in known}
         check_names(given, known, f"entry of {cls.named}")
         for name, each in known.items():
-            if each.needed and (name not in given or given[name] is each.type.absent is None):
+            absent = name not in given or (given[name] is None and each.type.absent is None)
+            if each.needed and absent:
                 such = "" if each.example is None else f", such as {name} = {each.example!r}"
                 raise InputError(f"{cls.named} needs its {name}{such}")
         return cls(**{known[name].field: value for name, value in given.items()})

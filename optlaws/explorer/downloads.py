@@ -43,7 +43,7 @@ File = tuple[str, str]  #: its name and its text
 
 
 class ViewFiles(NamedTuple):
-    """What a view is asked, the files of that by their kinds, and its motion for a controller."""
+    """The request of a view, the files of it by their kinds, and its motion for a controller."""
 
     request: type[msgspec.Struct]
     kinds: Mapping[str, Callable[[Any], File]]
@@ -51,7 +51,7 @@ class ViewFiles(NamedTuple):
 
 
 class FileRequest(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
-    """A file of a kind, of what a view is asked."""
+    """A file of a kind, of the request of a view."""
 
     kind: str
     view: str
@@ -83,7 +83,7 @@ def _json(name: str, **entries: Any) -> File:
 
 
 def _study(name: str) -> Callable[[Any], File]:
-    """What a view is asked, as a problem file."""
+    """The request of a view as a problem file."""
     return lambda request: (name, to_toml(request.study))
 
 

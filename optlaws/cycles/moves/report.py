@@ -131,7 +131,7 @@ class MoveReport:
             return None
         return self.drive.sheet(self.law, self.start, self.move.stroke, self.duration)
 
-    @property
+    @kept_property
     def panels(self) -> tuple[Panel, ...]:
         """Position, velocity, acceleration and jerk; the snap where it is limited, and the torque of a motor."""
         piece, axis = replace(self.piece, offset=0.0), AXES[self.move.unit]

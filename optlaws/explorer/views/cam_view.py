@@ -19,7 +19,7 @@ from optlaws.cams.report import CamReport, forces_section
 from optlaws.cycles.specification.drive import CONSTANTS
 from optlaws.errors import InfeasibleProblem, InputError, OptlawsError, located
 from optlaws.explorer.views.cycle_view import SEGMENTS, check_axis
-from optlaws.explorer.views.law_view import refusal
+from optlaws.explorer.views.law_view import refusing
 from optlaws.explorer.views.panel_data import drawn, fact_sentences, panel_data
 from optlaws.explorer.views.requests import Question
 from optlaws.jobs.cam_entries import CamProblemFile
@@ -41,12 +41,10 @@ class CamRequest(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     study: dict[str, Any]
 
 
+@refusing("no such cam")
 def answer(request: CamRequest) -> dict[str, Any]:
     """The view of a cam, or the reason why there is none."""
-    try:
-        return _view(result_of(request))
-    except OptlawsError as error:
-        return {"refused": refusal(error, "no such cam")}
+    return _view(result_of(request))
 
 
 def result_of(request: CamRequest) -> CamResult:

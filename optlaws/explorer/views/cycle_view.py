@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import fields, replace
 from functools import lru_cache
 from math import inf
@@ -11,7 +11,7 @@ from typing import Annotated, Any, TypeAlias
 
 import msgspec
 
-from optlaws import Cycle, Status
+from optlaws import Cycle
 from optlaws.cycles.interlocks.interlock import Interlock
 from optlaws.cycles.optimisation.motion_limits import LIMITS
 from optlaws.cycles.optimisation.motor_limits import MOTOR
@@ -22,7 +22,7 @@ from optlaws.cycles.specification.segments import CycleSegment
 from optlaws.cycles.summary import drive_rows, joint_rows, objective_unit, proof_rows
 from optlaws.entries.declared import entries_of
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure, located
-from optlaws.explorer.views.law_view import TITLES, digits, gap_text, refusing
+from optlaws.explorer.views.law_view import digits, gap_text, refusing, verdict
 from optlaws.explorer.views.panel_data import fact_sentences, panel_data
 from optlaws.explorer.views.requests import MOST_DEGREE, MOST_LAWS, MOST_ORDER, Question
 from optlaws.files import reading as reading_of_files
@@ -180,13 +180,6 @@ def _beyond(extremes: tuple[tuple[float, float], tuple[float, float]], limits: t
     return not (is_kept(-least, -limits[0]) and is_kept(most, limits[1]))
 
 
-def verdict(status: Status, optimal: str, gap: str, facts: Iterable[str], *, proof: bool = True) -> dict[str, Any]:
-    """How far a result can be trusted, with the advice of its status or, of an optimum, other words."""
-    advice = optimal if status is Status.OPTIMAL else status.advice
-    word = TITLES.get(status, status.value)
-    return {"status": status.value, "word": word, "advice": advice, "gap": gap, "facts": list(facts), "proof": proof}
-
-
 def trust(shown: Cycle) -> dict[str, Any] | None:
     """The status of the laws and what is proven of them, and which limits they do not keep; None of laws as given."""
     broken = broken_limits(shown)
@@ -195,7 +188,7 @@ def trust(shown: Cycle) -> dict[str, Any] | None:
     facts = fact_sentences(row for row in proof_rows(shown) if row.name != "status")
     gap = "" if shown.lower_bound is None else gap_text(1.0 - shown.lower_bound / shown.objective)
     optimal = f"The lower bound meets the objective: none is better of {shown.search_space}."
-    return verdict(shown.status, optimal, gap, facts) | broken
+    return verdict(shown.status, gap, facts, optimal) | broken
 
 
 def broken_limits(shown: Cycle) -> dict[str, str]:

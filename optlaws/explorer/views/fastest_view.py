@@ -18,8 +18,8 @@ from optlaws.cycles.report import CycleReport
 from optlaws.cycles.summary import drive_rows, objective_unit, peak_rows
 from optlaws.errors import InputError, OptlawsError
 from optlaws.explorer.views import cycle_view
-from optlaws.explorer.views.cycle_view import CycleRequest, packaged_study, verdict
-from optlaws.explorer.views.law_view import digits, gap_text, refusing
+from optlaws.explorer.views.cycle_view import CycleRequest, packaged_study
+from optlaws.explorer.views.law_view import digits, gap_text, refusing, verdict
 from optlaws.explorer.views.panel_data import drawn, fact_sentences, over_time, panel_data
 from optlaws.explorer.views.requests import MOST_DEGREE, MOST_ORDER, Question, without_files
 from optlaws.jobs.cycle_entries import AxisEntries, CycleProblemFile
@@ -188,7 +188,7 @@ class _MoveSearch:
         facts = fact_sentences(least.proof_rows())
         if self.minimise is None or time is None or time <= duration * (1.0 + LEAST_TIME_GAP) ** 2:
             words = "No law of this order and degree is faster within the limits."
-            trust = verdict(least.status, words, gap_text(least.gap), [*facts, *least.notes])
+            trust = verdict(least.status, gap_text(least.gap), [*facts, *least.notes], words)
         else:
             line = front_of(least, self.move, self.minimise, self.given, (f"{time!r} s", 2))
             solution, point = line.solutions[1], line[1]
@@ -196,9 +196,7 @@ class _MoveSearch:
             rows = [Row(f"least {self.minimise} in this time", point.value, line.unit)]
             if bounded(point.lower_bound) is not None:
                 rows.append(Row("none below", point.lower_bound, line.unit))
-            trust = verdict(
-                solution.status, solution.status.advice, gap_text(solution.gap), [*fact_sentences(rows), *facts]
-            )
+            trust = verdict(solution.status, gap_text(solution.gap), [*fact_sentences(rows), *facts])
         start = float(si_number(self.given["start"], ("angle",), "start")) if "drive" in self.given else 0.0
         report = MoveReport(least, law, duration, self.given.get("drive"), start)
         rows = [] if report.sheet is None else list(report.sheet.summary())
@@ -254,7 +252,7 @@ class _CycleSearch:
         trust = None if cycle is self.least.cycle else cycle_view.trust(cycle)
         if trust is None:
             words = "No law of this order and degree lets the cycle run faster."
-            trust = verdict(self.least.status, words, "", [], proof=bool(self.least.proofs))
+            trust = verdict(self.least.status, "", [], words, proof=bool(self.least.proofs))
         trust["facts"] += facts
         rows = [*peak_rows(cycle), *drive_rows(cycle)]
         return _Motion(CycleReport(cycle), cycle.duration, trust, rows, cycle.solutions)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
 from functools import lru_cache, wraps
 from math import ceil, floor, log10
@@ -76,7 +76,7 @@ def refusal(error: OptlawsError, word: str = "not understood") -> dict[str, str]
 def refusing(word: str = "not understood") -> Callable[[Answer], Answer]:
     """Let what answers a question say why there is no answer, in place of an error."""
 
-    def stated(answer: Answer) -> Answer:
+    def decorate(answer: Answer) -> Answer:
         @wraps(answer)
         def answer_or_refusal(request: Any) -> dict[str, Any]:
             try:
@@ -86,7 +86,7 @@ def refusing(word: str = "not understood") -> Callable[[Answer], Answer]:
 
         return answer_or_refusal
 
-    return stated
+    return decorate
 
 
 def title(problem: Problem) -> str:
@@ -163,10 +163,11 @@ def trust(solution: Solution) -> dict[str, Any]:
     return verdict(solution.status, gap_text(solution.gap), facts)
 
 
-def verdict(status: Status, gap: str, facts: Sequence[str], advice: str = "") -> dict[str, Any]:
-    """A status with its advice, its gap and facts, of what has a proof."""
-    word, advice = TITLES.get(status, status.value), advice or status.advice
-    return {"status": status.value, "word": word, "advice": advice, "gap": gap, "facts": facts, "proof": True}
+def verdict(status: Status, gap: str, facts: Iterable[str], optimal: str = "", *, proof: bool = True) -> dict[str, Any]:
+    """How far a result can be trusted: its status with the advice of this or, of an optimum, with other words."""
+    advice = optimal if optimal and status is Status.OPTIMAL else status.advice
+    word = TITLES.get(status, status.value)
+    return {"status": status.value, "word": word, "advice": advice, "gap": gap, "facts": list(facts), "proof": proof}
 
 
 def gap_text(gap: float) -> str:

@@ -70,8 +70,9 @@ def answer(request: CycleRequest) -> dict[str, Any]:
     mechanism = shown.drive.mechanism if isinstance(shown.drive, Drive) else shown.drive
     assert isinstance(mechanism, Mechanism)  # noqa: S101 - as the axis has one
     report = CycleReport(shown)
-    panels = beside_each_other(report.of_input, [(i, CycleReport(law).of_input) for i, law in cycles])
-    used = report.panel(0).ends
+    inputs = {i: CycleReport(law).of_input for i, law in cycles}
+    panels = beside_each_other(inputs[place], list(inputs.items()))
+    used = inputs[place][-1].ends
     of = f"; torque and power at the {'motor' if isinstance(shown.drive, Drive) else 'input'}"
     return {
         **known,

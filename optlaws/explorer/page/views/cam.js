@@ -58,7 +58,7 @@ export class View {
     this.#motion.cursor.watch((at) => this.#turn(at));
   }
 
-  /** What is asked of the server, and what files are made of. */
+  /** The request to the server, of which files are made too. */
   request({ cam }) {
     return { study: cam };
   }

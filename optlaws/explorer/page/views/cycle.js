@@ -48,7 +48,7 @@ export class View {
     this.#nearest = new Latest("api/cycle-nearest", ({ ways }) => this.#render(this.#answer, ways), () => this.#render(this.#answer, []));
   }
 
-  /** What is asked of the server, and what files are made of. */
+  /** The request to the server, of which files are made too. */
   request({ cycle, axis }) {
     return { study: cycle, axis };
   }

@@ -56,7 +56,7 @@ export class View {
     this.#timing();
   }
 
-  /** What is asked of the server, and what files are made of. */
+  /** The request to the server, of which files are made too. */
   request(state) {
     const { fastest: study, time, axis } = state;
     return { study, axis: Array.isArray(study.axis) ? axis : this.#number(state), ...(time > 0 && { time }) };

@@ -77,7 +77,7 @@ export class View {
     this.#ratios = new Latest("api/machine-ratios", (answer, question) => told(question) === told(this.#asked) && this.#swept(answer), (error) => this.#swept({ ratios: [], words: error.message }));
   }
 
-  /** What is asked of the server, and what files are made of. */
+  /** The request to the server, of which files are made too. */
   request({ machine, axis }) {
     return { study: machine, axis };
   }
