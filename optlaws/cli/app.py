@@ -60,9 +60,14 @@ def application(*, described: bool = False) -> App:
 
 
 def _about(name: str, file: Path) -> str:
-    """The start of the docstring of a command; its file is read as text, for parsing takes far longer."""
-    _, _, function = file.read_text(encoding="utf-8").partition(f"\ndef {name}(")
-    return cleandoc(function.partition('"""')[2].partition('"""')[0]).partition("\n\nParameters")[0]
+    """The start of the docstring of a command."""
+    return cleandoc(head_of(file, name)[1]).partition("\n\nParameters")[0]
+
+
+def head_of(file: Path, name: str) -> tuple[str, str]:
+    """Signature and docstring of a function; its file is read as text, for importing or parsing it takes far longer."""
+    signature, _, rest = file.read_text(encoding="utf-8").partition(f"\ndef {name}(")[2].partition('"""')
+    return signature, rest.partition('"""')[0]
 
 
 app = application()

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from cyclopts import Parameter, Token
 
+from optlaws.cli.app import head_of
 from optlaws.entries.declared import Declared, entries_of
 from optlaws.errors import InputError
 
@@ -153,19 +154,19 @@ def _sentences(source: Callable[..., Any]) -> dict[str, str]:
     return {name: " ".join(text.split()) for names, text in _PARAMETER.findall(section) for name in names.split(", ")}
 
 
-def head_of(place: str) -> Callable[..., Any]:
-    """A function without its body, from the file of its module: to import this may take longer than a command does.
+def without_body(place: str) -> Callable[..., Any]:
+    """A function of a module without its body: to import this may take longer than a command does.
 
     Examples
     --------
-    >>> options(head_of("optlaws.cycles.moves.timed_moves:fastest"), "stroke")["stroke"].signed
+    >>> options(without_body("optlaws.cycles.moves.timed_moves:fastest"), "stroke")["stroke"].signed
     True
     """
     module, _, name = place.partition(":")
     file = Path(__file__).parents[1].joinpath(*module.split(".")[1:]).with_suffix(".py")
-    signature, quotes, text = file.read_text("utf-8").partition(f"\ndef {name}(")[2].partition('"""')
+    signature, text = head_of(file, name)
     namespace: dict[str, Any] = {}
-    program = f"from __future__ import annotations\ndef {name}({signature}{quotes}{text.partition(quotes)[0]}{quotes}"
+    program = f'from __future__ import annotations\ndef {name}({signature}"""{text}"""'
     exec(program, namespace)  # noqa: S102 - the text is the package's own
     function: Callable[..., Any] = namespace[name]
     return function

@@ -8,7 +8,18 @@ from typing import Any, Literal
 
 import optlaws
 from optlaws.cli.law_options import LIMITS
-from optlaws.cli.options import AsJson, Plot, Written, given, head_of, options, save, save_figure, save_picture, takes
+from optlaws.cli.options import (
+    AsJson,
+    Plot,
+    Written,
+    given,
+    options,
+    save,
+    save_figure,
+    save_picture,
+    takes,
+    without_body,
+)
 from optlaws.cli.problem_options import asks_for_a_problem
 from optlaws.cli.show import print_json, show, summary_table, table
 from optlaws.errors import InputError
@@ -18,7 +29,7 @@ _USUAL, _FREQUENCIES = "modified sine", (12.0, 32.0)
 _KEYS = ("status", "objective", "lower_bound", "gap", "limit", "constants", "z", "law", "iterations", "seconds")
 _MOVE_KEYS = ("unit", "stroke", "limits", "duration", "limit")
 _MOVE = options(
-    head_of("optlaws.cycles.moves.timed_moves:fastest"),
+    without_body("optlaws.cycles.moves.timed_moves:fastest"),
     "stroke",
     "start_velocity",
     "end_velocity",
