@@ -14,10 +14,10 @@ from optlaws.cycles.specification.programme import is_optimal, period_of
 from optlaws.cycles.specification.segments import CycleSegment, Dwell
 from optlaws.echo import shortened
 from optlaws.entries.declared import Declared, declared, entry
-from optlaws.entries.value_types import Choice, Listed, Number, ReadBy, Text, check_names
+from optlaws.entries.value_types import Choice, Listed, Number, ReadBy, Text
 from optlaws.errors import InfeasibleProblem, InputError, located
 from optlaws.extras import needed
-from optlaws.files.reading import JsonText
+from optlaws.files.reading import JsonText, check_names
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.laws.exporting import AxesExportOptions

@@ -12,9 +12,9 @@ from textwrap import wrap
 from typing import Any, ClassVar, ForwardRef, Self, TypeVar, dataclass_transform, get_args, get_origin
 
 from optlaws.echo import shortened
-from optlaws.entries.value_types import AnyTable, Kept, Stored, ValueType, check_names
+from optlaws.entries.value_types import AnyTable, Kept, Stored, ValueType
 from optlaws.errors import InputError
-from optlaws.files.reading import JsonText
+from optlaws.files.reading import JsonText, check_names
 
 _ENTRY = "entry"
 _ENTRIES: dict[type, dict[str, Entry]] = {}

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from math import inf
@@ -11,10 +11,9 @@ from typing import TYPE_CHECKING, Any, Generic, TypeAlias, TypeVar
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError, located
-from optlaws.files.reading import JsonText
+from optlaws.files.reading import JsonText, check_names
 from optlaws.motion.quantities import DIMENSIONS, either, written
 from optlaws.numbers import MOST_VALUES, bounded, finite, numbers, real, whole
-from optlaws.suggest import unknown_key
 
 if TYPE_CHECKING:
     from optlaws.numbers import NumberOrQuantity
@@ -37,19 +36,6 @@ class Kept(Generic[KeptT, GivenT]):
 SINumber: TypeAlias = Kept[float, "NumberOrQuantity"]
 #: likewise, of which None says that there is none
 SILimit: TypeAlias = Kept[float, "NumberOrQuantity | None"]
-
-
-def check_names(given: Iterable[object], known: Iterable[str], what: str) -> None:
-    """Refuse names that are not known; the error says what the nearest one is called.
-
-    >>> check_names(["lenght"], ["length"], "entry of a rod")
-    Traceback (most recent call last):
-    optlaws.errors.InputError: unknown entry of a rod 'lenght'; did you mean 'length'?
-    """
-    names = tuple(known)
-    for name in given:
-        if not isinstance(name, str) or name not in names:
-            raise InputError(unknown_key(name, names, what))
 
 
 class ValueType(ABC):

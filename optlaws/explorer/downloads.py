@@ -26,12 +26,12 @@ from optlaws.explorer.views import axes_view, cam_view, cycle_view, fastest_view
 from optlaws.explorer.views.law_view import digits, title
 from optlaws.explorer.views.requests import LawRequest, LawsRequest, Question, law_of, problem_of, read, solved
 from optlaws.exports.format import FORMATS
+from optlaws.files.reading import check_names
 from optlaws.files.tables import to_toml
 from optlaws.files.writing import MARK
 from optlaws.jobs.cycle import table_of_motion
 from optlaws.jobs.cycle_entries import cycle_of
 from optlaws.laws.values import table_of_values
-from optlaws.suggest import unknown_key
 
 _ROWS = 361
 _WIDTH = 116
@@ -61,15 +61,13 @@ class FileRequest(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
 def answer(question: FileRequest) -> dict[str, str]:
     """A file: its name, its type, its text."""
     files, request = _read(question)
-    if question.kind not in files.kinds:
-        raise InputError(unknown_key(question.kind, files.kinds, f"file of the view {question.view}"))
+    check_names([question.kind], files.kinds, f"file of the view {question.view}")
     name, text = files.kinds[question.kind](request)
     return {"name": name, "type": _TYPES.get(Path(name).suffix, "text/plain"), "text": text}
 
 
 def _read(question: FileRequest | ExportRequest) -> tuple[ViewFiles, Any]:
-    if question.view not in VIEWS:
-        raise InputError(unknown_key(question.view, VIEWS, "view"))
+    check_names([question.view], VIEWS, "view")
     return VIEWS[question.view], read(bytes(question.request), VIEWS[question.view].request)
 
 

@@ -8,8 +8,9 @@ from typing import Any
 
 from optlaws.echo import shortened
 from optlaws.entries.declared import Declared, declared, entries_of, entry
-from optlaws.entries.value_types import Choice, Either, Text, Whole, check_names
+from optlaws.entries.value_types import Choice, Either, Text, Whole
 from optlaws.errors import InputError, located
+from optlaws.files.reading import check_names
 from optlaws.lazy import Registry
 from optlaws.motion.motion import Motion
 from optlaws.motion.polynomials import PiecewiseMotion

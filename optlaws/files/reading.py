@@ -11,7 +11,7 @@ import json
 import os
 import stat
 from codecs import BOM_UTF16_BE, BOM_UTF16_LE
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, ClassVar, Self
 
@@ -130,6 +130,19 @@ def of_known_format(data: Mapping[str, Any], name: str) -> dict[str, Any]:
     return entries
 
 
+def check_names(given: Iterable[object], known: Iterable[str], what: str) -> None:
+    """Refuse names that are not known; the error says what the nearest one is called.
+
+    >>> check_names(["lenght"], ["length"], "entry of a rod")
+    Traceback (most recent call last):
+    optlaws.errors.InputError: unknown entry of a rod 'lenght'; did you mean 'length'?
+    """
+    names = tuple(known)
+    for name in given:
+        if not isinstance(name, str) or name not in names:
+            raise InputError(unknown_key(name, names, what))
+
+
 def entries_of(data: Any, names: Sequence[str], what: str, *, alone: bool = False) -> dict[str, Any]:
     """The named entries of a stored value, from which others are computed, unless they stand `alone`.
 
@@ -148,9 +161,8 @@ def entries_of(data: Any, names: Sequence[str], what: str, *, alone: bool = Fals
     missing = [name for name in names if name not in data]
     if missing:
         raise InputError(f"{what} needs {', '.join(missing)}")
-    for name in data if alone else ():
-        if name not in names:
-            raise InputError(unknown_key(name, names, f"entry of {what}"))
+    if alone:
+        check_names(data, names, f"entry of {what}")
     return {name: data[name] for name in names}
 
 

@@ -10,9 +10,10 @@ from pathlib import Path
 from typing import Any
 
 from optlaws.entries.declared import Declared, ValueOf, declared, entry
-from optlaws.entries.value_types import Choice, Listed, Text, check_names
+from optlaws.entries.value_types import Choice, Listed, Text
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure, located
 from optlaws.files import printed, tables, writing
+from optlaws.files.reading import check_names
 from optlaws.jobs.job_entries import ProblemFile
 from optlaws.results import Results
 from optlaws.studies.problem_entries import gap, problem, record, shown

@@ -21,11 +21,11 @@ from optlaws.entries.value_types import (
     Table,
     Text,
     Whole,
-    check_names,
     is_list,
 )
 from optlaws.errors import InputError, located
 from optlaws.files import reading
+from optlaws.files.reading import check_names
 from optlaws.numbers import finite
 from optlaws.synthesis.problem.fields import CONSTANTS, ENTRIES, FREE, PROBLEM
 from optlaws.synthesis.solve import Bound

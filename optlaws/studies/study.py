@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING, Any
 
 import msgspec
 
-from optlaws.entries.value_types import check_names
 from optlaws.errors import InputError
 from optlaws.extras import needed
+from optlaws.files.reading import check_names
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.studies.points import StudyPoints

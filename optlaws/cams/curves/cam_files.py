@@ -20,6 +20,7 @@ from optlaws.entries.declared import Declared, declared, entry
 from optlaws.entries.value_types import Measured, Whole
 from optlaws.errors import InputError
 from optlaws.files import writing
+from optlaws.files.reading import check_names
 from optlaws.files.writing import MARK
 from optlaws.locks import process_lock
 from optlaws.motion.quantities import positive_quantity
@@ -371,9 +372,7 @@ def write_outline(
     place = Path(file)
     name = format_of(place, as_)
     given: dict[str, Any] = {key: value for key, value in options.items() if value is not None}
-    for key in given:
-        if key not in Cutting.__dataclass_fields__:
-            raise InputError(unknown_key(key, Cutting.__dataclass_fields__, "entry"))
+    check_names(given, Cutting.__dataclass_fields__, "entry")
     cutting = Cutting(**given)
     writing.check_place(place)
     return writing.write(place, FORMATS[name](outline, cutting), exact=True, force=force)

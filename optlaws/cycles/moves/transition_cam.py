@@ -10,8 +10,9 @@ from typing import Any, Literal, Unpack, get_args
 from optlaws.cycles.moves.fastest_move import AXES, FastestMove
 from optlaws.echo import shortened
 from optlaws.entries.declared import Declared, declared, entry
-from optlaws.entries.value_types import Choice, Number, ReadBy, Stored, Together, check_names
+from optlaws.entries.value_types import Choice, Number, ReadBy, Stored, Together
 from optlaws.errors import InputError
+from optlaws.files.reading import check_names
 from optlaws.kept import kept_property
 from optlaws.laws.exporting import ExportOptions
 from optlaws.laws.making.transform import mirrored_law

@@ -13,9 +13,9 @@ import numpy as np
 
 from optlaws.echo import shortened
 from optlaws.entries.declared import Declared, declared, entry
-from optlaws.entries.value_types import InSI, Kept, Listed, Number, SILimit, SINumber, Text, Together, check_names
+from optlaws.entries.value_types import InSI, Kept, Listed, Number, SILimit, SINumber, Text, Together
 from optlaws.errors import InputError, located
-from optlaws.files.reading import toml
+from optlaws.files.reading import check_names, toml
 from optlaws.numbers import Array, NumberOrQuantity
 
 #: what a motor's torque depends on; all else limits it

@@ -10,6 +10,7 @@ from optlaws.echo import shortened
 from optlaws.entries.declared import ValueOf, declared, entry
 from optlaws.entries.value_types import InSI, SINumber, Span
 from optlaws.errors import InputError
+from optlaws.files.reading import check_names
 from optlaws.formulas.slopes import added, derivative, multiplied
 from optlaws.formulas.tracing import traced
 from optlaws.formulas.tree import Formula, Name, number
@@ -18,7 +19,6 @@ from optlaws.mechanisms.linkages.mechanism import LinkGeometry, Mechanism
 from optlaws.mechanisms.linkages.mechanism_kinds import LENGTH, MechanismKind, OptionalEnds, function_of
 from optlaws.motion.quantities import TURN, either
 from optlaws.numbers import NumberOrQuantity, not_negative
-from optlaws.suggest import unknown_key
 
 MASS = InSI("mass", above=0.0)
 
@@ -66,9 +66,7 @@ def mechanism_of_motion(
     """
     acting = loads or {}
     positions = traced(function)
-    for key in (*masses, *acting):
-        if key not in positions:
-            raise InputError(unknown_key(key, positions, "driven link"))
+    check_names((*masses, *acting), positions, "driven link")
     axis = Mechanism(over=over).axis
     inertia, load = [], []
     for key, position in positions.items():

@@ -11,9 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.echo import shortened
-from optlaws.entries.value_types import check_names
 from optlaws.errors import InputError
-from optlaws.files.reading import JsonText
+from optlaws.files.reading import JsonText, check_names
 from optlaws.kept import kept_property
 from optlaws.mechanisms.machine.dynamics import Dynamics
 from optlaws.motion.quantities import si_number

@@ -15,9 +15,9 @@ import numpy as np
 from optlaws.echo import shortened
 from optlaws.entries import value_types as types
 from optlaws.entries.declared import Declared, ValueOf, declared, entry
-from optlaws.entries.value_types import Choice, Listed, Numbers, check_names
+from optlaws.entries.value_types import Choice, Listed, Numbers
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
-from optlaws.files.reading import of_known_format
+from optlaws.files.reading import check_names, of_known_format
 from optlaws.formulas.reading import read
 from optlaws.formulas.slopes import constant
 from optlaws.formulas.tree import Call, Exponentiation, Formula, Number, Product, Sum, product

@@ -22,10 +22,10 @@ from optlaws.entries.value_types import (
     Text,
     Together,
     Whole,
-    check_names,
     is_list,
 )
 from optlaws.errors import InputError, located
+from optlaws.files.reading import check_names
 from optlaws.numbers import MOST_DEGREE, MOST_ORDER, bounded
 from optlaws.synthesis.problem import checks
 from optlaws.synthesis.problem.ranges import Bounds, Range
