@@ -19,7 +19,7 @@ from xdist.scheduler import LoadFileScheduling
 from tests.documents import documents
 
 #: the gallery's examples are run when the pages are made, and their copies stand beside them
-collect_ignore_glob = ["docs/examples/*.py", "docs/gallery/*"]
+collect_ignore_glob = ["docs/examples/*.py", "docs/gallery/*", "docs/_build/*"]
 
 _PACKAGE = Path(__file__).parent / "optlaws"
 _collect_document = documents.pytest()

@@ -52,6 +52,7 @@ def test_values_of_other_problems_are_not_equal() -> None:
     assert response_spectrum(laws[0], [18.0]) != response_spectrum(laws[0], [19.0])
 
 
+@pytest.mark.long
 def test_a_module_and_the_tests_of_its_laws_run_in_one_call() -> None:
     # pytest must not import a module that its package has imported a second time
     files = ["optlaws/laws/polynomial.py", "tests/contracts/test_laws.py"]

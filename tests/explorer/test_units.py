@@ -66,6 +66,7 @@ def test_numbers_are_shown_in_the_units_of_the_reader(page: Page, served: Server
 
 
 SHOWN = r"[−-]?\d+(?:\.\d+)? (?:mm(?:/s)?|m/s[²³]?|deg(?:/s)?|rpm)(?![\w/²³^·])"
+OTHER_VIEWS = ["laws", "cycle", "axes", "cam", "old", "advice"]
 ALL_TEXTS = """() => [...document.querySelectorAll(".view:not([hidden]) > :not(aside)")].flatMap((root) => [
   root.innerText, ...[...root.querySelectorAll("[aria-label], [title], [aria-valuetext]")].flatMap((one) =>
     ["aria-label", "title", "aria-valuetext"].map((name) => one.getAttribute(name) ?? "")),
@@ -73,7 +74,10 @@ ALL_TEXTS = """() => [...document.querySelectorAll(".view:not([hidden]) > :not(a
 ])"""
 
 
-@pytest.mark.parametrize("view", ["laws", "cycle", "axes", "cam", "machine", "fastest", "old", "advice"])
+@pytest.mark.parametrize(
+    "view",
+    ["machine", "fastest", *(pytest.param(view, marks=pytest.mark.long) for view in OTHER_VIEWS)],
+)
 def test_no_text_of_a_view_has_a_number_in_a_unit_that_the_reader_left(page: Page, served: Server, view: str) -> None:
     units = json.dumps({"length": "in", "angle": "rad", "speed": "1/min"})
     page.add_init_script(f"localStorage.setItem('optlaws-units', {units!r})")

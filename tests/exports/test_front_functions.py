@@ -96,6 +96,7 @@ def assert_optimal(export: FrontExport, name: str, of_b: dict[float, float]) -> 
         assert (c - solution.objective) / c <= export.gap + 1e-8
 
 
+@pytest.mark.long
 @needs_compiler
 def test_compiled_functions_keep_limits_and_are_within_the_gap_of_synthesize(folder: Path) -> None:
     assert checked("lift", folder, 300, 27) == {0, 2, 3}

@@ -68,6 +68,7 @@ def test_a_text_with_too_many_values_is_refused_before_it_is_parsed(
     assert parsed == []
 
 
+@pytest.mark.long
 def test_as_much_as_ten_thousand_solutions_are_read() -> None:
     text = json.dumps([{"k": [0.1] * 2, "multiplier": 0.5}] * 280_000)
     assert len(reading.parsed(text, "a text")) == 280_000
