@@ -19,7 +19,7 @@ from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.mechanisms.drives.motor import Motor
 from optlaws.mechanisms.linkages.bodies import Body, Loads
 from optlaws.mechanisms.linkages.mechanism_kinds import MechanismKind
-from optlaws.synthesis.problem.fields import PROBLEM
+from optlaws.synthesis.problem.problem import PROBLEM
 
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "reference" / "problem-files.md"
 #: tables of declared values by their names; of some entries the entries stand elsewhere

@@ -15,7 +15,8 @@ from optlaws.entries.declared import Entry
 from optlaws.entries.value_types import Either, Listed, Switch, Text, ValueType
 from optlaws.errors import InputError
 from optlaws.synthesis import Basis, BoundaryConditions
-from optlaws.synthesis.problem.fields import ENTRIES, ConstantBounds
+from optlaws.synthesis.problem.fields import ConstantBounds
+from optlaws.synthesis.problem.problem import ENTRIES
 from optlaws.synthesis.problem.ranges import as_range, read_bounds
 from optlaws.synthesis.spaces.bases import read_breaks
 

@@ -244,7 +244,7 @@ class Declared(JsonText):
     @classmethod
     def json_schema(cls) -> dict[str, Any]:
         """The JSON Schema of its plain data."""
-        entries = entries_of(cls)
+        (entries,) = cls.tables().values()
         return {
             "type": "object",
             "properties": {name: each.schema for name, each in entries.items()},
@@ -255,11 +255,12 @@ class Declared(JsonText):
     @classmethod
     def form(cls) -> dict[str, Any]:
         """Its entries as a form shows them: name, label, what each asks, and what may be chosen."""
-        return {"entries": [each.form for each in entries_of(cls).values() if each.shown]}
+        (entries,) = cls.tables().values()
+        return {"entries": [each.form for each in entries.values() if each.shown]}
 
     @classmethod
     def tables(cls) -> Mapping[str, Mapping[str, Any]]:
-        """Its entries by "", or those of each kind by its name."""
+        """Its entries as files have them by "", or those of each kind by its name."""
         return {"": entries_of(cls)}
 
     def _check(self) -> None:
@@ -430,7 +431,7 @@ class TableOf(AnyTable):
         elsewhere: Mapping[str, str] | None = None,
         further: Callable[[str], ValueType | None] = lambda _: None,
     ) -> None:
-        named = {name: _entry_of(name, each) for name, each in entries.items()}
+        named = {name: each if isinstance(each, Entry) else _entry_of(name, each) for name, each in entries.items()}
         given = {"what": what, "entries": named, "keep": keep, "elsewhere": elsewhere or {}, "further": further}
         for name, value in given.items():
             object.__setattr__(self, name, value)

@@ -32,8 +32,7 @@ from optlaws.results import Page, Results
 from optlaws.studies.problem_entries import gap, problem
 from optlaws.synthesis.least_time.follower_residual import RESIDUAL
 from optlaws.synthesis.least_time.move_objective import AT_MOTOR
-from optlaws.synthesis.problem.fields import PROBLEM
-from optlaws.synthesis.problem.problem import Problem
+from optlaws.synthesis.problem.problem import PROBLEM, Problem
 from optlaws.synthesis.status import Status
 
 HEADINGS = ("move", "stroke", "least time, s", "no law below, s", "limit of all laws, s", "above it, %", "status")

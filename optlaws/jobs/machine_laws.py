@@ -28,8 +28,8 @@ from optlaws.results import Results
 from optlaws.shown.report import Panel, ReportTable, Section, Series
 from optlaws.studies.problem_entries import gap, record
 from optlaws.synthesis import Functional, Problem, Solution, at_most, synthesize
-from optlaws.synthesis.problem.fields import from_entries
 from optlaws.synthesis.problem.named_constants import named
+from optlaws.synthesis.problem.problem import from_entries
 
 _RESIDUAL_ROUNDING = 1e-12  # of the vibration of a step: a residual that is less is rounding
 

@@ -18,7 +18,8 @@ from optlaws.jobs.job_entries import ProblemFile
 from optlaws.results import Results
 from optlaws.studies.problem_entries import gap, problem, record, shown
 from optlaws.synthesis import FUNCTIONALS, Certificate, Problem, Solution, Status, synthesize
-from optlaws.synthesis.problem.fields import CONSTANTS, ENTRIES, PROBLEM, SWEPT
+from optlaws.synthesis.problem.fields import CONSTANTS
+from optlaws.synthesis.problem.problem import ENTRIES, PROBLEM, SWEPT
 from optlaws.synthesis.solve import Bound
 
 RESULTS = ("objective", "lower bound", "gap", "limit", "above limit, %", "status")

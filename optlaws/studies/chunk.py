@@ -23,7 +23,7 @@ from optlaws.synthesis import Problem, ProblemArray, Solution, SolutionArray, St
 from optlaws.synthesis.arrays.lines import least_count, lines_of
 from optlaws.synthesis.arrays.powers import least_power
 from optlaws.synthesis.problem.constants import meant
-from optlaws.synthesis.problem.fields import from_entries
+from optlaws.synthesis.problem.problem import from_entries
 from optlaws.synthesis.solve import Bound
 from optlaws.synthesis.solve_many import solved
 

@@ -21,7 +21,8 @@ from optlaws.studies.specification import Sample, SampleSpan, SteppedRange, Stud
 from optlaws.synthesis import FUNCTIONALS, Problem
 from optlaws.synthesis.arrays.lines import least_count
 from optlaws.synthesis.arrays.powers import least_power
-from optlaws.synthesis.problem.fields import ENTRIES, ConstantBounds
+from optlaws.synthesis.problem.fields import ConstantBounds
+from optlaws.synthesis.problem.problem import ENTRIES
 
 #: types of entries that a range can run through; also numbers that fill a place in text
 _NUMBERS = (ConstantBounds, Number, Whole)

@@ -8,7 +8,8 @@ from typing import Any
 
 from optlaws.errors import located
 from optlaws.synthesis import Problem, Range, Solution, Status
-from optlaws.synthesis.problem.fields import ENTRIES, FREE, ConstantBounds
+from optlaws.synthesis.problem.fields import FREE, ConstantBounds
+from optlaws.synthesis.problem.problem import ENTRIES
 from optlaws.synthesis.problem.windows import Window
 
 

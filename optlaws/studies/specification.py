@@ -27,7 +27,8 @@ from optlaws.errors import InputError, located
 from optlaws.files import reading
 from optlaws.files.reading import check_names
 from optlaws.numbers import finite
-from optlaws.synthesis.problem.fields import CONSTANTS, ENTRIES, FREE, PROBLEM
+from optlaws.synthesis.problem.fields import CONSTANTS, FREE
+from optlaws.synthesis.problem.problem import ENTRIES, PROBLEM
 from optlaws.synthesis.solve import Bound
 
 #: what varies of the bounds of a constant: what `Problem` takes, the greatest value or the least

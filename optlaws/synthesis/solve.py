@@ -10,7 +10,7 @@ from optlaws.errors import InfeasibleProblem, InputError, OptlawsError
 from optlaws.suggest import unknown_key
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.problem.constants import warn_of_mixture
-from optlaws.synthesis.problem.fields import differ_in_numbers
+from optlaws.synthesis.problem.problem import differ_in_numbers
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import Model, model_of
 from optlaws.synthesis.search import LawSearch, best_available, continued_by_contacts

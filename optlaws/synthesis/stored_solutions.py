@@ -19,7 +19,7 @@ from optlaws.synthesis.arrays.problems import ProblemArray
 from optlaws.synthesis.arrays.programs import FOLLOWING, NO_CONTACT, SolvedBatch
 from optlaws.synthesis.families.family import Program
 from optlaws.synthesis.limits.of_problem import known_limit
-from optlaws.synthesis.problem.fields import differ_in_numbers
+from optlaws.synthesis.problem.problem import differ_in_numbers
 from optlaws.synthesis.problem.plain_entries import read_entries
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import Model, model_of

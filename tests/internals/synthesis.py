@@ -61,8 +61,8 @@ from optlaws.synthesis.problem.constants import (
     warn_of_mixture,
 )
 from optlaws.synthesis.problem.expression import leaves
-from optlaws.synthesis.problem.fields import ENTRIES, FIELDS, PROBLEM
 from optlaws.synthesis.problem.named_constants import expression, is_named, named, parse
+from optlaws.synthesis.problem.problem import ENTRIES, PROBLEM
 from optlaws.synthesis.problem.ranges import Bounds, read_bounds
 from optlaws.synthesis.problem.windows import QUANTITIES, read_window
 from optlaws.synthesis.program import writer

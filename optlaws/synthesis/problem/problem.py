@@ -3,18 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, fields, replace
+from dataclasses import KW_ONLY, fields, replace
 from functools import lru_cache
-from typing import Any
+from typing import Any, cast
 
+from optlaws.echo import shortened
+from optlaws.entries.declared import Declared, Entry, TableOf, declared, entries_of, entry
+from optlaws.entries.value_types import Either, Listed, Number, ReadBy, Switch, Table, Text, Whole, is_list
 from optlaws.errors import InputError
-from optlaws.files.reading import JsonText
+from optlaws.files.reading import check_names
 from optlaws.kept import kept_property
-from optlaws.numbers import MOST_ORDER
-from optlaws.synthesis.problem.checks import AS_IT_FITS, NotGiven, constant_of_bounds, is_open, order_with
+from optlaws.numbers import MOST_DEGREE, MOST_ORDER
+from optlaws.synthesis.problem import fields as of
 from optlaws.synthesis.problem.constants import FUNCTIONALS, C_minus, C_plus, Functional
 from optlaws.synthesis.problem.expression import Expression, Term, leaves
-from optlaws.synthesis.problem.fields import CONSTANTS, FIELDS, from_entries, to_entries
+from optlaws.synthesis.problem.fields import CONSTANTS, AsItFits, ConstantBounds, Field, NotGiven, ProblemTable
 from optlaws.synthesis.problem.named_constants import expression
 from optlaws.synthesis.problem.ranges import Bounds, Range, as_range
 from optlaws.synthesis.problem.windows import Window
@@ -22,18 +25,101 @@ from optlaws.synthesis.spaces.bases import Basis, Chebyshev
 from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
 
 _NAMED = tuple(FUNCTIONALS[name] for name in CONSTANTS)
+_NUMBERS = Listed(Number())
+_WINDOW = Either(
+    ReadBy(dict, "a table", json={"type": "object"}), Text(), which=lambda value: int(isinstance(value, str))
+)
+_SWITCH = Field(by=of.instance((bool, AsItFits), "True or False"), of=Switch(), write=bool)
+_LIMITED = Field(by=of.constant, of=ConstantBounds(), write=of.plain_range, near=of.limited_alike)
+_OBJECTIVE = Field(
+    by=of.objective,
+    of=Text(),
+    write=str,
+    near=lambda first, second: [term for _, term in first.terms] == [term for _, term in second.terms],
+    compared="objective",
+)
+_BASIS = Field(
+    by=of.instance(Basis, "a Basis such as Powers(9) or Chebyshev(9)"),
+    of=TableOf(
+        "key",
+        {
+            "basis": entry(
+                Text(),
+                "Basis of Z(k): powers, chebyshev, bernstein, bsplines, pieces or periodic.",
+                default="chebyshev",
+            ),
+            "degree": entry(
+                Whole(most=MOST_DEGREE), "Degree of Z(k), or of the law on each piece.", default=9, label="degree of Z"
+            ),
+            "breaks": entry(
+                Either(Whole(1), Listed(Number(), least=2), which=is_list),
+                "For bsplines, pieces and periodic: places from 0 to 1, or how many equal pieces there are.",
+                default=None,
+                example=[0, 0.3, 1],
+            ),
+            "continuity": entry(
+                Whole(), "For bsplines and pieces: order up to which derivatives are continuous.", default=None
+            ),
+            "straight": entry(
+                _NUMBERS,
+                "For periodic: numbers, from 0 on, of the pieces without acceleration.",
+                default=None,
+                example=[0, 2],
+            ),
+        },
+    ),
+    join=of.joined_basis,
+    write=lambda basis: basis.to_dict(),
+    near=lambda *_: True,  # the solver compares the spaces that the bases span
+)
+_ENDS = Field(
+    by=of.instance(BoundaryConditions, "BoundaryConditions(start, end)"),
+    of=TableOf(
+        "key",
+        {
+            "start": entry(
+                _NUMBERS,
+                "Values of a, b, c, ... at k = 0; rest unless given. They tell the order too.",
+                default=None,
+                example=[0, 0.5],
+            ),
+            "end": entry(
+                _NUMBERS, "Values of a, b, c, ... at k = 1; rest unless given.", default=None, example=[1, 0.5]
+            ),
+        },
+    ),
+    join=of.joined_ends,
+    write=of.plain_ends,
+)
+_BOUNDS = Field(
+    by=lambda given, _: Bounds(given),
+    of=Table(ConstantBounds()),
+    write=lambda bounds: {key.name: r.high if r.fixed else of.plain_range(r) for key, r in bounds.items()} or None,
+    near=of.bounded_alike,
+)
+_WINDOWS = Field(
+    by=of.windows,
+    of=Listed(_WINDOW),
+    join=of.read_windows,
+    write=lambda windows: [window.to_dict() for window in windows] or None,
+    near=lambda first, second: len(first) == len(second),
+)
 
 
-@dataclass(frozen=True, kw_only=True, repr=False)
-class Problem(JsonText):
+@declared
+class Problem(Declared, title="a problem"):
     """Minimise an objective over the laws (8) with given end conditions and constants (eq. 10); dimensionless.
 
     Parameters
     ----------
-    order
-        Number l of boundary conditions at each end, at least 1.
-    minimise
-        A constant or a sum or maximum of constants: "C", "D", "0.6*C/4 + 0.4*D/2.25", `0.6 * C / 4 + 0.4 * D / 2.25`.
+    basis
+        Basis of Z(k) with its degree: `Powers(9)`, `Chebyshev(9)`, `BSplines(8, 3)`; `Chebyshev(9)` by default, also
+        on the command line.
+    symmetric
+        Require a(k) + a(1-k) = 1. From rest to rest this does not change the optimum if the objective is convex and
+        equal for a law and its mirror image, and there are no windows: the mean of both laws is no worse. The default
+        is True; it is False where a minimised or bounded formula differs between a law and its mirror image, such as a
+        torque against a load over a: then no symmetric law need be optimal.
     B, C, D, J
         Peak velocity, acceleration, power and jerk: a number fixes the constant, a `Range` such as
         `between(1.5, 1.8)` or `at_most(60)` bounds it, None leaves it free. `at_most` only requires |b| <= B
@@ -41,22 +127,12 @@ class Problem(JsonText):
         unless there is an inflexion: b(1/2) is B, the greatest |b|.
     bounds
         Bounds of any constant, by its name or itself: `{"rms_c": at_most(4), "C_minus": at_most(5)}`.
-    basis
-        Basis of Z(k) with its degree: `Powers(9)`, `Chebyshev(9)`, `BSplines(8, 3)`; `Chebyshev(9)` by default, also
-        on the command line.
-    monotone
-        Require b >= 0.
-    symmetric
-        Require a(k) + a(1-k) = 1. From rest to rest this does not change the optimum if the objective is convex and
-        equal for a law and its mirror image, and there are no windows: the mean of both laws is no worse. The default
-        is True; it is False where a minimised or bounded formula differs between a law and its mirror image, such as a
-        torque against a load over a: then no symmetric law need be optimal.
-    boundary
-        End conditions; rest to rest by default. Other conditions make the law unsymmetric.
     inflexion
         The k at which b is greatest: b <= b(inflexion) everywhere and c is 0 there, for either sign of b. A fixed or
         lower bounded B is then prescribed for b at this k. Without an inflexion it is k = 1/2 for laws from rest to
         rest with a fixed B, else any k. Symmetric laws can have it at 1/2 only.
+    boundary
+        End conditions; rest to rest by default. Other conditions make the law unsymmetric.
     windows
         Values and windows of a, b, c, j or formulas: `via("a", 0.3, at=0.4)`, `Window("c + 2*b", high=5, start=0.2)`.
 
@@ -71,28 +147,58 @@ class Problem(JsonText):
     Problem(B=1.859, order=4, basis=Chebyshev(degree=9), minimise='C')
     """
 
-    _json_name = "a problem"
+    _: KW_ONLY
+    minimise: str | Term | Expression = entry(
+        _OBJECTIVE,
+        "What to minimise: a constant, a sum or maximum of some, or a formula such as rms(c + 3*b).",
+        default="C",
+        label="minimised",
+    )
+    order: int = entry(
+        Field(by=of.order, of=Whole(1, MOST_ORDER), write=lambda given: given or None),
+        "Number l of boundary conditions at each end: 3 for acceleration 0, 4 for jerk 0 too.",
+        default=NotGiven(),
+        label="order l",
+        example=4,
+    )
+    basis: Basis = entry(_BASIS, "Basis of Z(k) with its degree.", default=Chebyshev(9))
+    monotone: bool = entry(_SWITCH, "Ask b >= 0 too: no return within the motion.", default=False)
+    symmetric: bool = entry(
+        _SWITCH,
+        "Ask a(k) + a(1-k) = 1; not of uneven formulas unless given.",
+        default=AsItFits(1),
+    )
+    B: float | Range | None = entry(
+        _LIMITED, "Peak velocity, above 1: the mean velocity is 1.", default=None, label="B asked", example=[1.5, 1.8]
+    )
+    C: float | Range | None = entry(_LIMITED, "Peak acceleration.", default=None, label="C asked")
+    D: float | Range | None = entry(_LIMITED, "Peak power.", default=None, label="D asked")
+    J: float | Range | None = entry(_LIMITED, "Peak jerk.", default=None, label="J asked")
+    bounds: Mapping[Any, Any] = entry(
+        _BOUNDS,
+        "The same for any constant, also by names with arguments, such as `peak(c - 2*b)`.",
+        default=Bounds(),
+        example={"rms_c": [0, 4], "snap": [0, 900]},
+    )
+    inflexion: float | None = entry(
+        Field(by=of.inflexion, of=Number()),
+        "The k of the peak velocity, where c is 0; of unsymmetric laws.",
+        default=None,
+        example=0.4,
+    )
+    boundary: BoundaryConditions | None = entry(_ENDS, "End conditions.", default=None)
+    windows: tuple[Window, ...] = entry(
+        _WINDOWS,
+        "a, b, c, j or a formula in bounds, such as `a = 0.3 @ 0.4` or `c + 0.2*b <= 5`.",
+        default=(),
+        example=["b <= 1.2 @ 0.2..0.3", {"quantity": "a", "value": 0.3, "at": 0.4}],
+    )
 
-    B: float | Range | None = None
-    order: int = NotGiven()
-    basis: Basis = field(default_factory=lambda: Chebyshev(9))
-    minimise: str | Term | Expression = "C"
-    monotone: bool = False
-    symmetric: bool = AS_IT_FITS
-    C: float | Range | None = None
-    D: float | Range | None = None
-    J: float | Range | None = None
-    boundary: BoundaryConditions | None = None
-    windows: tuple[Window, ...] = ()
-    bounds: Mapping[Any, Any] = Bounds()
-    inflexion: float | None = None
-
-    def __post_init__(self) -> None:
-        for entry in FIELDS:
-            object.__setattr__(self, entry.name, entry.check(getattr(self, entry.name)))
-        object.__setattr__(self, "order", order_with(self.order, self.boundary))
+    def _check(self) -> None:
+        object.__setattr__(self, "order", of.order_with(self.order, self.boundary))
         self._give_bounds_their_entries()
-        if is_open(self.symmetric):
+        symmetric: object = self.symmetric
+        if isinstance(symmetric, AsItFits):
             object.__setattr__(self, "symmetric", not self.uneven)
         if self.symmetric and self.inflexion not in {None, 0.5}:
             raise InputError(
@@ -110,7 +216,7 @@ class Problem(JsonText):
         """Move bounds of B, C, D and J to the entries of these names."""
         for constant in _NAMED:
             if constant in self.bounds:
-                limits = constant_of_bounds(getattr(self, constant.name), self.bounds[constant], constant.name)
+                limits = of.constant_of_bounds(getattr(self, constant.name), self.bounds[constant], constant.name)
                 object.__setattr__(self, constant.name, limits)
         others = {constant: limits for constant, limits in self.bounds.items() if constant not in _NAMED}
         object.__setattr__(self, "bounds", Bounds(others))
@@ -219,19 +325,30 @@ class Problem(JsonText):
             return replace(self, B=B)
         problem: Problem = object.__new__(Problem)
         unchanged = {name: value for name, value in self.__dict__.items() if name in _UNCHANGED_ALONG_B}
-        velocity = _check_velocity(B)
+        velocity = of.constant(B, "B")
         problem.__dict__.update(unchanged, B=velocity, _ranges={**self._ranges, "B": as_range(velocity, "B")})
         return problem
 
     def to_dict(self) -> dict[str, Any]:
-        """The problem as plain data for JSON.
+        """The problem as plain data for JSON: entries that every problem has, then those that are no default.
 
         Examples
         --------
         >>> Problem.from_dict(Problem(B=2, order=3).to_dict()) == Problem(B=2, order=3)
         True
         """
-        return to_entries(self)
+        plain: dict[str, Any] = {}
+        for name, field in _FIELDS.items():
+            value = getattr(self, name)
+            written = None if value is None else field.plain(value)
+            if written is not None:
+                plain |= written if field.parts else {name: written}
+        return plain
+
+    @classmethod
+    def tables(cls) -> Mapping[str, Mapping[str, Any]]:
+        """The entries as files have them, by ""."""
+        return {"": ENTRIES}
 
     @classmethod
     def from_dict(cls, data: Mapping[str, Any]) -> Problem:
@@ -298,14 +415,61 @@ class Problem(JsonText):
         if self.symmetric and self.uneven:
             # an explicit symmetry differs from the default
             given.add("symmetric")
-        return [entry.name for entry in fields(self) if entry.name in _ALWAYS or entry.name in given]
+        return [*_ALWAYS, *(entry.name for entry in fields(self) if entry.name in given and entry.name not in _ALWAYS)]
 
 
 #: what a problem always says
 _ALWAYS = ("B", "order", "basis", "minimise")
-_check_velocity = next(field.check for field in FIELDS if field.name == "B")
 #: what a number for B has no part in
 _UNCHANGED_ALONG_B = {entry.name for entry in fields(Problem)} | {"objective", "convex", "constants", "bounded"}
+_FIELDS = {name: cast("Field", each.type) for name, each in entries_of(Problem).items()}
+#: in the order in which files name them
+_IN_FILES = ("minimise", *CONSTANTS, "order", "bounds", "inflexion", "basis", "monotone", "symmetric", "boundary",
+             "windows")  # fmt: skip
+
+
+def _entries_of_files() -> dict[str, Entry]:
+    known: dict[str, Entry] = {}
+    for name in _IN_FILES:
+        field, each = _FIELDS[name], entries_of(Problem)[name]
+        known |= field.parts or {name: replace(each, type=field.of, default=each.plain_default)}
+    return known
+
+
+#: the entries of files, where those without a default ask nothing unless given
+ENTRIES = _entries_of_files()
+PROBLEM = ProblemTable("key", ENTRIES)
+#: lists of what entries are in turn, several in one table at a time
+SWEPT = ProblemTable(
+    "key",
+    {
+        name: replace(each, type=Listed(each.type, least=1), default=None, example=None)
+        for name, each in ENTRIES.items()
+    },
+)
+
+
+def from_entries(data: Mapping[str, Any]) -> dict[str, Any]:
+    """What `Problem` takes of the entries of a file.
+
+    >>> from_entries({"order": 4, "degree": 5})
+    {'order': 4, 'basis': Chebyshev(degree=5)}
+    """
+    if not isinstance(data, Mapping):
+        raise InputError(f"a problem must be a table of entries such as order and B, got {shortened(data)}")
+    check_names(data, ENTRIES, PROBLEM.what)
+    if "order" not in data and "start" not in data:
+        raise InputError(of.NO_ORDER)
+    given: dict[str, Any] = {}
+    for name, field in _FIELDS.items():
+        given |= field.given(data, name)
+    return given
+
+
+def differ_in_numbers(first: Problem, second: Problem) -> bool:
+    """Whether two problems differ at most in numbers along which warm starts run, and in their bases."""
+    compared = ((field, field.compared or name) for name, field in _FIELDS.items())
+    return all(field.near(getattr(first, name), getattr(second, name)) for field, name in compared)
 
 
 def _fixed_above_mean(limits: Range | None) -> bool:
