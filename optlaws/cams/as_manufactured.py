@@ -17,6 +17,7 @@ from optlaws.cams.followers.contact import FollowerContact, shifted
 from optlaws.entries.declared import documented_by
 from optlaws.entries.value_types import Whole
 from optlaws.errors import InputError
+from optlaws.files.reading import check_names
 from optlaws.kept import kept_property
 from optlaws.laws.storage import PlainNumbers
 from optlaws.motion.quantities import positive_quantity, quantity
@@ -328,8 +329,7 @@ def manufactured_tables(cam: DiscCam, curve: str, tables: Sequence[Cutting]) -> 
 
 def _cut(cam: DiscCam, curve: str) -> tuple[Outline, float]:
     """The curve of the cam that its files describe, and how far it is outside of the profile, m."""
-    if curve not in MADE_CURVES:
-        raise InputError(unknown_key(curve, MADE_CURVES, "curve"))
+    check_names([curve], MADE_CURVES, "curve")
     return (cam.profile, 0.0) if curve == "profile" else (cam.pitch_curve, cam.contact.roller)
 
 

@@ -29,10 +29,10 @@ from optlaws.cycles.cycle import Cycle
 from optlaws.entries.declared import Declared, declared, documented_by, entry
 from optlaws.entries.value_types import Measured
 from optlaws.errors import InputError
+from optlaws.files.reading import check_names
 from optlaws.kept import kept_property
 from optlaws.numbers import Array, Quantity, derivative, number_or_array, real_times
 from optlaws.numerics.taylor import Jet, variable
-from optlaws.suggest import unknown_key
 
 LENGTH = Measured("length", above=0.0)
 Side = Literal["upper", "lower"]
@@ -134,8 +134,7 @@ class BarrelCam:
         radius
             The distance in metres; that of the cylinder unless given.
         """
-        if side not in tuple(SIDES):
-            raise InputError(unknown_key(side, SIDES, "side"))
+        check_names([side], SIDES, "side")
         return SpaceCurve(self.displacement, self._within(radius), SIDES[side] * self.roller, sense(self.turning))
 
     def cutter_path(self, cutter_radius: Quantity, side: Side = "upper", radius: float | None = None) -> SpaceCurve:

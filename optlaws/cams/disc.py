@@ -18,6 +18,7 @@ from optlaws.cycles.cycle import Cycle
 from optlaws.echo import shortened
 from optlaws.entries.declared import documented_by
 from optlaws.errors import InputError
+from optlaws.files.reading import check_names
 from optlaws.kept import kept_property
 from optlaws.motion.quantities import in_degrees, quantity
 from optlaws.numbers import Array, Quantity, derivative, number_or_array, real_times
@@ -26,7 +27,7 @@ from optlaws.numerics.taylor import Pair, turned, variable
 from optlaws.sentences import sentence
 from optlaws.shown.report import Report
 from optlaws.shown.summary import Summary
-from optlaws.suggest import keywords_of, unknown_key
+from optlaws.suggest import keywords_of
 
 Turning = Literal["counterclockwise", "clockwise"]
 CutCurve = Literal["profile", "pitch", "cutter"]
@@ -34,12 +35,10 @@ CURVES = ("profile", "pitch", "cutter")
 TURNINGS: dict[Turning, float] = {"counterclockwise": 1.0, "clockwise": -1.0}
 
 
-def sense(turning: object) -> float:
+def sense(turning: Any) -> float:
     """The sense in which a cam turns, 1 for counterclockwise and -1 for clockwise."""
-    for name, sign in TURNINGS.items():
-        if name == turning:
-            return sign
-    raise InputError(unknown_key(turning, TURNINGS, "turning"))
+    check_names([turning], TURNINGS, "turning")
+    return TURNINGS[turning]
 
 
 @dataclass(frozen=True)
@@ -141,8 +140,7 @@ class DiscCam:
     def outline(self, curve: CutCurve | None = None, cutter_radius: Quantity | None = None) -> PlaneCurve:
         """The curve that is cut: the "profile", the "pitch" curve, or the path of a "cutter" with a radius."""
         chosen = curve or ("profile" if cutter_radius is None else "cutter")
-        if chosen not in CURVES:
-            raise InputError(unknown_key(chosen, CURVES, "curve"))
+        check_names([chosen], CURVES, "curve")
         if (chosen == "cutter") != (cutter_radius is not None):
             raise InputError(
                 "cutter_radius and curve='cutter' go together: give the radius, such as cutter_radius='10 mm'"

@@ -9,6 +9,7 @@ from optlaws.echo import shortened
 from optlaws.entries.declared import Declared, entries_of
 from optlaws.errors import InputError, OptlawsError
 from optlaws.extras import needed
+from optlaws.files.reading import check_names
 from optlaws.files.tables import to_toml
 from optlaws.laws import MotionLaw
 from optlaws.laws.exporting import ExportOptions
@@ -20,7 +21,7 @@ from optlaws.motion.quantities import QUANTITIES
 from optlaws.numbers import Quantity
 from optlaws.shown.report import Report
 from optlaws.shown.summary import Summary
-from optlaws.suggest import keywords_of, unknown_key
+from optlaws.suggest import keywords_of
 
 #: what a picture of a cycle is over
 PlotOver = Literal["time", "speed"]
@@ -214,8 +215,7 @@ class CycleInterchange(Declared, title="a stored cycle"):
         from optlaws.plots.machine import draw_motor_of_cycle
 
         cycle = self._cycle
-        if over not in get_args(PlotOver):
-            raise InputError(unknown_key(over, get_args(PlotOver), "over"))
+        check_names([over], get_args(PlotOver), "over")
         if over == "time":
             return draw_cycle(cycle, ax, **style)
         return draw_motor_of_cycle(cycle, ax, **style)

@@ -23,7 +23,7 @@ from optlaws.laws import MotionLaw
 from optlaws.laws.exporting import AxesExportOptions
 from optlaws.numbers import Quantity
 from optlaws.shown.summary import Row, Summary
-from optlaws.suggest import keywords_of, unknown_key
+from optlaws.suggest import keywords_of
 from optlaws.synthesis.status import Status
 from optlaws.tolerances import CLOSURE, CYCLE_OPTIMALITY
 
@@ -85,8 +85,7 @@ class Axes(JsonText, Mapping[str, Cycle]):
         object.__setattr__(self, "interlocks", checked(self.interlocks, self._cycles))
 
     def __getitem__(self, name: str) -> Cycle:
-        if name not in self._cycles:
-            raise InputError(unknown_key(name, tuple(self._cycles), "axis"))
+        check_names([name], tuple(self._cycles), "axis")
         return self._cycles[name]
 
     def __contains__(self, name: object) -> bool:
@@ -624,8 +623,7 @@ def _entries(given: Any) -> dict[str, Any]:
     for name in given:
         if name in {"speed", "period"}:
             raise InputError(f"all axes have one {name}: give it to Axes(..., {name}={shortened(given[name])})")
-        if name not in known:
-            raise InputError(unknown_key(name, known))
+        check_names([name], known, "key")
     if "segments" not in given:
         raise InputError("it has no segments: give them, such as {'segments': [Rise('45 deg', '0.4 s'), Dwell()]}")
     return dict(given)

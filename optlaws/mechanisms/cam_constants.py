@@ -14,11 +14,11 @@ import numpy as np
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError
+from optlaws.files.reading import check_names
 from optlaws.laws import MotionLaw, PolynomialLaw
 from optlaws.mechanisms.polydyne_cam import cam_factors, polydyne
 from optlaws.numbers import not_negative, positive
 from optlaws.numerics import chebyshev
-from optlaws.suggest import unknown_key
 from optlaws.synthesis.problem.combined import CombinedPeak, CombinedPower
 from optlaws.synthesis.problem.constants import FUNCTIONALS, MAKERS, Functional
 from optlaws.synthesis.spaces.space import LawSpace
@@ -94,8 +94,7 @@ def cam_constant(name: str, *, frequency: float, damping: float = 0.0) -> Functi
     >>> C_cam, round(C_cam.value(savin("III", 7.2)), 6)
     (C_cam(frequency=20.0, damping=0.05), 5.755781)
     """
-    if name not in _BASES:
-        raise InputError(unknown_key(name, _BASES, "constant of the cam"))
+    check_names([name], _BASES, "constant of the cam")
     frequency, ratio = positive(frequency, "frequency"), not_negative(damping, "damping")
     written = f"{name}_cam(frequency={frequency!r}{f', damping={ratio!r}' if ratio else ''})"
     weights = (Fraction(1), *cam_factors(frequency, ratio))

@@ -13,6 +13,7 @@ from optlaws.cycles.interlocks.interlock import SMALL_UNITS
 from optlaws.cycles.machine_axes import AxesPicture
 from optlaws.cycles.specification.segments import Dwell
 from optlaws.errors import InputError
+from optlaws.files.reading import check_names
 from optlaws.motion.derivative_panel import samples
 from optlaws.motion.display_units import TURN_DEG, UNITS
 from optlaws.numbers import Array
@@ -27,7 +28,6 @@ from optlaws.plots.style import (
     one_below_the_other,
     plot_style,
 )
-from optlaws.suggest import unknown_key
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -51,8 +51,7 @@ def draw_interlocked(
     style: dict[str, Any],
 ) -> list[Artist]:
     """Draw the axes with the conditions of their interlocks, and return the artists."""
-    if what not in get_args(AxesPicture):
-        raise InputError(unknown_key(what, get_args(AxesPicture), "picture"))
+    check_names([what], get_args(AxesPicture), "picture")
     if what == "timing":
         return _timing(cycles, interlocks, axes, style)
     if not interlocks:
@@ -65,8 +64,7 @@ def draw_interlocked(
 def _chosen(interlocks: Sequence[Interlock], which: int | str) -> Interlock:
     labels = {each.label: each for each in interlocks}
     if isinstance(which, str):
-        if which not in labels:
-            raise InputError(unknown_key(which, labels, "interlock"))
+        check_names([which], labels, "interlock")
         return labels[which]
     if not 0 <= which < len(interlocks):
         raise InputError(f"interlock must be from 0 to {len(interlocks) - 1}, got {which}")

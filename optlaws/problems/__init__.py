@@ -9,10 +9,10 @@ from importlib import import_module
 from pathlib import Path
 from traceback import extract_tb
 
-from optlaws.errors import InputError, OptlawsError
+from optlaws.errors import OptlawsError
 from optlaws.files.packaged import packaged
+from optlaws.files.reading import check_names
 from optlaws.results import Results
-from optlaws.suggest import unknown_key
 
 __path__ = [str(packaged("problems"))]
 
@@ -50,8 +50,7 @@ def run(name: str, out: Path | None = None) -> list[Path]:
 
 def results_of(name: str) -> Results:
     """The results of a script, not yet written; errors are as of `run`."""
-    if name not in names():
-        raise InputError(unknown_key(name, names(), "script"))
+    check_names([name], names(), "script")
     results = Results(packaged(f"problems/{name}.toml"))
     try:
         import_module(f"{__name__}.{name}").run(results)

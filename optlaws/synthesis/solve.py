@@ -7,11 +7,10 @@ from math import isfinite
 from typing import Literal, get_args
 
 from optlaws.errors import InfeasibleProblem, InputError, OptlawsError
-from optlaws.suggest import unknown_key
+from optlaws.files.reading import check_names
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.problem.constants import warn_of_mixture
-from optlaws.synthesis.problem.problem import differ_in_numbers
-from optlaws.synthesis.problem.problem import Problem
+from optlaws.synthesis.problem.problem import Problem, differ_in_numbers
 from optlaws.synthesis.program.writer import Model, model_of
 from optlaws.synthesis.search import LawSearch, best_available, continued_by_contacts
 from optlaws.synthesis.solution import Solution
@@ -99,8 +98,7 @@ def _check_types(problem: object, start: object, bound: object) -> None:
 
 def check_bound(bound: object) -> None:
     """Refuse unknown kinds of bounds."""
-    if bound not in BOUNDS:
-        raise InputError(unknown_key(bound, BOUNDS, "bound"))
+    check_names([bound], BOUNDS, "bound")
 
 
 def _neighbours(first: Problem, second: Problem) -> bool:

@@ -17,10 +17,10 @@ from numpy.typing import NDArray
 
 from optlaws.echo import shortened
 from optlaws.errors import InfeasibleProblem, InputError, OptlawsError
+from optlaws.files.reading import check_names
 from optlaws.kept import kept_property
 from optlaws.numbers import Array, whole
 from optlaws.shown.steps import Steps
-from optlaws.suggest import unknown_key
 from optlaws.synthesis.arrays.continuation import StructureSegment
 from optlaws.synthesis.arrays.continued_laws import (
     guessed_objectives,
@@ -395,8 +395,7 @@ def sweep(
 
 def check_errors(errors: object) -> None:
     """Refuse unknown treatments of errors."""
-    if errors not in ERRORS:
-        raise InputError(unknown_key(errors, ERRORS, "errors"))
+    check_names([errors], ERRORS, "errors")
 
 
 def _raised(results: Iterator[Result], errors: Errors) -> Iterator[Result]:

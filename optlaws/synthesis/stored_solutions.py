@@ -19,9 +19,8 @@ from optlaws.synthesis.arrays.problems import ProblemArray
 from optlaws.synthesis.arrays.programs import FOLLOWING, NO_CONTACT, SolvedBatch
 from optlaws.synthesis.families.family import Program
 from optlaws.synthesis.limits.of_problem import known_limit
-from optlaws.synthesis.problem.problem import differ_in_numbers
 from optlaws.synthesis.problem.plain_entries import read_entries
-from optlaws.synthesis.problem.problem import Problem
+from optlaws.synthesis.problem.problem import Problem, differ_in_numbers
 from optlaws.synthesis.program.writer import Model, model_of
 from optlaws.synthesis.proof.certificate import Certificate
 from optlaws.synthesis.proof.data import as_json, problem_of, stated

@@ -13,9 +13,9 @@ from optlaws.balancing.levers.lever import TorsionLever
 from optlaws.balancing.levers.sizing import LEAST_TRANSMISSION, MOST_ROCKER_SWING
 from optlaws.echo import shortened
 from optlaws.errors import InputError, OptlawsError
+from optlaws.files.reading import check_names
 from optlaws.numbers import Array, NumberOrQuantity, finite
 from optlaws.numerics.roots import bisect
-from optlaws.suggest import unknown_key
 
 _LINKAGE_MET = 1e-9  # a linkage whose equations miss by less is a solution
 _SAME_LINKAGE = 1e-6  # linkages nearer to each other are one
@@ -80,8 +80,7 @@ def find_torsion_levers(
     (0.717435, 0.99)
     """
     for name, value in targets.items():
-        if name not in QUANTITIES:
-            raise InputError(unknown_key(name, QUANTITIES, "constant of the lever"))
+        check_names([name], QUANTITIES, "constant of the lever")
         finite(value, name)
     spans = {"beta": beta, "lam": lam}
     sought = {name: _span(name, span) for name, span in spans.items() if isinstance(span, tuple)}

@@ -26,7 +26,6 @@ from optlaws.locks import process_lock
 from optlaws.motion.quantities import positive_quantity
 from optlaws.numbers import Array, Quantity
 from optlaws.numerics.roots import bisect_each
-from optlaws.suggest import unknown_key
 
 if TYPE_CHECKING:
     from ezdxf.layouts.layout import Modelspace
@@ -344,8 +343,7 @@ ENDINGS = {
 def format_of(file: Path, name: str | None = None) -> str:
     """The format that a file is written in."""
     if name is not None:
-        if name not in FORMATS:
-            raise InputError(unknown_key(name, FORMATS, "format"))
+        check_names([name], FORMATS, "format")
         return name
     known = ENDINGS.get(file.suffix.lower())
     if known is None:

@@ -11,6 +11,7 @@ import numpy as np
 from optlaws.cycles.cycle import Cycle
 from optlaws.echo import shortened
 from optlaws.errors import InputError
+from optlaws.files.reading import check_names
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.motion.piece import Piece, named_law
@@ -20,7 +21,6 @@ from optlaws.numbers import Array, Quantity, derivative, number_or_array, real_t
 from optlaws.numerics.interval import Interval, hull
 from optlaws.numerics.taylor import Jet
 from optlaws.sentences import sentence
-from optlaws.suggest import unknown_key
 from optlaws.tolerances import CLOSURE, ROUNDOFF, VALUE_ROUNDING
 
 Direction = Literal["rise", "return"]
@@ -115,8 +115,7 @@ class CamMotion:
         turn = quantity(angle, "angle", "angle")
         if not 0.0 < turn <= TURN * (1.0 + CLOSURE):
             raise InputError(f"angle must be above 0 and at most 360 deg, got {shortened(angle)}")
-        if direction not in tuple(DIRECTIONS):
-            raise InputError(unknown_key(direction, DIRECTIONS, "direction"))
+        check_names([direction], DIRECTIONS, "direction")
         sign = DIRECTIONS[direction]
         piece = Piece(0.0, turn, 0.0 if sign > 0.0 else height, sign * height, named_law(law, "motion"))
         return cls(smooth_parts(piece, CamStretch), axis, closed=False)

@@ -4,16 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from math import isfinite
 from typing import Any, NamedTuple
 
 from optlaws.cycles.moves.fastest_move import AXES, FastestMove
 from optlaws.cycles.moves.torque_limits import TORQUES, motor_torque, without_torques
 from optlaws.cycles.moves.vibration_limits import vibration_limit
+from optlaws.cycles.optimisation.motion_limits import DECELERATION, OneSided, greatest, read_limits
 from optlaws.cycles.specification.limit_entries import LIMITS_OF_MOVE
+from optlaws.cycles.specification.programme import AXES as SI
 from optlaws.echo import shortened
+from optlaws.entries.value_types import is_list
 from optlaws.errors import InputError
 from optlaws.mechanisms.drives.drive_train import Drive
-from optlaws.motion.quantities import either, positive_quantity, quantity
+from optlaws.motion.quantities import either, quantity
 from optlaws.numbers import NumberOrQuantity, Quantity, listed
 from optlaws.synthesis.least_time.follower_residual import RESIDUAL
 from optlaws.synthesis.least_time.least_time import LeastTime
@@ -23,6 +27,7 @@ from optlaws.synthesis.least_time.time_search import least_time
 from optlaws.synthesis.problem.problem import Problem
 
 _MOST = 100_000
+_SIDES = (("velocity", 1, 0.0), ("acceleration", 2, 1.0), (DECELERATION, 2, -1.0), ("jerk", 3, 0.0), ("snap", 4, 0.0))
 _OF_OTHERS = {**dict.fromkeys(TORQUES, "at a motor: give its drive"), RESIDUAL: "that of a follower: give the follower"}
 
 
@@ -170,55 +175,33 @@ def _move(
     if not far > 0.0:
         remedy = "turn the axis and its limits round" if far else "give how far it moves, such as '100 mm'"
         raise InputError(f"stroke must be above 0, got {shortened(stroke)}: {remedy}")
-    angular = "angular " if dimension == "angle" else ""
-    read = _read_limits(limits, angular)
+    allowed, forward = _read_limits(limits, dimension)
     if not isinstance(problem, Problem):
         raise InputError(f"a least time is sought of a Problem, got {type(problem).__name__}")
     start, end = (
-        0.0 if value is None else quantity(value, f"{angular}velocity", name)
+        0.0 if value is None else quantity(value, SI[dimension][1], name)
         for name, value in zip(("start_velocity", "end_velocity"), ends, strict=True)
     )
-    space = replace(problem, monotone=True) if read.forward or torque is not None else problem
+    space = replace(problem, monotone=True) if forward or torque is not None else problem
     unit = next(unit for unit, axis in AXES.items() if axis == dimension)
-    return TimedMove(space, far, read.limits, start, end, torque), unit
+    return TimedMove(space, far, allowed, start, end, torque), unit
 
 
-class _Read(NamedTuple):
-    limits: MoveLimits
-    forward: bool  #: whether the move must never turn back
-
-
-def _read_limits(entries: Mapping[str, Any], angular: str) -> _Read:
-    """Limits of the move in SI units."""
+def _read_limits(entries: Mapping[str, Any], axis: str) -> tuple[MoveLimits, bool]:
+    """Limits of the move in SI units, and whether it must never turn back."""
     for name in entries:
         if name in _OF_OTHERS:
             raise InputError(f"limits: {name} is {_OF_OTHERS[name]}")
-    read: dict[str, float] = {}
-    forward = False
-    for name, value in entries.items():
-        dimension, where = f"{angular}{name.replace('deceleration', 'acceleration')}", f"limits: {name}"
-        if not isinstance(value, list | tuple):
-            read[name] = positive_quantity(value, dimension, where)
-            continue
-        low, high = _pair(value, dimension, where)
-        read[name] = high
-        if name == "acceleration":
-            if "deceleration" in entries:
-                raise InputError("limits: the acceleration is a pair, so that deceleration is given twice")
-            read["deceleration"] = -low
-        elif name == "velocity" and low == 0.0:
-            forward = True
-        elif low != -high:
-            remedy = " or begin with 0" if name == "velocity" else ""
-            raise InputError(f"{where}: its two values must be opposite{remedy}, got {shortened(value)}")
-    if "acceleration" in read:
-        read.setdefault("deceleration", read["acceleration"])
-    return _Read(MoveLimits(**read), forward)
-
-
-def _pair(value: Any, dimension: str, where: str) -> tuple[float, float]:
-    """The least and the greatest value of a pair."""
-    low, high = (quantity(each, dimension, where) for each in value)
-    if not (low < 0.0 < high or (low == 0.0 < high and "velocity" in dimension)):
-        raise InputError(f"{where}: the least value must be below 0 and the greatest above, got {shortened(value)}")
-    return low, high
+    velocity: Any = entries.get("velocity")
+    sides = [quantity(side, SI[axis][1], "limits: velocity") for side in velocity] if is_list(velocity) else []
+    forward = bool(sides) and sides[0] == 0.0
+    given = read_limits({**entries, "velocity": velocity[1]} if forward else entries, axis, "limits")
+    if DECELERATION in entries and is_list(entries.get("acceleration")):
+        raise InputError("limits: the acceleration is a pair, so that deceleration is given twice")
+    for key in given:
+        if isinstance(key, OneSided) and key.nu != 2:
+            remedy = " or begin with 0" if key.nu == 1 else ""
+            pair = shortened(entries[key.name])
+            raise InputError(f"limits: {key.name}: its two values must be opposite{remedy}, got {pair}")
+    least = {name: greatest(given, nu, side) for name, nu, side in _SIDES}
+    return MoveLimits(**{name: most for name, most in least.items() if isfinite(most)}), forward

@@ -96,7 +96,7 @@ def read_limits(entries: Mapping[str, Any], axis: str, where: str) -> Limits:
     limits: Limits = {}
     apart = DECELERATION in entries
     for name, value in entries.items():
-        place = f"{where}, {name}"
+        place = f"{where}: {name}"
         if name == DECELERATION:
             limits[OneSided(2, -1.0, name)] = positive_quantity(value, AXES[axis][2], place)
         elif name in LIMITS and isinstance(value, list | tuple):

@@ -6,18 +6,18 @@ from collections.abc import Callable, Sequence
 from functools import reduce
 from itertools import pairwise
 from math import cbrt, exp, pi, sqrt
-from typing import Literal, NamedTuple, TypeAlias
+from typing import Any, Literal, NamedTuple, TypeAlias
 
 import numpy as np
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError
+from optlaws.files.reading import check_names
 from optlaws.laws.law import MotionLaw
 from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import PolynomialSegment
 from optlaws.numbers import Array, circular_frequency, not_negative
 from optlaws.numerics import chebyshev
-from optlaws.suggest import unknown_key
 from optlaws.tolerances import AGREEMENT
 
 Shaper: TypeAlias = Literal["ZV", "MZV", "ZVD", "EI", "two-hump EI", "three-hump EI"]
@@ -101,10 +101,9 @@ def shaped_law(
     return PiecewiseLaw(breaks, segments, float(law.a(0.0)))
 
 
-def _trains(frequency: object, damping: object, shaper: object) -> list[list[Impulse]]:
+def _trains(frequency: object, damping: object, shaper: Any) -> list[list[Impulse]]:
     """The repetitions of each vibration's shaper, in times of the law."""
-    if not isinstance(shaper, str) or shaper not in _SHARES:
-        raise InputError(unknown_key(shaper, tuple(_SHARES), "shaper"))
+    check_names([shaper], _SHARES, "shaper")
     frequencies = list(frequency) if isinstance(frequency, Sequence) and not isinstance(frequency, str) else [frequency]
     dampings = list(damping) if isinstance(damping, Sequence) and not isinstance(damping, str) else [damping]
     dampings = dampings * len(frequencies) if len(dampings) == 1 else dampings

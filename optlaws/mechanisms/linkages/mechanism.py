@@ -16,7 +16,7 @@ from optlaws.entries.value_types import Choice, Kept, Listed, Measured, Text, pa
 from optlaws.entries.value_types import Table as TableOf
 from optlaws.entries.value_types import Together as Tuple
 from optlaws.errors import InputError
-from optlaws.files.reading import JsonText, of_known_format
+from optlaws.files.reading import JsonText, check_names, of_known_format
 from optlaws.formulas.arithmetic import NUMPY, Together, evaluate
 from optlaws.formulas.branches import smooth_itself
 from optlaws.formulas.intervals import Endpoints, enclosed
@@ -322,8 +322,7 @@ class Mechanism(JsonText):
             If no driven link has this name.
         """
         driven = dict(self.linkage.driven)
-        if name not in driven:
-            raise InputError(unknown_key(name, driven, "driven link"))
+        check_names([name], driven, "driven link")
         return self._given(driven[name], x, nu)
 
     def _given(self, formula: Formula, x: Any, nu: int) -> Any:

@@ -11,10 +11,10 @@ import numpy as np
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError
+from optlaws.files.reading import check_names
 from optlaws.kept import kept_property
 from optlaws.motion.quantities import si_number
 from optlaws.numbers import Array, NumberOrQuantity, not_negative, positive
-from optlaws.suggest import unknown_key
 
 GROUND = "ground"
 DRIVE_FORCE = "drive force"
@@ -96,8 +96,7 @@ class MachineModel(ABC):
         given = outputs.items() if isinstance(outputs, Mapping) else ((name, name) for name in _many(outputs))
         named = {str(name): output for name, output in given}
         for output in named.values():
-            if output not in self.outputs:
-                raise InputError(unknown_key(output, self.outputs, f"output of {self.what}"))
+            check_names([output], self.outputs, f"output of {self.what}")
         return named
 
 
@@ -212,8 +211,7 @@ def assembly(
         *((base,) if base != GROUND else ()),
         *(n for link in joined for n in (link.first, link.second)),
     ):
-        if name not in masses and name != GROUND:
-            raise InputError(unknown_key(name, [*masses, GROUND], "mass"))
+        check_names([name], [*masses, GROUND], "mass")
     if driven in {base, GROUND}:
         raise InputError(f"drive must be a mass, moved against another one or the ground, got {shortened(drive)}")
     numbers = {

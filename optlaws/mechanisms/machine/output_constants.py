@@ -13,6 +13,7 @@ import numpy as np
 from numpy.polynomial import legendre
 
 from optlaws.errors import InputError, OptlawsError
+from optlaws.files.reading import check_names
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw, smoothstep
 from optlaws.laws.law import motion_law
@@ -30,7 +31,6 @@ from optlaws.mechanisms.machine.over_time import (
 from optlaws.mechanisms.machine.state_space import StateSpace
 from optlaws.mechanisms.machine.texts import check_repeats, check_rest, output_entries, time_of, title_of
 from optlaws.numbers import Array, power_of_two
-from optlaws.suggest import unknown_key
 from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, NormFamily
 from optlaws.synthesis.functionals.makers import PeakSide
 from optlaws.synthesis.functionals.sizes import Reach, by_norm, reach_of
@@ -372,8 +372,7 @@ def output_peak(
     >>> [output_peak(of=machine, **of).value(smoothstep(4)) for of in ({"within": (1, 2)}, {"side": "low"})]
     [1.620669, 9.523921]
     """
-    if side not in tuple(SIDES):
-        raise InputError(unknown_key(side, SIDES, "side"))
+    check_names([side], SIDES, "side")
     entries, words = output_entries(of, output, within=within, cycle=cycle, steady=steady, offset=offset)
     words += [] if side == "both" else [f"side={side}"]
     return OutputPeak(f"output_peak({', '.join(words)})", nan, convex=True, **entries, signs=SIDES[side])

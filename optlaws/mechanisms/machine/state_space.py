@@ -17,7 +17,6 @@ from optlaws.kept import kept_property
 from optlaws.mechanisms.machine.dynamics import Dynamics
 from optlaws.motion.quantities import si_number
 from optlaws.numbers import MAGNITUDE_LIMIT, Array, Complex, NumberOrQuantity, positive, real_times
-from optlaws.suggest import unknown_key
 
 _UNSTABLE = 1e-7  # of the fastest root: what its rounding may be
 _SETTLED = 1e-9  # of a load: what a static state may miss it by
@@ -143,8 +142,7 @@ class StateSpace(JsonText):
         """The index of an output by its name; the first output if there is no name."""
         if output is None:
             return 0
-        if output not in self.outputs:
-            raise InputError(unknown_key(output, self.outputs, "output of the machine"))
+        check_names([output], self.outputs, "output of the machine")
         return self.outputs.index(output)
 
     def settled(self, levels: Array) -> Complex:

@@ -10,6 +10,7 @@ from typing import Any, Literal
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError
+from optlaws.files.reading import check_names
 from optlaws.formulas.branches import smooth_itself
 from optlaws.formulas.functions import SMOOTH_FUNCTIONS
 from optlaws.formulas.of_motion import MotionFormula, checked, of_text
@@ -30,7 +31,6 @@ from optlaws.formulas.tree import (
 )
 from optlaws.locks import casadi_lock
 from optlaws.numbers import real
-from optlaws.suggest import unknown_key
 from optlaws.synthesis.functionals.kinds import (
     FormulaIntegral,
     FormulaPeak,
@@ -144,8 +144,7 @@ def peak(formula: Any, *, side: PeakSide = "both", start: float = 0.0, stop: flo
     >>> peak("c + 3*b"), round(peak("c + 3*b").value(smoothstep(3)), 6)
     (peak(c + 3*b), 9.009603)
     """
-    if side not in tuple(_SIDES):
-        raise InputError(unknown_key(side, _SIDES, "side"))
+    check_names([side], _SIDES, "side")
     motion = _motion(formula, *_part(start, stop))
     name = _name("peak", motion, *([] if side == "both" else [f"side={side}"]))
     peak = FormulaPeak(name, nan, convex=True, motion=motion, signs=_SIDES[side])
@@ -251,8 +250,7 @@ def functional(
     >>> functional(lambda k, b, c: c + (1 + k) * b, kind="rms")
     rms(c + (1 + k)*b)
     """
-    if kind not in tuple(_KINDS):
-        raise InputError(unknown_key(kind, _KINDS, "kind"))
+    check_names([kind], _KINDS, "kind")
     if (kind == "value") != (at is not None):
         raise InputError(f"a value needs at, its k, and no other constant takes it; got {at!r}")
     if at is not None:

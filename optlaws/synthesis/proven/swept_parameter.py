@@ -14,6 +14,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from optlaws.errors import InputError
+from optlaws.files.reading import check_names
 from optlaws.kept import kept_property
 from optlaws.numbers import Array
 from optlaws.suggest import unknown_key
@@ -128,8 +129,7 @@ class SweptParameter:
         known = [repr(term) for _, term in self.problem.objective.terms]
         if len(known) < 2:
             raise InputError(f"a weight runs in an objective of several terms, got {self.problem.objective!r}")
-        if name not in known:
-            raise InputError(unknown_key(name, known, "term of the objective"))
+        check_names([name], known, "term of the objective")
         return known.index(name)
 
     def _weighted(self, weight: float) -> Expression:

@@ -161,7 +161,7 @@ def test_damaged_files_are_refused(name: str, move: FastestMove) -> None:
         ({"limits": {"velocity": "0 m/s"}}, "limits: velocity must be above 0"),
         ({"limits": {"velocity": ("-1 m/s", "2 m/s")}}, "must be opposite or begin with 0"),
         ({"limits": {"jerk": ("-1 m/s^3", "2 m/s^3")}}, "limits: jerk: its two values must be opposite"),
-        ({"limits": {"acceleration": ("2 m/s^2", "3 m/s^2")}}, "the least value must be below 0"),
+        ({"limits": {"acceleration": ("2 m/s^2", "3 m/s^2")}}, "limits: acceleration: the least must be below 0"),
         ({"limits": {"acceleration": ("-2 m/s^2", "3 m/s^2"), "deceleration": "1 m/s^2"}}, "given twice"),
         ({"start_velocity": "2 m/s"}, "start_velocity is beyond the limit"),
     ],
