@@ -9,18 +9,19 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from math import prod
-from typing import Any, Literal
-
-import msgspec
+from typing import Any
 
 from optlaws.echo import shortened
-from optlaws.errors import InputError
-from optlaws.files.problem_file import typed
+from optlaws.entries.value_types import Choice, Listed, Number, ReadBy, Table, Text, ValueType, Whole
+from optlaws.errors import InputError, located
 from optlaws.files.reading import of_known_format
-from optlaws.numbers import real
+from optlaws.numbers import finite, real
+from optlaws.suggest import unknown_key
 from optlaws.synthesis.proof.certificate import Certificate
 from optlaws.synthesis.proof.data import problem_of
 from optlaws.synthesis.proof.no_law import ground_of
+from optlaws.synthesis.stored_rows import StatedSolution
+from optlaws.synthesis.stored_solutions import StatedSolutions
 from optlaws.tolerances import OPTIMALITY_GAP
 
 Data = Mapping[str, Any]
@@ -58,98 +59,34 @@ _KINDS = (
 )
 
 
-class SolutionFile(msgspec.Struct, forbid_unknown_fields=True):
-    """The output of `Solution.to_dict`, and of commands; its claims are checked elsewhere."""
-
-    problem: Any
-    law: Any
-    certificate: Any
-    status: Literal["optimal", "local", "inaccurate"] | None = None
-    objective: Any = None
-    lower_bound: Any = None
-    gap: Any = None
-    limit: Any = None
-    constants: Any = None
-    z: Any = None
-    power_certificate: Any = None
-    peak_certificate: Any = None
-    drive_limit: Any = None
-    iterations: int = 0
-    seconds: float = 0.0
-    starts: list[float] = []
-    versions: dict[str, str] = {}
-    state: Any = None  # from which a neighbour is begun: it claims nothing of the law
-    value: float | None = None  # of the number along which a proven front runs, whose problem is proven
-    about: str = ""
-
-
-class LawFile(msgspec.Struct, forbid_unknown_fields=True):
-    """A law with its constants."""
-
-    law: Any
-    constants: Any
-    about: str = ""
-
-
-class LeastTimeFile(msgspec.Struct, forbid_unknown_fields=True):
-    """The output of `FastestMove.to_dict`; in units of metres or radians, and seconds."""
-
-    stroke: float
-    limits: dict[str, float]
-    start_velocity: float
-    end_velocity: float
-    duration: float
-    limit: float | None
-    space: dict[str, Any]
-    solution: dict[str, Any]
-    proofs: list[dict[str, Any]]
-    end_acceleration: float = 0.0
-    end_jerk: float = 0.0
-    torque: dict[str, Any] | None = None
-    residual: dict[str, Any] | None = None
-    unit: Literal["m", "rad"] | msgspec.UnsetType = msgspec.UNSET
-    about: str = ""
-
-
-class TimeFrontFile(msgspec.Struct, forbid_unknown_fields=True):
-    """The output of `TimeFront.to_dict`."""
-
-    minimise: dict[str, Any]
-    fastest: dict[str, Any]
-    points: list[dict[str, Any]]
-    about: str = ""
-
-
-class TableRow(msgspec.Struct, forbid_unknown_fields=True):
-    """A row of a table of solutions."""
-
-    solution: Any = None
-    problem: Any = msgspec.field(default=None, name="asked")
-    status: Literal["optimal", "local", "inaccurate", "infeasible", "failed", "invalid", "not found"] | None = None
-    proof: Any = None
-
-
-class FrontFile(msgspec.Struct, forbid_unknown_fields=True):
-    """The output of `Front.to_dict`; `failed` points claim nothing."""
-
-    over: list[str]
-    values: list[list[float]]
-    points: list[Any]
-    failed: list[float] = []
-    errors: list[dict[str, Any]] = []
-    about: str = ""
-
-
-class SolutionArrayFile(msgspec.Struct, forbid_unknown_fields=True):
-    """The output of `SolutionArray.to_dict`; its solutions are recomputed from its arrays, and claimed."""
-
-    shape: list[int]
-    solutions: list[dict[str, Any]]
-    seconds: float = 0.0
-    problems: Any = None
-    parts: Any = None
-    alone: Any = None
-    about: str = ""
+_ANY = ReadBy(lambda value: value, "anything")
+_TABLES = Listed(Table(_ANY))
+#: what entries and the tables around them may have by their kinds, with the types of what nothing else reads
+_KNOWN: dict[str, dict[str, ValueType]] = {
+    "the solution": {
+        **dict.fromkeys((*StatedSolution.__struct_fields__, "value"), _ANY),
+        "status": Choice("optimal", "local", "inaccurate"),
+    },
+    "the law": dict.fromkeys(("law", "constants", "about"), _ANY),
+    "the time front": dict.fromkeys(("minimise", "fastest", "points", "about"), _ANY),
+    "the row": {
+        **dict.fromkeys(("solution", "asked", "proof"), _ANY),
+        "status": Choice("optimal", "local", "inaccurate", "infeasible", *_NO_CLAIM),
+    },
+    "the front": {
+        "over": Listed(Text()),
+        "values": Listed(Listed(Number())),
+        "points": Listed(_ANY),
+        "failed": Listed(Number()),
+        "errors": _TABLES,
+        "about": Text(empty=True),
+    },
+    "the array of solutions": {
+        **dict.fromkeys(StatedSolutions.__struct_fields__, _ANY),
+        "shape": Listed(Whole()),
+        "solutions": _TABLES,
+    },
+}
 
 
 @dataclass(frozen=True)
@@ -254,22 +191,20 @@ def kind_of(data: Data) -> str | None:
 
 def check_keys(data: Data) -> None:
     """Refuse an entry with keys that no entry of its kind has."""
-    kind = kind_of(data)
-    if kind == "least time":
-        _stated(data, LeastTimeFile, "the least time")
-    elif kind == "time front":
-        _stated(data, TimeFrontFile, "the front over the time")
-    elif "certificate" in data:
-        _stated(data, SolutionFile, "the solution")
-    elif "law" in data:
-        _stated(data, LawFile, "the law with its constants")
+    name = "the solution" if "certificate" in data else f"the {kind_of(data)}"
+    if name in _KNOWN:
+        _stated(data, name)
 
 
-def _stated(data: object, kind: type[Any], name: str) -> Any:
-    try:
-        return typed(data, kind)
-    except msgspec.ValidationError as error:
-        raise InputError(f"{name}: {error}; leave out what is not checked") from None
+def _stated(data: Data, kind: str, path: str = "") -> dict[str, Any]:
+    """The entries of a table, of which none is unknown, and each of its type where it is given."""
+    name, types = path or kind, _KNOWN[kind]
+    for key in data:
+        if key not in types:
+            raise InputError(f"{name}: {unknown_key(key, types, 'entry')}; leave out what is not checked")
+    given = {key: value for key, value in data.items() if value is not None}
+    with located(name):
+        return dict.fromkeys(types) | {key: types[key].read(value, key) for key, value in given.items()}
 
 
 def _walk(data: object, path: str, around: Around) -> Iterator[tuple[str, FileEntry]]:
@@ -283,11 +218,11 @@ def _walk(data: object, path: str, around: Around) -> Iterator[tuple[str, FileEn
     elif is_entry(data):
         yield path, FileEntry(data, around)
     elif {"solution", "asked"} & data.keys():
-        yield from _row(_stated(data, TableRow, path), path, around)
+        yield from _row(_stated(data, "the row", path), path, around)
     elif kind_of(data) == "array":
-        yield from _array(_stated(data, SolutionArrayFile, path or "the array of solutions"), data, path)
+        yield from _array(_stated(data, "the array of solutions", path), data, path)
     elif "over" in data:
-        yield from _front(_stated(data, FrontFile, path or "the front"), path)
+        yield from _front(_stated(data, "the front", path), path)
     elif "B" in data:
         yield from _of_velocity(data, path)
     else:
@@ -300,21 +235,23 @@ def _members(data: Data, path: str, around: Around) -> Iterator[tuple[str, FileE
             yield from _walk(value, f"{path}.{key}" if path else key, around)
 
 
-def _row(row: TableRow, path: str, around: Around) -> Iterator[tuple[str, FileEntry]]:
-    if row.problem is not None:
-        problem_of(_stated(row.problem, dict[str, Any], f"{path}.asked"))
-    context = Around(row.status, row.problem, around.B, around.values)
-    inside = [entry for name in ("solution", "proof") for entry in _walk(getattr(row, name), f"{path}.{name}", context)]
-    if not inside and row.status not in {None, *_NO_CLAIM}:
+def _row(row: Data, path: str, around: Around) -> Iterator[tuple[str, FileEntry]]:
+    if row["asked"] is not None:
+        with located(f"{path}.asked"):
+            problem_of(row["asked"])
+    context = Around(row["status"], row["asked"], around.B, around.values)
+    inside = [entry for name in ("solution", "proof") for entry in _walk(row[name], f"{path}.{name}", context)]
+    if not inside and row["status"] not in {None, *_NO_CLAIM}:
         inside = [(path, FileEntry({}, context))]
     yield from inside
 
 
-def _array(array: SolutionArrayFile, data: Data, path: str) -> Iterator[tuple[str, FileEntry]]:
-    if prod(array.shape) != len(array.solutions):
-        raise InputError(f"{path or 'the array'}: {len(array.solutions)} solutions are not of shape {array.shape}")
+def _array(array: Data, data: Data, path: str) -> Iterator[tuple[str, FileEntry]]:
+    rows, shape = array["solutions"] or (), array["shape"] or ()
+    if prod(shape) != len(rows):
+        raise InputError(f"{path or 'the array'}: {len(rows)} solutions are not of shape {list(shape)}")
     inside = f"{path}." if path else ""
-    for i, row in enumerate(array.solutions):
+    for i, row in enumerate(rows):
         place = f"{inside}solutions[{i}]"
         if is_entry(row):
             yield place, FileEntry(row)
@@ -322,7 +259,7 @@ def _array(array: SolutionArrayFile, data: Data, path: str) -> Iterator[tuple[st
             yield from _no_law(row, place)
         elif {"error", "status"} != row.keys() - {"problem", "tried"} or row["status"] not in _NO_CLAIM:
             raise InputError(f"{NO_FILE}: {place} is neither a solution nor an error")
-    if array.parts is not None or array.alone is not None or array.problems is not None:
+    if any(array[name] is not None for name in ("parts", "alone", "problems")):
         yield f"{inside}parts", FileEntry(data)
 
 
@@ -332,7 +269,8 @@ def _no_law(row: Data, path: str) -> Iterator[tuple[str, FileEntry]]:
     if not isinstance(proof, Mapping):
         yield path, FileEntry({}, Around(status="infeasible"))
         return
-    problem = problem_of(_stated(row.get("problem"), dict[str, Any], f"{path}.problem"))
+    with located(f"{path}.problem"):
+        problem = problem_of(row.get("problem", {}))
     ground = ground_of(problem, Certificate.from_dict(proof))
     if ground is None:
         yield path, FileEntry({}, Around(status="infeasible"))
@@ -341,19 +279,20 @@ def _no_law(row: Data, path: str) -> Iterator[tuple[str, FileEntry]]:
     yield f"{path}.proof", FileEntry(moved, Around(status="infeasible", above=ground.above))
 
 
-def _front(front: FrontFile, path: str) -> Iterator[tuple[str, FileEntry]]:
-    if len(front.values) != len(front.points) or any(len(row) != len(front.over) for row in front.values):
-        raise InputError(f"{path or 'the front'}: values must be as many as points, one for each of {front.over}")
-    if len(set(front.over)) < len(front.over):
-        raise InputError(f"{path or 'the front'}: it is over the same constant twice: {front.over}")
-    for i, (values, point) in enumerate(zip(front.values, front.points, strict=True)):
-        context = Around(values=dict(zip(front.over, values, strict=True)))
+def _front(front: Data, path: str) -> Iterator[tuple[str, FileEntry]]:
+    over, values_of_points, points = (front[name] or () for name in ("over", "values", "points"))
+    if len(values_of_points) != len(points) or any(len(row) != len(over) for row in values_of_points):
+        raise InputError(f"{path or 'the front'}: values must be as many as points, one for each of {list(over)}")
+    if len(set(over)) < len(over):
+        raise InputError(f"{path or 'the front'}: it is over the same constant twice: {list(over)}")
+    for i, (values, point) in enumerate(zip(values_of_points, points, strict=True)):
+        context = Around(values=dict(zip(over, values, strict=True)))
         place = f"{path}.points[{i}]" if path else f"points[{i}]"
         inside = list(_walk(point, place, context))
         if not inside:
             raise InputError(f"{NO_FILE}: {place} has no law, but its values claim one")
         yield from inside
-    for i, row in enumerate(front.errors):
+    for i, row in enumerate(front["errors"] or ()):
         if row.get("status") not in _NO_CLAIM:
             yield from _no_law(row, f"{path}.errors[{i}]" if path else f"errors[{i}]")
 
@@ -363,7 +302,7 @@ def _of_velocity(data: Data, path: str) -> Iterator[tuple[str, FileEntry]]:
     # printed numbers are kept as they are printed
     printed = data["B"]
     try:
-        B = float(printed) if isinstance(printed, str) else _stated(printed, float, f"{path}.B")
+        B = finite(float(printed) if isinstance(printed, str) else printed, f"{path}.B")
     except ValueError:
         raise InputError(f"{path}.B must be a number, got {printed!r:.40}") from None
     inside = list(_members({key: value for key, value in data.items() if key != "B"}, path, Around(B=B)))

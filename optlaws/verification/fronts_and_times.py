@@ -9,7 +9,7 @@ from itertools import pairwise
 from typing import Any
 
 from optlaws.errors import OptlawsError
-from optlaws.files.reading import entries_of
+from optlaws.files.reading import check_names, entries_of
 from optlaws.lazy import imported
 from optlaws.numbers import real
 from optlaws.synthesis.least_time.least_time import LeastTime
@@ -140,6 +140,7 @@ def least_time(data: Mapping[str, Any], of_law: Verification) -> Verification:
 
 
 def _stated(data: Mapping[str, Any]) -> LeastTime:
+    check_names([data["unit"]] if "unit" in data else (), ("m", "rad"), "unit")
     stated = {key: value for key, value in data.items() if key not in {"unit", "about"}}
     return built(LeastTime.from_dict, stated, "the least time")
 
