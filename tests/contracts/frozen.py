@@ -1,11 +1,13 @@
 """The contract with users: public names with their signatures, options of commands, jobs with their entries.
 
-`python -m tests.contracts.frozen` writes it down again; tests/contracts/test_frozen.py lets only additions pass.
+frozen.json is that of the last release, whose commit has it: nobody edits it. `python -m tests.contracts.frozen` writes
+it anew for the next one. tests/contracts/test_frozen.py compares it with what is now.
 """
 
 import inspect
 import json
 import re
+import subprocess
 from collections.abc import Iterator
 from enum import EnumType
 from pathlib import Path
@@ -193,5 +195,21 @@ def contract() -> dict[str, Table]:
     return {"public names": public_names(), "commands": commands(), "jobs": jobs()}
 
 
+def of_release() -> str | None:
+    """The contract in the commit of the last release; None where its history is not at hand."""
+    commit = _git("log", "-1", "--format=%H", "--grep=^Release [0-9.]*$").strip()
+    return _git("show", f"{commit}:tests/contracts/{FROZEN.name}") if commit else None
+
+
+def _git(*arguments: str) -> str:
+    command = ["git", *arguments]
+    return subprocess.run(command, cwd=FROZEN.parent, capture_output=True, text=True, check=False).stdout
+
+
+def text_of_contract() -> str:
+    """All of it as the file has it."""
+    return json.dumps(contract(), indent=1, ensure_ascii=False) + "\n"
+
+
 if __name__ == "__main__":
-    FROZEN.write_text(json.dumps(contract(), indent=1, ensure_ascii=False) + "\n", "utf-8")
+    FROZEN.write_text(text_of_contract(), "utf-8")
