@@ -24,6 +24,8 @@ import sys
 from tests.documents import FIRST_PAGE, documents
 import optlaws
 assert "site-packages" in optlaws.__file__, optlaws.__file__
+# made from a file of the wheel that is no module
+assert "press_motion" in optlaws.smoothstep(3).export("c99", stroke="35 mm", duration="0.1 s", name="press").text
 count = failed = 0
 document = documents.parse(FIRST_PAGE)
 for example in document.examples():

@@ -10,6 +10,7 @@ from optlaws.exports.formats.rockwell import profile_motion, profile_rows
 from optlaws.exports.formats.structured_text import function_block
 from optlaws.exports.interpolation import Ends, akima_powers, hermite_powers, linear_powers, spline_powers
 from optlaws.exports.polynomial_pieces import polynomials_of_law
+from optlaws.exports.program_text import filled, template
 from optlaws.exports.report import task_sampling
 from optlaws.exports.run_time.front_export import FrontExport
 from optlaws.exports.run_time.front_table import summation_bounds

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from typing import Any
 
 from optlaws.echo import shortened
@@ -10,66 +11,13 @@ from optlaws.errors import InputError
 from optlaws.exports.error_bounds import DOUBLE, SINGLE, as_stored
 from optlaws.exports.format import Request, Written, file_format
 from optlaws.exports.formats.program_polynomials import SOURCE_MODEL, SOURCE_PIECES, labels_of, source_polynomials
-from optlaws.exports.text import C_KEYWORDS, Labels, program_heading, real, safe, wrapped
+from optlaws.exports.program_text import c_array, c_row, filled, template
+from optlaws.exports.text import C_KEYWORDS, Labels, program_heading, real, safe
 from optlaws.files.writing import MARK
 from optlaws.motion.motion import Motion
 from optlaws.motion.polynomials import PiecewiseMotion
-from optlaws.motion.quantities import QUANTITIES
 
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]{0,30}")
-
-_FUNCTIONS = """\
-/* The piece that holds x: the first before the motion, the last after it. */
-static inline int {name}_piece{f}({kind} x)
-{{
-    int low = 0;
-    int high = {most};
-    while (low < high) {{
-        int middle = (low + high + 1) / 2;
-        if (x >= {name}_breaks{f}[middle]) {{
-            low = middle;
-        }} else {{
-            high = middle - 1;
-        }}
-    }}
-    return low;
-}}
-
-/* Position, velocity, acceleration and jerk at x; outside the motion those of its nearer end. */
-static inline void {name}_motion{f}({kind} x, {kind} motion[4])
-{{
-    const {kind} first = {name}_breaks{f}[0];
-    const {kind} last = {name}_breaks{f}[{last}];
-    const {kind} place = x < first ? first : (x < last ? x : last);
-    const int piece = {name}_piece{f}(place);
-    const {kind} *powers = {name}_coefficients{f}[piece];
-    const {kind} s = place - {name}_breaks{f}[piece];
-    {kind} position = powers[{degree}];
-    {kind} velocity = {zero};
-    {kind} acceleration = {zero};
-    {kind} jerk = {zero};
-    int power;
-    for (power = {degree} - 1; power >= 0; --power) {{
-        jerk = jerk * s + acceleration;
-        acceleration = acceleration * s + velocity;
-        velocity = velocity * s + position;
-        position = position * s + powers[power];
-    }}
-    motion[0] = position;
-    motion[1] = velocity;
-    motion[2] = {two} * acceleration;
-    motion[3] = {six} * jerk;
-}}
-"""
-_ONE = """\
-
-static inline {kind} {name}_{quantity}{f}({kind} x)
-{{
-    {kind} motion[4];
-    {name}_motion{f}(x, motion);
-    return motion[{nu}];
-}}
-"""
 
 
 def header(motion: PiecewiseMotion, name: str = "motion", labels: Labels | None = None) -> str:
@@ -124,39 +72,24 @@ def c_name(name: Any) -> str:
 
 def _in(motion: PiecewiseMotion, name: str, *, single: bool) -> str:
     """The tables and functions in one of the two floating-point types."""
-    run = as_stored(motion, SINGLE if single else DOUBLE)
-    f, suffix = ("_f", "F") if single else ("", "")
-    texts = {
-        "name": name,
-        "f": f,
-        "kind": "float" if single else "double",
-        "last": len(run.breaks) - 1,
-        "most": len(run.breaks) - 2,
-        "degree": run.degree,
-        "zero": f"0.0{suffix}",
-        "two": f"2.0{suffix}",
-        "six": f"6.0{suffix}",
-    }
-    functions = _FUNCTIONS.format(**texts)
-    functions += "".join(_ONE.format(**texts, quantity=quantity, nu=nu) for nu, quantity in enumerate(QUANTITIES))
-    return f"{_tables(run, texts['kind'], name + '_{}' + f, suffix)}\n{functions}"
+    run, source = as_stored(motion, SINGLE if single else DOUBLE), template("motion.h")
+    kind, f, suffix = ("float", "_f", "F") if single else ("double", "", "")
+    if single:
+        source = re.sub(r"\b(?:name_\w+|\d\.\d)", lambda at: at[0] + (f if at[0][0] == "n" else suffix), source)
+        source = source.replace("double", kind)
 
+    def numbers(values: Sequence[float]) -> list[str]:
+        return [real(value, single=single) + suffix for value in values]
 
-def _tables(motion: PiecewiseMotion, kind: object, name: str, suffix: str) -> str:
-    def numbers(values: tuple[float, ...] | list[float]) -> list[str]:
-        return [real(value, single=bool(suffix)) + suffix for value in values]
-
-    lines = [f"static const {kind} {name.format('breaks')}[{len(motion.breaks)}] = {{"]
-    lines += [*wrapped(numbers(motion.breaks), "    "), "};"]
-    lines += [
-        f"static const {kind} {name.format('coefficients')}[{len(motion.coefficients)}][{motion.degree + 1}] = {{"
+    rows, last = run.powers().tolist(), len(run.breaks) - 1
+    tables = [
+        *c_array(f"{kind} {name}_breaks{f}[{last + 1}]", numbers(run.breaks)),
+        f"static const {kind} {name}_coefficients{f}[{last}][{run.degree + 1}] = {{",
+        ",\n".join(c_row(numbers(row)) for row in rows),
+        "};",
     ]
-    for i, row in enumerate(motion.powers().tolist()):
-        body = wrapped(numbers(row), "    ")
-        body[0] = "    {" + body[0].lstrip()
-        body[-1] += "}," if i + 1 < len(motion.coefficients) else "}"
-        lines += body
-    return "\n".join([*lines, "};\n"])
+    words = {"name": name, "LAST": last, "LAST_PIECE": last - 1, "DEGREE": run.degree, "TABLES": tables}
+    return filled(source, words)
 
 
 @file_format(

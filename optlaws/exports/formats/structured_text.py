@@ -14,54 +14,11 @@ from optlaws.exports.formats.program_polynomials import (
     labels_of,
     source_polynomials,
 )
-from optlaws.exports.text import Labels, iec_name, program_heading, real, safe, wrapped
+from optlaws.exports.program_text import filled, st_array, template
+from optlaws.exports.text import Labels, iec_name, program_heading, real, safe
 from optlaws.files.writing import MARK
 from optlaws.motion.motion import Motion
 from optlaws.motion.polynomials import PiecewiseMotion
-
-_BODY = """\
-place := LIMIT(breaks[0], x, breaks[{last}]);
-inside := (place = x);
-WHILE piece > 0 AND place < breaks[piece] DO
-    piece := piece - 1;
-END_WHILE;
-WHILE piece < {most} AND place >= breaks[piece + 1] DO
-    piece := piece + 1;
-END_WHILE;
-s := place - breaks[piece];
-position := coefficients[piece * {width} + {degree}];
-velocity := 0.0;
-acceleration := 0.0;
-jerk := 0.0;
-FOR power := {degree} - 1 TO 0 BY -1 DO
-    jerk := jerk * s + acceleration;
-    acceleration := acceleration * s + velocity;
-    velocity := velocity * s + position;
-    position := position * s + coefficients[piece * {width} + power];
-END_FOR;
-acceleration := 2.0 * acceleration;
-jerk := 6.0 * jerk;
-"""
-_INTERFACE = """\
-VAR_INPUT
-    x : {kind};
-END_VAR
-VAR_OUTPUT
-    position : {kind};
-    velocity : {kind};
-    acceleration : {kind};
-    jerk : {kind};
-    inside : BOOL;
-END_VAR
-"""
-_LOCALS = """\
-VAR
-    piece : DINT := 0;
-    power : DINT;
-    place : {kind};
-    s : {kind};
-END_VAR
-"""
 
 
 def function_block(
@@ -99,27 +56,21 @@ def function_block(
     arithmetic = SINGLE if single else DOUBLE
     run, kind = as_stored(motion, arithmetic), arithmetic.name
     lines = program_heading(motion, labels or Labels(), [arithmetic])
-    comment = "\n".join(f"   {line}".rstrip() for line in safe([*lines, MARK]))
-    numbers = {"last": len(run.breaks) - 1, "most": len(run.breaks) - 2, "degree": run.degree}
-    parts = [
-        f"(* {called}\n{comment}\n*)\nFUNCTION_BLOCK {called}\n",
-        _INTERFACE.format(kind=kind),
-        _tables(run, kind, single=single),
-        _LOCALS.format(kind=kind),
-        _BODY.format(**numbers, width=run.degree + 1),
-        "END_FUNCTION_BLOCK\n",
-    ]
-    return "".join(parts)
-
-
-def _tables(motion: PiecewiseMotion, kind: str, *, single: bool) -> str:
-    flat = motion.powers().ravel().tolist()
-    lines = ["VAR CONSTANT"]
-    for name, values in (("breaks", motion.breaks), ("coefficients", flat)):
-        lines.append(f"    {name} : ARRAY[0..{len(values) - 1}] OF {kind} := [")
-        lines += wrapped([real(value, single=single) for value in values], "        ")
-        lines.append("    ];")
-    return "\n".join([*lines, "END_VAR\n"])
+    words = {
+        "NAME": called,
+        "KIND": kind,
+        "HEADING": safe([*lines, MARK]),
+        "TABLES": [
+            line
+            for array, values in (("breaks", run.breaks), ("coefficients", run.powers().ravel().tolist()))
+            for line in st_array(array, kind, [real(value, single=single) for value in values])
+        ],
+        "LAST": len(run.breaks) - 1,
+        "LAST_PIECE": len(run.breaks) - 2,
+        "DEGREE": run.degree,
+        "WIDTH": run.degree + 1,
+    }
+    return filled(template("motion.st"), words)
 
 
 def _write(motion: Motion, request: Request, *, single: bool) -> Written:

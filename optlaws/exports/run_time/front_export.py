@@ -9,8 +9,7 @@ from typing import Any
 
 from optlaws.errors import InputError
 from optlaws.exports.format import FORMATS, format_of
-from optlaws.exports.run_time.front_c99 import front_header
-from optlaws.exports.run_time.front_st import front_block
+from optlaws.exports.run_time.front_programs import front_block, front_header
 from optlaws.exports.run_time.front_table import FrontTable, front_table
 from optlaws.exports.run_time.planning import RunTimeMove, in_time, least_time, motion_at
 from optlaws.exports.text import rounded_up
