@@ -19,7 +19,7 @@ from optlaws.entries.value_types import Choice, InSI, Measured, ReadBy, SINumber
 from optlaws.errors import InputError
 from optlaws.formulas.slopes import added, derivative, multiplied
 from optlaws.formulas.tree import Exponentiation, Formula, Name, Number, Table, number
-from optlaws.mechanisms.linkages.bodies import NO_LOADS, DrivenLink, Loads, Moving
+from optlaws.mechanisms.linkages.bodies import NO_LOADS, DrivenLink, Loads, reduced_inertia
 from optlaws.mechanisms.linkages.mechanism import LinkGeometry, Mechanism
 from optlaws.mechanisms.linkages.mechanism_kinds import MechanismKind, OptionalEnds
 from optlaws.motion.quantities import quantity
@@ -155,7 +155,7 @@ def cam_mechanism(
     position, velocity = _through_breaks(cam, [first, *inner, last]) if inner else _smooth(cam, first, last)
     follower = DrivenLink("follower", position, velocity, motion.axis)
     return Mechanism(
-        added([number(turning), Moving(weight, velocity).inertia]),
+        added([number(turning), reduced_inertia(weight, velocity)]),
         added(loads.on(follower, "angle")),
         over=(first, last),
         axis="angle",

@@ -162,27 +162,69 @@ class DrivenLink:
 
 
 @dataclass(frozen=True)
-class Moving:
-    """Something that the input moves: its velocity by x, and its mass or inertia."""
+class Link:
+    """A link that turns in the plane of a mechanism: where it lies, and how it moves with the input's position x.
 
-    weight: float
+    Attributes
+    ----------
+    way
+        From its first joint to its second, which is `length` long.
+    turning
+        Its angular velocity by x.
+    carrier
+        The link on whose second joint its first one is; without one it turns about a pivot.
+    axis
+        The direction of the coordinates, rad from the first one of the mechanism's.
+    """
+
+    way: tuple[Any, Any]
+    turning: Any
+    length: float
+    carrier: Link | None = None
+    axis: float = 0.0
+
+    def moved(self, body: Body, gravity: tuple[float, float]) -> tuple[list[Formula], list[Formula]]:
+        """The terms of inertia and load at the input by a body on the link."""
+        (u, w), (p, q) = self.way, (place / self.length for place in body.centre)
+        dx, dy = p * u - q * w, p * w + q * u
+        inertia, velocity = [reduced_inertia(body.about_joint, self.turning)], (-self.turning * dy, self.turning * dx)
+        if self.carrier is not None:
+            (x, y), carried = self.carrier.way, self.carrier.turning
+            velocity = -carried * y + velocity[0], carried * x + velocity[1]
+            both = self.carrier.length**2 * carried + 2.0 * self.turning * (x * dx + y * dy)
+            inertia = [multiplied([number(body.mass), formula_from(carried * both)]), *inertia]
+        c, s = cos(self.axis), sin(self.axis)
+        weights = body.mass * (gravity[0] * c + gravity[1] * s), body.mass * (gravity[1] * c - gravity[0] * s)
+        load = [multiplied([number(-f), formula_from(v)]) for f, v in zip(weights, velocity, strict=True)]
+        return inertia, load
+
+
+@dataclass(frozen=True)
+class Slide:
+    """A link that slides in a direction, rad, with a velocity by the input's position x."""
+
     velocity: Any
+    axis: float = 0.0
 
-    @property
-    def inertia(self) -> Formula:
-        """Its part of the inertia at the input."""
-        velocity = formula_from(self.velocity)
-        constant = number(self.weight)
-        if velocity == Number(1.0):
-            return constant
-        return multiplied([constant, Exponentiation(velocity, Number(2.0))])
+    def moved(self, body: Body, gravity: tuple[float, float]) -> tuple[list[Formula], list[Formula]]:
+        """The terms of inertia and load at the input by a body on the link."""
+        along = gravity[0] * cos(self.axis) + gravity[1] * sin(self.axis)
+        return [reduced_inertia(body.mass, self.velocity)], [
+            multiplied([number(-body.mass * along), formula_from(self.velocity)])
+        ]
+
+
+def reduced_inertia(weight: float, velocity: Any) -> Formula:
+    """What a mass or a moment of inertia adds to the inertia at the input, by its velocity by x."""
+    speed = formula_from(velocity)
+    if isinstance(speed, Number):
+        return number(weight * speed.value**2)
+    return multiplied([number(weight), Exponentiation(speed, Number(2.0))])
 
 
 def formula_from(value: Any) -> Formula:
     """The formula of what was computed with traced numbers."""
-    if isinstance(value, Traced):
-        return value.formula
-    return value if isinstance(value, Formula) else number(float(value))
+    return value.formula if isinstance(value, Traced) else value if isinstance(value, Formula) else number(float(value))
 
 
 @dataclass(frozen=True)
@@ -234,12 +276,3 @@ def bodies_of(pivoted: Sequence[str], coupled: Sequence[str], sliding: Sequence[
         for name, each in types.items()
     }
     return TableOf("body", links, keep=lambda given: {name: given.get(name, Body()) for name in links})
-
-
-def weight_load(mass: float, gravity: tuple[float, float], velocity: tuple[Any, Any]) -> list[Formula]:
-    """The terms of the load at the input by the weight of a mass whose velocity by x is given."""
-    return [
-        multiplied([number(-mass * part), formula_from(speed)])
-        for part, speed in zip(gravity, velocity, strict=True)
-        if mass * part != 0.0
-    ]

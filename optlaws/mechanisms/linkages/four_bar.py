@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import KW_ONLY, dataclass
+from collections.abc import Sequence
+from dataclasses import KW_ONLY
 from math import ceil, cos, pi, sin
-from typing import Any, Literal
+from typing import Any, Literal, get_args
 
 import numpy as np
 
@@ -13,15 +13,15 @@ from optlaws.entries.declared import declared, entry
 from optlaws.entries.value_types import Choice, SINumber
 from optlaws.formulas.arithmetic import NUMPY, evaluate
 from optlaws.formulas.tracing import Traced
-from optlaws.formulas.tree import Formula, Name, Number, number
-from optlaws.kept import kept_property
+from optlaws.formulas.tree import Formula, Name
 from optlaws.mechanisms.linkages.assembly import check_four_bar
-from optlaws.mechanisms.linkages.bodies import Body, DrivenLink, Moving, bodies_of, weight_load
-from optlaws.mechanisms.linkages.mechanism import LinkGeometry, Mechanism
+from optlaws.mechanisms.linkages.bodies import DrivenLink, Link, bodies_of
+from optlaws.mechanisms.linkages.mechanism import Mechanism
 from optlaws.mechanisms.linkages.mechanism_kinds import LENGTH, BodiesByLink, LinkageKind, function_of
+from optlaws.numbers import Array
 
 FourBarBranch = Literal["open", "crossed"]
-SIDES: dict[FourBarBranch, float] = {"open": 1.0, "crossed": -1.0}
+BRANCH = Choice(*get_args(FourBarBranch))
 #: rad from the middle of its swing: beyond it the angle of a rocker from a direction has no formula without a jump
 _MOST_SWING = 0.9 * pi
 #: of a turn of the crank
@@ -30,170 +30,84 @@ _LOOKS = 2881
 _TURNING = (0.0, 1.0, -1.0)
 
 
-@dataclass(frozen=True)
-class FourBarKinematics:
-    """The kinematics of a four-bar over the crank's angle x from the frame, in closed form; lengths in m.
+class FourBarLinks:
+    """Crank, coupler and rocker of a four-bar over the crank's angle x from the frame, in closed form; lengths in m.
 
     With the distance of the crank's pin from the rocker's pivot, R = a² + d² - 2 a d cos x its square, and
     P = (R + b² - c²)/2, H² = b² R - P², the pins and angular velocities are quotients of polynomials in cos x and sin x
     and of H alone: the angle of the rocker has the slope (a - d cos x + d sin x P/H) a/R.
 
-    Attributes
-    ----------
-    crank, coupler, rocker, frame
-        a, b, c and d.
-    side
-        1 where the pin of coupler and rocker is to the left of the way from crank's pin to rocker's pivot, else -1.
+    Raises
+    ------
+    InputError
+        If it cannot be assembled everywhere in a range of x.
     """
 
-    crank: float
-    coupler: float
-    rocker: float
-    frame: float
-    side: float
-
-    @kept_property
-    def waves(self) -> tuple[Traced, Traced]:
-        """Sine and cosine of the crank's angle."""
+    def __init__(self, lengths: Sequence[float], branch: FourBarBranch, ends: tuple[float, float]) -> None:
+        a, b, c, d = lengths
+        check_four_bar(a, b, c, d, ends)
+        self.frame, self.ends = d, ends
         x = Traced(Name("x"))
-        return np.sin(x), np.cos(x)
+        self.sine, self.cosine = np.sin(x), np.cos(x)
+        self.base = d - a * self.cosine, -a * self.sine
+        self.square = a**2 + d**2 - 2.0 * a * d * self.cosine
+        share = (a**2 + d**2 + b**2 - c**2) / 2.0 - a * d * self.cosine
+        root: Traced = np.sqrt(b**2 * self.square - share**2)
+        # twice the area of the triangle of base, coupler and rocker; below 0 where they are crossed
+        self.height = root if branch == "open" else -root
+        self.of_rocker = share - self.square
 
-    @kept_property
-    def base(self) -> tuple[Traced, Traced]:
-        """The way from the crank's pin to the rocker's pivot."""
-        sine, cosine = self.waves
-        return self.frame - self.crank * cosine, -self.crank * sine
+        def turning(part: Traced) -> Traced:
+            slope: Traced = a * (a - d * self.cosine + (d * self.sine) * part / self.height) / self.square
+            return slope
 
-    @kept_property
-    def square(self) -> Traced:
-        """R, the square of its length."""
-        return self.crank**2 + self.frame**2 - 2.0 * self.crank * self.frame * self.waves[1]
+        pin = a * self.cosine, a * self.sine
+        self.crank = Link(pin, 1.0, a)
+        self.coupler = Link(self._by_base(share, self.base), turning(self.of_rocker), b, self.crank)
+        self.rocker = Link(self._by_base(self.of_rocker, self.base), turning(share), c)
+        joint, pivot = (d + self.rocker.way[0], self.rocker.way[1]), (d, 0.0)
+        self.chains = [[(0.0, 0.0)], [pivot], [(0.0, 0.0), pin, joint, pivot]]
 
-    @kept_property
-    def share(self) -> Traced:
-        """P, the product of that way and the coupler as vectors."""
-        constant = (self.crank**2 + self.frame**2 + self.coupler**2 - self.rocker**2) / 2.0
-        return constant - self.crank * self.frame * self.waves[1]
-
-    @kept_property
-    def height(self) -> Traced:
-        """H, twice the area of the triangle of that way, coupler and rocker; below 0 where they are crossed."""
-        root: Traced = np.sqrt(self.coupler**2 * self.square - self.share**2)
-        return root if self.side > 0.0 else -root
-
-    @kept_property
-    def rocker_velocity(self) -> Traced:
-        """The rocker's angular velocity by x."""
-        sine, cosine = self.waves
-        turning = self.crank - self.frame * cosine + (self.frame * sine) * self.share / self.height
-        return self.crank * turning / self.square
-
-    @kept_property
-    def coupler_velocity(self) -> Traced:
-        """The coupler's angular velocity by x."""
-        sine, cosine = self.waves
-        missing = self.share - self.square
-        turning = self.crank - self.frame * cosine + (self.frame * sine) * missing / self.height
-        return self.crank * turning / self.square
-
-    @kept_property
-    def coupler_direction(self) -> tuple[Traced, Traced]:
-        """The way from the crank's pin to the rocker's."""
-        return self._combined(self.share, self.base)
-
-    @kept_property
-    def rocker_direction(self) -> tuple[Traced, Traced]:
-        """The way from the rocker's pivot to its pin."""
-        return self._combined(self.share - self.square, self.base)
+    def _by_base(self, share: Traced, base: tuple[Traced, Traced]) -> tuple[Traced, Traced]:
+        """What is a share of the base along it, and the height across it, each over the square of its length."""
+        dx, dy = base
+        return (share * dx - self.height * dy) / self.square, (share * dy + self.height * dx) / self.square
 
     def rocker_along(self, direction: float, turning: float = 0.0) -> tuple[Traced, Traced]:
         """The rocker's joint in coordinates along a direction, rad from the frame, and across it.
 
         The direction may turn with the crank (`turning` 1) or against it (-1).
         """
-        (dx, dy), (sine, cosine) = self.base, self.waves
+        dx, dy = self.base
         c: Any = cos(direction)
         s: Any = sin(direction)
         if turning:
-            c, s = c * cosine - turning * s * sine, s * cosine + turning * c * sine
-        return self._combined(self.share - self.square, (c * dx + s * dy, c * dy - s * dx))
+            c, s = c * self.cosine - turning * s * self.sine, s * self.cosine + turning * c * self.sine
+        return self._by_base(self.of_rocker, (c * dx + s * dy, c * dy - s * dx))
 
-    def _combined(self, share: Traced, base: tuple[Traced, Traced]) -> tuple[Traced, Traced]:
-        dx, dy = base
-        return (share * dx - self.height * dy) / self.square, (share * dy + self.height * dx) / self.square
+    def places(self, *parts: Traced) -> tuple[Array, ...]:
+        """Angles of the crank over its range, and values of parts of the linkage there."""
+        low, high = self.ends
+        x = np.linspace(low, high, ceil(_LOOKS * max(1.0, (high - low) / (2.0 * pi))))
+        return x, *(evaluate(part.formula, {"x": x}, NUMPY) + 0.0 * x for part in parts)
 
-    def rocker_position(self, ends: tuple[float, float]) -> Formula | None:
-        """The rocker's angle from the frame, without a jump over a range of x; None where it turns too far.
+    @property
+    def rocker_position(self) -> Formula | None:
+        """The rocker's angle from the frame, without a jump over the range of x; None where it turns too far.
 
         One that turns round with the crank is measured from a direction that does.
         """
-        x = np.linspace(*ends, ceil(_LOOKS * max(1.0, (ends[1] - ends[0]) / (2.0 * pi))))
-        ex, ey = (self.values(part, x) for part in self.rocker_direction)
+        x, ex, ey = self.places(*self.rocker.way)
         angles = np.unwrap(np.arctan2(ey, ex))
         for turning in _TURNING:
             swing = angles - turning * x
             if swing.max() - swing.min() <= 2.0 * _MOST_SWING:
                 reference = float(0.5 * (swing.min() + swing.max()))
                 along, across = self.rocker_along(reference, turning)
-                turned: Traced = np.arctan(across / (along + self.rocker))
+                turned: Traced = np.arctan(across / (along + self.rocker.length))
                 from_frame = reference + 2.0 * turned
                 return (from_frame + turning * Traced(Name("x")) if turning else from_frame).formula
         return None
-
-    @staticmethod
-    def values(part: Traced, x: Any) -> Any:
-        """Values of a part of the four-bar at angles of the crank."""
-        return evaluate(part.formula, {"x": x}, NUMPY) + 0.0 * x
-
-    def coupler_moving(self, body: Body, gravity: tuple[float, float]) -> tuple[list[Formula], list[Formula]]:
-        """Contribution of a body on the coupler to the inertia and the load at the crank."""
-        if body == Body():
-            return [], []
-        (sine, cosine), turning, (p, q) = self.waves, self.coupler_velocity, body.centre
-        a, b, d = self.crank, self.coupler, self.frame
-        # the crank's direction times the way from its pin to the centre of mass
-        beside, ahead = d * cosine - a, d * sine
-        share = (p / b) * (self.share * beside + self.height * ahead)
-        if q:
-            share = share + (q / b) * (self.share * ahead - self.height * beside)
-        square = a**2 + 2.0 * a * turning * share / self.square
-        inertia = [(body.mass * square).formula] if body.mass else []
-        inertia.append(Moving(body.about_joint, turning).inertia)
-        if not body.mass or not any(gravity):
-            return inertia, []
-        bx, by = self.coupler_direction
-        dx, dy = (p / b) * bx - (q / b) * by, (p / b) * by + (q / b) * bx
-        velocity = -a * sine - turning * dy, a * cosine + turning * dx
-        return inertia, weight_load(body.mass, gravity, velocity)
-
-    def crank_weight(self, body: Body, gravity: tuple[float, float]) -> list[Formula]:
-        """The load at the crank by the weight of a body on it."""
-        (sine, cosine), (p, q) = self.waves, body.centre
-        return weight_load(body.mass, gravity, (-p * sine - q * cosine, p * cosine - q * sine))
-
-    def rocker_weight(self, body: Body, gravity: tuple[float, float]) -> list[Formula]:
-        """The load at the crank by the weight of a body on the rocker."""
-        if not body.mass or not any(gravity) or not any(body.centre):
-            return []
-        (ex, ey), turning = self.rocker_direction, self.rocker_velocity
-        p, q = (value / self.rocker for value in body.centre)
-        return weight_load(body.mass, gravity, (-turning * (p * ey + q * ex), turning * (p * ex - q * ey)))
-
-    @property
-    def chains(self) -> tuple[tuple[tuple[Formula, Formula], ...], ...]:
-        """Pivots and links as a picture draws them."""
-        zero, pivot = Number(0.0), (number(self.frame), Number(0.0))
-        sine, cosine = self.waves
-        ex, ey = self.rocker_direction
-        pin = (self.crank * cosine).formula, (self.crank * sine).formula
-        joint = (self.frame + ex).formula, ey.formula
-        return ((zero, zero),), (pivot,), ((zero, zero), pin, joint, pivot)
-
-
-def four_bar_of(lengths: Mapping[str, float], branch: FourBarBranch, ends: tuple[float, float]) -> FourBarKinematics:
-    """The kinematics of a four-bar that can be assembled over a range of its crank."""
-    check_four_bar(**lengths, ends=ends)
-    return FourBarKinematics(**lengths, side=SIDES[branch])
 
 
 @declared
@@ -227,7 +141,7 @@ class FourBar(LinkageKind, kind="four bar"):
         example={"rocker": "0.05 kg m^2"},
     )
     branch: FourBarBranch = entry(
-        Choice(*SIDES),
+        BRANCH,
         "Open where the rocker's pin is to the left of the way from the crank's pin to the rocker's pivot, crossed "
         "where it is to the right.",
         default="open",
@@ -235,25 +149,13 @@ class FourBar(LinkageKind, kind="four bar"):
 
     @property
     def mechanism(self) -> Mechanism:
-        lengths = {"crank": self.crank, "coupler": self.coupler, "rocker": self.rocker, "frame": self.frame}
-        linkage = four_bar_of(lengths, self.branch, self.ends)
-        inertia, load = moved_by_crank(linkage, self.bodies, self.loads.weight)
-        position = linkage.rocker_position(self.ends)
-        load += self.loads.on(DrivenLink("rocker", position, linkage.rocker_velocity.formula, "angle"), "angle")
-        driven = () if position is None else (("rocker", position),)
-        return self._mechanism(inertia, load, self.ends, LinkGeometry(driven, linkage.chains))
+        linkage = FourBarLinks((self.crank, self.coupler, self.rocker, self.frame), self.branch, self.ends)
+        return self._linkage(
+            {"crank": linkage.crank, "coupler": linkage.coupler, "rocker": linkage.rocker},
+            self.bodies,
+            DrivenLink("rocker", linkage.rocker_position, linkage.rocker.turning.formula, "angle"),
+            linkage.chains,
+        )
 
 
 four_bar = function_of(FourBar)
-
-
-def moved_by_crank(
-    linkage: FourBarKinematics, bodies: Mapping[str, Body], gravity: tuple[float, float]
-) -> tuple[list[Formula], list[Formula]]:
-    """Inertia and load at the crank by the bodies on crank, coupler and rocker."""
-    inertia, load = linkage.coupler_moving(bodies["coupler"], gravity)
-    parts = [number(bodies["crank"].about_joint), *inertia]
-    if bodies["rocker"] != Body():
-        parts.append(Moving(bodies["rocker"].about_joint, linkage.rocker_velocity).inertia)
-    weights = linkage.crank_weight(bodies["crank"], gravity) + linkage.rocker_weight(bodies["rocker"], gravity)
-    return parts, [*load, *weights]

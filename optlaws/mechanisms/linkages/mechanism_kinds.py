@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import KW_ONLY
 from functools import cache, wraps
 from importlib import import_module
@@ -16,7 +16,7 @@ from optlaws.entries.declared import Kinded, ValueOf, declared, entry
 from optlaws.entries.value_types import InSI, Kept, ReadBy, SINumber, Span
 from optlaws.formulas.slopes import added
 from optlaws.formulas.tree import Formula
-from optlaws.mechanisms.linkages.bodies import NO_LOADS, Body, Loads
+from optlaws.mechanisms.linkages.bodies import NO_LOADS, Body, DrivenLink, Link, Loads, Slide, formula_from
 from optlaws.mechanisms.linkages.mechanism import LinkGeometry, Mechanism, MechanismEntries
 from optlaws.numbers import NumberOrQuantity
 
@@ -101,6 +101,21 @@ class LinkageKind(MechanismKind):
     def ends(self) -> tuple[float, float]:
         """The ends of the range of x, rad."""
         return self.over
+
+    def _linkage(
+        self,
+        links: Mapping[str, Link | Slide],
+        bodies: Mapping[str, Body],
+        driven: DrivenLink,
+        chains: Sequence[Sequence[tuple[Any, Any]]],
+    ) -> Mechanism:
+        """The mechanism of links with bodies, one of which does the work, and of points that a picture joins."""
+        moved = [link.moved(bodies[name], self.loads.weight) for name, link in links.items()]
+        inertia, load = ([term for terms in side for term in terms] for side in zip(*moved, strict=True))
+        positions = () if driven.position is None else ((driven.name, driven.position),)
+        points = tuple(tuple((formula_from(x), formula_from(y)) for x, y in chain) for chain in chains)
+        acting = self.loads.on(driven, "angle")
+        return self._mechanism(inertia, [*load, *acting], self.ends, LinkGeometry(positions, points))
 
 
 @declared

@@ -14,7 +14,7 @@ from optlaws.files.reading import check_names
 from optlaws.formulas.slopes import added, derivative, multiplied
 from optlaws.formulas.tracing import traced
 from optlaws.formulas.tree import Formula, Name, number
-from optlaws.mechanisms.linkages.bodies import NO_LOADS, DrivenLink, Loads, Moving
+from optlaws.mechanisms.linkages.bodies import NO_LOADS, DrivenLink, Loads, reduced_inertia
 from optlaws.mechanisms.linkages.mechanism import LinkGeometry, Mechanism
 from optlaws.mechanisms.linkages.mechanism_kinds import LENGTH, MechanismKind, OptionalEnds, function_of
 from optlaws.motion.quantities import TURN, either
@@ -74,7 +74,7 @@ def mechanism_of_motion(
             raise InputError(f"masses: what moves as {key!r} needs a mass, such as '5 kg', or '0 kg' if it has none")
         kind, weight = _weight(masses[key], key)
         link = DrivenLink(key, position, derivative(position, "x"), kind)
-        inertia.append(Moving(weight, link.velocity).inertia)
+        inertia.append(reduced_inertia(weight, link.velocity))
         load += acting.get(key, NO_LOADS).on(link, axis)
         if acting.get(key, NO_LOADS).gravity is not None:
             raise InputError(

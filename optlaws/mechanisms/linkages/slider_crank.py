@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import KW_ONLY
 from math import degrees
-from typing import Any
 
 import numpy as np
 
@@ -12,9 +11,9 @@ from optlaws.entries.declared import declared, entry
 from optlaws.entries.value_types import InSI, SINumber
 from optlaws.errors import InputError
 from optlaws.formulas.tracing import Traced
-from optlaws.formulas.tree import Formula, Name, Number
-from optlaws.mechanisms.linkages.bodies import Body, DrivenLink, Moving, bodies_of, formula_from, weight_load
-from optlaws.mechanisms.linkages.mechanism import LinkGeometry, Mechanism
+from optlaws.formulas.tree import Name
+from optlaws.mechanisms.linkages.bodies import DrivenLink, Link, Slide, bodies_of
+from optlaws.mechanisms.linkages.mechanism import Mechanism
 from optlaws.mechanisms.linkages.mechanism_kinds import LENGTH, BodiesByLink, LinkageKind, function_of
 
 
@@ -51,46 +50,25 @@ class SliderCrank(LinkageKind, kind="slider crank"):
 
     @property
     def mechanism(self) -> Mechanism:
-        r, rod_length, e, known, g = self.crank, self.rod, self.offset, self.bodies, self.loads.weight
-        _check(r, rod_length, e, self.ends)
+        r, e = self.crank, self.offset
+        _check(r, self.rod, e, self.ends)
         x = Traced(Name("x"))
         sine, cosine = np.sin(x), np.cos(x)
-        across = r * sine - e if e else r * sine
-        along = np.sqrt(rod_length**2 - across**2)
-        position = r * cosine + along
-        velocity = -r * sine - (r * across * cosine) / along
-        crank_body, rod_body, slid = known["crank"], known["rod"], known["slider"].mass
-        moving, weights = [Moving(slid, velocity)], weight_load(slid, g, (velocity, 0.0))
-        (p, q) = crank_body.centre
-        weights += weight_load(crank_body.mass, g, (-p * sine - q * cosine, p * cosine - q * sine))
-        if rod_body != Body():
-            parts, more = _rod(rod_body, g, rod_length, (r, sine, cosine), (across, along))
-            moving, weights = moving + parts, weights + more
-        moving = [Moving(crank_body.about_joint, 1.0), *(part for part in moving if part.weight)]
-        slider = DrivenLink("slider", position.formula, velocity.formula, "length")
-        zero = Number(0.0)
-        pin, joint = ((r * cosine).formula, (r * sine).formula), (position.formula, formula_from(e))
-        chains = (((zero, zero),), ((zero, zero), pin, joint), (joint,))
-        load = [*weights, *self.loads.on(slider, "angle")]
-        return self._mechanism(
-            [part.inertia for part in moving], load, self.ends, LinkGeometry((("slider", position.formula),), chains)
+        across = r * sine - e
+        along = np.sqrt(self.rod**2 - across**2)
+        position, velocity = r * cosine + along, -r * sine - (r * across * cosine) / along
+        pin, slider = (r * cosine, r * sine), (position, e)
+        crank = Link(pin, 1.0, r)
+        rod = Link((along, -across), -pin[0] / along, self.rod, crank)
+        return self._linkage(
+            {"crank": crank, "slider": Slide(velocity), "rod": rod},
+            self.bodies,
+            DrivenLink("slider", position.formula, velocity.formula, "length"),
+            [[(0.0, 0.0)], [(0.0, 0.0), pin, slider], [slider]],
         )
 
 
 slider_crank = function_of(SliderCrank)
-
-
-def _rod(
-    body: Body, gravity: tuple[float, float], rod: float, crank: tuple[float, Any, Any], triangle: tuple[Any, Any]
-) -> tuple[list[Moving], list[Formula]]:
-    """The rod's centre of mass and its turning; the rod goes from the crank's pin to the slide."""
-    (r, sine, cosine), (across, along), (p, q) = crank, triangle, body.centre
-    turning = -r * cosine / along
-    # the rod's direction is (along, -across)/rod
-    dx, dy = (p * along + q * across) / rod, (q * along - p * across) / rod
-    velocity = -r * sine - turning * dy, r * cosine + turning * dx
-    moving = [Moving(body.inertia, turning), *(Moving(body.mass, part) for part in velocity)]
-    return moving, weight_load(body.mass, gravity, velocity)
 
 
 def _check(crank: float, rod: float, offset: float, ends: tuple[float, float]) -> None:

@@ -246,3 +246,37 @@ def test_a_rocker_that_turns_round_is_followed(branch: Literal["open", "crossed"
     dragged = four_bar(0.3, 0.35, 0.32, 0.1, bodies={}, over=over, branch=branch, loads=Loads("2 N m"))
     assert np.trapezoid(dragged.load(x), x) == pytest.approx(-2.0 * (angle[-1] - angle[0]), rel=1e-5)
     assert turned.load(x) == pytest.approx(-angle * slope, abs=1e-9)
+
+
+KNEE = {"crank": "60 mm", "rod": "250 mm", "upper": "200 mm", "lower": "220 mm", "frame": "280 mm"}
+MAKE: dict[str, Callable[..., Mechanism]] = {
+    "slider crank": lambda **given: slider_crank("0.1 m", "0.4 m", offset="30 mm", **given),
+    "four bar": lambda **given: four_bar(*LENGTHS.values(), branch="crossed", **given),
+    "toggle": lambda **given: toggle(KNEE, direction="80 deg", **given),
+}
+
+
+@pytest.mark.parametrize(
+    ("kind", "link", "at", "other", "beside"),
+    [
+        ("slider crank", "rod", 0.0, "crank", 0.1),
+        ("slider crank", "rod", 0.4, "slider", 0.0),
+        ("four bar", "coupler", 0.0, "crank", 0.1),
+        ("four bar", "coupler", 0.3, "rocker", 0.25),
+        ("toggle", "lower", 0.0, "rod", 0.25),
+        ("toggle", "lower", 0.22, "ram", 0.0),
+    ],
+)
+def test_a_mass_at_a_joint_moves_alike_on_either_link(
+    kind: str, link: str, at: float, other: str, beside: float
+) -> None:
+    x = np.linspace(0.05, 6.2, 41)
+    loads = Loads(gravity="-70 deg")
+    here, there = (
+        MAKE[kind](bodies={name: Body(2.0, centre=(place, 0.0))}, loads=loads)
+        for name, place in ((link, at), (other, beside))
+    )
+    for nu in (0, 1):
+        assert here.inertia(x, nu) == pytest.approx(there.inertia(x, nu), abs=1e-13)
+    assert here.load(x) == pytest.approx(there.load(x), abs=1e-11)
+    assert np.ptp(here.load(x)) > 0.1
