@@ -81,12 +81,12 @@ class AxisPlan:
     first: int
     count: int
 
-    @property
+    @kept_property
     def stroke(self) -> float:
         """Between the least and the greatest position at joints."""
         return max(self.positions) - min(self.positions)
 
-    @property
+    @kept_property
     def positions(self) -> list[float]:
         """Positions at the joints, both ends included."""
         return [*(segment.start for segment in self.segments), self.segments[-1].stop]
