@@ -234,9 +234,17 @@ class Results:
         self.title = spec.title
         return spec
 
-    def table(self, name: str, headings: Sequence[str], rows: Sequence[Sequence[Cell]], note: str = "") -> None:
+    def table(
+        self,
+        name: str,
+        headings: Sequence[str],
+        rows: Sequence[Sequence[Cell]],
+        note: str = "",
+        of: str = "a result",
+    ) -> None:
         """A table `name`.csv; its first line describes its contents, with the note."""
-        self.text(f"{name}.csv", tables.to_csv(headings, rows, about=f"{self.about}; {note}" if note else self.about))
+        about = f"{self.about}; {note}" if note else self.about
+        self.text(f"{name}.csv", tables.to_csv(headings, rows, about=about), of)
 
     def page(self, name: str, title: str | None = None) -> Page:
         """A page `name`.md, to be filled, under the title of the problem file or another."""
@@ -247,6 +255,15 @@ class Results:
     def data(self, name: str, content: Mapping[str, Any]) -> None:
         """Data as JSON, after an entry that describes them."""
         self.text(name, json.dumps({"about": f"{self.about}; {MARK}", **content}, indent=1) + "\n")
+
+    def records(self, name: str, entry: str, records: Mapping[str, Any] | Sequence[Any]) -> None:
+        """Data as JSON with a single entry of many records, each on a line of its own."""
+        if isinstance(records, Mapping):
+            ends, lines = "{}", [f"{json.dumps(key)}: {json.dumps(record)}" for key, record in records.items()]
+        else:
+            ends, lines = "[]", list(map(json.dumps, records))
+        head = json.dumps({"about": f"{self.about}; {MARK}"})[:-1]
+        self.text(name, f"{head}, {json.dumps(entry)}: {ends[0]}\n" + ",\n".join(lines) + f"\n{ends[1]}}}\n")
 
     def text(self, name: str, content: str | Page, of: str = "a result") -> None:
         """A file of another format; its text must hold the mark "made by optlaws" at the end of a line or an entry."""

@@ -20,6 +20,7 @@ from optlaws import Drive, Mechanism, MotionLaw, Solution
 from optlaws.cams.curves import cam_files
 from optlaws.cams.curves.cam_files import Cutting
 from optlaws.cycles.cycle import Cycle
+from optlaws.cycles.report import CycleReport
 from optlaws.entries.declared import Declared
 from optlaws.errors import InputError
 from optlaws.explorer.views import axes_view, cam_view, cycle_view, fastest_view, old_cam_view
@@ -27,9 +28,8 @@ from optlaws.explorer.views.law_view import digits, title
 from optlaws.explorer.views.requests import LawRequest, LawsRequest, Question, law_of, problem_of, read, solved
 from optlaws.exports.format import FORMATS
 from optlaws.files.reading import check_names
-from optlaws.files.tables import to_toml
+from optlaws.files.tables import to_csv, to_toml
 from optlaws.files.writing import MARK
-from optlaws.jobs.cycle import table_of_motion
 from optlaws.jobs.cycle_entries import cycle_of
 from optlaws.laws.values import table_of_values
 
@@ -190,7 +190,7 @@ def _law_table(request: LawsRequest) -> File:
 def _cycle_table(request: cycle_view.CycleRequest) -> File:
     spec, axis = cycle_view.read(request)
     about = " ".join(f"{spec.title}: {axis.name}; {_UNITS}".split())
-    return f"{_stem(axis.name)}.csv", table_of_motion(cycle_view.cycle(request), _ROWS, about)
+    return f"{_stem(axis.name)}.csv", to_csv(*CycleReport(cycle_view.cycle(request)).motion(_ROWS), about=about)
 
 
 def _proofs(*cycles: Cycle) -> File:
@@ -242,8 +242,8 @@ def _old_name(request: old_cam_view.OldCamRequest) -> str:
 
 
 def _old_table(request: old_cam_view.OldCamRequest) -> File:
-    name = _old_name(request)
-    return f"{name}_motion.csv", table_of_motion(old_cam_view.cycle(request), _ROWS, f"{name}; {_UNITS}")
+    name, report = _old_name(request), CycleReport(old_cam_view.cycle(request))
+    return f"{name}_motion.csv", to_csv(*report.motion(_ROWS), about=f"{name}; {_UNITS}")
 
 
 _CYCLE: dict[str, Callable[[Any], File]] = {

@@ -21,7 +21,7 @@ from optlaws.entries.declared import Declared, ValueOf, declared, entries_of, en
 from optlaws.entries.value_types import Choice, Listed, Measured, Number, Switch, Text, Whole
 from optlaws.errors import InputError
 from optlaws.files import writing
-from optlaws.jobs.cycle_entries import AxisEntries, follower_cycle
+from optlaws.jobs.cycle_entries import AxisEntries, cycle_of
 from optlaws.jobs.job_entries import ProblemFile
 from optlaws.kept import kept_property
 from optlaws.numbers import Quantity
@@ -115,7 +115,15 @@ class CamOfMotion(ProblemFile, title="a cam"):
     @kept_property
     def cycle(self) -> Cycle:
         """The motion of the follower."""
-        return follower_cycle(self.motion, self.speed, self.period)
+        return cycle_of(self.motion, self.speed, self.period)
+
+    def _check(self) -> None:
+        super()._check()
+        if self.motion.mechanism is not None:
+            raise InputError(
+                "motion: a cam's follower has no mechanism: an axis of a cycle has one, and the kind 'cam' of it is "
+                "what this cam's shaft feels"
+            )
 
 
 @declared

@@ -2,39 +2,42 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import replace
+from math import inf
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 from optlaws.cycles.cycle import Cycle
-from optlaws.cycles.report import CycleReport
-from optlaws.errors import InputError, located
+from optlaws.cycles.report import CycleReport, motion_table
+from optlaws.cycles.summary import force_name, force_unit, objective_unit
+from optlaws.errors import InfeasibleProblem, InputError, located
 from optlaws.exports.format import FORMATS, format_of
 from optlaws.exports.text import variable_names
-from optlaws.files import tables, writing
-from optlaws.jobs.cycle_entries import CycleProblemFile, ExportEntries, overlap_of, read_given, sweeps_of
-from optlaws.jobs.cycle_pages import (
-    AxisTransition,
-    add_interlocks,
-    add_transitions,
-    at_greatest_speed,
-    fastest_facts,
-    fastest_of,
-    interlock_facts,
-    plain_name,
-    slowest,
-    sweep_table,
-    transition_facts,
-    transitions_of,
+from optlaws.files import writing
+from optlaws.files.tables import Cell
+from optlaws.jobs.cycle_entries import (
+    AxisEntries,
+    CycleProblemFile,
+    ExportEntries,
+    SweepEntries,
+    SweptCycle,
+    read_given,
+    sweeps_of,
 )
+from optlaws.jobs.job_entries import plain_name
 from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.mechanisms.linkages.mechanism import Mechanism
+from optlaws.motion.display_units import RPM
+from optlaws.motion.quantities import QUANTITIES
 from optlaws.plots.style import figure_of, plot_style
 from optlaws.plots.sweep import sweep_figure
 from optlaws.results import Page, Results
+from optlaws.shown.report import ReportTable
 
 if TYPE_CHECKING:
     from optlaws.cycles.fastest_cycle import FastestCycle
+    from optlaws.cycles.machine_axes import Axes, Overlap
     from optlaws.cycles.moves.transition_cam import TransitionCam
     from optlaws.exports.export import Export
 
@@ -43,91 +46,151 @@ Exports: TypeAlias = "dict[str, dict[str, Export]]"
 
 #: what the picture of all axes is called
 TOGETHER = "axes"
+TRANSITIONS = "transitions.json"
 _PEAKS = ("peak velocity", "peak acceleration", "peak jerk")
 _EXPORT_HEADINGS = ("file", "format", "points", *_PEAKS, "greatest deviation, unit")
+_RUN = "What controllers will run: peaks of the exported files as interpolated, over the law's."
+_ABOUT = "Table and picture begin where the cam does: at {:.9g} deg of the cycle's master, until {:.9g} deg."
+_CLEARANCE_HEADINGS = ("interlock", "status", "least clearance", "proven", "unit", "at, deg", "early by, ms")
+_INTERLOCKS = "What is clear is proven over the whole cycle: nowhere is the clearance below the proven one."
 
 
-def _exports_of(
-    spec: CycleProblemFile, cycles: Mapping[str, Cycle], transitions: Sequence[AxisTransition], results: Results
-) -> Exports:
-    """The exports of the axes' cycles, run-ins and run-outs, which are put into results."""
-    exports: Exports = {axis.name: {} for axis in spec.axis}
-    names = variable_names(exports)
-    for axis in spec.axis:
-        for entry in axis.export:
-            of = f"axis {axis.name}: export to {entry.to}"
-            with located(f"{results.file}: {of}"):
-                name, variable = _file_name(axis.name, entry), names[axis.name]
-                ending = name.removeprefix(f"{plain_name(axis.name)}_")
-                moved = {name: _export(cycles[axis.name], entry, variable)} | {
-                    f"{cam.name}_{ending}": _export(cam.cam, entry, f"{variable}_{cam.name.rpartition('run_')[2]}")
-                    for cam in transitions
-                    if cam.axis == axis.name
-                }
-            for file, export in moved.items():
-                results.add(file, export.write, of)
-            exports[axis.name] |= moved
-    return exports
+class AxisTransition(NamedTuple):
+    """A run-in or run-out of an axis, under the name that its files have."""
 
-
-def _export(cycle: Cycle | TransitionCam, entry: ExportEntries, variable: str) -> Export:
-    from optlaws.exports.export import export_cycle
-
-    given = {"name": variable} | entry.to_dict()
-    for name in ("to", "file", "master", "unit"):
-        given.pop(name, None)
-    return export_cycle(cycle, entry.to, {"master": entry.master, "unit": entry.unit}, **given)
-
-
-def _file_name(axis: str, entry: ExportEntries) -> str:
-    form = format_of(entry.to)
-    name = entry.file or f"{plain_name(axis)}_{form.name}{FORMATS[form.name].extension}"
-    if Path(name).name != name:
-        raise InputError(f"file must be a name without a folder, got {name}")
-    writing.check_name(Path(name))
-    return name
-
-
-def _export_row(name: str, export: Export) -> list[tables.Cell]:
-    ratios = [export.report.ratio(nu) for nu in (1, 2, 3)]
-    shown = [f"{ratio:.7g}" if abs(ratio) < float("inf") else "jumps" for ratio in ratios]
-    deviation = f"{export.report.deviation[0].value:.3g} {export.motion.units.slave}"
-    return [name, export.format.name, export.points, *shown, deviation]
+    name: str
+    axis: str
+    cam: TransitionCam
 
 
 def run(results: Results) -> None:
     """Put the page, the motions, the pictures, the laws and the exports of all axes into results."""
     spec, given = read_given(results.entries, results.file)
-    overlap = overlap_of(spec, given, results.file)
+    overlap = spec.overlap_of(given, results.file)
     fastest = fastest_of(given, results.file) if spec.fastest else {}
     cycles = at_greatest_speed(given if overlap is None else overlap.axes, fastest)
-    transitions = transitions_of(spec.axis, cycles, results.file)
-    exports = _exports_of(spec, cycles, transitions, results)
+    transitions = _transitions(spec.axis, cycles, results.file)
+    exports = _exports(spec, cycles, transitions, results)
     sweeps = sweeps_of(spec, results.file)
     results.title = spec.title
-    page = slowest(results.page("cycle").text(spec.text), fastest)
+    page = _slowest(results.page("cycle").text(spec.text), fastest)
     if len(cycles) > 1:
         figure = figure_of(cycles.plot(), spec.title)
         page.picture(TOGETHER, f"{spec.title}: all axes over one time", figure, "the picture of all axes")
-    add_interlocks(page, spec.title, cycles, overlap)
+    _add_interlocks(page, spec.title, cycles, overlap)
     drawn: list[Mechanism] = []
     for name, cycle in cycles.items():
-        table = table_of_motion(cycle, spec.rows, results.about)
-        results.text(f"{plain_name(name)}.csv", table, f"axis {name}: its table")
+        results.table(plain_name(name), *CycleReport(cycle).motion(spec.rows), of=f"axis {name}: its table")
         _add_axis(page, f"{spec.title}: {name}", name, cycle, fastest.get(name), drawn)
         if exports[name]:
-            page.text("What controllers will run: peaks of the exported files as interpolated, over the law's.")
-            page.table(_EXPORT_HEADINGS, [_export_row(*item) for item in exports[name].items()], digits=7)
-    add_transitions(page, results, transitions, spec.rows)
+            page.text(_RUN).table(_EXPORT_HEADINGS, [_export_row(*item) for item in exports[name].items()])
+    for transition in transitions:
+        _add_transition(page, results, transition, cycles[transition.axis], spec.rows)
+    if transitions:
+        results.data(TRANSITIONS, {transition.name: transition.cam.claims() for transition in transitions})
     for number, (sweep, rows) in enumerate(zip(spec.sweep, sweeps, strict=True), 1):
-        cells, by = sweep_table(sweep, rows), f"{sweep.axis} by {sweep.entry}"
-        results.table(f"sweep_{number}", *cells)
-        figure = sweep_figure(*cells, f"{spec.title}: {sweep.axis}")
-        page.heading(by).picture(f"sweep_{number}", by, figure).table(*cells, digits=7)
+        table, by = sweep_table(sweep, rows), f"{sweep.axis} by {sweep.entry}"
+        results.table(f"sweep_{number}", *table)
+        figure = sweep_figure(*table, f"{spec.title}: {sweep.axis}")
+        page.heading(by).picture(f"sweep_{number}", by, figure).table(*table)
     facts = {"unit": "SI", "axes": {name: _stored(cycle) for name, cycle in cycles.items()}}
-    results.data("cycle.json", facts | interlock_facts(cycles, overlap) | transition_facts(transitions))
+    results.data("cycle.json", facts | _beside(cycles, overlap, transitions))
     if fastest:
         results.data("fastest.json", {name: axis.claims() for name, axis in fastest.items()})
+
+
+def answer(entries: Mapping[str, Any], file: Path) -> dict[str, Any]:
+    """The data of the cycles of a file for programs, in SI units, by the names of the axes."""
+    spec, given = read_given(entries, file)
+    if spec.fastest:
+        return {name: fastest_facts(fastest) for name, fastest in fastest_of(given, file).items()}
+    overlap = spec.overlap_of(given, file)
+    axes = given if overlap is None else overlap.axes
+    data = {name: cycle.report().data for name, cycle in axes.items()}
+    return data | _beside(axes, overlap, _transitions(spec.axis, axes, file))
+
+
+def _stored(cycle: Cycle) -> dict[str, Any]:
+    """Facts of a cycle with its laws."""
+    laws = [
+        {"start": piece.start, "duration": piece.duration, "offset": piece.offset, "stroke": piece.stroke,
+         "law": piece.law.to_dict()}
+        for piece in cycle.pieces
+    ]  # fmt: skip
+    return {**cycle.report().data, "laws": laws}
+
+
+def _beside(axes: Axes, overlap: Overlap | None, transitions: Sequence[AxisTransition]) -> dict[str, Any]:
+    """What is known beside the axes for programs: clearances, what overlaps, run-ins and run-outs, if there are any."""
+    known: dict[str, Any] = {"interlocks": [least.to_row() for least in axes.clearances]} if axes.rules else {}
+    if overlap is not None:
+        facts = {name: getattr(overlap, name) for name in ("goal", "objective", "lower_bound", "gain")}
+        known["overlap"] = {"status": overlap.status.value, **facts, "binding": list(overlap.binding)}
+    if transitions:
+        known["transitions"] = {name: _transition_facts(cam) for name, _, cam in transitions}
+    return known
+
+
+def fastest_of(cycles: Mapping[str, Cycle], file: Path) -> dict[str, FastestCycle]:
+    """Each axis at its greatest speed; errors name the file and the axis."""
+    fastest = {}
+    for name, cycle in cycles.items():
+        with located(f"{file}: axis {name}"):
+            fastest[name] = cycle.fastest()
+    return fastest
+
+
+def at_greatest_speed(axes: Axes, fastest: Mapping[str, FastestCycle]) -> Axes:
+    """All axes at the greatest speed that every axis allows; unchanged where no speed is sought."""
+    if not fastest:
+        return axes
+    from optlaws.cycles.machine_axes import Axes
+
+    period = max(each.period for each in fastest.values())
+    cycles = {
+        name: each.cycle if each.period == period else replace(axes[name], speed=None, period=f"{period!r} s")
+        for name, each in fastest.items()
+    }
+    return Axes(cycles, interlocks=axes.interlocks)
+
+
+def fastest_facts(fastest: FastestCycle) -> dict[str, Any]:
+    """The greatest speed of an axis for programs."""
+    return {
+        "status": fastest.status.value,
+        **{name: getattr(fastest, name) for name in ("speed", "rpm", "period", "lower_bound")},
+        "gains": [vars(gain) for gain in fastest.gains],
+        "segments": [{**vars(each), "limits": list(each.limits)} for each in fastest.segments],
+    }
+
+
+def fastest_page(title: str, fastest: Mapping[str, FastestCycle]) -> Page:
+    """The greatest speed of each axis, what binds, and what more of it would give."""
+    result = Page(title)
+    for name, axis in fastest.items():
+        result.heading(name).facts(axis.summary())
+    return _slowest(result, fastest)
+
+
+def _slowest(page: Page, fastest: Mapping[str, FastestCycle]) -> Page:
+    """The page with a sentence on the slowest of several axes."""
+    if len(fastest) > 1:
+        name, axis = max(fastest.items(), key=lambda item: item[1].period)
+        page.text(f"The machine is as fast as its slowest axis, {name}: {axis.rpm:.9g} rpm.")
+    return page
+
+
+def _add_interlocks(page: Page, title: str, axes: Axes, overlap: Overlap | None) -> None:
+    """Put what overlaps, timing diagrams and clearances on a page, where there are any."""
+    if overlap is not None:
+        given = figure_of(overlap.given.plot(what="timing"), f"{title}, as it was given")
+        page.heading("Overlap").facts(overlap.summary())
+        page.picture("timing_given", f"{title}: timing diagram as it was given", given)
+    if axes.rules:
+        page.picture("timing", f"{title}: timing diagram", figure_of(axes.plot(what="timing"), title))
+        clearances = figure_of(axes.plot(what="clearance"), title)
+        page.heading("Interlocks").picture("clearances", f"{title}: clearance of the interlocks", clearances)
+        page.text(_INTERLOCKS).table(_CLEARANCE_HEADINGS, [least.cells for least in axes.clearances])
 
 
 def _add_axis(
@@ -153,30 +216,125 @@ def _add_axis(
         page.picture(f"{plain}_mechanism", caption, figure_of(mechanism.plot(), caption))
 
 
-def table_of_motion(cycle: Cycle, rows: int, about: str) -> str:
-    """Angle, time, position, velocity, acceleration and jerk at equal steps over the cycle, as CSV.
-
-    With a drive force (or torque) and power, with a motor its speed too.
-    """
-    return tables.to_csv(*CycleReport(cycle).motion(rows), about=about)
-
-
-def answer(entries: Mapping[str, Any], file: Path) -> dict[str, Any]:
-    """The data of the cycles of a file for programs, in SI units, by the names of the axes."""
-    spec, given = read_given(entries, file)
-    if spec.fastest:
-        return {name: fastest_facts(fastest) for name, fastest in fastest_of(given, file).items()}
-    overlap = overlap_of(spec, given, file)
-    axes = given if overlap is None else overlap.axes
-    known = interlock_facts(axes, overlap) | transition_facts(transitions_of(spec.axis, axes, file))
-    return {name: cycle.report().data for name, cycle in axes.items()} | known
+def _transitions(axes: Iterable[AxisEntries], cycles: Mapping[str, Cycle], file: Path) -> list[AxisTransition]:
+    """The run-ins and run-outs of axes, numbered where an axis has several of a kind."""
+    cams = []
+    for axis in axes:
+        cycle = cycles[axis.name]
+        for kind, make, entries in (("run-in", cycle.run_in, axis.run_in), ("run-out", cycle.run_out, axis.run_out)):
+            for i, given in enumerate(entries, start=1):
+                try:
+                    cam = make(**given.to_dict())
+                except (InputError, InfeasibleProblem) as error:
+                    raise type(error)(f"{file}: axis {axis.name}: {kind}: {error}") from None
+                number = f"_{i}" if len(entries) > 1 else ""
+                cams.append(AxisTransition(f"{plain_name(axis.name)}_{plain_name(kind)}{number}", axis.name, cam))
+    return cams
 
 
-def _stored(cycle: Cycle) -> dict[str, Any]:
-    """Facts of a cycle with its laws."""
-    laws = [
-        {"start": piece.start, "duration": piece.duration, "offset": piece.offset, "stroke": piece.stroke,
-         "law": piece.law.to_dict()}
-        for piece in cycle.pieces
-    ]  # fmt: skip
-    return {**cycle.report().data, "laws": laws}
+def _add_transition(page: Page, results: Results, transition: AxisTransition, cycle: Cycle, rows: int) -> None:
+    """Put the facts, the table and the picture of a run-in or run-out into results."""
+    name, axis, cam = transition
+    first, last = cam.master
+    title = f"{axis}, {cam.kind} from {first:.6g} to {last:.6g} deg"
+    results.table(name, *motion_table(cam.piece.values, cam, cam.master, rows))
+    figure = figure_of(cam.plot(cycle=cycle), f"{results.title}: {cam.kind}")
+    page.heading(title).picture(name, f"{results.title}: {title}", figure)
+    page.text(_ABOUT.format(first, last)).facts(cam.summary(), places="s")
+
+
+def _transition_facts(cam: TransitionCam) -> dict[str, Any]:
+    """A run-in or run-out for programs, in SI units."""
+    return {
+        "kind": cam.kind,
+        "master": list(cam.master),
+        "duration": cam.duration,
+        "rest": cam.rest,
+        "status": cam.status.value,
+        "none_below": None if cam.least is None else cam.least.none_below,
+        **{name: cam.peak(nu) for nu, name in enumerate(QUANTITIES) if nu},
+        "jumps": cam.jumps,
+    }
+
+
+def _exports(
+    spec: CycleProblemFile, cycles: Mapping[str, Cycle], transitions: Sequence[AxisTransition], results: Results
+) -> Exports:
+    """The exports of the axes' cycles, run-ins and run-outs, which are put into results."""
+    exports: Exports = {axis.name: {} for axis in spec.axis}
+    names = variable_names(exports)
+    for axis in spec.axis:
+        cams = [each for each in transitions if each.axis == axis.name]
+        for entry in axis.export:
+            of, variable = f"axis {axis.name}: export to {entry.to}", names[axis.name]
+            with located(f"{results.file}: {of}"):
+                name = _file_name(axis.name, entry)
+                ending = name.removeprefix(f"{plain_name(axis.name)}_")
+                moved = {name: _export(cycles[axis.name], entry, variable)} | {
+                    f"{each.name}_{ending}": _export(each.cam, entry, f"{variable}_{each.name.rpartition('run_')[2]}")
+                    for each in cams
+                }
+            for file, export in moved.items():
+                results.add(file, export.write, of)
+            exports[axis.name] |= moved
+    return exports
+
+
+def _export(cycle: Cycle | TransitionCam, entry: ExportEntries, variable: str) -> Export:
+    from optlaws.exports.export import export_cycle
+
+    apart = {"to", "file", "master", "unit"}
+    options = {name: value for name, value in entry.to_dict().items() if name not in apart}
+    return export_cycle(cycle, entry.to, {"master": entry.master, "unit": entry.unit}, **{"name": variable, **options})
+
+
+def _file_name(axis: str, entry: ExportEntries) -> str:
+    form = format_of(entry.to)
+    name = entry.file or f"{plain_name(axis)}_{form.name}{FORMATS[form.name].extension}"
+    if Path(name).name != name:
+        raise InputError(f"file must be a name without a folder, got {name}")
+    writing.check_name(Path(name))
+    return name
+
+
+def _export_row(name: str, export: Export) -> list[Cell]:
+    ratios = [export.report.ratio(nu) for nu in (1, 2, 3)]
+    shown = [f"{ratio:.7g}" if abs(ratio) < inf else "jumps" for ratio in ratios]
+    deviation = f"{export.report.deviation[0].value:.3g} {export.motion.units.slave}"
+    return [name, export.format.name, export.points, *shown, deviation]
+
+
+def sweep_table(sweep: SweepEntries, rows: Sequence[SweptCycle]) -> ReportTable:
+    """Headings and cells of a sweep: the objective with its bound, and what drive and motor need."""
+    cycles = [row.cycle for row in rows if row.cycle is not None]
+    columns = _columns(cycles[0]) if cycles else {}
+    cells: list[list[Cell]] = [
+        [row.value, row.status.value, *(None if row.cycle is None else cell(row.cycle) for cell in columns.values())]
+        for row in rows
+    ]
+    return ReportTable([sweep.entry, "status", *columns], cells)
+
+
+def _columns(cycle: Cycle) -> dict[str, Callable[[Cycle], Cell]]:
+    """Table columns for cycles of this kind, by their headings."""
+    columns: dict[str, Callable[[Cycle], Cell]] = {}
+    if cycle.solutions:
+        columns[f"least {cycle.minimise}, {objective_unit(cycle)}"] = lambda each: each.objective
+        columns["proven lower bound"] = lambda each: each.lower_bound or None
+    if cycle.drive is not None:
+        force, unit = force_name(cycle), force_unit(cycle)
+        minimised = cycle.minimise if cycle.solutions else None
+        if minimised != force:
+            columns[f"peak {force}, {unit}"] = lambda each: each.effort.peak_force
+        if minimised != f"rms {force}":
+            columns[f"RMS {force}, {unit}"] = lambda each: each.effort.rms_force
+    if isinstance(cycle.drive, Drive):
+        columns["peak speed of the motor, rpm"] = lambda each: RPM * each.sheet.peak_speed
+        columns["greatest use of the motor, %"] = _use
+    return columns
+
+
+def _use(cycle: Cycle) -> Cell:
+    """The greatest share of a limit of the motor; None where it has none, a word beyond its greatest speed."""
+    use = max((margin.use for margin in cycle.sheet.margins), default=None)
+    return "too fast" if use == inf else None if use is None else 100.0 * use

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from copy import deepcopy
 from dataclasses import KW_ONLY, dataclass, replace
 from pathlib import Path
@@ -20,13 +20,13 @@ from optlaws.entries.declared import Declared, ValueOf, declared, entries_of, en
 from optlaws.entries.value_types import Choice, Either, Listed, Measured, Number, ReadBy, Switch, Text, Whole
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure, located
 from optlaws.exports.format import Request
+from optlaws.files.reading import check_names
 from optlaws.jobs.job_entries import ProblemFile
 from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.mechanisms.drives.motor import read_motors
 from optlaws.mechanisms.linkages.mechanism import Mechanism
 from optlaws.mechanisms.linkages.mechanism_kinds import MechanismKind
 from optlaws.numbers import Quantity
-from optlaws.suggest import unknown_key
 from optlaws.synthesis.status import Status
 
 if TYPE_CHECKING:
@@ -190,6 +190,24 @@ class CycleProblemFile(ProblemFile, title="a problem file"):
         default=False,
     )
 
+    def _check(self) -> None:
+        super()._check()
+        names = [axis.name for axis in self.axis]
+        for name in names:
+            if names.count(name) > 1:
+                raise InputError(f"two axes are called {name}: give each a name of its own")
+        if self.fastest and self.overlap is not None:
+            raise InputError("fastest and overlap are two ways to a period: give one of them")
+        if len(names) > 1 and self.interlocks and "interlocks" in names:
+            raise InputError("an axis is called interlocks, as what is known of them is: give it another name")
+
+    def overlap_of(self, axes: Axes, file: Path) -> Overlap | None:
+        """The overlap of its axes; None where it has no such entry. An error names the file."""
+        if self.overlap is None:
+            return None
+        with located(str(file)):
+            return axes.fastest() if self.overlap.goal == "period" else axes.gentlest(*self.overlap.of)
+
 
 def read(data: Mapping[str, Any], file: Path) -> tuple[CycleProblemFile, Axes]:
     """The entries of a file, and its axes, as cycles by their names; overlapped where the file requests it.
@@ -200,16 +218,8 @@ def read(data: Mapping[str, Any], file: Path) -> tuple[CycleProblemFile, Axes]:
         As `read_given`, or if the axes cannot overlap; the error names the file.
     """
     spec, axes = read_given(data, file)
-    overlap = overlap_of(spec, axes, file)
+    overlap = spec.overlap_of(axes, file)
     return spec, axes if overlap is None else overlap.axes
-
-
-def overlap_of(spec: CycleProblemFile, axes: Axes, file: Path) -> Overlap | None:
-    """The overlap of the axes of a file; None where the file has no such entry."""
-    if spec.overlap is None:
-        return None
-    with located(str(file)):
-        return axes.fastest() if spec.overlap.goal == "period" else axes.gentlest(*spec.overlap.of)
 
 
 def read_given(data: Mapping[str, Any], file: Path) -> tuple[CycleProblemFile, Axes]:
@@ -222,35 +232,21 @@ def read_given(data: Mapping[str, Any], file: Path) -> tuple[CycleProblemFile, A
     """
     from optlaws.cycles.machine_axes import Axes
 
-    spec = CycleProblemFile.read(data, file)
-    cycles: dict[str, Cycle] = {}
-    for axis in spec.axis:
-        if axis.name in cycles:
-            raise InputError(f"{file}: two axes are called {axis.name}: give each a name of its own")
-        with located(f"{file}: axis {axis.name}"):
-            cycles[axis.name] = cycle_of(axis, spec.speed, spec.period, file.parent)
-    if spec.fastest and spec.overlap is not None:
-        raise InputError(f"{file}: fastest and overlap are two ways to a period: give one of them")
-    if len(cycles) > 1 and spec.interlocks and "interlocks" in cycles:
-        raise InputError(f"{file}: an axis is called interlocks, as what is known of them is: give it another name")
+    spec, cycles = CycleProblemFile.read(data, file), dict[str, Cycle]()
     with located(str(file)):
+        for axis in spec.axis:
+            with located(f"axis {axis.name}"):
+                cycles[axis.name] = cycle_of(axis, spec.speed, spec.period, file.parent)
         return spec, Axes(cycles, interlocks=spec.interlocks)
 
 
 def sweeps_of(spec: CycleProblemFile, file: Path) -> list[list[SweptCycle]]:
-    """The cycles of every sweep of a file.
-
-    Raises
-    ------
-    InputError
-        If a sweep names an axis or an entry that is not there, or a value is wrong; the error names the file.
-    """
-    axes = {axis.name: axis.to_dict() for axis in spec.axis}
-    rows = []
-    with located(str(file)):
-        for sweep in spec.sweep:
-            if sweep.axis not in axes:
-                raise InputError(f"sweep of {sweep.entry}: {unknown_key(sweep.axis, axes, 'axis')}")
+    """The cycles of every sweep of a file; an error names the file and the sweep."""
+    axes, rows = {axis.name: axis.to_dict() for axis in spec.axis}, []
+    for sweep in spec.sweep:
+        with located(f"{file}: sweep of {sweep.entry}"):
+            check_names([sweep.axis], axes, "axis")
+        with located(str(file)):
             rows.append([_swept(spec, axes[sweep.axis], sweep.entry, value, file.parent) for value in sweep.values])
     return rows
 
@@ -285,18 +281,20 @@ def with_entry(axis: dict[str, Any], entry: str, value: str | float) -> dict[str
     changed = deepcopy(axis)
     place: Any = changed
     *way, last = entry.split(".")
-    for part in way:
-        if isinstance(place, list) and part.isdigit() and 1 <= int(part) <= len(place):
-            place = place[int(part) - 1]
-        elif isinstance(place, dict) and part in place:
-            place = place[part]
-        else:
-            known = place if isinstance(place, dict) else [str(i + 1) for i in range(len(place))]
-            raise InputError(f"entry {entry!r}: {unknown_key(part, known, 'entry')}")
+    with located(f"entry {entry!r}"):
+        for part in way:
+            parts = place if isinstance(place, dict) else dict(_numbered(place))
+            check_names([part], parts, "entry")
+            place = parts[part]
     if not isinstance(place, dict):
         raise InputError(f"entry {entry!r} must end in the name of an entry, such as drive.ratio")
     place[last] = value
     return changed
+
+
+def _numbered(parts: Any) -> Iterator[tuple[str, Any]]:
+    """The parts of a list by their numbers; none of what is no list."""
+    return ((str(i), part) for i, part in enumerate(parts if isinstance(parts, list) else (), 1))
 
 
 def cycle_of(axis: AxisEntries, speed: Quantity | None, period: Quantity | None, folder: Path = Path()) -> Cycle:
@@ -307,44 +305,13 @@ def cycle_of(axis: AxisEntries, speed: Quantity | None, period: Quantity | None,
     return cycle if axis.follower is None else cycle.cam(axis.follower.period, axis.follower.damping)
 
 
-def follower_cycle(given: AxisEntries | Mapping[str, Any], speed: Quantity | None, period: Quantity | None) -> Cycle:
-    """The motion of a cam's follower.
-
-    Raises
-    ------
-    InputError
-        If it has a mechanism: forces of a cam are of constants.
-    """
-    motion = ValueOf(AxisEntries).read(given, "motion")
-    if motion.mechanism is not None:
-        raise InputError(
-            "motion: a cam's follower has no mechanism: an axis of a cycle has one, and the kind 'cam' of it is "
-            "what this cam's shaft feels"
-        )
-    return cycle_of(motion, speed, period)
-
-
 def drive_of(
     mechanism: Mapping[str, Any] | None, drive: Mapping[str, Any] | None, folder: Path
 ) -> Mapping[str, Any] | Mechanism | Drive | None:
     """The drive of a cycle as an argument of `Cycle`: constants of a table, a mechanism, or a motor with one.
 
-    Parameters
-    ----------
-    mechanism
-        The table of a mechanism.
-    drive
-        The table of a drive: constants, or beside a mechanism its motor and gear.
-    folder
-        To which the path of the catalogue of motors is relative.
+    `folder` is that to which the path of a catalogue of motors is relative.
 
-    Raises
-    ------
-    InputError
-        If an entry is unknown, missing or wrong; the error names it.
-
-    Examples
-    --------
     >>> table = {"kind": "table", "inertia": "0.8 kg m^2"}
     >>> motor = {"inertia": "3e-4 kg m^2", "peak_torque": "6 N m"}
     >>> drive_of(table, {"motor": motor, "ratio": 20}, Path()).motor.peak_torque
@@ -384,6 +351,6 @@ def _motor(motor: Any, catalogue: Any, folder: Path) -> Any:
             "as a table"
         )
     motors = read_motors(folder / Text().read(catalogue, "motors"))
-    if motor not in motors:
-        raise InputError(f"motor: {catalogue}: {unknown_key(motor, motors, 'motor')}")
+    with located(f"motor: {catalogue}"):
+        check_names([motor], motors, "motor")
     return motors[motor]

@@ -22,8 +22,7 @@ from optlaws.errors import InfeasibleProblem, InputError, SolverFailure, located
 from optlaws.files import writing
 from optlaws.files.tables import Cell
 from optlaws.jobs.cycle_entries import AxisEntries, drive_of
-from optlaws.jobs.cycle_pages import plain_name
-from optlaws.jobs.job_entries import ProblemFile
+from optlaws.jobs.job_entries import ProblemFile, plain_name
 from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.motion.display_units import UNITS
 from optlaws.numbers import Quantity

@@ -1,4 +1,4 @@
-"""The entries that the problem file of every job has."""
+"""The entries that the problem file of every job has, and names of files of results."""
 
 from __future__ import annotations
 
@@ -31,3 +31,8 @@ class ProblemFile(Declared, title="a problem file"):
         """
         with located(str(file)):
             return cls.from_dict(data)
+
+
+def plain_name(name: str) -> str:
+    """A name as files of results have it."""
+    return "".join(letter if letter.isalnum() else "_" for letter in name.lower())

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import json
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import KW_ONLY, dataclass
 from itertools import product
 from pathlib import Path
@@ -12,17 +11,31 @@ from typing import Any
 from optlaws.entries.declared import Declared, ValueOf, declared, entry
 from optlaws.entries.value_types import Choice, Listed, Text
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure, located
-from optlaws.files import printed, tables, writing
+from optlaws.files import printed, tables
 from optlaws.files.reading import check_names
 from optlaws.jobs.job_entries import ProblemFile
 from optlaws.results import Results
+from optlaws.shown.report import ReportTable
 from optlaws.studies.problem_entries import gap, problem, record, shown
 from optlaws.synthesis import FUNCTIONALS, Certificate, Problem, Solution, Status, synthesize
 from optlaws.synthesis.problem.fields import CONSTANTS
 from optlaws.synthesis.problem.problem import ENTRIES, PROBLEM, SWEPT
 from optlaws.synthesis.solve import Bound
 
-RESULTS = ("objective", "lower bound", "gap", "limit", "above limit, %", "status")
+
+def _above_limit(solution: Solution) -> tables.Cell:
+    return None if solution.limit is None else f"{100.0 * (solution.objective / solution.limit - 1.0):.2f}"
+
+
+#: the columns of what was found beside the constants of its law
+RESULTS: dict[str, Callable[[Solution], tables.Cell]] = {
+    "objective": lambda solution: solution.objective,
+    "lower bound": lambda solution: solution.lower_bound,
+    "gap": gap,
+    "limit": lambda solution: solution.limit,
+    "above limit, %": _above_limit,
+    "status": lambda solution: solution.status.value,
+}
 COLUMNS = (*FUNCTIONALS, *RESULTS)
 _NAMES = Listed(Text(), least=1)
 
@@ -59,7 +72,7 @@ class SolutionsProblemFile(ProblemFile, title="a problem file"):
     )
     bound: Bound = entry(Choice("quick", "tight"), "That of `synthesize`.", default="quick")
     columns: tuple[str, ...] = entry(
-        _NAMES, "Constants of the law, or of what was found.", default=(*CONSTANTS, *RESULTS[1:])
+        _NAMES, "Constants of the law, or of what was found.", default=(*CONSTANTS, *tuple(RESULTS)[1:])
     )
     compare: tuple[Compare, ...] = entry(
         Listed(ValueOf(Compare), named=True), "Other problems in the same rows.", default=()
@@ -69,7 +82,7 @@ class SolutionsProblemFile(ProblemFile, title="a problem file"):
 
 @dataclass(frozen=True)
 class SolvedRow:
-    """The swept entries, their problems, and the answers: None where no law exists, with the reason and its proof."""
+    """The swept entries, their problem, and the answers: None where no law exists, with the reason and its proof."""
 
     entries: Mapping[str, Any]
     stated: Problem
@@ -77,6 +90,13 @@ class SolvedRow:
     others: tuple[Solution | None, ...]
     status: Status
     proof: Certificate | None
+
+    @property
+    def data(self) -> dict[str, Any]:
+        """The row for programs."""
+        solution = None if self.solution is None else record(self.solution)
+        known = {"asked": self.stated.to_dict(), "status": self.status, "solution": solution}
+        return known if self.proof is None else {**known, "proof": self.proof.to_dict()}
 
 
 def run(results: Results) -> None:
@@ -88,10 +108,10 @@ def run(results: Results) -> None:
     beside = _beside(spec, results.file, entries)
     problems = [_problems(spec, i, entry) for i, entry in enumerate(entries, 1)]
     rows = [_solved(spec, entry, *stated) for entry, stated in zip(entries, problems, strict=True)]
-    headings, cells = _cells(spec, rows, beside)
-    results.table("table", headings, cells)
-    results.page("table").text(spec.text).table(headings, cells)
-    results.text("laws.json", _laws(results.about, rows))
+    table = _table(spec, rows, beside)
+    results.table("table", *table)
+    results.page("table").text(spec.text).table(*table)
+    results.records("laws.json", "rows", [row.data for row in rows])
 
 
 def swept_entries(spec: SolutionsProblemFile) -> Iterator[dict[str, Any]]:
@@ -122,23 +142,19 @@ def _problems(spec: SolutionsProblemFile, number: int, entries: Mapping[str, Any
 def _solved(
     spec: SolutionsProblemFile, entries: Mapping[str, Any], stated: Problem, others: Sequence[Problem]
 ) -> SolvedRow:
-    status = Status.INFEASIBLE
-    solution, proof = None, None
-    try:
-        solution = synthesize(stated, bound=spec.bound)
-        status = solution.status
-    except InfeasibleProblem as error:
-        proof = error.proof if isinstance(error.proof, Certificate) and error.proof.problem == stated else None
-    except SolverFailure:
-        status = Status.FAILED
-    return SolvedRow(entries, stated, solution, tuple(_tried(rival) for rival in others), status, proof)
+    solution, status, proof = _tried(stated, spec.bound)
+    return SolvedRow(entries, stated, solution, tuple(_tried(other)[0] for other in others), status, proof)
 
 
-def _tried(stated: Problem) -> Solution | None:
+def _tried(stated: Problem, bound: Bound = "quick") -> tuple[Solution | None, Status, Certificate | None]:
+    """The solution of a problem; None where there is none, with the proof of that if it is one of this problem."""
     try:
-        return synthesize(stated)
-    except (InfeasibleProblem, SolverFailure):
-        return None
+        solution = synthesize(stated, bound=bound)
+    except (InfeasibleProblem, SolverFailure) as error:
+        proof = getattr(error, "proof", None)
+        proves = isinstance(proof, Certificate) and proof.problem == stated
+        return None, Status.of(error), proof if proves else None
+    return solution, solution.status, None
 
 
 def _beside(spec: SolutionsProblemFile, file: Path, entries: Sequence[Mapping[str, Any]]) -> list[list[tables.Cell]]:
@@ -152,17 +168,14 @@ def _beside(spec: SolutionsProblemFile, file: Path, entries: Sequence[Mapping[st
     with located(f"beside: {source}"):
         check_names((spec.beside.match, *spec.beside.columns), lines[0], "column")
     by_value = {printed.number(line[spec.beside.match], str(source)): line for line in lines}
-    table: list[list[tables.Cell]] = []
-    for row in entries:
-        value = row.get(spec.beside.match)
-        line = by_value.get(value, {}) if isinstance(value, float) else {}
-        table.append([line.get(name) for name in spec.beside.columns])
-    return table
+    values = (row.get(spec.beside.match) for row in entries)
+    beside = (by_value.get(value, {}) if isinstance(value, float) else {} for value in values)
+    return [[line.get(name) for name in spec.beside.columns] for line in beside]
 
 
-def _cells(
+def _table(
     spec: SolutionsProblemFile, rows: Sequence[SolvedRow], beside: Sequence[Sequence[tables.Cell]]
-) -> tuple[list[str], list[list[tables.Cell]]]:
+) -> ReportTable:
     swept = list(rows[0].entries)
     headings = [*(ENTRIES[name].label for name in swept), *spec.columns]
     headings += [f"{column}, {compared.name}" for compared in spec.compare for column in compared.columns]
@@ -175,37 +188,10 @@ def _cells(
         for compared, other in zip(spec.compare, row.others, strict=True):
             line += [_cell(other, name) for name in compared.columns]
         cells.append([*line, *aside])
-    return headings, cells
+    return ReportTable(headings, cells)
 
 
 def _cell(solution: Solution | None, name: str) -> tables.Cell:
     if solution is None:
         return None
-    if name in FUNCTIONALS:
-        return FUNCTIONALS[name].value(solution.law)
-    limit = solution.limit
-    cells: dict[str, tables.Cell] = {
-        "objective": solution.objective,
-        "lower bound": solution.lower_bound,
-        "gap": gap(solution),
-        "limit": limit,
-        "above limit, %": None if limit is None else f"{100.0 * (solution.objective / limit - 1.0):.2f}",
-        "status": solution.status.value,
-    }
-    return cells[name]
-
-
-def _laws(about: str, rows: Sequence[SolvedRow]) -> str:
-    lines = [
-        json.dumps(
-            {
-                "asked": row.stated.to_dict(),
-                "status": row.status,
-                "solution": None if row.solution is None else record(row.solution),
-                **({} if row.proof is None else {"proof": row.proof.to_dict()}),
-            }
-        )
-        for row in rows
-    ]
-    head = json.dumps({"about": f"{about}; {writing.MARK}"})[1:-1]
-    return f'{{{head}, "rows": [\n' + ",\n".join(lines) + "\n]}\n"
+    return FUNCTIONALS[name].value(solution.law) if name in FUNCTIONALS else RESULTS[name](solution)

@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from optlaws import Cycle, Drive, Dwell, InputError, Mechanism, Motor, Return, Rise, slider_crank
-from tests.internals.jobs import table_of_motion
+from tests.internals.cycles import CycleReport
+from tests.internals.files import tables
 
 TABLE, LOADED = Mechanism("0.8 kg m^2"), Mechanism("0.8 kg m^2", load="3*sin(x)", coulomb=0.3)
 MOTOR = Motor("3e-4 kg m^2", constant=0.3, friction={"coulomb": 0.02})
@@ -131,7 +132,9 @@ def test_what_has_no_energy_is_refused(entries: dict[str, Any], error: type[Exce
 def test_tables_of_results_have_the_torque_of_a_motor() -> None:
     """A table at the steps of a file: its last columns are those of the drive at these times."""
     cycle = indexed("modified sine", drive=Drive(LOADED, MOTOR, ratio=20))
-    heading, *rows = [line for line in table_of_motion(cycle, 13, "").splitlines() if line and line[0] != "#"]
+    heading, *rows = [
+        line for line in tables.to_csv(*CycleReport(cycle).motion(13), about="").splitlines() if line and line[0] != "#"
+    ]
     assert heading.endswith('"torque, N m","power, W","motor speed, rpm"')
     values = np.array([[float(cell) for cell in row.split(",")] for row in rows])
     times = np.linspace(0.0, 0.6, 13)
@@ -141,7 +144,9 @@ def test_tables_of_results_have_the_torque_of_a_motor() -> None:
 
 def test_a_drive_without_motor_has_force_and_power_in_table_and_picture() -> None:
     cycle = Cycle([Rise("35 mm", "0.1 s", law="345"), Dwell()], period="0.3 s", advance="35 mm", drive={"mass": "2 kg"})
-    heading, *rows = [line for line in table_of_motion(cycle, 31, "").splitlines() if line and line[0] != "#"]
+    heading, *rows = [
+        line for line in tables.to_csv(*CycleReport(cycle).motion(31), about="").splitlines() if line and line[0] != "#"
+    ]
     assert heading.endswith('"jerk, m/s³","force, N","power, W"')
     acceleration, _, force, power = np.array([row.split(",")[-4:] for row in rows], dtype=float).T
     assert force == pytest.approx(2.0 * acceleration, rel=1e-6, abs=1e-6)

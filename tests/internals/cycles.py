@@ -7,6 +7,7 @@ from optlaws.cycles.optimisation.motion_limits import FORCE, POWER
 from optlaws.cycles.optimisation.objectives import OBJECTIVES
 from optlaws.cycles.optimisation.search_spaces import halved
 from optlaws.cycles.optimisation.shared_limits import _SharedLimit as SharedLimit
+from optlaws.cycles.report import CycleReport
 from optlaws.cycles.specification.drive import read_drive
 from optlaws.cycles.specification.limit_entries import LIMITS_OF_CYCLE, LIMITS_OF_MOVE
 from optlaws.cycles.specification.load import ElasticFollower

@@ -3,10 +3,9 @@
 from optlaws.jobs import cycle as cycle_job
 from optlaws.jobs import job, solutions
 from optlaws.jobs.cam import answer
-from optlaws.jobs.cycle import table_of_motion
+from optlaws.jobs.cycle import sweep_table
 from optlaws.jobs.cycle_entries import read as read_of_cycle_entries
 from optlaws.jobs.cycle_entries import read_given, sweeps_of
-from optlaws.jobs.cycle_pages import sweep_table
 from optlaws.jobs.job import JOBS, do, run
 from optlaws.jobs.job_entries import ProblemFile
 from optlaws.jobs.machine_laws import MachineTable, Measure

@@ -103,13 +103,12 @@ def _greatest_speed(file: Path, out: Path | None, plot: Path | None, *, as_json:
     from optlaws.files.packaged import problem_of_job
     from optlaws.jobs import cycle as job
     from optlaws.jobs.cycle_entries import read
-    from optlaws.jobs.cycle_pages import fastest_facts, fastest_of, fastest_page
     from optlaws.results import Results
 
     source, _, entries = problem_of_job(file, "cycle")
     with busy(f"{file}"):
         spec, cycles = read(entries, source)
-        speeds = fastest_of(cycles, source)
+        speeds = job.fastest_of(cycles, source)
         if out is not None:
             results = Results(source)
             results.entries["fastest"] = True
@@ -123,9 +122,9 @@ def _greatest_speed(file: Path, out: Path | None, plot: Path | None, *, as_json:
         artists = draw_axes(at_best) if len(at_best) > 1 else draw_cycle(next(iter(at_best.values())))
         save_figure(plot, figure_of(artists, spec.title))
     if as_json:
-        print_json({name: fastest_facts(speed) for name, speed in speeds.items()})
+        print_json({name: job.fastest_facts(speed) for name, speed in speeds.items()})
     else:
-        show(*(line for line in str(fastest_page(spec.title, speeds)).splitlines() if not line.startswith("<!--")))
+        show(*(line for line in str(job.fastest_page(spec.title, speeds)).splitlines() if not line.startswith("<!--")))
     unproven = [name for name, speed in speeds.items() if speed.status != Status.OPTIMAL]
     if unproven:
         raise NotProven(f"axis {', '.join(unproven)}: that no law is faster is not proven")
@@ -156,7 +155,7 @@ def _job(file: Path, out: Path | None, plot: Path | None, *, as_json: bool) -> N
 def _main_picture(entries: Mapping[str, Any], results: Results, suffix: str) -> bytes:
     """The most informative picture among the results of a cycle: the single axis, or all axes."""
     from optlaws.jobs.cycle import TOGETHER
-    from optlaws.jobs.cycle_pages import plain_name
+    from optlaws.jobs.job_entries import plain_name
 
     names = [plain_name(axis["name"]) for axis in entries["axis"]]
     return results.drawn(names[0] if len(names) == 1 else TOGETHER, suffix[1:])

@@ -24,7 +24,7 @@ from optlaws.explorer.views.cycle_view import CycleRequest, packaged_study
 from optlaws.explorer.views.law_view import TITLES, digits, refusing
 from optlaws.explorer.views.panel_data import drawn, fact_sentences
 from optlaws.explorer.views.requests import Question
-from optlaws.jobs.cycle_entries import CycleProblemFile, overlap_of
+from optlaws.jobs.cycle_entries import CycleProblemFile
 from optlaws.motion.display_units import TURN_DEG, UNITS
 from optlaws.numbers import Array
 from optlaws.plots.interlocks import forbidden_region, plane_axes, wider
@@ -257,7 +257,7 @@ def together(request: CycleRequest) -> dict[str, Any]:
     'greatest acceleration, as a share of the given one 0.1938937'
     """
     study, axes = request.study, axes_of(request.study)
-    overlap = overlap_of(CycleProblemFile.read(study, _WHERE), axes, _WHERE)
+    overlap = CycleProblemFile.read(study, _WHERE).overlap_of(axes, _WHERE)
     if overlap is None:
         raise InputError("say what the moves are to be put together for: the least period or the least acceleration")
     facts: list[str] = [*fact_sentences(overlap.summary())]

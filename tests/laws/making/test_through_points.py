@@ -23,7 +23,8 @@ from optlaws import (
     read_law,
     smoothstep,
 )
-from tests.internals.jobs import table_of_motion
+from tests.internals.cycles import CycleReport
+from tests.internals.files import tables
 from tests.internals.laws import law_of_table, table_of_values
 from tests.sampling import examples
 
@@ -234,7 +235,7 @@ def test_tables_that_optlaws_writes_are_read_back(tmp_path: Path) -> None:
         [Rise("35 mm", "120 deg", law=law), Dwell("90 deg"), Return(duration="90 deg"), Dwell()], speed="60 rpm"
     )
     whole = tmp_path / "whole.csv"
-    whole.write_text(table_of_motion(cycle, 361, "a cycle"))
+    whole.write_text(tables.to_csv(*CycleReport(cycle).motion(361), about="a cycle"))
     with pytest.raises(InputError, match=r"turn at k = 120, a = 35.*lines 3 to 123 and 213 to 363"):
         read_law(str(whole))
 
