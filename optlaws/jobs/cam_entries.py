@@ -11,7 +11,7 @@ from optlaws.cams.barrel import Groove
 from optlaws.cams.conjugate import ReturnFollower
 from optlaws.cams.curves.cam_files import DECIMALS, FORMATS, POINTS, Cutting, format_of
 from optlaws.cams.disc import CURVES, TURNINGS, CutCurve, DiscCam, Turning
-from optlaws.cams.followers.follower import CamFollower
+from optlaws.cams.followers.follower import CamFollower, stated_prime_radius
 from optlaws.cams.forces import Surfaces
 from optlaws.cams.least_sizes import CamLimits
 from optlaws.cams.springs_and_flywheels import SoughtSpring
@@ -173,6 +173,16 @@ class CamProblemFile(CamOfMotion, title="a cam"):
     def limits(self) -> CamLimits:
         """The limits of the cam."""
         return CamLimits(self.pressure_angle, self.radius_of_curvature)
+
+    @property
+    def constraints(self) -> dict[str, Any]:
+        """The limits, and how the cam turns, as those take them who look for a cam."""
+        return {**self.limits.to_dict(), "turning": self.turning}
+
+    @property
+    def radius(self) -> Any:
+        """The radius of the prime circle, if it is given."""
+        return stated_prime_radius(self.prime_radius, self.base_radius, self.follower)
 
     def _check(self) -> None:
         super()._check()

@@ -34,7 +34,9 @@ from optlaws.synthesis.least_time.move_objective import AT_MOTOR
 from optlaws.synthesis.problem.problem import PROBLEM, Problem
 from optlaws.synthesis.status import Status
 
-HEADINGS = ("move", "stroke", "least time, s", "no law below, s", "limit of all laws, s", "above it, %", "status")
+HEADINGS = (
+    "move", "stroke", "least time, s", "no law below, s", "limit of all laws, s", "above it, %", "status", "binds",
+)  # fmt: skip
 _FEW = 7
 _PERCENT = 100.0
 _STROKE = Measured("length", "angle")
@@ -51,6 +53,10 @@ class FrontOverTimeEntries(Declared, title="a front"):
         Measured("time", above=0.0), "The longest time; twice the least unless given.", default=None, example="0.3 s"
     )
     points: int = entry(Whole(2, 200), "How many there are.", default=17)
+
+    def _check(self) -> None:
+        if len(set(self.minimise)) < len(self.minimise):
+            raise InputError(f"minimise names one of them twice: {', '.join(self.minimise)}")
 
 
 @declared
@@ -92,6 +98,13 @@ class FastestProblemFile(ProblemFile, title="a problem file"):
         PROBLEM, "The space of laws: `order`, 3 unless given, `basis`, `degree`, `windows`, ...", default=None
     )
 
+    def _check(self) -> None:
+        files = [plain_name(move.name) for move in self.move]
+        if len(set(files)) < len(files) or {"about", "fastest"} & set(files):
+            raise InputError(
+                f"move: names must differ as files have them, and none is about or fastest: {', '.join(files)}"
+            )
+
 
 @dataclass(frozen=True)
 class SoughtMove:
@@ -103,13 +116,7 @@ class SoughtMove:
 
 
 def sought(spec: FastestProblemFile, file: Path) -> list[SoughtMove]:
-    """The least times and the fronts of the moves of a file.
-
-    Raises
-    ------
-    InputError, InfeasibleProblem, SolverFailure
-        If an entry is wrong, or a move has no law; the error names the move.
-    """
+    """The least times and the fronts of the moves of a file; an error names the move."""
     space = problem("problem", {"order": 3}, spec.problem or {})
     moves = []
     for move in spec.move:
@@ -128,17 +135,16 @@ def _sought(move: MoveEntries, space: Problem, folder: Path) -> SoughtMove:
         if move.front is not None:
             raise InputError("front: it is that of one stroke: give the strokes to a move of another name")
         return SoughtMove(move.name, fastest_moves(space, strokes=move.stroke, **given), ())
-    minimise = () if move.front is None else move.front.minimise
-    if len(set(minimise)) < len(minimise):
-        raise InputError(f"front: minimise names one of them twice: {', '.join(minimise)}")
-    if move.follower is not None and "follower" not in given and RESIDUAL not in minimise:
+    front = move.front
+    if move.follower is not None and "follower" not in given and (front is None or RESIDUAL not in front.minimise):
         raise InputError(f'follower: give a limit or a front of the "{RESIDUAL}", or leave the follower out')
-    quickest, fronts = fastest(space, stroke=move.stroke, **given), []
-    for name in minimise:
-        assert move.front is not None  # noqa: S101 - as it names what is least
-        with located("front"):
-            fronts.append(front_of(quickest, move, name, given, (move.front.longest, move.front.points)))
-    return SoughtMove(move.name, (quickest,), tuple(fronts))
+    quickest = fastest(space, stroke=move.stroke, **given)
+    if front is None:
+        return SoughtMove(move.name, (quickest,), ())
+    extent = front.longest, front.points
+    with located("front"):
+        fronts = tuple(front_of(quickest, move, name, given, extent) for name in front.minimise)
+    return SoughtMove(move.name, (quickest,), fronts)
 
 
 def arguments_of(move: MoveEntries, folder: Path) -> dict[str, Any]:
@@ -149,11 +155,17 @@ def arguments_of(move: MoveEntries, folder: Path) -> dict[str, Any]:
     >>> arguments_of(MoveEntries(name="slide", stroke="100 mm", limits={"jerk": "300 m/s^3"}), Path())["limits"]
     {'jerk': '300 m/s^3'}
     """
-    given: dict[str, Any] = {"limits": move.limits}
-    given |= {"start_velocity": move.start_velocity, "end_velocity": move.end_velocity}
-    motor = _motor(move, folder)
-    if motor is not None:
-        given |= {"drive": motor, "start": move.start or 0.0}
+    given: dict[str, Any] = {name: getattr(move, name) for name in ("limits", "start_velocity", "end_velocity")}
+    driven = drive_of(move.mechanism, move.drive, folder)
+    if isinstance(driven, Drive):
+        given |= {"drive": driven, "start": move.start or 0.0}
+    elif driven is not None:
+        raise InputError(
+            "drive: a move within torques has a motor and a mechanism, such as drive = { motor = { inertia = "
+            "'3e-4 kg m^2', peak_torque = '6 N m' }, ratio = 20 }"
+        )
+    elif move.start is not None:
+        raise InputError("start: it is the position of a mechanism: give the move its mechanism and drive")
     if move.follower is not None and RESIDUAL in move.limits:
         given["follower"] = move.follower
     return given
@@ -168,34 +180,15 @@ def front_of(
         machine = {"drive": given["drive"], "start": given["start"]}
     elif minimise == RESIDUAL:
         machine = {"follower": move.follower}
-    longest, points = extent
-    return time_front(quickest, minimise, longest=longest, points=points, **machine)
-
-
-def _motor(move: MoveEntries, folder: Path) -> Drive | None:
-    """The motor of a move and the mechanism that it drives."""
-    driven = drive_of(move.mechanism, move.drive, folder)
-    if driven is None and move.start is not None:
-        raise InputError("start: it is the position of a mechanism: give the move its mechanism and drive")
-    if driven is not None and not isinstance(driven, Drive):
-        raise InputError(
-            "drive: a move within torques has a motor and a mechanism, such as drive = { motor = { inertia = "
-            "'3e-4 kg m^2', peak_torque = '6 N m' }, ratio = 20 }"
-        )
-    return driven
+    return time_front(quickest, minimise, longest=extent[0], points=extent[1], **machine)
 
 
 def run(results: Results) -> None:
     """Put the tables, the page, the pictures, and laws with their proofs into results."""
     spec = FastestProblemFile.read(results.entries, results.file)
     results.title = spec.title
-    files = [plain_name(move.name) for move in spec.move]
-    if len(set(files)) < len(files) or {"about", "fastest"} & set(files):
-        raise InputError(
-            f"move: names must differ as files have them, and none is about or fastest: {', '.join(files)}"
-        )
     moves = sought(spec, results.file)
-    results.table("fastest", (*HEADINGS, "binds"), [_line(each.name, move) for each in moves for move in each.moves])
+    results.table("fastest", HEADINGS, [_line(each.name, move) for each in moves for move in each.moves])
     page = results.page("fastest").text(spec.text)
     for each in moves:
         _add_move(page, f"{spec.title}: {each.name}", each)
@@ -223,7 +216,7 @@ def _add_move(page: Page, title: str, each: SoughtMove) -> None:
         page.picture(name, f"{each.name}: least time over the stroke", strokes_figure(each.moves, title))
         last = len(each.moves) - 1
         few = sorted({round(last * step / (_FEW - 1)) for step in range(_FEW)})
-        page.table((*HEADINGS[1:], "binds"), [_line(each.name, each.moves[i])[1:] for i in few], digits=6)
+        page.table(HEADINGS[1:], [_line(each.name, each.moves[i])[1:] for i in few], digits=6)
         return
     page.picture(name, f"{each.name}: the fastest motion", motion_figure(move, title)).facts(move.summary(), digits=6)
     if each.fronts:
@@ -239,13 +232,9 @@ def _in_words(front: TimeFront) -> str:
     later = next((point for point in front if point.duration >= 1.1 * first.duration), last)
     saved = 1.0 - later.value / first.value if first.value else 0.0
     more = later.duration / first.duration - 1.0
-    proven = (
-        "Every point is proven." if front.status is Status.OPTIMAL else "The bounds hold for all laws of the space."
-    )
-    return (
-        f"The least {front.minimise}: {_PERCENT * more:.0f} % more time than the least saves {_PERCENT * saved:.0f} % "
-        f"of it. {proven}"
-    )
+    proven = "Every point is proven" if front.status is Status.OPTIMAL else "The bounds hold for all laws of the space"
+    share = f"{_PERCENT * more:.0f} % more time than the least saves {_PERCENT * saved:.0f} % of it"
+    return f"The least {front.minimise}: {share}. {proven}."
 
 
 def _points(front: TimeFront) -> list[list[Cell]]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import KW_ONLY, dataclass
 from typing import Any, Literal
@@ -14,7 +13,7 @@ from optlaws.echo import shortened
 from optlaws.entries.declared import Declared, ValueOf, declared, entry
 from optlaws.entries.value_types import Choice, Either, Listed, Number, ReadBy, Table, Text, Together, Whole, is_list
 from optlaws.errors import InputError, located
-from optlaws.files import tables, writing
+from optlaws.files.tables import Cell
 from optlaws.jobs.job_entries import ProblemFile
 from optlaws.laws import MotionLaw
 from optlaws.laws.catalogue.catalogue import catalogue
@@ -234,10 +233,10 @@ class Compared:
         # the mode's share in the output is the same at every speed
         return np.where(amplitudes > _RESIDUAL_ROUNDING, vibration.share * amplitudes, 0.0)
 
-    def row(self) -> dict[str, tables.Cell]:
+    def row(self) -> dict[str, Cell]:
         """Its peaks, what is left of each mode at a low, the nominal and a high frequency and at most, its proof."""
         spec, spread, constants = self.spec, self.spec.vibration.spread, self.law.constants
-        row: dict[str, tables.Cell] = {"law": self.name, "B": constants.B.value, "C": constants.C.value}
+        row: dict[str, Cell] = {"law": self.name, "B": constants.B.value, "C": constants.C.value}
         row["J"] = bounded(constants.J.value)
         response, percent = self.machine.response(self.law), f"{100.0 * spread:g} %"
         row |= {f"peak {spec.titled(output)}": response.rise_peak(output).value for output in spec.report}
@@ -261,43 +260,41 @@ def run(results: Results) -> None:
     results.title = spec.title
     machine = spec.machine.machine()
     _check(spec, machine)
-    laws = list(compared(spec, machine))
+    problems = [(sought.name, sought.stated(machine)) for sought in spec.sought]
+    laws = list(compared(spec, machine, problems))
     rows = [{"law": law, "status": "no time for it"} if isinstance(law, str) else law.row() for law in laws]
     headings = list(max(rows, key=len))
     table = ReportTable(headings, [[row.get(heading) for heading in headings] for row in rows])
-    known = [law for law in laws if isinstance(law, Compared)]
     results.table("table", *table)
     page = results.page("table").text(spec.text).figure("figure", spec.title)
     page.section(Section("The machine's modes", table=_modes(machine, spec.machine.duration)))
     page.section(Section("Laws", table=table, text=_about(spec), digits=5))
-    results.text("laws.json", _laws(results.about, known))
+    known = [law for law in laws if isinstance(law, Compared)]
+    results.records("laws.json", "laws", {law.name: record(law.solution) for law in known if law.solution is not None})
     left, moved = _panels(spec, machine, known)
     results.picture("figure", laws_figure(spec.title, left, moved, 100.0 * spec.vibration.spread))
 
 
 def _check(spec: MachineLawsProblemFile, machine: Machine) -> None:
-    for where, output in (
-        ("vibration", spec.vibration.output),
-        ("figure", spec.figure.output),
-        *(("report", heading) for heading in spec.report),
-        *(("units", unit) for unit in spec.units),
-    ):
+    outputs = {"vibration": [spec.vibration.output], "figure": [spec.figure.output]}
+    for where, names in {**outputs, "report": spec.report, "units": spec.units}.items():
         with located(where):
-            machine.place(output)
-    for number in (*spec.vibration.modes, spec.vibration.shaped):
-        with located("vibration"):
+            for output in names:
+                machine.place(output)
+    with located("vibration"):
+        for number in (*spec.vibration.modes, spec.vibration.shaped):
             mode(machine, number)
     shaped = [f"{name}, {shaper}" for name in spec.standard for shaper in SHAPERS]
-    known = [*spec.standard, *shaped, *(stated.name for stated in spec.sought)]
+    known = [*spec.standard, *shaped, *(sought.name for sought in spec.sought)]
     for name in spec.figure.laws:
         if name not in known:
             raise InputError(f"figure: no law is called {name!r}; there are {', '.join(known)}")
-    for stated in spec.sought:
-        stated.stated(machine)
 
 
-def compared(spec: MachineLawsProblemFile, machine: Machine) -> Iterator[Compared | str]:
-    """All laws, in the order of the table: standard ones, plain and shaped, and the optimised ones.
+def compared(
+    spec: MachineLawsProblemFile, machine: Machine, problems: Sequence[tuple[str, Problem]]
+) -> Iterator[Compared | str]:
+    """All laws, in the order of the table: standard ones, plain and shaped, and the optimal ones of problems.
 
     The name alone of a law that the vibration is too slow for.
     """
@@ -313,16 +310,9 @@ def compared(spec: MachineLawsProblemFile, machine: Machine) -> Iterator[Compare
                 yield called
             else:
                 yield Compared(spec, machine, called, shaped)
-    for stated in spec.sought:
-        solution = synthesize(stated.stated(machine))
-        yield Compared(spec, machine, stated.name, solution.law, solution)
-
-
-def _laws(about: str, laws: Sequence[Compared]) -> str:
-    """The laws that were sought with all that proves them, for `optlaws verify`."""
-    lines = [f"{json.dumps(law.name)}: {json.dumps(record(law.solution))}" for law in laws if law.solution is not None]
-    head = json.dumps({"about": f"{about}; {writing.MARK}"})[1:-1]
-    return f'{{{head}, "laws": {{\n' + ",\n".join(lines) + "\n}}\n"
+    for name, problem in problems:
+        solution = synthesize(problem)
+        yield Compared(spec, machine, name, solution.law, solution)
 
 
 def _about(spec: MachineLawsProblemFile) -> str:

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from optlaws import Cycle, DiscCam, Dwell, InclinedFlat, InputError, OscillatingFlat, Return, Rise, TranslatingFlat
 from tests.internals.explorer import CamRequest, cam_view
-from tests.internals.jobs import answer
+from tests.internals.jobs import read_of_cam
 
 STUDY = {
     "job": "cam",
@@ -83,7 +83,7 @@ def test_a_harmonic_of_50_mm_over_half_turns_needs_50_mm(given_length: str, *, k
 
 
 def test_a_face_that_is_too_short_is_reported_by_job_and_page() -> None:
-    length = answer(STUDY, Path("flat.toml"))["length_of_face"]
+    length = read_of_cam(STUDY, Path("flat.toml")).data["length_of_face"]
     assert length["low"] == pytest.approx(0.05, rel=1e-9)
     assert (length["limit"], length["kept"]) == (0.04, False)
     trust = cam_view.answer(CamRequest(study=STUDY))["trust"]

@@ -29,7 +29,7 @@ from optlaws import (
 )
 from tests.internals.explorer import CamRequest, cam_view
 from tests.internals.files import reading
-from tests.internals.jobs import answer, job
+from tests.internals.jobs import job, read_of_cam
 
 MOTION = """
 [motion]
@@ -87,7 +87,7 @@ def told_of(folder: Path, text: str) -> dict[str, Any]:
     """What a program is told, without files."""
     file = folder / "small.toml"
     file.write_text(text, "utf-8")
-    return answer(reading.toml(file), file)
+    return read_of_cam(reading.toml(file), file).data
 
 
 def test_best_laws_are_those_of_the_library_and_bear_forces(tmp_path: Path) -> None:
