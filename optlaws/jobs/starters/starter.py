@@ -10,7 +10,7 @@ from math import ceil, floor, log10
 from pathlib import Path
 from shlex import quote
 from textwrap import fill
-from typing import Any, NamedTuple
+from typing import Any
 
 from optlaws.cams.followers.rollers import TranslatingRoller
 from optlaws.cycles.cycle import Cycle
@@ -18,6 +18,7 @@ from optlaws.entries.declared import Declared, entries_of
 from optlaws.entries.reference import sentences
 from optlaws.entries.value_types import Choice, Measured, Number, ValueType, Whole
 from optlaws.errors import InputError, located
+from optlaws.files.reading import check_names
 from optlaws.jobs.cam_entries import CamProblemFile
 from optlaws.jobs.cycle_entries import CycleProblemFile, read_given
 from optlaws.jobs.machine_laws import MachineLawsProblemFile, Vibration
@@ -25,8 +26,7 @@ from optlaws.jobs.solutions import SolutionsProblemFile
 from optlaws.laws.catalogue.catalogue import catalogue
 from optlaws.motion.quantities import DIMENSIONS, either, quantity
 from optlaws.studies.problem_entries import problem
-from optlaws.studies.specification import read_study
-from optlaws.suggest import unknown_key
+from optlaws.studies.specification import StudyFile, read_study
 
 #: answers by the names of questions; None where an entry is left out
 Answers = dict[str, str | None]
@@ -38,99 +38,64 @@ _USUAL = "modified sine"
 _DIGITS = 5
 
 
-class Question(NamedTuple):
-    """What answers may be, and the answer unless another is given: None where the entry is then left out."""
-
-    type: ValueType
-    usual: str | None = None
-
-
-def _of_entry(values: type[Declared], name: str, usual: str | None = None) -> Question:
-    return Question(entries_of(values)[name].type, usual)
-
-
 _STROKE, _DURATION = Measured("length", "angle", above=0.0), Measured("angle", "time", above=0.0)
 _DERIVATIVES = ("velocity", "acceleration", "jerk")
-#: by the names of options
-QUESTIONS: dict[str, Question] = {
-    "stroke": Question(_STROKE, "35 mm"),
-    "rise": Question(_DURATION, "120 deg"),
-    "dwell": Question(_DURATION, "90 deg"),
-    "return": Question(_DURATION, "100 deg"),
-    "speed": _of_entry(Cycle, "speed", "200 rpm"),
-    **{name: Question(Measured(name, f"angular {name}", above=0.0)) for name in _DERIVATIVES},
-    "mass": Question(Measured("mass", "moment of inertia", above=0.0)),
-    "roller": _of_entry(TranslatingRoller, "radius", "12 mm"),
-    "offset": _of_entry(TranslatingRoller, "offset"),
-    "pressure-angle": _of_entry(CamProblemFile, "pressure_angle", "30 deg"),
-    "curvature": _of_entry(CamProblemFile, "radius_of_curvature", "5 mm"),
-    "prime-radius": _of_entry(CamProblemFile, "prime_radius"),
-    "duration": Question(Measured("time", above=0.0), "0.1 s"),
-    "frequency": Question(Measured("frequency", above=0.0), "8.5 Hz"),
-    "damping": Question(Number(least=0.0), "0.02"),
-    "spread": _of_entry(Vibration, "spread", "0.1"),
-    "sway": Question(_STROKE, "1 mm"),
-    "minimise": Question(Choice("C", "D", "J", "rms_c", "rms_j"), "C"),
-    "order": Question(Whole(1), "3"),
-    "degree": Question(Whole(1), "9"),
-    "from": Question(Number(above=1.0), "1.5"),
-    "to": Question(Number(above=1.0), "2"),
-    "steps": Question(Whole(1), "11"),
+#: by the names of options what answers may be, and the answer unless another is given; None leaves the entry out
+QUESTIONS: dict[str, tuple[ValueType, str | None]] = {
+    "stroke": (_STROKE, "35 mm"),
+    "rise": (_DURATION, "120 deg"),
+    "dwell": (_DURATION, "90 deg"),
+    "return": (_DURATION, "100 deg"),
+    "speed": (entries_of(Cycle)["speed"].type, "200 rpm"),
+    **{name: (Measured(name, f"angular {name}", above=0.0), None) for name in _DERIVATIVES},
+    "mass": (Measured("mass", "moment of inertia", above=0.0), None),
+    "roller": (entries_of(TranslatingRoller)["radius"].type, "12 mm"),
+    "offset": (entries_of(TranslatingRoller)["offset"].type, None),
+    "pressure-angle": (entries_of(CamProblemFile)["pressure_angle"].type, "30 deg"),
+    "curvature": (entries_of(CamProblemFile)["radius_of_curvature"].type, "5 mm"),
+    "prime-radius": (entries_of(CamProblemFile)["prime_radius"].type, None),
+    "duration": (Measured("time", above=0.0), "0.1 s"),
+    "frequency": (Measured("frequency", above=0.0), "8.5 Hz"),
+    "damping": (Number(least=0.0), "0.02"),
+    "spread": (entries_of(Vibration)["spread"].type, "0.1"),
+    "sway": (_STROKE, "1 mm"),
+    "minimise": (Choice("C", "D", "J", "rms_c", "rms_j"), "C"),
+    "order": (Whole(1), "3"),
+    "degree": (Whole(1), "9"),
+    "from": (Number(above=1.0), "1.5"),
+    "to": (Number(above=1.0), "2"),
+    "steps": (Whole(1), "11"),
 }
 
 
-def read_answer(text: str, name: str) -> str:
+def _read(text: str, name: str) -> str:
     """The answer to the question of a name as it was typed, checked as the entry that it is for.
 
-    Raises
-    ------
-    InputError
-        If it is no such number, has no unit or the wrong one, or is out of range.
-
-    Examples
-    --------
-    >>> read_answer(" 35 mm", "stroke"), read_answer("3", "order")
+    >>> _read(" 35 mm", "stroke"), _read("3", "order")
     ('35 mm', '3')
     """
-    type_, answer, value = QUESTIONS[name].type, text.strip(), None
+    type_, answer = QUESTIONS[name][0], text.strip()
+    value: str | float = answer
     if isinstance(type_, Number | Whole):
         try:
             value = int(answer) if isinstance(type_, Whole) else float(answer)
         except ValueError:
             raise InputError(f"--{name} must be {type_.words}, got {answer!r}") from None
-    type_.read(answer if value is None else value, f"--{name}")
+    type_.read(value, f"--{name}")
     return answer
 
 
 @dataclass(frozen=True)
 class Starter:
-    """A kind of problem file to begin with.
-
-    Attributes
-    ----------
-    kind
-        The name of the kind, and of the file with its text.
-    command
-        What runs the file: `optlaws`, this, and the file.
-    questions
-        The names of those that the file has.
-    derived
-        Further answers that follow from those given.
-    check
-        Refuses the entries of a file that could not be run.
-    usual
-        Answers of its own unless others are given.
-    value
-        What the file is read as: above an entry a # alone in the text stands for what the entry says.
-    """
+    """A kind of problem file to begin with, whose text is in the file of its name."""
 
     kind: str
-    command: str
+    command: str  #: of `optlaws`, which runs the file
     questions: Sequence[str]
-    derived: Callable[[Answers], Answers]
-    check: Callable[[Mapping[str, Any], Path], object]
-    value: type[Declared] | None = None
-    usual: Answers = field(default_factory=dict)
+    derived: Callable[[Answers], Answers]  #: further answers that follow from those given
+    check: Callable[[Mapping[str, Any], Path], object]  #: refuses the entries of a file that could not be run
+    value: type[Declared]  #: what the file is read as: a # alone stands for what the entry below it says
+    usual: Answers = field(default_factory=dict)  #: answers of its own unless others are given
 
     def run(self, file: Path) -> str:
         """The command behind `optlaws` that runs a file."""
@@ -144,39 +109,34 @@ class Starter:
         InputError
             If there is no such question, an answer is wrong, or the file with it could not be run.
         """
-        for name in given:
-            if name not in self.questions:
-                known = [f"--{question}" for question in self.questions]
-                raise InputError(f"{self.kind}: {unknown_key(f'--{name}', known, 'option')}")
-        typed: Answers = {name: read_answer(text, name) for name, text in given.items()}
-        answers: Answers = {name: QUESTIONS[name].usual for name in self.questions} | self.usual | typed
+        with located(self.kind):
+            check_names([f"--{name}" for name in given], [f"--{name}" for name in self.questions], "option")
+        typed: Answers = {name: _read(text, name) for name, text in given.items()}
+        answers: Answers = {name: QUESTIONS[name][1] for name in self.questions} | self.usual | typed
         answers |= self.derived(answers) | {"run": self.run(file)}
-        text = "\n".join(self._line(line, answers) for line in self._template()) + "\n"
+        about = sentences(self.value)
+        lines = (_FOLDER / f"{self.kind}.toml").read_text("utf-8").splitlines()
+        for i, line in enumerate(lines):
+            if line == "#":
+                name = lines[i + 1].lstrip("# ").partition(" ")[0]
+                lines[i] = fill(about[name], 120, initial_indent="# ", subsequent_indent="# ")
+        text = "\n".join(_filled(line, answers) for line in lines) + "\n"
         with located(str(file)):
             self.check(tomllib.loads(text), file)
         return text
 
-    def _template(self) -> list[str]:
-        """The lines of the text, with what the entries say."""
-        lines = (_FOLDER / f"{self.kind}.toml").read_text("utf-8").splitlines()
-        texts = {} if self.value is None else sentences(self.value)
-        below = [line.lstrip("# ").partition(" ")[0] for line in lines[1:]]
-        return [
-            fill(texts[name], 120, initial_indent="# ", subsequent_indent="# ") if line == "#" else line
-            for line, name in zip(lines, [*below, ""], strict=True)
-        ]
 
-    def _line(self, line: str, answers: Answers) -> str:
-        """A line of the text with its answers; as a comment, with examples, where one is left out."""
-        left_out = any(answers[place[1]] is None for place in _PLACE.finditer(line))
-        filled = _PLACE.sub(lambda place: answers[place[1]] or place[2] or self._example(place[1], answers), line)
-        return f"# {filled}" if left_out and not line.startswith("#") else filled
+def _filled(line: str, answers: Answers) -> str:
+    """A line of a text with its answers; as a comment, with examples, where one is left out."""
+    left_out = any(answers[place[1]] is None for place in _PLACE.finditer(line))
+    filled = _PLACE.sub(lambda place: answers[place[1]] or place[2] or _example(place[1], answers), line)
+    return f"# {filled}" if left_out and not line.startswith("#") else filled
 
-    def _example(self, name: str, answers: Answers) -> str:
-        """An example of a quantity that is left out, of the dimension of the stroke."""
-        type_, (axis, _) = QUESTIONS[name].type, _si(answers, "stroke")
-        dimensions = type_.dimensions if isinstance(type_, Measured) else ()
-        return DIMENSIONS[dimensions[axis == "angle" and len(dimensions) > 1]][1]
+
+def _example(name: str, answers: Answers) -> str:
+    """An example of a quantity that is left out, of the dimension of the stroke."""
+    dimensions, (axis, _) = _dimensions(name), _si(answers, "stroke")
+    return DIMENSIONS[dimensions[axis == "angle" and len(dimensions) > 1]][1]
 
 
 def _usual(constant: str) -> float:
@@ -189,10 +149,14 @@ def _at_least(value: float) -> str:
     return f"{ceil(value / unit) * unit:.12g}"
 
 
+def _dimensions(name: str) -> tuple[str, ...]:
+    type_ = QUESTIONS[name][0]
+    return type_.dimensions if isinstance(type_, Measured) else ()
+
+
 def _si(answers: Answers, name: str) -> tuple[str, float]:
     """The dimension of an answer, and its number in SI units."""
-    type_ = QUESTIONS[name].type
-    return either(answers[name], type_.dimensions if isinstance(type_, Measured) else (), f"--{name}")
+    return either(answers[name], _dimensions(name), f"--{name}")
 
 
 def _of_cycle(answers: Answers) -> Answers:
@@ -201,13 +165,11 @@ def _of_cycle(answers: Answers) -> Answers:
     speed, motions = _si(answers, "speed")[1], [_si(answers, name) for name in ("rise", "return")]
     shorter = min(value / speed if kind == "angle" else value for kind, value in motions)
     usual = f"{_at_least(_usual('J') * stroke / shorter**3)} {'rad' if axis == 'angle' else 'm'}/s^3"
-    name, inertia, dimension = {
-        "angle": ("table", "inertia", "moment of inertia"),
-        "length": ("slide", "mass", "mass"),
-    }[axis]
+    turns = axis == "angle"
     if answers["mass"] is not None:
-        quantity(answers["mass"], dimension, "--mass")
-    return {"modified_sine_jerk": usual, "jerk": answers["jerk"] or usual, "axis": name, "inertia": inertia}
+        quantity(answers["mass"], "moment of inertia" if turns else "mass", "--mass")
+    names = {"axis": "table", "inertia": "inertia"} if turns else {"axis": "slide", "inertia": "mass"}
+    return {"modified_sine_jerk": usual, "jerk": answers["jerk"] or usual, **names}
 
 
 def _of_cam(answers: Answers) -> Answers:
@@ -250,34 +212,28 @@ def _of_study(answers: Answers) -> Answers:
     return {"modified_sine_J": f"{_usual('J'):.5g}", "J": None}
 
 
-def _check_law(entries: Mapping[str, Any], file: Path) -> None:
-    problem("problem", SolutionsProblemFile.read(entries, file).problem)
-
-
 _CYCLE = ("stroke", "rise", "dwell", "return", "speed", *_DERIVATIVES, "mass")
 _CAM = ("roller", "offset", "pressure-angle", "curvature", "prime-radius")
 _MACHINE = ("stroke", "duration", "frequency", "damping", "spread", "sway")
 _LAW = ("stroke", "duration", "minimise", "order", *_DERIVATIVES)
 _STUDY = ("minimise", "from", "to", "steps", "degree")
 
-STARTERS: dict[str, Starter] = {
-    "cycle": Starter("cycle", "cycle", _CYCLE, _of_cycle, read_given, CycleProblemFile),
-    "cam": Starter(
-        "cam",
-        "run",
-        (*_CYCLE, *_CAM),
-        _of_cam,
-        lambda entries, file: CamProblemFile.read(entries, file).cycle,
+_KINDS = [
+    Starter("cycle", "cycle", _CYCLE, _of_cycle, read_given, CycleProblemFile),
+    Starter(
+        "cam", "run", (*_CYCLE, *_CAM), _of_cam, lambda entries, file: CamProblemFile.read(entries, file).cycle,
         CamProblemFile,
     ),
-    "machine": Starter(
-        "machine",
-        "run",
-        _MACHINE,
-        _of_machine,
+    Starter(
+        "machine", "run", _MACHINE, _of_machine,
         lambda entries, file: MachineLawsProblemFile.read(entries, file).machine.machine(),
-        usual={"stroke": "300 mm", "duration": "0.4 s"},
+        MachineLawsProblemFile, {"stroke": "300 mm", "duration": "0.4 s"},
     ),
-    "law": Starter("law", "run", _LAW, _of_law, _check_law),
-    "study": Starter("study", "study", _STUDY, _of_study, lambda entries, _: read_study(entries)),
-}
+    Starter(
+        "law", "run", _LAW, _of_law,
+        lambda entries, file: problem("problem", SolutionsProblemFile.read(entries, file).problem),
+        SolutionsProblemFile,
+    ),
+    Starter("study", "study", _STUDY, _of_study, lambda entries, _: read_study(entries), StudyFile),
+]  # fmt: skip
+STARTERS: dict[str, Starter] = {starter.kind: starter for starter in _KINDS}
