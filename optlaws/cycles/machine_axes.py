@@ -22,6 +22,7 @@ from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.laws.exporting import AxesExportOptions
 from optlaws.numbers import Quantity
+from optlaws.shown.report import Report
 from optlaws.shown.summary import Row, Summary
 from optlaws.suggest import keywords_of
 from optlaws.synthesis.status import Status
@@ -215,7 +216,7 @@ class Axes(JsonText, Mapping[str, Cycle]):
         overlap = Overlap(**numbers, of=tuple(longer), binding=(), axes=axes, given=self)
         return replace(overlap, binding=overlap.bound_by())
 
-    @kept_property
+    @property
     def clearances(self) -> tuple[LeastClearance, ...]:
         """The least clearance of every interlock, its place and its margin, proven over the whole cycle.
 
@@ -229,7 +230,8 @@ class Axes(JsonText, Mapping[str, Cycle]):
         >>> [(least.status, least.text) for least in machine.clearances]
         [('broken', '-0.060178 deg at 66.1074 deg, -4.79101 ms early')]
         """
-        return tuple(interlock.least_clearance(self._cycles) for interlock in self.rules)
+        clearances: tuple[LeastClearance, ...] = self._report.clearances
+        return clearances
 
     @property
     def broken(self) -> tuple[LeastClearance, ...]:
@@ -377,7 +379,18 @@ class Axes(JsonText, Mapping[str, Cycle]):
             return draw_axes(self, ax, nu=nu, **style)
         from optlaws.plots.interlocks import draw_interlocked
 
-        return draw_interlocked(self, self.rules, ax, what, interlock, style)
+        return draw_interlocked(self._report, ax, what, interlock, style)
+
+    def report(self) -> Report:
+        """The proven clearances, and the position of every axis and every clearance over the master."""
+        report: Report = self._report
+        return report
+
+    @kept_property
+    def _report(self) -> Any:
+        from optlaws.cycles.axes_report import AxesReport
+
+        return AxesReport(self._cycles, self.rules)
 
     def __repr__(self) -> str:
         shown = {name: ", ".join(segment.label for segment in cycle.segments) for name, cycle in self.items()}

@@ -25,7 +25,7 @@ from optlaws.motion.quantities import QUANTITIES
 from optlaws.numbers import Array, chop
 from optlaws.shown.curve_points import refined
 from optlaws.shown.report import Panel, PanelLimit, ReportSegment, ReportTable, Series
-from optlaws.shown.summary import Summary
+from optlaws.shown.summary import Row, Summary
 from optlaws.tolerances import CYCLE_ROUNDING, INSIDE_PIECE
 
 if TYPE_CHECKING:
@@ -62,12 +62,12 @@ class CycleReport:
     @kept_property
     def tables(self) -> tuple[ReportTable, ...]:
         """The segments with their ends and their peaks, and the whole cycle."""
-        units = self.units
-        sized = [f"peak {name}, {unit}" for name, (unit, _) in zip(QUANTITIES, units, strict=True)]
-        headings = ["segment", "from, ms", "takes, ms", "takes, deg", f"ends at, {units[0][0]}", *sized[1:]]
-        whole = [self.cycle.peak(nu) * units[nu][1] for nu in (1, 2, 3)]
+        rows = self._segment_rows()
+        sized = [f"peak {DERIVATIVES[nu]}, {self.unit(nu)[0]}" for nu in self.orders[1:]]
+        headings = ["segment", "from, ms", "takes, ms", "takes, deg", f"ends at, {self.units[0][0]}", *sized]
+        whole = map(max, zip(*(row[-len(sized) :] for row in rows), strict=True))
         last = ["whole cycle", 0.0, MILLI * self.cycle.duration, TURN_DEG, None, *whole]
-        return (ReportTable(headings, [*self._segment_rows(), last]),)
+        return (ReportTable(headings, [*rows, last]),)
 
     def _segment_rows(self) -> list[list[Any]]:
         cycle, factor = self.cycle, self.units[0][1]
@@ -76,8 +76,10 @@ class CycleReport:
             position += stretch.displacement
             size = factor * max(abs(position), abs(cycle.peak(0)))
             times = [MILLI * peaks.start, MILLI * peaks.duration, TURN_DEG * peaks.duration / cycle.duration]
-            sizes = [peaks.peak(nu) * self.units[nu][1] for nu in (1, 2, 3)]
-            rows.append([peaks.name, *times, chop(factor * position, size, CYCLE_ROUNDING), *sizes])
+            rows.append([peaks.name, *times, chop(factor * position, size, CYCLE_ROUNDING)])
+        for nu in self.orders[1:]:
+            for row, ends in zip(rows, self.extremes(nu), strict=True):
+                row.append(max(abs(value) for value, _ in ends) * self.unit(nu)[1])
         return rows
 
     def motion(self, count: int) -> ReportTable:
@@ -151,6 +153,16 @@ class CycleReport:
                 peak, rms = (_infimum(cycle.drive, name, move) for name in ("peak torque", "rms torque"))
                 efforts.append(LeastEffort(segment, (effort.peak_force, peak), (effort.rms_force, rms)))
         return efforts
+
+    @property
+    def duration(self) -> float:
+        """The duration of the cycle, s."""
+        return self.cycle.duration
+
+    @property
+    def demands(self) -> list[Row]:
+        """The peaks of the motion, and what it takes of its drive."""
+        return [*peak_rows(self.cycle), *drive_rows(self.cycle)]
 
     @property
     def limits_taken(self) -> tuple[LimitTaken, ...]:

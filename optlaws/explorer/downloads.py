@@ -223,7 +223,7 @@ def _axes_python(request: cycle_view.CycleRequest) -> File:
     return _python("axes", lines)
 
 
-def _cut(form: str, request: cam_view.CamRequest) -> File:
+def _cut(form: str, request: cycle_view.CycleRequest) -> File:
     result = cam_view.result_of(request)
     kind = form.partition(" ")[0]
     ending = next(end for end, name in cam_files.ENDINGS.items() if name.partition(" ")[0] == kind)
@@ -281,7 +281,7 @@ VIEWS = {
     "cycle": ViewFiles(cycle_view.CycleRequest, _CYCLE, cycle_view.cycle),
     "machine": ViewFiles(cycle_view.CycleRequest, _CYCLE, cycle_view.cycle),
     "axes": ViewFiles(cycle_view.CycleRequest, _CYCLE | _AXES, cycle_view.cycle),
-    "cam": ViewFiles(cam_view.CamRequest, {"problem": _study("cam.toml"), **_CUT}),
+    "cam": ViewFiles(cycle_view.CycleRequest, {"problem": _study("cam.toml"), **_CUT}),
     "fastest": ViewFiles(cycle_view.CycleRequest, _FASTEST),
     "old": ViewFiles(old_cam_view.OldCamRequest, _OLD, old_cam_view.cycle),
 }

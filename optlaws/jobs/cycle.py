@@ -51,7 +51,6 @@ _PEAKS = ("peak velocity", "peak acceleration", "peak jerk")
 _EXPORT_HEADINGS = ("file", "format", "points", *_PEAKS, "greatest deviation, unit")
 _RUN = "What controllers will run: peaks of the exported files as interpolated, over the law's."
 _ABOUT = "Table and picture begin where the cam does: at {:.9g} deg of the cycle's master, until {:.9g} deg."
-_CLEARANCE_HEADINGS = ("interlock", "status", "least clearance", "proven", "unit", "at, deg", "early by, ms")
 _INTERLOCKS = "What is clear is proven over the whole cycle: nowhere is the clearance below the proven one."
 
 
@@ -122,7 +121,7 @@ def _stored(cycle: Cycle) -> dict[str, Any]:
 
 def _beside(axes: Axes, overlap: Overlap | None, transitions: Sequence[AxisTransition]) -> dict[str, Any]:
     """What is known beside the axes for programs: clearances, what overlaps, run-ins and run-outs, if there are any."""
-    known: dict[str, Any] = {"interlocks": [least.to_row() for least in axes.clearances]} if axes.rules else {}
+    known = axes.report().data
     if overlap is not None:
         facts = {name: getattr(overlap, name) for name in ("goal", "objective", "lower_bound", "gain")}
         known["overlap"] = {"status": overlap.status.value, **facts, "binding": list(overlap.binding)}
@@ -190,7 +189,7 @@ def _add_interlocks(page: Page, title: str, axes: Axes, overlap: Overlap | None)
         page.picture("timing", f"{title}: timing diagram", figure_of(axes.plot(what="timing"), title))
         clearances = figure_of(axes.plot(what="clearance"), title)
         page.heading("Interlocks").picture("clearances", f"{title}: clearance of the interlocks", clearances)
-        page.text(_INTERLOCKS).table(_CLEARANCE_HEADINGS, [least.cells for least in axes.clearances])
+        page.text(_INTERLOCKS).table(*axes.report().tables[0])
 
 
 def _add_axis(

@@ -14,6 +14,7 @@ from optlaws.cycles.interlocks.interlock import Interlock
 from optlaws.cycles.interlocks.interlock_kinds import INTERLOCKS
 from optlaws.cycles.specification.frozen import frozen, thawed
 from optlaws.cycles.specification.load import ElasticFollower
+from optlaws.cycles.specification.programme import period_of
 from optlaws.cycles.specification.segments import CycleSegment
 from optlaws.echo import shortened
 from optlaws.entries.declared import Declared, ValueOf, declared, entries_of, entry, same
@@ -192,6 +193,7 @@ class CycleProblemFile(ProblemFile, title="a problem file"):
 
     def _check(self) -> None:
         super()._check()
+        period_of(self.speed, self.period)
         names = [axis.name for axis in self.axis]
         for name in names:
             if names.count(name) > 1:

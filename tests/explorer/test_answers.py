@@ -18,7 +18,6 @@ from tests.explorer.talk import OPTIMAL
 from tests.internals.cams import cam_files
 from tests.internals.explorer import (
     EXAMPLES,
-    CamRequest,
     CycleRequest,
     FileRequest,
     LawRequest,
@@ -298,8 +297,8 @@ def test_toml_has_no_other_values() -> None:
 @pytest.mark.parametrize("file", ["cam_press", "cam_rocker", "cam_flat_face"])
 def test_a_cam_is_drawn_where_its_follower_touches_it(file: str) -> None:
     study = start(str(ROOT / "problems" / f"{file}.toml"))["cam"]
-    view = cam_view.answer(CamRequest(study=study))
-    cam = cam_view.result_of(CamRequest(study=study)).cam
+    view = cam_view.answer(CycleRequest(study=study))
+    cam = cam_view.result_of(CycleRequest(study=study)).cam
     frames, roller = view["frames"], view["follower"]["roller"]
     for centre, contact in zip(frames["centre"], frames["contact"], strict=True):
         assert hypot(centre[0] - contact[0], centre[1] - contact[1]) == pytest.approx(roller or 0.0, abs=1e-3)
@@ -317,8 +316,8 @@ def test_a_cam_is_drawn_where_its_follower_touches_it(file: str) -> None:
 
 def test_the_loads_of_a_cam_are_those_of_the_library() -> None:
     study = start(str(ROOT / "problems" / "cam_press.toml"))["cam"]
-    results = cam_view.loads(CamRequest(study=study))
-    cam = cam_view.result_of(CamRequest(study=study)).cam
+    results = cam_view.loads(CycleRequest(study=study))
+    cam = cam_view.result_of(CycleRequest(study=study)).cam
     forces = CamForces(cam, width="20 mm", friction=study["forces"]["friction"])
     contact, torque, pressure = results["panels"]
     assert [one["name"] for one in results["panels"]] == ["contact force", "torque at the shaft", "Hertz's pressure"]
@@ -332,34 +331,34 @@ def test_the_loads_of_a_cam_are_those_of_the_library() -> None:
     (spring,) = (fact for fact in results["facts"] if fact.startswith("least spring without lift-off: stiffness "))
     assert "preload 0.4 N" in spring
     light = study | {"motion": study["motion"] | {"drive": {"mass": "20 kg"}}}
-    assert "the follower lifts off at" in cam_view.loads(CamRequest(study=light))["facts"][0]
+    assert "the follower lifts off at" in cam_view.loads(CycleRequest(study=light))["facts"][0]
     jammed = light | {"forces": {"friction": {"contact": 0, "guide": 0.9, "overhang": "90 mm", "length": "20 mm"}}}
-    (why,) = cam_view.loads(CamRequest(study=jammed))["facts"]
+    (why,) = cam_view.loads(CycleRequest(study=jammed))["facts"]
     assert "the follower jams in its guide" in why
 
 
 def test_a_cam_beyond_its_limits_is_not_called_free_of_undercut() -> None:
-    trust = cam_view.answer(CamRequest(study=cam_view.example() | {"prime_radius": "45 mm"}))["trust"]
+    trust = cam_view.answer(CycleRequest(study=cam_view.example() | {"prime_radius": "45 mm"}))["trust"]
     assert (trust["status"], trust["word"]) == ("refused", "beyond a limit")
     assert "deg of 30 deg" in trust["advice"]
 
 
 def test_a_cam_that_is_undercut_says_so_and_one_that_is_none_why() -> None:
     study = cam_view.example()
-    circle, roller = cam_view.sizes(CamRequest(study=study))["facts"]
+    circle, roller = cam_view.sizes(CycleRequest(study=study))["facts"]
     least = float(circle.removeprefix("least prime circle, by the pressure angle ").split()[0])
     assert roller.startswith("greatest roller ")
     for radius, beyond in ((least, False), (least * 0.999, True)):
-        view = cam_view.answer(CamRequest(study=study | {"prime_radius": f"{radius + 1e-5} mm"}))
+        view = cam_view.answer(CycleRequest(study=study | {"prime_radius": f"{radius + 1e-5} mm"}))
         assert view["panels"][1]["beyond"] == beyond
     large = study["follower"] | {"radius": "59 mm"}
-    small = cam_view.answer(CamRequest(study=study | {"follower": large}))
+    small = cam_view.answer(CycleRequest(study=study | {"follower": large}))
     assert small["trust"]["word"] == "undercut"
     assert "prime circle larger" in small["trust"]["advice"]
     assert not small["panels"][1]["beyond"]
-    assert cam_view.answer(CamRequest(study=study | {"prime_radius": "50 mm"}))["panels"][1]["beyond"]
+    assert cam_view.answer(CycleRequest(study=study | {"prime_radius": "50 mm"}))["panels"][1]["beyond"]
     for changed in ({"prime_radius": "18 kg"}, {"follower": {"kind": "translating roller"}}, {"base": "18 mm"}):
-        assert cam_view.answer(CamRequest(study=study | changed))["refused"]["word"] == "no such cam"
+        assert cam_view.answer(CycleRequest(study=study | changed))["refused"]["word"] == "no such cam"
 
 
 @pytest.mark.sample(4)
@@ -405,7 +404,8 @@ def test_every_peak_of_a_cycle_lies_on_its_curve() -> None:
 def test_a_cycle_within_its_limits_is_proven() -> None:
     view = cycle_view.answer(cycle_of())
     assert view["trust"]["word"] == "proven optimal"
-    assert [one["peaks"][0]["value"] for one in view["segments"]] == pytest.approx([616.0, 0.0, 616.0, 0.0])
+    assert view["table"]["headings"][5] == "peak velocity, mm/s"
+    assert [row[5] for row in view["table"]["rows"]] == pytest.approx([616.0, 0.0, 616.0, 0.0, 616.0])
     assert not any(peak["beyond"] for one in view["segments"] for peak in one["peaks"])
     assert [one["value"] for one in view["panels"][1]["limits"]] == [616.0] * 2  # a dwell has none
 

@@ -64,17 +64,21 @@ def test_what_is_drawn_and_proven_of_axes_is_the_library_s(served: Server, study
         assert [bar["from"] for bar in row["bars"]] == pytest.approx(
             [360.0 * peaks.start / axes.duration for peaks in cycle.peaks]
         )
-        assert row["peaks"][1] == {"value": pytest.approx(cycle.peak(2), rel=1e-5), "unit": "m/s²", "digits": 6}
+        assert row["cells"][2] == {"value": pytest.approx(cycle.peak(2), rel=1e-5), "unit": "m/s²", "digits": 6}
     for panel, rule in zip(shown["panels"], axes.rules, strict=True):
         rooms = 1e3 * rule.room(axes, np.array(panel["series"][0]["at"]) * axes.duration / 360.0)
         assert panel["series"][0]["values"] == pytest.approx(rooms, abs=2e-3)
     proven = served.ask("axes-clearances", {"study": study})
     for results, least in zip(proven["rows"], axes.clearances, strict=True):
-        assert (results["status"], results["value"], results["at"]) == (
+        assert (results["status"], results["value"]["value"], results["at"]) == (
             least.status,
             1e3 * least.clearance,
             least.angle,
         )
+    for panel, least in zip(proven["panels"], axes.clearances, strict=True):
+        (peak,) = panel["peaks"]
+        (curve,) = panel["series"]
+        assert curve["values"][curve["at"].index(peak["at"])] == pytest.approx(1e3 * least.clearance, abs=1e-6)
     assert proven["trust"]["word"].startswith("interlocks clear" if not axes.broken else "interlock broken")
 
 
@@ -190,7 +194,7 @@ def test_the_corner_of_a_forbidden_region_is_moved(page: Page, served: Server) -
     changed = robot()
     changed["interlocks"] = [BOX | {"corners": [*BOX["corners"][:2], ["280 mm", "31 mm"], BOX["corners"][3]]}]
     (results,) = served.ask("axes-clearances", {"study": changed})["rows"]
-    assert written(results["cells"][0]) in page.locator("#axes-table").inner_text()
+    assert written(results["value"]) in page.locator("#axes-table").inner_text()
 
 
 def test_axes_are_added_renamed_and_removed_with_what_names_them(page: Page, served: Server) -> None:
@@ -234,7 +238,7 @@ def test_an_interlock_of_another_kind_has_the_fields_that_it_declares(page: Page
     bound = [["0 mm", "5 mm"], ["300 mm", "90 mm"]]
     changed["interlocks"] = [{"kind": "clearance", "name": "box", "axis": "x", "over": "z", "most": bound}]
     (results,) = served.ask("axes-clearances", {"study": changed})["rows"]
-    assert written(results["cells"][0]) in page.locator("#axes-table").inner_text()
+    assert written(results["value"]) in page.locator("#axes-table").inner_text()
     assert page.get_by_label("interlock 1 corners").count() == 0
     page.get_by_label("interlock 1 kind").select_option("synchronous")
     settle(page)

@@ -17,7 +17,6 @@ from optlaws.explorer.views import (
     machine_view,
     old_cam_view,
 )
-from optlaws.explorer.views.cam_view import CamRequest
 from optlaws.explorer.views.cycle_view import CycleRequest, example
 from optlaws.explorer.views.law_view import answer
 from optlaws.explorer.views.panel_data import fact_sentences, panel_data

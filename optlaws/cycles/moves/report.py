@@ -124,6 +124,11 @@ class MoveReport:
                 taken[CURVE_LIMIT] = share_used(torques, self.drive.motor.peak_at(self._along.speed(times)))
         return taken
 
+    @property
+    def demands(self) -> list[Row]:
+        """What the move takes of its motor; nothing without one."""
+        return [] if self.sheet is None else list(self.sheet.summary())
+
     @kept_property
     def sheet(self) -> DriveSheet | None:
         """What the move takes of its motor; None without one."""

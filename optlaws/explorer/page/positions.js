@@ -3,7 +3,7 @@
 import { frame, scale, ticks } from "./axes.js";
 import { html, path, renew, sized, svg } from "./svg.js";
 import { valueAt } from "./timing.js";
-import { headed, shownUnit, written } from "./units.js";
+import { headed, number, shownUnit, written } from "./units.js";
 
 const BOX = { left: 66, right: 16, top: 12, bottom: 40 };
 
@@ -81,7 +81,7 @@ export class Positions {
 
   #words() {
     const { axes, regions } = this.#plane;
-    const told = regions.map(({ rule, name }) => (this.#nearest[rule] ? `${name}: ${this.#nearest[rule].status}, ${written(this.#nearest[rule].cells[0])} at ${this.#nearest[rule].cells[2]} degrees` : name));
+    const told = regions.map(({ rule, name }) => (this.#nearest[rule] ? `${name}: ${this.#nearest[rule].status}, ${written(this.#nearest[rule].value)} at ${number(this.#nearest[rule].at)} degrees` : name));
     return `The path in the plane of ${axes.join(" and ")}. ${told.join("; ")}`;
   }
 
@@ -97,7 +97,7 @@ export class Positions {
     if (!least) return null;
     const at = this.#place(least.at);
     const { corners, free } = regions.find((one) => one.rule === rule);
-    const text = `${least.name}: ${written(least.cells[0])}`;
+    const text = `${least.name}: ${written(least.value)}`;
     const end = at[0] > (box.left + box.right) / 2;
     const line = free && least.status !== "broken" ? svg("path", { class: "shaft-of-arrow", d: path([at, nearest(corners.map(([across, up]) => [x(across), y(up)]), at)]) }) : null;
     return svg("g", { class: `interlock ${least.status}` }, line, svg("circle", { cx: at[0], cy: at[1], r: 4.5 }), svg("text", { class: "tip", x: at[0] + (end ? -9 : 9), y: at[1] - 8 < box.top + 12 ? at[1] + 18 : at[1] - 8, "text-anchor": end ? "end" : "start", text }));

@@ -7,7 +7,6 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
-import msgspec
 import numpy as np
 
 from optlaws.cams.curves.extremes import UNDERCUT
@@ -18,10 +17,10 @@ from optlaws.cams.forces import Surfaces
 from optlaws.cams.report import CamReport, forces_section
 from optlaws.cycles.specification.drive import CONSTANTS
 from optlaws.errors import InfeasibleProblem, InputError, OptlawsError, located
-from optlaws.explorer.views.cycle_view import SEGMENTS, check_axis
+from optlaws.explorer.views.cycle_view import SEGMENTS, CycleRequest
 from optlaws.explorer.views.law_view import refusing
 from optlaws.explorer.views.panel_data import drawn, fact_sentences, panel_data
-from optlaws.explorer.views.requests import Question
+from optlaws.explorer.views.requests import Question, check_size, without_files
 from optlaws.jobs.cam import CamResult
 from optlaws.jobs.cam_entries import CamProblemFile
 from optlaws.motion.display_units import DEGREES, MILLI
@@ -35,19 +34,13 @@ _BEYOND = "beyond a limit", "refused"
 _TITLES = {"free": ("no undercut", "optimal"), "undercut": ("undercut", "refused"), "undecided": ("undecided", "local")}
 
 
-class CamRequest(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
-    """A cam, as in its problem file."""
-
-    study: dict[str, Any]
-
-
 @refusing("no such cam")
-def answer(request: CamRequest) -> dict[str, Any]:
+def answer(request: CycleRequest) -> dict[str, Any]:
     """The view of a cam, or the reason why there is none."""
     return _view(result_of(request))
 
 
-def result_of(request: CamRequest) -> CamResult:
+def result_of(request: CycleRequest) -> CamResult:
     """The result of the cam's problem file, which is computed once."""
     return _solved(json.dumps(request.study, sort_keys=True))
 
@@ -55,10 +48,11 @@ def result_of(request: CamRequest) -> CamResult:
 @lru_cache(maxsize=32)
 def _solved(question: str) -> CamResult:
     data = json.loads(question)
+    without_files(data)
     if "barrel" in data:
         raise InputError("the explorer shows disc cams: `optlaws run` computes barrel cams")
     spec = CamProblemFile.read(data, _WHERE)
-    check_axis(spec.motion)
+    check_size(spec.motion.order, spec.motion.degree)
     with located(str(_WHERE)):
         return CamResult.of_file(spec)
 
@@ -148,18 +142,18 @@ def _trust(report: CamReport) -> dict[str, Any]:
     return {"status": status, "word": word, "advice": capital(advice), "gap": "", "facts": facts}
 
 
-def sizes(request: CamRequest) -> dict[str, Any]:
+def sizes(request: CycleRequest) -> dict[str, Any]:
     """The least prime circle that keeps the limits, where some are given, and the greatest roller.
 
     They take longer than the view.
 
     Examples
     --------
-    >>> sizes(CamRequest(study=example()))["facts"][0]
+    >>> sizes(CycleRequest(study=example()))["facts"][0]
     'least prime circle, by the pressure angle 58.60757 mm at 264.38 deg'
     """
     others = {name: value for name, value in request.study.items() if name not in {"cutter_radius", "title", "text"}}
-    section = result_of(CamRequest(study=others | {"title": "a cam"})).sizes
+    section = result_of(CycleRequest(study=others | {"title": "a cam"})).sizes
     return {"facts": [*fact_sentences(section.facts), *([section.note] if section.note else [])]}
 
 
@@ -192,7 +186,7 @@ def form() -> dict[str, Any]:
     }
 
 
-def loads(request: CamRequest) -> dict[str, Any]:
+def loads(request: CycleRequest) -> dict[str, Any]:
     """Panels and words of a cam whose motion has a drive; none where it has none."""
     try:
         result = result_of(request)
@@ -218,7 +212,7 @@ def _spring(result: CamResult) -> list[Sentence]:
 
 
 QUESTIONS: dict[str, Question] = {
-    "cam": (CamRequest, answer),
-    "cam-loads": (CamRequest, loads),
-    "cam-sizes": (CamRequest, sizes),
+    "cam": (CycleRequest, answer),
+    "cam-loads": (CycleRequest, loads),
+    "cam-sizes": (CycleRequest, sizes),
 }

@@ -21,25 +21,24 @@ from optlaws.cycles.specification.limit_entries import LIMITS_OF_CYCLE
 from optlaws.cycles.specification.segments import CycleSegment
 from optlaws.cycles.summary import drive_rows, joint_rows, objective_unit, proof_rows
 from optlaws.entries.declared import entries_of
-from optlaws.errors import InfeasibleProblem, InputError, SolverFailure, located
+from optlaws.errors import InfeasibleProblem, SolverFailure, located
 from optlaws.explorer.views.law_view import digits, gap_text, refusing, verdict
-from optlaws.explorer.views.panel_data import fact_sentences, panel_data
-from optlaws.explorer.views.requests import MOST_DEGREE, MOST_LAWS, MOST_ORDER, Question
-from optlaws.files import reading as reading_of_files
+from optlaws.explorer.views.panel_data import fact_sentences, panel_data, table_data
+from optlaws.explorer.views.requests import MOST_LAWS, Question, check_size, without_files
+from optlaws.files import reading
 from optlaws.files.packaged import packaged
 from optlaws.jobs.cycle_entries import AxisEntries, CycleProblemFile, cycle_of
-from optlaws.laws.catalogue import reading
 from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.mechanisms.drives.motor import OF_TORQUE, Motor
 from optlaws.motion.display_units import MILLI, TURN_DEG, UNITS
-from optlaws.numbers import Quantity, bounded, chop
+from optlaws.numbers import Quantity
 from optlaws.numerics.peaks import is_kept
 from optlaws.sentences import Amount, Sentence, joined, sentence
-from optlaws.tolerances import BOUND_SLACK, CYCLE_ROUNDING
+from optlaws.tolerances import BOUND_SLACK
 
 _MOTION = ("velocity", "acceleration", "deceleration", "jerk", "snap")
 _LIMITS = {"motion": _MOTION, "machine": (*_MOTION, "torque", "rms torque", "power", "energy", "motor")}
-_WHERE = Path("the cycle")
+_WHERE = Path("the machine")
 MOST_POINTS = 6
 Ratio: TypeAlias = Annotated[float, msgspec.Meta(gt=0.0, le=1e6)]
 Laws: TypeAlias = Annotated[list[dict[str, Any]], msgspec.Meta(max_length=100)]
@@ -77,6 +76,7 @@ def answer(request: CycleRequest) -> dict[str, Any]:
         "symbol": "master",
         "panels": [panel_data(report.panel(nu), TURN_DEG / shown.duration) for nu in report.orders],
         "segments": list(_segments(report)),
+        "table": table_data(report.tables[0]),
         "trust": trust(shown),
         "facts": fact_sentences([*drive_rows(shown), *joint_rows(shown)]),
     }
@@ -88,36 +88,25 @@ def nearest(request: CycleRequest) -> dict[str, Any]:
     return {"ways": list(_ways(spec, axis))}
 
 
-def read(request: CycleRequest) -> tuple[CycleProblemFile, AxisEntries]:
-    """The requested programme, and the axis on display.
+def machine(study: dict[str, Any]) -> CycleProblemFile:
+    """The machine of a study.
 
     Raises
     ------
     InputError
-        If an entry is unknown or wrong, or larger than the explorer takes, or a law is named by a file.
+        If an entry is unknown or wrong, or larger than the explorer takes, or names a file.
     """
-    spec = CycleProblemFile.read(request.study, _WHERE)
-    axis = spec.axis[min(request.axis, len(spec.axis) - 1)]
-    check_axis(axis)
-    return spec, axis
+    without_files(study)
+    spec = CycleProblemFile.read(study, _WHERE)
+    for axis in spec.axis:
+        check_size(axis.order, axis.degree)
+    return spec
 
 
-def check_axis(axis: AxisEntries) -> None:
-    """Refuse what is larger than the explorer takes, and laws and motors that are named by files."""
-    if axis.order > MOST_ORDER or axis.degree > MOST_DEGREE:
-        raise InputError(f"the explorer takes cycles of order up to {MOST_ORDER} and degree up to {MOST_DEGREE}")
-    check_drive(axis.drive)
-    of_cam = (axis.mechanism or {}).get("segment")
-    inner = [entry.get("law") for entry in of_cam if isinstance(entry, Mapping)] if isinstance(of_cam, tuple) else []
-    for law in (*(getattr(segment, "law", None) for segment in axis.segment), *inner):
-        if isinstance(law, str) and reading.is_file(law):
-            raise InputError(f"law: {law} names a file, and the page reads none: take a law of the catalogue")
-
-
-def check_drive(drive: Mapping[str, Any] | None) -> None:
-    """Refuse a motor of a catalogue."""
-    if drive is not None and drive.get("motors") is not None:
-        raise InputError("motors: the page reads no catalogue: give the motor as a table, or start with the file")
+def read(request: CycleRequest) -> tuple[CycleProblemFile, AxisEntries]:
+    """The requested machine, and the axis on display."""
+    spec = machine(request.study)
+    return spec, spec.axis[min(request.axis, len(spec.axis) - 1)]
 
 
 def cycle(request: CycleRequest) -> Cycle:
@@ -145,34 +134,14 @@ def _solved(axis: AxisEntries, speed: Quantity | None, period: Quantity | None) 
     return cycle_of_axis
 
 
-def _degrees(shown: Cycle, time: float) -> float:
-    return round(TURN_DEG * time / shown.duration, 4)
-
-
 def _segments(report: CycleReport) -> Iterator[dict[str, Any]]:
-    shown, units = report.cycle, UNITS[report.cycle.axis]
+    """The names and the ends of segments in degrees, and which of their derivatives are beyond a limit."""
     extremes = [report.extremes(nu) for nu in report.orders]
-    most = [max(abs(value) for ends in each for value, _ in ends) for each in extremes]
-    segments = zip(shown.peaks, shown.limits_of_segments, shown.programme.stretches, strict=True)
-    for i, (peak, limits, stretch) in enumerate(segments):
-        peaks = [
-            {
-                "value": bounded(
-                    report.unit(nu)[1] * chop(max(abs(value) for value, _ in ends), most[nu], CYCLE_ROUNDING)
-                ),
-                "beyond": _beyond(ends, limits.get(nu, (-inf, inf))),
-            }
-            for nu, ends in ((nu, extremes[nu][i]) for nu in report.orders[1:])
-        ]
-        yield {
-            "name": peak.name,
-            "from": digits(_degrees(shown, peak.start), 6),
-            "to": digits(_degrees(shown, peak.start + peak.duration), 6),
-            "at": [_degrees(shown, peak.start), _degrees(shown, peak.start + peak.duration)],
-            "time": digits(MILLI * peak.duration, 6),
-            "by": chop(stretch.displacement * units[0][1], shown.peak(0) * units[0][1], CYCLE_ROUNDING),
-            "peaks": peaks,
-        }
+    scale = TURN_DEG / report.cycle.duration
+    for i, (segment, limits) in enumerate(zip(report.segments, report.cycle.limits_of_segments, strict=True)):
+        beyond = [_beyond(extremes[nu][i], limits.get(nu, (-inf, inf))) for nu in report.orders[1:]]
+        ends = [round(scale * segment.start, 4), round(scale * segment.stop, 4)]
+        yield {"name": segment.name, "at": ends, "peaks": [{"beyond": each} for each in beyond]}
 
 
 def _beyond(extremes: tuple[tuple[float, float], tuple[float, float]], limits: tuple[float, float]) -> bool:
@@ -256,7 +225,7 @@ def form() -> dict[str, Any]:
 
 def packaged_study(name: str, *without: str) -> dict[str, Any]:
     """A problem file that comes with optlaws as a study of the page, without its text and some entries."""
-    entries = reading_of_files.toml(packaged(f"problems/{name}.toml"))
+    entries = reading.toml(packaged(f"problems/{name}.toml"))
     return {entry: value for entry, value in entries.items() if entry not in {"text", *without}}
 
 

@@ -137,7 +137,6 @@ def _place(spec: CycleProblemFile, axis: AxisEntries) -> int:
 
 def _law(spec: CycleProblemFile, axis: AxisEntries, given: Sequence[dict[str, Any]] = ()) -> Cycle | OptlawsError:
     """The cycle of an axis, by optimal laws or by those that are given for its optimised moves."""
-    cycle_view.check_axis(axis)
     try:
         cycle = _evaluated(spec, axis, given) if given else cycle_view.stored(spec, axis)
         _ = cycle.effort  # what cannot be driven is told here

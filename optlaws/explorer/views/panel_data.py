@@ -11,7 +11,7 @@ import numpy as np
 from optlaws.motion.display_units import MILLI
 from optlaws.numbers import Array, bounded
 from optlaws.sentences import Amount, Sentence, joined, sentence
-from optlaws.shown.report import Panel
+from optlaws.shown.report import Panel, ReportTable
 from optlaws.shown.summary import Row
 
 _DRAWN = 6  # decimals of what is drawn; what is read is a text of its own
@@ -86,6 +86,25 @@ def panel_data(panel: Panel, per: float = MILLI) -> dict[str, Any]:
     return (
         shown if panel.peaks or not any(panel.ends) or not isfinite(panel.peak) else shown | {"ends": list(panel.ends)}
     )
+
+
+def table_data(table: ReportTable) -> dict[str, Any]:
+    """A table as JSON; the numbers of a row with a unit have it with them.
+
+    Examples
+    --------
+    >>> table_data(ReportTable(["what", "least", "unit"], [["radius", 5.0, "mm"], ["turn", np.inf, ""]]))
+    {'headings': ['what', 'least'], 'rows': [['radius', '5 mm'], ['turn', None]]}
+    """
+    headings = list(table.headings)
+    rows: list[list[Any]] = [[bounded(cell) if isinstance(cell, float) else cell for cell in row] for row in table.rows]
+    if "unit" in headings:
+        at = headings.index("unit")
+        del headings[at]
+        for row in rows:
+            unit = row.pop(at)
+            row[:at] = [Amount(cell, unit) if isinstance(cell, float) else cell for cell in row[:at]]
+    return {"headings": headings, "rows": rows}
 
 
 def over_time(panels: Sequence[dict[str, Any]], duration: float, of: str = "") -> dict[str, Any]:

@@ -93,7 +93,7 @@ _PAIRS = re.compile(r"\s*\{?\s*[-+.\deE]+\s*:")
 
 
 def without_files(entries: Any) -> None:
-    """Refuse formulas that name a file, such as measured spectra: the page reads no files.
+    """Refuse what names a file, such as a measured spectrum, a law or a catalogue of motors: the page reads none.
 
     Examples
     --------
@@ -106,6 +106,11 @@ def without_files(entries: Any) -> None:
             if not _PAIRS.match(given):
                 raise InputError(f"spectrum: {given!r} names a file, and the page reads none: drop it onto the page")
     elif isinstance(entries, Mapping):
+        if entries.get("motors") is not None:
+            raise InputError("motors: the page reads no catalogue: give the motor as a table, or start with the file")
+        law = entries.get("law")
+        if isinstance(law, str) and reading.is_file(law):
+            raise InputError(f"law: {law} names a file, and the page reads none: take a law of the catalogue")
         for name, entry in entries.items():
             without_files(name)
             without_files(entry)
@@ -114,14 +119,19 @@ def without_files(entries: Any) -> None:
             without_files(entry)
 
 
+def check_size(order: Any, degree: Any) -> None:
+    """Refuse laws of a higher order or degree than the explorer takes, where they are known."""
+    if order is not None:
+        whole(order, "order", least=1, most=MOST_ORDER)
+    if degree is not None:
+        whole(degree, "degree", most=MOST_DEGREE)
+
+
 def problem_of(request: LawRequest) -> Problem:
     """The problem of a page's request."""
     entries = dict(request.problem or {})
     without_files(entries)
-    if entries.get("order") is not None:
-        whole(entries["order"], "order", least=1, most=MOST_ORDER)
-    if entries.get("degree") is not None:
-        whole(entries["degree"], "degree", most=MOST_DEGREE)
+    check_size(entries.get("order"), entries.get("degree"))
     if request.weights:
         entries["minimise"] = objective(request.weights)
     return Problem.from_dict(entries)

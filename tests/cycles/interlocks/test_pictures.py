@@ -51,7 +51,7 @@ def test_a_plane_shows_the_path_and_what_is_forbidden() -> None:
     panel = artists[0].axes
     assert (panel.get_xlabel(), panel.get_ylabel()) == ("x, mm", "z, mm")
     across, up = artists[0].get_data()
-    times = np.linspace(0.0, 1.2, len(across))
+    times = PAIR.report().panels[0].series[0].at
     assert np.allclose(across, 1e3 * PAIR["x"](times))
     assert np.allclose(up, 1e3 * PAIR["z"](times))
     corners = next(artist.get_xy() for artist in artists if hasattr(artist, "get_xy") and len(artist.get_xy()) == 5)
@@ -76,6 +76,7 @@ def test_clearances_are_drawn_over_the_master() -> None:
         (lambda: PAIR.plot(what="timeing"), "unknown picture 'timeing'; did you mean 'timing'"),  # type: ignore[arg-type]
         (lambda: PAIR.plot(what="plane", interlock="bak"), "unknown interlock 'bak'; did you mean 'back'"),
         (lambda: PAIR.plot(what="plane", interlock=9), "interlock must be from 0 to 4"),
+        (lambda: Axes(dict(PAIR), interlocks=RULES[4:]).plot(what="plane"), "velocities, which have no plane"),
         (lambda: PAIR.plot([1], what="clearance"), "5 interlocks are drawn into as many axes, got 1"),
         (lambda: Axes(dict(PAIR)).plot(what="plane"), "axes without interlocks have no picture of the plane"),
     ],

@@ -27,7 +27,7 @@ from optlaws import (
     least_prime_circle,
     least_spring,
 )
-from tests.internals.explorer import CamRequest, cam_view
+from tests.internals.explorer import CycleRequest, cam_view
 from tests.internals.files import reading
 from tests.internals.jobs import job, read_of_cam
 
@@ -238,7 +238,7 @@ def test_page_and_explorer_show_the_facts_of_one_report(tmp_path: Path) -> None:
     """What is beyond a limit, extremes and sizes: each row of the page is a sentence of the view."""
     text = HEAD + 'prime_radius = "45 mm"\npressure_angle = "25 deg"\nradius_of_curvature = "40 mm"\n' + ROLLER + MOTION
     page, _, _ = done(tmp_path, text)
-    study = CamRequest(study=reading.toml(tmp_path / "small.toml"))
+    study = CycleRequest(study=reading.toml(tmp_path / "small.toml"))
     trust, sizes = cam_view.answer(study)["trust"], cam_view.sizes(study)["facts"]
     (first, second) = (line for line in page.splitlines() if line.startswith("Beyond what is allowed: "))
     assert trust["advice"] == f"{first.removesuffix('.')}; {second.removeprefix('Beyond what is allowed: ')}"

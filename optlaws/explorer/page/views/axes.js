@@ -8,6 +8,7 @@ import { Latest } from "../latest.js";
 import { Panels } from "../panels.js";
 import { Positions } from "../positions.js";
 import { Programme } from "../programme.js";
+import { table } from "../report_table.js";
 import { Run } from "../run.js";
 import { html, renew } from "../svg.js";
 import { Timing, valueAt } from "../timing.js";
@@ -16,6 +17,8 @@ import { listed, written } from "../units.js";
 
 const told = (value) => JSON.stringify(value);
 const GOALS = { "": "as they are given", acceleration: "least acceleration", period: "least period" };
+const WORDS = { clear: "good", broken: "bad" };
+const PEAKS = ["axis", "stroke", "velocity", "acceleration", "jerk", "laws"];
 const FILES = [
   { kind: "python", text: "Python", about: "Lines that reproduce what is seen" },
   { kind: "problem", text: "Problem file (TOML)", about: "For optlaws cycle" },
@@ -112,9 +115,8 @@ export class View {
     const { study } = this.#asked;
     this.#timing.show(this.#answer, study, known.map(({ status }) => status), told(study) === told(this.#study.state.axes));
     this.#positions.show(this.#answer, this.#study.state.plane ?? 0, known);
-    const { refused, panels = [], across, planes = [] } = this.#answer;
-    const marked = panels.map((panel, i) => (known[i] ? withPeak(panel, known[i]) : panel));
-    this.#rooms.show(refused ? this.#answer : { across, panels: marked, segments: [] });
+    const { refused, panels, across, planes = [] } = this.#answer;
+    this.#rooms.show(refused ? this.#answer : { across, panels: known.length ? this.#known.panels : panels, segments: [] });
     const { choice } = this.#parts;
     const names = planes.map(({ axes }) => axes.join(" and "));
     if (told(names) !== told([...choice.options].map(({ text }) => text))) choice.replaceChildren(...names.map((text, value) => html("option", { value, text, translate: "no" })));
@@ -135,11 +137,10 @@ export class View {
 
   #facts() {
     const rows = this.#answer.refused ? [] : this.#answer.rows;
-    const known = this.#known?.of === told(this.#asked) ? this.#known.rows : [];
-    const cells = ({ cells: texts, status }) => [html("td", {}, html("span", { class: `word ${{ clear: "good", broken: "bad" }[status] ?? "warn"}`, text: status })), ...texts.map((text) => html("td", { class: "number", text }))];
-    const least = table("Least clearances of the interlocks", ["interlock", "", "clearance", "proven", "at, deg", "early, ms"], known.map((one) => [one.name, cells(one)]));
-    const axes = table("Axes with their peaks", ["axis", "stroke", "velocity", "acceleration", "jerk", "laws"], rows.map((row) => [row.name, [row.stroke, ...row.peaks, row.law].map((text) => html("td", { class: "number", text }))]));
-    this.#parts.table.replaceChildren(...(known.length ? [least] : []), ...(rows.length ? [axes] : []));
+    const shown = rows.length ? [table("Axes with their peaks", PEAKS, rows.map(({ name, cells }) => [name, ...cells]))] : [];
+    const proven = this.#known?.of === told(this.#asked) ? this.#known.tables ?? [] : [];
+    const words = (cells) => [cells[0], html("span", { class: `word ${WORDS[cells[1]] ?? "warn"}`, text: cells[1] }), ...cells.slice(2)];
+    this.#parts.table.replaceChildren(...proven.map((one) => table("Least clearances of the interlocks", one.headings, one.rows.map(words))), ...shown);
   }
 
   /** A bar of an axis was moved, or taken or let go. */
@@ -196,21 +197,4 @@ export class View {
   #say(facts, none = false) {
     this.#parts.facts?.replaceChildren(html("p", { class: none ? "reason" : "facts", text: listed(facts) }));
   }
-}
-
-/** A panel with its least clearance as a mark that lies on the curve. */
-function withPeak(panel, { value, at, cells, status }) {
-  const [curve] = panel.series;
-  const next = curve.at.findIndex((place) => place > at);
-  const k = next < 0 ? curve.at.length : next;
-  const there = curve.at[k - 1] === at;
-  const put = (list, one) => (there ? list : [...list.slice(0, k), one, ...list.slice(k)]);
-  const series = [{ ...curve, at: put(curve.at, at), values: put(curve.values, value) }];
-  return { ...panel, series, peaks: [{ at, value, text: written(cells[0]) }], beyond: status === "broken" };
-}
-
-function table(name, headings, rows) {
-  const head = html("tr", {}, ...headings.map((text, i) => html("th", { scope: "col", class: i > 1 ? "number" : null, text })));
-  const body = rows.map(([title, cells]) => html("tr", {}, html("th", { scope: "row", translate: "no", title, text: title }), ...cells));
-  return html("table", { "aria-label": name }, html("thead", {}, head), html("tbody", {}, ...body));
 }

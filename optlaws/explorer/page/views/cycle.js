@@ -4,13 +4,14 @@ import { explained } from "../fields.js";
 import { Latest } from "../latest.js";
 import { Panels } from "../panels.js";
 import { Programme, join } from "../programme.js";
+import { table } from "../report_table.js";
 import { Strip } from "../strip.js";
 import { html } from "../svg.js";
 import { showTrust, unanswered } from "../trust.js";
-import { headed, listed, number } from "../units.js";
+import { listed } from "../units.js";
 
 const element = (id) => document.getElementById(id);
-const HEADINGS = ["segment", "from, deg", "to, deg", "takes, ms", "moves"];
+const FIRST = 5; // column of the table that is a peak
 
 const WORDS = {
   "position, velocity": "of the axis over a turn of the master, in the units of the machine; red is where a limit forbids to go",
@@ -69,7 +70,7 @@ export class View {
     showTrust(element("cycle-trust"), answer, this.#ways, (way) => this.#back(way));
     if (answer.facts) element("cycle-trust").append(html("p", { class: "facts", text: listed(answer.facts) }));
     this.#motion.show(answer);
-    element("segments").replaceChildren(...(answer.refused ? [] : [table(answer)]), this.#words);
+    element("segments").replaceChildren(...(answer.refused ? [] : [segments(answer)]), this.#words);
   }
 
   /** Let a segment end at an angle, and the next one begin there. */
@@ -92,17 +93,7 @@ export class View {
   }
 }
 
-function table({ segments, panels }) {
-  const units = panels.map(({ unit }) => unit);
-  const named = [...HEADINGS, ...panels.slice(1).map(({ name }) => name)].map((name, i) => (i >= 4 ? headed(name, units[i - 4]) : name));
-  const head = html("tr", {}, ...named.map((name, i) => html("th", { scope: "col", class: i ? "number" : null, text: name })));
-  const rows = segments.map(({ name, from, to, time, by, peaks }) =>
-    html(
-      "tr", {},
-      html("th", { scope: "row", text: name }),
-      ...[from, to, time, number(by, units[0])].map((text) => html("td", { class: "number", text })),
-      ...peaks.map(({ value, beyond }, i) => ({ beyond, text: number(value, units[i + 1]) })).map(({ text, beyond }) => html("td", { class: `number${beyond ? " over" : ""}`, title: beyond ? "beyond its limit" : null, text: beyond ? `${text} !` : text })),
-    ),
-  );
-  return html("table", { "aria-label": "Segments with their peaks" }, html("thead", {}, head), html("tbody", {}, ...rows));
+function segments({ segments: known, table: { headings, rows } }) {
+  const beyond = (i, j) => known[i]?.peaks[j - FIRST]?.beyond;
+  return table("Segments with their peaks", headings, rows, (i, j) => (beyond(i, j) ? { class: "over", title: "beyond its limit" } : {}));
 }

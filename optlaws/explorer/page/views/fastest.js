@@ -8,6 +8,7 @@ import { group } from "../fields.js";
 import { Latest } from "../latest.js";
 import { Panels } from "../panels.js";
 import { Programme } from "../programme.js";
+import { table } from "../report_table.js";
 import { Strip } from "../strip.js";
 import { html, renew, svg } from "../svg.js";
 import { showTrust, unanswered } from "../trust.js";
@@ -196,8 +197,8 @@ export class View {
   #draw() {
     const answer = this.#answer;
     if (!answer) return;
-    this.#panels.show(answer);
-    this.#at.table.replaceChildren(...(answer.refused ? [] : [table(answer)]));
+    this.#panels.show(answer.refused ? answer : { ...answer, panels: coloured(answer) });
+    this.#at.table.replaceChildren(...(answer.refused ? [] : [taken(answer)]));
     this.#at.legend.replaceChildren(...(answer.refused ? [] : legend(answer)));
     this.#at.timing.hidden = Boolean(answer.refused);
     this.#at.words.textContent = answer.refused ? "" : [answer.note, this.#front?.words ?? "computing …"].filter(Boolean).join(" · ");
@@ -277,17 +278,25 @@ function layout(root) {
   return made;
 }
 
-/** How the curves are drawn where most is taken of each limit. */
-function legend({ names, shares }) {
-  const items = names.map((name, i) => {
-    const { text, full } = shares[i];
-    return html("span", { class: "limit-key" }, svg("svg", { width: 30, height: 10, "aria-hidden": "true" }, svg("path", { class: `line law-bind-${i}`, d: "M0 5H30" })), ` ${name}: ${text} %${full ? ", binds" : ""}`);
+/** The curves with a series for each limit, where most is taken of that one. */
+function coloured({ panels, segments }) {
+  return panels.map((panel) => {
+    const [curve] = panel.series;
+    const parts = segments.map(({ at: [from, to], law }) => {
+      const [start, stop] = [curve.at.findIndex((at) => at >= from), curve.at.findLastIndex((at) => at <= to) + 1];
+      return { law: `bind-${law}`, at: curve.at.slice(start, stop), values: curve.values.slice(start, stop) };
+    });
+    return { ...panel, series: [curve, ...parts] };
   });
+}
+
+/** How the curves are drawn where most is taken of each limit. */
+function legend({ shares }) {
+  const items = shares.map(({ name, text, full }, i) => html("span", { class: "limit-key" }, svg("svg", { width: 30, height: 10, "aria-hidden": "true" }, svg("path", { class: `line law-bind-${i}`, d: "M0 5H30" })), ` ${name}: ${text} %${full ? ", binds" : ""}`));
   return [html("p", { class: "quiet", text: "The curves are drawn by the limit of which most is taken; above them stands where it is which." }), ...items];
 }
 
-function table({ rows }) {
-  const head = html("tr", {}, ...["", "value", "of the limit"].map((text, i) => html("th", { scope: "col", class: i ? "number" : null, text })));
-  const body = rows.map(({ name, value, text, full }) => html("tr", {}, html("th", { scope: "row", text: headed(name, value.unit) }), html("td", { class: "number", text: value.unit ? number(value.value, value.unit, value.digits) : value }), html("td", { class: `number${full ? " best" : ""}`, text: text && `${text} %${full ? " binds" : ""}` })));
-  return html("table", { "aria-label": "What is taken of each limit" }, html("thead", {}, head), html("tbody", {}, ...body));
+function taken({ rows }) {
+  const cells = rows.map(({ name, value, text, full }) => [...(value.unit ? [headed(name, value.unit), number(value.value, value.unit, value.digits)] : [name, value]), text && `${text} %${full ? " binds" : ""}`]);
+  return table("What is taken of each limit", ["", "value", "of the limit"], cells, (i, j) => (j === 2 && rows[i].full ? { class: "best" } : {}));
 }
