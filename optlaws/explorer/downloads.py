@@ -230,18 +230,18 @@ def _cut(form: str, request: cycle_view.CycleRequest) -> File:
     return f"cam{ending}", cam_files.FORMATS[form](result.cam.profile, Cutting(about=result.spec.title))
 
 
-def _old_problem(request: old_cam_view.OldCamRequest) -> File:
+def _old_problem(request: cycle_view.CycleRequest) -> File:
     if any(isinstance(part.law, MotionLaw) for part in old_cam_view.with_laws(request).moves):
         raise InputError("a problem file names laws, and some of these have no name: save the cycle with its laws")
-    about = f"The cam of {_stem(request.study.file)}"
+    about = f"The cam of {_stem(str(request.study.get('file', 'table')))}"
     return f"{_old_name(request)}.toml", old_cam_view.cycle(request).to_toml(about, axis="cam")
 
 
-def _old_name(request: old_cam_view.OldCamRequest) -> str:
-    return _stem(Path(request.study.file).stem)
+def _old_name(request: cycle_view.CycleRequest) -> str:
+    return _stem(Path(str(request.study.get("file", "table"))).stem)
 
 
-def _old_table(request: old_cam_view.OldCamRequest) -> File:
+def _old_table(request: cycle_view.CycleRequest) -> File:
     name, report = _old_name(request), CycleReport(old_cam_view.cycle(request))
     return f"{name}_motion.csv", to_csv(*report.motion(_ROWS), about=f"{name}; {_UNITS}")
 
@@ -272,7 +272,7 @@ _OLD: dict[str, Callable[[Any], File]] = {
     "problem": _old_problem,
     "law": lambda request: (f"{_old_name(request)}.json", old_cam_view.cycle(request).to_json()),
     "table": _old_table,
-    "proof": lambda request: _json("old_cam", solutions=[law for law in request.laws if law is not None]),
+    "proof": lambda request: _json("old_cam", solutions=[law for law in old_cam_view.laws_of(request) if law]),
 }
 _CUT = {form: partial(_cut, form) for form in cam_files.FORMATS}
 #: by the name of a view
@@ -283,7 +283,7 @@ VIEWS = {
     "axes": ViewFiles(cycle_view.CycleRequest, _CYCLE | _AXES, cycle_view.cycle),
     "cam": ViewFiles(cycle_view.CycleRequest, {"problem": _study("cam.toml"), **_CUT}),
     "fastest": ViewFiles(cycle_view.CycleRequest, _FASTEST),
-    "old": ViewFiles(old_cam_view.OldCamRequest, _OLD, old_cam_view.cycle),
+    "old": ViewFiles(cycle_view.CycleRequest, _OLD, old_cam_view.cycle),
 }
 
 Text = Annotated[str, msgspec.Meta(max_length=60)]

@@ -51,21 +51,6 @@ def _panel(letter: str, extremes: tuple[Peak, Peak], values: Array, k: Array) ->
     return Panel(f"{_NAMES[letter]} {letter}", "", (Series(k, values),), peaks=peaks, ends=(least, most))
 
 
-def broken(curve: Curve, nu: int, count: int = _SAMPLES) -> tuple[Array, Array]:
-    """Samples of a derivative to be drawn as a line: it is broken by nan where the derivative jumps or is infinite.
-
-    Examples
-    --------
-    >>> from optlaws import catalogue
-    >>> k, c = broken(catalogue["constant acceleration"].law, 2, 3)
-    >>> k.tolist(), c.tolist()
-    ([0.0, 0.5, 0.5, 0.5, 1.0], [4.0, 4.0, nan, -4.0, -4.0])
-    """
-    jumps = _jumps(curve, nu)
-    k = _places(curve, jumps, count)
-    return k, _values(curve, nu, k, jumps)
-
-
 def _places(curve: Curve, jumps: Array, count: int) -> Array:
     """Even places and breaks; those of jumps three times, for the values before, between and after."""
     even = np.union1d(np.linspace(*curve.interval, count), curve.breaks)

@@ -90,12 +90,13 @@ class PanelLimit(NamedTuple):
 
 
 class Series(NamedTuple):
-    """A curve of a panel: times and values, the number of its colour, its name."""
+    """A curve of a panel: times and values, the number of its colour, its name, and whether it is points alone."""
 
     at: Array
     values: Array
     law: int | str = 0
     name: str = ""
+    dots: bool = False
 
 
 @dataclass(frozen=True)

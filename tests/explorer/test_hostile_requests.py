@@ -43,7 +43,7 @@ SEEDS: dict[str, list[Any]] = {
     "axes-clearances": [AXES],
     "axes-together": [{"study": axes_view.example() | {"overlap": {"goal": "acceleration", "of": ["die"]}}}],
     "old": [OLD],
-    "old-move": [OLD | {"move": 0}],
+    "old-move": [OLD | {"axis": 0}],
     "cam": [CAM],
     "cam-loads": [{"study": cam_view.example() | {"forces": {"width": "20 mm"}}}],
     "cam-sizes": [CAM],
@@ -56,7 +56,7 @@ SEEDS: dict[str, list[Any]] = {
     "cycle-nearest": [CYCLE],
     "export": [
         {"format": "csv", "view": "laws", "request": {"laws": [OPTIMAL]}, "points": 9},
-        {"format": "csv", "view": "old", "request": OLD | {"laws": [None]}, "points": 9},
+        {"format": "csv", "view": "old", "request": OLD | {"laws": [[{}]]}, "points": 9},
     ],
     "save": [
         {"kind": "python", "view": "laws", "request": {"laws": [OPTIMAL]}},

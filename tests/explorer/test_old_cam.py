@@ -13,7 +13,7 @@ from optlaws.verification import verify
 from tests.documents import ROOT
 from tests.explorer.talk import Server, written
 from tests.explorer.test_page import go
-from tests.internals.explorer import OpenRequest, old_cam_view, opened_file, start
+from tests.internals.explorer import CycleRequest, OpenRequest, old_cam_view, opened_file, start
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -43,9 +43,9 @@ def turn(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 def test_a_table_is_what_the_library_reads(served: Server, turn: Path) -> None:
     shown, table = served.ask("old", {"study": STUDY}), read_cycle_table(turn)
-    rows = [[part.kind, f"{part.start:g}", f"{part.stop:g}"] for part in table.stretches]
-    assert [row[:3] for row in shown["rows"]] == rows
-    assert written(shown["rows"][0][4]) == table.law_in_words(table.stretches[0])
+    rows = [[part.kind, part.start, part.stop] for part in table.stretches]
+    assert [row[:3] for row in shown["tables"][0]["rows"]] == rows
+    assert written(shown["tables"][0]["rows"][0][4]) == table.law_in_words(table.stretches[0])
     assert written(shown["trust"]["facts"][0]) == f"within {table.room:.3g} mm of the points"
     off = next(one for one in shown["panels"][1]["series"] if one["name"] == "points")
     assert off["values"] == pytest.approx(table.heights - table.at(table.places), abs=1e-7)
@@ -72,16 +72,20 @@ def test_better_laws_are_the_library_s_and_so_are_their_files(served: Server, tu
     table = read_cycle_table(turn)
     better = table.bettered(0.1)
     # as it is dragged: what a process knows of the law before leaves no trace in the next one
-    served.ask("old-move?patience=20", {"study": STUDY | {"within": 0.12}, "move": 0})
-    moves = [served.ask("old-move?patience=20", {"study": study, "move": number}) for number in (0,)]
-    for shown, gain, part in zip(moves, better.gains(table), better.moves, strict=True):
-        assert f"({100.0 * gain.share(2):+.1f} %)".replace("-", "−") in shown["gains"][1][2]
-        assert max(map(abs, shown["curves"][1]["values"])) <= 0.1 * (1.0 + 1e-6)
+    served.ask("old-move?patience=20", {"study": STUDY | {"within": 0.12}, "axis": 0})
+    moves = [served.ask("old-move?patience=20", {"study": study, "axis": number}) for number in (0,)]
+    for shown, part in zip(moves, better.moves, strict=True):
         assert not isinstance(part.law, str)
         assert part.solution is not None
         stored = json.loads(json.dumps(part.solution.to_dict()))
         assert {**shown["law"], "seconds": 0.0} == {**stored, "seconds": 0.0}
-    old = {"study": study, "laws": [shown["law"] for shown in moves]}
+    old = {"study": study, "laws": [[shown["law"] for shown in moves]]}
+    answer = served.ask("old", old)
+    (gain,) = better.gains(table)
+    assert [row[-2] for row in answer["tables"][1]["rows"]] == [100.0 * gain.share(nu) for nu in (1, 2, 3)]
+    off = next(curve for curve in answer["panels"][1]["series"] if curve["name"] == "new law")
+    assert max(map(abs, off["values"])) == pytest.approx(gain.deviation, abs=1e-4)
+    assert gain.deviation <= 0.1 * (1.0 + 1e-6)
     cycle = better.cycle(speed="200 rpm")
     results = served.ask("export", {"format": "csv", "view": "old", "request": old, "points": 91})
     assert results["text"] == cycle.export("csv", points=91).text
@@ -112,7 +116,7 @@ def test_tables_of_cycles_and_of_controllers_are_opened_as_old_cams(turn: Path) 
 
 
 def read(entries: dict[str, Any]) -> Any:
-    return old_cam_view.OldCamRequest(study=old_cam_view.OldCamEntries(**entries))
+    return CycleRequest(study=entries)
 
 
 @pytest.mark.parametrize(
@@ -121,7 +125,7 @@ def read(entries: dict[str, Any]) -> Any:
 )
 def test_a_text_that_is_no_table_says_why(served: Server, text: str, reason: str) -> None:
     assert reason in served.ask("old", {"study": {"text": text}})["refused"]["reason"]
-    assert "refused" in served.ask("old-move", {"study": {"text": text}, "move": 0})
+    assert "refused" in served.ask("old-move", {"study": {"text": text}, "axis": 0})
 
 
 def bettered(page: Page) -> None:
@@ -141,10 +145,10 @@ def test_a_dropped_table_is_shown_and_bettered_within_a_dragged_band(page: Page,
     band = page.get_by_label("Tolerance of the better laws", exact=True)
     band.fill("0.2")
     bettered(page)
-    wide = served.ask(
-        "old-move?patience=20", {"study": {"file": "turn.csv", "text": STUDY["text"], "within": 0.2}, "move": 0}
-    )
-    assert wide["gains"][1][2] in page.locator("#old-gains").inner_text()
+    study = {"file": "turn.csv", "text": STUDY["text"], "within": 0.2}
+    wide = served.ask("old-move?patience=20", {"study": study, "axis": 0})
+    gains = served.ask("old", {"study": study, "laws": [[wide["law"]]]})["tables"][1]["rows"]
+    assert f"{gains[1][-2]:.6g}".replace("-", "−") in page.locator("#old-gains").inner_text()
     page.get_by_role("button", name="check this proof").click()
     # of windows of a formula `optlaws verify` alone knows the proof, and the page says so
     page.locator("#proof-verdict", has_text="partly checked old_cam.json").wait_for(timeout=30_000)

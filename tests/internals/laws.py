@@ -9,7 +9,7 @@ from optlaws.laws.making.input_shaping import Shaper
 from optlaws.laws.making.through_points import law_of_table
 from optlaws.laws.making.transform import as_polynomial, law_between, section
 from optlaws.laws.making.trapezoids import from_half
-from optlaws.laws.report import broken
+from optlaws.laws.report import law_panels
 from optlaws.laws.savin import alpha_range
 from optlaws.laws.segments.constant_power import PowerSegment
 from optlaws.laws.segments.fractional import FractionalSegment

@@ -8,7 +8,7 @@ import pytest
 from matplotlib.figure import Figure
 
 from optlaws import Chebyshev, InputError, Problem, at_most, catalogue, pareto_front, smoothstep, synthesize, via
-from tests.internals.laws import broken
+from tests.internals.laws import law_panels
 
 
 def axes(count: int) -> np.ndarray:
@@ -43,7 +43,7 @@ def test_a_law_is_drawn_as_it_is_with_its_peaks_marked() -> None:
 
 def test_a_jump_is_a_gap_with_both_its_sides() -> None:
     law = catalogue["constant acceleration"].law
-    k, c = broken(law, 2)
+    k, c, *_ = law_panels(law, "c")[0].series[0]
     (gap,) = np.flatnonzero(np.isnan(c))
     assert k[gap - 1 : gap + 2].tolist() == [0.5, 0.5, 0.5]
     assert c[[gap - 1, gap + 1]] == pytest.approx([4.0, -4.0])
@@ -57,8 +57,8 @@ def test_a_jump_is_a_gap_with_both_its_sides() -> None:
 @pytest.mark.parametrize("name", list(catalogue))
 def test_every_law_of_the_catalogue_can_be_drawn(name: str) -> None:
     law = catalogue[name].law
-    for nu in range(4):
-        k, values = broken(law, nu, 51)
+    for nu, panel in enumerate(law_panels(law, "abcj")):
+        k, values, *_ = panel.series[0]
         assert np.all(np.diff(k) >= 0.0)
         # a gap lies between two samples, and every jump has one
         gaps = np.flatnonzero(np.isnan(values[1:-1])) + 1

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
-from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -26,6 +25,7 @@ from optlaws.cli.options import (
 from optlaws.cli.options import save as save_json
 from optlaws.cli.show import busy, print_json, show, table
 from optlaws.cli.synthesis.run import done
+from optlaws.cycles.old_tables.report import OldTableReport
 from optlaws.cycles.old_tables.table import read_cycle_table
 from optlaws.echo import shortened
 from optlaws.errors import InputError
@@ -33,7 +33,6 @@ from optlaws.synthesis.status import Status
 
 if TYPE_CHECKING:
     from optlaws.cycles.cycle import Cycle
-    from optlaws.cycles.old_tables.better_moves import MoveGain
     from optlaws.cycles.old_tables.table import OldTable
     from optlaws.results import Results
 
@@ -188,10 +187,12 @@ def _old_cam(
     if plot is not None:
         save_picture(plot, old, new=new)
         written["picture"] = str(plot)
+    report = OldTableReport(old, new)
     if as_json:
-        print_json(_facts(file, old, new) | written)
+        print_json({"file": str(file)} | report.data | written)
         return
-    _show(old, new)
+    gains = (table(*each.headings, rows=each.rows, digits=4) for each in report.tables[1:])
+    show(f"{old.layout}, {len(old.places)} points", str(old), *gains, *report.unchanged)
     if chosen is not None:
         show(str(exported))
     show(*(f"{what}: {place}" for what, place in written.items()))
@@ -234,61 +235,3 @@ def _save(latest: OldTable, place: Path, source: Path, speed: str | None) -> Pat
             stretches.append(part)
     cycle = _cycle(replace(latest, stretches=tuple(stretches)), speed)
     return write(place, f"# from {source.name}; {MARK}\n{cycle.to_toml(f'The cam of {source.name}', axis='cam')}")
-
-
-def _show(old: OldTable, new: OldTable | None) -> None:
-    from optlaws.cycles.old_tables.better_moves import law_of_move, nothing_to_better
-    from optlaws.motion.quantities import QUANTITIES
-
-    show(f"{old.layout}, {len(old.places)} points", str(old))
-    if new is None:
-        return
-    units = (f"{old.unit}/{old.master}{power}" for power in ("", "²", "³"))
-    peaks = (f"{name}, {unit}" for name, unit in zip(QUANTITIES[1:4], units, strict=True))
-    rows = (
-        (
-            gain.kind,
-            f"{gain.start:g}",
-            f"{gain.stop:g}",
-            *map(partial(_change, gain), (1, 2, 3)),
-            f"{gain.deviation:.3g}",
-        )
-        for gain in new.gains(old)
-    )
-    show(table("move", "from", "to", *peaks, f"off by, {old.unit}", rows=rows))
-    for part, was in zip(new.moves, old.moves, strict=True):
-        if part.law is was.law:
-            what = nothing_to_better(law_of_move(part))
-            why = f"it is {what}" if what else "none of degree 15 so near has less acceleration"
-            show(f"the {part.kind} from {part.start:g} keeps its law: {why}")
-
-
-def _change(gain: MoveGain, nu: int) -> str:
-    share = gain.share(nu)
-    change = "" if share != share else f" ({100.0 * share:+.1f} %)"  # noqa: PLR0124 - nan
-    return f"{gain.old[nu - 1]:.4g} -> {gain.new[nu - 1]:.4g}{change}"
-
-
-def _facts(file: Path, old: OldTable, new: OldTable | None) -> dict[str, Any]:
-    from optlaws.numbers import bounded
-
-    stretches = [
-        {
-            **{name: getattr(part, name) for name in ("kind", "start", "stop", "low", "high")},
-            "law": part.law if part.law is None or isinstance(part.law, str) else part.law.to_dict(),
-            "nearest": part.nearest or None,
-            "distance": part.distance if part.nearest else None,
-        }
-        for part in (new or old).stretches
-    ]
-    facts = {
-        "file": str(file),
-        "layout": old.layout,
-        "points": len(old.places),
-        **{name: getattr(old, name) for name in ("unit", "master", "room", "scatter", "seam")},
-        "stretches": stretches,
-    }
-    gains = () if new is None else new.gains(old)
-    peaks = ({"old": list(map(bounded, gain.old)), "new": list(map(bounded, gain.new))} for gain in gains)
-    rows = [gain._asdict() | finite for gain, finite in zip(gains, peaks, strict=True)]
-    return facts if new is None else facts | {"gains": rows}

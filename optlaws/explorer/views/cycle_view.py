@@ -55,7 +55,7 @@ class CycleRequest(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     """
 
     study: dict[str, Any]
-    axis: Annotated[int, msgspec.Meta(ge=0, le=7)] = 0
+    axis: Annotated[int, msgspec.Meta(ge=0, le=99)] = 0
     time: Annotated[float, msgspec.Meta(gt=0.0, le=1e5)] | None = None
     laws: Annotated[list[Laws], msgspec.Meta(max_length=MOST_LAWS)] | None = None
     low: Ratio = 1.0

@@ -70,7 +70,8 @@ def panel_data(panel: Panel, per: float = MILLI) -> dict[str, Any]:
         "series": [
             {"law": law, "at": _rounded(per * at, places), "values": _rounded(values, digits)}
             | ({"name": name} if name else {})
-            for at, values, law, name in panel.series
+            | ({"dots": True} if dots else {})
+            for at, values, law, name, dots in panel.series
         ],
         "limits": [
             {

@@ -4,10 +4,11 @@ import { group, slider } from "../fields.js";
 import { Latest } from "../latest.js";
 import { textOf } from "../opening.js";
 import { Panels } from "../panels.js";
+import { table } from "../report_table.js";
 import { Strip } from "../strip.js";
 import { html, renew } from "../svg.js";
 import { checking, showTrust, unanswered } from "../trust.js";
-import { headed, number, plain, written } from "../units.js";
+import { plain, written } from "../units.js";
 
 const told = (value) => JSON.stringify(value);
 const FIELDS = {
@@ -22,7 +23,6 @@ const FILES = [
   { kind: "law", text: "Cycle with its laws (JSON)", about: "For Cycle.from_json" },
   { kind: "table", text: "Table of values (CSV)", about: "Angle, time, position, velocity, acceleration and jerk" },
 ];
-const MOVES = ["move", "from", "to", "by", "law"];
 
 export class View {
   files = FILES;
@@ -65,82 +65,74 @@ export class View {
   /** The cycle with its better laws, as far as they are found. */
   request({ old }) {
     const known = this.#asked && told(near(this.#asked)) === told(near(old));
-    return { study: old, laws: known ? this.#found.map((one) => one?.law ?? null) : [] };
+    return { study: old, laws: known ? this.#laws : [] };
+  }
+
+  /** The better laws that are found, and nothing for a move that keeps its own. */
+  get #laws() {
+    return this.#found.some((one) => one?.law) ? [Array.from(this.#found, (one) => one?.law ?? {})] : [];
   }
 
   show(state) {
     this.#name.textContent = state.old.file ?? "table";
     for (const show of this.#shows) show(state.old);
     this.#within?.set(state.old.within ?? this.#answer?.within ?? null);
-    // what the tolerance and the speed are changes nothing of what is read
-    if (told(read(state.old)) !== told(this.#asked && read(this.#asked))) this.#tables.ask({ study: state.old });
-    else this.#ask(state.old);
+    if (told(near(state.old)) !== told(this.#asked && near(this.#asked))) this.#tables.ask({ study: state.old });
+    else this.#ask();
   }
 
-  #answered(answer, { study }) {
+  /** A table that is read anew has no better laws yet. */
+  #answered(answer, { study, laws = [] }) {
     this.#answer = answer;
-    this.#asked = study;
-    this.#found = [];
-    showTrust(this.#trust, answer, [], () => {});
-    if (!answer.refused) this.#measure(answer);
+    if (!laws.length) {
+      this.#asked = study;
+      this.#found = [];
+      showTrust(this.#trust, answer, [], () => {});
+      if (!answer.refused) this.#measure(answer);
+    }
     this.#draw();
-    this.#ask(this.#study.state.old);
+    if (!laws.length) this.#ask();
   }
 
   /** Ask for the better laws one by one, from the first that is not known for this tolerance. */
-  #ask(old) {
-    if (!this.#answer || this.#answer.refused) return;
-    if (told(near(this.#asked)) !== told(near(old))) {
-      this.#asked = old;
-      this.#found = [];
-      this.#draw();
-    }
-    if (!this.#wanted) return;
+  #ask() {
+    if (!this.#answer || this.#answer.refused || !this.#wanted) return;
     const next = this.#answer.moves.findIndex((_, i) => !this.#found[i]);
-    if (next >= 0) this.#better.ask({ study: { ...old, within: this.#tolerance }, move: next });
+    if (next >= 0) this.#better.ask({ study: this.#bounded, axis: next });
   }
 
-  get #tolerance() {
-    return this.#asked?.within ?? this.#answer?.within;
+  /** The table with the tolerance that is taken where none is given. */
+  get #bounded() {
+    return { ...this.#asked, within: this.#answer.within };
   }
 
-  #find(answer, { study, move }) {
-    if (study.within !== this.#tolerance || told(read(study)) !== told(read(this.#asked))) return;
-    this.#found[move] = answer;
+  #find(answer, { study, axis }) {
+    if (told(study) !== told(this.#bounded)) return;
+    this.#found[axis] = answer;
     this.#draw();
-    if (!answer.refused || answer.refused.word !== "no answer") this.#ask(this.#study.state.old);
+    if (answer.law) this.#tables.ask({ study, laws: this.#laws });
+    if (!answer.refused || answer.refused.word !== "no answer") this.#ask();
   }
 
   #draw() {
     const answer = this.#answer;
+    this.#curves.show(answer.refused ? answer : { ...answer, active: 0 });
     if (answer.refused) {
-      this.#curves.show(answer);
       this.#moves.replaceChildren();
       this.#gains.replaceChildren();
       return;
     }
-    const { panels, moves, unit, drawn } = answer;
-    const known = moves.map((part, i) => ({ ...answer.segments[part], ...this.#found[i] })).filter(({ curves }) => curves?.length);
-    const shown = panels.map((panel, i) => {
-      const parts = known.map(({ curves }) => curves[i]);
-      const fresh = parts.length ? [{ at: parts.flatMap(({ at }) => [...at, at.at(-1)]), values: parts.flatMap(({ values }) => [...values, null]), law: 1, name: "new law" }] : [];
-      const peaks = i < 2 ? [] : [...panel.peaks, ...known.flatMap((one) => one.peaks[i - 2])];
-      const limits = panel.limits?.map((limit) => ({ ...limit, value: this.#tolerance }));
-      return { ...panel, series: [...panel.series, ...fresh], peaks, ...(limits && { limits }) };
-    });
-    this.#curves.show({ ...answer, panels: shown, active: 0 });
-    this.#moves.replaceChildren(table("Moves of the table", MOVES, answer.rows), html("p", { class: "facts", text: ["A old law · B new law · C points", drawn].filter(Boolean).join(" · ") }));
-    const units = panels.slice(2).map((panel) => panel.unit);
-    const rows = moves.map((part, i) => [answer.rows[part][0], answer.rows[part][1], ...gainsOf(this.#found[i], units)]);
-    const headings = ["move", "from", ...["velocity", "acceleration", "jerk"].map((name, i) => headed(name, units[i])), "off by"];
-    const words = `Laws of least acceleration within ${written({ value: this.#tolerance, unit, digits: 6 })} of the old ones at every place; jerk at most a fifth above.`;
+    const { moves, unit, drawn, tables: [stretches, gains] } = answer;
+    this.#moves.replaceChildren(table("Moves of the table", stretches.headings, stretches.rows), html("p", { class: "facts", text: ["A old law · B new law · C points", drawn].filter(Boolean).join(" · ") }));
+    const words = `Laws of least acceleration within ${written({ value: answer.within, unit, digits: 6 })} of the old ones at every place; jerk at most a fifth above.`;
     const button = html("button", { type: "button", text: "Find better laws", onclick: () => {
       this.#wanted = true;
       this.#draw();
-      this.#ask(this.#study.state.old);
+      this.#ask();
     } });
-    const check = this.#found.some((one) => one?.law) ? [checking()] : [];
-    renew(this.#gains, html("p", { class: "quiet", text: words }), this.#wanted ? table("Better laws within the tolerance", headings, rows) : button, ...check);
+    const missing = moves.map((name, i) => [name, this.#found[i]]).filter(([, one]) => !one?.law).map(([name, one]) => `${name}: ${one ? one.kept ?? written(one.refused.reason) : "…"}`);
+    const found = this.#laws.length ? [...(gains ? [table("Better laws within the tolerance", gains.headings, gains.rows)] : []), checking()] : [];
+    renew(this.#gains, html("p", { class: "quiet", text: words }), ...(this.#wanted ? [...found, html("p", { class: "facts", text: missing.join(" · ") })] : [button]));
   }
 
   /** The tolerance is dragged up to a fiftieth of the stroke, or typed. */
@@ -191,20 +183,5 @@ export class View {
   }
 }
 
-/** What a better law gains, a cell for each derivative and one for how far it is off; or why there is none. */
-function gainsOf(found, units) {
-  if (!found) return ["…"];
-  if (!found.gains) return [found.kept ?? found.refused.reason];
-  return [...found.gains.map(([old, fresh, share], i) => `${number(old, units[i], 4)} → ${number(fresh, units[i], 4)}${share}`), found.off];
-}
-
-/** What a table is read by. */
-const read = ({ within, speed, ...rest }) => rest;
 /** What better laws depend on. */
 const near = ({ speed, ...rest }) => rest;
-
-function table(name, headings, rows) {
-  const head = html("tr", {}, ...headings.map((text) => html("th", { scope: "col", text })));
-  const body = rows.map(([title, ...cells]) => html("tr", {}, html("th", { scope: "row", text: title }), ...cells.map((text, i) => html("td", { text, title: text, colspan: i === cells.length - 1 && cells.length + 1 < headings.length ? headings.length - cells.length : null }))));
-  return html("table", { "aria-label": name }, html("thead", {}, head), html("tbody", {}, ...body));
-}
