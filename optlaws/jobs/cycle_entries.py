@@ -212,26 +212,14 @@ class CycleProblemFile(ProblemFile, title="a problem file"):
 
 
 def read(data: Mapping[str, Any], file: Path) -> tuple[CycleProblemFile, Axes]:
-    """The entries of a file, and its axes, as cycles by their names; overlapped where the file requests it.
-
-    Raises
-    ------
-    InputError, InfeasibleProblem
-        As `read_given`, or if the axes cannot overlap; the error names the file.
-    """
+    """The entries of a file, and its axes, as cycles by their names; overlapped where the file requests it."""
     spec, axes = read_given(data, file)
     overlap = spec.overlap_of(axes, file)
     return spec, axes if overlap is None else overlap.axes
 
 
 def read_given(data: Mapping[str, Any], file: Path) -> tuple[CycleProblemFile, Axes]:
-    """The entries of a file, and its axes before any overlap.
-
-    Raises
-    ------
-    InputError
-        If an entry is unknown or wrong; the error names the file, the axis and the segment, or the interlock.
-    """
+    """The entries of a file, and its axes before any overlap; an error names the file, the axis and the segment."""
     from optlaws.cycles.machine_axes import Axes
 
     spec, cycles = CycleProblemFile.read(data, file), dict[str, Cycle]()
@@ -261,10 +249,8 @@ def _swept(spec: CycleProblemFile, axis: dict[str, Any], entry: str, value: str 
             cycle = cycle_of(changed, spec.speed, spec.period, folder)
             _ = cycle.peaks  # laws are looked for now
             return SweptCycle(value, cycle, cycle.status)
-    except InfeasibleProblem:
-        return SweptCycle(value, None, Status.INFEASIBLE)
-    except SolverFailure:
-        return SweptCycle(value, None, Status.FAILED)
+    except (InfeasibleProblem, SolverFailure) as error:
+        return SweptCycle(value, None, Status.of(error))
 
 
 def with_entry(axis: dict[str, Any], entry: str, value: str | float) -> dict[str, Any]:

@@ -91,6 +91,14 @@ class PlainNumbers(JsonText):
         return {name: bounded(value) if isinstance(value, float) else value for name, value in values.items()}
 
     @classmethod
+    def json_schema(cls) -> dict[str, Any]:
+        """The JSON Schema of its plain data."""
+        known = {"str": {"type": "string"}, "float": {"type": ["number", "null"]}}
+        this: Any = cls
+        properties = {field.name: known.get(str(field.type), {"type": "array"}) for field in dataclasses.fields(this)}
+        return {"type": "object", "properties": properties, "required": [*properties], "additionalProperties": False}
+
+    @classmethod
     def from_dict(cls, data: Any) -> Self:
         """The value that `to_dict` described.
 

@@ -147,3 +147,29 @@ def test_a_study_obeys(tmp_path: Path) -> None:
 def test_an_unknown_kind_is_refused() -> None:
     with pytest.raises(InputError, match="did you mean 'solution'"):
         optlaws.json_schema("solutoin")
+
+
+@pytest.mark.parametrize(
+    ("file", "way"),
+    [
+        ("cycle_motor/cycle.json", ("axes", "effort")),
+        ("cycle_belt_lift/cycle.json", ("axes", "motor")),
+        ("cam_assignment/cam.json", ("spring",)),
+        ("cam_assignment/cam.json", ("energy",)),
+        ("cam_press/cam.json", ("as_made",)),
+    ],
+)
+def test_numbers_of_results_are_those_that_their_classes_declare(file: str, way: tuple[str, ...]) -> None:
+    data = json.loads((ROOT / "results" / file).read_text("utf-8"))
+    numbers = data[way[0]]
+    if way[0] in {"axes", "as_made"}:
+        numbers = next(value for value in numbers.values() if value is not None)
+    numbers = numbers if len(way) == 1 else numbers[way[1]]
+    schema = validator(KINDS[Path(file).stem])
+    assert schema.is_valid(data)
+    for name in [*numbers]:
+        kept = numbers.pop(name)
+        assert not schema.is_valid(data), name
+        numbers[name] = kept
+    numbers["further"] = 1.0
+    assert not schema.is_valid(data)
