@@ -14,8 +14,6 @@ from optlaws.suggest import unknown_key
 
 _PACKAGE = Path(__file__).resolve().parent
 _REFERENCE = re.compile(r'"#/\$defs/(\w+)"')
-#: a file of a proof alone, which has a schema of its own
-_CERTIFICATE = "certificate"
 _KINDS = (
     "law",
     "law_file",
@@ -36,7 +34,7 @@ _KINDS = (
     "fastest_results",
     "fronts_results",
     "loader_results",
-    _CERTIFICATE,
+    "certificate",
 )
 
 
@@ -65,8 +63,7 @@ def json_schema(kind: str) -> dict[str, Any]:
     """
     if kind not in _KINDS:
         raise InputError(unknown_key(kind, _KINDS, "kind of file"))
-    formats, proofs = _read("files", "formats"), _read("verification", "proof")
-    known = {**proofs["$defs"], **formats["$defs"], _CERTIFICATE: {"oneOf": proofs["oneOf"]}}
+    known = _formats()["$defs"]
     definitions: dict[str, Any] = {}
     missing = [kind]
     while missing:
@@ -75,7 +72,7 @@ def json_schema(kind: str) -> dict[str, Any]:
             definitions[name] = _defined(known[name])
             missing += _REFERENCE.findall(json.dumps(definitions[name]))
     return {
-        "$schema": formats["$schema"],
+        "$schema": _formats()["$schema"],
         "title": f"{kind} of optlaws",
         "$ref": f"#/$defs/{kind}",
         "$defs": definitions,
@@ -83,20 +80,47 @@ def json_schema(kind: str) -> dict[str, Any]:
 
 
 def _defined(definition: dict[str, Any]) -> dict[str, Any]:
-    """A definition, with the entries of the class that it names as `declared`."""
-    if "declared" not in definition:
-        return definition
-    module, _, name = definition["declared"].rpartition(".")
-    schema = getattr(import_module(module), name).json_schema()
-    return {
-        **schema,
-        **{key: value for key, value in definition.items() if key != "declared"},
-        "properties": {**definition.get("properties", {}), **schema.get("properties", {})},
-        "required": [*definition.get("required", []), *schema.get("required", [])],
-    }
+    """A definition, with the entries of the class that it names as `declared`, or of those of its `kinds`."""
+    rest = dict(definition)
+    if kinds := rest.pop("kinds", None):
+        return {**rest, "oneOf": [_of_kind(name, kind) for name, kind in _class(kinds).kinds.items()]}
+    if "declared" not in rest:
+        return rest
+    cls = _class(rest.pop("declared"))
+    schema = cls.json_schema() if hasattr(cls, "json_schema") else _of_fields(cls)
+    if "properties" not in schema:
+        return {**schema, **rest}
+    required = dict.fromkeys([*rest.get("required", []), *schema.get("required", [])])
+    properties = {**schema["properties"], **rest.get("properties", {})}
+    return {**schema, **rest, "properties": properties, "required": list(required)}
+
+
+def _class(place: str) -> Any:
+    module, _, name = place.rpartition(".")
+    return getattr(import_module(module), name)
+
+
+def _of_kind(name: str, kind: type) -> dict[str, Any]:
+    """A kind of values whose fields are all written."""
+    schema = _of_fields(kind)
+    properties = {"kind": {"const": name}, **schema["properties"]}
+    return {**schema, "properties": properties, "required": list(properties), "additionalProperties": False}
+
+
+def _of_fields(cls: type) -> dict[str, Any]:
+    """The schema of a class by the types of its fields, whose own classes are the definitions that name them."""
+    from msgspec.json import schema_components
+
+    named = {known.get("declared", "").rpartition(".")[2]: name for name, known in _formats()["$defs"].items()}
+    _, components = schema_components([cls], schema_hook=lambda _: {"$ref": "#/$defs/law"})
+    text = _REFERENCE.sub(
+        lambda match: f'"#/$defs/{named.get(match[1], match[1])}"', json.dumps(components[cls.__name__])
+    )
+    plain: dict[str, Any] = json.loads(text)
+    return {key: value for key, value in plain.items() if key not in {"title", "description"}}
 
 
 @cache
-def _read(room: str, name: str) -> dict[str, Any]:
-    schema: dict[str, Any] = json.loads((_PACKAGE / room / f"{name}.schema.json").read_text("utf-8"))
+def _formats() -> dict[str, Any]:
+    schema: dict[str, Any] = json.loads((_PACKAGE / "files" / "formats.schema.json").read_text("utf-8"))
     return schema

@@ -7,12 +7,11 @@ from typing import Any
 import pytest
 from jsonschema import Draft202012Validator
 
-from optlaws import InputError
+from optlaws import InputError, json_schema
 from optlaws.verification import verify
 from tests.check_proofs import RESULTS, certificates
-from tests.documents import ROOT
 
-SCHEMA = json.loads((ROOT / "optlaws" / "verification" / "proof.schema.json").read_text(encoding="utf8"))
+SCHEMA = json_schema("certificate")
 
 
 @cache
