@@ -5,15 +5,14 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property
-from math import inf
+from math import inf, isfinite
 from typing import TYPE_CHECKING, Any, Generic, TypeAlias, TypeVar
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError, located
 from optlaws.files.reading import JsonText, check_names
 from optlaws.motion.quantities import DIMENSIONS, either, written
-from optlaws.numbers import MOST_VALUES, bounded, finite, numbers, real, whole
+from optlaws.numbers import bounded, finite, real, whole
 
 if TYPE_CHECKING:
     from optlaws.numbers import NumberOrQuantity
@@ -170,55 +169,26 @@ class Whole(ValueType):
         return {"type": "integer", "minimum": self.least, **top}
 
 
-@dataclass(frozen=True)
-class Range:
-    """Where numbers are: above a number, or from one on, and up to another."""
-
-    above: float = -inf
-    least: float = -inf
-    most: float = inf
-
-    def check(self, number: float, name: str, value: Any) -> float:
-        """The number, if it is in the range; errors show the value that was given."""
-        if not number > self.above:
-            raise InputError(f"{name} must be above {self.above:g}, got {shortened(value)}")
-        if not number >= self.least:
-            raise InputError(f"{name} must be at least {self.least:g}, got {shortened(value)}")
-        if not number <= self.most:
-            raise InputError(f"{name} must be at most {self.most:g}, got {shortened(value)}")
-        return number
-
-    @property
-    def words(self) -> str:
-        """The range behind the name of what is in it, such as " above 0"."""
-        if self.least > -inf:
-            return f" from {self.least:g} {'on' if self.most == inf else f'to {self.most:g}'}"
-        low = f" above {self.above:g}" if self.above > -inf else ""
-        return low if self.most == inf else f"{low}{' and' if low else ''} at most {self.most:g}"
-
-    def schema(self) -> dict[str, Any]:
-        """Its keywords of JSON Schema."""
-        ends = {"exclusiveMinimum": self.above, "minimum": self.least, "maximum": self.most}
-        return {key: end for key, end in ends.items() if bounded(end) is not None}
-
-
 @dataclass(frozen=True, kw_only=True)
 class _Ranged(ValueType):
-    """Numbers in a range; `absent` is what is kept where none is given."""
+    """Numbers above a number, or from one on, and up to another; `absent` is what is kept where none is given."""
 
     above: float = -inf
     least: float = -inf
     most: float = inf
     absent: float | None = None
 
-    @cached_property
-    def range(self) -> Range:
-        """Where its numbers are."""
-        return Range(self.above, self.least, self.most)
-
     def number(self, value: Any, name: str) -> float:
         """The number of a value, if it is in the range."""
-        return self.range.check(finite(value, name), name, value)
+        return self.in_range(finite(value, name), name, value)
+
+    def in_range(self, number: float, name: str, value: Any) -> float:
+        """The number, if it is in the range; errors show the value that was given."""
+        if number > self.above and self.least <= number <= self.most:
+            return number
+        end = f"at most {self.most:g}" if number > self.most else f"at least {self.least:g}"
+        end = end if number > self.above else f"above {self.above:g}"
+        raise InputError(f"{name} must be {end}, got {shortened(value)}")
 
     def read(self, value: Any, name: str) -> Any:
         if self.absent is not None and (value is None or value == self.absent):
@@ -227,6 +197,18 @@ class _Ranged(ValueType):
 
     def plain(self, value: Any) -> Any:
         return None if self.absent is not None and value == self.absent else value
+
+    @property
+    def ends(self) -> str:
+        """The range behind the name of what is in it, such as " above 0"."""
+        if self.least > -inf:
+            return f" from {self.least:g} {'on' if self.most == inf else f'to {self.most:g}'}"
+        low = f" above {self.above:g}" if self.above > -inf else ""
+        return low if self.most == inf else f"{low}{' and' if low else ''} at most {self.most:g}"
+
+    def schema(self) -> dict[str, Any]:
+        ends = {"exclusiveMinimum": self.above, "minimum": self.least, "maximum": self.most}
+        return {"type": "number", **{key: end for key, end in ends.items() if bounded(end) is not None}}
 
 
 class Number(_Ranged):
@@ -239,10 +221,10 @@ class Number(_Ranged):
 
     @property
     def words(self) -> str:
-        return f"a number{self.range.words}"
+        return f"a number{self.ends}"
 
-    def schema(self) -> dict[str, Any]:
-        return {"type": "number", **self.range.schema()}
+
+_NUMBER = Number()
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -256,12 +238,12 @@ class _Physical(_Ranged):
         """The number of a value in SI units, if it is in the range."""
         if self.bare and not isinstance(value, str) and not hasattr(value, "units"):
             return super().number(value, name)
-        return self.range.check(either(value, self.dimensions, name)[1], name, value)
+        return self.in_range(either(value, self.dimensions, name)[1], name, value)
 
     @property
     def words(self) -> str:
         names = [f"{'an' if name[0] in 'aeiou' else 'a'} {name}" for name in self.dimensions]
-        return f"{' or '.join(names)}{self.range.words}"
+        return f"{' or '.join(names)}{self.ends}"
 
     @property
     def example(self) -> str:
@@ -270,7 +252,7 @@ class _Physical(_Ranged):
 
     def schema(self) -> dict[str, Any]:
         text = {"type": "string", "description": f"{self.words}, such as {self.example!r}"}
-        return {"anyOf": [text, {"type": "number", **self.range.schema()}]} if self.bare else text
+        return {"anyOf": [text, super().schema()]} if self.bare else text
 
 
 class Measured(_Physical):
@@ -326,6 +308,8 @@ class Listed(ValueType):
         if not self.least <= len(value) <= self.most:
             ends = f"{self.least} at least" if len(value) < self.least else f"{self.most} at most"
             raise InputError(f"{name} must be a list of {ends}, each {self.of.words}, got {shortened(list(value))}")
+        if self.of == _NUMBER and all(type(part) is float and isfinite(part) for part in value):
+            return tuple(value)
         return tuple(
             self.of.read(part, f"{self.each or name} {self._called(part) or i}") for i, part in enumerate(value, 1)
         )
@@ -350,30 +334,6 @@ class Listed(ValueType):
 
     def tables(self) -> Mapping[str, Mapping[str, Any]]:
         return self.of.tables()
-
-
-@dataclass(frozen=True)
-class Numbers(ValueType):
-    """Numbers without a unit, kept as a tuple: as a `Listed` of them, in a tenth of the time.
-
-    >>> Numbers().read([0, 0.5], "s")
-    (0.0, 0.5)
-    """
-
-    most: int = MOST_VALUES
-
-    def read(self, value: Any, name: str) -> tuple[float, ...]:
-        return numbers(value, name, self.most)
-
-    def plain(self, value: Any) -> Any:
-        return list(value)
-
-    @property
-    def words(self) -> str:
-        return "a list of numbers"
-
-    def schema(self) -> dict[str, Any]:
-        return {"type": "array", "items": {"type": "number"}}
 
 
 @dataclass(frozen=True, init=False)

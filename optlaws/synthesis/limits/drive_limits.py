@@ -13,9 +13,10 @@ from typing import Any, Literal, TypeAlias, get_args
 import numpy as np
 
 from optlaws.echo import shortened
+from optlaws.entries import value_types
 from optlaws.entries import value_types as types
 from optlaws.entries.declared import Declared, ValueOf, declared, entry
-from optlaws.entries.value_types import Choice, Listed, Numbers
+from optlaws.entries.value_types import Choice, Listed
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.files.reading import check_names, of_known_format
 from optlaws.formulas.reading import read
@@ -37,6 +38,7 @@ _PHASE_WEIGHT = 1e-9  # of what is minimised: the price of the time where the to
 _MOST_PHASE_GAP = 1e-2  # of a limit in the phase plane: what leaves less is not mended by more fall
 _SMALL_PHASE_GAP = 1e-6  # of a limit: more is looked for on finer elements
 
+_NUMBERS = Listed(value_types.Number())
 #: what a drive is to take as little of
 DriveObjective: TypeAlias = Literal["peak torque", "rms torque", "energy", "time"]
 
@@ -81,10 +83,10 @@ class DriveLimit(Declared, title="a drive's limit"):
         "A power of 2, by which torques are divided; of the least time, one by which times are.",
     )
     weight: float = entry(types.Number(least=0.0), "Of the certificate: the multiplier of the time.")
-    edges: tuple[float, ...] = entry(Numbers(), "The ends of the pieces of the potential of the equation of motion.")
-    potential: tuple[tuple[float, ...], ...] = entry(Listed(Numbers()), "The Bernstein coefficients of these pieces.")
-    s: tuple[float, ...] = entry(Numbers(), "Places of the best motion, where a = sin²(pi s/2).")
-    b: tuple[float, ...] = entry(Numbers(), "Its velocities there.")
+    edges: tuple[float, ...] = entry(_NUMBERS, "The ends of the pieces of the potential of the equation of motion.")
+    potential: tuple[tuple[float, ...], ...] = entry(Listed(_NUMBERS), "The Bernstein coefficients of these pieces.")
+    s: tuple[float, ...] = entry(_NUMBERS, "Places of the best motion, where a = sin²(pi s/2).")
+    b: tuple[float, ...] = entry(_NUMBERS, "Its velocities there.")
     level: float = entry(
         types.Number(), "What the mean torque adds: the level about which a torque is squared.", default=0.0
     )
