@@ -7,8 +7,8 @@ from math import isfinite
 from typing import Any, Self
 
 from optlaws.echo import shortened
-from optlaws.entries.declared import Declared, declared, entry
-from optlaws.entries.value_types import Either, Number, Stored, Table, Text, Together, is_list
+from optlaws.entries.declared import Declared, ValueOf, declared, entry
+from optlaws.entries.value_types import Either, Number, Table, Text, Together, is_list
 from optlaws.errors import InputError
 from optlaws.extras import needed
 from optlaws.kept import kept_property
@@ -43,7 +43,7 @@ class Comparison(Declared, title="a comparison"):
     writes_defaults = True
     computes = True
 
-    laws: Mapping[str, MotionLaw] = entry(Table(Stored(MotionLaw)), "The laws by their names, in the order given.")
+    laws: Mapping[str, MotionLaw] = entry(Table(ValueOf(MotionLaw)), "The laws by their names, in the order given.")
     stroke: float | None = entry(
         Number(), "Of the machine, m or rad; peaks stay dimensionless unless given.", default=None
     )

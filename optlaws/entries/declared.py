@@ -12,8 +12,8 @@ from textwrap import wrap
 from typing import Any, ClassVar, ForwardRef, Self, TypeVar, dataclass_transform, get_args, get_origin
 
 from optlaws.echo import shortened
-from optlaws.entries.value_types import AnyTable, Kept, Stored, ValueType
-from optlaws.errors import InputError
+from optlaws.entries.value_types import AnyTable, Kept, ValueType
+from optlaws.errors import InputError, located
 from optlaws.files.reading import JsonText, check_names
 
 _ENTRY = "entry"
@@ -387,19 +387,32 @@ class Kinded(Declared):
 
 
 @dataclass(frozen=True)
-class ValueOf(Stored):
-    """A declared value, or a table of its entries."""
+class ValueOf(ValueType):
+    """A value that is stored as a table, or that table; of a declared one its entries are known."""
 
-    of: type[Declared]
+    of: type[JsonText]
+
+    def read(self, value: Any, name: str) -> Any:
+        if isinstance(value, self.of):
+            return value
+        with located(name):
+            return self.of.from_dict(value)
+
+    def plain(self, value: Any) -> Any:
+        return value.to_dict()
+
+    @property
+    def words(self) -> str:
+        return f"{self.of._json_name}, a table"  # noqa: SLF001 - what its errors call it
 
     def schema(self) -> dict[str, Any]:
-        return self.of.json_schema()
+        return self.of.json_schema() if issubclass(self.of, Declared) else {"type": "object"}
 
     def form(self) -> dict[str, Any]:
-        return self.of.form()
+        return self.of.form() if issubclass(self.of, Declared) else {}
 
     def tables(self) -> Mapping[str, Mapping[str, Any]]:
-        return self.of.tables()
+        return self.of.tables() if issubclass(self.of, Declared) else {}
 
 
 @dataclass(frozen=True, init=False)

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Generic, TypeAlias, TypeVar
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError, located
-from optlaws.files.reading import JsonText, check_names
+from optlaws.files.reading import check_names
 from optlaws.motion.quantities import DIMENSIONS, either, written
 from optlaws.numbers import bounded, finite, real, whole
 
@@ -501,29 +501,6 @@ class Either(ValueType):
 def is_list(value: Any) -> int:
     """1 of a list or tuple, 0 of all else: which of two types of `Either` reads it."""
     return int(isinstance(value, list | tuple))
-
-
-@dataclass(frozen=True)
-class Stored(ValueType):
-    """A value that is stored as a table, or that table."""
-
-    of: type[JsonText]
-
-    def read(self, value: Any, name: str) -> Any:
-        if isinstance(value, self.of):
-            return value
-        with located(name):
-            return self.of.from_dict(value)
-
-    def plain(self, value: Any) -> Any:
-        return value.to_dict()
-
-    @property
-    def words(self) -> str:
-        return f"{self.of._json_name}, a table"  # noqa: SLF001 - what its errors call it
-
-    def schema(self) -> dict[str, Any]:
-        return {"type": "object"}
 
 
 @dataclass(frozen=True)

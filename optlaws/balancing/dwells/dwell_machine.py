@@ -13,8 +13,8 @@ from optlaws.cams.followers.rollers import OscillatingRoller
 from optlaws.cycles.cycle import Cycle
 from optlaws.cycles.specification.segments import Dwell, Return, Rise
 from optlaws.echo import shortened
-from optlaws.entries.declared import Declared, declared, entry
-from optlaws.entries.value_types import Number, Stored
+from optlaws.entries.declared import Declared, ValueOf, declared, entry
+from optlaws.entries.value_types import Number
 from optlaws.errors import InputError
 from optlaws.laws import MotionLaw
 from optlaws.motion.piece import Piece
@@ -44,7 +44,7 @@ class DwellMachine(Declared, title="a dwell machine"):
 
     computes = True
 
-    mechanism: DwellMechanism = entry(Stored(DwellMechanism), "The mechanism, dimensionless.")
+    mechanism: DwellMechanism = entry(ValueOf(DwellMechanism), "The mechanism, dimensionless.")
     rate: float = entry(_POSITIVE, "Of the cam's shaft, rad/s.")
     inertia: float = entry(_POSITIVE, "Of everything the executive rocker moves, kg m².")
     loader_inertia: float = entry(_POSITIVE, "Of the loader's rocker alone, kg m².")

@@ -9,8 +9,8 @@ from typing import Any, Literal, Unpack, get_args
 
 from optlaws.cycles.moves.fastest_move import AXES, FastestMove
 from optlaws.echo import shortened
-from optlaws.entries.declared import Declared, declared, entry
-from optlaws.entries.value_types import Choice, Number, ReadBy, Stored, Together
+from optlaws.entries.declared import Declared, ValueOf, declared, entry
+from optlaws.entries.value_types import Choice, Number, ReadBy, Together
 from optlaws.errors import InputError
 from optlaws.files.reading import check_names
 from optlaws.kept import kept_property
@@ -70,13 +70,13 @@ class TransitionCam(Declared, title="a transition cam"):
     )
     duration: float = entry(_POSITIVE, "How long it takes, s.")
     solution: Solution = entry(
-        Stored(Solution),
+        ValueOf(Solution),
         "The law from rest to this state, dimensionless, with its proof; that of a run-out runs backwards in time.",
         name="best",
         default=None,
     )
     least: FastestMove | None = entry(
-        Stored(FastestMove), "The proof that no law of its space takes less time, where none was given.", default=None
+        ValueOf(FastestMove), "The proof that no law of its space takes less time, where none was given.", default=None
     )
 
     @property

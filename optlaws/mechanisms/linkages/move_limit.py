@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import pairwise
 from math import fsum, inf, nextafter
 from typing import Any, NamedTuple, Protocol, Self, TypeAlias, cast, get_args
 
 from optlaws.echo import shortened
-from optlaws.entries.declared import Declared, TableOf, declared, entry
+from optlaws.entries.declared import Declared, TableOf, ValueOf, declared, entry
 from optlaws.entries.value_types import (
     Choice,
     Either,
@@ -24,7 +24,7 @@ from optlaws.entries.value_types import (
     pairs,
 )
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
-from optlaws.files.reading import JsonText, entries_of
+from optlaws.files.reading import entries_of
 from optlaws.formulas.reading import read
 from optlaws.formulas.slopes import scaled
 from optlaws.kept import kept_property
@@ -46,124 +46,6 @@ from optlaws.tolerances import CLOSURE, STATED_BOUND
 _ENTRIES = ("dimension", "unit", "move", "drive_limit")
 _DIGITS = 6
 _PART = 3
-
-
-@dataclass(frozen=True)
-class MoveLimit(JsonText):
-    """A lower bound for motions over one stroke, from rest to rest, that never turn back; in SI units.
-
-    Attributes
-    ----------
-    drive_limit
-        The limit without dimensions, with its certificate.
-    move
-        The mechanism or the drive, with the move and its limits.
-    unit, dimension
-        By what its value is multiplied, and the unit that it then has: "N m", "N", "J" or "s".
-
-    Examples
-    --------
-    >>> from optlaws import Mechanism
-    >>> limit = Mechanism("0.8 kg m^2").limit("peak torque", "0 deg", "45 deg", "0.25 s")
-    >>> print(limit)
-    peak torque at least 40.2124 N m
-    >>> limit.value < limit.attained, limit.gap < 1e-6, MoveLimit.from_json(limit.to_json()) == limit
-    (True, True, True)
-    """
-
-    drive_limit: DriveLimit
-    move: LimitedMove
-
-    _json_name = "the limit of a move"
-
-    @property
-    def unit(self) -> float:
-        """By what the value without dimensions is multiplied, in SI units."""
-        return self._scale[0]
-
-    @property
-    def dimension(self) -> str:
-        """The unit of the value: "N m", "N", "J" or "s"."""
-        return self._scale[1]
-
-    @kept_property
-    def _scale(self) -> tuple[float, str]:
-        return _phase_move(self.move).scales.of(self.minimise)
-
-    @property
-    def minimise(self) -> DriveObjective:
-        """The quantity that is minimised."""
-        return self.drive_limit.minimise
-
-    @property
-    def value(self) -> float:
-        """The proven lower bound, rounded down; minus infinity of an energy that nothing bounds."""
-        value = self.drive_limit.value * self.unit
-        return nextafter(value, -inf) if self.drive_limit.value else 0.0
-
-    @property
-    def attained(self) -> float:
-        """The value of a motion that keeps the limits, by integration; infinite where no such one is known."""
-        return self.drive_limit.attained * self.unit
-
-    @property
-    def gap(self) -> float:
-        """The difference between that motion and the bound, as a share of the bound."""
-        return self.drive_limit.gap
-
-    def __str__(self) -> str:
-        if self.value in {0.0, -inf}:
-            return f"{self.minimise}: no bound {'above 0 ' if self.value == 0.0 else ''}is known"
-        return f"{self.minimise} at least {self.value:.{_DIGITS}g} {self.dimension}"
-
-    def to_dict(self) -> dict[str, Any]:
-        """The limit, its move and its certificate as plain data."""
-        parts = {"move": self.move.to_dict(), "drive_limit": self.drive_limit.to_dict()}
-        return {"dimension": self.dimension, "unit": self.unit, **parts}
-
-    @classmethod
-    def from_dict(cls, data: Any) -> MoveLimit:
-        """The limit that `to_dict` described, its plane, its unit and its bound computed again.
-
-        Raises
-        ------
-        InputError
-            If the data is no such limit, or states what its move, its certificate or its motion does not have.
-        """
-        limit, wrong = cls.stated(data)
-        if wrong := wrong or limit.drive_limit.contradiction():
-            raise InputError(wrong)
-        return limit
-
-    @classmethod
-    def stated(cls, data: Any) -> tuple[MoveLimit, str]:
-        """The limit of a file, and what of the file is not that of its move; the certificate is not checked.
-
-        Raises
-        ------
-        InputError
-            If the data is no such limit.
-        """
-        if isinstance(data, Mapping) and "drive_limit" in data and "move" not in data:
-            raise InputError(
-                f"{cls._json_name} was written by a version of optlaws that did not store its mechanism and its move, "
-                "without which its unit cannot be checked: compute it again with this version and write a new file"
-            )
-        known = entries_of(data, _ENTRIES, cls._json_name, alone=True)
-        limit = cls(DriveLimit.stated(known["drive_limit"]), LimitedMove.from_dict(known["move"]))
-        unit = positive(known["unit"], "unit")
-        if known["dimension"] != limit.dimension:
-            return limit, f"dimension is {shortened(known['dimension'])}, and that of the move is {limit.dimension}"
-        if abs(unit - limit.unit) > STATED_BOUND * limit.unit:
-            return limit, f"unit is {unit!r}, and that of the move is {limit.unit!r}"
-        return limit, "" if limit.is_of_its_move() else "drive_limit is the limit of another move"
-
-    def is_of_its_move(self) -> bool:
-        """Whether the limit without dimensions is that of the move, or the proof that the move is impossible."""
-        of_move, form = _phase_move(self.move).plane(self.move.minimise)
-        same_unit = self.minimise == "time" or self.drive_limit.unit == form.size
-        same_kind = self.minimise in {"time", "peak torque", self.move.minimise}
-        return same_unit and same_kind and self.drive_limit.plane in planes_of_proof(of_move, self.drive_limit)
 
 
 class MovedSource(Protocol):
@@ -259,6 +141,115 @@ class LimitedMove(Declared, title="a move with its limits"):
         if len(kinds) != 1:
             raise InputError(f"a move with its limits has a mechanism or a drive, got {shortened(data)}")
         return {"driven": MOVED[kinds[0]].source.from_dict(data.pop(kinds[0])), **data}
+
+
+@declared
+class MoveLimit(Declared, title="the limit of a move"):
+    """A lower bound for motions over one stroke, from rest to rest, that never turn back; in SI units.
+
+    Examples
+    --------
+    >>> from optlaws import Mechanism
+    >>> limit = Mechanism("0.8 kg m^2").limit("peak torque", "0 deg", "45 deg", "0.25 s")
+    >>> print(limit)
+    peak torque at least 40.2124 N m
+    >>> limit.value < limit.attained, limit.gap < 1e-6, MoveLimit.from_json(limit.to_json()) == limit
+    (True, True, True)
+    """
+
+    computes = True
+
+    drive_limit: DriveLimit = entry(ValueOf(DriveLimit), "The limit without dimensions, with its certificate.")
+    move: LimitedMove = entry(ValueOf(LimitedMove), "The mechanism or the drive, with the move and its limits.")
+
+    @property
+    def unit(self) -> float:
+        """By what the value without dimensions is multiplied, in SI units."""
+        return self._scale[0]
+
+    @property
+    def dimension(self) -> str:
+        """The unit of the value: "N m", "N", "J" or "s"."""
+        return self._scale[1]
+
+    @kept_property
+    def _scale(self) -> tuple[float, str]:
+        return _phase_move(self.move).scales.of(self.minimise)
+
+    @property
+    def minimise(self) -> DriveObjective:
+        """The quantity that is minimised."""
+        return self.drive_limit.minimise
+
+    @property
+    def value(self) -> float:
+        """The proven lower bound, rounded down; minus infinity of an energy that nothing bounds."""
+        value = self.drive_limit.value * self.unit
+        return nextafter(value, -inf) if self.drive_limit.value else 0.0
+
+    @property
+    def attained(self) -> float:
+        """The value of a motion that keeps the limits, by integration; infinite where no such one is known."""
+        return self.drive_limit.attained * self.unit
+
+    @property
+    def gap(self) -> float:
+        """The difference between that motion and the bound, as a share of the bound."""
+        return self.drive_limit.gap
+
+    def __str__(self) -> str:
+        if self.value in {0.0, -inf}:
+            return f"{self.minimise}: no bound {'above 0 ' if self.value == 0.0 else ''}is known"
+        return f"{self.minimise} at least {self.value:.{_DIGITS}g} {self.dimension}"
+
+    def to_dict(self) -> dict[str, Any]:
+        """The limit, its move and its certificate as plain data."""
+        plain = {"dimension": self.dimension, "unit": self.unit, **super().to_dict()}
+        return {name: plain[name] for name in _ENTRIES}
+
+    @classmethod
+    def from_dict(cls, data: Any) -> MoveLimit:
+        """The limit that `to_dict` described, its plane, its unit and its bound computed again.
+
+        Raises
+        ------
+        InputError
+            If the data is no such limit, or states what its move, its certificate or its motion does not have.
+        """
+        limit, wrong = cls.stated(data)
+        if wrong := wrong or limit.drive_limit.contradiction():
+            raise InputError(wrong)
+        return limit
+
+    @classmethod
+    def stated(cls, data: Any) -> tuple[MoveLimit, str]:
+        """The limit of a file, and what of the file is not that of its move; the certificate is not checked.
+
+        Raises
+        ------
+        InputError
+            If the data is no such limit.
+        """
+        if isinstance(data, Mapping) and "drive_limit" in data and "move" not in data:
+            raise InputError(
+                f"{cls.named} was written by a version of optlaws that did not store its mechanism and its move, "
+                "without which its unit cannot be checked: compute it again with this version and write a new file"
+            )
+        known = entries_of(data, _ENTRIES, cls.named, alone=True)
+        limit = cls(DriveLimit.stated(known["drive_limit"]), LimitedMove.from_dict(known["move"]))
+        unit = positive(known["unit"], "unit")
+        if known["dimension"] != limit.dimension:
+            return limit, f"dimension is {shortened(known['dimension'])}, and that of the move is {limit.dimension}"
+        if abs(unit - limit.unit) > STATED_BOUND * limit.unit:
+            return limit, f"unit is {unit!r}, and that of the move is {limit.unit!r}"
+        return limit, "" if limit.is_of_its_move() else "drive_limit is the limit of another move"
+
+    def is_of_its_move(self) -> bool:
+        """Whether the limit without dimensions is that of the move, or the proof that the move is impossible."""
+        of_move, form = _phase_move(self.move).plane(self.move.minimise)
+        same_unit = self.minimise == "time" or self.drive_limit.unit == form.size
+        same_kind = self.minimise in {"time", "peak torque", self.move.minimise}
+        return same_unit and same_kind and self.drive_limit.plane in planes_of_proof(of_move, self.drive_limit)
 
 
 def _bound(axis: str, dimension: str) -> Any:

@@ -15,8 +15,8 @@ from math import inf
 
 from numpy.polynomial.polynomial import polyroots
 
-from optlaws.entries.declared import Declared, declared, entry
-from optlaws.entries.value_types import Number, Stored
+from optlaws.entries.declared import Declared, ValueOf, declared, entry
+from optlaws.entries.value_types import Number
 from optlaws.errors import InputError, SolverFailure
 from optlaws.synthesis.families import names
 from optlaws.synthesis.least_time.move_limits import TimedMove, control_point, power, powers_of
@@ -37,7 +37,7 @@ class TimeProof(Declared, title="a proof of a least time"):
     shortest: float = entry(Number(least=0.0), "In s; 0 where limits that hold in a time hold in every longer one.")
     longest: float = entry(Number(above=0.0), "In s.")
     certificate: Certificate = entry(
-        Stored(Certificate),
+        ValueOf(Certificate),
         "That no law keeps the limits in the longest time. The same multipliers prove it of all others. Where a "
         "vibration that is left is limited: that no law keeps what every law keeps that keeps the limits in some time "
         "of the interval.",
