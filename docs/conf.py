@@ -82,7 +82,6 @@ nitpick_ignore = [
     ("py:class", "optlaws.mechanisms.measured_spectrum.WeightPart"),
     ("py:class", "optlaws.synthesis.least_time.follower_residual.LawSize"),
     ("py:class", "optlaws.synthesis.least_time.motor_torque.LossyGear"),
-    ("py:class", "optlaws.cycles.specification.drive.CycleDrive"),
     ("py:class", "optlaws.motion.piece.Piece"),
     ("py:class", "optlaws.formulas.of_motion.MotionFormula"),
     ("py:class", "optlaws.mechanisms.machine.dynamics.DriveStretch"),

@@ -38,9 +38,7 @@ from .laws.law import Jumps as Jumps
 from .laws.making.input_shaping import Shaper as Shaper
 from .laws.making.multiplier import Multiplier as Multiplier
 from .laws.segments.segment import Segment as Segment
-from .mechanisms.drives.drive_train import DimensionlessDrive as DimensionlessDrive
 from .mechanisms.drives.effort import Effort as Effort, SegmentEffort as SegmentEffort
-from .mechanisms.drives.motor import Train as Train
 from .mechanisms.drives.sheet import (
     BestRatio as BestRatio,
     CycleSheet as CycleSheet,
@@ -48,7 +46,7 @@ from .mechanisms.drives.sheet import (
     Margin as Margin,
 )
 from .mechanisms.linkages.bodies import DrivenLink as DrivenLink, LoadPlace as LoadPlace
-from .mechanisms.linkages.dimensionless import DimensionlessMechanism as DimensionlessMechanism
+from .mechanisms.linkages.dimensionless import StrokeTorque as StrokeTorque, Train as Train
 from .mechanisms.linkages.entries import TableKind as TableKind
 from .mechanisms.linkages.four_bar import FourBarBranch as FourBarBranch
 from .mechanisms.linkages.linear_force import LinearForce as LinearForce

@@ -12,10 +12,12 @@ import numpy as np
 from optlaws.balancing.loaders.loader import Loader
 from optlaws.cams.curves.motion_by_angle import CamMotion
 from optlaws.cycles.cycle import Cycle
-from optlaws.cycles.specification.drive import CycleDrive, read_linear_drive
+from optlaws.cycles.specification.drive import read_linear_drive
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
+from optlaws.mechanisms.drives.drive_train import Drive
+from optlaws.mechanisms.drives.effort import PieceEffort
 from optlaws.mechanisms.linkages.linear_force import LinearForce
 from optlaws.motion.piece import Piece
 from optlaws.motion.quantities import TURN, either
@@ -87,7 +89,7 @@ class Balancing:
         return self._drive[1]
 
     @kept_property
-    def _drive(self) -> tuple[CycleDrive, LinearForce]:
+    def _drive(self) -> tuple[Drive, LinearForce]:
         if self.cycle.drive is None:
             raise InputError("the cycle has no drive: give one, such as drive={'mass': '3 kg'}")
         return read_linear_drive(self.cycle.drive, self.cycle.axis)
@@ -183,9 +185,7 @@ class Balancing:
         return TorqueOverTurn(times, sqrt(max(square, 0.0) / TURN))
 
     def _executive(self, time: Array) -> Array:
-        return self._by_piece(
-            time, lambda piece, _, at: self._drive[0].along(piece, at) * piece.values(at, 1) / self.rate
-        )
+        return self._by_piece(time, lambda piece, _, at: PieceEffort(self._drive[0], piece).power(at) / self.rate)
 
     def _loader(self, time: Array) -> Array:
         return self._by_piece(time, self._of_loader)

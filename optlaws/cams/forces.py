@@ -16,7 +16,7 @@ from optlaws.cams.disc import DiscCam
 from optlaws.cams.followers.contact import Friction, Transmission
 from optlaws.cycles.cycle import Cycle
 from optlaws.cycles.specification.drive import read_linear_drive
-from optlaws.cycles.specification.process import FORCES, ProcessEntries, rescaled
+from optlaws.cycles.specification.process import FORCES, ProcessEntries
 from optlaws.entries.declared import Declared, ValueOf, declared, documented_by, entry
 from optlaws.entries.value_types import Measured, Number, ReadBy, Together
 from optlaws.errors import InputError
@@ -24,6 +24,7 @@ from optlaws.formulas.arithmetic import pieces
 from optlaws.formulas.slopes import added, multiplied
 from optlaws.formulas.tree import Formula, Name, Table, number, rebuilt, table_places
 from optlaws.kept import kept_property
+from optlaws.mechanisms.linkages.dimensionless import rescaled
 from optlaws.mechanisms.linkages.entries import TableKind, formula_of, table_numbers
 from optlaws.mechanisms.linkages.linear_force import LinearForce
 from optlaws.motion.quantities import TURN, in_degrees, positive_quantity, quantity

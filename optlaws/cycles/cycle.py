@@ -37,7 +37,7 @@ from optlaws.cycles.optimisation.objectives import (
 from optlaws.cycles.optimisation.search_spaces import remark_on_degrees, search_space
 from optlaws.cycles.optimisation.shared_limits import Best, best_of
 from optlaws.cycles.optimisation.sums import total
-from optlaws.cycles.specification.drive import CONSTANTS, CycleDrive, read_drive
+from optlaws.cycles.specification.drive import CONSTANTS, read_drive
 from optlaws.cycles.specification.frozen import FrozenTable, frozen, thawed
 from optlaws.cycles.specification.joints import LawSpan, Layout, layout
 from optlaws.cycles.specification.limit_entries import LIMITS_OF_CYCLE
@@ -503,8 +503,8 @@ class Cycle(CycleInterchange):
         """
         from optlaws.mechanisms.drives.sheet import sheet_of
 
-        source = self.geared_motor
-        return sheet_of(self._along, self.duration, source.mechanism, source.motor, source.train)
+        self.geared_motor  # noqa: B018 - a drive without one has no sheet
+        return sheet_of(self._along, self.duration)
 
     @kept_property
     def efforts(self) -> tuple[SegmentEffort, ...]:
@@ -623,11 +623,10 @@ class Cycle(CycleInterchange):
             raise InputError(
                 f"the motor has another {', '.join(OF_TORQUE[:-1])} or {OF_TORQUE[-1]}: make the cycle anew"
             )
-        driven = replace(source, motor=motor)
-        other = replace(self, drive=driven)
+        other = replace(self, drive=replace(source, motor=motor))
         same = ("durations", "_layout", "_best", "_reports", "pieces", "_timed", "peaks", "effort")
         vars(other).update({name: getattr(self, name) for name in same})
-        known = replace(known_drive(self._drive), source=driven)
+        known = replace(known_drive(self._drive), motor=motor)
         vars(other)["_along"] = tuple(each.of_drive(known) for each in self._along)
         return other
 
@@ -783,13 +782,13 @@ class Cycle(CycleInterchange):
         return tuple(PieceEffort(drive, piece) for piece in self.pieces)
 
     @kept_property
-    def _drive(self) -> CycleDrive | None:
+    def _drive(self) -> Drive | None:
         known = None if self.drive is None else read_drive(self.drive, self.axis)
         if not is_process(self.load):
             return known
         if known is None:
             raise InputError("load: a process force is of a drive: give one, such as drive={'mass': '2 kg'}")
-        return replace(known, process=read_process(self.load, known.mechanism, self.duration))
+        return replace(known, mechanism=read_process(self.load, known.mechanism, self.duration))
 
     @kept_property
     def _cycle_objective(self) -> CycleObjective:

@@ -14,7 +14,6 @@ from optlaws.cycles.optimisation.motor_limits import MOTOR
 from optlaws.cycles.optimisation.objectives import CycleObjective
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
-from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.motion.quantities import TURN
 from optlaws.sentences import Amount, joined, sentence
 from optlaws.shown.summary import Row, Summary
@@ -230,8 +229,7 @@ def fastest_cycle(cycle: Any, objective: CycleObjective) -> FastestCycle:
             "the greatest speed is not computed with a limit of the energy of a cycle: limit the power or the force or "
             "torque, and look at effort.energy of the cycle at that speed"
         )
-    source = getattr(objective.drive, "source", None)
-    if cycle.limits.get(MOTOR) is True and isinstance(source, Drive) and source.motor.continuous:
+    if cycle.limits.get(MOTOR) is True and objective.drive is not None and objective.drive.motor.continuous:
         raise InputError(
             "limits, motor: its continuous torque follows the speed, which is unknown: give a rated torque in place of "
             'that curve, or limits={"rms torque": "2 N m"} beside a motor without it'

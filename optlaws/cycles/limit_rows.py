@@ -25,7 +25,6 @@ from optlaws.cycles.optimisation.motion_limits import (
 )
 from optlaws.cycles.optimisation.motor_limits import MOTOR
 from optlaws.cycles.optimisation.objectives import read_energy, read_load_limits, read_mean_force
-from optlaws.cycles.specification.drive import CycleDrive
 from optlaws.cycles.specification.load import read_load
 from optlaws.cycles.specification.process import is_process
 from optlaws.cycles.specification.programme import TimedSegment, is_optimal
@@ -63,7 +62,7 @@ class _InPlace(NamedTuple):
     piece: Piece
     start: float
     stop: float
-    drive: CycleDrive | None
+    drive: Drive | None
     jump: float | None  #: the time at which its acceleration jumps where it begins or ends
 
 
@@ -239,9 +238,9 @@ def _greatest_of_drive(placed: _InPlace, key: LimitKey) -> tuple[float, float | 
     along = PieceEffort(drive, placed.piece, (placed.start, placed.stop))
     if key == POWER:
         return max(along.powers), None
-    if key == FORCE or not isinstance(drive.source, Drive):
+    if key == FORCE:
         return along.peak_force
-    motor = drive.source.motor
+    motor = drive.motor
     return along.parts.greatest(lambda times: share_used(np.abs(along.force(times)), motor.peak_at(along.speed(times))))
 
 

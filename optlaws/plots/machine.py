@@ -191,12 +191,12 @@ def placed(point: tuple[Formula, Formula], x: Array) -> Array:
 _SAMPLES = 801
 
 
-def draw_move(along: PieceEffort, motor: Motor, axes: Axes | None = None, **style: Any) -> list[Artist]:
+def draw_move(along: PieceEffort, axes: Axes | None = None, **style: Any) -> list[Artist]:
     """Draw torque over speed at the motor during a move, within the motor's curves of peak and continuous torque."""
     times = np.linspace(along.piece.start, along.piece.stop, _SAMPLES)
     way = np.sign(along.piece.stroke)
     course = way * along.speed(times), way * along.force(times)
-    return draw_torque_over_speed(course, motor, axes, **{"label": "move", **style})
+    return draw_torque_over_speed(course, along.drive.motor, axes, **{"label": "move", **style})
 
 
 def draw_motor_of_cycle(cycle: Cycle, axes: Axes | None = None, **style: Any) -> list[Artist]:

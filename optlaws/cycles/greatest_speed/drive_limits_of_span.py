@@ -15,7 +15,6 @@ from optlaws.cycles.greatest_speed.scaling import slower
 from optlaws.cycles.optimisation.drive_formulas import Driven, driven_peak
 from optlaws.cycles.optimisation.motion_limits import CURVE, FORCE, POWER, in_units
 from optlaws.cycles.optimisation.motor_limits import driven_curve, torque_at_rest
-from optlaws.cycles.specification.drive import CycleDrive
 from optlaws.cycles.specification.joints import LawSpan
 from optlaws.errors import InfeasibleProblem
 from optlaws.formulas.tree import Number
@@ -40,7 +39,7 @@ class DrivenLimit:
     key: int
     most: float
     span: LawSpan
-    drive: CycleDrive
+    drive: Drive
     stroke: float
     part: int = 0
 
@@ -49,7 +48,7 @@ class DrivenLimit:
         """Whether the limit is the original one, so that a law which keeps it keeps it at every lower speed."""
         resting = not any((self.span.first.velocity, self.span.last.velocity))
         drive = self.drive.linear
-        if drive is None:
+        if drive is None or self.key == CURVE:
             return self.driven(1.0).exact and _torque_scales(self.drive, self.key, resting=resting)
         plain = resting and drive.stiffness == 0.0
         if self.key == FORCE:
@@ -108,9 +107,7 @@ class DrivenLimit:
         return exp(float(root))
 
 
-def driven_limits(
-    key: int, most: float, span: LawSpan, drive: CycleDrive, stroke: float, axis: str
-) -> list[DrivenLimit]:
+def driven_limits(key: int, most: float, span: LawSpan, drive: Drive, stroke: float, axis: str) -> list[DrivenLimit]:
     """A drive limit along a span, as one limit for each constant that it involves.
 
     Raises
@@ -134,22 +131,21 @@ def driven_limits(
     return [replace(first, part=part) for part in range(len(first.driven(1.0).constants))]
 
 
-def _torque_scales(drive: CycleDrive, key: int, *, resting: bool) -> bool:
+def _torque_scales(drive: Drive, key: int, *, resting: bool) -> bool:
     """Whether a torque that keeps its limit keeps it at every lower speed: where the static one does, which is one."""
     mechanism = drive.mechanism
-    if key == POWER or drive.process is not None or not isinstance(mechanism.load_formula, Number):
+    if key == POWER or not isinstance(mechanism.load_formula, Number):
         return False
-    motor = drive.source.train.viscous if isinstance(drive.source, Drive) else 0.0
-    plain = key == FORCE and not mechanism.viscous and not motor
+    plain = key == FORCE and not mechanism.viscous and not drive.train.viscous
     return plain or (resting and isinstance(mechanism.inertia_formula, Number))
 
 
-def static_force(span: LawSpan, drive: CycleDrive) -> tuple[float, float]:
+def static_force(span: LawSpan, drive: Drive) -> tuple[float, float]:
     """The greatest static force of a motion, and its position: spring, weight and dry friction."""
     direction = -1.0 if span.displacement < 0.0 else 1.0
     ends = [span.offset, *(position for _, position in span.via), span.offset + span.displacement]
     if drive.linear is None:
         ends = [span.offset + span.displacement * i / (_PLACES - 1) for i in range(_PLACES)]
-    forces = [(abs(drive.at_joint((position, 0.0, 0.0), direction, span.start)), position) for position in ends]
-    force, position = max(forces)
+    torques = ((drive.torque(place, 0.0, 0.0, direction=direction, time=span.start), place) for place in ends)
+    force, position = max((abs(float(torque)), place) for torque, place in torques)
     return position, force

@@ -17,10 +17,10 @@ from optlaws.cycles.optimisation.bounds import span_bound
 from optlaws.cycles.optimisation.motion_limits import FORCES
 from optlaws.cycles.optimisation.objectives import CycleObjective
 from optlaws.cycles.optimisation.optimal import solve
-from optlaws.cycles.specification.drive import CycleDrive
 from optlaws.cycles.specification.joints import LawSpan, Layout
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.kept import kept_property
+from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.mechanisms.drives.effort import PieceEffort
 from optlaws.motion.piece import Piece
 from optlaws.synthesis.proof.certificate import Certificate
@@ -49,7 +49,7 @@ class ForceRating:
     fastest: Callable[[LawSpan], Piece | None]
 
     @kept_property
-    def drive(self) -> CycleDrive:
+    def drive(self) -> Drive:
         """The drive of the motion."""
         if self.objective.drive is None:
             raise InputError("limits: an rms force or torque is of a drive: give one, such as drive={'mass': '2 kg'}")

@@ -11,7 +11,7 @@ import numpy as np
 from optlaws.cycles.moves.fastest_move import AXES, FastestMove
 from optlaws.cycles.optimisation.motion_limits import LimitTaken
 from optlaws.kept import kept_property
-from optlaws.mechanisms.drives.drive_train import Drive, MotorTorque
+from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.mechanisms.drives.effort import PieceEffort
 from optlaws.mechanisms.drives.sheet import DriveSheet, share_used
 from optlaws.motion.derivative_panel import DERIVATIVES, display_unit, motion_panel
@@ -149,7 +149,7 @@ class MoveReport:
 
     @kept_property
     def _along(self) -> PieceEffort | None:
-        return None if self.drive is None else PieceEffort(MotorTorque(self.drive), self.piece)
+        return None if self.drive is None else PieceEffort(self.drive, self.piece)
 
     def _torque_panel(self) -> tuple[Panel, ...]:
         """The torque at the motor through its peak, and within its limit."""

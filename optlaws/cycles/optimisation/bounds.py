@@ -14,11 +14,10 @@ from functools import reduce
 from math import hypot, inf, sqrt
 from typing import Any
 
-from optlaws.cycles.optimisation.drive_formulas import Driven, driven_mean, driven_peak, may_turn
+from optlaws.cycles.optimisation.drive_formulas import Driven, driven_mean, driven_peak, known_drive, may_turn
 from optlaws.cycles.optimisation.motion_limits import CURVE, FORCE, POWER
 from optlaws.cycles.optimisation.objectives import LOADED, SUMS, CycleObjective, kind_of, limits_of_stretch
 from optlaws.cycles.optimisation.sums import span_sum, total
-from optlaws.cycles.specification.drive import read_drive
 from optlaws.cycles.specification.joints import LawSpan, Layout
 from optlaws.errors import InfeasibleProblem, SolverFailure
 from optlaws.mechanisms.drives.effort import size_of
@@ -73,10 +72,9 @@ def bound_by_energy(span: LawSpan, objective: CycleObjective, stroke: float, sol
         return solution.lower_bound
     unit = driven_peak(span, objective.drive, stroke, POWER).unit
     ceiling = min(solution.objective if least else inf, most / unit if most else inf)
+    powers = _powers(span, objective.drive.linear, stroke, unit / objective.drive.ratio)
     try:
-        relaxed = synthesize(
-            _relaxed(solution.problem, _powers(span, objective.drive.linear, stroke, unit), ceiling, least=least)
-        )
+        relaxed = synthesize(_relaxed(solution.problem, powers, ceiling, least=least))
     except (InfeasibleProblem, SolverFailure):
         return solution.lower_bound
     # laws that are faster than the relaxed ones may be take more power than the one found
@@ -127,7 +125,7 @@ def bound_of(layout: Layout, solved: Solved, objective: CycleObjective, period: 
     ]
     if nu in SUMS:
         return sum(bound for _, bound in sizes) + total(layout.pieces, nu, objective.drive)
-    drive = objective.drive or read_drive({}, "length")
+    drive = None if nu > 0 else known_drive(objective.drive)
     sizes += [(piece.duration, size_of(piece, nu, drive, mean=mean)) for piece in layout.pieces]
     if not mean:
         return max(size for _, size in sizes)
@@ -163,7 +161,7 @@ def is_exact(span: LawSpan, objective: CycleObjective) -> bool:
     Peaks behind a gear with losses are counted as if power flowed back wherever the motor brakes.
     """
     drive, (nu, mean) = objective.drive, kind_of(objective.minimise)
-    if drive is None or not drive.loses or drive.brakes_as_it_drives:
+    if drive is None or not drive.train.loses or drive.brakes_as_it_drives:
         return True
     limited = {order for stretch in span.stretches for order in limits_of_stretch(stretch, objective, "angle")}
     return not limited & {CURVE, FORCE, POWER} and (mean or nu not in {FORCE, POWER})

@@ -13,10 +13,11 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 from optlaws.cycles.optimisation.motion_limits import FORCE, POWER
-from optlaws.cycles.specification.drive import CycleDrive
 from optlaws.cycles.specification.joints import LawSpan
 from optlaws.cycles.specification.segments import Dwell
 from optlaws.errors import InputError
+from optlaws.mechanisms.drives.drive_train import Drive
+from optlaws.mechanisms.linkages.dimensionless import StrokeTorque
 from optlaws.mechanisms.linkages.linear_force import LinearForce
 from optlaws.motion.piece import factor
 from optlaws.synthesis.functionals.makers import peak, rms
@@ -53,13 +54,13 @@ def may_turn(span: LawSpan) -> bool:
     return any(state.velocity * span.displacement < 0.0 for state in (span.first, span.last))
 
 
-def driven_peak(span: LawSpan, drive: CycleDrive | None, stroke: float, nu: int) -> Driven:
+def driven_peak(span: LawSpan, drive: Drive | None, stroke: float, nu: int) -> Driven:
     """Peak of the force (nu -1) or the power (nu -3) along a span's law."""
     known = known_drive(drive)
     if nu == POWER and known.linear is not None and known.linear.inertia > 0.0 and not any(known.linear[1:]):
-        return Driven((FUNCTIONALS["D"],), known.linear.inertia * stroke**2 / span.duration**3)
+        return Driven((FUNCTIONALS["D"],), known.ratio * known.linear.inertia * stroke**2 / span.duration**3)
     formula, unit = driven_formula(span, drive, stroke, nu)
-    if not known.loses:
+    if not known.train.loses:
         return Driven((peak(formula),), unit)
     to_load, back = _branches(span, known, stroke)
     braked = f"({back})*b" if nu == POWER else back
@@ -69,7 +70,7 @@ def driven_peak(span: LawSpan, drive: CycleDrive | None, stroke: float, nu: int)
     return Driven((peak(formula, side="high"), peak(braked, side="low")), unit, beneath=beneath, exact=exact)
 
 
-def driven_formula(span: LawSpan, drive: CycleDrive | None, stroke: float, nu: int) -> tuple[str, float]:
+def driven_formula(span: LawSpan, drive: Drive | None, stroke: float, nu: int) -> tuple[str, float]:
     """Force or power along a span's law as a formula, and its unit."""
     known = known_drive(drive)
     if known.dry > 0.0 and may_turn(span):
@@ -81,17 +82,17 @@ def driven_formula(span: LawSpan, drive: CycleDrive | None, stroke: float, nu: i
     unit = _unit(span, known, stroke)
     formula = _formula(span, known, stroke, unit)
     if nu == POWER:
-        return f"({formula})*b", unit * known.speed_ratio * abs(factor(stroke, span.duration, 1))
+        return f"({formula})*b", unit * known.ratio * abs(factor(stroke, span.duration, 1))
     return formula, unit
 
 
-def driven_mean(span: LawSpan, drive: CycleDrive | None, stroke: float) -> Driven:
+def driven_mean(span: LawSpan, drive: Drive | None, stroke: float) -> Driven:
     """Root mean square of the force along a span's law."""
     known = known_drive(drive)
     unit = _unit(span, known, stroke)
     if known.dry == 0.0 or not may_turn(span):
         formula = _formula(span, known, stroke, unit)
-        below = known.loses and known.brakes_as_it_drives
+        below = known.train.loses and known.brakes_as_it_drives
         beneath = _branches(span, known, stroke)[1:] if below else ()
         return Driven((rms(formula),), unit, formula=formula, beneath=beneath)
     linear = known.linear
@@ -109,26 +110,33 @@ def driven_mean(span: LawSpan, drive: CycleDrive | None, stroke: float) -> Drive
     return Driven((rms(formula),), unit, _friction(span, linear), formula)
 
 
-def force_unit(span: LawSpan, drive: CycleDrive, stroke: float) -> float:
+def force_unit(span: LawSpan, drive: Drive, stroke: float) -> float:
     """The order of magnitude of the force along a span, as its unit."""
-    return drive.size(stroke, span.times, span.origin)
+    if drive.linear is not None:
+        return drive.linear.size(stroke, span.duration, span.origin)
+    return 4.0 * moved(span, drive, stroke).unit
 
 
-def _unit(span: LawSpan, drive: CycleDrive, stroke: float) -> float:
+def moved(span: LawSpan, drive: Drive, stroke: float) -> StrokeTorque:
+    """Torque, power and energy over a span as formulas of a law that never turns back."""
+    return drive.dimensionless(span.origin, stroke, span.duration, begins=span.start)
+
+
+def _unit(span: LawSpan, drive: Drive, stroke: float) -> float:
     unit = force_unit(span, drive, stroke)
     if unit == 0.0:
         raise InputError("drive: nothing resists the motion: give it a mass, an inertia, a spring or friction")
     return unit
 
 
-def known_drive(drive: CycleDrive | None) -> CycleDrive:
+def known_drive(drive: Drive | None) -> Drive:
     """The drive of the cycle; without one, the error explains how to give it."""
     if drive is None:
         raise InputError("force, torque and power are of a drive: give one, such as drive={'mass': '2 kg'}")
     return drive
 
 
-def _formula(span: LawSpan, drive: CycleDrive, stroke: float, unit: float) -> str:
+def _formula(span: LawSpan, drive: Drive, stroke: float, unit: float) -> str:
     """The force along a span's law, in a unit."""
     if drive.linear is not None:
         _check_range(span, drive)
@@ -138,10 +146,11 @@ def _formula(span: LawSpan, drive: CycleDrive, stroke: float, unit: float) -> st
         raise InputError(
             f"drive: {span.where} may turn back, and its torque is that of laws that do not: take moves between rests"
         )
-    return drive.formula(stroke, span.times, span.origin, unit)
+    over = moved(span, drive, stroke)
+    return f"{over.unit / unit!r}*({over.torque})"
 
 
-def _check_range(span: LawSpan, drive: CycleDrive) -> None:
+def _check_range(span: LawSpan, drive: Drive) -> None:
     """Refuse motions that may turn back beyond the range of a mechanism."""
     if drive.mechanism.has_end and may_turn(span):
         raise InputError(
@@ -150,17 +159,17 @@ def _check_range(span: LawSpan, drive: CycleDrive) -> None:
         )
 
 
-def branches_of(span: LawSpan, drive: CycleDrive, stroke: float) -> tuple[str, str, float]:
+def branches_of(span: LawSpan, drive: Drive, stroke: float) -> tuple[str, str, float]:
     """The torque at the motor, the torque of power that flows back through the gear, and their unit."""
     formula, unit = driven_formula(span, drive, stroke, FORCE)
-    return formula, _branches(span, drive, stroke)[-1], unit
+    return formula, _branches(span, drive, stroke)[-1] if drive.train.loses else formula, unit
 
 
-def _branches(span: LawSpan, drive: CycleDrive, stroke: float) -> tuple[str, ...]:
+def _branches(span: LawSpan, drive: Drive, stroke: float) -> tuple[str, ...]:
     """The torques at the motor of power that flows to the load and back, in the unit of the span's force."""
-    moved = drive.moved(stroke, span.times, span.origin)
-    share = moved.unit / _unit(span, drive, stroke)
-    return tuple(f"{share!r}*({branch})" for branch in moved.branches)
+    over = moved(span, drive, stroke)
+    share = over.unit / _unit(span, drive, stroke)
+    return tuple(f"{share!r}*({branch})" for branch in over.branches)
 
 
 def _friction(span: LawSpan, drive: LinearForce) -> float:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from itertools import accumulate
+from math import copysign
 from operator import itemgetter
 
 from optlaws.cycles.optimisation.drive_formulas import may_turn
@@ -46,7 +47,9 @@ class SegmentEnd:
             return 0.0
         if (drive.linear is None or drive.linear.inertia) and objective.order < _ACCELERATION_KNOWN:
             return 0.0
-        return abs(drive.at_joint((self.position, *self.state), self.direction, self.time))
+        velocity = self.state.velocity
+        way = copysign(1.0, velocity) if velocity else self.direction
+        return abs(float(drive.torque(self.position, *self.state, direction=way, time=self.time)))
 
 
 def check_limits_at_joints(layout: Layout, objective: CycleObjective, axis: str, period: float) -> None:

@@ -8,9 +8,8 @@ from itertools import pairwise
 from math import inf, isfinite
 from typing import Any
 
-from optlaws.cycles.optimisation.drive_formulas import Driven, branches_of, known_drive
+from optlaws.cycles.optimisation.drive_formulas import Driven, branches_of, known_drive, may_turn
 from optlaws.cycles.optimisation.motion_limits import CURVE, FORCE, Limits
-from optlaws.cycles.specification.drive import CycleDrive
 from optlaws.cycles.specification.joints import LawSpan
 from optlaws.cycles.specification.programme import Programme
 from optlaws.errors import InputError
@@ -33,7 +32,7 @@ class MotorLimits:
     mean_torque: float | None = None
 
 
-def motor_limits(entries: Mapping[str, Any], drive: CycleDrive | None, programme: Programme) -> MotorLimits:
+def motor_limits(entries: Mapping[str, Any], drive: Drive | None, programme: Programme) -> MotorLimits:
     """The limits of the motor, if the cycle is required to keep them.
 
     The continuous torque is that at the mean speed, which no law that never turns back changes.
@@ -45,10 +44,9 @@ def motor_limits(entries: Mapping[str, Any], drive: CycleDrive | None, programme
     """
     if not entries.get(MOTOR):
         return MotorLimits()
-    source = drive.source if drive is not None else None
-    if not isinstance(source, Drive):
+    if drive is None or not drive.has_motor:
         raise InputError("limits, motor: there is no motor: give one, as drive=Drive(mechanism, Motor(...), ratio=20)")
-    motor, ratio = source.motor, source.ratio
+    motor, ratio = drive.motor, drive.ratio
     way = sum(abs(stretch.displacement) for stretch in programme.stretches)
     known = {
         FORCE: motor.peak_torque,
@@ -77,26 +75,23 @@ def curve_lines(motor: Motor) -> list[tuple[float, float]]:
     return [(torque - slope * speed, slope) for (speed, torque), slope in zip(curve, slopes, strict=False)]
 
 
-def torque_at_rest(drive: CycleDrive) -> float:
+def torque_at_rest(drive: Drive) -> float:
     """The torque that the curve of a drive's motor allows at rest; infinite without a curve."""
-    source = drive.source
-    lines = curve_lines(source.motor) if isinstance(source, Drive) else []
-    return min((torque for torque, _ in lines), default=inf)
+    return min((torque for torque, _ in curve_lines(drive.motor)), default=inf)
 
 
-def driven_curve(span: LawSpan, drive: CycleDrive | None, stroke: float) -> Driven:
+def driven_curve(span: LawSpan, drive: Drive | None, stroke: float) -> Driven:
     """The share of the motor's curve that a span's law uses: at most 1 where the motor can."""
     known = known_drive(drive)
-    if not isinstance(known.source, Drive):
-        raise AssertionError  # noqa: TRY004 - limits of a motor are read with it
-    speed = known.speed_ratio * abs(factor(stroke, span.duration, 1))
+    speed = known.ratio * abs(factor(stroke, span.duration, 1))
     torque, back, unit = branches_of(span, known, stroke)
     constants: list[Functional] = []
-    for at_rest, slope in curve_lines(known.source.motor):
+    for at_rest, slope in curve_lines(known.motor):
         share, falls = unit / at_rest, slope * speed / at_rest
-        if not falls and not known.loses:
+        if not falls and not known.train.loses:
             constants.append(peak(f"{share!r}*({torque})"))
             continue
-        constants.append(peak(f"{share!r}*({torque}) + {-falls!r}*b", side="high"))
-        constants.append(peak(f"{share!r}*({back}) + {falls!r}*b", side="low"))
-    return Driven(tuple(constants), 1.0, exact=not known.loses or known.brakes_as_it_drives)
+        for fall in (falls, -falls) if may_turn(span) else (falls,):
+            constants.append(peak(f"{share!r}*({torque}) + {-fall!r}*b", side="high"))
+            constants.append(peak(f"{share!r}*({back}) + {fall!r}*b", side="low"))
+    return Driven(tuple(constants), 1.0, exact=not known.train.loses or known.brakes_as_it_drives)

@@ -7,10 +7,10 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from optlaws.cycles.optimisation.motion_limits import FORCE, FORCES, MEANS, POWER, LimitKey, Limits, limits_of_segment
-from optlaws.cycles.specification.drive import CycleDrive
 from optlaws.cycles.specification.load import Load, load_output
 from optlaws.cycles.specification.programme import TimedSegment
 from optlaws.errors import InputError
+from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.motion.quantities import positive_quantity
 from optlaws.suggest import unknown_key
 
@@ -48,7 +48,7 @@ class CycleObjective:
     limits: Mapping[LimitKey, float]
     order: int
     degree: int
-    drive: CycleDrive | None
+    drive: Drive | None
     load: Load | None = None
     loaded: Mapping[tuple[str, bool], float] = field(default_factory=dict)
     mean_force: float | None = None

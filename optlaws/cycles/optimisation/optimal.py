@@ -230,12 +230,17 @@ def span_problem(span: LawSpan, objective: CycleObjective, axis: str, stroke: fl
         order=objective.order,
         basis=Chebyshev(objective.degree if plain else max(objective.degree, _ROUGH)),
         minimise=_objective(span, objective, stroke),
-        monotone=(forced and never_back(span, objective)) or along_motion(limits),
+        monotone=(forced and never_back(span, objective)) or along_motion(limits) or _follows_curve(span, limits),
         symmetric=plain and not forced and not sided and not parts,
         boundary=ends,
         windows=parts,
         bounds=bounds,
     )
+
+
+def _follows_curve(span: LawSpan, limits: Limits) -> bool:
+    """Whether a motor's curve limits a motion between rests, which falls with a speed of one sign."""
+    return CURVE in limits and not may_turn(span)
 
 
 def _check_energy(span: LawSpan, objective: CycleObjective, limits: Limits) -> None:
@@ -306,7 +311,10 @@ def _limits(
     bounds, windows = dict[Any, Range](), list[Window]()
     for limits, start, stop in _alike(of_each, (*span.starts, span.stop)):
         for key, most in limits.items():
-            if key == _SNAP:
+            if key == CURVE:
+                known = driven_curve(span, objective.drive, stroke)
+                bounds |= dict.fromkeys(known.constants, Range(0.0, most / known.unit))
+            elif key == _SNAP:
                 bounds[FUNCTIONALS[_PEAKS[_SNAP]]] = Range(0.0, _snap_of_all(span, sought) / _unit(span, stroke, _SNAP))
             else:
                 windows.append(_window(span, objective, stroke, key, most, (place(span, start), place(span, stop))))

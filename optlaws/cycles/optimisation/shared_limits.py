@@ -26,10 +26,10 @@ from optlaws.cycles.optimisation.optimal import (
     with_share,
 )
 from optlaws.cycles.optimisation.sums import SpanSum, span_sum, total
-from optlaws.cycles.specification.drive import CycleDrive
 from optlaws.cycles.specification.joints import LawSpan, Layout
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.kept import kept_property
+from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.mechanisms.drives.effort import size_of
 from optlaws.motion.piece import Piece
 from optlaws.synthesis.functionals.makers import integral
@@ -85,7 +85,7 @@ class _SharedLimit:
 
     layout: Layout
     objective: CycleObjective
-    drive: CycleDrive
+    drive: Drive
     axis: str
     period: float
 

@@ -13,14 +13,14 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from math import inf
 
-from optlaws.cycles.optimisation.drive_formulas import driven_formula, driven_mean, known_drive
+from optlaws.cycles.optimisation.drive_formulas import driven_formula, driven_mean, known_drive, moved
 from optlaws.cycles.optimisation.motion_limits import FORCE
 from optlaws.cycles.optimisation.objectives import ENERGY, HEAT
-from optlaws.cycles.specification.drive import CycleDrive
 from optlaws.cycles.specification.joints import LawSpan
 from optlaws.errors import InputError
-from optlaws.mechanisms.drives.drive_train import DimensionlessDrive, Drive
+from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.mechanisms.drives.effort import PieceEffort
+from optlaws.mechanisms.linkages.dimensionless import recovering
 from optlaws.motion.piece import Piece, factor
 from optlaws.motion.smooth_parts import SmoothParts
 from optlaws.synthesis.functionals.makers import integral
@@ -61,7 +61,7 @@ class SpanSum:
         return max((limit.value for limit in limits if limit is not None), default=-inf)
 
 
-def span_sum(span: LawSpan, nu: int, drive: CycleDrive | None, stroke: float) -> SpanSum:
+def span_sum(span: LawSpan, nu: int, drive: Drive | None, stroke: float) -> SpanSum:
     """The integrand over a span: the square of a derivative or of the force (nu -1), energy (-4) or heat (-5)."""
     if nu > 0:
         return SpanSum(f"{'abcj'[nu]}^2", factor(stroke, span.duration, nu) ** 2 * span.duration)
@@ -75,16 +75,21 @@ def span_sum(span: LawSpan, nu: int, drive: CycleDrive | None, stroke: float) ->
         )
         return SpanSum(f"({force})^2", driven.unit**2 * span.duration, driven.friction * span.duration)
     known = known_drive(drive)
-    if known.linear is not None:
-        if nu == HEAT:
-            raise InputError(NO_HEAT)
-        return _of_linear(span, known, stroke)
     # a span that may turn back is refused as it is for forces
-    driven_formula(span, known, stroke, FORCE)
-    return _heat(span, known, stroke) if nu == HEAT else _energy(span, known, stroke)
+    force, unit = driven_formula(span, known, stroke, FORCE)
+    if nu == HEAT:
+        return _heat(span, known, stroke)
+    least = _least_energy(span, known, stroke)
+    if known.linear is None:
+        over = moved(span, known, stroke)
+        branches = over.branches if known.train.loses else ()
+        beneath = tuple(recovering([f"({branch})*b"], known.regeneration) for branch in branches)
+        return SpanSum(over.energy, over.energy_unit, beneath=beneath, least=least)
+    power = f"({force})*b" if stroke > 0.0 else f"(-({force}))*b"
+    return SpanSum(recovering([power], known.regeneration), unit * known.ratio * abs(stroke), least=least)
 
 
-def sum_of_piece(piece: Piece, nu: int, drive: CycleDrive | None) -> float:
+def sum_of_piece(piece: Piece, nu: int, drive: Drive | None) -> float:
     """A piece's contribution to a sum, in SI units."""
     if nu > 0:
         return piece.duration * piece.mean_square(nu)
@@ -94,70 +99,41 @@ def sum_of_piece(piece: Piece, nu: int, drive: CycleDrive | None) -> float:
     return along.energy if nu == ENERGY else along.heat
 
 
-def total(pieces: Sequence[Piece], nu: int, drive: CycleDrive | None) -> float:
+def total(pieces: Sequence[Piece], nu: int, drive: Drive | None) -> float:
     """A sum over pieces, in SI units."""
     return sum(sum_of_piece(piece, nu, drive) for piece in pieces)
 
 
-def _of_linear(span: LawSpan, drive: CycleDrive, stroke: float) -> SpanSum:
-    """The energy of a linear drive."""
-    force, unit = driven_formula(span, drive, stroke, FORCE)
-    power = f"({force})*b" if stroke > 0.0 else f"(-({force}))*b"
-    return SpanSum(
-        _without_recovered(power, drive.regeneration), unit * abs(stroke), least=_least_energy(span, drive, stroke)
-    )
-
-
-def _energy(span: LawSpan, drive: CycleDrive, stroke: float) -> SpanSum:
-    """The energy of a mechanism, or of a motor that drives it."""
-    moved = drive.moved(stroke, span.times, span.origin)
-    branches = moved.branches if drive.loses else ()
-    beneath = tuple(_without_recovered(f"({branch})*b", drive.regeneration) for branch in branches)
-    energy = moved.energy if branches else _without_recovered(moved.power, drive.regeneration)
-    return SpanSum(energy, moved.energy_unit, beneath=beneath, least=_least_energy(span, drive, stroke))
-
-
-def _least_energy(span: LawSpan, drive: CycleDrive, stroke: float) -> float:
+def _least_energy(span: LawSpan, drive: Drive, stroke: float) -> float:
     """What the energy of a span is at least, J: the work along its stroke, of which no more than a share comes back."""
-    if drive.process is not None:
+    if drive.mechanism.varies:
         return -inf
     work = _work(span, drive, stroke)
     return max(work, drive.regeneration * work)
 
 
-def _without_recovered(power: str, regeneration: float) -> str:
-    """A power above 0, and the share that is fed back of one below."""
-    if regeneration == 1.0:
-        return power
-    return f"max({power}, {f'{regeneration!r}*{power}' if regeneration else '0'})"
-
-
-def _heat(span: LawSpan, drive: CycleDrive, stroke: float) -> SpanSum:
+def _heat(span: LawSpan, drive: Drive, stroke: float) -> SpanSum:
     """The copper heat of a motor and the braking energy that is not fed back."""
-    moved, source = drive.moved(stroke, span.times, span.origin), drive.source
-    if not isinstance(source, Drive) or not isinstance(moved, DimensionlessDrive) or not drive.copper:
+    train, over = drive.train, moved(span, drive, stroke)
+    if not train.copper:
         raise InputError(NO_HEAT)
-    copper = moved.unit**2 * span.duration * drive.copper / moved.energy_unit
-    squared = [f"{copper!r}*({torque})^2" for torque in (moved.torque, moved.branches[-1])]
+    squared = [f"{over.copper!r}*({torque})^2" for torque in (over.torque, over.branches[-1])]
     burnt, beneath = 1.0 - drive.regeneration, tuple(squared[1:]) if drive.brakes_as_it_drives else ()
     if not burnt:
-        return SpanSum(squared[0], moved.energy_unit, beneath=beneath, least=0.0)
-    if drive.process is not None or drive.loses or drive.mechanism.viscous or source.train.viscous:
-        return SpanSum(moved.heat, moved.energy_unit, beneath=beneath, least=0.0)
-    formula = f"{squared[0]} + {burnt!r}*max({moved.power}, 0)"
-    return SpanSum(formula, moved.energy_unit, -burnt * _work(span, drive, stroke), least=0.0)
+        return SpanSum(squared[0], over.energy_unit, beneath=beneath, least=0.0)
+    if drive.mechanism.varies or train.loses or drive.mechanism.viscous or train.viscous:
+        return SpanSum(over.heat, over.energy_unit, beneath=beneath, least=0.0)
+    formula = f"{squared[0]} + {burnt!r}*max({over.power}, 0)"
+    return SpanSum(formula, over.energy_unit, -burnt * _work(span, drive, stroke), least=0.0)
 
 
-def _work(span: LawSpan, drive: CycleDrive, stroke: float) -> float:
+def _work(span: LawSpan, drive: Drive, stroke: float) -> float:
     """The work along a span's stroke without viscous friction, J: whatever the law."""
-    mechanism, ends = drive.mechanism, (span.origin, span.origin + stroke)
-    ratio, inertia, coulomb = 1.0, 0.0, 0.0
-    if isinstance(drive.source, Drive):
-        ratio, inertia, coulomb = drive.source.ratio, drive.source.train.inertia, drive.source.train.coulomb
+    mechanism, train, ends = drive.mechanism, drive.train, (span.origin, span.origin + stroke)
     load = SmoothParts.between(*sorted(ends)).integral(mechanism.load) * (1.0 if stroke > 0.0 else -1.0)
     kinetic = [
-        0.5 * (mechanism.inertia(x) + ratio**2 * inertia) * state.velocity**2
+        0.5 * (mechanism.inertia(x) + train.ratio**2 * train.inertia) * state.velocity**2
         for x, state in zip(ends, (span.first, span.last), strict=True)
     ]
-    rubbed = (mechanism.coulomb + ratio * coulomb) * abs(stroke)
+    rubbed = (mechanism.coulomb + train.ratio * train.coulomb) * abs(stroke)
     return float(load + rubbed + kinetic[1] - kinetic[0])

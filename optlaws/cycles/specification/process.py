@@ -3,21 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import Any
-
-import numpy as np
 
 from optlaws.entries.declared import Declared, declared, entry
 from optlaws.entries.value_types import Choice, Text
 from optlaws.errors import InputError, located
-from optlaws.formulas.arithmetic import NUMPY, evaluate
-from optlaws.formulas.slopes import added, derivative, multiplied
-from optlaws.formulas.tree import Formula, Name, Table, number, rebuilt, substituted, table_places
+from optlaws.formulas.slopes import derivative, multiplied
+from optlaws.formulas.tree import Formula, Name, Table, number, substituted
+from optlaws.mechanisms.linkages.dimensionless import rescaled
 from optlaws.mechanisms.linkages.entries import JOINED, OverPlace, TableKind, formula_of
-from optlaws.mechanisms.linkages.mechanism import DIMENSIONS, Mechanism
+from optlaws.mechanisms.linkages.mechanism import DIMENSIONS, Mechanism, loaded
 from optlaws.motion.quantities import TURN
-from optlaws.numbers import Array
 from optlaws.suggest import unknown_key
 from optlaws.tolerances import CLOSURE
 
@@ -66,34 +62,13 @@ class MachineProcess(ProcessEntries):
     )
 
 
-@dataclass(frozen=True)
-class ProcessForce:
-    """The force of a process on a mechanism's input, as a formula of its position x and of the time t."""
-
-    load: Formula
-
-    def values(self, x: Array, times: Array) -> Array:
-        """The load at positions of the input and times in the cycle, N m or N."""
-        values = evaluate(self.load, {"x": x, "t": times}, NUMPY)
-        return np.broadcast_to(np.asarray(values, dtype=np.float64), np.shape(x))
-
-    def over_span(self, start: float, duration: float) -> Formula:
-        """The load over x and k of a law that begins at a time."""
-        return _in_k(self.load, start, duration)
-
-    @property
-    def breaks(self) -> tuple[float, ...]:
-        """Times at which the process force has kinks."""
-        return tuple(table_places(self.load, "t"))
-
-
 def is_process(given: Any) -> bool:
     """Whether a load of a cycle is a process force, and nothing elastic."""
     return isinstance(given, Mapping) and bool(FORCES.keys() & given.keys()) and "period" not in given
 
 
-def read_process(given: Mapping[str, Any], mechanism: Mechanism, period: float) -> ProcessForce:
-    """A process force from the entries of a `MachineProcess`.
+def read_process(given: Mapping[str, Any], mechanism: Mechanism, period: float) -> Mechanism:
+    """The mechanism with the force of a process on it besides, from the entries of a `MachineProcess`.
 
     Raises
     ------
@@ -120,8 +95,10 @@ def read_process(given: Mapping[str, Any], mechanism: Mechanism, period: float) 
     end = {"t": period, "m": TURN}.get(variable)
     if end is not None:
         _check_ends(force, variable, end, kind)
-    force = _over_time(force, period) if variable == "m" else substituted(force, {"s": position})
-    return ProcessForce(multiplied([number(-1.0), force, derivative(position, "x")]))
+    if variable == "m":
+        force = rescaled(force, "m", "t", (0.0, TURN / period))
+    force = substituted(force, {"s": position})
+    return loaded(mechanism, multiplied([number(-1.0), force, derivative(position, "x")]))
 
 
 def _position(mechanism: Mechanism, on: Any, kind: str) -> Formula:
@@ -149,32 +126,3 @@ def _check_ends(force: Formula, variable: str, end: float, kind: str) -> None:
                     f"load: {kind}: its table goes from {first:.6g} to {last:.6g} {unit}, and the cycle from 0 to "
                     f"{end:.6g} {unit}: give a table over the whole cycle"
                 )
-
-
-def _over_time(formula: Formula, period: float) -> Formula:
-    """A formula of the master's angle m, rewritten as a formula of the time."""
-    return rescaled(formula, "m", "t", (0.0, TURN / period))
-
-
-def _in_k(formula: Formula, start: float, duration: float) -> Formula:
-    """A formula of the time, rewritten as a formula of k."""
-    return rescaled(formula, "t", "k", (start, duration))
-
-
-def rescaled(formula: Formula, name: str, other: str, line: tuple[float, float]) -> Formula:
-    """The formula with first + slope times another name for one; tables over it become tables over the other.
-
-    >>> from optlaws.formulas.reading import read
-    >>> rescaled(read("3*t"), "t", "m", (0.0, 0.5))
-    3*0.5*m
-    """
-    first, slope = line
-    if formula == Name(name):
-        way = multiplied([number(slope), Name(other)])
-        return added([number(first), way]) if first else way
-    if isinstance(formula, Table) and formula.of == Name(name):
-        places = tuple((place - first) / slope for place in formula.places)
-        return Table(Name(other), places, formula.values, formula.kind, formula.order)
-    if name not in formula.names():
-        return formula
-    return rebuilt(formula, [rescaled(part, name, other, line) for part in formula.parts])

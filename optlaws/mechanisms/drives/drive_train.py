@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from collections.abc import Mapping
+from dataclasses import replace
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -12,10 +12,14 @@ from optlaws.entries.declared import Declared, ValueOf, declared, entry
 from optlaws.entries.value_types import Either, InSI, Kept, Number, SINumber, Together, is_list
 from optlaws.errors import InputError
 from optlaws.formulas.tree import Formula
+from optlaws.formulas.tree import Number as Constant
+from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw, smoothstep
-from optlaws.mechanisms.drives.effort import PieceEffort, bends
-from optlaws.mechanisms.drives.motor import Motor, Train
+from optlaws.mechanisms.drives.effort import PieceEffort
+from optlaws.mechanisms.drives.motor import NO_MOTOR, Motor
 from optlaws.mechanisms.drives.sheet import BestRatio, DriveSheet, TorqueByRatio, best_ratio, sheet_of
+from optlaws.mechanisms.linkages.dimensionless import StrokeTorque, Train
+from optlaws.mechanisms.linkages.linear_force import LinearForce
 from optlaws.mechanisms.linkages.mechanism import DIMENSIONS, Mechanism, duration_of
 from optlaws.mechanisms.linkages.mechanism_kinds import MECHANISM
 from optlaws.mechanisms.linkages.move_limit import (
@@ -34,45 +38,6 @@ from optlaws.motion.quantities import check_scale, si_number
 from optlaws.numbers import Array, NumberOrQuantity, positive
 from optlaws.synthesis.limits.drive_limits import DriveObjective
 from optlaws.tolerances import CLOSURE
-
-
-@dataclass(frozen=True)
-class DimensionlessDrive:
-    """A drive over one stroke without dimensions: texts in a, b and c, with the units of their numbers.
-
-    They are those of laws that never turn back.
-
-    Attributes
-    ----------
-    torque
-        At the motor, above 0 in the direction of the stroke. Where a gear loses power, its magnitude is no maximum of
-        smooth formulas: `peak` takes it with side="high", and the last branch with side="low", which braking never
-        passes.
-    branches
-        The torques of which it is the greatest: where a gear loses power, that of power to the load and that of power
-        back.
-    power
-        Of the motor, above 0 where it drives: torque times b.
-    energy
-        Of which the integral is the energy of the move: braking counts by the share that is fed back.
-    heat
-        Of which the integral is the copper heat and the braking energy that is not fed back; empty of a motor without
-        a motor constant.
-    unit
-        Of the torque, N m.
-    power_unit, energy_unit
-        W, and J for an integral over k.
-    """
-
-    torque: str
-    branches: tuple[str, ...]
-    power: str
-    energy: str
-    heat: str
-    unit: float
-    power_unit: float
-    energy_unit: float
-
 
 _SHARE = Number(above=0.0, most=1.0)
 Efficiency: TypeAlias = Kept[tuple[float, float], "float | tuple[float, float]"]
@@ -141,8 +106,17 @@ class Drive(Declared, title="a drive"):
         example="0.05 N m",
     )
 
+    @classmethod
+    def of_input(cls, mechanism: Mechanism, regeneration: float = 0.0) -> Drive:
+        """The drive of a mechanism at its input, without motor and gear.
+
+        >>> Drive.of_input(Mechanism("2 kg", axis="length")).torque(0.0, 0.0, 3.0)
+        6.0
+        """
+        return cls(mechanism, NO_MOTOR, regeneration=regeneration)
+
     def _check(self) -> None:
-        if self.mechanism.axis != "angle":
+        if self.has_motor and self.mechanism.axis != "angle":
             raise InputError(
                 "mechanism: the motor turns, and the mechanism's input slides: take rack(), belt() or screw(), or a "
                 "mechanism over the angle of its input"
@@ -157,10 +131,43 @@ class Drive(Declared, title="a drive"):
         return self.efficiency
 
     @property
+    def has_motor(self) -> bool:
+        """Whether a motor drives, and not the mechanism's input itself."""
+        return self.motor != NO_MOTOR
+
+    @kept_property
     def train(self) -> Train:
         """Motor and gear in numbers."""
-        turning = self.motor.inertia + self.inertia
-        return Train(turning, self.motor.viscous, self.motor.coulomb + self.no_load_torque, *self.efficiencies)
+        motor, turning = self.motor, self.motor.inertia + self.inertia
+        rubbing = motor.coulomb + self.no_load_torque
+        known = (turning, motor.viscous, rubbing, *self.efficiencies)
+        return Train(*known, self.ratio, self.regeneration, motor.constant**-2)
+
+    @kept_property
+    def linear(self) -> LinearForce | None:
+        """The torque over the mechanism's motion where it is affine in that; None of others, and where a gear loses."""
+        at_input, train, i = self.mechanism.linear, self.train, self.ratio
+        if at_input is None or train.loses:
+            return None
+        of_motor = (i * train.inertia, i * train.viscous, 0.0, 0.0, train.coulomb)
+        return LinearForce(*(force / i + each for force, each in zip(at_input, of_motor, strict=True)))
+
+    @property
+    def dry(self) -> float:
+        """The greatest friction that changes sign with the velocity; 0 without friction."""
+        return self.mechanism.coulomb + self.train.coulomb
+
+    @property
+    def brakes_as_it_drives(self) -> bool:
+        """Whether motor and load are braked together: the torque of power back is then never greater than the torque.
+
+        So it is where nothing but constant inertia is moved, and where motor and gear take no torque themselves.
+        """
+        train, mechanism = self.train, self.mechanism
+        if not (train.inertia or train.viscous or train.coulomb):
+            return True
+        rubs = mechanism.viscous or mechanism.coulomb or train.viscous or train.coulomb
+        return not rubs and isinstance(mechanism.inertia_formula, Constant) and mechanism.load_formula == Constant(0.0)
 
     def with_ratio(self, ratio: float) -> Drive:
         """The drive with another ratio."""
@@ -174,27 +181,31 @@ class Drive(Declared, title="a drive"):
         process: Any = 0.0,
         *,
         direction: Any = None,
+        time: Any = 0.0,
     ) -> Any:
         """The torque at the motor, N m, from position, velocity and acceleration of the mechanism's input, SI units.
 
         A process adds to the load at that input. Unless the `direction` is given, 1, -1 or 0, it moves the way of its
         velocity, and from rest that of its acceleration; at rest the motor holds the load without help of the gear's
-        losses.
+        losses. The time, in s, is that of a load that depends on it.
         """
         v, w = np.asarray(velocity, dtype=np.float64), np.asarray(acceleration, dtype=np.float64)
         way = np.where(v == 0.0, np.sign(w), np.sign(v)) if direction is None else np.asarray(direction)
-        turning, dry, load = self._torques((position, v, w), way, process)
+        turning, dry, load = self._torques((position, v, w), way, process, time)
         values = self.ratio * turning + dry + load / self.ratio
         return values if np.ndim(values) else float(values)
 
-    def _torques(self, motion: tuple[Any, Array, Array], way: Array, process: Any = 0.0) -> tuple[Array, Array, Array]:
+    def _torques(
+        self, motion: tuple[Any, Array, Array], way: Array, process: Any = 0.0, time: Any = 0.0
+    ) -> tuple[Array, Array, Array]:
         """P, Q and Y of the torque i P + Q + Y/i at the motor with a ratio i: inertia and viscous friction, dry, load.
 
         The motion is position, velocity and acceleration of the mechanism's input, the way its direction.
         """
         train, (_, v, w) = self.train, motion
-        load = np.asarray(self.mechanism.torque(*motion, way)) + process
-        through = np.where(way == 0.0, load, train.through_gear(load * way) * way)
+        load = np.asarray(self.mechanism.torque(*motion, way, time=time)) + process
+        driving = load * way  # as the other side of the gear feels it
+        through = np.where(way == 0.0, load, np.maximum(driving / train.to_load, driving * train.back) * way)
         return train.inertia * w + train.viscous * v, train.coulomb * way, through
 
     def dimensionless(
@@ -204,12 +215,13 @@ class Drive(Declared, title="a drive"):
         duration: NumberOrQuantity,
         *,
         process: Formula | None = None,
-    ) -> DimensionlessDrive:
+        begins: float = 0.0,
+    ) -> StrokeTorque:
         """The drive over a stroke of the mechanism's input: formulas of a law for `peak`, `rms` and `integral`.
 
         Parameters
         ----------
-        start, stroke, duration, process
+        start, stroke, duration, process, begins
             As `Mechanism.dimensionless` takes them.
 
         Raises
@@ -233,34 +245,8 @@ class Drive(Declared, title="a drive"):
         >>> round(least.objective * moved.unit, 6), round(drive.sheet(least.law, 0.0, np.pi / 4.0, 0.25).peak_torque, 6)
         (2.514189, 2.514189)
         """
-        moved = self.mechanism.dimensionless(start, stroke, duration, process=process)
-        unit, i = moved.unit / self.ratio, self.ratio
-        speed = abs(moved.stroke) / moved.duration
-        train = self.train
-        parts = {"c": train.inertia * i * speed / moved.duration, "b": train.viscous * i * speed, "1": train.coulomb}
-        to_load, back = self.efficiencies
-        motor = [
-            f"{size / unit!r}*{name}" if name != "1" else repr(size / unit) for name, size in parts.items() if size
-        ]
-        shares = (1.0,) if to_load == back == 1.0 else (1.0 / to_load, back)
-        through = [f"{share!r}*({moved.torque})" if share != 1.0 else moved.torque for share in shares]
-        torque = " + ".join([*motor, through[0] if len(through) == 1 else f"max({', '.join(through)})"])
-        branches = tuple(" + ".join([*motor, load]) for load in through)
-        powers = [f"({branch})*b" for branch in branches]
-        fed_back = [f"{self.regeneration!r}*{power}" for power in powers] if self.regeneration else ["0"]
-        several = powers if self.regeneration == 1.0 else [*powers, *fed_back]
-        power, energy = (some[0] if len(some) == 1 else f"max({', '.join(some)})" for some in (powers, several))
-        units = (unit, unit * i * speed, unit * i * abs(moved.stroke))
-        copper = unit * moved.duration / (self.motor.constant**2 * i * abs(moved.stroke))
-        heat = f"{copper!r}*({torque})^2 + {self._burnt(powers)}" if copper else ""
-        return DimensionlessDrive(torque, branches, power, energy, heat, *units)
-
-    def _burnt(self, powers: list[str]) -> str:
-        """The braking power that is not fed back, from the powers of which the greatest is the motor's."""
-        share = 1.0 - self.regeneration
-        if len(powers) == 1:
-            return f"{share!r}*(max({powers[0]}, 0) - {powers[0]})"
-        return f"{share!r}*(max({', '.join(powers)}, 0) - max({', '.join(powers)}))"
+        moved = self.mechanism.dimensionless(start, stroke, duration, process=process, begins=begins)
+        return replace(moved, unit=moved.unit / self.ratio, train=self.train)
 
     def limit(
         self,
@@ -354,8 +340,7 @@ class Drive(Declared, title="a drive"):
         RMS torque, used                  72.92589084  %
         """
         piece, time = self._move(law, start, stroke, duration, period)
-        along = [PieceEffort(MotorTorque(self), each) for each in _with_rest(piece, time)]
-        sheet = sheet_of(along, time, self.mechanism, self.motor, self.train)
+        sheet = sheet_of([PieceEffort(self, each) for each in _with_rest(piece, time)], time)
         places = {
             name: float(piece.places(np.array(getattr(sheet, name)))) for name in ("peak_torque_at", "curve_use_at")
         }
@@ -393,7 +378,7 @@ class Drive(Declared, title="a drive"):
         (51.639778, 51.639778)
         """
         piece, time = self._move(law, start, stroke, duration, period)
-        times, weights = PieceEffort(MotorTorque(self.with_ratio(1.0)), piece).parts.places
+        times, weights = PieceEffort(self.with_ratio(1.0), piece).parts.places
         x, v, w = (piece.values(times, nu) for nu in range(3))
         turning, dry, load = self._torques((x, v, w), piece.direction(times))
         holding = (1.0 - piece.duration / time) * self._load_after(piece) ** 2
@@ -422,7 +407,7 @@ class Drive(Declared, title="a drive"):
         from optlaws.plots.machine import draw_move
 
         piece, _ = self._move(law, start, stroke, duration, None)
-        return draw_move(PieceEffort(MotorTorque(self), piece), self.motor, ax, **style)
+        return draw_move(PieceEffort(self, piece), ax, **style)
 
     def _load_after(self, piece: Piece) -> float:
         return float(self.mechanism.load(np.clip(piece.offset + piece.stroke, *self.mechanism.over)))
@@ -452,55 +437,21 @@ def _with_rest(piece: Piece, period: float) -> list[Piece]:
     return [piece, Piece(piece.stop, rest, piece.offset + piece.stroke, 0.0, smoothstep(1))]
 
 
-@dataclass(frozen=True)
-class MotorTorque:
-    """The torque at the motor of a drive along pieces of its mechanism's motion."""
-
-    source: Drive
-    breaks: tuple[float, ...] = ()
-
-    @property
-    def speed_ratio(self) -> float:
-        """The ratio of the gear."""
-        return self.source.ratio
-
-    @property
-    def regeneration(self) -> float:
-        """The share of the braking energy that is fed back."""
-        return self.source.regeneration
-
-    @property
-    def copper(self) -> float:
-        """The copper heat of the motor by its squared torque."""
-        return self.source.motor.constant**-2
-
-    def along(self, piece: Piece, times: Array) -> Array:
-        """The torque at times in a piece, above 0 towards greater positions."""
-        x, v, w = (piece.values(times, nu) for nu in range(3))
-        return np.asarray(self.source.torque(x, v, w, direction=piece.direction(times)))
-
-    def kinks(self, piece: Piece) -> list[Callable[[Array], Array]]:
-        """Functions of the time at whose zeros the torque has kinks: bends of the load, and where it turns."""
-
-        def load(times: Array) -> Array:
-            x, v, w = (piece.values(times, nu) for nu in range(3))
-            return np.asarray(self.source.mechanism.torque(x, v, w, piece.direction(times)))
-
-        return [*bends([self.source.mechanism.load_formula], piece), load]
-
-
 def phase_move_of(move: LimitedMove) -> PhaseMove:
-    """A move of a drive without dimensions, within what its motor allows."""
-    drive = move.driven
-    assert isinstance(drive, Drive)  # noqa: S101 - it is a drive's
-    time = duration_of(move.minimise, move.duration)
-    moved = drive.dimensionless(move.start, move.stroke, time)
-    way = drive.mechanism.dimensionless(move.start, move.stroke, time)
-    scales = MoveScales(moved.unit, moved.energy_unit, abs(way.stroke) / way.duration, way.duration)
+    """A move of a mechanism or a drive without dimensions, within what a motor allows."""
+    drive = move.driven if isinstance(move.driven, Drive) else None
+    if drive is None:
+        assert isinstance(move.driven, Mechanism)  # noqa: S101 - no other moves
+        drive = Drive.of_input(move.driven, move.recovered)
+    moved = drive.dimensionless(move.start, move.stroke, duration_of(move.minimise, move.duration))
+    dimensions = DIMENSIONS[drive.mechanism.axis]
+    unit = "N m" if dimensions["load"] == "torque" else "N"
+    scales = MoveScales(moved.unit, moved.energy_unit, abs(moved.stroke) / moved.duration, moved.duration, unit)
     lines = [] if move.minimise == "peak torque" else drive.motor.peak_lines
-    bounds = MoveBounds.read(dict(move.limits), DIMENSIONS[drive.mechanism.axis]).over(way.start, way.stroke)
+    bounds = MoveBounds.read(dict(move.limits), dimensions).over(moved.start, moved.stroke)
     bounds = bounds.within(drive.motor.greatest_speed / drive.ratio, [(top, fall * drive.ratio) for top, fall in lines])
-    return PhaseMove(moved.torque, scales, bounds, MoveCosts(drive.regeneration, move.heat), way.holding)
+    return PhaseMove(moved.torque, scales, bounds, MoveCosts(drive.regeneration, move.heat), moved.holding)
 
 
+MOVED["mechanism"] = MovedKind(Mechanism, phase_move_of)
 MOVED["drive"] = MovedKind(Drive, phase_move_of)

@@ -2,19 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from math import sqrt
-from typing import Protocol
+from typing import Any, Protocol
 
 import numpy as np
 
 from optlaws.formulas.arithmetic import NUMPY, evaluate
 from optlaws.formulas.branches import corners
-from optlaws.formulas.tree import Formula
+from optlaws.formulas.tree import Formula, table_places
 from optlaws.kept import kept_property
 from optlaws.laws.storage import PlainNumbers
+from optlaws.mechanisms.drives.motor import Motor
+from optlaws.mechanisms.linkages.dimensionless import Train
+from optlaws.mechanisms.linkages.mechanism import Mechanism
 from optlaws.motion.piece import Piece, factor
 from optlaws.motion.smooth_parts import Greatest, SmoothParts
 from optlaws.numbers import Array
@@ -23,40 +26,25 @@ from optlaws.tolerances import VALUE_ROUNDING
 FORCE, POWER = -1, -3
 
 
-class TorqueAlong(Protocol):
-    """The torque or force of a drive along pieces of a motion, in SI units, above 0 towards greater positions."""
+class AnyDrive(Protocol):
+    """A `Drive`, which knows this module."""
 
     @property
-    def speed_ratio(self) -> float:
-        """The ratio of the speed at which it acts to that of the motion."""
+    def mechanism(self) -> Mechanism:
+        """The mechanism whose input moves."""
 
     @property
-    def regeneration(self) -> float:
-        """The share of the braking energy that is fed back."""
+    def motor(self) -> Motor:
+        """The motor with its limits."""
 
     @property
-    def copper(self) -> float:
-        """The copper heat by the squared torque, W/(N m)²."""
+    def train(self) -> Train:
+        """Motor and gear in numbers."""
 
-    @property
-    def breaks(self) -> tuple[float, ...]:
-        """Times at which it has kinks."""
-
-    def along(self, piece: Piece, times: Array) -> Array:
-        """The torque or force at times in a piece."""
-
-    def kinks(self, piece: Piece) -> list[Callable[[Array], Array]]:
-        """Functions of the time at whose zeros the torque has kinks."""
-
-
-def bends(loads: Iterable[Formula], piece: Piece) -> list[Callable[[Array], Array]]:
-    """Functions of the time at whose zeros loads over the position x and the time t have kinks."""
-    return [partial(_along_way, switch, piece) for load in loads for switch in corners(load, "xt")]
-
-
-def _along_way(formula: Formula, piece: Piece, times: Array) -> Array:
-    values = evaluate(formula, {"x": piece.values(times, 0), "t": times}, NUMPY)
-    return np.broadcast_to(np.asarray(values, dtype=np.float64), np.shape(times))
+    def torque(
+        self, position: Any, velocity: Any, acceleration: Any, process: Any = 0.0, *, direction: Any, time: Any
+    ) -> Any:
+        """The torque at the motor."""
 
 
 @dataclass(frozen=True)
@@ -128,11 +116,11 @@ class SegmentEffort:
 class PieceEffort:
     """The drive's force, power and energy along a piece, or between two times in it, in SI units."""
 
-    drive: TorqueAlong
+    drive: AnyDrive
     piece: Piece
     ends: tuple[float, float] | None = None
 
-    def of_drive(self, drive: TorqueAlong) -> PieceEffort:
+    def of_drive(self, drive: AnyDrive) -> PieceEffort:
         """The same effort by a drive whose torque is the same, with what is known of it."""
         other = replace(self, drive=drive)
         vars(other).update({**vars(self), "drive": drive})
@@ -140,7 +128,9 @@ class PieceEffort:
 
     def force(self, times: Array) -> Array:
         """The force or torque."""
-        return self.drive.along(self.piece, times)
+        x, v, w = (self.piece.values(times, nu) for nu in range(3))
+        direction = self.piece.direction(times)
+        return np.asarray(self.drive.torque(x, v, w, direction=direction, time=times), dtype=np.float64)
 
     def power(self, times: Array) -> Array:
         """Force times velocity: at the motor, torque times its speed."""
@@ -148,17 +138,28 @@ class PieceEffort:
 
     def speed(self, times: Array) -> Array:
         """The velocity at which the force acts: at the motor, its speed."""
-        return self.drive.speed_ratio * self.piece.values(times, 1)
+        return self.drive.train.ratio * self.piece.values(times, 1)
+
+    def _before_gear(self, times: Array) -> Array:
+        """The torque at the mechanism's input, which turns where the power through a gear does."""
+        x, v, w = (self.piece.values(times, nu) for nu in range(3))
+        return np.asarray(self.drive.mechanism.torque(x, v, w, self.piece.direction(times), time=times))
+
+    def _bend(self, switch: Formula, times: Array) -> Array:
+        """A formula of the position and the time, at whose zeros the load bends."""
+        values = evaluate(switch, {"x": self.piece.values(times, 0), "t": times}, NUMPY)
+        return np.broadcast_to(np.asarray(values, dtype=np.float64), np.shape(times))
 
     @kept_property
     def parts(self) -> SmoothParts:
         """Parts of the piece on which force and power are smooth and of one sign."""
-        piece = self.piece
+        piece, load = self.piece, self.drive.mechanism.load_formula
         places = (piece.start + piece.duration * place for place in piece.law.breaks)
-        breaks = [*places, *piece.turns, *self.drive.breaks]
+        breaks = [*places, *piece.turns, *table_places(load, "t")]
         signs: list[Callable[[Array], Array]] = []
         if piece.stroke:
-            signs = [*self.drive.kinks(piece), self.force]
+            signs = [partial(self._bend, switch) for switch in corners(load, "xt")]
+            signs += [*([self._before_gear] if self.drive.train.loses else []), self.force]
         start, stop = self.ends or (piece.start, piece.stop)
         inside = [time for time in breaks if start < time < stop]
         return SmoothParts.between(start, stop, breaks=inside, signs=signs)
@@ -191,12 +192,12 @@ class PieceEffort:
     def energy(self) -> float:
         """The energy that is given less the share of it that is fed back, J."""
         given, taken = self.energies
-        return given - self.drive.regeneration * taken
+        return given - self.drive.train.regeneration * taken
 
     @property
     def heat(self) -> float:
         """The copper heat and the energy that is taken back and not fed back, J."""
-        return self.drive.copper * self.square + (1.0 - self.drive.regeneration) * self.energies[1]
+        return self.drive.train.copper * self.square + (1.0 - self.drive.train.regeneration) * self.energies[1]
 
     @property
     def square(self) -> float:
@@ -208,15 +209,14 @@ def effort(along: Sequence[PieceEffort], period: float) -> Effort:
     """The force and power of a drive over a cycle, from its values along each piece.
 
     >>> from optlaws import smoothstep
-    >>> from optlaws import Mechanism, Motor
-    >>> from optlaws.mechanisms.drives.drive_train import Drive, MotorTorque
-    >>> drive = MotorTorque(Drive(Mechanism("2 kg m^2"), Motor(0.0)))
+    >>> from optlaws import Drive, Mechanism, Motor
+    >>> drive = Drive(Mechanism("2 kg m^2"), Motor(0.0))
     >>> rise = Piece(0.0, 1.0, 0.0, 1.0, smoothstep(2))
     >>> known = effort([PieceEffort(drive, rise)], 1.0)
     >>> round(known.peak_force, 9), round(known.motoring_energy, 9)
     (12.0, 2.25)
     """
-    regeneration = along[0].drive.regeneration
+    regeneration = along[0].drive.train.regeneration
     peak = max((each.peak_force for each in along), key=lambda greatest: greatest.value)
     given, taken = (max(powers) for powers in zip(*(each.powers for each in along), strict=True))
     driving, braking = (sum(energies) for energies in zip(*(each.energies for each in along), strict=True))
@@ -228,7 +228,7 @@ def effort(along: Sequence[PieceEffort], period: float) -> Effort:
     )
 
 
-def size_of(piece: Piece, nu: int, drive: TorqueAlong | None, *, mean: bool = False) -> float:
+def size_of(piece: Piece, nu: int, drive: AnyDrive | None, *, mean: bool = False) -> float:
     """The peak or RMS of a derivative, or of the force (-1) or power (-3) of a drive, in a piece, in SI units."""
     if nu > 0 or drive is None:
         if not piece.stroke:

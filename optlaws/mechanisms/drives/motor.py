@@ -7,7 +7,7 @@ from dataclasses import KW_ONLY, InitVar
 from itertools import pairwise
 from math import inf
 from pathlib import Path
-from typing import Any, NamedTuple, TypeAlias
+from typing import Any, TypeAlias
 
 import numpy as np
 
@@ -178,23 +178,5 @@ def _slope(first: tuple[float, float], second: tuple[float, float]) -> float:
     return (second[1] - first[1]) / (second[0] - first[0])
 
 
-class Train(NamedTuple):
-    """The transmission between motor and mechanism, in SI units.
-
-    Attributes
-    ----------
-    inertia, viscous, coulomb
-        At the motor's shaft.
-    to_load, back
-        Efficiencies of the gear while power flows to the load and back.
-    """
-
-    inertia: float
-    viscous: float
-    coulomb: float
-    to_load: float
-    back: float
-
-    def through_gear(self, torque: Array) -> Array:
-        """The torque at the mechanism's input, in the direction of motion, as the gear's other side feels it."""
-        return np.maximum(torque / self.to_load, torque * self.back)
+#: a mechanism that is driven at its input, without a motor
+NO_MOTOR = Motor(0.0, name="no motor")

@@ -13,8 +13,7 @@ import numpy as np
 from optlaws.errors import InfeasibleProblem
 from optlaws.laws.storage import PlainNumbers
 from optlaws.mechanisms.drives.effort import PieceEffort, effort
-from optlaws.mechanisms.drives.motor import Motor, Train
-from optlaws.mechanisms.linkages.mechanism import Mechanism
+from optlaws.mechanisms.drives.motor import Motor
 from optlaws.motion.display_units import RPM
 from optlaws.motion.smooth_parts import Greatest
 from optlaws.numbers import Array
@@ -206,26 +205,25 @@ class BestRatio:
         return draw_best_ratio(self, ax, **style)
 
 
-def sheet_of(
-    along: Sequence[PieceEffort], period: float, mechanism: Mechanism, motor: Motor, train: Train
-) -> CycleSheet:
+def sheet_of(along: Sequence[PieceEffort], period: float) -> CycleSheet:
     """The sheet of a motor, from its torque along each piece of a motion that is repeated with a period."""
     drive, total = along[0].drive, effort(along, period)
-    speed, use = _greatest(along, _speed), _greatest(along, partial(_use, motor))
+    mechanism, motor, train = drive.mechanism, drive.motor, drive.train
+    speed, use = _greatest(along, _speed), _greatest(along, _use)
     mean_speed = sum(each.parts.integral(partial(_speed, each)) for each in along) / period
     rests = [_holding(each) for each in along if not each.piece.stroke]
     holding = max(rests, key=abs, default=0.0)
     rated = float(motor.continuous_at(mean_speed))
     reached = [value for each in along for value, _ in each.piece.extremes(0, each.piece.start, each.piece.stop)]
     low, high = np.clip([min(reached), max(reached)], *mechanism.over).tolist()
-    inertia = mechanism.greatest_inertia(low, high) / drive.speed_ratio**2
+    inertia = mechanism.greatest_inertia(low, high) / train.ratio**2
     rms = total.rms_force
     return CycleSheet(
         *(total.peak_force, total.peak_force_at, rms),
         *(holding if abs(holding) > VALUE_ROUNDING * total.peak_force else 0.0, speed.value, mean_speed),
         *(total.motoring_power, total.braking_power),
         *(total.motoring_energy, total.braking_energy, total.energy),
-        *((1.0 - drive.regeneration) * total.braking_energy / period, rms**2 * drive.copper),
+        *((1.0 - train.regeneration) * total.braking_energy / period, rms**2 * train.copper),
         inertia / train.inertia if train.inertia else inf,
         *((use.value, use.place) if motor.curve else (0.0, 0.0)),
         float(share_used(np.array(rms), np.array(rated))),
@@ -247,9 +245,9 @@ def _speed(along: PieceEffort, times: Array) -> Array:
     return np.abs(along.speed(times))
 
 
-def _use(motor: Motor, along: PieceEffort, times: Array) -> Array:
+def _use(along: PieceEffort, times: Array) -> Array:
     """The share of the motor's peak torque at its speed."""
-    return share_used(np.abs(along.force(times)), motor.peak_at(along.speed(times)))
+    return share_used(np.abs(along.force(times)), along.drive.motor.peak_at(along.speed(times)))
 
 
 def share_used(torque: Array, limit: Array) -> Array:

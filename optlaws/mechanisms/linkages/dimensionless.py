@@ -1,7 +1,8 @@
-"""A mechanism over one stroke without dimensions: what formulas of a law need, and the units of their numbers."""
+"""A drive over one stroke without dimensions: what formulas of a law need, and the units of their numbers."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -17,26 +18,63 @@ from optlaws.tolerances import TINY
 _LOOKS = 721
 
 
-@dataclass(frozen=True)
-class DimensionlessMechanism:
-    """A mechanism over the stroke x = start + stroke a(k), k = t/duration: texts in a, with the units of their numbers.
+class Train(NamedTuple):
+    """Motor and gear before a mechanism, in SI units; unless given, the mechanism is driven at its input.
 
-    The torque in the direction of the stroke is unit times `torque`, I(a) c + I'(a) b²/2 + f b + T(a): above 0 where
-    the motor drives, whichever way x goes. Friction that does not depend on the speed is in T, for laws that never turn
-    back.
+    Attributes
+    ----------
+    inertia, viscous, coulomb
+        At the motor's shaft.
+    to_load, back
+        Efficiencies of the gear while power flows to the load and back.
+    ratio
+        Turns of the motor with a turn of the mechanism's input.
+    regeneration
+        The share of the braking energy that is fed back.
+    copper
+        The copper heat of the motor by its squared torque, W/(N m)²; 0 without a motor constant.
+    """
+
+    inertia: float = 0.0
+    viscous: float = 0.0
+    coulomb: float = 0.0
+    to_load: float = 1.0
+    back: float = 1.0
+    ratio: float = 1.0
+    regeneration: float = 0.0
+    copper: float = 0.0
+
+    @property
+    def loses(self) -> bool:
+        """Whether the gear loses power, so that the torque at the motor is the greater of two."""
+        return (self.to_load, self.back) != (1.0, 1.0)
+
+
+_AT_INPUT = Train()
+
+
+@dataclass(frozen=True)
+class StrokeTorque:
+    """A drive over the stroke x = start + stroke a(k), k = t/duration: texts in a, b and c, with the units of numbers.
+
+    The torque in the direction of the stroke is unit times `torque`: above 0 where the motor drives, whichever way x
+    goes. That of the mechanism is I(a) c + I'(a) b²/2 + f b + T(a). Friction that does not depend on the speed is in T,
+    for laws that never turn back.
 
     Attributes
     ----------
     inertia, load
-        I(a) and T(a).
+        I(a) and T(a) of the mechanism.
     friction
-        f, of the viscous friction.
+        f, of its viscous friction.
     unit
-        Of the torque, N m or N.
+        Of the torque, N m or N: at the motor, or without one at the mechanism's input.
     start, stroke, duration
-        In rad or m, and s; the stroke is below 0 for motion to smaller x.
+        Of the mechanism's input, in rad or m, and s; the stroke is below 0 for motion to smaller x.
     holding
         The load without friction: what holds it at rest.
+    train
+        Motor and gear.
     """
 
     inertia: str
@@ -47,36 +85,96 @@ class DimensionlessMechanism:
     stroke: float
     duration: float
     holding: str
+    train: Train = _AT_INPUT
 
     @property
     def torque(self) -> str:
-        """The torque as a formula of a, b and c, for `peak`, `rms` and `integral`."""
-        return drive_torque(inertia=self.inertia, friction=self.friction, load=self.load)
+        """The torque as a formula of a, b and c, for `peak`, `rms` and `integral`.
+
+        Where a gear loses power, its magnitude is no maximum of smooth formulas: `peak` takes it with side="high", and
+        the last branch with side="low", which braking never passes.
+        """
+        through = self._through
+        return " + ".join([*self._motor, through[0] if len(through) == 1 else f"max({', '.join(through)})"])
 
     @property
     def branches(self) -> tuple[str, ...]:
-        """The torques whose maximum is `torque`: a single torque without gear losses."""
-        return (self.torque,)
+        """The torques of which it is the greatest: where a gear loses power, of power to the load and of power back."""
+        return tuple(" + ".join([*self._motor, load]) for load in self._through)
 
     @property
     def power(self) -> str:
-        """The power, above 0 where the input is driven: torque times b."""
-        return f"({self.torque})*b"
+        """The power, above 0 where the motor drives: torque times b."""
+        return _greatest(self._powers)
 
     @property
     def energy(self) -> str:
-        """A formula of which the integral is the energy of the move, of which nothing is fed back."""
-        return f"max({self.power}, 0)"
+        """A formula of which the integral is the energy of the move: braking counts by the share that is fed back."""
+        return recovering(self._powers, self.train.regeneration)
+
+    @property
+    def heat(self) -> str:
+        """A formula of which the integral is the copper heat and the braking energy that is not fed back.
+
+        It is empty of a motor without a motor constant.
+        """
+        if not self.train.copper:
+            return ""
+        powers, share = ", ".join(self._powers), 1.0 - self.train.regeneration
+        burnt = f"{share!r}*(max({powers}, 0) - {self.power})"
+        return f"{self.copper!r}*({self.torque})^2 + {burnt}"
+
+    @property
+    def copper(self) -> float:
+        """What the integral of the squared torque over k is of the copper heat, in the unit of the energy."""
+        return self.unit**2 * self.duration * self.train.copper / self.energy_unit
 
     @property
     def power_unit(self) -> float:
         """The unit of torque times b, W."""
-        return self.unit * abs(self.stroke) / self.duration
+        return self.unit * self.train.ratio * abs(self.stroke) / self.duration
 
     @property
     def energy_unit(self) -> float:
         """The unit of an integral of torque times b over k, J."""
-        return self.unit * abs(self.stroke)
+        return self.unit * self.train.ratio * abs(self.stroke)
+
+    @property
+    def _motor(self) -> list[str]:
+        """The torques that the motor takes itself."""
+        train, speed = self.train, self.train.ratio * abs(self.stroke) / self.duration
+        parts = {"c": train.inertia * speed / self.duration, "b": train.viscous * speed, "1": train.coulomb}
+        return [
+            f"{size / self.unit!r}*{name}" if name != "1" else repr(size / self.unit)
+            for name, size in parts.items()
+            if size
+        ]
+
+    @property
+    def _through(self) -> list[str]:
+        """The torque of the mechanism at the motor, for each way that power flows through the gear."""
+        torque = drive_torque(inertia=self.inertia, friction=self.friction, load=self.load)
+        shares = (1.0 / self.train.to_load, self.train.back) if self.train.loses else (1.0,)
+        return [f"{share!r}*({torque})" if share != 1.0 else torque for share in shares]
+
+    @property
+    def _powers(self) -> list[str]:
+        return [f"({branch})*b" for branch in self.branches]
+
+
+def _greatest(formulas: Sequence[str]) -> str:
+    return formulas[0] if len(formulas) == 1 else f"max({', '.join(formulas)})"
+
+
+def recovering(powers: Sequence[str], share: float) -> str:
+    """The greatest of powers, and the share that is fed back of it where it is below 0.
+
+    >>> recovering(["c*b"], 0.5)
+    'max(c*b, 0.5*c*b)'
+    """
+    if share == 1.0:
+        return _greatest(powers)
+    return _greatest([*powers, *([f"{share!r}*{power}" for power in powers] if share else ["0"])])
 
 
 class InputFriction(NamedTuple):
@@ -88,7 +186,7 @@ class InputFriction(NamedTuple):
 
 def dimensionless(
     inertia: Formula, load: Formula, friction: InputFriction, stroke: tuple[float, float, float]
-) -> DimensionlessMechanism:
+) -> StrokeTorque:
     """A mechanism over a stroke, known by its start, its length and its duration: see `Mechanism.dimensionless`."""
     start, way, time = stroke
     x = start + way * np.linspace(0.0, 1.0, _LOOKS)
@@ -99,9 +197,9 @@ def dimensionless(
     unit = max(next(greatest) * accelerating, next(greatest), moved, friction.coulomb)
     if unit < TINY:
         raise InputError("the mechanism has neither inertia nor load nor friction on this stroke: nothing drives it")
-    resisting = _times(_over_stroke(load, start, way), direction / unit)
-    return DimensionlessMechanism(
-        str(_times(_over_stroke(inertia, start, way), accelerating / unit)),
+    resisting = _times(rescaled(load, "x", "a", (start, way)), direction / unit)
+    return StrokeTorque(
+        str(_times(rescaled(inertia, "x", "a", (start, way)), accelerating / unit)),
         str(number(moved / unit)),
         str(added([number(friction.coulomb / unit), resisting])),
         unit,
@@ -112,19 +210,25 @@ def dimensionless(
     )
 
 
-def _over_stroke(formula: Formula, start: float, stroke: float) -> Formula:
-    """The formula with start + stroke a for x; tables over x become tables over a."""
+def rescaled(formula: Formula, name: str, other: str, line: tuple[float, float]) -> Formula:
+    """The formula with first + slope times another name for one; tables over it become tables over the other.
+
+    >>> from optlaws.formulas.reading import read
+    >>> rescaled(read("3*t"), "t", "m", (0.0, 0.5))
+    3*0.5*m
+    """
+    first, slope = line
     if isinstance(formula, Name):
-        way = multiplied([number(stroke), Name("a")])
-        return added([number(start), way]) if formula.name == "x" else formula
-    if isinstance(formula, Table) and formula.of == Name("x"):
+        way = multiplied([number(slope), Name(other)])
+        return added([number(first), way]) if formula.name == name else formula
+    if isinstance(formula, Table) and formula.of == Name(name):
         pairs = sorted(
-            ((place - start) / stroke, value) for place, value in zip(formula.places, formula.values, strict=True)
+            ((place - first) / slope, value) for place, value in zip(formula.places, formula.values, strict=True)
         )
         places, values = zip(*pairs, strict=True)
-        table = Table(Name("a"), places, values, formula.kind, formula.order)
-        return _times(table, stroke**-formula.order)
-    return rebuilt(formula, [_over_stroke(part, start, stroke) for part in formula.parts])
+        table = Table(Name(other), places, values, formula.kind, formula.order)
+        return _times(table, slope**-formula.order)
+    return rebuilt(formula, [rescaled(part, name, other, line) for part in formula.parts])
 
 
 def _times(formula: Formula, factor: float) -> Formula:

@@ -24,20 +24,10 @@ from optlaws.formulas.slopes import added
 from optlaws.formulas.slopes import derivative as slope
 from optlaws.formulas.tree import Formula, Name, Table, table_places
 from optlaws.kept import kept_property
-from optlaws.mechanisms.linkages.dimensionless import DimensionlessMechanism, InputFriction, dimensionless
+from optlaws.mechanisms.linkages.dimensionless import InputFriction, StrokeTorque, dimensionless, rescaled
 from optlaws.mechanisms.linkages.entries import FORMULA, OverPlace, formula_of
 from optlaws.mechanisms.linkages.linear_force import LinearForce, line_of
-from optlaws.mechanisms.linkages.move_limit import (
-    MOVED,
-    LimitedMove,
-    MoveBounds,
-    MoveCosts,
-    MovedKind,
-    MoveLimit,
-    MoveScales,
-    PhaseMove,
-    move_limit,
-)
+from optlaws.mechanisms.linkages.move_limit import LimitedMove, MoveBounds, MoveLimit, move_limit
 from optlaws.motion.quantities import check_scale, either, in_small_units, si_number
 from optlaws.numbers import Array, NumberOrQuantity, derivative, finite, not_negative, positive, real_times
 from optlaws.numerics.branch_and_bound import extremes
@@ -253,7 +243,7 @@ class Mechanism(JsonText):
         return Together((self.inertia_formula, _derived(self.inertia_formula, 1), self.load_formula))
 
     def _values(self, formula: Formula, x: Any) -> Array:
-        return np.broadcast_to(np.asarray(evaluate(formula, {"x": x}, NUMPY), dtype=np.float64), np.shape(x))
+        return np.broadcast_to(np.asarray(evaluate(formula, {"x": x, "t": 0.0}, NUMPY), dtype=np.float64), np.shape(x))
 
     @kept_property
     def linear(self) -> LinearForce | None:
@@ -262,6 +252,11 @@ class Mechanism(JsonText):
         if inertia is None or load is None or inertia[0] != 0.0:
             return None
         return LinearForce(inertia[1], self.viscous, *load, self.coulomb)
+
+    @property
+    def varies(self) -> bool:
+        """Whether the load depends on the time t, as that of a process may."""
+        return "t" in self.load_formula.names()
 
     @property
     def has_end(self) -> bool:
@@ -329,7 +324,7 @@ class Mechanism(JsonText):
         values = self._values(_derived(formula, derivative(nu)), self.position(x))
         return values if np.ndim(values) else float(values)
 
-    def torque(self, position: Any, velocity: Any, acceleration: Any, direction: Any = None) -> Any:
+    def torque(self, position: Any, velocity: Any, acceleration: Any, direction: Any = None, *, time: Any = 0.0) -> Any:
         """The torque, N m, or force, N, that moves the input: J x'' + J' x'²/2 + friction + load, all in SI units.
 
         Parameters
@@ -338,12 +333,14 @@ class Mechanism(JsonText):
             Of the input: numbers in rad or m and their like by the second, quantities, or arrays.
         direction
             In which friction resists: 1, -1, or 0 at rest; the sign of the velocity unless given.
+        time
+            In s, of a load that depends on it.
         """
         known = DIMENSIONS[self.axis]
         x = self.position(position)
         v = real_times(si_number(velocity, (known["velocity"],), "velocity"))
         w = real_times(si_number(acceleration, (known["acceleration"],), "acceleration"))
-        inertia, slope_of_inertia, load = self._of_torque.values({"x": x}, NUMPY)
+        inertia, slope_of_inertia, load = self._of_torque.values({"x": x, "t": time}, NUMPY)
         inertial, turning = inertia * w, slope_of_inertia * v * v / 2.0
         way = np.sign(v) if direction is None else direction
         values = np.asarray(inertial + turning + self.viscous * v + self.coulomb * way + load)
@@ -356,7 +353,8 @@ class Mechanism(JsonText):
         duration: NumberOrQuantity,
         *,
         process: Formula | None = None,
-    ) -> DimensionlessMechanism:
+        begins: float = 0.0,
+    ) -> StrokeTorque:
         """The mechanism over a stroke x = start + stroke a in a duration: texts in a, and the units of their numbers.
 
         Parameters
@@ -369,6 +367,8 @@ class Mechanism(JsonText):
             In seconds, or a quantity.
         process
             A formula of x and k that is added to the load.
+        begins
+            When the stroke begins, in s, of a load that depends on the time.
 
         Raises
         ------
@@ -396,7 +396,8 @@ class Mechanism(JsonText):
         check_scale(way, "rad" if self.axis == "angle" else "m", "stroke", stroke)
         self.position(np.array([first, first + way]))
         friction = InputFriction(self.coulomb, self.viscous)
-        load = self.load_formula if process is None else added([self.load_formula, process])
+        load = rescaled(self.load_formula, "t", "k", (begins, time)) if self.varies else self.load_formula
+        load = load if process is None else added([load, process])
         return dimensionless(self.inertia_formula, load, friction, (first, way, time))
 
     def limit(
@@ -518,6 +519,15 @@ class Mechanism(JsonText):
         return MechanismEntries.from_dict(data).mechanism
 
 
+def loaded(mechanism: Mechanism, load: Formula) -> Mechanism:
+    """The mechanism with a further load over x and the time t, of which tables may end within its range."""
+    other = object.__new__(Mechanism)
+    known = {name: getattr(mechanism, name) for name in entries_of(MechanismEntries) if name not in {"inertia", "load"}}
+    known |= {"inertia_formula": mechanism.inertia_formula, "load_formula": added([mechanism.load_formula, load])}
+    vars(other).update(known)
+    return other
+
+
 def _range(formulas: Mapping[str, Formula], ends: tuple[float, float] | None, axis: InputAxis) -> tuple[float, float]:
     """The range of x, which all tables over x must cover."""
     tables = [
@@ -562,20 +572,6 @@ def _end(value: Any, axis: Any) -> tuple[Any, float]:
     if isinstance(value, str) or hasattr(value, "units"):
         return either(value, (axis,) if axis else ("angle", "length"), "over")
     return None, finite(value, "over")
-
-
-def phase_move_of(move: LimitedMove) -> PhaseMove:
-    """A move of a mechanism without dimensions."""
-    mechanism = move.driven
-    assert isinstance(mechanism, Mechanism)  # noqa: S101 - it is a mechanism's
-    moved = mechanism.dimensionless(move.start, move.stroke, duration_of(move.minimise, move.duration))
-    velocity, dimension = abs(moved.stroke) / moved.duration, "N m" if mechanism.axis == "angle" else "N"
-    scales = MoveScales(moved.unit, moved.energy_unit, velocity, moved.duration, dimension)
-    bounds = MoveBounds.read(dict(move.limits), DIMENSIONS[mechanism.axis]).over(moved.start, moved.stroke)
-    return PhaseMove(moved.torque, scales, bounds, MoveCosts(move.recovered, move.heat), moved.holding)
-
-
-MOVED["mechanism"] = MovedKind(Mechanism, phase_move_of)
 
 
 def duration_of(minimise: str, duration: NumberOrQuantity | None) -> NumberOrQuantity:

@@ -3,7 +3,7 @@
 import pytest
 
 from optlaws import Chebyshev, Mechanism, Problem, at_most, integral, peak, rms, slider_crank, smoothstep, synthesize
-from optlaws.typing import DimensionlessMechanism
+from optlaws.typing import StrokeTorque
 
 
 def press(crank_inertia: float) -> Mechanism:
@@ -11,7 +11,7 @@ def press(crank_inertia: float) -> Mechanism:
 
 
 @pytest.fixture(scope="module")
-def moved() -> DimensionlessMechanism:
+def moved() -> StrokeTorque:
     return press(0.02).dimensionless("0 deg", "180 deg", "0.3 s")
 
 
@@ -26,18 +26,18 @@ def test_rms_torque_of_the_quintic(crank_inertia: float, expected: float) -> Non
     ("degree", "symmetric", "expected"),
     [(5, False, 4.032923), (9, False, 3.989601), (13, False, 3.960253), (9, True, 4.126803)],
 )
-def test_least_rms_torque(moved: DimensionlessMechanism, degree: int, symmetric: bool, expected: float) -> None:  # noqa: FBT001
+def test_least_rms_torque(moved: StrokeTorque, degree: int, symmetric: bool, expected: float) -> None:  # noqa: FBT001
     problem = Problem(order=3, basis=Chebyshev(degree), minimise=rms(moved.torque), symmetric=symmetric)
     assert synthesize(problem).objective * moved.unit == pytest.approx(expected, abs=1e-6)
 
 
-def test_least_peak_torque(moved: DimensionlessMechanism) -> None:
+def test_least_peak_torque(moved: StrokeTorque) -> None:
     problem = Problem(order=3, basis=Chebyshev(9), minimise=peak(moved.torque), C=at_most(12))
     assert synthesize(problem).objective * moved.unit == pytest.approx(5.1057, abs=1e-4)
 
 
 @pytest.mark.long
-def test_least_energy_without_regeneration(moved: DimensionlessMechanism) -> None:
+def test_least_energy_without_regeneration(moved: StrokeTorque) -> None:
     energy = integral(f"max(({moved.torque})*b, 0)")
     assert energy.value(smoothstep(3)) * moved.unit == pytest.approx(4.416, abs=5e-4)
     problem = Problem(order=3, basis=Chebyshev(9), minimise=energy, C=at_most(12))
