@@ -1,19 +1,18 @@
-"""Laws and motions as polynomials in machine units: exact for piecewise polynomial laws, else within a tolerance."""
+"""Motions as polynomials in machine units: the laws' own, else Hermite's as near as a tolerance or a target asks."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import reduce
+from heapq import heapify, heapreplace
 from itertools import pairwise
-from math import inf
+from math import ceil
 from typing import Any
 
 import numpy as np
 
 from optlaws.errors import InputError
-from optlaws.exports.interpolation import hermite_powers
 from optlaws.laws.law import MotionLaw
 from optlaws.laws.polynomial import PolynomialLaw
 from optlaws.laws.segments.piecewise import PiecewiseLaw
@@ -21,124 +20,126 @@ from optlaws.laws.segments.segment import PolynomialSegment
 from optlaws.motion.motion import Motion, motion_of_law
 from optlaws.motion.piece import Piece
 from optlaws.motion.polynomials import PiecewiseMotion, from_exact
-from optlaws.numbers import Array, finite, positive
+from optlaws.numbers import Array, positive
 from optlaws.numerics import exact
+from optlaws.numerics.splines import hermite_powers
 
 _POSITION_ROUNDING = 2.0**-50  # of a stroke: positions whose differences make a higher derivative
 _PIECES_OF_MOTION = 1e-9  # of the greatest value: what polynomial pieces of a motion are off
+_ACCELERATION_HIGHER = 1e-3  # of the peak: how far a run's may be above the motion's
+
+#: how far the run's peak of the acceleration may be above the motion's, and its acceleration off it, as shares
+OFF = 1e-2
+_SHORT = 10
+_SHORTEST = Fraction(1, 4096)
+_ORDERS = 4  # derivatives at both ends, so that pieces have the degree 7
+_MOST = 4096
+_LEAST = 16.0  # terms that sum up to so many strokes are no cause to halve pieces
 
 #: a stretch of a law: its first and its last k, and powers of k less the first
 Stretch = tuple[Fraction, Fraction, Sequence[Fraction]]
 
-_SHORTEST = Fraction(1, 4096)
+
+def stretches(law: MotionLaw) -> Iterator[Stretch]:
+    """The polynomials of a law in exact arithmetic; none of a law that is not piecewise polynomial."""
+    if isinstance(law, PolynomialLaw):
+        yield Fraction(0), Fraction(1), law.exact_powers()
+    if isinstance(law, PiecewiseLaw) and all(isinstance(segment, PolynomialSegment) for segment in law.segments):
+        height = Fraction(law.a0)
+        for segment, ends in zip(law.segments, pairwise(map(Fraction, law.breaks)), strict=True):
+            assert isinstance(segment, PolynomialSegment)  # noqa: S101 - said above
+            length = ends[1] - ends[0]
+            acceleration = exact.exact_powers([Fraction(coefficient) for coefficient in segment.acceleration])
+            steps = (power / (length**n * (n + 1) * (n + 2)) for n, power in enumerate(acceleration))
+            powers = [height, Fraction(segment.b0), *steps]
+            yield *ends, powers
+            height = sum((a * length**n for n, a in enumerate(powers)), Fraction(0))
 
 
-@dataclass(frozen=True)
-class LawSection:
-    """A smooth part of a law between two k: with the powers of its own polynomial where that is of low degree."""
+@dataclass
+class _Section:
+    """A smooth part of a piece of a motion: powers of k less its first where they are taken, else near polynomials."""
 
-    law: MotionLaw
+    piece: Piece
     ends: tuple[float, float]
-    exact_powers: tuple[Fraction, ...] | None = None
+    powers: Sequence[Fraction] | None
+    run: PiecewiseMotion | None = None
 
     def values(self, k: Array, nu: int) -> Array:
-        """The derivative of order nu; at the last k, its limit from this side."""
-        return np.asarray(self.law(np.minimum(k, self._last), nu))
+        """The derivative of the law; at the last k, its limit from this side."""
+        high = self.ends[1]
+        return np.asarray(self.piece.law(np.minimum(k, high if high == 1.0 else np.nextafter(high, 0.0)), nu))
 
-    def hermite(self, k: Array, orders: int) -> PiecewiseMotion:
-        """Polynomials between places that have the law's first derivatives at each of them."""
+    def interpolate(self, count: int, orders: int) -> None:
+        """Lay polynomials between equal steps, which have the law's first derivatives at each of them."""
+        k = np.linspace(*self.ends, count + 1)
         values = np.array([self.values(k, nu) for nu in range(orders)])
         if not np.isfinite(values).all():
             raise InputError(
                 f"the law has infinite derivatives at k = {float(k[~np.isfinite(values).all(axis=0)][0]):.6g}, which "
                 "no polynomial has: take a law of finite acceleration, or a format of points"
             )
-        return PiecewiseMotion(k, hermite_powers(k, values))
-
-    def off(self, run: PiecewiseMotion, nu: int) -> float:
-        """The deviation of polynomials on this stretch from the law."""
-        return run.deviation(self.values, nu).value
+        self.run = PiecewiseMotion(k, hermite_powers(k, values))
 
     @property
-    def _last(self) -> float:
-        high = self.ends[1]
-        return high if high == 1.0 else float(np.nextafter(high, 0.0))
+    def count(self) -> int:
+        """How many polynomials it has."""
+        return 0 if self.run is None else len(self.run.coefficients)
+
+    def off(self, nu: int) -> float:
+        """The deviation of the derivative of order nu from the motion's."""
+        if self.run is None:
+            return 0.0
+        return abs(self.piece.stroke) / self.piece.duration**nu * self.run.deviation(self.values, nu).value
+
+    def polynomials(self) -> Iterator[tuple[Fraction, list[Fraction]]]:
+        """Where each polynomial begins, and its powers, in units of the motion."""
+        piece, rows = self.piece, [(Fraction(self.ends[0]), self.powers or [Fraction(0)])]
+        if self.run is not None:
+            rows = [
+                (Fraction(low), list(map(Fraction, row)))
+                for low, row in zip(self.run.breaks, self.run.coefficients, strict=False)
+            ]
+        stroke, duration = Fraction(piece.stroke), Fraction(piece.duration)
+        height = Fraction(piece.offset) - stroke * Fraction(float(piece.law.a(0.0)))
+        for low, powers in rows:
+            first, *others = (stroke * c / duration**n for n, c in enumerate(powers))
+            yield Fraction(piece.start) + duration * low, [first + height, *others]
 
 
-def is_polynomial(law: MotionLaw) -> bool:
-    """Whether a law is piecewise polynomial, so that controllers can execute it without loss."""
-    if isinstance(law, PiecewiseLaw):
-        return all(isinstance(segment, PolynomialSegment) for segment in law.segments)
-    return isinstance(law, PolynomialLaw)
+def _sections(motion: Motion, degree: float) -> list[_Section]:
+    """The smooth parts of a motion's pieces, with the laws' own polynomials to a degree."""
+    sections = []
+    for piece in motion.pieces:
+        polynomials = list(stretches(piece.law)) if piece.stroke else [(Fraction(0), Fraction(1), [Fraction(0)])]
+        sections += [
+            _Section(piece, (float(low), float(high)), powers if len(powers) <= degree + 1 else None)
+            for low, high, powers in polynomials
+        ] or [_Section(piece, ends, None) for ends in pairwise(piece.law.breaks)]
+    return sections
 
 
-def polynomials_of_law(
-    law: MotionLaw, stroke: float = 1.0, time: float = 1.0, *, cancelled: float = inf
-) -> PiecewiseMotion:
-    """A law of polynomials with its stroke and duration: the same pieces, every coefficient rounded once.
-
-    High powers cancel each other, and with them the digits of whoever evaluates them: pieces whose terms sum up to more
-    than `cancelled` strokes are halved, which changes no value.
-
-    >>> from optlaws import smoothstep
-    >>> polynomials_of_law(smoothstep(2), stroke=0.5, time=2.0).coefficients
-    ((0.0, 0.0, 0.375, -0.125),)
-    """
-    height, duration = Fraction(finite(stroke, "stroke")), Fraction(positive(time, "time"))
-    tame = [part for stretch in stretches(law) for part in _tame(stretch, cancelled)]
-    rows = [[height * a / duration**n for n, a in enumerate(powers)] for _, _, powers in tame]
-    return from_exact([duration * k for k in (tame[0][0], *(last for _, last, _ in tame))], rows)
+def _cut(section: _Section, count: int) -> Iterator[_Section]:
+    """Equal parts of a section whose powers are taken, which changes no value."""
+    powers = list(section.powers or ())
+    for low, high in pairwise(np.linspace(*section.ends, count + 1).tolist()):
+        by = Fraction(low) - Fraction(section.ends[0])
+        yield _Section(section.piece, (low, high), exact.shifted(powers, by))
 
 
-def _tame(stretch: Stretch, cancelled: float) -> Iterator[Stretch]:
-    """The stretch in parts whose terms are no larger in sum."""
-    low, high, powers = stretch
-    length = high - low
-    if high - low <= _SHORTEST or sum(abs(float(a * length**n)) for n, a in enumerate(powers)) <= cancelled:
-        yield stretch
-        return
-    middle = (low + high) / 2
-    yield from _tame((low, middle, powers), cancelled)
-    yield from _tame((middle, high, exact.shifted(list(powers), middle - low)), cancelled)
-
-
-def stretches(law: MotionLaw) -> Iterator[Stretch]:
-    """The polynomials of a law in exact arithmetic."""
-    if not is_polynomial(law):
-        raise InputError("the law is not piecewise polynomial: approximate it by pieces within a stated deviation")
-    if isinstance(law, PolynomialLaw):
-        yield Fraction(0), Fraction(1), law.exact_powers()
-    if isinstance(law, PiecewiseLaw):
-        height = Fraction(law.a0)
-        for segment, ends in zip(law.segments, pairwise(map(Fraction, law.breaks)), strict=True):
-            assert isinstance(segment, PolynomialSegment)  # noqa: S101 - said above
-            powers = _powers(segment, ends[1] - ends[0], height)
-            yield *ends, powers
-            height = sum((a * (ends[1] - ends[0]) ** n for n, a in enumerate(powers)), Fraction(0))
-
-
-def _powers(segment: PolynomialSegment, length: Fraction, height: Fraction) -> list[Fraction]:
-    """Powers of k less the segment's start, of the displacement."""
-    acceleration = exact.exact_powers([Fraction(coefficient) for coefficient in segment.acceleration])
-    steps = [power / (length**n * (n + 1) * (n + 2)) for n, power in enumerate(acceleration)]
-    return [height, Fraction(segment.b0), *steps]
-
-
-_ORDERS = 4  # derivatives at both ends, so that pieces have the degree 7
-_MOST = 4096
-_LEAST = 16.0  # terms that sum up to so many strokes are no cause to halve pieces
+def _joined(motion: Motion, sections: Sequence[_Section]) -> PiecewiseMotion:
+    pairs = [pair for section in sections for pair in section.polynomials()]
+    return from_exact([*(low for low, _ in pairs), Fraction(motion.stop)], [row for _, row in pairs])
 
 
 def pieces_of_motion(motion: Motion, tolerance: float = _PIECES_OF_MOTION) -> PiecewiseMotion:
-    """The polynomials of a motion between breaks, in units of its master and slave.
+    """The polynomials of a motion between breaks, in units of its master and slave, every number rounded once.
 
     Where laws do not consist of polynomials, the position is within `tolerance`, a share of the stroke, over the whole
     interval. Polynomials whose powers lose more digits than that are halved, which changes no value.
     """
-    share = positive(tolerance, "tolerance")
-    parts = [_of_piece(piece, share * motion.stroke) for piece in motion.pieces]
-    breaks = [x for part in parts for x in part.breaks[:-1]]
-    return PiecewiseMotion([*breaks, motion.stop], [row for part in parts for row in part.coefficients])
+    allowed = positive(tolerance, "tolerance") * motion.stroke
+    return _joined(motion, [part for section in _sections(motion, np.inf) for part in _near(section, allowed)])
 
 
 def pieces_of_law(law: MotionLaw, tolerance: float = _PIECES_OF_MOTION, **placement: Any) -> PiecewiseMotion:
@@ -146,33 +147,125 @@ def pieces_of_law(law: MotionLaw, tolerance: float = _PIECES_OF_MOTION, **placem
     return pieces_of_motion(motion_of_law(law, **placement), tolerance)
 
 
-def _of_piece(piece: Piece, tolerance: float) -> PiecewiseMotion:
-    if piece.stroke == 0.0:
-        return PiecewiseMotion([piece.start, piece.stop], [[piece.offset]])
-    if is_polynomial(piece.law):
-        cancelled = max(tolerance / (_POSITION_ROUNDING * abs(piece.stroke)), _LEAST)
-        return _at_its_place(polynomials_of_law(piece.law, piece.stroke, piece.duration, cancelled=cancelled), piece)
-    stretches = [LawSection(piece.law, ends) for ends in pairwise(piece.law.breaks)]
-    near = reduce(PiecewiseMotion.then, (_near(stretch, tolerance / abs(piece.stroke)) for stretch in stretches))
-    return _at_its_place(near.in_units(piece.duration, piece.stroke), piece)
-
-
-def _at_its_place(motion: PiecewiseMotion, piece: Piece) -> PiecewiseMotion:
-    """The motion where its piece lies: laws begin at 0 and with their own displacement."""
-    height = piece.offset - piece.stroke * float(piece.law.a(0.0))
-    rows = [(row[0] + height, *row[1:]) for row in motion.coefficients]
-    return PiecewiseMotion([piece.start + x for x in motion.breaks], rows)
-
-
-def _near(stretch: LawSection, tolerance: float) -> PiecewiseMotion:
-    """Hermite's polynomials of degree 7 on a stretch; their number is doubled until they are near enough."""
+def _near(section: _Section, allowed: float) -> Iterator[_Section]:
+    """A section in parts whose powers are no larger in sum, or with polynomials that are near enough."""
+    if section.powers is not None:
+        length = Fraction(section.ends[1]) - Fraction(section.ends[0])
+        terms = sum(abs(float(a * length**n)) for n, a in enumerate(section.powers))
+        stroke = abs(section.piece.stroke)
+        if stroke and length > _SHORTEST and terms > max(allowed / (_POSITION_ROUNDING * stroke), _LEAST):
+            for part in _cut(section, 2):
+                yield from _near(part, allowed)
+        else:
+            yield section
+        return
     count = 1
     while count <= _MOST:
-        run = stretch.hermite(np.linspace(*stretch.ends, count + 1), _ORDERS)
-        if stretch.off(run, 0) <= tolerance:
-            return run
+        section.interpolate(count, _ORDERS)
+        if section.off(0) <= allowed:
+            yield section
+            return
         count *= 2
     raise InputError(
-        f"{_MOST} polynomials do not come within {tolerance:.3g} of the law near k = {stretch.ends[0]:.6g}: take a "
-        "greater tolerance, a law of polynomials, or a format of points"
+        f"{_MOST} polynomials do not come within {allowed / abs(section.piece.stroke):.3g} of the law near "
+        f"k = {section.ends[0]:.6g}: take a greater tolerance, a law of polynomials, or a format of points"
     )
+
+
+@dataclass(frozen=True)
+class Fitted:
+    """Polynomials of a motion over its master: the laws' own, each number rounded once, where `exact`.
+
+    `deviation` and `acceleration` are how far position and acceleration are off at most, in units of the motion.
+    """
+
+    run: PiecewiseMotion
+    exact: bool
+    deviation: float
+    acceleration: float
+
+    @property
+    def count(self) -> int:
+        """How many polynomials there are."""
+        return len(self.run.coefficients)
+
+    def in_words(self, unit: str) -> str:
+        """The accuracy of the polynomials, in the words of headings."""
+        if self.exact:
+            return "exact: the polynomials are the law's own, every number rounded once"
+        return f"approximated: position within {self.deviation:.3g} {unit} of the law, over the whole motion"
+
+
+def _fit(motion: Motion, sections: Sequence[_Section]) -> Fitted:
+    off = (max(section.off(nu) for section in sections) for nu in (0, 2))
+    return Fitted(_joined(motion, sections), all(section.run is None for section in sections), *off)
+
+
+def fitted(motion: Motion, degree: int, most: int, count: int | None = None, *, near: float = OFF) -> Fitted:
+    """Polynomials of a degree from 3 to 9 for a motion: its own where they are low enough, else Hermite's.
+
+    Where laws are polynomials of at most the degree they are taken as they are. Elsewhere polynomials of the greatest
+    odd degree have the law's derivatives at both ends, and one more is laid where the acceleration is furthest from the
+    law's, until its peak is within a thousandth of the motion's and it is nowhere off by more than a share `near` of
+    that, or until there are as many as `count`; the target takes at most `most`.
+
+    >>> from optlaws.motion.motion import motion_of_law
+    >>> from optlaws import smoothstep
+    >>> motion = motion_of_law(smoothstep(5), stroke="35 mm", duration="0.1 s")
+    >>> fit = fitted(motion, degree=7, most=50)
+    >>> fit.count, fit.exact, f"{fit.deviation:.1e}", fitted(motion, degree=9, most=50).exact
+    (4, False, '4.9e-04', True)
+    """
+    sections = _sections(motion, degree)
+    if len(sections) > (most if count is None else count):
+        request = f"and the target holds {most}" if count is None else f"more than the {count} that were asked for"
+        raise InputError(f"the motion has {len(sections)} pieces of its own, {request}: export its parts")
+    approximated = [section for section in sections if section.powers is None]
+    peak = motion.peak(2) if approximated else 0.0
+    if not np.isfinite(peak):
+        raise InputError("the acceleration of the motion has no bound, as where the velocity jumps: smooth it first")
+
+    def rank(place: int) -> tuple[float, int]:
+        """A section's place behind its accuracy, below -1 where that is too little, with one polynomial more."""
+        section = approximated[place]
+        section.interpolate(section.count + 1, (degree + 1) // 2)
+        assert section.run is not None  # noqa: S101 - it was laid
+        height = abs(section.piece.stroke) / section.piece.duration**2 * section.run.peak(2).value
+        return -max(height / ((1.0 + _ACCELERATION_HIGHER) * peak), section.off(2) / (near * peak)), place
+
+    worst = [rank(place) for place in range(len(approximated))]
+    heapify(worst)
+    for _ in range((most if count is None else count) - len(sections)):
+        if not worst or (count is None and worst[0][0] >= -1.0):
+            break
+        heapreplace(worst, rank(worst[0][1]))
+    if worst and count is None and worst[0][0] < -1.0:
+        raise InputError(
+            "the pieces that the target holds do not bring the acceleration within a thousandth of its peak: say how "
+            "many to take all the same (points=...), or export parts"
+        )
+    joined = _fit(motion, sections)
+    if joined.count > most:
+        raise InputError(f"{joined.count} pieces are needed, and the target holds {most}: export the motion in parts")
+    return joined
+
+
+def exactly(motion: Motion, degree: int) -> Fitted | None:
+    """The own polynomials of laws to a degree, cut where their powers would lose digits; None where laws are none.
+
+    A polynomial of degree n in powers of k has terms far above its values; on a part of the interval, in powers of x
+    less its start, they are as small as these.
+
+    >>> from optlaws.motion.motion import motion_of_law
+    >>> from optlaws import smoothstep
+    >>> fit = exactly(motion_of_law(smoothstep(9), stroke="35 mm", duration="0.1 s"), 40)
+    >>> fit.exact, fit.count, fit.run.degree
+    (True, 6, 17)
+    """
+    parts: list[_Section] = []
+    for section in _sections(motion, degree):
+        if section.powers is None:
+            return None
+        size = len(section.powers)
+        parts += _cut(section, 1 if size <= _SHORT else ceil(size / 3))
+    return _fit(motion, parts)

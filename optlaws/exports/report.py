@@ -92,7 +92,7 @@ class Report:
 
     Examples
     --------
-    >>> from optlaws.exports.interpolation import spline_powers
+    >>> from optlaws.numerics.splines import spline_powers
     >>> from optlaws.motion.motion import motion_of_law
     >>> from optlaws import smoothstep
     >>> motion = motion_of_law(smoothstep(3), stroke="35 mm", duration="0.1 s")

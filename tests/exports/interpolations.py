@@ -4,7 +4,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws import PiecewiseMotion
-from tests.internals.exports import Ends, akima_powers, hermite_powers, linear_powers, spline_powers
+from tests.internals.exports import akima_powers
+from tests.internals.numerics import Ends, hermite_powers, linear_powers, spline_powers
 
 Array = NDArray[np.float64]
 

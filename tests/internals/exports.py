@@ -2,14 +2,12 @@
 
 from optlaws.exports.error_bounds import DOUBLE, SINGLE, as_stored, error_bounds
 from optlaws.exports.export import Export, export_motion
-from optlaws.exports.fitting import fitted
 from optlaws.exports.format import FORMATS
 from optlaws.exports.formats.c99 import c_name, header
-from optlaws.exports.formats.point_table import NumberFormat, spline_table
+from optlaws.exports.formats.point_table import NumberFormat, akima_powers, spline_table
 from optlaws.exports.formats.rockwell import profile_motion, profile_rows
 from optlaws.exports.formats.structured_text import function_block
-from optlaws.exports.interpolation import Ends, akima_powers, hermite_powers, linear_powers, spline_powers
-from optlaws.exports.polynomial_pieces import polynomials_of_law
+from optlaws.exports.polynomial_pieces import fitted
 from optlaws.exports.program_text import filled, template
 from optlaws.exports.report import task_sampling
 from optlaws.exports.run_time.front_export import FrontExport

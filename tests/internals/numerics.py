@@ -12,4 +12,5 @@ from optlaws.numerics.panels import integral as integral_of_panels
 from optlaws.numerics.peaks import extremes as extremes_of_peaks
 from optlaws.numerics.peaks import highest, peak, polished
 from optlaws.numerics.roots import bisect, bracketed_root, bracketed_roots, sign_changes
+from optlaws.numerics.splines import Ends, hermite_powers, linear_powers, spline_powers
 from optlaws.numerics.taylor import Jet, Pair, variable

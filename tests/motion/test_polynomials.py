@@ -10,7 +10,6 @@ from scipy.interpolate import CubicSpline, PPoly
 
 from optlaws import InputError, Pieces, PiecewiseMotion, Problem, catalogue, smoothstep, synthesize
 from tests.exports.motions import random_motion
-from tests.internals.exports import polynomials_of_law
 from tests.internals.numerics import bernstein
 from tests.sampling import examples
 
@@ -76,15 +75,13 @@ def test_a_law_of_polynomials_is_converted_without_loss() -> None:
     stroke, time = 0.035, 0.12
     k = np.linspace(0.0, 1.0, 301)
     for law in (smoothstep(4), pieces, catalogue["constant acceleration"].law):
-        motion = polynomials_of_law(law, stroke, time)
+        motion = law.pieces(f"{stroke} m", f"{time} s")
         places = np.minimum(k * time, motion.stop)
         for nu in range(3 if law.continuity < 2 else 4):
             factor = stroke / time**nu
             near = np.abs(k[:, None] - np.array(law.breaks)[1:-1]).min(axis=1, initial=1.0) > 1e-9
             assert motion(places, nu)[near] == pytest.approx(factor * law(k, nu)[near], rel=0, abs=2e-12 * factor)
             assert motion.peak(nu).value == pytest.approx(factor * law.peak(nu).value, rel=1e-11)
-    with pytest.raises(InputError, match="not piecewise polynomial"):
-        polynomials_of_law(catalogue["cycloidal"].law)
 
 
 def test_deviations_from_functions_and_motions_are_greatest_over_the_whole_interval() -> None:

@@ -9,10 +9,10 @@ from typing import Any, Self
 
 import numpy as np
 
-from optlaws.exports.interpolation import periodic_slopes
 from optlaws.numbers import Array, derivative, finite, number_or_array, real_times, whole
 from optlaws.numerics import chebyshev
 from optlaws.numerics.interval import Interval
+from optlaws.numerics.splines import periodic_slopes
 from optlaws.numerics.taylor import Jet, Pair
 from optlaws.tolerances import ROUNDOFF
 

@@ -19,12 +19,12 @@ from optlaws.exports.formats.point_table import (
     spline_table,
     table_by_interpolation,
 )
-from optlaws.exports.interpolation import linear_powers
 from optlaws.exports.spacing import PointTable, chosen
 from optlaws.exports.text import plain, plain_column, table_heading
 from optlaws.files.writing import MARK
 from optlaws.motion.motion import Motion
 from optlaws.motion.quantities import quantity
+from optlaws.numerics.splines import linear_powers
 from optlaws.tolerances import CLOSURE
 
 _DECADIC_STEP = 1e-4  # the last digit that an ISG cam table has

@@ -9,10 +9,10 @@ import numpy as np
 
 from optlaws.errors import InputError
 from optlaws.exports.format import Request
-from optlaws.exports.interpolation import Ends, akima_powers, hermite_powers, linear_powers, spline_powers
 from optlaws.exports.spacing import PointTable, chosen, places
 from optlaws.motion.motion import Motion
 from optlaws.numbers import Array
+from optlaws.numerics.splines import Ends, hermite_powers, linear_powers, spline_powers
 
 _TABLE_ROUNDING = 2.0**-46  # of a column of a table: less is printed as 0
 
@@ -97,6 +97,18 @@ def linear_table(motion: Motion, points: Points, number_format: NumberFormat) ->
     """Positions between which the controller goes straight."""
     x, y = positions(motion, points, number_format, lines=True)
     return PointTable(x, y[None], linear_powers(x, y), number_format.resolution(motion))
+
+
+def akima_powers(x: Array, y: Array) -> Array:
+    """Akima's cubics in ascending powers, as in Modelica's tables: the acceleration jumps at each point.
+
+    >>> x = np.linspace(0.0, 1.0, 6)
+    >>> akima_powers(x, x**2)[0].round(9).tolist()
+    [0.0, 0.0, 1.0, 0.0]
+    """
+    from scipy.interpolate import Akima1DInterpolator
+
+    return np.asarray(Akima1DInterpolator(x, y).c.T[:, ::-1])
 
 
 def akima_table(motion: Motion, points: Points, number_format: NumberFormat) -> PointTable:

@@ -9,8 +9,8 @@ import numpy as np
 
 from optlaws.errors import InputError
 from optlaws.exports.error_bounds import SINGLE, error_bounds
-from optlaws.exports.fitting import OFF, Fitted, exactly, fitted
 from optlaws.exports.format import BEST, Request
+from optlaws.exports.polynomial_pieces import OFF, Fitted, exactly, fitted
 from optlaws.exports.text import Labels, program_heading, real, rounded_up, safe
 from optlaws.files.writing import MARK
 from optlaws.motion.motion import Motion

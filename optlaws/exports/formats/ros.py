@@ -11,7 +11,6 @@ from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.exports.format import MOST_POINTS, Request, Written, file_format
 from optlaws.exports.formats.point_table import DEGREES, NumberFormat, hermite_table
-from optlaws.exports.interpolation import hermite_powers
 from optlaws.exports.spacing import PointTable, chosen
 from optlaws.exports.text import table_heading
 from optlaws.files.writing import MARK
@@ -19,6 +18,7 @@ from optlaws.motion.motion import Motion, Units
 from optlaws.motion.polynomials import PiecewiseMotion
 from optlaws.motion.quantities import quantity
 from optlaws.numbers import Array
+from optlaws.numerics.splines import hermite_powers
 
 ORDERS = {"quintic": 3, "cubic": 2, "linear": 1}
 FIELDS = ("positions", "velocities", "accelerations")

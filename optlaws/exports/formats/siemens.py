@@ -6,7 +6,6 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from optlaws.exports.fitting import Fitted
 from optlaws.exports.format import Request, Written, file_format
 from optlaws.exports.formats.program_polynomials import (
     Ends,
@@ -16,10 +15,11 @@ from optlaws.exports.formats.program_polynomials import (
     polynomials_for,
     refuse_jumps,
 )
-from optlaws.exports.interpolation import hermite_powers
+from optlaws.exports.polynomial_pieces import Fitted
 from optlaws.exports.text import iec_name
 from optlaws.motion.motion import Motion
 from optlaws.motion.polynomials import PiecewiseMotion
+from optlaws.numerics.splines import hermite_powers
 
 SEGMENTS = 50
 POINTS = SEGMENTS + 1

@@ -7,7 +7,6 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.exports.fitting import Fitted
 from optlaws.exports.format import MOST_POINTS, Request, Written, file_format
 from optlaws.exports.formats.point_table import NumberFormat, linear_table, spline_table
 from optlaws.exports.formats.program_polynomials import (
@@ -18,11 +17,12 @@ from optlaws.exports.formats.program_polynomials import (
     polynomials_for,
     refuse_jumps,
 )
-from optlaws.exports.interpolation import hermite_powers
+from optlaws.exports.polynomial_pieces import Fitted
 from optlaws.exports.spacing import PointTable, chosen
 from optlaws.exports.text import iec_comment, iec_name, real, table_heading
 from optlaws.motion.motion import Motion
 from optlaws.motion.polynomials import PiecewiseMotion
+from optlaws.numerics.splines import hermite_powers
 
 INTERPOLATIONS = {"linear": "MC_INTERPOLATIONTYPE_LINEAR", "spline": "MC_INTERPOLATIONTYPE_SPLINE"}
 

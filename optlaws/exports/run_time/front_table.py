@@ -135,6 +135,8 @@ def _check_rest(law: MotionLaw) -> None:
 def _series(laws: Sequence[MotionLaw]) -> tuple[tuple[float, ...], Array, list[list[list[Fraction]]]]:
     """Breaks, and for each law and piece the series of its displacement: rounded, an array, and exact."""
     parts = [list(stretches(law)) for law in laws]
+    if not all(parts):
+        raise InputError("functions at run time take laws of polynomials: take a front of such laws")
     breaks = _breaks(parts[0])
     if any(_breaks(other) != breaks for other in parts):
         raise InputError("a table of laws needs laws with the same breaks")

@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 from optlaws import InputError, Pieces, PiecewiseMotion, Problem, smoothstep, synthesize
 from tests.exports.motions import random_motion
 from tests.exports.moves import COMPILER, SANITISED, STRICT
-from tests.internals.exports import DOUBLE, SINGLE, Labels, as_stored, c_name, error_bounds, header, polynomials_of_law
+from tests.internals.exports import DOUBLE, SINGLE, Labels, as_stored, c_name, error_bounds, header
 from tests.sampling import examples
 
 needs_compiler = pytest.mark.skipif(COMPILER is None, reason="there is no C compiler")
@@ -23,7 +23,7 @@ needs_compiler = pytest.mark.skipif(COMPILER is None, reason="there is no C comp
 
 def motions() -> list[PiecewiseMotion]:
     solution = synthesize(Problem(B=1.859, order=4, basis=Pieces(6, 7, 3)))
-    made = [polynomials_of_law(solution.law, 35.0, 0.12), polynomials_of_law(smoothstep(5), -20.0, 360.0)]
+    made = [solution.law.pieces("35 mm", "0.12 s"), smoothstep(5).pieces("-20 mm", "360 s")]
     made += [random_motion(i, pieces=1 + i, degree=1 + i % 9) for i in range(10)]
     return [*made, PiecewiseMotion([-1, 2], [[5.0]])]
 
@@ -131,7 +131,7 @@ def test_the_bound_holds_for_horner_in_floating_point(number: int, degree: int, 
 
 def test_the_bound_is_near_what_numbers_hold_however_long_a_piece_is() -> None:
     for length in (1e-3, 120.0, 1e5):
-        motion = polynomials_of_law(smoothstep(3), 35.0, length)
+        motion = smoothstep(3).pieces("35 mm", f"{length} s")
         for arithmetic in (DOUBLE, SINGLE):
             for nu, bound in enumerate(error_bounds(motion, arithmetic)):
                 assert bound <= 3000.0 * float(arithmetic.unit) * max(motion.peak(nu).value, 35.0 / length**nu)

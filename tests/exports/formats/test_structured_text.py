@@ -19,7 +19,6 @@ from tests.internals.exports import (
     as_stored,
     error_bounds,
     function_block,
-    polynomials_of_law,
     real,
 )
 
@@ -41,7 +40,7 @@ def test_the_grammar_of_the_standard_takes_it() -> None:
 def test_evaluated_it_keeps_its_bounds_forwards_backwards_and_beyond(single: bool) -> None:  # noqa: FBT001
     arithmetic = SINGLE if single else DOUBLE
     law = synthesize(Problem(B=1.859, order=4, basis=Pieces(6, 7, 3))).law
-    for motion in (polynomials_of_law(law, 35.0, 0.12), polynomials_of_law(smoothstep(5)), random_motion(2, degree=3)):
+    for motion in (law.pieces("35 mm", "0.12 s"), smoothstep(5).pieces("1 m", "1 s"), random_motion(2, degree=3)):
         block, bounds = Block(function_block(motion, "FB_Press", single=single)), error_bounds(motion, arithmetic)
         breaks = as_stored(motion, arithmetic).breaks
         places = np.concatenate([np.linspace(breaks[0], breaks[-1], 41), breaks, breaks[::-1], breaks[1:2]])

@@ -1,4 +1,4 @@
-"""Interpolations of tables as controllers compute them: powers of the polynomials between points, with exact peaks."""
+"""Interpolations of tables as controllers compute them: powers of lines, splines and Hermite polynomials."""
 
 from __future__ import annotations
 
@@ -99,18 +99,6 @@ def _tridiagonal(below: Array, diagonal: Array, above: Array, right: Array) -> A
     for value, up in zip(known[:0:-1], beside[-2:0:-1], strict=True):
         solution.append(value - up * solution[-1])
     return np.array(solution[::-1])
-
-
-def akima_powers(x: Array, y: Array) -> Array:
-    """Akima's cubics in ascending powers, as in Modelica's tables: the acceleration jumps at each point.
-
-    >>> x = np.linspace(0.0, 1.0, 6)
-    >>> akima_powers(x, x**2)[0].round(9).tolist()
-    [0.0, 0.0, 1.0, 0.0]
-    """
-    from scipy.interpolate import Akima1DInterpolator
-
-    return np.asarray(Akima1DInterpolator(x, y).c.T[:, ::-1])
 
 
 def hermite_powers(x: Array, values: Array) -> Array:
