@@ -18,6 +18,7 @@ from optlaws.synthesis.families.names import RowName
 from optlaws.synthesis.families.peaks import peaks
 from optlaws.synthesis.functionals.kinds import FormulaIntegral, FormulaPeak, FormulaRms, FormulaValue, OfFormula
 from optlaws.synthesis.least_time.follower_residual import FollowerResidual
+from optlaws.synthesis.least_time.least_time import LeastTime, limit_of_all_laws
 from optlaws.synthesis.least_time.motor_torque import MotorTorque
 from optlaws.synthesis.least_time.move_limits import MoveLimits, TimedMove
 from optlaws.synthesis.least_time.move_objective import MoveObjective

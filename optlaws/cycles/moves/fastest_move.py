@@ -74,8 +74,9 @@ class FastestMove(LawExport, JsonText):
     def limit(self) -> float | None:
         """The time that no law of any degree is faster than, s; None where no closed form is known.
 
-        From rest to rest, under limits of velocity, acceleration and jerk, it is that of the seven segments. A limit
-        of the snap adds a bound of its own: then laws need not come near.
+        Under limits of velocity, acceleration and jerk it is that of the seven segments, whose ends have the move's
+        velocities. A limit of the snap adds a bound of its own from rest to rest: then laws need not come near, nor at
+        order 2 with a limit of the jerk where an end moves.
         """
         return self.least.limit
 
@@ -197,11 +198,8 @@ class FastestMove(LawExport, JsonText):
     def proof_rows(self) -> Summary:
         """The least time and the limit of all laws, with what is proven of them."""
         rows = [Row("least time", self.duration, "s", note=f"{self._word}: {self._proven}")]
-        if self.limit is not None and self.price is not None:
-            laws = "of any degree" if self.least.move.torque is None else "that never turns back"
-            note = f"that no law {laws} beats: the space costs {100.0 * max(self.price, 0.0):.2g} %"
-            rows.append(Row("limit", self.limit, "s", note=note))
-        return Summary(rows)
+        laws = "of any degree" if self.least.move.torque is None else "that never turns back"
+        return Summary([*rows, limit_row(self.limit, self.duration, laws)])
 
     @keywords_of(ExportOptions)
     def export(
@@ -289,6 +287,18 @@ class FastestMove(LawExport, JsonText):
     def __repr__(self) -> str:
         limit = "" if self.limit is None else f", limit={self.limit:.9g}"
         return f"FastestMove(duration={self.duration:.9g}{limit}, binding={self.binding!r})"
+
+
+def limit_row(limit: float | None, least: float, laws: str = "of any degree") -> Row:
+    """What is known of the time of all laws, beside the least time of those of a space.
+
+    >>> limit_row(None, 0.2).text(), limit_row(0.2, 0.21).note
+    ('not known', 'that no law of any degree beats: the space costs 5 %')
+    """
+    if limit is None:
+        return Row("limit", "not known", note=f"that no law {laws} beats")
+    price = 100.0 * max(least / limit - 1.0, 0.0)
+    return Row("limit", limit, "s", note=f"that no law {laws} beats: the space costs {price:.2g} %")
 
 
 def _space(problem: Problem) -> str:

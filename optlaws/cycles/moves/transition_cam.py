@@ -7,7 +7,7 @@ from dataclasses import replace
 from math import sqrt
 from typing import Any, Literal, Unpack, get_args
 
-from optlaws.cycles.moves.fastest_move import AXES, FastestMove
+from optlaws.cycles.moves.fastest_move import AXES, FastestMove, limit_row
 from optlaws.echo import shortened
 from optlaws.entries.declared import Declared, ValueOf, declared, entry
 from optlaws.entries.value_types import Choice, Number, ReadBy, Together
@@ -208,6 +208,7 @@ class TransitionCam(Declared, title="a transition cam"):
         if self.least is not None:
             binding = ", ".join(self.least.binding)
             rows.append(Row("proven: none below", self.least.none_below, "s", note=f"{binding} binds"))
+            rows.append(limit_row(self.least.limit, self.duration))
         for nu, name in enumerate(QUANTITIES[1:], start=1):
             value, place = max(self.piece.extremes(nu, 0.0, self.duration), key=lambda each: abs(each[0]))
             rows.append(Row(f"peak {name}", abs(value), unit_of(self.axis, nu), place))

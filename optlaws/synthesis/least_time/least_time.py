@@ -29,6 +29,7 @@ from optlaws.tolerances import BOUND_FEASIBILITY, LEAST_TIME_GAP, MIRROR, PHASE_
 _LIMIT_REACHED = 1e-6  # of a limit of a move: where no more of it is left, the law reaches it
 
 _MOST_PROOFS = 100
+_AT_REST = 2  # of the orders: where ends move, its laws are bounded without the jerk
 
 
 @dataclass(frozen=True)
@@ -92,9 +93,11 @@ class LeastTime(JsonText):
     @property
     def limit_breaks(self) -> tuple[float, ...]:
         """Breaks of pieces of degree 3 that reach the limit, 1/2 among them; empty where no segments are known."""
-        move = self.move
-        plain = move.at_rest and move.torque is None
-        segments = segment_times(move.stroke, move.limits, move.problem.order) if plain else None
+        move, limits, order = self.move, self.move.limits, self.move.problem.order
+        reached = move.at_rest or (move.concave and (limits.jerk is None or order > _AT_REST))
+        if not reached or move.torque is not None:
+            return ()
+        segments = segment_times(move.stroke, limits, order, move.velocities, forward=move.problem.monotone)
         if segments is None:
             return ()
         return tuple(sorted([0.5, *(k for k in segments.breaks if abs(k - 0.5) > MIRROR)]))
@@ -199,6 +202,8 @@ class LeastTime(JsonText):
         # that in the phase plane is a conic program's
         share = STORED_VALUE if self.move.torque is None else PHASE_GAP
         same = limit is None if known is None else stated is not None and abs(stated - known) <= share * known
+        # none was known of ends that move
+        same = same or (limit is None and not self.move.at_rest)
         if not same:
             raise InputError(f"the limit of all laws is {limit!r}, but it is {known!r}")
 
@@ -216,14 +221,16 @@ class LeastTime(JsonText):
 
 
 def limit_of_all_laws(move: TimedMove) -> float | None:
-    """The time that no law of any degree is faster than; within a torque, that no law which never turns back is."""
-    if not move.at_rest:
+    """The time that no law of any degree is faster than; within a torque, that no law which never turns back is.
+
+    None is known where a move ends with an acceleration or a jerk.
+    """
+    torque, limits, stroke = move.torque, move.limits, move.stroke
+    if not move.concave:
         return None
-    known = time_of_any_law(move.stroke, move.limits, move.problem.order) if move.rates else None
-    torque = move.torque
+    known = time_of_any_law(stroke, limits, move.problem.order, move.velocities, forward=move.problem.monotone)
     if torque is None or not torque.lines:
         return known
-    limits, stroke = move.limits, move.stroke
     accelerations = [limit for limit in (limits.acceleration, limits.deceleration) if limit is not None]
     velocity = inf if limits.velocity is None else limits.velocity / stroke
     # a bound of both ways is the greater one, so that none of the laws is left out

@@ -292,6 +292,11 @@ class TimedMove:
         return BoundaryConditions((0.0, *start), (1.0, *end))
 
     @property
+    def velocities(self) -> tuple[float, float]:
+        """The velocities at both ends."""
+        return self.start_velocity, self.end_velocity
+
+    @property
     def rates_at_start(self) -> tuple[float, ...]:
         """Velocity, acceleration, jerk at the start, as many as the order has conditions."""
         return self._as_conditions(self.start_velocity, 0.0, 0.0)

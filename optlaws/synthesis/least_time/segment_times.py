@@ -6,12 +6,13 @@ sum of both phases and of the constant velocity between them is the least time (
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import accumulate
 from math import inf, sqrt
 
 from optlaws.synthesis.least_time.move_limits import MoveLimits
-from optlaws.tolerances import VALUE_ROUNDING
+from optlaws.tolerances import OPERATIONS_ROUNDING, VALUE_ROUNDING
 
 #: the least peak of the fourth derivative from rest to rest, of laws of order 4 and more: 3! 4³
 _SNAP = 384.0
@@ -29,11 +30,16 @@ class Phase:
     times
         Their three durations, s.
     distance
-        What the motion covers meanwhile.
+        What the motion covers meanwhile, beside that with its first velocity.
     """
 
     times: tuple[float, float, float]
     distance: float
+
+    @property
+    def duration(self) -> float:
+        """Of all three, s."""
+        return sum(self.times)
 
 
 @dataclass(frozen=True)
@@ -71,15 +77,29 @@ class LimitSegments:
         return (*inside, 1.0)
 
 
-def segment_times(stroke: float, limits: MoveLimits, order: int) -> LimitSegments | None:
+def segment_times(
+    stroke: float, limits: MoveLimits, order: int, ends: tuple[float, float] = (0.0, 0.0), *, forward: bool = False
+) -> LimitSegments | None:
     """The segments of the fastest motion of all laws; None where no limit of velocity, acceleration or jerk bounds it.
 
-    A limit of the snap is left out: with it, no law is as fast. At order 2 accelerations may jump at the ends.
+    A limit of the snap is left out: with it, no law is as fast. At order 2 accelerations may jump at the ends, which
+    is exact from rest to rest; where an end moves, the jerk is left out there.
+
+    Parameters
+    ----------
+    stroke, limits, order
+        Of the move; the order is 2 at least where an end moves.
+    ends
+        The velocities at the ends.
+    forward
+        Whether laws never turn back.
 
     Examples
     --------
     >>> round(segment_times(1.0, MoveLimits(1.0, 1.0, 1.0, 1.0), 3).duration, 9)
     3.174802104
+    >>> segment_times(1.0, MoveLimits(2.0, 1.0, 1.0), 3, (2.0, 0.0)).times  # it stops beyond its end, and turns back
+    (0.0, 3.0, 0.0, 0.0, 0.0, 1.0, 0.0)
     """
     up, down, jerk, velocity = (
         inf if limit is None else limit
@@ -88,16 +108,35 @@ def segment_times(stroke: float, limits: MoveLimits, order: int) -> LimitSegment
     if order < _AT_REST:
         # the velocities at the ends are free, so that uniform motion is the fastest
         up = down = jerk = inf
-    peak = _peak_velocity(stroke, velocity, (up, down), jerk, order)
-    if peak == inf:
+    elif order == _AT_REST and any(ends):
+        jerk = inf
+    if jerk == up == down == velocity == inf:
         return None
-    first, last = (_phase(peak, limit, jerk, order) for limit in (up, down))
-    cruise = max(stroke - first.distance - last.distance, 0.0) / peak
+    straight = _phase(abs(ends[1] - ends[0]), up if ends[1] > ends[0] else down, jerk, order)
+    slow = min(ends) * straight.duration
+    if slow + straight.distance - stroke > OPERATIONS_ROUNDING * (stroke + abs(slow) + straight.distance):
+        # too fast at an end for so short a way, it is slower between, or goes back: its image is faster
+        stroke, ends, up, down = -stroke, (-ends[0], -ends[1]), down, up
+        velocity = 0.0 if forward else velocity
+
+    def phases(above: float) -> tuple[Phase, Phase]:
+        first, last = (max(ends) - end + above for end in ends)
+        return _phase(first, up, jerk, order), _phase(last, down, jerk, order)
+
+    def covered(above: float) -> float:
+        return sum(end * phase.duration + phase.distance for end, phase in zip(ends, phases(above), strict=True))
+
+    most = velocity - max(ends)
+    above = most if jerk == up == down == inf or covered(most) <= stroke else _crossing(covered, stroke)
+    cruise = 0.0 if above < most else (stroke - covered(most)) / velocity if velocity else inf
+    first, last = phases(above)
     return LimitSegments((*first.times, cruise, *reversed(last.times)))
 
 
-def time_of_any_law(stroke: float, limits: MoveLimits, order: int) -> float | None:
-    """A time that no law from rest to rest is faster than, whatever its degree; None where none is known.
+def time_of_any_law(
+    stroke: float, limits: MoveLimits, order: int, ends: tuple[float, float] = (0.0, 0.0), *, forward: bool = False
+) -> float | None:
+    """A time that no law between given velocities is faster than, whatever its degree; None where none is known.
 
     Without a limit of the snap laws come as near as one likes. With it, the greater of two bounds is taken.
 
@@ -106,25 +145,17 @@ def time_of_any_law(stroke: float, limits: MoveLimits, order: int) -> float | No
     >>> time_of_any_law(384.0, MoveLimits(snap=1.0), 4), time_of_any_law(2.0, MoveLimits(1.0, 1.0, 1.0, 1.0), 3)
     (19.595918, 4.0)
     """
-    segments = segment_times(stroke, limits, order)
+    segments = segment_times(stroke, limits, order, ends, forward=forward)
     known = [] if segments is None else [segments.duration]
-    if limits.snap is not None and order >= _SMOOTH_SNAP:
+    if limits.snap is not None and order >= _SMOOTH_SNAP and not any(ends):
         known.append((_SNAP * stroke / limits.snap) ** 0.25)
     return max(known, default=None)
 
 
-def _peak_velocity(
-    stroke: float, velocity: float, accelerations: tuple[float, float], jerk: float, order: int
-) -> float:
-    """The velocity at which both phases cover the stroke, or the limit of the velocity if that is less."""
-
-    def covered(peak: float) -> float:
-        return sum(_phase(peak, limit, jerk, order).distance for limit in accelerations)
-
-    if jerk == inf and min(accelerations) == inf:
-        return velocity
-    if velocity < inf and covered(velocity) <= stroke:
-        return velocity
+def _crossing(covered: Callable[[float], float], stroke: float) -> float:
+    """The least velocity above that of the faster end with which the phases cover the stroke."""
+    if covered(0.0) >= stroke:
+        return 0.0
     low, high = 0.0, 1.0
     while covered(high) < stroke:
         low, high = high, 2.0 * high

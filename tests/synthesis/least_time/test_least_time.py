@@ -11,9 +11,11 @@ from scipy.optimize import linprog
 from optlaws import B, C_minus, C_plus, Chebyshev, InfeasibleProblem, InputError, J, Pieces, Problem, Window, catalogue
 from tests.internals.synthesis import (
     FollowerResidual,
+    LeastTime,
     MoveLimits,
     TimedMove,
     least_time,
+    limit_of_all_laws,
     segment_times,
     time_of_any_law,
 )
@@ -276,11 +278,110 @@ def test_pieces_are_as_fast_as_ruckig_in_many_cases(*, moving: bool) -> None:
     compare_with_ruckig(500, 5, moving=moving)
 
 
-def test_the_time_of_all_laws_is_that_of_ruckig() -> None:
-    numbers = np.random.default_rng(3)
-    for _ in range(300):
-        move = random_move(numbers, moving=False)
-        assert time_of_any_law(move.stroke, move.limits, 3) == pytest.approx(fastest_motion(move)[0], rel=1e-9)
+def compare_limits_with_ruckig(count: int, seed: int) -> None:
+    """Velocities at the ends, also at their limit and equal; limits of both ways alike and not; any units."""
+    numbers = np.random.default_rng(seed)
+    for i in range(count):
+        move = random_move(numbers, moving=i % 4 > 0)
+        if numbers.uniform() < 0.3:
+            move = replace(move, limits=replace(move.limits, deceleration=move.limits.acceleration))
+        if numbers.uniform() < 0.1:
+            move = replace(move, end_velocity=move.start_velocity)
+        if numbers.uniform() < 0.1:
+            move = replace(move, start_velocity=float(move.limits.velocity or 0.0))
+        time = fastest_motion(move)[0]
+        assert limit_of_all_laws(move) == pytest.approx(time, rel=1e-12), move
+        far, long = (10.0 ** numbers.uniform(-12.0, 9.0, 2)).tolist()
+        assert limit_of_all_laws(in_units(move, far, long)) == pytest.approx(time * long, rel=1e-12), move
+
+
+def in_units(move: TimedMove, far: float, long: float) -> TimedMove:
+    """The same move in other units of length and time."""
+    orders = {"velocity": 1, "acceleration": 2, "deceleration": 2, "jerk": 3}
+    limits = {name: value * far / long ** orders[name] for name, value in move.limits.to_dict().items()}
+    ends = (move.start_velocity * far / long, move.end_velocity * far / long)
+    return TimedMove(move.problem, move.stroke * far, MoveLimits(**limits), *ends)
+
+
+def test_the_limit_of_all_laws_is_that_of_ruckig() -> None:
+    compare_limits_with_ruckig(300, 3)
+
+
+@pytest.mark.long
+def test_the_limit_of_all_laws_is_that_of_ruckig_in_many_cases() -> None:
+    compare_limits_with_ruckig(10_000, 4)
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_pieces_with_the_breaks_of_the_limit_reach_it(seed: int) -> None:
+    """Some limits alone, ends that move, also backwards."""
+    numbers = np.random.default_rng(seed)
+    move = random_move(numbers, moving=True)
+    names = [name for name in ("velocity", "acceleration") if numbers.uniform() < 0.5]
+    sides = {"velocity": ["velocity"], "acceleration": ["acceleration", "deceleration"]}
+    left_out = {each: None for name in names for each in sides[name]}
+    move = replace(move, limits=replace(move.limits, **left_out))
+    found = least_time(move)
+    assert found.limit is not None
+    assert found.price is not None
+    assert found.price > -1e-9
+    space = replace(move.problem, basis=Pieces(found.limit_breaks, **CUBIC))
+    assert least_time(replace(move, problem=space)).duration == pytest.approx(found.limit, rel=1e-9)
+
+
+def linear_program(move: TimedMove, duration: float, steps: int) -> bool:
+    """Whether velocities on a grid keep the limits of velocity and acceleration and cover the stroke."""
+    limits, h = move.limits, duration / steps
+    differences = np.diff(np.eye(steps + 1), axis=0) / h
+    whole = np.full(steps + 1, h)
+    whole[[0, -1]] *= 0.5
+    ends = np.eye(steps + 1)[[0, -1]]
+    found = linprog(
+        np.zeros(steps + 1),
+        A_ub=np.vstack([differences, -differences]),
+        b_ub=np.repeat([limits.acceleration, limits.deceleration], steps),
+        A_eq=np.vstack([whole, ends]),
+        b_eq=[move.stroke, move.start_velocity, move.end_velocity],
+        bounds=(0.0 if move.problem.monotone else -float(limits.velocity or 0.0), limits.velocity),
+    )
+    return bool(found.status == 0)
+
+
+@pytest.mark.parametrize("forward", [False, True])
+@pytest.mark.parametrize("seed", range(6))
+def test_the_limit_without_a_jerk_is_that_of_a_linear_program(seed: int, *, forward: bool) -> None:
+    """At order 2 and never turning back as well, for short strokes; with a jerk it is a lower bound there."""
+    numbers = np.random.default_rng(seed)
+    move = random_move(numbers, moving=True)
+    ends = sorted((abs(move.start_velocity), abs(move.end_velocity)), reverse=seed % 2 == 0)
+    plain, sides = replace(move.limits, jerk=None), (move.limits.deceleration, move.limits.acceleration)
+    stopping = sum(0.5 * end**2 / float(side or 1.0) for end, side in zip(ends, sides, strict=True))
+    stroke = (1.02 if forward else 0.6) * stopping
+    problem = Problem(order=2, monotone=forward)
+    move = TimedMove(problem, stroke, plain, ends[0], ends[1])
+    known = limit_of_all_laws(move)
+    assert known is not None
+    assert linear_program(move, known * 1.001, 1000)
+    assert not linear_program(move, known * 0.999, 1000)
+    jerked = replace(move, limits=replace(plain, jerk=1e3))
+    assert limit_of_all_laws(jerked) == known
+    smooth = limit_of_all_laws(replace(jerked, problem=replace(problem, order=3)))
+    assert smooth is not None
+    assert smooth > known
+
+
+def test_no_limit_is_known_of_an_acceleration_at_the_end() -> None:
+    assert limit_of_all_laws(TimedMove(Problem(order=3), 1.0, UNEVEN, 0.0, 0.5, end_acceleration=1.0)) is None
+
+
+def test_a_file_from_before_the_limit_of_ends_that_move_is_read() -> None:
+    move = least_time(TimedMove(Problem(order=3), 0.1, UNEVEN, 0.3))
+    assert LeastTime.from_dict(move.to_dict() | {"limit": None}).limit == move.limit
+    with pytest.raises(InputError, match="the limit of all laws"):
+        LeastTime.from_dict(move.to_dict() | {"limit": 0.9 * float(move.limit or 0.0)})
+    still = least_time(TimedMove(Problem(order=3), 0.1, UNEVEN))
+    with pytest.raises(InputError, match="the limit of all laws"):
+        LeastTime.from_dict(still.to_dict() | {"limit": None})
 
 
 @pytest.mark.long
