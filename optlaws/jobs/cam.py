@@ -3,21 +3,25 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import KW_ONLY, dataclass
 from functools import partial
 from math import degrees
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
-from optlaws.cams.barrel import BarrelCam
+from optlaws.cams.as_manufactured import MADE_CURVES, WAVES, AsMade, manufactured_tables, profile_errors
+from optlaws.cams.barrel import BarrelCam, Groove
 from optlaws.cams.best_laws import BestCam, BestPrimeCircle, best_cam, best_prime_circle
-from optlaws.cams.conjugate import conjugate_cam
+from optlaws.cams.conjugate import ReturnFollower, conjugate_cam
+from optlaws.cams.curves.cam_files import DECIMALS, FORMATS, POINTS, Cutting, format_of
 from optlaws.cams.curves.extremes import UNDERCUT
-from optlaws.cams.disc import DiscCam
+from optlaws.cams.disc import CURVES, TURNINGS, CutCurve, DiscCam, Turning
+from optlaws.cams.followers.follower import CamFollower, stated_prime_radius
 from optlaws.cams.followers.rollers import TranslatingRoller
 from optlaws.cams.forces import CamForces, Surfaces
 from optlaws.cams.least_sizes import (
     BestOffset,
+    CamLimits,
     LeastPrimeCircle,
     best_offset,
     greatest_roller,
@@ -28,17 +32,23 @@ from optlaws.cams.springs_and_flywheels import (
     CONTACT,
     GREATEST,
     EnergyFluctuation,
+    SoughtSpring,
     energy_fluctuation,
     least_spring,
 )
+from optlaws.cycles.cycle import Cycle
+from optlaws.cycles.specification.process import ProcessEntries
 from optlaws.cycles.summary import objective_unit
-from optlaws.entries.declared import entries_of
+from optlaws.entries.declared import Declared, ValueOf, declared, entries_of, entry, same
+from optlaws.entries.value_types import Choice, Listed, Measured, Number, Switch, Text, Whole
 from optlaws.errors import InfeasibleProblem, InputError, located
-from optlaws.jobs.cam_entries import BarrelProblemFile, CamProblemFile
+from optlaws.files import writing
+from optlaws.jobs.cycle_entries import AxisEntries, cycle_of
+from optlaws.jobs.job_entries import ProblemFile
 from optlaws.kept import kept_property
 from optlaws.motion.display_units import MICRO, MILLI, TURN_DEG
 from optlaws.motion.quantities import TURN
-from optlaws.numbers import chop
+from optlaws.numbers import Quantity, chop
 from optlaws.plots.cam import animated, barrel_figure, cam_figure, forces_figure, pair_figure
 from optlaws.results import Results
 from optlaws.sentences import capital
@@ -50,13 +60,181 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 _SIZE_MET = 1e-7  # of a radius: a size that is proven to so much is the least one
-
 #: before the names of the files of the return cam
 _RETURN = "return-"
 #: units of forces and of stiffness by what the follower's way is
 _SPRING_UNITS = {"length": ("N", "N/m"), "angle": ("N m", "N m/rad")}
 
 Pictures: TypeAlias = "dict[str, Callable[[str], Figure]]"
+_LENGTH = Measured("length", above=0.0)
+
+
+@declared
+class CamForcesEntries(Surfaces, title="forces"):
+    """Forces of the cam under the drive of its motion."""
+
+    irregularity: float | None = entry(
+        Number(above=0.0),
+        "Of the shaft's speed, for mean power, the work above the mean and the flywheel.",
+        default=None,
+        example=0.04,
+    )
+
+
+@declared
+class MadeEntries(Declared, title="peaks as made"):
+    """The files whose executed motion is reported: tables of a number of points and decimals, and profile errors."""
+
+    points: tuple[int, ...] = entry(Listed(POINTS, most=10), "Of tables that the cam is cut by.", default=(361, 721))
+    decimals: tuple[int, ...] = entry(Listed(DECIMALS, most=10), "Of a millimetre in these tables.", default=(3, 4, 6))
+    curve: str = entry(Choice(*MADE_CURVES), "Of the tables.", default="profile")
+    error: Quantity | None = entry(
+        _LENGTH, "Of the profile: the amplitude of its waves.", default=None, example="0.01 mm"
+    )
+    waves: tuple[int, ...] = entry(Listed(WAVES, most=10), "Of the error, in a turn.", default=(3, 12))
+
+    def peaks(self, cam: DiscCam) -> dict[str, AsMade | None]:
+        """Peaks of the cam as manufactured; None where its follower does not reach all of it."""
+        tables = [Cutting(points=points, decimals=decimals) for points in self.points for decimals in self.decimals]
+        names = [f"{each.points} points of the {self.curve}, {each.decimals} decimals of a mm" for each in tables]
+        peaks = manufactured_tables(cam, self.curve, tables) if tables else []
+        if self.error and self.waves:
+            names += [f"error of {self.error}, {count} waves a turn" for count in self.waves]
+            peaks += profile_errors(cam, self.error, self.waves)
+        return dict(zip(names, peaks, strict=True))
+
+
+@declared
+class CutFile(Cutting, title="a file"):
+    """A file that cuts the cam."""
+
+    _: KW_ONLY
+    name: str = entry(Text(), "Of the file, in the folder of results.", example="profile.dxf")
+    format: str | None = entry(
+        Choice(*FORMATS), "That of the name's ending unless given.", default=None, example="dxf spline"
+    )
+    curve: CutCurve | None = entry(
+        Choice(*CURVES), "The profile, or the path of a cutter with a radius, unless given.", default=None
+    )
+    cutter_radius: Quantity | None = entry(
+        _LENGTH, "Of the cutter whose path the file has.", default=None, example="10 mm"
+    )
+
+    def _check(self) -> None:
+        super()._check()
+        if Path(self.name).name != self.name:
+            raise InputError(f"name must be that of a file in the folder of results, got {self.name!r}")
+        writing.check_name(Path(self.name))
+        format_of(Path(self.name), self.format)
+
+    def write(self, cam: DiscCam, file: Path, about: str) -> Path:
+        """The file of a cam at a place; `about` is what it says of itself."""
+        outline: Any = {"as_": self.format, "curve": self.curve, "cutter_radius": self.cutter_radius}
+        options: Any = {name: getattr(self, name) for name in entries_of(Cutting)}
+        return cam.export(file, about=about, **outline, **options)
+
+
+@declared
+class CamOfMotion(ProblemFile, title="a cam"):
+    """What the problem files of disc cams and of barrel cams have."""
+
+    _: KW_ONLY
+    motion: AxisEntries = entry(ValueOf(AxisEntries), 'One axis with its segments, as in the job "cycle".')
+    speed: Quantity | None = same(Cycle, "speed")
+    period: Quantity | None = same(Cycle, "period")
+    turning: Turning = entry(Choice(*TURNINGS), "How the cam turns.", default="counterclockwise")
+    cutter_radius: str | None = entry(
+        _LENGTH,
+        "Of the cutter or grinding wheel, whose path is part of the table then.",
+        default=None,
+        label="cutter",
+        example="10 mm",
+    )
+    rows: int = entry(Whole(2, 100_000), "Lines of the table.", default=361)
+
+    @kept_property
+    def cycle(self) -> Cycle:
+        """The motion of the follower."""
+        return cycle_of(self.motion, self.speed, self.period)
+
+    def _check(self) -> None:
+        super()._check()
+        if self.motion.mechanism is not None:
+            raise InputError(
+                "motion: a cam's follower has no mechanism: an axis of a cycle has one, and the kind 'cam' of it is "
+                "what this cam's shaft feels"
+            )
+
+
+@declared
+class CamProblemFile(CamOfMotion, title="a cam"):
+    """The problem file of a disc cam."""
+
+    _: KW_ONLY
+    follower: CamFollower = entry(ValueOf(CamFollower), "What the cam moves.")
+    prime_radius: str | None = entry(
+        _LENGTH,
+        "Radius of the prime circle, from the cam's centre to the roller's, or to the face, where the follower is "
+        "lowest; without one the least that keeps pressure_angle and radius_of_curvature is taken, or what best finds.",
+        default=None,
+        label="prime circle",
+        example="60 mm",
+    )
+    #: the name that earlier files have for `prime_radius`
+    base_radius: Quantity | None = entry(_LENGTH, "That of earlier files.", default=None, shown=False)
+    pressure_angle: Quantity | None = same(CamLimits, "pressure_angle")
+    radius_of_curvature: Quantity | None = same(CamLimits, "radius_of_curvature")
+    best: str | None = entry(
+        Choice("laws", "prime circle", "offset"),
+        "What is optimised: the laws of the motion under the limits of the cam, at the given prime circle; the laws "
+        "with the least prime circle; or the offset of a slide with a roller whose greatest pressure angle is least.",
+        default=None,
+    )
+    pair: ReturnFollower | None = entry(ValueOf(ReturnFollower), "A return cam.", default=None)
+    process: ProcessEntries | None = entry(
+        ValueOf(ProcessEntries), "A process force on the follower, in forces and spring.", default=None
+    )
+    forces: CamForcesEntries | None = entry(
+        ValueOf(CamForcesEntries), "Contact forces under the drive of the motion.", default=None
+    )
+    spring: SoughtSpring | None = entry(
+        ValueOf(SoughtSpring), "The least spring that keeps the follower on the cam.", default=None
+    )
+    as_made: MadeEntries | None = entry(ValueOf(MadeEntries), "Peaks as made.", default=None)
+    file: tuple[CutFile, ...] = entry(Listed(ValueOf(CutFile), most=50), "Files that cut the cam.", default=())
+    animation: bool = entry(Switch(), "Whether animation.svg is written, in which the cam turns.", default=False)
+
+    @classmethod
+    def _from_earlier(cls, data: dict[str, Any]) -> dict[str, Any]:
+        """The best "base circle" of earlier files is the prime circle."""
+        return data | {"best": "prime circle"} if data.get("best") == "base circle" else data
+
+    @kept_property
+    def limits(self) -> CamLimits:
+        """The limits of the cam."""
+        return CamLimits(self.pressure_angle, self.radius_of_curvature)
+
+    @property
+    def constraints(self) -> dict[str, Any]:
+        """The limits, and how the cam turns, as those take them who look for a cam."""
+        return {**self.limits.to_dict(), "turning": self.turning}
+
+    @property
+    def radius(self) -> Any:
+        """The radius of the prime circle, if it is given."""
+        return stated_prime_radius(self.prime_radius, self.base_radius, self.follower)
+
+    def _check(self) -> None:
+        super()._check()
+        _ = self.limits  # which checks them together
+
+
+@declared
+class BarrelProblemFile(CamOfMotion, title="a barrel cam"):
+    """The problem file of a barrel cam."""
+
+    _: KW_ONLY
+    barrel: Groove = entry(ValueOf(Groove), "The cylinder, its groove and the roller.")
 
 
 def run(results: Results) -> None:

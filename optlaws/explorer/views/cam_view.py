@@ -21,8 +21,7 @@ from optlaws.explorer.views.cycle_view import SEGMENTS, CycleRequest
 from optlaws.explorer.views.law_view import refusing
 from optlaws.explorer.views.panel_data import drawn, fact_sentences, panel_data
 from optlaws.explorer.views.requests import Question, check_size, without_files
-from optlaws.jobs.cam import CamResult
-from optlaws.jobs.cam_entries import CamProblemFile
+from optlaws.jobs.cam import CamProblemFile, CamResult
 from optlaws.motion.display_units import DEGREES, MILLI
 from optlaws.motion.quantities import quantity
 from optlaws.numbers import Array
