@@ -117,6 +117,8 @@ class Page:
             self.heading(section.heading)
         if section.figure is not None:
             self.figure(*section.figure)
+            if section.draw is not None and self._results is not None:
+                self._results.picture(section.figure[0], section.draw(self._results.title))
         self.text(section.text)
         if section.table is not None:
             self.table(*section.table, digits=section.digits)

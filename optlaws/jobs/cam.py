@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import KW_ONLY, dataclass
+from dataclasses import KW_ONLY, dataclass, replace
 from functools import partial
 from math import degrees
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from optlaws.cams.as_manufactured import MADE_CURVES, WAVES, AsMade, manufactured_tables, profile_errors
 from optlaws.cams.barrel import BarrelCam, Groove
@@ -65,7 +65,6 @@ _RETURN = "return-"
 #: units of forces and of stiffness by what the follower's way is
 _SPRING_UNITS = {"length": ("N", "N/m"), "angle": ("N m", "N m/rad")}
 
-Pictures: TypeAlias = "dict[str, Callable[[str], Figure]]"
 _LENGTH = Measured("length", above=0.0)
 
 
@@ -241,13 +240,11 @@ def run(results: Results) -> None:
     """Put the cam's page, data, table, pictures and files into results."""
     result = read(results.entries, results.file)
     title = results.title = result.spec.title
-    page = results.page("cam").text(result.spec.text).figure("cam", title)
+    page = results.page("cam").text(result.spec.text).picture("cam", title, result.drawn(title))
     for section in result.sections:
         page.section(section)
     results.data("cam.json", result.data)
     results.table("cam", *result.table)
-    for name, draw in result.pictures.items():
-        results.picture(name, draw(title))
     if isinstance(result, CamResult):
         if result.spec.animation:
             results.text("animation.svg", animated(result.cam))
@@ -269,14 +266,14 @@ class BarrelResult(NamedTuple):
     sections: tuple[Section, ...]
     data: dict[str, Any]
     table: ReportTable
-    pictures: Pictures
+    drawn: Callable[[str], Figure]
 
     @classmethod
     def of_file(cls, spec: BarrelProblemFile) -> BarrelResult:
         """The cam of a problem file."""
         cam = BarrelCam(spec.cycle, **spec.barrel.to_dict(), turning=spec.turning)
         section, table = barrel_section(cam), barrel_coordinates(cam, spec.rows, spec.cutter_radius)
-        return cls(spec, (section,), {"unit": "SI", **section.data}, table, {"cam": partial(barrel_figure, cam)})
+        return cls(spec, (section,), {"unit": "SI", **section.data}, table, partial(barrel_figure, cam))
 
 
 @dataclass(frozen=True)
@@ -453,7 +450,8 @@ class CamResult:
         data = {"return_cam": {name: section.data[name] for name in names}}
         figure = ("pair", "Both cams on one shaft, with their followers at the start")
         note = "\n\n".join([section.note, self._links(_RETURN)])
-        return Section("Return cam", section.facts, section.table, data, figure, section.text, note)
+        draw = partial(pair_figure, self.cam, self.second)
+        return Section("Return cam", section.facts, section.table, data, figure, section.text, note, draw=draw)
 
     def _links(self, prefix: str = "") -> str:
         return "\n".join(f"- [{prefix}{entry.name}]({prefix}{entry.name})" for entry in self.spec.file)
@@ -464,7 +462,7 @@ class CamResult:
         given, forces = self.spec.forces, self.forces
         if given is None or forces is None:
             return ()
-        sections = [forces_section(forces)]
+        sections = [replace(forces_section(forces), draw=partial(forces_figure, forces))]
         if given.irregularity is not None:
             sections.append(_energy_section(energy_fluctuation(forces), given.irregularity))
         if self.cam.extremes.undercut.status == UNDERCUT:
@@ -541,12 +539,9 @@ class CamResult:
         """Its curves over the turn."""
         return self.report.coordinates(self.spec.rows, self.spec.cutter_radius, self.second)
 
-    @property
-    def pictures(self) -> Pictures:
-        """Its pictures by their names."""
-        forces = {} if self.forces is None else {"forces": partial(forces_figure, self.forces)}
-        pair = {} if self.second is None else {"pair": partial(pair_figure, self.cam, self.second)}
-        return {"cam": partial(cam_figure, self.cam), **forces, **pair}
+    def drawn(self, title: str) -> Figure:
+        """Its picture."""
+        return cam_figure(self.cam, title)
 
 
 def _energy_section(energy: EnergyFluctuation, irregularity: float) -> Section:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from copy import deepcopy
 from dataclasses import KW_ONLY, dataclass, replace
 from pathlib import Path
@@ -271,18 +271,14 @@ def with_entry(axis: dict[str, Any], entry: str, value: str | float) -> dict[str
     *way, last = entry.split(".")
     with located(f"entry {entry!r}"):
         for part in way:
-            parts = place if isinstance(place, dict) else dict(_numbered(place))
-            check_names([part], parts, "entry")
-            place = parts[part]
+            if isinstance(place, dict | list):
+                parts = place if isinstance(place, dict) else {str(i): each for i, each in enumerate(place, 1)}
+                check_names([part], parts, "entry")
+                place = parts[part]
     if not isinstance(place, dict):
         raise InputError(f"entry {entry!r} must end in the name of an entry, such as drive.ratio")
     place[last] = value
     return changed
-
-
-def _numbered(parts: Any) -> Iterator[tuple[str, Any]]:
-    """The parts of a list by their numbers; none of what is no list."""
-    return ((str(i), part) for i, part in enumerate(parts if isinstance(parts, list) else (), 1))
 
 
 def cycle_of(axis: AxisEntries, speed: Quantity | None, period: Quantity | None, folder: Path = Path()) -> Cycle:

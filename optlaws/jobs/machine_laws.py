@@ -266,13 +266,12 @@ def run(results: Results) -> None:
     headings = list(max(rows, key=len))
     table = ReportTable(headings, [[row.get(heading) for heading in headings] for row in rows])
     results.table("table", *table)
-    page = results.page("table").text(spec.text).figure("figure", spec.title)
+    known = [law for law in laws if isinstance(law, Compared)]
+    figure = laws_figure(spec.title, *_panels(spec, machine, known), 100.0 * spec.vibration.spread)
+    page = results.page("table").text(spec.text).picture("figure", spec.title, figure)
     page.section(Section("The machine's modes", table=_modes(machine, spec.machine.duration)))
     page.section(Section("Laws", table=table, text=_about(spec), digits=5))
-    known = [law for law in laws if isinstance(law, Compared)]
     results.records("laws.json", "laws", {law.name: record(law.solution) for law in known if law.solution is not None})
-    left, moved = _panels(spec, machine, known)
-    results.picture("figure", laws_figure(spec.title, left, moved, 100.0 * spec.vibration.spread))
 
 
 def _check(spec: MachineLawsProblemFile, machine: Machine) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any, NamedTuple, Protocol, Self
 
@@ -55,6 +55,8 @@ class Section:
         Its entries for programs.
     figure
         The name of a picture, and its caption.
+    draw
+        The picture under a title, unless it is made elsewhere.
     text, note
         What stands above and below the table.
     digits
@@ -69,6 +71,7 @@ class Section:
     text: str = ""
     note: str = ""
     digits: int = 7
+    draw: Callable[[str], Any] | None = None
 
 
 class ReportSegment(NamedTuple):

@@ -453,6 +453,11 @@ def test_a_sweep_of_a_limit_has_rows_without_a_law(tmp_path: Path) -> None:
         ('axis = "table"\nentry = "drive.ratio"\nvalues = [1, -2]', "sweep of drive.ratio, -2.*ratio must be above 0"),
         ('axis = "table"\nentry = "segment.3.by"\nvalues = ["1 deg", "2 deg"]', "unknown entry '3'; known are 1, 2"),
         ('axis = "table"\nentry = "drive"\nvalues = [1, 2]', "sweep of drive, 1"),
+        ('axis = "table"\nentry = "order.of.it"\nvalues = [1, 2]', "'order.of.it' must end in the name of an entry"),
+        (
+            'axis = "table"\nentry = "segment.9.by"\nvalues = [1, 2]',
+            "entry 'segment.9.by': unknown entry '9'; known are",
+        ),
         ('axis = "table"\nentry = "drive.ratio"\nvalues = [1]', "values"),
     ],
 )
