@@ -172,7 +172,7 @@ class CamForces:
     friction: Mapping[str, Any] = field(default_factory=dict)
     width: Quantity | None = None
     materials: Any = ("steel", "steel")
-    process: Mapping[str, Any] | ProcessEntries | None = None
+    process: Mapping[str, Any] | None = None
 
     def __post_init__(self) -> None:
         self.rate, self.load, self.process_force, self._surfaces.friction, self._line  # noqa: B018 - what is wrong is refused at once

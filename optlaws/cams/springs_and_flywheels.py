@@ -16,7 +16,6 @@ from numpy.typing import NDArray
 from optlaws.cams.disc import DiscCam
 from optlaws.cams.forces import CamForces, read_process_by_angle
 from optlaws.cycles.cycle import Cycle
-from optlaws.cycles.specification.process import ProcessEntries
 from optlaws.echo import shortened
 from optlaws.entries.declared import Declared, declared, documented_by, entry
 from optlaws.entries.value_types import Choice, Measured, Together
@@ -162,7 +161,7 @@ def least_spring(
     force: Quantity | None = None,
     stiffness: Quantity | None = None,
     preload: Quantity | None = None,
-    process: Mapping[str, Any] | ProcessEntries | None = None,
+    process: Mapping[str, Any] | None = None,
     greatest: Literal["force", "contact"] = "force",
 ) -> Spring:
     """The least spring that keeps the follower on the cam at every speed of a range.

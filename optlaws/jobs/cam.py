@@ -190,7 +190,7 @@ class CamProblemFile(CamOfMotion, title="a cam"):
         default=None,
     )
     pair: ReturnFollower | None = entry(ValueOf(ReturnFollower), "A return cam.", default=None)
-    process: ProcessEntries | None = entry(
+    process: Any = entry(
         ValueOf(ProcessEntries), "A process force on the follower, in forces and spring.", default=None
     )
     forces: CamForcesEntries | None = entry(
@@ -540,7 +540,7 @@ class CamResult:
         return self.report.coordinates(self.spec.rows, self.spec.cutter_radius, self.second)
 
     def drawn(self, title: str) -> Figure:
-        """Its picture."""
+        """The picture of the cam."""
         return cam_figure(self.cam, title)
 
 
