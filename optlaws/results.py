@@ -11,16 +11,7 @@ import msgspec
 
 from optlaws.errors import InputError
 from optlaws.files import reading, tables, writing
-from optlaws.files.printed import (
-    MISPRINT,
-    ON_GRID,
-    REPRODUCED,
-    PrintedNumber,
-    compared,
-    number,
-    rows,
-    same_digits,
-)
+from optlaws.files.printed import MISPRINT, ON_GRID, REPRODUCED, PrintedNumber, compared, number, rows, same_digits
 from optlaws.files.problem_file import Text, convert
 from optlaws.files.tables import Cell
 from optlaws.files.writing import MARK

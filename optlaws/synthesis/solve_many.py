@@ -22,12 +22,7 @@ from optlaws.kept import kept_property
 from optlaws.numbers import Array, whole
 from optlaws.shown.steps import Steps
 from optlaws.synthesis.arrays.continuation import StructureSegment
-from optlaws.synthesis.arrays.continued_laws import (
-    guessed_objectives,
-    laws_along,
-    segments_of,
-    with_stored_structures,
-)
+from optlaws.synthesis.arrays.continued_laws import guessed_objectives, laws_along, segments_of, with_stored_structures
 from optlaws.synthesis.arrays.lines import ProblemLine, along_velocities, form_of, least_count, lines_of
 from optlaws.synthesis.arrays.powers import least_power, on_global_branch, with_quick_bounds
 from optlaws.synthesis.arrays.problems import ProblemArray

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
@@ -26,7 +25,6 @@ if TYPE_CHECKING:
     from optlaws.synthesis.functionals.makers import PeakSide
 
 
-@dataclass(frozen=True, init=False, repr=False)
 class Machine(StateSpace):
     """A linear machine that a law drives: x' = A x + B w, y = C x + D w, in durations of the rise.
 

@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Sequence
+from dataclasses import KW_ONLY
 from math import inf, isfinite
-from typing import Any, Self
+from typing import Any, Self, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.echo import shortened
+from optlaws.entries.declared import Declared, declared, entry
+from optlaws.entries.value_types import Kept, ReadBy, Text, ValueType
 from optlaws.errors import InputError
-from optlaws.files.reading import JsonText, check_names
+from optlaws.files.reading import check_names
 from optlaws.kept import kept_property
 from optlaws.mechanisms.machine.dynamics import Dynamics
 from optlaws.motion.quantities import si_number
@@ -24,47 +26,77 @@ _SETTLED = 1e-9  # of a load: what a static state may miss it by
 Matrix = tuple[tuple[float, ...], ...]
 
 Rows = NDArray[Any] | Sequence[Sequence[float]]
+MatrixRows: TypeAlias = Kept["Matrix", "Rows"]
+OutputNames: TypeAlias = Kept["tuple[str, ...]", "Sequence[str]"]
 
 SYMBOLS = "abc"
-_ENTRIES = ("A", "B", "C", "D", "inputs", "outputs")
-MOST_STATES = 100
-MOST_OUTPUTS = 100
+#: states, or outputs
+MOST_ROWS = 100
 LONGEST_NAME = 80
 FASTEST = 1e5  # radians of a vibration in the rise, as for followers
 STIFFEST = 1e8  # the same for what decays
 
 
-@dataclass(frozen=True, init=False, repr=False)
-class StateSpace(JsonText):
+def _nothing(value: Any) -> bool:
+    return isinstance(value, Sequence) and not isinstance(value, str) and not len(value)
+
+
+def _listed(names: Any) -> tuple[Any, ...]:
+    if isinstance(names, str):
+        return (names,)
+    if not isinstance(names, Iterable):
+        raise InputError(f"outputs must be the outputs' names, got {shortened(names)}")
+    return tuple(names)
+
+
+class _Matrix(ValueType):
+    """A matrix of finite numbers, kept by rows; where it may be left out it is empty."""
+
+    def read(self, value: Any, name: str) -> Matrix:
+        return () if name == "D" and _nothing(value) else tuple(map(tuple, _matrix(value, name).tolist()))
+
+    def plain(self, value: Matrix) -> list[list[float]]:
+        return [list(row) for row in value]
+
+    @property
+    def words(self) -> str:
+        return "a matrix, a list of rows"
+
+    def schema(self) -> dict[str, Any]:
+        return {"type": "array", "items": {"type": "array", "items": {"type": "number"}}}
+
+
+@declared
+class StateSpace(Declared, title="a machine"):
     """x' = A x + B w, y = C x + D w in durations of the rise; w holds the signals a, b, c in `inputs`, such as "ab"."""
 
-    _json_name = "a machine"
+    writes_defaults = True
 
-    A: Matrix
-    B: Matrix
-    C: Matrix
-    D: Matrix
-    inputs: str
-    outputs: tuple[str, ...]
+    A: MatrixRows = entry(_Matrix(), "Of the states.", example=[[-2.0]])
+    B: MatrixRows = entry(_Matrix(), "From inputs to states.", example=[[2.0]])
+    C: MatrixRows = entry(_Matrix(), "From states to outputs.", example=[[1.0]])
+    D: MatrixRows = entry(_Matrix(), "From inputs to outputs.", default=())
+    _: KW_ONLY
+    inputs: str = entry(Text(), "The derivatives of the law that are inputs.", default="a")
+    outputs: OutputNames = entry(ReadBy(_listed, "names", list), "Names of the outputs.", default=())
 
-    def __init__(
-        self, A: Rows, B: Rows, C: Rows, D: Rows = (), *, inputs: str = "a", outputs: Sequence[str] = ()
-    ) -> None:
-        _check_inputs(inputs)
-        square = _matrix(A, "A", limit=MOST_STATES)
-        if square.shape[0] != square.shape[1]:
-            raise InputError(f"A must have as many columns as rows, one for each state, got shape {square.shape}")
-        size, count = len(square), len(inputs)
-        load = _matrix(B, "B", (size, count), f"a row for each of {size} states, a column for each of its inputs")
-        rows = _matrix(C, "C", (None, size), f"a row for each output, a column for each of {size} states")
-        direct = np.zeros((len(rows), count))
-        if not _nothing(D):
-            says = f"a row for each of {len(rows)} outputs, a column for each input"
-            direct = _matrix(D, "D", (len(rows), count), says)
-        for name, matrix in zip("ABCD", (square, load, rows, direct), strict=True):
-            object.__setattr__(self, name, tuple(map(tuple, matrix.tolist())))
-        object.__setattr__(self, "inputs", inputs)
-        object.__setattr__(self, "outputs", _names(outputs, len(rows)))
+    def _check(self) -> None:
+        _check_inputs(self.inputs)
+        size, count, outputs = len(self.A), len(self.inputs), len(self.C)
+        if len(self.A[0]) != size:
+            shape = (size, len(self.A[0]))
+            raise InputError(f"A must have as many columns as rows, one for each state, got shape {shape}")
+        if not self.D:
+            object.__setattr__(self, "D", ((0.0,) * count,) * outputs)
+        for name, shape, says in (
+            ("B", (size, count), f"a row for each of {size} states, a column for each of its inputs"),
+            ("C", (outputs, size), f"a row for each output, a column for each of {size} states"),
+            ("D", (outputs, count), f"a row for each of {outputs} outputs, a column for each input"),
+        ):
+            matrix = getattr(self, name)
+            if (len(matrix), len(matrix[0])) != shape:
+                raise InputError(f"{name} must have {says}, got shape {(len(matrix), len(matrix[0]))}")
+        object.__setattr__(self, "outputs", _names(self.outputs, outputs))
         self._check_stability()
 
     def _check_stability(self) -> None:
@@ -158,28 +190,6 @@ class StateSpace(JsonText):
             )
         return np.asarray(self.dynamics.into @ states)
 
-    def to_dict(self) -> dict[str, Any]:
-        """The machine as a plain dict for JSON.
-
-        Examples
-        --------
-        >>> StateSpace([[-2.0]], [[2.0]], [[1.0]]).to_dict()["A"]
-        [[-2.0]]
-        """
-        plain: dict[str, Any] = {name: [list(row) for row in getattr(self, name)] for name in "ABCD"}
-        return plain | {"inputs": self.inputs, "outputs": list(self.outputs)}
-
-    @classmethod
-    def from_dict(cls, data: Mapping[str, Any]) -> Self:
-        """The machine that `to_dict` wrote."""
-        if not isinstance(data, Mapping):
-            raise InputError(f"a machine must be a table of A, B, C, D, inputs and outputs, got {shortened(data)}")
-        check_names(data, _ENTRIES, "entry of a machine")
-        for name in "ABC":
-            if name not in data:
-                raise InputError(f"a machine needs its matrix {name}")
-        return cls(**{str(name): value for name, value in data.items()})
-
     def __repr__(self) -> str:
         names = ", ".join(map(repr, self.outputs[:4])) + (", ..." if len(self.outputs) > 4 else "")
         return f"{type(self).__name__}(states={len(self.A)}, inputs={self.inputs!r}, outputs=[{names}])"
@@ -200,26 +210,16 @@ def _spread(matrix: Array, inputs: str) -> Array:
     return columns
 
 
-def _matrix(
-    value: Any,
-    name: str,
-    shape: tuple[int | None, int] | None = None,
-    says: str = "",
-    limit: int = MOST_OUTPUTS,
-) -> Array:
+def _matrix(value: Any, name: str) -> Array:
     try:
         times = real_times(value)
     except InputError:
         raise InputError(f"{name} must be a matrix of finite numbers, got {shortened(value)}") from None
-    if times.ndim != 2 or not times.size or max(times.shape) > limit or np.abs(times).max() > MAGNITUDE_LIMIT:
-        raise InputError(f"{name} must be a matrix, a list of rows, at most {limit} of them, got {shortened(value)}")
-    if shape is not None and any(want not in {None, have} for want, have in zip(shape, times.shape, strict=True)):
-        raise InputError(f"{name} must have {says}, got shape {times.shape}")
+    if times.ndim != 2 or not times.size or max(times.shape) > MOST_ROWS or np.abs(times).max() > MAGNITUDE_LIMIT:
+        raise InputError(
+            f"{name} must be a matrix, a list of rows, at most {MOST_ROWS} of them, got {shortened(value)}"
+        )
     return times + 0.0
-
-
-def _nothing(value: Any) -> bool:
-    return isinstance(value, Sequence) and not isinstance(value, str) and not len(value)
 
 
 def _scaled(value: Any, name: str, factor: Any) -> Any:
@@ -230,22 +230,13 @@ def _scaled(value: Any, name: str, factor: Any) -> Any:
     return matrix * factor if np.ndim(factor) == 0 or matrix.shape[1] == len(factor) else matrix
 
 
-def _listed(names: Any) -> tuple[Any, ...]:
-    if isinstance(names, str):
-        return (names,)
-    if not isinstance(names, Iterable):
-        raise InputError(f"outputs must be the outputs' names, got {shortened(names)}")
-    return tuple(names)
-
-
-def _names(names: Any, count: int) -> tuple[str, ...]:
-    given = _listed(names)
-    if not given:
+def _names(names: tuple[Any, ...], count: int) -> tuple[str, ...]:
+    if not names:
         return tuple(f"output {i}" for i in range(1, count + 1))
-    for entry in given:
-        plain = isinstance(entry, str) and entry.strip() and entry.isprintable() and not set(entry) & set("\"'\\")
-        if not plain or len(entry) > LONGEST_NAME:
-            raise InputError(f"an output's name must be a short text without quotes, got {shortened(entry)}")
-    if len(given) != count or len(set(given)) != count:
+    for name in names:
+        plain = isinstance(name, str) and name.strip() and name.isprintable() and not set(name) & set("\"'\\")
+        if not plain or len(name) > LONGEST_NAME:
+            raise InputError(f"an output's name must be a short text without quotes, got {shortened(name)}")
+    if len(names) != count or len(set(names)) != count:
         raise InputError(f"outputs must be {count} different names, one for each row of C, got {shortened(names)}")
-    return given
+    return names

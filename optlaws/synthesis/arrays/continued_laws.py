@@ -20,13 +20,7 @@ from optlaws.synthesis.arrays.continuation import ParametricContinuation, Struct
 from optlaws.synthesis.arrays.dual_bounds import lower_bounds
 from optlaws.synthesis.arrays.newton_steps import States, Structure, clipped, converged, packed, step
 from optlaws.synthesis.arrays.programs import NO_CONTACT, Numbers, Path, SolvedBatch
-from optlaws.synthesis.method.stored_structures import (
-    StoredStructure,
-    guess_of,
-    is_usual,
-    key_of,
-    stored_structures,
-)
+from optlaws.synthesis.method.stored_structures import StoredStructure, guess_of, is_usual, key_of, stored_structures
 from optlaws.tolerances import AGREEMENT
 
 _INTERPOLATION_TAIL = 1e-7  # of the size of what is interpolated: one step of Newton's method makes the square of it

@@ -18,12 +18,7 @@ from optlaws.kept import kept_property
 from optlaws.laws import PolynomialLaw
 from optlaws.numbers import Array
 from optlaws.numerics.chebyshev import basis_values, from_values, gegenbauer, nodes
-from optlaws.synthesis.families.family import (
-    ConstraintFamily,
-    EvenFamily,
-    LinearFamily,
-    RatioFamily,
-)
+from optlaws.synthesis.families.family import ConstraintFamily, EvenFamily, LinearFamily, RatioFamily
 from optlaws.synthesis.families.names import RowName
 from optlaws.synthesis.spaces.end_conditions import BoundaryConditions, law_from_z
 from optlaws.synthesis.spaces.space import LawSpace, Quadrature

@@ -311,7 +311,7 @@ def test_a_constant_load_is_added_and_sides_are_those_of_the_output() -> None:
         ("spread is a share", lambda machine: machine.residual(spread=10.0)),
         ("damping must be a ratio", lambda machine: machine.residual(damping=(0.2, 0.1))),
         ("rest to rest", lambda machine: synthesize(Problem(order=1, minimise=machine.peak()))),
-        ("needs its matrix B", lambda _: Problem(order=3, minimise="""output_peak(of='{"A": [[-1]]}')""")),
+        ("needs its B, such as", lambda _: Problem(order=3, minimise="""output_peak(of='{"A": [[-1]]}')""")),
         ("as JSON text", lambda _: Problem(order=3, minimise="output_rms(of='{A}')")),
         ("must be a machine", lambda _: Problem(order=3, minimise="output_rms(of=3)")),
         ("unstable", lambda _: Problem(order=3, minimise="""output_rms(of='{"A": [[1]], "B": [[1]], "C": [[1]]}')""")),

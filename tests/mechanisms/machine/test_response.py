@@ -296,7 +296,7 @@ WRONG: dict[str, Callable[[], object]] = {
     "output of these modes": lambda: Machine.from_modes([(8.5, 0.0)], duration=1.0, outputs=["force"]),
     "count must be": lambda: follower(9.0, 0.1).response(smoothstep(4)).to_pandas(1),
     "factor must be": lambda: follower(9.0, 0.1).at_speed(0.0),
-    "needs its matrix A": lambda: Machine.from_dict({}),
+    "needs its A, such as A = ": lambda: Machine.from_dict({}),
     "unknown entry of a machine": lambda: Machine.from_dict({"A": [[-1]], "E": 1}),
 }
 
