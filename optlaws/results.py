@@ -121,6 +121,11 @@ class Page:
         self._parts.append(f"{line}\n")
         return self
 
+    @property
+    def lines(self) -> list[str]:
+        """Its lines for people: without remarks on the file."""
+        return [line for line in str(self).splitlines() if not line.startswith("<!--")]
+
     def __str__(self) -> str:
         return "\n".join(self._parts)
 
@@ -287,15 +292,15 @@ class Results:
 
     def pictures(self) -> dict[str, str]:
         """The pictures as svg, by the names of their files."""
-        names = (name for name, file in self._files.items() if hasattr(file.content, "savefig"))
-        return {name: self.drawn(name.removesuffix(".svg"), "svg").decode() for name in names}
-
-    def drawn(self, name: str, kind: str) -> bytes:
-        """A picture as svg or png."""
         from optlaws.plots.style import rendered
 
-        figure: Any = self._files[f"{name}.svg"].content
-        return rendered(figure, kind)
+        drawn: dict[str, Any] = {name: file.content for name, file in self._files.items()}
+        return {name: rendered(each, "svg").decode() for name, each in drawn.items() if hasattr(each, "savefig")}
+
+    def figure(self, name: str) -> Figure:
+        """The figure of a picture."""
+        figure: Figure = self._files[f"{name}.svg"].content  # type: ignore[assignment] # of a picture
+        return figure
 
     def write(self, out: Path | None = None, *, force: bool = False) -> list[Path]:
         """Write the results into a folder, `results/NAME` in the current folder by default, and return the files.

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import sys
 import warnings
 from collections.abc import Sequence
@@ -50,7 +51,7 @@ def application(*, described: bool = False) -> App:
         "Files with other contents are left as they are; with --force, any command replaces what it is to write.",
         version=_version,
         help_format="plaintext",
-        default_parameter=Parameter(negative=()),
+        default_parameter=Parameter(negative=(), show_default=lambda usual: usual or None),
         suppress_keyboard_interrupt=False,
     )
     for name, file in COMMANDS.items():
@@ -66,8 +67,10 @@ def _about(name: str, file: Path) -> str:
 
 def head_of(file: Path, name: str) -> tuple[str, str]:
     """Signature and docstring of a function; its file is read as text, for importing or parsing it takes far longer."""
-    signature, _, rest = file.read_text(encoding="utf-8").partition(f"\ndef {name}(")[2].partition('"""')
-    return signature, rest.partition('"""')[0]
+    signature, text, *_ = re.split(rf"^ *def {name}\(", file.read_text("utf-8"), maxsplit=1, flags=re.MULTILINE)[
+        1
+    ].split('"""', 2)
+    return signature, text
 
 
 app = application()

@@ -1,9 +1,10 @@
-"""Options of several commands, and what reads them: laws by name or file, tables of points, frequencies, limits."""
+"""What several commands read: laws by name or file, tables of points, frequencies, limits, axes of problem files."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Annotated, Any
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
 
 from cyclopts import Parameter, Token
 
@@ -11,7 +12,9 @@ import optlaws
 from optlaws.cli.options import options
 from optlaws.echo import shortened
 from optlaws.errors import InputError
-from optlaws.laws.catalogue import reading
+
+if TYPE_CHECKING:
+    from optlaws.cycles.cycle import Cycle
 
 
 def _columns(text: str) -> list[str]:
@@ -42,7 +45,7 @@ Frequencies = Annotated[list[float], Parameter(converter=_law_frequencies)]
 #: of the columns of a table, by headings or numbers, as 1,3
 COLUMNS: dict[str, Any] = {"type": str, "read": _columns}
 #: how a table of points is read
-TABLE = options(reading.read_law, "tolerance", columns=COLUMNS)
+TABLE = options("optlaws.laws.catalogue.reading:read_law", "tolerance", columns=COLUMNS)
 
 
 def _limits(texts: list[str]) -> dict[str, Any]:
@@ -84,6 +87,8 @@ def read_law(
     >>> read_law("iii", alpha=7.2) == read_law("III(7.2)")
     True
     """
+    from optlaws.laws.catalogue import reading
+
     family = reading.family_of(text)
     if alpha is None and B is None:
         if family is not None and by:
@@ -95,3 +100,22 @@ def read_law(
             f"{by} choose a member of a family I, II, III or IV, and no other takes it, got {shortened(text)}"
         )
     return optlaws.savin(family, alpha, B=B)
+
+
+def read_axes(file: Path, axis: str | None) -> dict[str, Cycle]:
+    """The axes of a problem file of the job "cycle" by their names, or a single one.
+
+    Raises
+    ------
+    InputError
+        If the file is wrong, is of another job, or has no such axis.
+    """
+    from optlaws.files.packaged import problem_of_job
+    from optlaws.jobs.cycle_entries import read
+    from optlaws.suggest import unknown_key
+
+    source, _, entries = problem_of_job(file, "cycle")
+    _, cycles = read(entries, source)
+    if axis is not None and axis not in cycles:
+        raise InputError(f"--axis: {source}: {unknown_key(axis, list(cycles), 'axis')}")
+    return dict(cycles) if axis is None else {axis: cycles[axis]}

@@ -1,15 +1,15 @@
-"""Options of commands: those of a function or a declared value of the library by its own sentences, files, --json."""
+"""Options of commands: those of functions and declared values of the library by their own sentences, files, --json."""
 
 from __future__ import annotations
 
+import ast
 import inspect
-import json
 import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import wraps
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
 from cyclopts import Parameter, Token
 
@@ -17,10 +17,7 @@ from optlaws.cli.app import head_of
 from optlaws.entries.declared import Declared, entries_of
 from optlaws.errors import InputError
 
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
-Command = Callable[..., None]
+Command = Callable[..., Any]
 
 
 def _whole(_: object, tokens: Sequence[Token]) -> int:
@@ -46,12 +43,11 @@ def _check_picture(_: object, file: Path | None) -> None:
 
 
 Whole = Annotated[int, Parameter(converter=_whole)]
-AsJson = Annotated[bool, Parameter(name="--json", help="Print one line of JSON on stdout and nothing else.")]
 #: a quantity that may be below 0, which is the library's to take or to refuse
 Signed = Annotated[str | None, Parameter(allow_leading_hyphen=True)]
 #: where a command writes what it has found, and where it draws it
 Written = Annotated[Path | None, Parameter(validator=check_file)]
-Plot = Annotated[Path | None, Parameter(name="--plot", validator=_check_picture)]
+_JSON = "Print one line of JSON on stdout and nothing else."
 
 
 @dataclass(frozen=True)
@@ -81,20 +77,27 @@ class Option:
         """The parameter of a command."""
         needed = self.default is ...
         kind = self.type if needed or self.default is not None else self.type | None
-        heading: dict[str, Any] = {} if self.group is None else {"group": self.group}
+        more: dict[str, Any] = {} if self.group is None else {"group": self.group}
+        if self.keyword == "plot":
+            more["validator"] = _check_picture
         how = Parameter(
-            name=(self.name, *self.also), help=self.about, show=self.shown, allow_leading_hyphen=self.signed, **heading
+            name=(self.name, *self.also), help=self.about, show=self.shown, allow_leading_hyphen=self.signed, **more
         )
-        return inspect.Parameter(
-            self.keyword,
-            inspect.Parameter.KEYWORD_ONLY,
-            default=inspect.Parameter.empty if needed else self.default,
-            annotation=Annotated[kind, how],
-        )
+        default = inspect.Parameter.empty if needed else self.default
+        hint: Any = Annotated[kind, how]  # type: ignore[valid-type] # it is known at run time
+        return inspect.Parameter(self.keyword, inspect.Parameter.KEYWORD_ONLY, default=default, annotation=hint)
 
     def value(self, typed: Any) -> Any:
         """The value of the option, None where none is typed and there is no default."""
         return typed if typed is None or self.read is None else self.read(typed)
+
+
+class Options(dict[str, Option]):
+    """The options that a command takes as one table."""
+
+    def values_of(self, typed: Mapping[str, Any]) -> dict[str, Any]:
+        """The table of what was typed, by keywords."""
+        return {name: each.value(typed[each.keyword]) for name, each in self.items()}
 
 
 #: of parameters by their annotations
@@ -106,14 +109,14 @@ _PARAMETER = re.compile(r"^(\w[\w, ]*)\n((?: +.*\n?)+)", re.MULTILINE)
 
 
 def options(
-    source: Callable[..., Any], *names: str, group: str | None = None, **changed: Mapping[str, Any]
-) -> dict[str, Option]:
+    source: Callable[..., Any] | str, *names: str, group: str | None = None, **changed: Mapping[str, Any]
+) -> Options:
     """The options that give parameters of a function, or entries of a declared value: by its sentences and defaults.
 
     Parameters
     ----------
     source
-        The function, or the class.
+        The class, the function, or its place: to import its module may take longer than a command does.
     names
         Of parameters whose options have their names.
     group
@@ -123,21 +126,22 @@ def options(
 
     Examples
     --------
-    >>> from optlaws import fastest
-    >>> stroke = options(fastest, "stroke")["stroke"]
+    >>> stroke = options("optlaws.cycles.moves.timed_moves:fastest", "stroke")["stroke"]
     >>> stroke.name, stroke.about, stroke.signed
     ('--stroke', 'How far, above 0: "100 mm" or "90 deg".', True)
     """
-    sentences, parameters = _sentences(source), inspect.signature(source).parameters
-    known = {}
+    parameters, text = _head(source) if isinstance(source, str) else _of_object(source)
+    sentences = _sentences(text)
+    if isinstance(source, type) and issubclass(source, Declared):
+        sentences = {name: each.about for name, each in entries_of(source).items()}
+    known = Options()
     for name in (*names, *changed):
-        parameter = parameters[name]
-        annotation = str(parameter.annotation).removesuffix(" | None")
+        annotation, default = parameters[name]
         about: dict[str, Any] = {
             "name": f"--{name.replace('_', '-')}",
             "type": _TYPES.get(annotation),
             "about": sentences.get(name, ""),
-            "default": None if parameter.default is inspect.Parameter.empty else parameter.default,
+            "default": default,
             "signed": annotation == "Quantity",
             "also": _OLDER.get(name, ()),
             "group": group,
@@ -146,50 +150,80 @@ def options(
     return known
 
 
-def _sentences(source: Callable[..., Any]) -> dict[str, str]:
-    """What a declaration or a docstring says of each parameter."""
-    if isinstance(source, type) and issubclass(source, Declared):
-        return {name: each.about for name, each in entries_of(source).items()}
-    section = (inspect.getdoc(source) or "").partition(_PARAMETERS)[2].partition("\n\n")[0]
+#: annotation, without "or None", and default of each parameter
+_Parameters = dict[str, tuple[str, Any]]
+
+
+def _head(place: str) -> tuple[_Parameters, str]:
+    """Parameters and docstring of a function of a module, which is read as text."""
+    module, _, name = place.partition(":")
+    signature, text = head_of(Path(__file__).parents[1].joinpath(*module.split(".")[1:]).with_suffix(".py"), name)
+    function = ast.parse(f"def {name}({signature.rpartition(':')[0]}: ...").body[0]
+    assert isinstance(function, ast.FunctionDef)  # noqa: S101 - it is written so
+    of = function.args
+    defaults = [None] * (len(of.args) - len(of.defaults)) + [*of.defaults, *of.kw_defaults]
+    return {
+        each.arg: (_plain(each.annotation), default.value if isinstance(default, ast.Constant) else None)
+        for each, default in zip([*of.args, *of.kwonlyargs], defaults, strict=True)
+    }, inspect.cleandoc(text)
+
+
+def _of_object(source: Callable[..., Any]) -> tuple[_Parameters, str]:
+    return {
+        name: (_plain(each.annotation), None if each.default is each.empty else each.default)
+        for name, each in inspect.signature(source).parameters.items()
+    }, inspect.getdoc(source) or ""
+
+
+def _plain(annotation: Any) -> str:
+    text = ast.unparse(annotation) if isinstance(annotation, ast.AST) else str(annotation)
+    return text.removesuffix(" | None")
+
+
+def _sentences(text: str) -> dict[str, str]:
+    """What a docstring says of each parameter."""
+    section = text.partition(_PARAMETERS)[2]
     return {name: " ".join(text.split()) for names, text in _PARAMETER.findall(section) for name in names.split(", ")}
 
 
-def without_body(place: str) -> Callable[..., Any]:
-    """A function of a module without its body: to import this may take longer than a command does.
+def takes(plot: str = "", *, json: bool = True, **groups: Options) -> Callable[[Command], Command]:
+    """Make a function a command: it gets groups of options as tables, and --plot and --json show its answer.
 
-    Examples
-    --------
-    >>> options(without_body("optlaws.cycles.moves.timed_moves:fastest"), "stroke")["stroke"].signed
-    True
+    Parameters
+    ----------
+    plot
+        The sentence of --plot, whose file the function may take too; without it there is no such option.
+    json
+        Whether there is --json.
+    groups
+        By name of a parameter of the function: the options in its place.
     """
-    module, _, name = place.partition(":")
-    file = Path(__file__).parents[1].joinpath(*module.split(".")[1:]).with_suffix(".py")
-    signature, text = head_of(file, name)
-    namespace: dict[str, Any] = {}
-    program = f'from __future__ import annotations\ndef {name}({signature}"""{text}"""'
-    exec(program, namespace)  # noqa: S102 - the text is the package's own
-    function: Callable[..., Any] = namespace[name]
-    return function
-
-
-def takes(**groups: Mapping[str, Option]) -> Callable[[Command], Command]:
-    """Give a command options in place of parameters, each of which takes the values of its options as a table."""
 
     def decorated(command: Command) -> Command:
+        declared, text = inspect.signature(command).parameters, inspect.getdoc(command) or ""
+        sentences, hints = _sentences(text), inspect.get_annotations(command, eval_str=True)
         parameters: list[inspect.Parameter] = []
-        for name, parameter in inspect.signature(command).parameters.items():
-            parameters += [each.parameter for each in groups[name].values()] if name in groups else [parameter]
+        for name, each in declared.items():
+            if name in groups:
+                parameters += [option.parameter for option in groups[name].values()]
+            elif name != "plot":
+                how = Parameter(help=sentences.get(name))
+                parameters.append(each.replace(annotation=Annotated[hints[name], how]))
+        parameters += [Option("--plot", Path, plot).parameter] if plot else []
+        parameters += [Option("--json", bool, _JSON, default=False).parameter] if json else []
 
         @wraps(command)
         def called(*arguments: Any, **values: Any) -> None:
-            tables = {
-                group: {name: each.value(values.pop(each.keyword, each.default)) for name, each in table.items()}
-                for group, table in groups.items()
-            }
-            command(*arguments, **values, **tables)
+            typed = {each.name: each.default for each in parameters if each.kind is each.KEYWORD_ONLY} | values
+            tables = {name: group.values_of(typed) for name, group in groups.items()}
+            mine = {name: typed[name] for name in declared if name in typed}
+            answer = command(*arguments, **{**mine, **tables})
+            if answer is not None:
+                answer.give(typed.get("plot"), as_json=typed.get("json", False))
 
         called.__signature__ = inspect.Signature(parameters)  # type: ignore[attr-defined]
         called.__annotations__ = {parameter.name: parameter.annotation for parameter in parameters}
+        called.__doc__ = re.sub(r"(?<=\S)\n(?=\S)", " ", text.partition("\n\nParameters")[0])
         return called
 
     return decorated
@@ -204,28 +238,3 @@ def given(values: Mapping[str, Any]) -> dict[str, Any]:
     {'stroke': '35 mm'}
     """
     return {name: value for name, value in values.items() if value is not None}
-
-
-def save(file: Path | None, data: Mapping[str, Any]) -> None:
-    """Write the file of --output, where there is one, with the name of its author program."""
-    from optlaws.files.writing import MARK, write
-
-    if file is not None:
-        write(file, json.dumps({"about": MARK, **data}, indent=1) + "\n")
-
-
-def save_picture(file: Path | None, value: Any, **style: Any) -> None:
-    """Draw the picture of --plot into its file, where there is one."""
-    if file is not None:
-        from optlaws.plots.style import plot_style
-
-        with plot_style():
-            save_figure(file, value.plot(**style)[0].get_figure(root=True))
-
-
-def save_figure(file: Path, figure: Figure) -> None:
-    """Write a figure into the file of --plot, in the format of the file's ending."""
-    from optlaws.files.writing import write
-    from optlaws.plots.style import rendered
-
-    write(file, rendered(figure, file.suffix[1:]))

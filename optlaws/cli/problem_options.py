@@ -5,10 +5,9 @@ from __future__ import annotations
 import inspect
 from collections.abc import Callable, Mapping
 from dataclasses import replace
-from functools import wraps
 from typing import Any, Literal
 
-from optlaws.cli.options import Command, Option, Whole, takes
+from optlaws.cli.options import Option, Options, Whole
 from optlaws.echo import shortened
 from optlaws.entries import value_types
 from optlaws.entries.declared import Entry
@@ -40,34 +39,28 @@ _KINDS: dict[type[ValueType], tuple[Any, Callable[[Any], Any] | None]] = {
 }
 
 
-def _option(
-    name: str, entry: str, about: str = "", read: Callable[[Any], Any] | None = None, kind: Any = None
-) -> Option:
-    each = ENTRIES[entry]
-    known, plain = (kind, None) if kind is not None else _KINDS[type(each.type)]
-    such = f' Numbers such as "{", ".join(map(str, each.example))}".' if plain is not None else ""
-    signed = isinstance(each.type, Listed)
-    return Option(name, known, about or each.about + such, read=read or plain, signed=signed)
+def _at_most(name: str, option: str) -> dict[str, Any]:
+    return {"name": option, "about": f"{name} at most this.", "read": lambda high: as_range((None, high), name)}
 
 
-def _at_most(name: str) -> Callable[[float], Any]:
-    return lambda high: as_range((None, high), name)
-
-
-#: entries whose options have names of their own, or mean less than files can say
-_OWN: dict[str, tuple[Option, ...]] = {
-    "B": (_option("--peak-velocity", "B", "B, above 1 (dimensionless; the mean velocity is 1); free unless given."),),
-    "C": (_option("--most-acceleration", "C", "C at most this.", _at_most("C")),),
-    "D": (_option("--most-power", "D", "D at most this.", _at_most("D")),),
-    "J": (_option("--most-jerk", "J", "J at most this.", _at_most("J")),),
-    "symmetric": (_option("--unsymmetric", "symmetric", "Seek among unsymmetric laws too.", lambda given: not given),),
-    "bounds": (
-        Option("--most", list[str], "Any constant at most a value, such as rms_c=4; may be repeated."),
-        Option("--least", list[str], "Any constant at least a value; may be repeated."),
-    ),
-    "basis": (_option("--basis", "basis", kind=Literal[tuple(Basis.kinds)]),),
-    "windows": (_option("--window", "windows", kind=list[str]),),
+#: options that have names of their own, or mean less than files can say
+_OWN: dict[str, dict[str, Any]] = {
+    "B": {"name": "--peak-velocity", "about": "B, above 1 (dimensionless; the mean velocity is 1); free unless given."},
+    "C": _at_most("C", "--most-acceleration"),
+    "D": _at_most("D", "--most-power"),
+    "J": _at_most("J", "--most-jerk"),
+    "symmetric": {
+        "name": "--unsymmetric",
+        "about": "Seek among unsymmetric laws too.",
+        "read": lambda given: not given,
+    },
+    "basis": {"type": Literal[tuple(Basis.kinds)], "read": None},
+    "windows": {"name": "--window", "type": list[str], "read": None},
 }
+_BOUNDS = (
+    Option("--most", list[str], "Any constant at most a value, such as rms_c=4; may be repeated."),
+    Option("--least", list[str], "Any constant at least a value; may be repeated."),
+)
 
 
 def options_of(entry: Entry) -> tuple[Option, ...]:
@@ -78,70 +71,61 @@ def options_of(entry: Entry) -> tuple[Option, ...]:
     >>> [option.name for option in options_of(ENTRIES["bounds"])], options_of(ENTRIES["degree"])[0].name
     (['--most', '--least'], '--degree')
     """
-    return _OWN.get(entry.name) or (_option(f"--{entry.name}", entry.name),)
+    if entry.name == "bounds":
+        return _BOUNDS
+    kind, read = _KINDS.get(type(entry.type), (str, None))
+    such = "" if read is None else f' Numbers such as "{", ".join(map(str, entry.example))}".'
+    plain = {"name": f"--{entry.name}", "type": kind, "about": entry.about + such, "read": read}
+    return (Option(signed=isinstance(entry.type, Listed), **{**plain, **_OWN.get(entry.name, {})}),)
 
 
-def asks_for_a_problem(
-    *, given: Mapping[str, Any] | None = None, refused: Mapping[str, str] | None = None
-) -> Callable[[Command], Command]:
-    """Give a command the options of a problem; its parameter `entries` takes those that were given, as a dict.
+class _ProblemOptions(Options):
+    """The options of a problem, which give its entries."""
+
+    def __init__(self, given: Mapping[str, Any], refused: Mapping[str, str]) -> None:
+        self._refused = refused
+        for entry in ENTRIES.values():
+            for option in options_of(entry):
+                usual = None if entry.name in refused else given.get(entry.name)
+                default = False if option.type is bool else usual
+                self[option.keyword] = replace(option, default=default, shown=entry.name not in refused)
+
+    def values_of(self, typed: Mapping[str, Any]) -> dict[str, Any]:
+        entries: dict[str, Any] = {}
+        for entry in ENTRIES.values():
+            options = options_of(entry)
+            values = [typed[option.keyword] for option in options]
+            first = next(
+                (
+                    option
+                    for option, value in zip(options, values, strict=True)
+                    if not (value is None or value is False)
+                ),
+                None,
+            )
+            if first is None:
+                continue
+            if entry.name in self._refused:
+                raise InputError(f"{first.name} is not for this command: {self._refused[entry.name]}")
+            entries[entry.name] = (
+                read_bounds(*(value or [] for value in values)) if len(values) > 1 else first.value(*values)
+            )
+        _check_ends(entries)
+        _check_breaks(entries)
+        return entries
+
+
+def problem_options(given: Mapping[str, Any], refused: Mapping[str, str] | None = None) -> Options:
+    """The options of a problem, as the table of the entries that were given.
 
     Parameters
     ----------
     given
-        By entry: the value of its option unless given; `...` requires it.
+        By entry: the value of its option unless given.
     refused
         By entry: why the command does not take it.
     """
-    why, defaults = refused or {}, given or {}
-    options = {
-        option.keyword: replace(
-            option, default=_default(entry, option, defaults, why), shown=entry.name not in why, read=None
-        )
-        for entry in ENTRIES.values()
-        for option in options_of(entry)
-    }
-
-    def decorated(command: Command) -> Command:
-        @takes(entries=options)
-        @wraps(command)
-        def called(entries: Mapping[str, Any], **values: Any) -> None:
-            command(_entries(entries, why), **values)
-
-        return called
-
-    return decorated
-
-
-def _default(entry: Entry, option: Option, given: Mapping[str, Any], refused: Mapping[str, str]) -> Any:
-    if option.type is bool:
-        return False
-    if entry.name in refused:
-        return None
-    return given.get(entry.name, entry.default if entry.name == "minimise" else None)
-
-
-def _entries(typed: Mapping[str, Any], refused: Mapping[str, str]) -> dict[str, Any]:
-    """The entries that the values of options stand for."""
-    entries: dict[str, Any] = {}
-    for entry in ENTRIES.values():
-        options = options_of(entry)
-        values = [typed[option.keyword] for option in options]
-        first = next((option for option, value in zip(options, values, strict=True) if _is_given(value)), None)
-        if first is None:
-            continue
-        if entry.name in refused:
-            raise InputError(f"{first.name} is not for this command: {refused[entry.name]}")
-        entries[entry.name] = (
-            read_bounds(*(value or [] for value in values)) if len(values) > 1 else first.value(*values)
-        )
-    _check_ends(entries)
-    _check_breaks(entries)
-    return entries
-
-
-def _is_given(value: object) -> bool:
-    return value is not None and value is not False
+    return _ProblemOptions({"minimise": ENTRIES["minimise"].default, **given}, refused or {})
 
 
 def _check_ends(entries: dict[str, Any]) -> None:

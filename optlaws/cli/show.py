@@ -1,25 +1,54 @@
-"""Output of commands: tables and lines for people, one JSON value for programs."""
+"""Output of commands: reports, tables and lines for people, one JSON value for programs, pictures, files."""
 
 from __future__ import annotations
 
+import json
 import sys
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
-from math import inf
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from optlaws.tolerances import VALUE_ROUNDING
+from optlaws.errors import OptlawsError
 
 if TYPE_CHECKING:
+    from matplotlib.figure import Figure
     from rich.console import Console
     from rich.table import Table
 
     from optlaws.exports.export import Export
     from optlaws.exports.run_time.front_export import FrontExport
-    from optlaws.shown.summary import Summary
+    from optlaws.shown.report import Report, ReportTable
+    from optlaws.shown.summary import Row, Summary
 
 _WIDEST = 10_000
+_DIGITS = 7
+
+
+@dataclass(frozen=True)
+class Answer:
+    """What a command has found: what it shows, its data for programs, what --plot draws, and an error at the end.
+
+    `drawn` makes a figure, or artists in one. All are computed when they are used.
+    """
+
+    shown: Callable[[], Iterable[Report | Summary | ReportTable | str]]
+    data: Callable[[], object]
+    drawn: Callable[[], Any] | None = None
+    failure: OptlawsError | None = None
+
+    def give(self, picture: Path | None, *, as_json: bool) -> None:
+        """Draw the picture into its file, where there is one, and print the rest."""
+        if picture is not None and self.drawn is not None:
+            save_picture(picture, self.drawn)
+        if as_json:
+            print_json(self.data())
+        else:
+            for part in self.shown():
+                show(part)
+        if self.failure is not None:
+            raise self.failure
 
 
 def print_json(data: object) -> None:
@@ -34,36 +63,21 @@ def _plain(value: Any) -> object:
     return str(value) if isinstance(value, str) else value.item()
 
 
-def table(*headings: str, rows: Iterable[Iterable[str | float | None]] = (), digits: int = 7) -> Table:
-    """A table of texts and of numbers to some digits, without lines; without headings its first column never wraps."""
-    from rich.table import Table
+def show(*parts: Report | Summary | ReportTable | str) -> None:
+    """Print reports, facts and tables, and text unchanged: numbers are never cut, and no line ends with blanks."""
+    from optlaws.shown.summary import Summary
 
-    new_table = Table(*headings, show_header=bool(headings), box=None, pad_edge=False)
-    if not headings:
-        new_table.add_column(no_wrap=True)
-    for row in rows:
-        new_table.add_row(
-            *("" if cell is None else cell if isinstance(cell, str) else f"{cell:.{digits}g}" for cell in row)
-        )
-    return new_table
-
-
-def summary_table(summary: Summary, what: str = "") -> Table:
-    """The rows of a summary as a table; `what` they are heads their names."""
-    headings, *rows = summary.cells()
-    return table(what, *headings[1:], rows=rows)
-
-
-def show(*parts: Summary | Table | str) -> None:
-    """Print tables, and text unchanged: numbers are never cut, and lines end without blanks except on a terminal."""
     console = _answering()
     for part in parts:
         if isinstance(part, str):
             console.print(part, markup=False, highlight=False, soft_wrap=True)
+        elif isinstance(part, Summary):
+            for table in _tables_of(part):
+                _show_table(table, console)
         elif isinstance(part, tuple):
-            _show_table(summary_table(part), console)
+            _show_table(_table(*part), console)
         else:
-            _show_table(part, console)
+            show(part.facts, *part.tables)
 
 
 def _answering() -> Console:
@@ -75,6 +89,46 @@ def _answering() -> Console:
             raise BrokenPipeError
 
     return Answering(emoji=False)
+
+
+def _table(headings: Iterable[str], rows: Iterable[Iterable[Any]], width: int = 0) -> Table:
+    """A table of texts and numbers without lines; its first column is so wide at least, and never wraps."""
+    from rich.table import Column, Table
+
+    first, *others = headings
+    head = any((first, *others))
+    table = Table(Column(first, no_wrap=True, min_width=width), *others, show_header=head, box=None, pad_edge=False)
+    for row in rows:
+        table.add_row(*map(_cell, row))
+    return table
+
+
+def _cell(value: Any) -> str:
+    return "" if value is None else value if isinstance(value, str) else f"{value:.{_DIGITS}g}"
+
+
+def _tables_of(summary: Summary) -> Iterator[Table]:
+    """Facts, each with its unit and its note behind it; those with places, and numbers below them, have columns."""
+    from optlaws.shown.summary import Summary
+
+    width = max((len(row.name) for row in summary), default=0)
+    blocks: list[tuple[bool, list[Row]]] = []
+    for row in summary:
+        below = bool(blocks) and blocks[-1][0] and not isinstance(row.value, str)
+        placed = row.place is not None or below
+        if not blocks or blocks[-1][0] != placed:
+            blocks.append((placed, []))
+        blocks[-1][1].append(row)
+    for placed, rows in blocks:
+        if placed:
+            headings, *cells = Summary(rows, summary.at).cells()
+            yield _table(headings, cells, width)
+        else:
+            yield _table(("", ""), ((row.name, _fact(row)) for row in rows), width)
+
+
+def _fact(row: Row) -> str:
+    return " ".join(part for part in (row.text(), row.unit, f"({row.note})" if row.note else "") if part)
 
 
 def _show_table(rows: Table, console: Console) -> None:
@@ -93,28 +147,37 @@ def _show_table(rows: Table, console: Console) -> None:
         print(line.rstrip())
 
 
-def show_export(export: Export | FrontExport, output: Path | None, *, as_json: bool) -> None:
-    """Write the text of an export into a file or to stdout, and report it: to stderr beside the text."""
+def exported(export: Export | FrontExport, output: Path | None, drawn: Callable[[], Any]) -> Answer:
+    """Write the text of an export into a file or, where it is shown, to stdout, and its report to stderr."""
     if output is not None:
         export.write(output)
-    if as_json:
-        print_json(export.results() | ({"text": export.text} if output is None else {"file": str(output)}))
-    elif output is None:
+        return Answer(lambda: [str(export)], lambda: export.results() | {"file": str(output)}, drawn)
+
+    def shown() -> Iterator[str]:
         print(export.text, end="")
         print(export, file=sys.stderr)
-    else:
-        show(str(export))
+        yield from ()
+
+    return Answer(shown, lambda: export.results() | {"text": export.text}, drawn)
 
 
-def number(value: float, size: float, form: str = ".10g") -> str:
-    """A number in readable form: rounding errors relative to its kind's size become 0.
+def save(file: Path | None, data: Mapping[str, Any]) -> None:
+    """Write the file of --output, where there is one, with the name of its author program."""
+    from optlaws.files.writing import MARK, write
 
-    Examples
-    --------
-    >>> number(-6.77e-16, size=5.528), number(1.5, size=2.0)
-    ('0', '1.5')
-    """
-    return format(0.0 if abs(value) <= VALUE_ROUNDING * size < inf else value, form)
+    if file is not None:
+        write(file, json.dumps({"about": MARK, **data}, indent=1) + "\n")
+
+
+def save_picture(file: Path, drawn: Callable[[], Any]) -> None:
+    """Draw a figure, or artists, into the file of --plot, in the format of its ending."""
+    from optlaws.files.writing import write
+    from optlaws.plots.style import plot_style, rendered
+
+    with plot_style():
+        drawing = drawn()
+        figure: Figure = drawing if hasattr(drawing, "savefig") else drawing[0].get_figure(root=True)
+        write(file, rendered(figure, file.suffix[1:]))
 
 
 def progress() -> Console:

@@ -72,7 +72,7 @@ def run(results: Results) -> None:
     exports = _exports(spec, cycles, transitions, results)
     sweeps = sweeps_of(spec, results.file)
     results.title = spec.title
-    page = _slowest(results.page("cycle").text(spec.text), fastest)
+    page = results.page("cycle").text(spec.text).text("".join(slowest(fastest)))
     if len(cycles) > 1:
         figure = figure_of(cycles.plot(), spec.title)
         page.picture(TOGETHER, f"{spec.title}: all axes over one time", figure, "the picture of all axes")
@@ -163,20 +163,12 @@ def fastest_facts(fastest: FastestCycle) -> dict[str, Any]:
     }
 
 
-def fastest_page(title: str, fastest: Mapping[str, FastestCycle]) -> Page:
-    """The greatest speed of each axis, what binds, and what more of it would give."""
-    result = Page(title)
-    for name, axis in fastest.items():
-        result.heading(name).facts(axis.summary())
-    return _slowest(result, fastest)
-
-
-def _slowest(page: Page, fastest: Mapping[str, FastestCycle]) -> Page:
-    """The page with a sentence on the slowest of several axes."""
-    if len(fastest) > 1:
-        name, axis = max(fastest.items(), key=lambda item: item[1].period)
-        page.text(f"The machine is as fast as its slowest axis, {name}: {axis.rpm:.9g} rpm.")
-    return page
+def slowest(fastest: Mapping[str, FastestCycle]) -> list[str]:
+    """A sentence on the slowest of several axes."""
+    if len(fastest) <= 1:
+        return []
+    name, axis = max(fastest.items(), key=lambda item: item[1].period)
+    return [f"The machine is as fast as its slowest axis, {name}: {axis.rpm:.9g} rpm."]
 
 
 def _add_interlocks(page: Page, title: str, axes: Axes, overlap: Overlap | None) -> None:

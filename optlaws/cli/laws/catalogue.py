@@ -3,39 +3,38 @@
 from __future__ import annotations
 
 import optlaws
-from optlaws.cli.options import AsJson, Plot, save_figure
-from optlaws.cli.show import print_json, show, table
+from optlaws.cli.options import takes
+from optlaws.cli.show import Answer
 from optlaws.errors import InputError
 
 _LETTERS = ("b", "c", "j", "j'", "j''")
 
 
-def catalogue(search: str | None = None, /, *, plot: Plot = None, as_json: AsJson = False) -> None:
+@takes("Draw the acceleration of each listed law, in a panel each, into this file, PNG or SVG.")
+def catalogue(search: str | None = None, /) -> Answer:
     """List the standard laws, or the laws that match a text, the likeliest first.
 
     Parameters
     ----------
     search
         A name in any language or of a controller, or part of one.
-    plot
-        Draw the acceleration of each listed law, in a panel each, into this file, PNG or SVG.
     """
+    from optlaws.plots.law import accelerations_figure
+    from optlaws.shown.report import ReportTable
+
     known = optlaws.catalogue
     entries = tuple(known.values()) if search is None else known.search(search)
     if not entries:
         raise InputError(f"no law is like {search!r}; `optlaws catalogue` lists all {len(known)}")
-    if plot is not None:
-        from optlaws.plots.law import accelerations_figure
-
-        save_figure(plot, accelerations_figure({entry.name: entry.law for entry in entries}))
-    if as_json:
-        print_json([{key: value for key, value in entry.to_dict().items() if key != "law"} for entry in entries])
-        return
     rows = (
         [entry.name, *(getattr(entry.constants, name).value for name in "BCDJ"), continuous(entry.continuity)]
         for entry in entries
     )
-    show(table("law", *"BCDJ", "continuous", rows=rows, digits=6))
+    return Answer(
+        lambda: [ReportTable(["law", *"BCDJ", "continuous"], list(rows))],
+        lambda: [{key: value for key, value in entry.to_dict().items() if key != "law"} for entry in entries],
+        lambda: accelerations_figure({entry.name: entry.law for entry in entries}),
+    )
 
 
 def continuous(order: int) -> str:

@@ -3,28 +3,30 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from pathlib import Path
 from typing import Any
 
 import optlaws
 from optlaws.cli.law_options import Frequencies
-from optlaws.cli.options import AsJson, Plot, Written, options, save_picture, takes
-from optlaws.cli.show import print_json, show, table
+from optlaws.cli.options import Written, options, takes
+from optlaws.cli.show import Answer
 from optlaws.errors import InputError
 
+_COMPARED = "optlaws.cycles.law_comparison:compare_laws"
 _ONE, _INTERVAL = 1, 2
 
 
-@takes(machine=options(optlaws.compare_laws, "stroke", "duration"), follower=options(optlaws.compare_laws, "damping"))
+@takes(
+    "Draw a, b, c and j of all laws into this file, PNG or SVG.",
+    machine=options(_COMPARED, "stroke", "duration"),
+    follower=options(_COMPARED, "damping"),
+)
 def compare(
     *laws: str,
     machine: Mapping[str, Any],
     frequency: Frequencies | None = None,
     follower: Mapping[str, Any],
-    plot: Plot = None,
     csv: Written = None,
-    as_json: AsJson = False,
-) -> None:
+) -> Answer:
     """Compare laws: their constants, their peaks in a machine, the vibration they leave behind.
 
     Parameters
@@ -35,8 +37,6 @@ def compare(
     frequency
         Frequency nu of an elastic follower, radians of its free vibration in the motion, or twice for an interval: the
         greatest residual acceleration is listed.
-    plot
-        Draw a, b, c and j of all laws into this file, PNG or SVG.
     csv
         Write the table to this file.
     """
@@ -46,17 +46,11 @@ def compare(
         )
     swept = None if frequency is None else frequency[0] if len(frequency) == _ONE else (frequency[0], frequency[1])
     comparison = optlaws.compare_laws(*laws, **machine, frequency=swept, **follower)
+    from optlaws.shown.report import ReportTable
+
+    table = ReportTable(list(comparison.rows[0]), [list(row.values()) for row in comparison.rows])
     if csv is not None:
-        _save(comparison, csv)
-    save_picture(plot, comparison)
-    if as_json:
-        print_json(comparison.to_dict())
-        return
-    show(table(*comparison.rows[0], rows=(row.values() for row in comparison.rows)), *comparison.remarks)
+        from optlaws.files import tables, writing
 
-
-def _save(comparison: optlaws.Comparison, file: Path) -> None:
-    from optlaws.files import tables, writing
-
-    rows = [list(row.values()) for row in comparison.rows]
-    writing.write(file, tables.to_csv(list(comparison.rows[0]), rows, about="laws compared"))
+        writing.write(csv, tables.to_csv(*table, about="laws compared"))
+    return Answer(lambda: [table, *comparison.remarks], comparison.to_dict, comparison.plot)

@@ -2,36 +2,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
+from functools import cache, partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 from cyclopts import Parameter
 
+import optlaws
 from optlaws.cli.app import NotProven
 from optlaws.cli.law_options import COLUMNS
-from optlaws.cli.options import (
-    AsJson,
-    Plot,
-    Signed,
-    Written,
-    given,
-    options,
-    save_figure,
-    save_picture,
-    takes,
-)
-from optlaws.cli.options import save as save_json
-from optlaws.cli.show import busy, print_json, show, table
-from optlaws.cli.synthesis.run import done
-from optlaws.cycles.old_tables.report import OldTableReport
-from optlaws.cycles.old_tables.table import read_cycle_table
+from optlaws.cli.options import Signed, Written, given, options, takes
+from optlaws.cli.show import Answer, busy
+from optlaws.cli.show import save as save_json
+from optlaws.cli.synthesis.run import written
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.synthesis.status import Status
 
 if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
     from optlaws.cycles.cycle import Cycle
     from optlaws.cycles.old_tables.table import OldTable
     from optlaws.results import Results
@@ -39,21 +31,29 @@ if TYPE_CHECKING:
 _GROUP = "The table of an old cam"
 
 
-@takes(how=options(read_cycle_table, "unit", "master", "cam", "tolerance", group=_GROUP, columns=COLUMNS))
+@takes(
+    "Draw all axes, the points and laws of an old cam, or with `--fastest` the motion at that speed, into this file, "
+    "PNG or SVG.",
+    how=options(
+        "optlaws.cycles.old_tables.table:read_cycle_table",
+        *("unit", "master", "cam", "tolerance"),
+        group=_GROUP,
+        columns=COLUMNS,
+    ),
+)
 def cycle(
     file: Path,
     /,
     *,
     out: Path | None = None,
     fastest: bool = False,
-    plot: Plot = None,
     how: Mapping[str, Any],
     speed: Annotated[Signed, Parameter(group=_GROUP)] = None,
     modernise: Annotated[str | None, Parameter(group=_GROUP)] = None,
     export: Annotated[str | None, Parameter(group=_GROUP)] = None,
     save: Annotated[Written, Parameter(group=_GROUP)] = None,
-    as_json: AsJson = False,
-) -> None:
+    plot: Path | None,
+) -> Answer:
     """Whole cycles of a machine in physical units, optimal as a whole; or the table of an old cam, and a better one.
 
     Parameters
@@ -68,9 +68,6 @@ def cycle(
         The greatest speed of the master at which every axis keeps its limits, what binds there, and the proof: a table,
         and with `--out` all results at that speed with fastest.json for `optlaws verify`. The exit code is 1 where none
         faster is not proven to be impossible.
-    plot
-        Draw all axes, the points and laws of an old cam, or with `--fastest` the motion at that speed, into this file,
-        PNG or SVG.
     speed
         Of the master, such as "200 rpm"; what the file says unless given. --save and --export need it where the master
         is an angle.
@@ -87,21 +84,21 @@ def cycle(
             raise InputError(
                 "--fastest needs a problem file: --save writes one from the table, in which you enter the limits"
             )
-        _old_cam(file, how, cam, out=out, plot=plot, as_json=as_json)
-        return
+        return _old_cam(file, how, cam, out=out, plot=plot)
     for name, value in given({**how, **cam}).items():
         raise InputError(f"--{name} is of the table of an old cam, got {shortened(value)} with a problem file")
     if fastest:
-        _greatest_speed(file, out, plot, as_json=as_json)
-    else:
-        _job(file, out, plot, as_json=as_json)
+        return _greatest_speed(file, out)
+    return _job(file, out)
 
 
-def _greatest_speed(file: Path, out: Path | None, plot: Path | None, *, as_json: bool) -> None:
+def _greatest_speed(file: Path, out: Path | None) -> Answer:
     """The greatest speed of each axis of a problem file."""
     from optlaws.files.packaged import problem_of_job
     from optlaws.jobs import cycle as job
     from optlaws.jobs.cycle_entries import read
+    from optlaws.plots.cycle import draw_axes, draw_cycle
+    from optlaws.plots.style import figure_of
     from optlaws.results import Results
 
     source, _, entries = problem_of_job(file, "cycle")
@@ -113,57 +110,52 @@ def _greatest_speed(file: Path, out: Path | None, plot: Path | None, *, as_json:
             results.entries["fastest"] = True
             job.run(results)
             results.write(out)
-    if plot is not None:
-        from optlaws.plots.cycle import draw_axes, draw_cycle
-        from optlaws.plots.style import figure_of
-
-        at_best = {name: speed.cycle for name, speed in speeds.items()}
-        artists = draw_axes(at_best) if len(at_best) > 1 else draw_cycle(next(iter(at_best.values())))
-        save_figure(plot, figure_of(artists, spec.title))
-    if as_json:
-        print_json({name: job.fastest_facts(speed) for name, speed in speeds.items()})
-    else:
-        show(*(line for line in str(job.fastest_page(spec.title, speeds)).splitlines() if not line.startswith("<!--")))
+    at_best = {name: speed.cycle for name, speed in speeds.items()}
     unproven = [name for name, speed in speeds.items() if speed.status != Status.OPTIMAL]
-    if unproven:
-        raise NotProven(f"axis {', '.join(unproven)}: that no law is faster is not proven")
+    return Answer(
+        lambda: (
+            [part for name, each in speeds.items() for part in (f"axis {name}", each.summary())] + job.slowest(speeds)
+        ),
+        lambda: {name: job.fastest_facts(speed) for name, speed in speeds.items()},
+        lambda: figure_of(draw_axes(at_best) if len(at_best) > 1 else draw_cycle(*at_best.values()), spec.title),
+        NotProven(f"axis {', '.join(unproven)}: that no law is faster is not proven") if unproven else None,
+    )
 
 
-def _job(file: Path, out: Path | None, plot: Path | None, *, as_json: bool) -> None:
+def _job(file: Path, out: Path | None) -> Answer:
     """The job of a problem file, with its main picture in the file of --plot too; or its data for programs."""
     from optlaws.files import writing
     from optlaws.files.packaged import problem_of_job
-    from optlaws.jobs import job as jobs
-    from optlaws.jobs.cycle import answer
-
-    source, folder, entries = problem_of_job(file, "cycle")
-    if not as_json:
-        if out is not None or folder is not None:
-            writing.check_place((out or folder or Path()) / "results.md")
-        results = done(source, out=out or folder)
-        if plot is not None:
-            writing.write(plot, _main_picture(entries, results, plot.suffix))
-        return
-    with busy(f"{file}"):
-        if plot is not None:
-            writing.write(plot, _main_picture(entries, jobs.done(source), plot.suffix))
-        data = answer(entries, source)
-    print_json(data)
-
-
-def _main_picture(entries: Mapping[str, Any], results: Results, suffix: str) -> bytes:
-    """The most informative picture among the results of a cycle: the single axis, or all axes."""
-    from optlaws.jobs.cycle import TOGETHER
+    from optlaws.jobs import job
+    from optlaws.jobs.cycle import TOGETHER, answer
     from optlaws.jobs.job_entries import plain_name
 
-    names = [plain_name(axis["name"]) for axis in entries["axis"]]
-    return results.drawn(names[0] if len(names) == 1 else TOGETHER, suffix[1:])
+    source, folder, entries = problem_of_job(file, "cycle")
+    place = out or folder
+
+    @cache
+    def results() -> Results:
+        with busy(f"{file}"):
+            return job.done(source)
+
+    def drawn() -> Figure:
+        """The most informative picture: of the single axis, or of all axes."""
+        names = [plain_name(axis["name"]) for axis in entries["axis"]]
+        return results().figure(names[0] if len(names) == 1 else TOGETHER)
+
+    def shown() -> Iterator[str]:
+        if place is not None:
+            writing.check_place(place / "results.md")
+        yield from written(results(), place)
+
+    return Answer(shown, partial(answer, entries, source), drawn)
 
 
 def _old_cam(
-    file: Path, how: Mapping[str, Any], cam: Mapping[str, Any], *, out: Path | None, plot: Path | None, as_json: bool
-) -> None:
+    file: Path, how: Mapping[str, Any], cam: Mapping[str, Any], *, out: Path | None, plot: Path | None
+) -> Answer:
     """Answer for the table of an old cam, read `how` the options say, with a better one and files as `cam` says."""
+    from optlaws.cycles.old_tables.report import OldTableReport
     from optlaws.exports.format import format_of
     from optlaws.motion.quantities import positive_quantity
 
@@ -174,28 +166,23 @@ def _old_cam(
         raise InputError(f"--save takes a problem file, whose name ends in .toml, got {save}")
     chosen = None if export is None else format_of(export)
     with busy(f"{file}"):
-        old = read_cycle_table(file, **how)
+        old = optlaws.read_cycle_table(file, **how)
         new = None if cam["modernise"] is None else old.bettered(_tolerance(cam["modernise"], old))
-    latest = new or old
-    written: dict[str, str] = {}
+    latest, report = new or old, OldTableReport(old, new)
+    files, lines = {}, []
     if save is not None:
-        written["saved"] = str(_save(latest, save, file, speed))
+        files["saved"] = str(_save(latest, save, file, speed))
     if chosen is not None:
         exported = _cycle(latest, speed).export(chosen.name)
         place = (out or Path()) / f"{file.stem}_{chosen.name}{chosen.extension}"
-        written["exported"] = str(exported.write(place))
+        files["exported"] = str(exported.write(place))
+        lines.append(str(exported))
     if plot is not None:
-        save_picture(plot, old, new=new)
-        written["picture"] = str(plot)
-    report = OldTableReport(old, new)
-    if as_json:
-        print_json({"file": str(file)} | report.data | written)
-        return
-    gains = (table(*each.headings, rows=each.rows, digits=4) for each in report.tables[1:])
-    show(f"{old.layout}, {len(old.places)} points", str(old), *gains, *report.unchanged)
-    if chosen is not None:
-        show(str(exported))
-    show(*(f"{what}: {place}" for what, place in written.items()))
+        files["picture"] = str(plot)
+    lines += [f"{what}: {place}" for what, place in files.items()]
+    return Answer(
+        lambda: [report, *lines], lambda: {"file": str(file), **report.data, **files}, lambda: old.plot(new=new)
+    )
 
 
 def _tolerance(text: str, old: OldTable) -> float:

@@ -8,12 +8,11 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from cyclopts import Parameter
 
-from optlaws.cli.law_options import TABLE, read_law
-from optlaws.cli.options import AsJson, Plot, Written, given, options, save_picture, takes
-from optlaws.cli.show import print_json, show, show_export, table
+from optlaws.cli.law_options import TABLE, read_axes, read_law
+from optlaws.cli.options import Written, given, options, takes
+from optlaws.cli.show import Answer, exported
 from optlaws.errors import InputError
 from optlaws.exports.format import BEST, Request
-from optlaws.motion.motion import motion_of_law
 
 if TYPE_CHECKING:
     from optlaws.motion.motion import Motion
@@ -27,7 +26,12 @@ def _points(text: str) -> int | str:
 
 
 @takes(
-    move=options(motion_of_law, "stroke", "duration", "master", "start", group="The motion of a law"),
+    "Draw the motion and what the controller runs into this file, PNG or SVG.",
+    move=options(
+        "optlaws.motion.motion:motion_of_law",
+        *("stroke", "duration", "master", "start"),
+        group="The motion of a law",
+    ),
     form=options(
         Request,
         *("counts", "digits", "interpolation"),
@@ -47,11 +51,9 @@ def export(
     axis: str | None = None,
     form: Mapping[str, Any],
     task: str | None = None,
-    plot: Plot = None,
     points: Mapping[str, Any],
     output: Written = None,
-    as_json: AsJson = False,
-) -> None:
+) -> Answer:
     """Write a law or a cycle in the format of a controller, and report the motion that the controller executes.
 
     The file goes to --output or, without it, to stdout and the report to stderr.
@@ -68,14 +70,11 @@ def export(
         Which axis of a problem file with several.
     task
         Time of the drive's task, such as "1 ms": the report gives what the drive reads in each.
-    plot
-        Draw the motion and what the controller runs into this file, PNG or SVG.
     output
         The file to write.
     """
     if listed:
-        _list(as_json=as_json)
-        return
+        return _formats()
     if law is None or to is None:
         raise InputError("say what is exported and to which format: optlaws export LAW --to FORMAT; --list lists them")
     from optlaws.exports.export import export_motion
@@ -83,12 +82,12 @@ def export(
 
     format_of(to).request(**form)
     written = export_motion(_motion(law, axis, move, points), to, task=task, **form)
-    save_picture(plot, written)
-    show_export(written, output, as_json=as_json)
+    return exported(written, output, written.plot)
 
 
 def _motion(law: str, axis: str | None, move: Mapping[str, Any], points: Mapping[str, Any]) -> Motion:
     from optlaws.files.packaged import is_problem
+    from optlaws.motion.motion import motion_of_law
 
     if not is_problem(law):
         if axis is not None:
@@ -96,32 +95,21 @@ def _motion(law: str, axis: str | None, move: Mapping[str, Any], points: Mapping
         return motion_of_law(read_law(law, points=points), **move)
     for option in given({**move, **points, "master": None}):
         raise InputError(f"--{option} is of a law alone: a cycle has its own")
-    cycle = _cycle(Path(law), axis)
-    of_cycle: Motion = cycle.motion(**given({"master": move["master"]}))
-    return of_cycle
+    cycles = read_axes(Path(law), axis)
+    if len(cycles) > 1:
+        raise InputError(f"{law} has several axes, say which by --axis: {', '.join(cycles)}")
+    (cycle,) = cycles.values()
+    return cycle.motion(**given({"master": move["master"]}))
 
 
-def _cycle(file: Path, axis: str | None) -> Any:
-    from optlaws.files.packaged import problem_of_job
-    from optlaws.jobs.cycle_entries import read
-
-    source, _, entries = problem_of_job(file, "cycle")
-    _, cycles = read(entries, source)
-    if axis is None and len(cycles) > 1:
-        raise InputError(f"{file} has several axes, say which by --axis: {', '.join(cycles)}")
-    chosen = next(iter(cycles)) if axis is None else axis
-    if chosen not in cycles:
-        raise InputError(f"--axis: {file} has no axis {chosen}; it has {', '.join(cycles)}")
-    return cycles[chosen]
-
-
-def _list(*, as_json: bool) -> None:
+def _formats() -> Answer:
     from optlaws.exports.format import FORMATS
+    from optlaws.shown.report import ReportTable
 
     formats = [FORMATS[name] for name in sorted(FORMATS)]
-    if as_json:
-        keys = ("name", "target", "contents", "model", "limits", "extension", "takes")
-        print_json([{key: getattr(file_format, key) for key in keys} for file_format in formats])
-        return
-    rows = ([form.name, form.target, form.contents, form.model, form.limits] for form in formats)
-    show(table("format", "target", "holds", "runs", "limits", rows=rows))
+    keys = ("name", "target", "contents", "model", "limits", "extension", "takes")
+    rows = [[form.name, form.target, form.contents, form.model, form.limits] for form in formats]
+    return Answer(
+        lambda: [ReportTable(["format", "target", "holds", "runs", "limits"], rows)],
+        lambda: [{key: getattr(form, key) for key in keys} for form in formats],
+    )

@@ -2,29 +2,32 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import optlaws
 from optlaws.cli.law_options import FollowerFrequency, read_law
-from optlaws.cli.options import AsJson, Plot, given, options, save_figure, save_picture, takes
-from optlaws.cli.show import print_json, show, table
-from optlaws.cycles.specification.load import ElasticFollower
+from optlaws.cli.options import given, options, takes
+from optlaws.cli.show import Answer
 from optlaws.errors import InputError
 from optlaws.motion.quantities import quantity, read_stroke
+from optlaws.shown.report import ReportTable
 from optlaws.shown.summary import Row, Summary
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 _POINTS = 2001
 _UNITS = "A follower with units"
+_FOLLOWER = "optlaws.mechanisms.machine.follower:from_vibration"
 
 
 @takes(
-    times=options(optlaws.Follower.from_vibration, "duration", "speed", "rise", group=_UNITS),
-    machine={
-        **options(optlaws.Response.in_units, "stroke", group=_UNITS),
-        **options(ElasticFollower, "damping"),
-    },
+    "Draw the motion of the mass, or with --spectrum the response spectrum, into this file, PNG or SVG.",
+    times=options(_FOLLOWER, "duration", "speed", "rise", group=_UNITS),
+    stroke=options("optlaws.mechanisms.machine.response:in_units", "stroke", group=_UNITS),
+    ratio=options(_FOLLOWER, "damping"),
 )
 def follower(
     law: str,
@@ -35,13 +38,13 @@ def follower(
     natural_frequency: str | None = None,
     natural_period: str | None = None,
     times: Mapping[str, str | None],
-    machine: Mapping[str, Any],
+    stroke: Mapping[str, str | None],
+    ratio: Mapping[str, float],
     design_frequency: float | None = None,
     design_damping: float | None = None,
     spectrum: tuple[float, float] | None = None,
-    plot: Plot = None,
-    as_json: AsJson = False,
-) -> None:
+    plot: Path | None,
+) -> Answer:
     """Response of an elastic follower's mass: peaks, dynamic factor, residual vibration, and the same off design.
 
     Parameters
@@ -63,38 +66,29 @@ def follower(
         Damping ratio for which the cam is cut; that of the follower unless given.
     spectrum
         Range of frequencies: --plot draws the response spectrum over it.
-    plot
-        Draw the motion of the mass, or with --spectrum the response spectrum, into this file, PNG or SVG.
     """
     if plot is None and spectrum is not None:
         raise InputError("--spectrum LOW HIGH gives the range of frequencies for --plot FILE: name the file too")
-    stroke, damping, times = machine["stroke"], machine["damping"], given(times)
-    if stroke is not None and not times:
+    damping, height, times = ratio["damping"], stroke["stroke"], given(times)
+    if height is not None and not times:
         raise InputError(
             "--stroke needs the time of the rise: give --natural-frequency with --speed and --rise, or --duration"
         )
     vibration = {"--natural-frequency": natural_frequency, "--natural-period": natural_period}
     mass = _follower(frequency, given(vibration), times, damping)
-    if stroke is not None:
-        read_stroke(stroke)
+    if height is not None:
+        read_stroke(height)
     reference = cam = read_law(law, alpha, by="--alpha")
     if design_frequency is None and design_damping is not None:
         raise InputError("--design-damping needs --design-frequency")
     if design_frequency is not None:
         cam = optlaws.polydyne(reference, design_frequency, damping if design_damping is None else design_damping)
     response = mass.response(cam)
-    if plot is not None and spectrum is not None:
-        _draw(cam, reference, damping, spectrum, plot)
-    else:
-        save_picture(plot, response)
-    results = _results(mass, cam, reference, response)
-    if stroke is not None:
-        units = response.in_units(stroke, **times)
-        results["machine"] = units | {"dynamic factor": results["dynamic_factor"]}
-    if as_json:
-        print_json(results)
-    else:
-        _show(results)
+    data = _results(mass, cam, reference, response)
+    if height is not None:
+        data["machine"] = response.in_units(height, **times) | {"dynamic factor": data["dynamic_factor"]}
+    drawn = response.plot if spectrum is None else lambda: _spectrum(cam, reference, damping, spectrum)
+    return Answer(lambda: _shown(data, cam), lambda: data, drawn)
 
 
 def _follower(
@@ -145,37 +139,32 @@ def _results(
     }
 
 
-def _show(results: Mapping[str, Any]) -> None:
-    peaks = {"acceleration in the rise": "peak_acceleration", "acceleration in the dwell": "dwell_acceleration"}
-    machine = results.get("machine", {})
+def _shown(data: Mapping[str, Any], cam: optlaws.MotionLaw) -> Iterator[Summary | ReportTable]:
+    machine = {name: value for name, value in data.get("machine", {}).items() if name != "dynamic factor"}
+    rise, dwell = data["peak_acceleration"], data["dwell_acceleration"]
     facts = [
-        Row("frequency", results["frequency"]),
-        Row("damping ratio", results["damping"]),
-        Row("dynamic factor", results["dynamic_factor"]),
-        *(Row(name, results[key]["value"], place=results[key]["k"]) for name, key in peaks.items()),
-        *(Row(f"residual {name}", results[f"residual_{name}"]) for name in ("acceleration", "displacement")),
-        *(Row(name, value) for name, value in machine.items() if name != "dynamic factor"),
-        *(
-            Row(f"{name} of the cam", "inf" if (value := peak["value"]) is None else value, place=peak["k"])
-            for name, peak in results["cam"]["constants"].items()
-        ),
+        Row("frequency", data["frequency"]),
+        Row("damping ratio", data["damping"]),
+        Row("dynamic factor", data["dynamic_factor"]),
+        Row("acceleration in the rise", rise["value"], place=rise["k"]),
+        Row("acceleration in the dwell", dwell["value"], place=dwell["k"]),
+        *(Row(f"residual {name}", data[f"residual_{name}"]) for name in ("acceleration", "displacement")),
+        *(Row(name, value) for name, value in machine.items()),
+        *(row._replace(name=f"{row.name} of the cam") for row in cam.constants.summary() if row.place is not None),
     ]
-    names = ("frequency", "dynamic_factor", "residual_acceleration")
-    rows = (
-        [f"{each['percent']:+g} %" if each["percent"] else "0 %", *map(each.get, names)]
-        for each in results["off_design"]
-    )
-    headings = (name.replace("_", " ") for name in names)
-    show(Summary(facts, at="k"), table("frequency off by", *headings, rows=rows, digits=6))
+    yield Summary(facts, at="k")
+    headings = ("frequency off by", "frequency", "dynamic factor", "residual acceleration")
+    rows = (list(each.values()) for each in data["off_design"])
+    yield ReportTable(headings, [[f"{off:+g} %" if off else "0 %", *row] for off, *row in rows])
 
 
-def _draw(
-    cam: optlaws.MotionLaw, reference: optlaws.MotionLaw, damping: float, span: tuple[float, float], file: Path
-) -> None:
+def _spectrum(
+    cam: optlaws.MotionLaw, reference: optlaws.MotionLaw, damping: float, span: tuple[float, float]
+) -> Figure:
     import numpy as np
 
     from optlaws.plots.machine import draw_spectrum
-    from optlaws.plots.style import BLUES, WARM, empty_figure, plot_style
+    from optlaws.plots.style import BLUES, WARM, empty_figure
 
     if not 0.0 < span[0] < span[1]:
         raise InputError(
@@ -183,11 +172,10 @@ def _draw(
         )
     spectrum = optlaws.response_spectrum(cam, np.linspace(*span, _POINTS), damping)
     C = reference.constants.C.value
-    with plot_style():
-        figure = empty_figure()
-        axes = figure.subplots()
-        draw_spectrum(spectrum, axes, what="peak", over=C, color=BLUES[3], label="in the rise")
-        draw_spectrum(spectrum, axes, over=C, color=WARM, linestyle="--", label="free vibration after it")
-        axes.set(xlim=span, ylim=(0.0, None), ylabel="acceleration of the mass / C")
-        axes.legend()
-        save_figure(file, figure)
+    figure = empty_figure()
+    axes = figure.subplots()
+    draw_spectrum(spectrum, axes, what="peak", over=C, color=BLUES[3], label="in the rise")
+    draw_spectrum(spectrum, axes, over=C, color=WARM, linestyle="--", label="free vibration after it")
+    axes.set(xlim=span, ylim=(0.0, None), ylabel="acceleration of the mass / C")
+    axes.legend()
+    return figure

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import Annotated, Any
 
 from cyclopts import Parameter
@@ -10,12 +10,12 @@ from cyclopts import Parameter
 import optlaws
 from optlaws.cli.law_options import TABLE, read_law
 from optlaws.cli.laws.catalogue import continuous
-from optlaws.cli.options import AsJson, Plot, Whole, Written, save_picture, takes
-from optlaws.cli.show import number, print_json, show, summary_table, table
+from optlaws.cli.options import Whole, Written, takes
+from optlaws.cli.show import Answer
 from optlaws.errors import InputError, located
 
 
-@takes(points=TABLE)
+@takes("Draw a, b, c and j into this file, PNG or SVG.", points=TABLE)
 def law(
     name: str | None = None,
     /,
@@ -25,12 +25,10 @@ def law(
     z: Annotated[str | None, Parameter(allow_leading_hyphen=True)] = None,
     order: Whole | None = None,
     at: list[float] | None = None,
-    plot: Plot = None,
     csv: Written = None,
     samples: Whole | None = None,
     points: Mapping[str, Any],
-    as_json: AsJson = False,
-) -> None:
+) -> Answer:
     """Show a law with its constants: of the catalogue, coded, of Savin's families, stored, or with a given Z.
 
     Parameters
@@ -40,24 +38,22 @@ def law(
         of a law or of `optlaws solve --output`, or a file with a table of points (.csv, .txt, .tsv, .tab, .dat); or
         none, with --z and --order.
     alpha
-        Member of the family I, II, III or IV.
+        Member of the family I, II, III or IV; a negative one as --alpha=-5.
     peak_velocity
-        B of the member, in place of alpha.
+        B of the member, in place of --alpha.
     z
         In place of a name: coefficients of Z in ascending powers of k, separated by blanks, such as "0 -107.6 0 -21.8".
     order
         Number l of boundary conditions at each end of the law with this Z.
     at
         k in [0, 1] to give a, b, c, j and d at; may be repeated.
-    plot
-        Draw a, b, c and j into this file, PNG or SVG.
     csv
         Write k, a, b, c, j and d at equal steps of k to this file.
     samples
         How many lines for --csv; 201 unless given.
     """
     from optlaws.files import writing
-    from optlaws.laws.values import LETTERS, SAMPLES, sizes, table_of_values
+    from optlaws.laws.values import LETTERS, SAMPLES, table_of_values
 
     if samples is not None and csv is None:
         raise InputError("--samples is the number of lines of --csv FILE: name the file")
@@ -73,14 +69,7 @@ def law(
         values = [{"k": k, **{letter: getattr(motion_law, letter)(k) for letter in LETTERS}} for k in at or ()]
     if csv is not None:
         writing.write(csv, table_of_values(motion_law, name or about["name"], SAMPLES if samples is None else samples))
-    save_picture(plot, motion_law)
-    if as_json:
-        print_json({**about, "at": values})
-        return
-    show(table(rows=_lines(about)), summary_table(motion_law.constants.summary(), "constant"))
-    if values:
-        known = (1.0, *sizes(motion_law))
-        show(table(*values[0], rows=(map(number, row.values(), known) for row in values)))
+    return Answer(lambda: _shown(about, motion_law, values), lambda: {**about, "at": values}, motion_law.plot)
 
 
 def _polynomial(z: str | None, order: int | None) -> optlaws.MotionLaw:
@@ -102,9 +91,7 @@ def _about(name: str, alpha: float | None, B: float | None, motion_law: optlaws.
     if member is not None:
         savin, given = member
         known = given if given is not None else savin.alphas(B=B)[0]
-        constants = motion_law.constants.to_dict()
-        about = {"name": f"Savin's {savin}", "alpha": known, "order": savin.order}
-        return about | {"constants": constants, "law": motion_law.to_dict()}
+        return {"name": f"Savin's {savin}", "alpha": known, "order": savin.order, **motion_law.report().data}
     if reading.is_file(name) or reading.is_formula(name):
         return _facts(name if reading.is_formula(name) else f"the law in {name}", motion_law)
     return optlaws.catalogue[name].to_dict()
@@ -113,21 +100,29 @@ def _about(name: str, alpha: float | None, B: float | None, motion_law: optlaws.
 def _facts(name: str, motion_law: optlaws.MotionLaw) -> dict[str, Any]:
     from optlaws.laws.catalogue.entry import continuity_with_rest
 
-    about = {"name": name, "constants": motion_law.constants.to_dict(), "law": motion_law.to_dict()}
-    return about | {"continuity": continuity_with_rest(motion_law)}
+    return {"name": name, **motion_law.report().data, "continuity": continuity_with_rest(motion_law)}
 
 
-def _lines(about: dict[str, Any]) -> list[tuple[str, str]]:
-    if "alpha" in about:
-        return [
-            ("law", about["name"]),
-            ("alpha", f"{about['alpha']:.10g}"),
-            ("order l", str(about["order"])),
-        ]
-    lines = [("law", about["name"])]
+def _shown(about: Mapping[str, Any], motion_law: optlaws.MotionLaw, values: list[dict[str, float]]) -> Iterator[Any]:
+    from optlaws.laws.values import sizes
+    from optlaws.numbers import chop
+    from optlaws.shown.report import ReportTable
+    from optlaws.shown.summary import Row, Summary
+    from optlaws.tolerances import VALUE_ROUNDING
+
+    facts = {"law": about["name"], "alpha": about.get("alpha"), "order l": about.get("order")}
     if "source" in about:
         names = "; ".join(f"{language}: {', '.join(some)}" for language, some in about["aliases"].items())
-        lines += [("also", names), ("built", about["formula"]), ("source", about["source"])]
-        if about["from_memory"]:
-            lines.append(("", "the definition is from memory: compare it with the source"))
-    return [*lines, ("continuous", continuous(about["continuity"]))]
+        memory = "the definition is from memory: compare it with the source" if about["from_memory"] else None
+        facts |= {"also": names, "built": about["formula"], "source": about["source"], "": memory}
+    if "continuity" in about:
+        facts["continuous"] = continuous(about["continuity"])
+    known = [Row(name, value) for name, value in facts.items() if value is not None]
+    yield Summary([*known, *motion_law.constants.summary()], at="k")
+    if values:
+        most = (1.0, *sizes(motion_law))
+        rows = [
+            [chop(value, size, VALUE_ROUNDING) for value, size in zip(row.values(), most, strict=True)]
+            for row in values
+        ]
+        yield ReportTable(list(values[0]), [[f"{value:.10g}" for value in row] for row in rows])

@@ -2,21 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import optlaws
-from optlaws.cli.law_options import LIMITS
-from optlaws.cli.options import AsJson, Plot, Signed, Written, given, options, save, save_picture, takes
-from optlaws.cli.show import busy, number, print_json, show, table
-from optlaws.cycles.specification.load import ElasticFollower
-from optlaws.errors import InputError
-from optlaws.motion.motion import motion_of_law
+from optlaws.cli.law_options import LIMITS, read_axes
+from optlaws.cli.options import Signed, Written, given, options, takes
+from optlaws.cli.show import Answer, busy, save
+from optlaws.errors import InputError, located
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
-
     from optlaws.cycles.advising.advice import Advice
 
 
@@ -36,17 +32,16 @@ _FOLLOWER: dict[str, Any] = {
 
 
 @takes(
-    move=options(motion_of_law, "stroke", "duration", group="A single move in place of a file"),
+    "Draw what is minimised over what decides, with the front, into this file, PNG or SVG; of one axis.",
+    move=options("optlaws.motion.motion:motion_of_law", "stroke", "duration", group="A single move in place of a file"),
     wishes=options(
-        optlaws.advise,
-        "minimise",
-        "degree",
-        "points",
+        "optlaws.cycles.advising.advised_motion:advise",
+        *("minimise", "degree", "points"),
         limits=LIMITS,
         laws={"name": "--law", "type": list[str], "default": None},
         follower=_FOLLOWER,
     ),
-    damper=options(ElasticFollower, "damping"),
+    damper=options("optlaws.mechanisms.machine.follower:from_vibration", "damping"),
 )
 def advise(
     file: Path | None = None,
@@ -57,10 +52,8 @@ def advise(
     mass: Signed = None,
     wishes: dict[str, Any],
     damper: Mapping[str, float],
-    plot: Plot = None,
-    as_json: AsJson = False,
     output: Written = None,
-) -> None:
+) -> Answer:
     """Recommend a law: standard and optimal laws side by side, the cost of each, and the proven bounds.
 
     Parameters
@@ -72,8 +65,6 @@ def advise(
         The axis of the file; all of them unless given.
     mass
         What a single move accelerates, such as 2kg, or "0.05 kg m^2" of an angle: forces, power and energy are listed.
-    plot
-        Draw what is minimised over what decides, with the front, into this file, PNG or SVG; of one axis.
     output
         Write the proofs of all optimal laws to this JSON file, which `optlaws verify` checks.
     """
@@ -84,20 +75,23 @@ def advise(
     wishes = given(wishes)
     with busy("laws are compared"):
         advice = _of_move(**move, mass=mass, wishes=wishes) if file is None else _of_file(file, axis, wishes)
-    if len(advice) > 1 and plot is not None:
-        raise InputError(f"--plot draws one axis: choose it by --axis, of {', '.join(advice)}")
-    save_picture(plot, next(iter(advice.values())))
     if output is not None:
         proofs = {name: each.proofs() for name, each in advice.items()}
         save(output, {"axes": proofs} if file is not None else {"move": proofs[""]})
-    if as_json:
-        brief = {name: each.report() for name, each in advice.items()}
-        for law in (law for data in brief.values() for law in (*data["laws"], *data["front"])):
-            law.pop("solutions", None)  # which --output writes
-        print_json(brief if file is not None else brief[""])
-        return
-    for name, each in advice.items():
-        show(*([f"axis {name}"] if name and len(advice) > 1 else []), *_page(each))
+    return Answer(lambda: _shown(advice), lambda: _data(advice, alone=file is None), lambda: _drawn(advice))
+
+
+def _data(advice: Mapping[str, Advice], *, alone: bool) -> dict[str, Any]:
+    brief = {name: each.report() for name, each in advice.items()}
+    for law in (law for data in brief.values() for law in (*data["laws"], *data["front"])):
+        law.pop("solutions", None)  # which --output writes
+    return brief[""] if alone else brief
+
+
+def _drawn(advice: Mapping[str, Advice]) -> Any:
+    if len(advice) > 1:
+        raise InputError(f"--plot draws one axis: choose it by --axis, of {', '.join(advice)}")
+    return next(iter(advice.values())).plot()
 
 
 def _of_move(
@@ -114,32 +108,27 @@ def _of_move(
 
 
 def _of_file(file: Path, axis: str | None, wishes: Mapping[str, Any]) -> dict[str, Advice]:
-    from optlaws.errors import located
-    from optlaws.files.packaged import problem_of_job
-    from optlaws.jobs.cycle_entries import read
-    from optlaws.suggest import unknown_key
-
-    source, _, entries = problem_of_job(file, "cycle")
-    _, cycles = read(entries, source)
-    if axis is not None and axis not in cycles:
-        raise InputError(f"{source}: {unknown_key(axis, list(cycles), 'axis')}")
     advice = {}
-    for name in cycles if axis is None else (axis,):
-        with located(f"{source}: axis {name}"):
-            advice[name] = optlaws.advise(cycles[name], **wishes)
+    for name, cycle in read_axes(file, axis).items():
+        with located(f"{file}: axis {name}"):
+            advice[name] = optlaws.advise(cycle, **wishes)
     return advice
 
 
-def _page(advice: Advice) -> Iterable[Any]:
-    """The table of the laws, the reasons for missing ones, and the recommendation."""
-    sizes = {measure.name: max(abs(law.values[measure.name]) for law in advice) for measure in advice.measures}
-    rows = []
-    for law, row in zip(advice, advice.rows, strict=True):
-        cells = [number(law.values[name], size, ".5g") for name, size in sizes.items()]
-        mark = "> " if law.name == advice.recommendation.law.name else "  "
-        rows.append([f"{mark}{law.name}", *cells, str(row[-2]), str(row[-1])])
-    yield table("  law", *advice.headings[1:], rows=rows)
-    yield from advice.remarks
-    yield ""
-    yield from advice.recommendation.sentences
-    yield f"(Rule: {advice.recommendation.rule}.)"
+def _shown(advice: Mapping[str, Advice]) -> Iterable[Any]:
+    """The table of the laws of each axis, the reasons for missing ones, and the recommendation."""
+    from optlaws.numbers import chop
+    from optlaws.shown.report import ReportTable
+    from optlaws.tolerances import VALUE_ROUNDING
+
+    for axis, each in advice.items():
+        sizes = {measure.name: max(abs(law.values[measure.name]) for law in each) for measure in each.measures}
+        rows = []
+        for law, row in zip(each, each.rows, strict=True):
+            cells = [f"{chop(law.values[name], size, VALUE_ROUNDING):.5g}" for name, size in sizes.items()]
+            mark = "> " if law.name == each.recommendation.law.name else "  "
+            rows.append([f"{mark}{law.name}", *cells, *row[-2:]])
+        if len(advice) > 1:
+            yield f"axis {axis}"
+        yield ReportTable(["  law", *each.headings[1:]], rows)
+        yield from (*each.remarks, "", *each.recommendation.sentences, f"(Rule: {each.recommendation.rule}.)")

@@ -6,21 +6,22 @@ from collections.abc import Mapping
 from typing import Any, Literal
 
 import optlaws
-from optlaws.cli.options import AsJson, Plot, Written, options, save_picture, takes
-from optlaws.cli.problem_options import asks_for_a_problem
-from optlaws.cli.show import busy, print_json, show, show_export, table
+from optlaws.cli.options import Written, options, takes
+from optlaws.cli.problem_options import problem_options
+from optlaws.cli.show import Answer, busy, exported
 from optlaws.errors import InputError
 from optlaws.numbers import positive, whole
-from optlaws.synthesis.pareto import pareto_front
+from optlaws.shown.report import ReportTable
 from optlaws.synthesis.problem.named_constants import apart
 
-Rows = list[list[Any]]
 
-
-@asks_for_a_problem(
-    given={"degree": 9, "basis": "chebyshev"}, refused={"minimise": "the last constant of --over is minimised"}
+@takes(
+    "Draw the front into this file, PNG or SVG.",
+    entries=problem_options(
+        {"degree": 9, "basis": "chebyshev"}, refused={"minimise": "the last constant of --over is minimised"}
+    ),
+    curve=options("optlaws.synthesis.pareto:pareto_front", "points", between={"type": tuple[float, float]}),
 )
-@takes(curve=options(pareto_front, "points", between={"type": tuple[float, float]}))
 def front(
     entries: dict[str, Any],
     *,
@@ -29,13 +30,11 @@ def front(
     bound: Literal["quick", "tight"] = "quick",
     gap: float | None = None,
     csv: Written = None,
-    plot: Plot = None,
     to: Literal["c99", "iec-st"] | None = None,
     within: float = 1e-3,
     name: str = "Front",
     output: Written = None,
-    as_json: AsJson = False,
-) -> None:
+) -> Answer:
     """Find the laws that exchange constants for one another: each the best of its own problem.
 
     Parameters
@@ -50,8 +49,6 @@ def front(
         values that are shown, and --json is what `optlaws verify` proves.
     csv
         Write the constants of all laws to this file.
-    plot
-        Draw the front into this file, PNG or SVG.
     to
         The language of functions, for a front of B and C. They go to --output or, without it, to stdout, and what is
         proven of them to stderr.
@@ -74,33 +71,32 @@ def front(
     else:
         with busy("solving"):
             front = optlaws.proven_front(problem, names, between=curve["between"], gap=proven_to)
-    headings, rows = _table(front, whole(curve["points"], "points", least=2))
+    table = _table(front, whole(curve["points"], "points", least=2))
     if csv is not None:
         from optlaws.files import tables, writing
 
         stated = front[0].problem if isinstance(front, optlaws.Front) else front.problem
-        about = f"{' and '.join(front.over)} exchanged: {stated!r}"
-        writing.write(csv, tables.to_csv(headings, rows, about=about))
-    save_picture(plot, front)
+        writing.write(csv, tables.to_csv(*table, about=f"{' and '.join(front.over)} exchanged: {stated!r}"))
     if to is not None and isinstance(front, optlaws.ProvenFront):
-        show_export(front.export(to, within, name=name), output, as_json=as_json)
-    elif as_json:
-        print_json(front.to_dict())
-    else:
-        gap = headings.index("gap")
-        shown = ([f"{cell:.0e}" if i == gap else cell for i, cell in enumerate(row)] for row in rows)
-        show(table(*headings, rows=shown), *_remarks(front))
+        return exported(front.export(to, within, name=name), output, front.plot)
+    return Answer(lambda: [_shown(table), *_remarks(front)], front.to_dict, front.plot)
 
 
-def _table(front: optlaws.Front | optlaws.ProvenFront, points: int) -> tuple[tuple[str, ...], Rows]:
+def _table(front: optlaws.Front | optlaws.ProvenFront, points: int) -> ReportTable:
     if isinstance(front, optlaws.Front):
-        return front.headings, front.rows
+        return ReportTable(front.headings, front.rows)
     low, high = front.between
     values = [low + (high - low) * i / (points - 1) for i in range(points - 1)]
     some = [front(value) for value in [*values, high]]
-    return (*front.over, "lower bound", "gap"), [
-        [point.value, point.objective, point.lower_bound, point.gap] for point in some
-    ]
+    rows = [[point.value, point.objective, point.lower_bound, point.gap] for point in some]
+    return ReportTable((*front.over, "lower bound", "gap"), rows)
+
+
+def _shown(table: ReportTable) -> ReportTable:
+    """The table with rounded gaps."""
+    gap = list(table.headings).index("gap")
+    rows = [[f"{cell:.0e}" if i == gap else cell for i, cell in enumerate(row)] for row in table.rows]
+    return table._replace(rows=rows)
 
 
 def _remarks(front: optlaws.Front | optlaws.ProvenFront) -> list[str]:

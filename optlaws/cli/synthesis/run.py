@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING
 
-from optlaws.cli.show import busy, show
+from optlaws.cli.options import takes
+from optlaws.cli.show import Answer, busy
 from optlaws.errors import InputError
-
-if TYPE_CHECKING:
-    from optlaws.results import Results
+from optlaws.results import Results
 
 
-def run(*files: Path, out: Path | None = None) -> None:
+@takes(json=False)
+def run(*files: Path, out: Path | None = None) -> Answer:
     """Do the jobs of problem files and write their results.
 
     Parameters
@@ -25,6 +25,7 @@ def run(*files: Path, out: Path | None = None) -> None:
     """
     from optlaws.files import writing
     from optlaws.files.packaged import problem_file, problem_names
+    from optlaws.jobs import job
 
     if not files:
         raise InputError(f"name at least one problem file, or one of those packaged: {', '.join(problem_names())}")
@@ -34,23 +35,24 @@ def run(*files: Path, out: Path | None = None) -> None:
     for place in (out or folder for _, folder in sources):
         if place is not None:
             writing.check_place(place / "results.md")
-    for file, folder in sources:
-        done(file, out or folder)
+
+    def shown() -> Iterator[str]:
+        for file, folder in sources:
+            with busy(f"{file}"):
+                results = job.done(file)
+            yield from written(results, out or folder)
+
+    return Answer(shown, list)
 
 
-def done(file: Path, out: Path | None) -> Results:
-    """Do the job of a problem file, write its results, and print its tables and the files."""
+def written(results: Results, out: Path | None) -> Iterator[str]:
+    """Write the results of a problem file; the lines of their pages, and the files."""
     from optlaws.jobs import job
 
-    with busy(f"{file}"):
-        results = job.done(file)
-        written = results.write(job.folder_of(file) if out is None else out)
-    for text in (w for w in written if w.suffix == ".md"):
-        lines = text.read_text(encoding="utf-8").splitlines()
-        show(*(line for line in lines if not line.startswith("<!--")))
-    for result in written:
-        print(_near(result))
-    return results
+    files = results.write(job.folder_of(results.file) if out is None else out)
+    for text in (file for file in files if file.suffix == ".md"):
+        yield from (line for line in text.read_text("utf-8").splitlines() if not line.startswith("<!--"))
+    yield from (str(_near(file)) for file in files)
 
 
 def _near(file: Path) -> Path:

@@ -2,54 +2,44 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from pathlib import Path
-from typing import Any, Literal
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any, Literal
 
 import optlaws
 from optlaws.cli.law_options import LIMITS
-from optlaws.cli.options import (
-    AsJson,
-    Plot,
-    Written,
-    given,
-    options,
-    save,
-    save_figure,
-    save_picture,
-    takes,
-    without_body,
-)
-from optlaws.cli.problem_options import asks_for_a_problem
-from optlaws.cli.show import print_json, show, summary_table, table
+from optlaws.cli.options import Written, given, options, takes
+from optlaws.cli.problem_options import problem_options
+from optlaws.cli.show import Answer, save
 from optlaws.errors import InputError
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 #: the law that most designers would take, and the followers it is compared for: two to five vibrations in the motion
 _USUAL, _FREQUENCIES = "modified sine", (12.0, 32.0)
 _KEYS = ("status", "objective", "lower_bound", "gap", "limit", "constants", "z", "law", "iterations", "seconds")
 _MOVE_KEYS = ("unit", "stroke", "limits", "duration", "limit")
 _MOVE = options(
-    without_body("optlaws.cycles.moves.timed_moves:fastest"),
-    "stroke",
-    "start_velocity",
-    "end_velocity",
+    "optlaws.cycles.moves.timed_moves:fastest",
+    *("stroke", "start_velocity", "end_velocity"),
     group="The move of --fastest",
     limits=LIMITS,
 )
 
 
-@asks_for_a_problem(given={"degree": 9, "basis": "chebyshev"})
-@takes(move=_MOVE)
+@takes(
+    "Draw the law with its bounds, or the fastest move with its limits, into this file, PNG or SVG.",
+    entries=problem_options({"degree": 9, "basis": "chebyshev"}),
+    move=_MOVE,
+)
 def solve(
     entries: dict[str, Any],
     *,
     bound: Literal["quick", "tight"] = "quick",
     fastest: bool = False,
     move: Mapping[str, Any],
-    plot: Plot = None,
-    as_json: AsJson = False,
     output: Written = None,
-) -> None:
+) -> Answer:
     """Find the law with the least peak constant or mixture of constants, or the least time of a move, and prove it.
 
     Parameters
@@ -58,8 +48,6 @@ def solve(
         Where D is in the problem: tight searches all laws, for a bound that usually meets the objective.
     fastest
         Find the least time of a move within limits, and the law that takes it; with --stroke and --limit.
-    plot
-        Draw the law with its bounds, or the fastest move with its limits, into this file, PNG or SVG.
     output
         Write the whole solution, with its problem and certificate, to this JSON file.
     """
@@ -68,46 +56,29 @@ def solve(
     for name in () if fastest else given(move):
         raise InputError(f"{_MOVE[name].name} goes with --fastest")
     problem = optlaws.Problem.from_dict(entries)
-    if fastest:
-        timed = optlaws.fastest(problem, **move)
-        if plot is not None:
-            from optlaws.plots.moves import motion_figure
-
-            save_figure(plot, motion_figure(timed, f"{move['stroke']} in {timed.duration:.6g} s"))
-        _answer(timed, output, as_json=as_json)
-    else:
-        solution = optlaws.synthesize(problem, bound=bound)
-        save_picture(plot, solution)
-        _answer(solution, output, as_json=as_json)
+    result = optlaws.fastest(problem, **move) if fastest else optlaws.synthesize(problem, bound=bound)
+    if output is not None:
+        save(output, result.to_dict())  # with proofs, which takes a tenth of a second
+    if isinstance(result, optlaws.Solution):
+        solution = result
+        return Answer(lambda: [solution.summary(), *_remarks(solution)], lambda: _part(solution, _KEYS), solution.plot)
+    return Answer(lambda: [result.summary()], lambda: _move_data(result), lambda: _drawn(result, move["stroke"]))
 
 
-def _answer(result: optlaws.Solution | optlaws.FastestMove, output: Path | None, *, as_json: bool) -> None:
-    """Write a result to a file, and print it; its plain data, with their proofs, take a tenth of a second."""
-    if as_json or output is not None:
-        whole = result.to_dict()
-        save(output, whole)
-    if not as_json:
-        show(*(_shown(result) if isinstance(result, optlaws.Solution) else [result.summary()]))
-    elif isinstance(result, optlaws.Solution):
-        print_json({name: whole[name] for name in _KEYS})
-    else:
-        rest = {"none_below": result.none_below, "binding": list(result.binding), "gains": result.gains()}
-        print_json({name: whole[name] for name in _MOVE_KEYS} | rest)
+def _part(result: Any, keys: Sequence[str]) -> dict[str, Any]:
+    whole = result.to_dict()
+    return {name: whole[name] for name in keys}
 
 
-#: how notes stand behind what they are of
-_NOTES = {"status": ": {}", "lower bound": " ({})", "Z(k)": "  ({})"}
+def _move_data(timed: optlaws.FastestMove) -> dict[str, Any]:
+    rest = {"none_below": timed.none_below, "binding": list(timed.binding), "gains": timed.gains()}
+    return _part(timed, _MOVE_KEYS) | rest
 
 
-def _shown(solution: optlaws.Solution) -> list[Any]:
-    facts, notes, constants = table(), [], solution.constants.summary()
-    for row in solution.summary():
-        if row.name == "note":
-            notes.append(f"note: {row.value}")
-        elif row not in constants:
-            note = _NOTES.get(row.name, ", {}").format(row.note) if row.note else ""
-            facts.add_row(row.name, f"{row.text()}{note}")
-    return [facts, summary_table(constants, "constant"), *notes, *_remarks(solution)]
+def _drawn(timed: optlaws.FastestMove, stroke: str) -> Figure:
+    from optlaws.plots.moves import motion_figure
+
+    return motion_figure(timed, f"{stroke} in {timed.duration:.6g} s")
 
 
 def _remarks(solution: optlaws.Solution) -> list[str]:

@@ -11,17 +11,20 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 import optlaws
-from optlaws.cli.options import AsJson, Plot, Whole, save_figure
-from optlaws.cli.show import print_json, progress, show
+from optlaws.cli.options import Whole, takes
+from optlaws.cli.show import Answer, progress
 from optlaws.errors import InputError
 
 if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
     from optlaws.studies.study import Study
 
 _PEAKS = ("B", "C", "D", "J")
 _DRAWN = 20_000
 
 
+@takes("Draw objective and peaks of the finished points over the entry of most values into this file, PNG or SVG.")
 def study(
     file: Path | None = None,
     *,
@@ -29,9 +32,7 @@ def study(
     workers: Whole | None = None,
     dask: str | None = None,
     status: Path | None = None,
-    plot: Plot = None,
-    as_json: AsJson = False,
-) -> None:
+) -> Answer:
     """Solve every point of a study; the same command continues an interrupted study.
 
     Parameters
@@ -46,14 +47,11 @@ def study(
         Address of a Dask scheduler, such as tcp://10.0.0.1:8786.
     status
         Report the progress of the study in this directory, and solve nothing.
-    plot
-        Draw objective and peaks of the finished points over the entry of most values into this file, PNG or SVG.
     """
     if status is not None:
         if file is not None or out is not None or dask is not None:
             raise InputError("--status takes a directory and neither a study file nor --out nor --dask")
-        _show(optlaws.open_study(status), plot, as_json=as_json)
-        return
+        return _answer(optlaws.open_study(status))
     if file is None:
         raise InputError("name a study file, or a directory by --status DIR")
     from optlaws.files import writing
@@ -66,7 +64,7 @@ def study(
     watch = Bar(console) if console.is_terminal else Lines(console)
     with _cluster(dask) as (executor, threads):
         study = optlaws.run_study(file, target, executor=executor, workers=workers or threads, watch=watch)
-    _show(study, plot, as_json=as_json)
+    return _answer(study)
 
 
 @contextmanager
@@ -88,25 +86,18 @@ def _cluster(address: str | None) -> Iterator[tuple[Executor | None, int | None]
         yield client.get_executor(), max(1, sum(client.nthreads().values()))
 
 
-def _show(study: Study, plot: Path | None, *, as_json: bool) -> None:
+def _answer(study: Study) -> Answer:
     from optlaws.studies.progress import listed
-
-    if plot is not None:
-        _draw(study, plot)
 
     counts, total, running = study.counts, len(study), study.running
     done = sum(counts.values())
-    if as_json:
-        state = {"path": str(study.path), "points": total, "done": done, "running": running, "counts": counts}
-        print_json({**study.about, **state})
-        return
-    state_in_words = (
-        "finished" if done == total else "under way" if running else "interrupted: run the same command again"
-    )
-    show(f"{study.path}: {done} of {total} points, {state_in_words}", *([listed(counts)] if counts else []))
+    state = "finished" if done == total else "under way" if running else "interrupted: run the same command again"
+    data = {"path": str(study.path), "points": total, "done": done, "running": running, "counts": counts}
+    lines = [f"{study.path}: {done} of {total} points, {state}", *([listed(counts)] if counts else [])]
+    return Answer(lambda: lines, lambda: {**study.about, **data}, lambda: _drawn(study))
 
 
-def _draw(study: Study, file: Path) -> None:
+def _drawn(study: Study) -> Figure:
     """Draw the points that have a law; of many, evenly spaced ones."""
     from optlaws.plots.sweep import points_figure
 
@@ -118,4 +109,4 @@ def _draw(study: Study, file: Path) -> None:
     objective, *peaks = (
         np.array([getattr(point, name) for point in solved], dtype=np.float64) for name in ("objective", *_PEAKS)
     )
-    save_figure(file, points_figure(entries, objective, dict(zip(_PEAKS, peaks, strict=True)), study.about["title"]))
+    return points_figure(entries, objective, dict(zip(_PEAKS, peaks, strict=True)), study.about["title"])

@@ -7,15 +7,16 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from optlaws.cli.app import NotProven, PartlyChecked
-from optlaws.cli.options import AsJson
-from optlaws.cli.show import print_json
+from optlaws.cli.options import takes
+from optlaws.cli.show import Answer
 from optlaws.errors import InputError
 
 if TYPE_CHECKING:
     from optlaws.verification import Claim, Verification
 
 
-def verify(*files: Path, as_json: AsJson = False) -> None:
+@takes()
+def verify(*files: Path) -> Answer:
     """Check solutions or certificates with every rounding enclosed; no solver takes part.
 
     No picture is drawn: a verdict has no curve, and `optlaws law FILE --plot` draws the law of a solution.
@@ -35,24 +36,23 @@ def verify(*files: Path, as_json: AsJson = False) -> None:
         for file in files
         for place, verification in _verified(file).items()
     }
-    if as_json:
-        print_json({name: verification.results() for name, verification in verifications.items()})
-    else:
-        for name, verification in verifications.items():
-            word = "not proven" if not verification.proven else "proven" if verification.claims else "not checked"
-            alone = len(verifications) == len(files)
-            print(f"{name}: {word}\n{verification}\n" if alone else _line(name, word, verification))
-    failed = [
-        f"{name}: {claim}"
-        for name, verification in verifications.items()
-        for claim in verification.claims
-        if not claim.proven
-    ]
+    alone = len(verifications) == len(files)
+    lines = [_in_words(name, verification, whole=alone) for name, verification in verifications.items()]
+    return Answer(
+        lambda: lines,
+        lambda: {name: verification.results() for name, verification in verifications.items()},
+        failure=_failure(verifications),
+    )
+
+
+def _failure(verifications: Mapping[str, Verification]) -> NotProven | PartlyChecked | None:
+    """What is not proven or, if nothing is false, what was only computed again."""
+    every = verifications.items()
+    failed = [f"{name}: {claim}" for name, each in every for claim in each.claims if not claim.proven]
     if failed:
-        raise NotProven("\n".join(failed))
-    partly = [f"{name}: {claim}" for name, verification in verifications.items() for claim in verification.unchecked]
-    if partly:
-        raise PartlyChecked("\n".join(partly))
+        return NotProven("\n".join(failed))
+    partly = [f"{name}: {claim}" for name, each in every for claim in each.unchecked]
+    return PartlyChecked("\n".join(partly)) if partly else None
 
 
 def _verified(file: Path) -> dict[str, Verification]:
@@ -105,7 +105,10 @@ def _unchecked(name: str, why: str, claims: Sequence[Claim] = ()) -> Verificatio
     return Verification(problem=None, bound=None, claims=tuple(claims), unchecked=(claim,))
 
 
-def _line(name: str, word: str, verification: Verification) -> str:
+def _in_words(name: str, verification: Verification, *, whole: bool) -> str:
+    word = "not proven" if not verification.proven else "proven" if verification.claims else "not checked"
+    if whole:
+        return f"{name}: {word}\n{verification}\n"
     bound = "" if verification.bound is None else f", no law below {verification.bound!r}"
     gap = "" if verification.gap is None else f", gap at most {verification.gap:.1e}"
     return f"{name}: {word}, {len(verification.claims)} claims{bound}{gap}"
