@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 import optlaws
-from docs._ext import entry_tables
+from docs._ext import entry_tables, option_tables
 from docs._ext.docstrings import finish, prepare
 from docs._ext.module_tree import PAGE, page_with_tree
 from docs._ext.stub_names import with_names
@@ -67,6 +67,12 @@ def test_the_tables_of_entries_are_what_the_values_declare() -> None:
     assert page == entry_tables.page_with_tables(page)
     for name in entry_tables.TABLES:
         assert f"<!-- entries of {name} -->\n\n| entry |" in page
+
+
+def test_the_tables_of_options_are_what_the_commands_declare() -> None:
+    page = option_tables.PAGE.read_text("utf-8")
+    assert page == option_tables.page_with_tables(page), "run python -m docs._ext.option_tables"
+    assert all(f"<!-- options of {name} -->\n\n| Argument |" in page for name in COMMANDS)
 
 
 def test_every_path_and_module_that_a_document_names_is_there() -> None:

@@ -62,7 +62,14 @@ def _limits(texts: list[str]) -> dict[str, Any]:
 
 
 #: of limits, each of which is an option of its own
-LIMITS: dict[str, Any] = {"name": "--limit", "type": list[str], "read": _limits, "signed": True}
+LIMITS: dict[str, Any] = {
+    "name": "--limit",
+    "type": list[str],
+    "read": _limits,
+    "signed": True,
+    "about": 'Limit of the velocity, acceleration, deceleration, jerk or snap, such as "velocity=1 m/s", or of the '
+    'least and the greatest: "acceleration=-8 m/s^2, 12 m/s^2"; may be repeated.',
+}
 
 
 def read_law(
@@ -110,8 +117,8 @@ def read_axes(file: Path, axis: str | None) -> dict[str, Cycle]:
     InputError
         If the file is wrong, is of another job, or has no such axis.
     """
-    from optlaws.files.packaged import problem_of_job
     from optlaws.jobs.cycle_entries import read
+    from optlaws.jobs.job import problem_of_job
     from optlaws.suggest import unknown_key
 
     source, _, entries = problem_of_job(file, "cycle")

@@ -8,6 +8,7 @@ import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import wraps
+from keyword import iskeyword
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -70,7 +71,8 @@ class Option:
     @property
     def keyword(self) -> str:
         """The name of the command's parameter."""
-        return self.name.removeprefix("--").replace("-", "_")
+        name = self.name.removeprefix("--").replace("-", "_")
+        return f"{name}_" if iskeyword(name) else name
 
     @property
     def parameter(self) -> inspect.Parameter:
@@ -84,7 +86,7 @@ class Option:
             name=(self.name, *self.also), help=self.about, show=self.shown, allow_leading_hyphen=self.signed, **more
         )
         default = inspect.Parameter.empty if needed else self.default
-        hint: Any = Annotated[kind, how]  # type: ignore[valid-type] # it is known at run time
+        hint: Any = Annotated[kind, how]
         return inspect.Parameter(self.keyword, inspect.Parameter.KEYWORD_ONLY, default=default, annotation=hint)
 
     def value(self, typed: Any) -> Any:
@@ -216,7 +218,8 @@ def takes(plot: str = "", *, json: bool = True, **groups: Options) -> Callable[[
         def called(*arguments: Any, **values: Any) -> None:
             typed = {each.name: each.default for each in parameters if each.kind is each.KEYWORD_ONLY} | values
             tables = {name: group.values_of(typed) for name, group in groups.items()}
-            mine = {name: typed[name] for name in declared if name in typed}
+            known = {each.name for each in parameters}
+            mine = {name: value for name, value in typed.items() if name in declared or name not in known}
             answer = command(*arguments, **{**mine, **tables})
             if answer is not None:
                 answer.give(typed.get("plot"), as_json=typed.get("json", False))

@@ -54,7 +54,7 @@ _OWN: dict[str, dict[str, Any]] = {
         "about": "Seek among unsymmetric laws too.",
         "read": lambda given: not given,
     },
-    "basis": {"type": Literal[tuple(Basis.kinds)], "read": None},
+    "basis": {"type": Literal[tuple(Basis.kinds)]},
     "windows": {"name": "--window", "type": list[str], "read": None},
 }
 _BOUNDS = (
@@ -74,9 +74,10 @@ def options_of(entry: Entry) -> tuple[Option, ...]:
     if entry.name == "bounds":
         return _BOUNDS
     kind, read = _KINDS.get(type(entry.type), (str, None))
-    such = "" if read is None else f' Numbers such as "{", ".join(map(str, entry.example))}".'
+    given = _OWN.get(entry.name, {})
+    such = "" if given or read is None else f' Numbers such as "{", ".join(map(str, entry.example))}".'
     plain = {"name": f"--{entry.name}", "type": kind, "about": entry.about + such, "read": read}
-    return (Option(signed=isinstance(entry.type, Listed), **{**plain, **_OWN.get(entry.name, {})}),)
+    return (Option(signed=isinstance(entry.type, Listed), **{**plain, **given}),)
 
 
 class _ProblemOptions(Options):

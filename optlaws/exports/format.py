@@ -37,7 +37,9 @@ class Request(Declared, title="an export"):
     )
     digits: int | None = entry(Whole(most=17), "Digits behind the decimal sign, of tables as text.", default=None)
     decimal: str = entry(Text(), 'The decimal sign of tables as text: "." or ",".', default=".")
-    interpolation: str | None = entry(Text(), "That of the controller, where the format states it.", default=None)
+    interpolation: str | None = entry(
+        Text(), "Interpolation of the controller, where the format states it.", default=None
+    )
 
     def _check(self) -> None:
         if self.decimal not in {".", ","}:

@@ -3,11 +3,8 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any, NamedTuple
 
-from optlaws.echo import shortened
 from optlaws.errors import InputError
-from optlaws.files import reading
 from optlaws.suggest import unknown_key
 
 _PACKAGE = Path(__file__).resolve().parents[1]
@@ -54,33 +51,6 @@ def problem_file(given: Path) -> tuple[Path, Path | None]:
 def is_problem(text: str) -> bool:
     """Whether a text means a problem file: it ends in .toml, or is the name of a packaged file."""
     return text.lower().endswith(".toml") or (text in problem_names() and not Path(text).exists())
-
-
-class GivenProblem(NamedTuple):
-    """A problem file, the folder for its results unless it is the file's own, and the file's contents."""
-
-    file: Path
-    results: Path | None
-    entries: dict[str, Any]
-
-
-def problem_of_job(given: Path, job: str) -> GivenProblem:
-    """A problem file, as `problem_file` finds it, of one job.
-
-    Examples
-    --------
-    >>> problem_of_job(Path("cam_press"), "cycle")
-    Traceback (most recent call last):
-    optlaws.errors.InputError: cam_press is of the job 'cam', not 'cycle': `optlaws run cam_press` does it
-    """
-    file, results = problem_file(given)
-    entries = reading.toml(file)
-    named = entries.get("job", job)
-    if not isinstance(named, str):
-        raise InputError(f"{given}: job must be a text such as {job!r}, got {shortened(named)}")
-    if named != job:
-        raise InputError(f"{given} is of the job {shortened(named)}, not {job!r}: `optlaws run {given}` does it")
-    return GivenProblem(file, results, entries)
 
 
 def _or_packaged(given: Path) -> Path:

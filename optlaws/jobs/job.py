@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from importlib import import_module
 from pathlib import Path
+from typing import Any, NamedTuple
 
 from optlaws.errors import InputError
-from optlaws.files.packaged import packaged
+from optlaws.files import reading
+from optlaws.files.packaged import packaged, problem_file
 from optlaws.plots.style import figures_for_files
 from optlaws.results import Results
 from optlaws.suggest import unknown_key
@@ -48,15 +51,9 @@ def done(file: Path) -> Results:
             f"run yours by Python: `python {file}`"
         )
     results = Results(file)
-    name = results.entries.get("job")
-    if name is None:
-        raise InputError(f"{file}: the entry job is missing; known jobs are {', '.join(JOBS)}")
+    name = _job_of(results.entries, file)
     if name == SCRIPT:
         return _scripted(file)
-    if isinstance(name, str) and name in RETIRED:
-        raise InputError(f"{file}: there is no job {name!r} any more: {RETIRED[name]}")
-    if not isinstance(name, str) or name not in JOBS:
-        raise InputError(f"{file}: {unknown_key(name, JOBS, 'job')}")
     try:
         with figures_for_files():
             do(name, results)
@@ -64,6 +61,43 @@ def done(file: Path) -> Results:
         text = str(error)
         raise InputError(text if str(file) in text else f"{file}: {text}") from None
     return results
+
+
+def _job_of(entries: Mapping[str, Any], file: Path) -> str:
+    """The job that a file names."""
+    name = entries.get("job")
+    if name is None:
+        raise InputError(f"{file}: the entry job is missing; known jobs are {', '.join(JOBS)}")
+    if isinstance(name, str) and name in RETIRED:
+        raise InputError(f"{file}: there is no job {name!r} any more: {RETIRED[name]}")
+    if not isinstance(name, str) or name not in (*JOBS, SCRIPT):
+        raise InputError(f"{file}: {unknown_key(name, JOBS, 'job')}")
+    return name
+
+
+class GivenProblem(NamedTuple):
+    """A problem file, the folder for its results unless it is the file's own, and the file's contents."""
+
+    file: Path
+    results: Path | None
+    entries: dict[str, Any]
+
+
+def problem_of_job(given: Path, job: str) -> GivenProblem:
+    """A problem file, as `problem_file` finds it, of one job, which it need not name.
+
+    Examples
+    --------
+    >>> problem_of_job(Path("cam_press"), "cycle")
+    Traceback (most recent call last):
+    optlaws.errors.InputError: cam_press is of the job 'cam', not 'cycle': `optlaws run cam_press` does it
+    """
+    file, results = problem_file(given)
+    entries = reading.toml(file)
+    named = _job_of({"job": job, **entries}, given)
+    if named != job:
+        raise InputError(f"{given} is of the job {named!r}, not {job!r}: `optlaws run {given}` does it")
+    return GivenProblem(file, results, entries)
 
 
 def _scripted(file: Path) -> Results:

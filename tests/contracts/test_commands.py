@@ -141,6 +141,17 @@ def test_every_option_has_a_sentence_in_the_help(command: str) -> None:
     shown = {argument.name: argument.parameter.help or "" for argument in arguments if argument.show}
     assert shown
     assert [name for name, sentence in shown.items() if not sentence.rstrip().endswith(".")] == []
+    headless = ("Of ", "By ", "Before ", "That ", "Which hold")
+    assert [name for name, sentence in shown.items() if sentence.startswith(headless)] == []
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_the_help_fills_its_lines_and_shows_no_default_of_a_switch(command: str, capsys: Capture) -> None:
+    arguments = app.app[command].assemble_argument_collection(parse_docstring=True)
+    assert [argument.name for argument in arguments if "\n" in (argument.parameter.help or "")] == []
+    assert exit_code([command, "--help"]) == 0
+    out = capsys.readouterr().out
+    assert "False" not in out
 
 
 @pytest.mark.parametrize("command", COMMANDS)

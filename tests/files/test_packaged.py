@@ -99,8 +99,17 @@ def test_what_answers_leaves_a_closed_pipe_to_the_command(monkeypatch: pytest.Mo
         show("an answer")
 
 
-def test_a_job_that_is_no_text_is_refused_without_a_remedy_that_fails(tmp_path: Path) -> None:
+@pytest.mark.parametrize(
+    ("named", "message"),
+    [
+        ('["cycle"]', r"unknown job \['cycle'\]; known are cam, cycle"),
+        ('"cicle"', "unknown job 'cicle'; did you mean 'cycle'"),
+        ('"fronts"', "there is no job 'fronts' any more: take `optlaws front`"),
+        ('"cam"', "is of the job 'cam', not 'cycle': `optlaws run .*own.toml` does it"),
+    ],
+)
+def test_a_file_of_another_job_is_refused_with_a_remedy_that_helps(tmp_path: Path, named: str, message: str) -> None:
     file = tmp_path / "own.toml"
-    file.write_text('job = ["cycle"]', "utf-8")
-    with pytest.raises(InputError, match="job must be a text such as 'cycle'"):
-        packaged.problem_of_job(file, "cycle")
+    file.write_text(f"job = {named}", "utf-8")
+    with pytest.raises(InputError, match=message):
+        job.problem_of_job(file, "cycle")

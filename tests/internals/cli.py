@@ -6,5 +6,4 @@ from optlaws.cli.app import app as app_of_app
 from optlaws.cli.options import Option, options, takes
 from optlaws.cli.problem_options import options_of
 from optlaws.cli.show import show
-from optlaws.cli.synthesis.new import new
 from optlaws.cli.synthesis.verify import verify

@@ -69,8 +69,8 @@ def cycle(
         and with `--out` all results at that speed with fastest.json for `optlaws verify`. The exit code is 1 where none
         faster is not proven to be impossible.
     speed
-        Of the master, such as "200 rpm"; what the file says unless given. --save and --export need it where the master
-        is an angle.
+        Speed of the master, such as "200 rpm"; what the file says unless given. --save and --export need it where the
+        master is an angle.
     modernise
         How far better laws may be off the old ones, such as 0.05mm: the laws of least acceleration within it.
     export
@@ -94,9 +94,9 @@ def cycle(
 
 def _greatest_speed(file: Path, out: Path | None) -> Answer:
     """The greatest speed of each axis of a problem file."""
-    from optlaws.files.packaged import problem_of_job
     from optlaws.jobs import cycle as job
     from optlaws.jobs.cycle_entries import read
+    from optlaws.jobs.job import problem_of_job
     from optlaws.plots.cycle import draw_axes, draw_cycle
     from optlaws.plots.style import figure_of
     from optlaws.results import Results
@@ -125,9 +125,9 @@ def _greatest_speed(file: Path, out: Path | None) -> Answer:
 def _job(file: Path, out: Path | None) -> Answer:
     """The job of a problem file, with its main picture in the file of --plot too; or its data for programs."""
     from optlaws.files import writing
-    from optlaws.files.packaged import problem_of_job
     from optlaws.jobs import job
     from optlaws.jobs.cycle import TOGETHER, answer
+    from optlaws.jobs.job import problem_of_job
     from optlaws.jobs.job_entries import plain_name
 
     source, folder, entries = problem_of_job(file, "cycle")

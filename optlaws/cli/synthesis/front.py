@@ -55,7 +55,7 @@ def front(
     within
         The greatest gap of C at run time; the front is proven to a tenth of it unless --gap says otherwise.
     name
-        Before every name of a C header, or of the function block.
+        What every name of a C header begins with, or the name of the function block.
     output
         The file of the functions.
     """

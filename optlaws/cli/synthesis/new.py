@@ -2,34 +2,41 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Annotated, Literal
 
 from cyclopts import Parameter
 
-from optlaws.cli.show import show
+from optlaws.cli.options import Option, Options, given, takes
+from optlaws.cli.show import Answer
 from optlaws.errors import InputError
+from optlaws.jobs.starters.starter_numbers import NUMBERS
 
 Kind = Literal["cycle", "cam", "machine", "study", "law"]
+_OPTIONS = Options(
+    {
+        name: Option(f"--{name}", str, f"{about[:-1]} ({kinds}).", signed=True, group="Numbers of the kinds of files")
+        for kinds, numbers in NUMBERS.items()
+        for name, about in numbers.items()
+    }
+)
+_Hidden = Parameter(show=False)
 
 
+@takes(json=False, numbers=_OPTIONS)
 def new(
     kind: Kind,
     file: Path | None = None,
     /,
     *,
-    defaults: Annotated[bool, Parameter(show=False)] = False,  # noqa: ARG001 - of earlier versions, which prompted
-    **answers: Annotated[str, Parameter(help="Any number of the file by its name, such as --stroke 35mm.")],
-) -> None:
+    defaults: Annotated[bool, _Hidden] = False,  # noqa: ARG001 - of earlier versions, which prompted
+    numbers: Mapping[str, str | None],
+    **others: Annotated[str, _Hidden],
+) -> Answer:
     """Begin a problem file, commented and ready to run: what no option gives is an example, to be changed in the file.
 
-    The numbers, by kind; those in brackets may be left out:
-
-    cycle: stroke, rise, dwell, return, speed, [velocity, acceleration, jerk, mass]
-    cam: as cycle, roller, pressure-angle, curvature, [offset, prime-radius]
-    machine: stroke, duration, frequency, damping, spread, sway
-    law: stroke, duration, minimise, order, [velocity, acceleration, jerk]
-    study: minimise, from, to, steps, degree
+    Each number is an option, with its unit. No file is ever written over.
 
     Parameters
     ----------
@@ -37,8 +44,6 @@ def new(
         What is to be solved: a cycle of an axis, a disc cam, a move with an elastic load, a study, or a single law.
     file
         The file to write, which must not be there yet; KIND.toml unless given.
-    answers
-        Any of the numbers, with its unit.
     """
     from optlaws.files import writing
     from optlaws.jobs.starters.starter import STARTERS
@@ -51,10 +56,11 @@ def new(
     if place.exists():
         raise there
     writing.check_place(place)
-    text = starter.text(answers, place)
+    text = starter.text({**given(numbers), **others}, place)
     try:
         with place.open("x", encoding="utf-8", newline="\n") as out:
             out.write(text)
     except FileExistsError:
         raise there from None
-    show(f"{place}: look at it, change what you like, then run", f"optlaws {starter.run(place)}")
+    lines = [f"{place}: look at it, change what you like, then run", f"optlaws {starter.run(place)}"]
+    return Answer(lambda: lines, list)

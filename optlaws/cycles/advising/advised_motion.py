@@ -73,9 +73,9 @@ def advise(
         Names of the catalogue, members such as "III(7.2)", or files; the first is the usual one. Others are compared
         with it, unless the motion has a law already.
     degree
-        Of the optimal laws' Z; that of the cycle unless given, of a single move 21.
+        Degree of the optimal laws' Z; that of the cycle unless given, of a single move 21.
     points
-        Of the front between what is minimised and what decides between equally good laws; 0 for none.
+        How many laws of the front between what is minimised and what decides between equally good laws; 0 for none.
 
     Returns
     -------

@@ -292,8 +292,8 @@ def read_cycle_table(
         How far laws may be off the points, in units of the table; the last digit, or what the noise requires, unless
         given.
     columns
-        Which hold the master and the position, by headings or numbers from 1; behind these the derivatives of the
-        position by the master, or by the second, in order.
+        Columns that hold the master and the position, by headings or numbers from 1; behind these the derivatives of
+        the position by the master, or by the second, in order.
     unit, master
         The units of the positions and of the master: "mm", "deg", "s" and the like, or "0.01 mm" where numbers count
         these. What the file says unless given, else "mm", and "deg", "turn" or "rad" by the master's length.

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 import tomllib
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from math import ceil, floor, log10
 from pathlib import Path
@@ -23,6 +23,7 @@ from optlaws.jobs.cam import CamProblemFile
 from optlaws.jobs.cycle_entries import CycleProblemFile, read_given
 from optlaws.jobs.machine_laws import MachineLawsProblemFile, Vibration
 from optlaws.jobs.solutions import SolutionsProblemFile
+from optlaws.jobs.starters.starter_numbers import numbers_of
 from optlaws.laws.catalogue.catalogue import catalogue
 from optlaws.motion.quantities import DIMENSIONS, either, quantity
 from optlaws.studies.problem_entries import problem
@@ -91,7 +92,6 @@ class Starter:
 
     kind: str
     command: str  #: of `optlaws`, which runs the file
-    questions: Sequence[str]
     derived: Callable[[Answers], Answers]  #: further answers that follow from those given
     check: Callable[[Mapping[str, Any], Path], object]  #: refuses the entries of a file that could not be run
     value: type[Declared]  #: what the file is read as: a # alone stands for what the entry below it says
@@ -109,10 +109,11 @@ class Starter:
         InputError
             If there is no such question, an answer is wrong, or the file with it could not be run.
         """
+        names = numbers_of(self.kind)
         with located(self.kind):
-            check_names([f"--{name}" for name in given], [f"--{name}" for name in self.questions], "option")
+            check_names([f"--{name}" for name in given], [f"--{name}" for name in names], "option")
         typed: Answers = {name: _read(text, name) for name, text in given.items()}
-        answers: Answers = {name: QUESTIONS[name][1] for name in self.questions} | self.usual | typed
+        answers: Answers = {name: QUESTIONS[name][1] for name in names} | self.usual | typed
         answers |= self.derived(answers) | {"run": self.run(file)}
         about = sentences(self.value)
         lines = (_FOLDER / f"{self.kind}.toml").read_text("utf-8").splitlines()
@@ -212,28 +213,18 @@ def _of_study(answers: Answers) -> Answers:
     return {"modified_sine_J": f"{_usual('J'):.5g}", "J": None}
 
 
-_CYCLE = ("stroke", "rise", "dwell", "return", "speed", *_DERIVATIVES, "mass")
-_CAM = ("roller", "offset", "pressure-angle", "curvature", "prime-radius")
-_MACHINE = ("stroke", "duration", "frequency", "damping", "spread", "sway")
-_LAW = ("stroke", "duration", "minimise", "order", *_DERIVATIVES)
-_STUDY = ("minimise", "from", "to", "steps", "degree")
-
 _KINDS = [
-    Starter("cycle", "cycle", _CYCLE, _of_cycle, read_given, CycleProblemFile),
+    Starter("cycle", "cycle", _of_cycle, read_given, CycleProblemFile),
+    Starter("cam", "run", _of_cam, lambda entries, file: CamProblemFile.read(entries, file).cycle, CamProblemFile),
     Starter(
-        "cam", "run", (*_CYCLE, *_CAM), _of_cam, lambda entries, file: CamProblemFile.read(entries, file).cycle,
-        CamProblemFile,
-    ),
-    Starter(
-        "machine", "run", _MACHINE, _of_machine,
-        lambda entries, file: MachineLawsProblemFile.read(entries, file).machine.machine(),
+        "machine", "run", _of_machine, lambda entries, file: MachineLawsProblemFile.read(entries, file).machine.machine(),
         MachineLawsProblemFile, {"stroke": "300 mm", "duration": "0.4 s"},
     ),
     Starter(
-        "law", "run", _LAW, _of_law,
+        "law", "run", _of_law,
         lambda entries, file: problem("problem", SolutionsProblemFile.read(entries, file).problem),
         SolutionsProblemFile,
     ),
-    Starter("study", "study", _STUDY, _of_study, lambda entries, _: read_study(entries), StudyFile),
+    Starter("study", "study", _of_study, lambda entries, _: read_study(entries), StudyFile),
 ]  # fmt: skip
 STARTERS: dict[str, Starter] = {starter.kind: starter for starter in _KINDS}

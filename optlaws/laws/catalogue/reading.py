@@ -309,10 +309,11 @@ def read_law(
         .tsv, .tab, .dat), whose tolerance and columns may stand behind it in brackets:
         "old.csv(tolerance=0.02; columns=1,3)".
     tolerance
-        Of a table: how far the law may be off its points, in the unit of its displacements, 0 for a law through them;
+        How far the law of a table may be off its points, in the unit of its displacements, 0 for a law through them;
         the last digit, or what its noise requires, unless given.
     columns
-        Of a table of more than two: those of the time or angle and of the displacement, by headings or numbers from 1.
+        Columns of the time or angle and of the displacement, by headings or numbers from 1; of a table of more than
+        two.
 
     Warns
     -----

@@ -138,7 +138,7 @@ class Follower:
         speed, rise
             In place of it: speed of the cam, such as "105 rpm", and its angle during the rise, such as "120 deg".
         damping
-            Ratio zeta.
+            Damping ratio zeta of the follower.
 
         Examples
         --------
