@@ -21,27 +21,30 @@ def _columns(text: str) -> list[str]:
     return text.split(",")
 
 
-def _numbers_without_unit(remedy: str, tokens: Sequence[Token]) -> list[float]:
-    try:
-        return [float(token.value) for token in tokens]
-    except ValueError:
-        given = " ".join(token.value for token in tokens)
-        raise ValueError(f"{shortened(given)} is no number without a unit: {remedy}") from None
+def _without_unit(remedy: str) -> Parameter:
+    """How frequencies without dimension are read, which people give in Hz."""
+
+    def read(hint: object, tokens: Sequence[Token]) -> Any:
+        try:
+            numbers = [float(token.value) for token in tokens]
+        except ValueError:
+            given = " ".join(token.value for token in tokens)
+            raise ValueError(f"{shortened(given)} is no number without a unit: {remedy}") from None
+        return numbers[0] if hint is float else numbers
+
+    return Parameter(converter=read)
 
 
-def _follower_frequency(_: object, tokens: Sequence[Token]) -> float:
-    remedy = "the frequency nu is in radians in the rise; one in Hz is --natural-frequency, with --duration or --speed"
-    return _numbers_without_unit(remedy, tokens)[0]
-
-
-def _law_frequencies(_: object, tokens: Sequence[Token]) -> list[float]:
-    remedy = "the frequency nu is in radians in the motion: 2 pi times that in Hz and the duration in s"
-    return _numbers_without_unit(remedy, tokens)
-
-
-#: frequencies of an elastic follower without dimension, which people give in Hz
-FollowerFrequency = Annotated[float, Parameter(converter=_follower_frequency)]
-Frequencies = Annotated[list[float], Parameter(converter=_law_frequencies)]
+FollowerFrequency = Annotated[
+    float,
+    _without_unit(
+        "the frequency nu is in radians in the rise; one in Hz is --natural-frequency, with --duration or --speed"
+    ),
+]
+Frequencies = Annotated[
+    list[float],
+    _without_unit("the frequency nu is in radians in the motion: 2 pi times that in Hz and the duration in s"),
+]
 #: of the columns of a table, by headings or numbers, as 1,3
 COLUMNS: dict[str, Any] = {"type": str, "read": _columns}
 #: how a table of points is read
@@ -84,13 +87,6 @@ def read_law(
 
     `by` are the options that choose a member; `points` are the values of those of a table of points.
 
-    Raises
-    ------
-    InputError
-        If there is no such law, the file cannot be read or holds none, or a member is given of what is no family.
-
-    Examples
-    --------
     >>> read_law("iii", alpha=7.2) == read_law("III(7.2)")
     True
     """
@@ -110,13 +106,7 @@ def read_law(
 
 
 def read_axes(file: Path, axis: str | None) -> dict[str, Cycle]:
-    """The axes of a problem file of the job "cycle" by their names, or a single one.
-
-    Raises
-    ------
-    InputError
-        If the file is wrong, is of another job, or has no such axis.
-    """
+    """The axes of a problem file of the job "cycle" by their names, or a single one."""
     from optlaws.jobs.cycle_entries import read
     from optlaws.jobs.job import problem_of_job
     from optlaws.suggest import unknown_key

@@ -115,19 +115,9 @@ def options(
 ) -> Options:
     """The options that give parameters of a function, or entries of a declared value: by its sentences and defaults.
 
-    Parameters
-    ----------
-    source
-        The class, the function, or its place: to import its module may take longer than a command does.
-    names
-        Of parameters whose options have their names.
-    group
-        What heads them in the help of a command.
-    changed
-        By name of a parameter: what of `Option` is another.
+    A function is given by its place, for to import its module may take longer than a command does. By the name of a
+    parameter stands what of its `Option` is `changed`.
 
-    Examples
-    --------
     >>> stroke = options("optlaws.cycles.moves.timed_moves:fastest", "stroke")["stroke"]
     >>> stroke.name, stroke.about, stroke.signed
     ('--stroke', 'How far, above 0: "100 mm" or "90 deg".', True)
@@ -189,16 +179,10 @@ def _sentences(text: str) -> dict[str, str]:
 
 
 def takes(plot: str = "", *, json: bool = True, **groups: Options) -> Callable[[Command], Command]:
-    """Make a function a command: it gets groups of options as tables, and --plot and --json show its answer.
+    """Make a function a command: it gets groups of options as tables, by names of its parameters.
 
-    Parameters
-    ----------
-    plot
-        The sentence of --plot, whose file the function may take too; without it there is no such option.
-    json
-        Whether there is --json.
-    groups
-        By name of a parameter of the function: the options in its place.
+    Its answer is given as --plot and --json say, where `plot` is the sentence of that option; all other sentences of
+    the help are those of its docstring.
     """
 
     def decorated(command: Command) -> Command:
@@ -235,8 +219,6 @@ def takes(plot: str = "", *, json: bool = True, **groups: Options) -> Callable[[
 def given(values: Mapping[str, Any]) -> dict[str, Any]:
     """The values that are given: those of options that have been typed, and defaults.
 
-    Examples
-    --------
     >>> given({"stroke": "35 mm", "duration": None})
     {'stroke': '35 mm'}
     """

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import inspect
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from typing import Any, Literal
@@ -66,8 +65,6 @@ _BOUNDS = (
 def options_of(entry: Entry) -> tuple[Option, ...]:
     """The options that give an entry.
 
-    Examples
-    --------
     >>> [option.name for option in options_of(ENTRIES["bounds"])], options_of(ENTRIES["degree"])[0].name
     (['--most', '--least'], '--degree')
     """
@@ -111,45 +108,18 @@ class _ProblemOptions(Options):
             entries[entry.name] = (
                 read_bounds(*(value or [] for value in values)) if len(values) > 1 else first.value(*values)
             )
-        _check_ends(entries)
-        _check_breaks(entries)
-        return entries
+        return entries | ({"symmetric": False} if _is_unsymmetric(entries) else {})
 
 
 def problem_options(given: Mapping[str, Any], refused: Mapping[str, str] | None = None) -> Options:
-    """The options of a problem, as the table of the entries that were given.
-
-    Parameters
-    ----------
-    given
-        By entry: the value of its option unless given.
-    refused
-        By entry: why the command does not take it.
-    """
+    """The options of a problem, with values unless `given` by entry, and why a command does not take some."""
     return _ProblemOptions({"minimise": ENTRIES["minimise"].default, **given}, refused or {})
 
 
-def _check_ends(entries: dict[str, Any]) -> None:
-    """Require the order if nothing fixes it; periodic laws, moving ends and inflexions make laws unsymmetric."""
-    ends = [entries[name] for name in ("start", "end") if name in entries]
-    if len(ends) == 1:
-        raise InputError("--start and --end go together")
-    if ends:
-        boundary = BoundaryConditions(*map(tuple, ends))
-    elif "order" not in entries:
-        raise InputError("give --order, the number of conditions at each end, or the conditions by --start and --end")
-    repeats = entries.get("basis") == "periodic"
-    if repeats or "inflexion" in entries or (ends and boundary != BoundaryConditions.rest(boundary.order)):
-        entries["symmetric"] = False
-
-
-def _check_breaks(entries: Mapping[str, Any]) -> None:
-    if "basis" not in entries:
-        return
-    piecewise = "breaks" in inspect.signature(Basis.kinds[entries["basis"]]).parameters
-    if piecewise != ("breaks" in entries) or ("continuity" in entries and not piecewise):
-        raise InputError(
-            "--basis bsplines, pieces and periodic need --breaks, the others take neither --breaks nor --continuity"
-        )
-    if "straight" in entries and entries["basis"] != "periodic":
-        raise InputError("--straight is for --basis periodic alone")
+def _is_unsymmetric(entries: Mapping[str, Any]) -> bool:
+    """Whether laws are so without a word: periodic ones, those with an inflexion, and those whose ends move."""
+    if "start" in entries and "end" in entries:
+        ends = BoundaryConditions(tuple(entries["start"]), tuple(entries["end"]))
+        if ends != BoundaryConditions.rest(ends.order):
+            return True
+    return entries.get("basis") == "periodic" or "inflexion" in entries

@@ -96,7 +96,7 @@ def test_solve_writes_the_whole_solution(capsys: Capture, tmp_path: Path) -> Non
         (["--peak-velocity", "1.6", "--order", "0", "--degree", "3"], "order"),
         (["--peak-velocity", "1.6", "--order", "4", "--degree", "0"], "degree 0 leaves no freedom"),
         (["--peak-velocity", "1.6", "--order", "4", "--degree", "-2"], "degree"),
-        (["--peak-velocity", "1.6"], "give --order, the number of conditions"),
+        (["--peak-velocity", "1.6"], "the problem lacks order, the number of conditions at each end: give order=4"),
         (["--peak-velocity", "fast", "--order", "4", "--degree", "3"], "--peak-velocity"),
         (["--peak-velocity", "1.6", "--order", "2.5", "--degree", "3"], "--order"),
         (["--peak-velocity", "1.6", "--order", "4", "--degree", "3", "--minimise", "X"], "unknown constant 'X'"),
@@ -401,8 +401,11 @@ def test_solve_takes_splines_bounds_and_an_inflexion(capsys: Capture) -> None:
 @pytest.mark.parametrize(
     ("arguments", "says"),
     [
-        (["--basis", "bsplines"], "need --breaks"),
-        (["--breaks", "8"], "need --breaks"),
+        (["--basis", "bsplines"], "the basis 'bsplines' needs its breaks"),
+        (
+            ["--breaks", "8"],
+            "the basis 'chebyshev' has no breaks: leave it out, or take bsplines or periodic or pieces",
+        ),
         (["--basis", "bsplines", "--breaks", "8 x"], "breaks are a number"),
         (["--basis", "bsplines", "--breaks", "0 0.2 1"], "symmetric about 1/2"),
         (["--most", "rms_c"], "such as rms_c=4"),

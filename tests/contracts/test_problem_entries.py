@@ -206,8 +206,8 @@ def test_the_commands_tell_of_misspelt_options(name: str, capsys: pytest.Capture
 @pytest.mark.parametrize(
     ("options", "says"),
     [
-        (["--degree", "5"], "give --order, the number of conditions at each end"),
-        (["--degree", "5", "--start", "0,0"], "--start and --end go together"),
+        (["--degree", "5"], "the problem lacks order, the number of conditions at each end: give order=4"),
+        (["--degree", "5", "--start", "0,0"], "as many values at the start as at the end, at least one; got 2 and 0"),
         (["--degree", "5", "--start", "0,x", "--end", "1,0"], "start and end are numbers"),
         (["--degree", "5", "--order", "4", "--window", "b < 1"], "a window is written as"),
         (["--degree", "5", "--order", "4", "--window", "q <= 1"], "unknown quantity 'q'"),

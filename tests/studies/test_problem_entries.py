@@ -39,7 +39,11 @@ def test_every_entry_is_read() -> None:
         ({"inflexion": 1.0}, "inflexion"),
         ({"inflexion": 0.4}, "symmetric=False"),
         ({"bounds": {"rmsc": 4}}, "did you mean 'rms_c'"),
-        ({"basis": "bsplines", "degree": 3}, "does not take these parameters"),
+        ({"basis": "bsplines", "degree": 3}, "the basis 'bsplines' needs its breaks"),
+        (
+            {"basis": "powers", "degree": 3, "continuity": 2},
+            "has no continuity: leave it out, or take bsplines or periodic or pieces",
+        ),
     ],
 )
 def test_entries_that_make_no_sense_are_refused(entries: dict[str, Any], text: str) -> None:

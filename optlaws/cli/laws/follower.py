@@ -96,19 +96,13 @@ def _follower(
 ) -> optlaws.Follower:
     if frequency is not None:
         if vibration or times:
-            raise InputError(
-                "--natural-frequency, --natural-period, --speed, --rise and --duration are of a machine: give no "
-                "--frequency beside"
-            )
+            others = ", ".join([*vibration, *(f"--{name}" for name in times)])
+            raise InputError(f"{others}: of a machine; give no --frequency beside")
         return optlaws.Follower(frequency, damping)
-    if not vibration and not times:
-        raise InputError(
-            "give either --frequency or, with units, --natural-frequency or --natural-period with --duration or with "
-            "--speed and --rise"
-        )
     if len(vibration) != 1:
         raise InputError(
-            "give --natural-frequency, such as '16.7 Hz', or --natural-period, such as '60 ms', and not both"
+            "give either --frequency or, with units, --natural-frequency such as '16.7 Hz' or --natural-period such as "
+            "'60 ms', and not both, with --duration or with --speed and --rise"
         )
     ((name, text),) = vibration.items()
     quantity(text, "frequency" if name == "--natural-frequency" else "time", name)

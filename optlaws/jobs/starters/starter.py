@@ -217,8 +217,9 @@ _KINDS = [
     Starter("cycle", "cycle", _of_cycle, read_given, CycleProblemFile),
     Starter("cam", "run", _of_cam, lambda entries, file: CamProblemFile.read(entries, file).cycle, CamProblemFile),
     Starter(
-        "machine", "run", _of_machine, lambda entries, file: MachineLawsProblemFile.read(entries, file).machine.machine(),
-        MachineLawsProblemFile, {"stroke": "300 mm", "duration": "0.4 s"},
+        "machine", "run", _of_machine,
+        lambda entries, file: MachineLawsProblemFile.read(entries, file).machine.machine(), MachineLawsProblemFile,
+        {"stroke": "300 mm", "duration": "0.4 s"},
     ),
     Starter(
         "law", "run", _of_law,

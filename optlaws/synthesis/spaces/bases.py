@@ -6,6 +6,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from inspect import signature
 from itertools import pairwise
 from math import comb
 from numbers import Integral
@@ -342,10 +343,13 @@ def basis(name: str, degree: int, **parameters: Any) -> Basis:
     if not isinstance(stated, str) or stated not in Basis.kinds:
         raise InputError(f"basis {shortened(name)} is unknown; known are {', '.join(sorted(Basis.kinds))}")
     kind: Any = Basis.kinds[name]
-    try:
-        return cast("Basis", kind(degree=degree, **parameters))
-    except TypeError as error:
-        raise InputError(f"basis {name!r} does not take these parameters: {error}") from None
+    taken = signature(kind).parameters
+    for parameter in parameters.keys() - taken.keys():
+        having = sorted(other for other, each in Basis.kinds.items() if parameter in signature(each).parameters)
+        raise InputError(f"the basis {name!r} has no {parameter}: leave it out, or take {' or '.join(having)}")
+    if "breaks" in taken and "breaks" not in parameters:
+        raise InputError(f"the basis {name!r} needs its breaks, such as breaks=8 or breaks=[0, 0.3, 1]")
+    return cast("Basis", kind(degree=degree, **parameters))
 
 
 def _sized(z: Sequence[float], chosen: PolynomialBasis) -> Sequence[float]:

@@ -101,7 +101,7 @@ def test_the_spectrum_is_drawn(capsys: Capture, tmp_path: Path) -> None:
         (["cycloidal", "--alpha", "1", "--frequency", "20"], "no other takes it"),
         (["IV", "--alpha", "20", "--frequency", "20"], "alpha"),
         (["cycloidl", "--frequency", "20"], "did you mean 'cycloidal'"),
-        (["cycloidal"], "either --frequency or, with units, --natural-frequency or --natural-period"),
+        (["cycloidal"], "either --frequency or, with units, --natural-frequency such as '16.7 Hz' or --natural-period"),
         (["cycloidal", "--frequency", "20", "--speed", "100 rpm"], "give no --frequency beside"),
         (["cycloidal", "--frequency", "-20"], "frequency must be above 0"),
         (["cycloidal", "--frequency", "20", "--damping", "-1"], "damping must be at least 0"),
@@ -165,7 +165,7 @@ def test_a_stroke_with_its_unit_gives_machine_units(capsys: Capture) -> None:
         (("--natural-frequency", 16.7, "--time", "0.1 s"), "without a unit"),
         (("--natural-frequency", "60 ms", "--time", "0.1 s"), "--natural-frequency must be a frequency"),
         ((*MACHINE, "--natural-period", "60 ms"), "and not both"),
-        (("--speed", "105 rpm", "--rise", "120 deg"), "give --natural-frequency"),
+        (("--speed", "105 rpm", "--rise", "120 deg"), "give either --frequency or, with units, --natural-frequency"),
     ],
 )
 def test_what_is_wrong_with_quantities_is_said(capsys: Capture, options: tuple[object, ...], why: str) -> None:
