@@ -57,8 +57,6 @@ _MOST_DATA = 1 << 30
 def answered(name: str, body: bytes) -> tuple[int, bytes]:
     """The code and the JSON of an answer; only a question that cannot be read is an error.
 
-    Examples
-    --------
     >>> answered("laws", b'{"laws": []}')
     (422, b'{"error":"the question cannot be read: Expected `array` of length >= 1 - at `$.laws`"}')
     """
@@ -81,8 +79,6 @@ def answered(name: str, body: bytes) -> tuple[int, bytes]:
 def message(text: str) -> bytes:
     """A sentence for the page, as JSON.
 
-    Examples
-    --------
     >>> message("no such law")
     b'{"error":"no such law"}'
     """

@@ -6,26 +6,24 @@ import ast
 import json
 import re
 from collections.abc import Callable, Mapping
-from dataclasses import fields, replace
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from pprint import pformat
-from textwrap import indent
 from typing import Annotated, Any, NamedTuple
 
 import msgspec
 
 import optlaws
-from optlaws import Drive, Mechanism, MotionLaw, Solution
+from optlaws import MotionLaw, Solution
 from optlaws.cams.curves import cam_files
 from optlaws.cams.curves.cam_files import Cutting
 from optlaws.cycles.cycle import Cycle
 from optlaws.cycles.report import CycleReport
-from optlaws.entries.declared import Declared
 from optlaws.errors import InputError
 from optlaws.explorer.views import axes_view, cam_view, cycle_view, fastest_view, old_cam_view
-from optlaws.explorer.views.law_view import digits, title
-from optlaws.explorer.views.requests import LawRequest, LawsRequest, Question, law_of, problem_of, read, solved
+from optlaws.explorer.views.law_view import digits, title, titled
+from optlaws.explorer.views.requests import LawRequest, LawsRequest, Question, Text, law_of, problem_of, read, result_of
 from optlaws.exports.format import FORMATS
 from optlaws.files.reading import check_names
 from optlaws.files.tables import to_csv, to_toml
@@ -35,6 +33,7 @@ from optlaws.laws.values import table_of_values
 
 _ROWS = 361
 _WIDTH = 116
+_MOST_POINTS = 10_000
 _PUBLIC = frozenset(vars(optlaws)["__all__"])
 _TYPES = {".py": "text/x-python", ".toml": "application/toml", ".json": "application/json", ".csv": "text/csv"}
 _UNITS = "SI units but for mm and deg"
@@ -43,19 +42,24 @@ File = tuple[str, str]  #: its name and its text
 
 
 class ViewFiles(NamedTuple):
-    """The request of a view, the files of it by their kinds, and its motion for a controller."""
+    """The request of a view, its files by their kinds, and the result of which they are."""
 
     request: type[msgspec.Struct]
     kinds: Mapping[str, Callable[[Any], File]]
-    motion: Callable[[Any], Any] | None = None
+    result: Callable[[Any], Any]
 
 
 class FileRequest(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
-    """A file of a kind, of the request of a view."""
+    """A file of a kind, of the request of a view; for a controller, of a law with the machine that it moves."""
 
-    kind: str
-    view: str
+    kind: Text
+    view: Text
     request: msgspec.Raw
+    stroke: Text = "35 mm"
+    time: Text = "0.1 s"
+    master: Text = "120 deg"
+    points: Annotated[int, msgspec.Meta(ge=2, le=_MOST_POINTS)] | None = None
+    counts: Annotated[int, msgspec.Meta(ge=2, le=2**53)] | None = None
 
 
 def answer(question: FileRequest) -> dict[str, str]:
@@ -66,7 +70,7 @@ def answer(question: FileRequest) -> dict[str, str]:
     return {"name": name, "type": _TYPES.get(Path(name).suffix, "text/plain"), "text": text}
 
 
-def _read(question: FileRequest | ExportRequest) -> tuple[ViewFiles, Any]:
+def _read(question: FileRequest) -> tuple[ViewFiles, Any]:
     check_names([question.view], VIEWS, "view")
     return VIEWS[question.view], read(bytes(question.request), VIEWS[question.view].request)
 
@@ -85,20 +89,12 @@ def _study(name: str) -> Callable[[Any], File]:
     return lambda request: (name, to_toml(request.study))
 
 
-def _title(law: LawRequest) -> str:
-    return law.title or (title(problem_of(law)) if law.problem is not None else law.name or "a stored law")
-
-
 def _laws_python(request: LawsRequest) -> File:
     """Python lines that compute the same laws with the same digits, and draw them."""
-    given, lines = [], []
-    for name, law in zip("abcd", request.laws, strict=False):
-        if law.problem is None and law.law is None:
-            given.append(repr(law.name))
-            continue
-        given.append(name)
-        lines.append(f"{name} = {_law_source(law)}")
-    lines += [
+    named = {name: law for name, law in zip("abcd", request.laws, strict=False) if law.problem or law.law}
+    given = [name if name in named else repr(law.name) for name, law in zip("abcd", request.laws, strict=False)]
+    lines = [
+        *(f"{name} = {_law_source(law)}" for name, law in named.items()),
         f"comparison = compare_laws({', '.join(given)})",
         "for row in comparison.rows:",
         "    print(row)",
@@ -110,7 +106,7 @@ def _laws_python(request: LawsRequest) -> File:
 def _law_source(law: LawRequest) -> str:
     """A law as Python; a problem as it shows itself where that is made of public names, else from its entries."""
     if law.problem is None:
-        return f"MotionLaw.from_dict({pformat(law.law, width=_WIDTH, sort_dicts=False)})"
+        return _source(law_of(law))
     problem = problem_of(law)
     try:
         known = _names(repr(problem)) <= _PUBLIC
@@ -130,26 +126,9 @@ def _python(name: str, lines: list[str]) -> File:
 
 
 def _source(value: Any) -> str:
-    """A declared value as Python, without the entries that are as they are by default; a list of them.
-
-    Examples
-    --------
-    >>> from optlaws import Dwell, Rise
-    >>> print(_source(Cycle([Rise("90 deg", "1 s"), Dwell()], period="2 s", advance="90 deg")))
-    Cycle(segments=[
-        Rise(by='90 deg', duration='1 s'),
-        Dwell(),
-    ], period='2 s', advance='90 deg')
-    """
-    if isinstance(value, tuple) and any(isinstance(each, Declared) for each in value):
-        return "[\n" + "".join(f"    {_source(each)},\n" for each in value) + "]"
-    if isinstance(value, Mechanism | Drive):
-        return f"{type(value).__name__}.from_dict({value.to_dict()!r})"
-    if not isinstance(value, Declared):
-        return repr(value)
-    entries = ((each.name, getattr(value, each.name), each.default) for each in fields(value) if each.init)  # type: ignore[arg-type] # its heirs are dataclasses
-    given = (f"{name}={_source(entry)}" for name, entry, default in entries if entry != default)
-    return f"{type(value).__name__}({', '.join(given)})"
+    """A value as Python that reads it from its plain data."""
+    kind = "MotionLaw" if isinstance(value, MotionLaw) else type(value).__name__
+    return f"{kind}.from_dict({pformat(value.to_dict(), width=_WIDTH, sort_dicts=False)})"
 
 
 def _law_problem(request: LawsRequest) -> File:
@@ -175,15 +154,14 @@ def _with_ends(value: Any) -> Any:
 
 def _law_file(request: LawsRequest) -> File:
     """The law as JSON; a solution with its problem and its proof, for `optlaws verify`."""
-    law = request.law
-    solution = None if law.problem is None else solved(problem_of(law))
-    if isinstance(solution, Solution):
-        return _json(_title(law), **solution.to_dict())
-    return f"{_stem(_title(law))}.json", json.dumps(law_of(law).to_dict(), indent=1) + "\n"
+    name, result = titled(request.law), result_of(request.law)
+    if isinstance(result, Solution):
+        return _json(name, **result.to_dict())
+    return f"{_stem(name)}.json", json.dumps(result.to_dict(), indent=1) + "\n"
 
 
 def _law_table(request: LawsRequest) -> File:
-    name = _title(request.law)
+    name = titled(request.law)
     return f"{_stem(name)}.csv", table_of_values(law_of(request.law), name)
 
 
@@ -212,10 +190,8 @@ def _cycle_python(request: cycle_view.CycleRequest) -> File:
 
 def _axes_python(request: cycle_view.CycleRequest) -> File:
     """Python lines that make the same axes with their interlocks, and say what is clear."""
-    axes = axes_view.axes_of(request.study)
-    cycles = "".join(f"    {name!r}: {indent(_source(cycle), '    ').lstrip()},\n" for name, cycle in axes.items())
     lines = [
-        f"axes = Axes({{\n{cycles}}}, interlocks={_source(axes.rules)})",
+        f"axes = {_source(axes_view.axes_of(request.study))}",
         "for least in axes.clearances:",
         "    print(least.interlock.label, least.status, least.clearance)",
         'axes.plot(what="timing")[0].figure.savefig("axes.png")',
@@ -281,26 +257,10 @@ VIEWS = {
     "cycle": ViewFiles(cycle_view.CycleRequest, _CYCLE, cycle_view.cycle),
     "machine": ViewFiles(cycle_view.CycleRequest, _CYCLE, cycle_view.cycle),
     "axes": ViewFiles(cycle_view.CycleRequest, _CYCLE | _AXES, cycle_view.cycle),
-    "cam": ViewFiles(cycle_view.CycleRequest, {"problem": _study("cam.toml"), **_CUT}),
-    "fastest": ViewFiles(cycle_view.CycleRequest, _FASTEST),
+    "cam": ViewFiles(cycle_view.CycleRequest, {"problem": _study("cam.toml"), **_CUT}, cam_view.result_of),
+    "fastest": ViewFiles(cycle_view.CycleRequest, _FASTEST, fastest_view.fastest_of),
     "old": ViewFiles(cycle_view.CycleRequest, _OLD, old_cam_view.cycle),
 }
-
-Text = Annotated[str, msgspec.Meta(max_length=60)]
-_MOST_POINTS = 10_000
-
-
-class ExportRequest(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
-    """The motion of a view in a format; a law with the machine that it moves."""
-
-    format: Text
-    view: str
-    request: msgspec.Raw
-    stroke: Text = "35 mm"
-    time: Text = "0.1 s"
-    master: Text = "120 deg"
-    points: Annotated[int, msgspec.Meta(ge=2, le=_MOST_POINTS)] | None = None
-    counts: Annotated[int, msgspec.Meta(ge=2, le=2**53)] | None = None
 
 
 def formats() -> list[dict[str, Any]]:
@@ -310,15 +270,16 @@ def formats() -> list[dict[str, Any]]:
     ]
 
 
-def exported(question: ExportRequest) -> dict[str, Any]:
+def exported(question: FileRequest) -> dict[str, Any]:
     """The file, and the peaks of the motion as the controller interpolates it beside the law's peaks."""
     files, request = _read(question)
-    if files.motion is None:
+    result = files.result(request)
+    if not isinstance(result, Cycle | MotionLaw):
         raise InputError(f"the view {question.view} has no motion for a controller")
     given: dict[str, Any] = {"points": question.points, "counts": question.counts}
-    if question.view == "laws":
+    if isinstance(result, MotionLaw):
         given |= {"stroke": question.stroke, "duration": question.time, "master": question.master or None}
-    export = files.motion(request).export(question.format, **given)
+    export = result.export(question.kind, **given)
     written = export.written
     return {
         "name": f"Cam{export.format.extension}",
@@ -326,12 +287,11 @@ def exported(question: ExportRequest) -> dict[str, Any]:
         "text": export.text,
         "words": f"{export.format.target}: {written.points} {written.counted}, {written.model}",
         "notes": list(written.notes),
-        "rows": [[name, *map(_cell, numbers)] for name, *numbers in export.rows()],
+        "rows": [
+            [name, *("—" if number is None else digits(number, 6) for number in numbers)]
+            for name, *numbers in export.rows()
+        ],
     }
 
 
-def _cell(number: float | None) -> str:
-    return "—" if number is None else digits(number, 6)
-
-
-QUESTIONS: dict[str, Question] = {"export": (ExportRequest, exported), "save": (FileRequest, answer)}
+QUESTIONS: dict[str, Question] = {"export": (FileRequest, exported), "save": (FileRequest, answer)}

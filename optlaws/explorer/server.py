@@ -23,8 +23,6 @@ _GRACE = 2  # seconds for answers that are being written
 def opened(port: int | None) -> socket.socket:
     """A socket that listens on this machine alone; any free port where the usual one is taken.
 
-    Examples
-    --------
     >>> with opened(0) as listening:
     ...     listening.getsockname()[0]
     '127.0.0.1'

@@ -28,8 +28,6 @@ _SHOWN = frozenset({"cam", "cycle"})
 def start(given: str | None) -> dict[str, Any]:
     """The page's first state for a law's name or file, a problem file or a solution; an optimal law unless given.
 
-    Examples
-    --------
     >>> start("cycloidal")
     {'view': 'laws', 'laws': [{'name': 'cycloidal'}]}
     """
@@ -144,8 +142,6 @@ class OpenRequest(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
 def opened(request: OpenRequest) -> dict[str, Any]:
     r"""The state that shows a file; no file of this machine is read for it.
 
-    Examples
-    --------
     >>> opened(OpenRequest(name="one.toml", text="[problem]\norder = 4\nB = 1.7"))["state"]["laws"][0]["weights"]
     {'C': 1.0}
     """

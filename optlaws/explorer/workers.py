@@ -177,8 +177,6 @@ class Workers:
 def late(patience: float) -> bytes:
     """A sentence about a question that had no answer in time, with the seconds that it had.
 
-    Examples
-    --------
     >>> late(4.0)
     b'{"error":"this takes more than 4 s","late":4.0}'
     """

@@ -16,6 +16,8 @@ from optlaws.mechanisms.residual import residual_phasor, roots
 from optlaws.mechanisms.transforms import legendre_from_chebyshev, moments
 from optlaws.numbers import Array, Complex
 from optlaws.numerics import chebyshev
+from optlaws.shown.report import Panel, PlainReport, Report, ReportTable, Series
+from optlaws.shown.summary import Row, Summary
 
 _LOAD_RESOLVED = 1e-10  # of the load on a follower: what a series may miss
 _BEYOND_CUBIC = 1e-6  # of the load: twice integrated it is what lies beyond a quintic
@@ -188,6 +190,24 @@ class ResponseSpectrum:
         """Greatest |a_m''| of the rise, shape (m,), to about 1e-6; computed at the first use."""
         _, w, _ = roots(self.frequency, self.damping)
         return peak_accelerations(self.law, self.frequency, w)
+
+    def report(self) -> Report:
+        """Residual and peak acceleration over the frequency, as curves and as a table, in units of the law's a''.
+
+        Examples
+        --------
+        >>> from optlaws import savin
+        >>> [panel.name for panel in response_spectrum(savin("III", 7.2), [18.0, 20.0]).report().panels]
+        ['residual acceleration', 'peak acceleration']
+        """
+        values = {"residual acceleration": self.residual_acceleration, "peak acceleration": self.peak_acceleration}
+        across = "frequency, radians of the free vibration in the rise"
+        curves = {name: (Series(self.frequency, each),) for name, each in values.items()}
+        panels = [Panel(name, "in units of a″", curve, across=across) for name, curve in curves.items()]
+        columns = {"frequency": self.frequency.tolist(), **{name: each.tolist() for name, each in values.items()}}
+        facts = [Row("damping ratio", self.damping), Row("frequency", (self.frequency.min(), self.frequency.max()))]
+        data = {"damping": self.damping, "law": self.law.to_dict(), **columns}
+        return PlainReport(Summary(facts), [ReportTable.of_columns(columns)], panels, lambda: data)
 
 
 def response_spectrum(law: MotionLaw, frequency: Any, damping: float = 0.0) -> ResponseSpectrum:

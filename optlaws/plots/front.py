@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
 from optlaws.motion.display_units import MILLI
 from optlaws.plots.style import BLUES, GREY, WARM, name_point, new_axes
-from optlaws.synthesis.problem.named_constants import title_of
-from optlaws.synthesis.proven.front import ProvenFront
+from optlaws.synthesis.report import axis_label
 
 if TYPE_CHECKING:
     from matplotlib.artist import Artist
@@ -19,34 +18,27 @@ if TYPE_CHECKING:
     from optlaws.cycles.advising.advice import Advice
     from optlaws.cycles.moves.time_front import TimeFront
     from optlaws.synthesis.pareto import Front
+    from optlaws.synthesis.proven.front import ProvenFront
 
 _BESIDE_POINT = 1e-6  # of the time between two points of a front: so near to one what is drawn is what holds between
-
-_AXES = {"B": "peak velocity B", "C": "peak acceleration C", "D": "peak power D", "J": "peak jerk J"}
 
 _BETWEEN = 8
 #: values that are further apart are drawn by their logarithms
 _WIDE = 10.0
 
 
-def _label(name: str) -> str:
-    """The label of an axis for a constant: constants of machines have units of their own."""
-    title = title_of(name)
-    return title if title != name else f"{_AXES.get(name, name)} (dimensionless)"
-
-
 def draw_front(front: Front | ProvenFront, axes: Axes | None = None, **style: Any) -> list[Artist]:
     """Draw a front into axes, new ones by default, and return the artists: a third constant gives the colour."""
     axes = axes or new_axes()
-    for axis, name in zip("xy", front.over, strict=False):
-        axes.set(**{f"{axis}label": _label(name)})
-    if isinstance(front, ProvenFront) or len(front.over) == 2:
-        return list(axes.plot(*(front.curve if isinstance(front, ProvenFront) else front.values.T), **style))
-    values = front.values
+    axes.set(xlabel=axis_label(front.over[0]), ylabel=axis_label(front.over[1]))
+    panels = front.report().panels
+    if panels:
+        return list(axes.plot(panels[0].series[0].at, panels[0].series[0].values, **style))
+    values = cast("Front", front).values
     style = {"s": 18.0, "c": values[:, 2], **{key: value for key, value in style.items() if key != "color"}}
     points = axes.scatter(values[:, 0], values[:, 1], **style)
     bar = axes.get_figure(root=True).colorbar(points, ax=axes)  # type: ignore[union-attr] # these axes have a figure
-    bar.set_label(_label(front.over[2]))
+    bar.set_label(axis_label(front.over[2]))
     return [points]
 
 

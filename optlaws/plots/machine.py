@@ -57,9 +57,9 @@ def draw_spectrum(
     `over` divides the acceleration, for example by C of the law meant for the mass.
     """
     axes = axes or new_axes()
-    values = spectrum.residual_acceleration if what == "residual" else spectrum.peak_acceleration
-    axes.set(xlabel="frequency, radians of the free vibration in the rise", ylabel=f"{what} acceleration")
-    return list(axes.plot(spectrum.frequency, values / over, **style))
+    (panel,) = (each for each in spectrum.report().panels if each.name.startswith(what))
+    axes.set(xlabel=panel.across, ylabel=panel.name)
+    return list(axes.plot(panel.series[0].at, panel.series[0].values / over, **style))
 
 
 def draw_output(

@@ -32,6 +32,7 @@ def draw_panels(
 ) -> list[Artist]:
     """Draw panels into as many axes, one below the other, under the names of the segments; return the artists."""
     artists: list[Artist] = []
+    per = 1.0 if any(panel.across for panel in panels) else per
     for panel, each in zip(panels, axes, strict=True):
         artists += draw_panel(panel, each, per=per, **style)
         mark_segments(segments, each, per)
@@ -77,6 +78,8 @@ def mark_segments(segments: Sequence[ReportSegment], axes: Axes, per: float = MI
 
 
 def set_range(axes: Axes, panels: Sequence[Panel], per: float = MILLI) -> None:
-    """The whole of the longest curve, over time in milliseconds or over an angle in degrees."""
+    """The whole of the longest curve, over time in milliseconds, an angle in degrees, or what the panels name."""
     longest = max(float(curve.at[-1]) for panel in panels for curve in panel.series)
-    axes.set(xlabel="time, ms" if per == MILLI else "cam, deg", xlim=(0.0, per * longest))
+    least = min(0.0 if not panel.across else float(panel.series[0].at[0]) for panel in panels)
+    label = panels[0].across or ("time, ms" if per == MILLI else "cam, deg")
+    axes.set(xlabel=label, xlim=(per * least, per * longest))

@@ -118,6 +118,8 @@ class Panel:
         Times and values that are marked, from the law and not from the curve.
     ends
         The least and the greatest value, from the law as well.
+    across
+        What the values are over, where that is not the time.
     """
 
     name: str
@@ -126,6 +128,7 @@ class Panel:
     limits: tuple[PanelLimit, ...] = ()
     peaks: tuple[tuple[float, float], ...] = ()
     ends: tuple[float, float] = (0.0, 0.0)
+    across: str = ""
 
     @property
     def title(self) -> str:
@@ -168,6 +171,22 @@ class Report(Protocol):
         """The result for programs, in SI units."""
 
 
+@dataclass(frozen=True)
+class PlainReport:
+    """A report of what is known already, but for the data, which are computed when they are needed."""
+
+    facts: Summary
+    tables: Sequence[ReportTable]
+    panels: Sequence[Panel]
+    plain: Callable[[], dict[str, Any]]
+    segments: Sequence[ReportSegment] = ()
+
+    @property
+    def data(self) -> dict[str, Any]:
+        """The result for programs, in SI units."""
+        return self.plain()
+
+
 def report_page(title: object, report: Report) -> str:
     """A report as HTML: its facts, its tables, and a small drawing of every panel."""
     tables = (table(*each) for each in report.tables)
@@ -175,6 +194,7 @@ def report_page(title: object, report: Report) -> str:
 
 
 def panel_drawing(panel: Panel) -> str:
-    """A small drawing of the first curve of a panel, as HTML."""
+    """A small drawing of the first curve of a panel, as HTML; of what is not over the time, above its least value."""
     at, values, *_ = panel.series[0]
-    return drawing(panel.title, at.tolist(), values.tolist())
+    name, base = (f"{panel.title} over {panel.across}", panel.ends[0]) if panel.across else (panel.title, 0.0)
+    return drawing(name, at.tolist(), (values - base).tolist())

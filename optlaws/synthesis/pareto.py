@@ -19,7 +19,9 @@ from optlaws.files.reading import JsonText, entries_of
 from optlaws.kept import kept_property
 from optlaws.laws import PolynomialLaw
 from optlaws.numbers import MOST_VALUES, Array, finite, listed, real, whole
+from optlaws.shown.report import Report, ReportTable, panel_drawing
 from optlaws.shown.steps import Steps
+from optlaws.shown.summary import Row
 from optlaws.synthesis.families.peaks import of_polynomials
 from optlaws.synthesis.method.exchange import solve
 from optlaws.synthesis.method.stored_structures import stored_guess
@@ -113,6 +115,32 @@ class Front(JsonText):
             for values, point in zip(constants, self.points, strict=True)
         ]
 
+    def report(self) -> Report:
+        """How far the front is proven, the table of its points and, of two constants, its curve with both bounds.
+
+        Examples
+        --------
+        >>> from optlaws import Problem
+        >>> from optlaws import pareto_front
+        >>> report = pareto_front(Problem(order=4), over=("B", "C"), points=3, between=(1.5, 1.8)).report()
+        >>> report.facts[2].note, [curve.name for curve in report.panels[0].series]
+        ('proven at every point', ['front', 'lower bound', 'limit'])
+        """
+        from optlaws.synthesis.report import front_report
+
+        rows = self.rows
+        facts = [Row(title_of(name), (v.min(), v.max())) for name, v in zip(self.over, self.values.T, strict=True)]
+        proven = all(point.status is Status.OPTIMAL for point in self)
+        quality = "proven at every point" if proven else "local optima, not proven least"
+        facts.append(Row("greatest gap", max(point.gap for point in self), note=quality))
+        if self.failed:
+            facts.append(Row(f"no law at {title_of(self.over[0])}", ", ".join(f"{value:.6g}" for value in self.failed)))
+        x, y = self.values[:, 0], self.values[:, -1]
+        bounds = (np.array([row[i] for row in rows], dtype=float) for i in (-4, -2))
+        curves = [("front", x, y), *zip(("lower bound", "limit"), (x, x), bounds, strict=True)]
+        table = ReportTable(self.headings, rows)
+        return front_report(self.over, facts, table, curves if len(self.over) == 2 else [], self.to_dict)
+
     def plot(self, ax: Any = None, **style: Any) -> list[Any]:
         """Draw the points into matplotlib's axes, new ones by default; returns the artists."""
         from optlaws.plots.front import draw_front
@@ -201,15 +229,11 @@ class Front(JsonText):
         return f"Front(over={over!r}, {len(self)} points, {', '.join(ends)})"
 
     def _repr_html_(self) -> str:
-        from optlaws.shown.showing import drawing, page, table
+        from optlaws.shown.showing import page, table
 
-        rows = self.rows[:: 1 + len(self) // _SHOWN]
-        curve = ""
-        if len(self.over) == len(("given", "minimised")):
-            x, y = self.values.T
-            first, last = map(title_of, self.over)
-            curve = drawing(f"{last} over {first}", x.tolist(), (y - y.min()).tolist())
-        return page(repr(self), table(self.headings, rows), curve)
+        report = self.report()
+        rows = report.tables[0].rows[:: 1 + len(self) // _SHOWN]
+        return page(repr(self), table(self.headings, rows), *map(panel_drawing, report.panels))
 
 
 def named_or_refused(name: object) -> str:

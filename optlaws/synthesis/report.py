@@ -1,16 +1,18 @@
-"""The report of a solution: its status and its bounds, and the curves of its law within the limits of its problem."""
+"""Reports of solutions, with the curves of their laws within the limits of their problems, and of fronts."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from math import inf, isfinite
 from typing import TYPE_CHECKING, Any
 
 from optlaws.kept import kept_property
 from optlaws.laws.report import LawReport, law_panels
-from optlaws.shown.report import Panel, PanelLimit
-from optlaws.shown.summary import Summary
+from optlaws.numbers import Array
+from optlaws.shown.report import Panel, PanelLimit, PlainReport, ReportTable, Series
+from optlaws.shown.summary import Row, Summary
+from optlaws.synthesis.problem.named_constants import title_of
 
 if TYPE_CHECKING:
     from optlaws.synthesis.problem.problem import Problem
@@ -63,3 +65,26 @@ def _limits(problem: Problem) -> Iterator[tuple[str, PanelLimit]]:
     for each in problem.windows:
         name = "via point" if each.point else "window"
         yield each.quantity, PanelLimit(each.start, each.stop, each.low, each.high, name)
+
+
+_AXES = {"B": "peak velocity B", "C": "peak acceleration C", "D": "peak power D", "J": "peak jerk J"}
+
+
+def axis_label(name: str) -> str:
+    """What an axis for a constant is called: constants of machines have units of their own."""
+    title = title_of(name)
+    return title if title != name else f"{_AXES.get(name, name)} (dimensionless)"
+
+
+def front_report(
+    over: Sequence[str],
+    facts: Sequence[Row],
+    table: ReportTable,
+    curves: Sequence[tuple[str, Array, Array]],
+    plain: Callable[[], dict[str, Any]],
+) -> PlainReport:
+    """The report of a front: its points with their bounds and, of two constants, curves of the last over the first."""
+    series = tuple(Series(at, values, i, name) for i, (name, at, values) in enumerate(curves))
+    ends = (float(series[0].values.min()), float(series[0].values.max())) if series else (0.0, 0.0)
+    panels = [Panel(axis_label(over[-1]), "", series, ends=ends, across=axis_label(over[0]))] if series else []
+    return PlainReport(Summary(facts), [table], panels, plain)

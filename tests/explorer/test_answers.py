@@ -63,12 +63,18 @@ def with_law(name: str) -> list[dict[str, str]]:
 # --- laws and fronts ---
 
 
+def curve(front: dict[str, Any], name: str) -> list[tuple[float, float]]:
+    """The points of a curve of a front."""
+    (found,) = (each for each in front["series"] if each["name"] == name)
+    return list(zip(found["at"], found["values"], strict=True))
+
+
 @pytest.mark.sample(2)
 @pytest.mark.parametrize("pair", front_view.PAIRS)
 def test_points_of_a_front_are_laws_of_their_own_problems(pair: tuple[str, str]) -> None:
     x, y = pair
     swept = front_view.swept_problem(problem_of(law(OPTIMAL)), x, y)
-    line = front_view.front(swept, x, y)["line"]
+    line = curve(front_view.front(swept, x, y), "front")
     first, second = line[len(line) // 2]
     asked: dict[str, Any] = {x: first if x == "B" else at_most(first)}
     alone = synthesize(replace(swept, **asked))
@@ -78,19 +84,19 @@ def test_points_of_a_front_are_laws_of_their_own_problems(pair: tuple[str, str])
 
 def test_a_front_ends_where_laws_end_and_its_limit_lies_below() -> None:
     found = front_view.front(Problem(order=4, J=at_most(70.0)), "B", "C")
-    least, greatest = found["line"][0][0], found["line"][-1][0]
+    line, limits = curve(found, "front"), dict(curve(found, "limit"))
+    least, greatest = line[0][0], line[-1][0]
     for B, exists in ((least, True), (least - 0.01, False), (greatest, True)):
         assert isinstance(solved(Problem(order=4, J=at_most(70.0), B=B)), Solution) == exists
-    limits = dict(map(tuple, found["limit"]))
     assert min(limits) > 1.3  # below it the jerk is too small for any law
-    assert all(limits[min(limits, key=lambda other: abs(other - B))] - 0.2 < C for B, C in found["line"])
+    assert all(limits[B] < C for B, C in line)
 
 
 def test_a_front_of_powers_says_how_far_its_laws_are_from_proven(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(front_view, "_POINTS", 5)
     found = front_view.front(Problem(order=4, minimise="D"), "C", "D")
     assert not found["proven"]
-    assert len(found["line"]) == 5
+    assert len(curve(found, "front")) == 5
     results = re.fullmatch(r"least D for each bound of C: .* no law is below them by more than (\d+) %", found["words"])
     assert results is not None
     assert 5 < int(results[1]) < 60
@@ -112,7 +118,7 @@ def test_a_front_without_any_law_says_so() -> None:
 )
 def test_the_way_back_is_as_short_as_can_be(entries: dict[str, Any], entry: str) -> None:
     question = law({"problem": {"order": 4, "degree": 9} | entries})
-    (way,) = (one for one in law_view.nearest(question)["ways"] if one["entry"] == entry)
+    (way,) = (one for one in law_view.nearest(LawsRequest(laws=[question]))["ways"] if one["entry"] == entry)
     problem = problem_of(question)
 
     def changed(value: float) -> Problem:
@@ -126,7 +132,7 @@ def test_the_way_back_is_as_short_as_can_be(entries: dict[str, Any], entry: str)
 
 
 def test_a_problem_with_a_law_needs_no_way_back() -> None:
-    assert law_view.nearest(law(OPTIMAL)) == {"ways": []}
+    assert law_view.nearest(LawsRequest(laws=[law(OPTIMAL)])) == {"ways": []}
 
 
 @pytest.mark.parametrize("entries", [{"order": 13}, {"order": 4, "degree": 42}, {"order": 4, "minimize": "C"}])

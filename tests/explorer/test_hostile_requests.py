@@ -34,9 +34,9 @@ LAWS = [
 TOML = '[problem]\norder = 4\n[[sweep]]\nB = [1.6, "free"]\n'
 SEEDS: dict[str, list[Any]] = {
     "laws": [{"laws": LAWS}],
-    "law-machine": [{"law": OPTIMAL, "stroke": "35 mm", "time": "0.1 s", "mass": "2 kg"}],
-    "front": [{"law": OPTIMAL, "over": ["B", "C"]}],
-    "nearest": [{"problem": {"order": 4, "degree": 9, "B": 1.7, "J": [0, 20]}, "weights": {"C": 1.0}}],
+    "law-machine": [{"laws": [OPTIMAL], "stroke": "35 mm", "time": "0.1 s", "mass": "2 kg"}],
+    "front": [{"laws": [OPTIMAL], "over": ["B", "C"]}],
+    "nearest": [{"laws": [{"problem": {"order": 4, "degree": 9, "B": 1.7, "J": [0, 20]}, "weights": {"C": 1.0}}]}],
     "advice": [CYCLE | {"follower": {"frequency": ["20 Hz", "24 Hz"], "damping": 0.05}, "minimise": "jerk"}],
     "advice-standard": [CYCLE],
     "axes": [AXES],
@@ -55,8 +55,8 @@ SEEDS: dict[str, list[Any]] = {
     "cycle": [CYCLE],
     "cycle-nearest": [CYCLE],
     "export": [
-        {"format": "csv", "view": "laws", "request": {"laws": [OPTIMAL]}, "points": 9},
-        {"format": "csv", "view": "old", "request": OLD | {"laws": [[{}]]}, "points": 9},
+        {"kind": "csv", "view": "laws", "request": {"laws": [OPTIMAL]}, "points": 9},
+        {"kind": "csv", "view": "old", "request": OLD | {"laws": [[{}]]}, "points": 9},
     ],
     "save": [
         {"kind": "python", "view": "laws", "request": {"laws": [OPTIMAL]}},

@@ -87,7 +87,7 @@ def test_better_laws_are_the_library_s_and_so_are_their_files(served: Server, tu
     assert max(map(abs, off["values"])) == pytest.approx(gain.deviation, abs=1e-4)
     assert gain.deviation <= 0.1 * (1.0 + 1e-6)
     cycle = better.cycle(speed="200 rpm")
-    results = served.ask("export", {"format": "csv", "view": "old", "request": old, "points": 91})
+    results = served.ask("export", {"kind": "csv", "view": "old", "request": old, "points": 91})
     assert results["text"] == cycle.export("csv", points=91).text
     kept = served.ask("save", {"kind": "law", "view": "old", "request": old})
     assert Cycle.from_json(kept["text"]).peak(2) == cycle.peak(2)
@@ -99,7 +99,7 @@ def test_better_laws_are_the_library_s_and_so_are_their_files(served: Server, tu
     assert plain["name"] == "turn.toml"
     assert 'law = "modified sine"' in plain["text"]
     assert "speed of the master" in served.ask(
-        "export", {"format": "csv", "view": "old", "request": {"study": {"text": STUDY["text"]}}}
+        "export", {"kind": "csv", "view": "old", "request": {"study": {"text": STUDY["text"]}}}
     )["error"]  # fmt: skip
 
 

@@ -279,7 +279,7 @@ def test_an_export_says_what_the_controller_will_run(page: Page, served: Server)
     page.get_by_label("encoder counts a stroke").fill("65536")
     settle(page)
     row = page.locator(".report tr", has_text="peak of acceleration")
-    asked = {"format": "twincat-table", "view": "laws", "request": {"laws": [at_velocity(1.859)]}}
+    asked = {"kind": "twincat-table", "view": "laws", "request": {"laws": [at_velocity(1.859)]}}
     rows = served.ask("export", asked | {"points": 361, "counts": 65536})["rows"]
     told_row = next(one for one in rows if one[0].startswith("peak of acceleration"))
     assert row.locator("td").all_inner_texts() == told_row[1:]

@@ -12,8 +12,8 @@ from tests.internals.explorer import example
 
 QUESTIONS = {
     "laws": {"laws": [OPTIMAL, {"name": "cubic"}]},
-    "front": {"law": OPTIMAL, "over": ["B", "C"]},
-    "export": {"format": "csv", "view": "laws", "request": {"laws": [OPTIMAL]}, "points": 9},
+    "front": {"laws": [OPTIMAL], "over": ["B", "C"]},
+    "export": {"kind": "csv", "view": "laws", "request": {"laws": [OPTIMAL]}, "points": 9},
     "cycle": {"study": example()},
     "residual": {"laws": [OPTIMAL]},
 }

@@ -76,7 +76,8 @@ export class Exporting {
     const machine = Object.fromEntries(Object.entries({ ...MACHINE, ...state.controller }).filter(([name]) => name in MACHINE || takes.includes(name)));
     this.#answer = null;
     this.#save.disabled = true;
-    this.#asked.ask({ ...machine, ...this.#motion(state) });
+    const { format: kind, ...others } = machine;
+    this.#asked.ask({ kind, ...others, ...this.#motion(state) });
   }
 
   #show(answer) {

@@ -48,8 +48,9 @@ export class Plane {
     this.#handle.addEventListener("keydown", (event) => this.#key(event));
   }
 
-  showFront(front) {
-    this.#front = front;
+  showFront({ series = [], ...front }) {
+    const curve = (name) => series.filter((one) => one.name === name).flatMap(({ at, values }) => at.map((x, i) => [x, values[i]]).filter(([, y]) => y !== null));
+    this.#front = { ...front, line: curve("front"), limit: curve("limit") };
     this.#draw();
   }
 

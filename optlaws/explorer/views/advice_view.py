@@ -28,8 +28,6 @@ from optlaws.numbers import bounded
 def standard(request: CycleRequest) -> dict[str, Any]:
     """The standard laws side by side, which take no search; or the reason why there is none.
 
-    Examples
-    --------
     >>> from optlaws.explorer.views import cycle_view
     >>> [row["name"] for row in standard(CycleRequest(study=cycle_view.example()))["rows"]][:2]
     ['modified sine', 'modified trapezoid']

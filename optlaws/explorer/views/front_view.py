@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from dataclasses import replace
 from functools import cache, lru_cache
-from typing import Annotated, Any
+from typing import Any
 
-import msgspec
 import numpy as np
 
 from optlaws import (
     FUNCTIONALS,
+    Front,
     MotionLaw,
     Problem,
     ProblemArray,
@@ -19,63 +19,46 @@ from optlaws import (
     Status,
     at_most,
     catalogue,
-    limit,
     map_arrays,
     synthesize_array,
 )
 from optlaws.errors import InputError, OptlawsError
 from optlaws.explorer.views.law_view import digits, objective_title
-from optlaws.explorer.views.panel_data import drawn
-from optlaws.explorer.views.requests import LawRequest, Question, problem_of, solved, without
+from optlaws.explorer.views.panel_data import drawn, panel_data
+from optlaws.explorer.views.requests import LawsRequest, Question, problem_of, solved, without
 from optlaws.laws.savin import FAMILIES
 from optlaws.numbers import bounded
-from optlaws.synthesis.limits.of_problem import known_limit
 from optlaws.synthesis.proof.infeasible import possible_velocities
 from optlaws.tolerances import BOUND_SLACK
 
 #: least and greatest of each axis that is drawn
 RANGES = {"B": (1.1, 2.5), "C": (3.5, 10.0), "D": (2.0, 11.0), "J": (20.0, 140.0), "rms_c": (3.2, 7.0)}
-_POINTS, _LIMITS = 57, 61
+_POINTS = 57
 #: sums with D in them are solved one by one
 _POINTS_ALONE = 25
 _LONGEST = 80
-#: laws of lower order may have jumps of c at their ends, beside which no limit of J is known
-_JERK_ORDER = 2
-
-_NO_FRONT: dict[str, Any] = {"line": [], "words": "", "limit": [], "proven": False}
-
-
-class FrontRequest(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
-    """The front of a problem over two constants."""
-
-    law: LawRequest
-    over: Annotated[list[str], msgspec.Meta(min_length=2, max_length=2)]
-
-
 #: pairs that may be exchanged: the first is swept, the second is drawn over it
 PAIRS = (("B", "C"), ("B", "D"), ("B", "J"), ("C", "D"), ("J", "C"))
 
 
-def answer(request: FrontRequest) -> dict[str, Any]:
+def answer(request: LawsRequest) -> dict[str, Any]:
     """The front of a problem: where B is swept, of its own objective; else of the least second constant."""
     x, y = request.over
     if (x, y) not in PAIRS:
         raise InputError(f"over must be one of {', '.join('-'.join(pair) for pair in PAIRS)}, got {x}-{y}")
-    drawn_over = {"x": x, "y": y, "ranges": [RANGES[x], RANGES[y]], "known": known_points(x, y)}
-    line = _NO_FRONT
+    line: dict[str, Any] = {"words": ""}
     if request.law.problem is not None:
         try:
             line = front(swept_problem(problem_of(request.law), x, y), x, y)
         except OptlawsError as error:  # the view of the law says why at length
-            line = _NO_FRONT | {"words": f"no front: {str(error.args[0])[:_LONGEST]}"}
-    return drawn_over | {"families": families(x, y)} | line
+            line = {"words": f"no front: {str(error.args[0])[:_LONGEST]}"}
+    picture = {"x": x, "y": y, "ranges": [RANGES[x], RANGES[y]], "known": known_points(x, y)}
+    return picture | {"families": families(x, y)} | line
 
 
 def swept_problem(problem: Problem, x: str, y: str) -> Problem:
     """The problem whose first constant is to run: where that is not B, the second is minimised.
 
-    Examples
-    --------
     >>> swept_problem(Problem(B=1.7, order=4), "C", "D")
     Problem(B=1.7, order=4, basis=Chebyshev(degree=9), minimise='D')
     """
@@ -84,37 +67,31 @@ def swept_problem(problem: Problem, x: str, y: str) -> Problem:
 
 @lru_cache(maxsize=64)
 def front(problem: Problem, x: str, y: str) -> dict[str, Any]:
-    """The line of optimal laws over x, what is proven of it, and the limit of its order at any degree.
+    """The optimal laws over x with what is proven of them, and the limit of their order at any degree, as curves.
 
-    Examples
-    --------
     >>> shown = front(Problem(order=4), "B", "C")
-    >>> shown["words"], len(shown["line"]) > 30
+    >>> shown["words"], len(shown["series"][0]["at"]) > 30
     ('least C at each B: proven at every point', True)
     """
-    span, limits = _span(problem, x), _limits(problem, x, y)
+    span = _span(problem, x)
     if span is None:
-        return _NO_FRONT | {"words": f"no {x} has a law of this problem", "limit": limits}
+        return {"words": f"no {x} has a law of this problem"}
     alone = not problem.convex and problem.minimise != "D"
     values: Any = np.linspace(*span, _POINTS_ALONE if alone else _POINTS)
     entries = {name: getattr(problem, name) for name in problem.__dataclass_fields__}
     laws = synthesize_array(ProblemArray(**entries | {x: values if x == "B" else map_arrays(at_most, values)}))
-    there = ~np.isnan(laws.objective)
     # a law whose bound of x does not bind stands where its own x is
-    places = np.column_stack([getattr(laws, x), getattr(laws, y)])[there]
-    proven = set(laws.status[there].tolist()) == {Status.OPTIMAL.value}
-    room = 1.0 - laws.lower_bound[there] / laws.objective[there]
-    beyond = (
-        f": no law is below them by more than {100.0 * room.max(initial=0.0):.2g} %" if np.isfinite(room).all() else ""
-    )
+    line = Front((x, y), tuple(law for law in map(laws.result, range(laws.size)) if isinstance(law, Solution)))
+    report = line.report()
+    quality = report.facts[-1]
+    proven = all(law.status is Status.OPTIMAL for law in line)
+    if not proven and bounded(quality.value) is not None:
+        quality = quality._replace(
+            note=f"{quality.note}: no law is below them by more than {100.0 * quality.value:.2g} %"
+        )
     at = "at each B" if x == "B" else f"for each bound of {x}"
-    quality = "proven at every point" if proven else f"local optima, not proven least{beyond}"
-    return {
-        "line": [drawn(place, 7) for place in places],
-        "words": f"least {objective_title(problem)} {at}: {quality}",
-        "proven": proven,
-        "limit": limits,
-    }
+    words = f"least {objective_title(problem)} {at}: {quality.note}"
+    return {"series": panel_data(report.panels[0], 1.0)["series"], "words": words, "proven": proven}
 
 
 def _span(problem: Problem, x: str) -> tuple[float, float] | None:
@@ -131,22 +108,6 @@ def _span(problem: Problem, x: str) -> tuple[float, float] | None:
             return None
         ends = max(low, optimum.objective * (1.0 + BOUND_SLACK)), high
     return ends if ends[0] < ends[1] else None
-
-
-def _limits(problem: Problem, x: str, y: str) -> list[list[float]]:
-    """Limits for laws of any degree, where y alone is minimised over B."""
-    if x != "B" or str(problem.minimise) != y:
-        return []
-    values = [B for B in np.linspace(*RANGES[x], _LIMITS).tolist() if _jerk_allows(problem, B)]
-    limits = [(B, known_limit(replace(problem, B=B))) for B in values]
-    return [[round(B, 6), round(least, 6)] for B, least in limits if least is not None]
-
-
-def _jerk_allows(problem: Problem, B: float) -> bool:
-    bound = problem.range("J")
-    if bound is None or problem.order < _JERK_ORDER:
-        return True
-    return limit("J", B, order=problem.order, monotone=problem.monotone) <= bound.high
 
 
 #: the laws that the picture always names
@@ -185,4 +146,4 @@ def families(x: str, y: str) -> list[dict[str, Any]]:
     return lines
 
 
-QUESTIONS: dict[str, Question] = {"front": (FrontRequest, answer)}
+QUESTIONS: dict[str, Question] = {"front": (LawsRequest, answer)}

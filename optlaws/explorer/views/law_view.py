@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
 from functools import lru_cache, wraps
 from math import ceil, floor, log10
-from typing import Annotated, Any, TypeAlias
+from typing import Any, TypeAlias
 
 import msgspec
 
@@ -19,9 +19,9 @@ from optlaws.explorer.views.requests import (
     LawRequest,
     LawsRequest,
     Question,
-    given_law,
     law_of,
     problem_of,
+    result_of,
     solved,
     without,
 )
@@ -51,18 +51,22 @@ def answer(request: LawsRequest) -> dict[str, Any]:
 def view(question: bytes) -> dict[str, Any]:
     """The view of a law that is requested as JSON; an error is reported in its place, so that other laws remain."""
     request = msgspec.json.decode(question, type=LawRequest)
-    name = request.title or request.name
+    head = {"title": titled(request)}
     try:
-        if request.problem is None:
-            return {"title": name or "a stored law", "trust": None} | shown(given_law(request))
-        problem = problem_of(request)
-        name = request.title or title(problem)
-        solution = solved(problem)
-        if not isinstance(solution, Solution):
-            raise solution.with_traceback(None)
-        return {"title": name, "trust": trust(solution)} | shown(solution)
+        result = result_of(request)
+        return head | {"trust": trust(result) if isinstance(result, Solution) else None} | shown(result)
     except OptlawsError as error:
-        return {"title": name or "a problem", "refused": refusal(error)}
+        return head | {"refused": refusal(error)}
+
+
+def titled(law: LawRequest) -> str:
+    """The title of a law: its own, or what it is."""
+    if law.title or law.problem is None:
+        return law.title or law.name or "a stored law"
+    try:
+        return title(problem_of(law))
+    except OptlawsError:  # the view says why
+        return "a problem"
 
 
 def refusal(error: OptlawsError, word: str = "not understood") -> dict[str, str]:
@@ -92,8 +96,6 @@ def refusing(word: str = "not understood") -> Callable[[Answer], Answer]:
 def title(problem: Problem) -> str:
     """A short title of a problem.
 
-    Examples
-    --------
     >>> title(Problem(B=1.7, order=4, minimise="J"))
     'least J, B = 1.7, order 4, degree 9'
     """
@@ -113,8 +115,6 @@ def _bound_text(name: str, bound: Range) -> str:
 def objective_title(problem: Problem) -> str:
     """The objective of a problem, with numbers rounded for reading.
 
-    Examples
-    --------
     >>> objective_title(Problem(order=4, minimise="C/4 + D/2.25"))
     '0.25*C + 0.4444*D'
     """
@@ -139,8 +139,6 @@ def shown(result: MotionLaw | Solution) -> dict[str, Any]:
 def digits(number: float, count: int = 7) -> str:
     """A number as the page prints it.
 
-    Examples
-    --------
     >>> digits(1.7), digits(float("-inf")), digits(-0.25)
     ('1.7', '−∞', '−0.25')
     """
@@ -173,8 +171,6 @@ def verdict(status: Status, gap: str, facts: Iterable[str], optimal: str = "", *
 def gap_text(gap: float) -> str:
     """The gap in words; what is below 1e-12 is rounding, and 1 is the gap of the bound 0.
 
-    Examples
-    --------
     >>> gap_text(0.07), gap_text(3e-14), gap_text(1.0)
     ('gap 7.0e-02', 'gap below 1e-12', 'no bound above 0 is known')
     """
@@ -189,17 +185,15 @@ _FIGURES = 5
 _STEPS = (2, 4, 8)
 
 
-def nearest(request: LawRequest) -> dict[str, Any]:
-    """Single changes of the problem after which a law exists, with the new values."""
-    problem = problem_of(request)
+def nearest(request: LawsRequest) -> dict[str, Any]:
+    """Single changes of the active problem after which a law exists, with the new values."""
+    problem = problem_of(request.law)
     return {"ways": [] if isinstance(solved(problem), Solution) else list(ways(problem))}
 
 
 def ways(problem: Problem) -> Iterator[dict[str, Any]]:
     """Each way back: the entry to change, its nearest value that has a law, and both in words.
 
-    Examples
-    --------
     >>> from optlaws import at_most
     >>> for way in ways(Problem(B=1.7, order=4, J=at_most(20.0))):
     ...     print(way["entry"], way["text"])
@@ -258,24 +252,12 @@ def _way(entry: str, value: float, text: str) -> dict[str, Any]:
 
 
 _INERTIAS = {"length": ("mass", "N"), "angle": ("moment of inertia", "N m")}
-Entry = Annotated[str, msgspec.Meta(max_length=60)]
 
 
-class MachineRequest(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
-    """A law with its stroke, its time and the mass, or the inertia, that it moves."""
+def in_machine_units(request: LawsRequest) -> dict[str, Any]:
+    """Peaks of the active law in the units of a machine, by the constant that each comes of.
 
-    law: LawRequest
-    stroke: Entry
-    time: Entry
-    mass: Entry = ""
-
-
-def in_machine_units(request: MachineRequest) -> dict[str, Any]:
-    """Peaks of a law in the units of a machine, by the constant that each comes of.
-
-    Examples
-    --------
-    >>> press = MachineRequest(law=LawRequest(name="cubic"), stroke="40 mm", time="0.2 s", mass="3 kg")
+    >>> press = LawsRequest(laws=[LawRequest(name="cubic")], stroke="40 mm", time="0.2 s", mass="3 kg")
     >>> for row in in_machine_units(press)["rows"]:
     ...     print(row["name"], row["cells"])
     40 mm in 0.2 s {'B': '300 mm/s', 'C': '6 m/s²', 'J': '60 m/s³', 'rms_c': '3.4641 m/s²'}
@@ -299,7 +281,7 @@ def in_machine_units(request: MachineRequest) -> dict[str, Any]:
 
 
 QUESTIONS: dict[str, Question] = {
-    "law-machine": (MachineRequest, in_machine_units),
+    "law-machine": (LawsRequest, in_machine_units),
     "laws": (LawsRequest, answer),
-    "nearest": (LawRequest, nearest),
+    "nearest": (LawsRequest, nearest),
 }

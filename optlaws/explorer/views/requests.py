@@ -13,11 +13,14 @@ import msgspec
 from optlaws import MotionLaw, Problem, Solution, synthesize
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.laws.catalogue import reading
+from optlaws.mechanisms.measured_spectrum import MOST_POINTS
 from optlaws.numbers import whole
 from optlaws.suggest import unknown_key
 
 #: beyond this nobody drags, and an answer takes longer than a page should wait
 MOST_ORDER, MOST_DEGREE, MOST_LAWS = 12, 41, 4
+#: beyond this the envelope of the vibration, which the residual is, says nothing of what little is left to see
+MOST_DAMPING = 0.5
 #: what weights are of, each beside its least value over all laws from rest to rest (with zero end accelerations)
 UNITS = {"C": 4.0, "D": 2.25, "J": 32.0, "rms_c": 12.0**0.5}
 _FIGURES = 12
@@ -26,6 +29,9 @@ Struct = TypeVar("Struct", bound=msgspec.Struct)
 #: what a question of the page is read as, and what answers it
 Question = tuple[type[msgspec.Struct], Callable[[Any], dict[str, Any]]]
 Weight = Annotated[float, msgspec.Meta(ge=0.0, le=100.0)]
+Text = Annotated[str, msgspec.Meta(max_length=60)]
+Frequency = Annotated[float, msgspec.Meta(gt=0.0, le=1000.0)]
+Pairs = Annotated[list[tuple[float, float]], msgspec.Meta(min_length=2, max_length=MOST_POINTS)]
 
 
 class LawRequest(msgspec.Struct, kw_only=True, forbid_unknown_fields=True, frozen=True):
@@ -39,10 +45,26 @@ class LawRequest(msgspec.Struct, kw_only=True, forbid_unknown_fields=True, froze
 
 
 class LawsRequest(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
-    """Laws side by side, of which one is active."""
+    """Laws side by side, of which one is active, and what a view computes of them.
+
+    Of a front the constants that are exchanged; of a machine the stroke, the time and the mass, or the inertia, that
+    the active law moves; of a follower the highest displayed frequency nu, the selected one and the damping, the band
+    in which the greatest residual is sought, and a spectrum, pairs of a frequency and an amplitude: nu, or Hz where the
+    duration of the motion is given.
+    """
 
     laws: Annotated[list[LawRequest], msgspec.Meta(min_length=1, max_length=MOST_LAWS)]
     active: Annotated[int, msgspec.Meta(ge=0)] = 0
+    over: tuple[str, str] = ("B", "C")
+    stroke: Text = ""
+    time: Text = ""
+    mass: Text = ""
+    frequency: Frequency = 20.0
+    most: Annotated[float, msgspec.Meta(ge=10.0, le=1000.0)] = 80.0
+    damping: Annotated[float, msgspec.Meta(ge=0.0, le=MOST_DAMPING)] = 0.0
+    band: tuple[Frequency, Frequency] | None = None
+    spectrum: Pairs | None = None
+    duration: Text | None = None
 
     @property
     def law(self) -> LawRequest:
@@ -58,8 +80,6 @@ def read(text: bytes, kind: type[Struct]) -> Struct:
     InputError
         If it is no JSON, or has an entry that is unknown or wrong.
 
-    Examples
-    --------
     >>> read(b'{"laws": [{"name": "cycloidal"}]}', LawsRequest).laws[0].name
     'cycloidal'
     """
@@ -72,8 +92,6 @@ def read(text: bytes, kind: type[Struct]) -> Struct:
 def objective(weights: Mapping[str, float]) -> str:
     """The objective of weights: a constant alone, or the sum of those above 0, each by its least value over all laws.
 
-    Examples
-    --------
     >>> objective({"C": 1.0, "D": 0.0}), objective({"C": 0.5, "J": 1.0})
     ('C', '0.5*C/4 + 1*J/32')
     """
@@ -95,8 +113,6 @@ _PAIRS = re.compile(r"\s*\{?\s*[-+.\deE]+\s*:")
 def without_files(entries: Any) -> None:
     """Refuse what names a file, such as a measured spectrum, a law or a catalogue of motors: the page reads none.
 
-    Examples
-    --------
     >>> without_files({"bounds": {"residual(spectrum='{shaker.csv}')": [0, 1]}})
     Traceback (most recent call last):
     optlaws.errors.InputError: spectrum: '{shaker.csv}' names a file, and the page reads none: drop it onto the page
@@ -155,8 +171,6 @@ def solved(problem: Problem) -> Solution | InfeasibleProblem | SolverFailure:
 def without(problem: Problem, constant: str, **changes: Any) -> Problem:
     """The problem without its bound of a constant, with other entries replaced.
 
-    Examples
-    --------
     >>> without(Problem(B=1.7, order=4, bounds={"rms_c": [0, 4]}), "rms_c", minimise="rms_c")
     Problem(B=1.7, order=4, basis=Chebyshev(degree=9), minimise='rms_c')
     """
@@ -170,8 +184,6 @@ def without(problem: Problem, constant: str, **changes: Any) -> Problem:
 def given_law(request: LawRequest) -> MotionLaw:
     """The law of a name or of stored data; no file is read.
 
-    Examples
-    --------
     >>> given_law(LawRequest(name="III(7.2)")).constants.B.value
     1.859375
     """
@@ -183,11 +195,17 @@ def given_law(request: LawRequest) -> MotionLaw:
     return reading.read_law(name)
 
 
-def law_of(request: LawRequest) -> MotionLaw:
-    """The requested law, in any of its forms."""
+def result_of(request: LawRequest) -> MotionLaw | Solution:
+    """The requested law, in any of its forms; of a problem its solution."""
     if request.problem is None:
         return given_law(request)
     answer = solved(problem_of(request))
     if isinstance(answer, Solution):
-        return answer.law
+        return answer
     raise answer.with_traceback(None)
+
+
+def law_of(request: LawRequest) -> MotionLaw:
+    """The requested law alone."""
+    result = result_of(request)
+    return result.law if isinstance(result, Solution) else result

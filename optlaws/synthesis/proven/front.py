@@ -18,6 +18,8 @@ from optlaws.laws import Constants, MotionLaw
 from optlaws.laws.curve import Many
 from optlaws.laws.making.transform import law_between
 from optlaws.numbers import Array, bounded, finite, real
+from optlaws.shown.report import Report, ReportTable
+from optlaws.shown.summary import Row
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.evaluation import evaluate
 from optlaws.synthesis.proof.certificate import OBJECTIVE, Certificate
@@ -28,6 +30,8 @@ from optlaws.synthesis.status import measure
 from optlaws.tolerances import OPERATIONS_ROUNDING
 
 T = TypeVar("T")
+
+_SHOWN = 12  # rows of a table
 
 #: what a controller exchanges while it runs
 RUN_TIME = (f"{AT_MOST}B", "C")
@@ -367,6 +371,28 @@ class ProvenFront(JsonText):
         return (
             f"ProvenFront({name} {low:.6g} to {high:.6g}, {objective}, gap at most {self.gap:.1e}, "
             f"{len(self)} certified laws)"
+        )
+
+    def report(self, points: int = _SHOWN) -> Report:
+        """The proven gap, a table of so many even values with their bounds, and the curve with its lower bound.
+
+        Examples
+        --------
+        >>> from optlaws import proven_front
+        >>> proven_front(Problem(order=4), "B", between=(1.5, 1.52), gap=1e-9).report(3).tables[0].rows[1][0]
+        1.51
+        """
+        from optlaws.synthesis.report import front_report
+
+        low, high = self.between
+        some = [self(low + (high - low) * i / (points - 1)) for i in range(points - 1)] + [self(high)]
+        rows = [[point.value, point.objective, point.lower_bound, point.gap] for point in some]
+        at, upper = self.curve
+        facts = [Row(self.over[0], self.between), Row(self.over[1], (upper.min(), upper.max()))]
+        facts += [Row("greatest gap", self.gap, note="proven at every value"), Row("certified laws", len(self))]
+        curves = [("front", at, upper), ("lower bound", at, self.lower(at))]
+        return front_report(
+            self.over, facts, ReportTable((*self.over, "lower bound", "gap"), rows), curves, self.to_dict
         )
 
     def plot(self, ax: Any = None, **style: Any) -> list[Any]:

@@ -96,7 +96,7 @@ export class View {
     this.#controls.show(state.laws[state.active]);
     this.#sizes(state);
     const { stroke, time, mass } = state.controller ?? {};
-    if (stroke && time) this.#machines.ask({ law: state.laws[state.active], stroke, time, ...(mass && { mass }) });
+    if (stroke && time) this.#machines.ask({ laws: state.laws, active: state.active, stroke, time, ...(mass && { mass }) });
     else this.#machine = [];
     this.#follower(state);
     this.#askLaws(state);
@@ -117,7 +117,7 @@ export class View {
     delete law.title;
     // what runs along the front does not change it
     if (law.problem) delete law.problem[over[0]];
-    const question = { law, over };
+    const question = { laws: [law], over };
     if (told(question) === told(this.#front)) return;
     this.#front = question;
     this.#words = "computing the front …";
@@ -139,7 +139,9 @@ export class View {
   }
 
   #showResidual(answer) {
-    this.#residual.show(this.#band.picture(residualOf(answer, this.#views, this.#state.active), answer, this.#state));
+    const named = ({ series, ...panel }, i) => ({ ...panel, span: i ? null : [0, 1], series: series.map((one) => ({ ...one, name: this.#views[one.law]?.title })) });
+    const picture = { ...answer, panels: answer.panels.map(named), across: "frequency ν of the follower, radians of its vibration in the motion", symbol: "ν", active: this.#state.active };
+    this.#residual.show(this.#band.picture(picture, answer, this.#state));
     if (this.#residual.cursor.at !== answer.at) this.#residual.cursor.place(answer.at);
     this.#left = `residual acceleration at ν = ${answer.at}: ${answer.laws.map((law, i) => `${"ABCD"[i]} ${law?.text ?? "—"}`).join(", ")}${this.#band.words(answer)}`;
     this.#render();
@@ -155,7 +157,7 @@ export class View {
     this.#asked = question.laws;
     this.#ways = null;
     const active = this.#state.active;
-    if (laws[active]?.refused?.word === "no such law" && question.laws[active]?.problem) this.#nearest.ask(question.laws[active]);
+    if (laws[active]?.refused?.word === "no such law" && question.laws[active]?.problem) this.#nearest.ask({ laws: question.laws, active });
     else this.#ways = [];
     this.#render();
     this.#drawn();
@@ -167,7 +169,7 @@ export class View {
   }
 
   #near({ ways }, question) {
-    if (told(question) !== told(this.#asked[this.#state.active])) return;
+    if (told(question.laws) !== told(this.#asked) || question.active !== this.#state.active) return;
     this.#ways = ways;
     this.#render();
   }
@@ -217,22 +219,6 @@ export class View {
       damping.set(state.damping);
     };
   }
-}
-
-/** What laws leave in a follower over its frequency, as one panel. */
-function residualOf({ frequencies, laws, at }, views, active) {
-  const place = frequencies.findIndex((one) => one > at);
-  const within = (values, value) => (place < 0 ? values : values.toSpliced(place, 0, value));
-  const curves = (values, value) => laws.flatMap((law, i) => (law ? [{ at: within(frequencies, at), values: within(values(law), value(law)), law: i, name: views[i]?.title }] : []));
-  const series = curves((law) => law.values, (law) => law.value);
-  return {
-    across: "frequency ν of the follower, radians of its vibration in the motion", symbol: "ν", active,
-    range: [frequencies[0], frequencies.at(-1)],
-    panels: [
-      { name: "residual acceleration (envelope)", unit: "in units of a″", symbol: "residual acceleration", series, span: [0, 1] },
-      { name: "peak acceleration of the mass", unit: "in units of a″", symbol: "peak acceleration", series: curves((law) => law.peaks, (law) => law.peak) },
-    ],
-  };
 }
 
 /** Fields of the machine that a law is for; returns a function that shows a state in them. */
