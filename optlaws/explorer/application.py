@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 import asyncio
-import re
 from collections.abc import AsyncIterator, Callable
 from contextlib import asynccontextmanager
 from functools import cache
 from importlib.resources import files
 from typing import TYPE_CHECKING, Any
-from urllib.parse import urljoin
 
 import msgspec
 from starlette.applications import Starlette
@@ -36,7 +34,6 @@ _SCRIPT = "text/javascript"
 _TYPES = {".html": "text/html", ".css": "text/css", ".js": _SCRIPT, ".mjs": _SCRIPT, ".svg": "image/svg+xml"}
 #: members of Savin's families that the page offers by name
 _MEMBERS = ("I(0)", "II(6)", "III(7.2)", "IV(10)")
-_IMPORT = re.compile(r'^import [^;]*?"(\.[^"]+)";$', re.MULTILINE)
 _BAD, _TOO_LONG, _LEFT = 400, 413, 499
 #: a browser looks for the icon whenever the address changes, and so with every drag: it may keep the one it has
 _ICON, _KEPT = "icon.svg", {"Cache-Control": "max-age=3600"}
@@ -84,18 +81,7 @@ def page() -> dict[str, bytes]:
         for entry in inside.iterdir()
         if f".{entry.name.rpartition('.')[2]}" in _TYPES
     ]
-    texts = {path: entry.read_bytes() for path, entry in sorted(shown, key=lambda pair: pair[0])}
-    links = [f'<link rel="modulepreload" href="{path}">'.encode() for path in loaded_first(texts)]
-    return texts | {"index.html": texts["index.html"].replace(b"</head>", b"\n".join([*links, b"</head>"]))}
-
-
-def loaded_first(files_of_page: dict[str, bytes]) -> list[str]:
-    """The modules before the first law is shown, all that are imported by one: a browser may load them at once."""
-    waiting: list[str] = ["main.js", "views/laws.js"]
-    for name in waiting:
-        imports = _IMPORT.findall(files_of_page[name].decode())
-        waiting += [path for path in (urljoin(name, path) for path in imports) if path not in waiting]
-    return waiting
+    return {path: entry.read_bytes() for path, entry in sorted(shown, key=lambda pair: pair[0])}
 
 
 def _file(name: str) -> Callable[[Request], Response]:

@@ -8,6 +8,7 @@ import re
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from functools import partial
+from mimetypes import guess_type
 from pathlib import Path
 from pprint import pformat
 from typing import Annotated, Any, NamedTuple
@@ -21,7 +22,7 @@ from optlaws.cams.curves.cam_files import Cutting
 from optlaws.cycles.cycle import Cycle
 from optlaws.cycles.report import CycleReport
 from optlaws.errors import InputError
-from optlaws.explorer.views import axes_view, cam_view, cycle_view, fastest_view, old_cam_view
+from optlaws.explorer.views import advice_view, axes_view, cam_view, cycle_view, fastest_view, old_cam_view
 from optlaws.explorer.views.law_view import digits, title, titled
 from optlaws.explorer.views.requests import LawRequest, LawsRequest, Question, Text, law_of, problem_of, read, result_of
 from optlaws.exports.format import FORMATS
@@ -30,12 +31,12 @@ from optlaws.files.tables import to_csv, to_toml
 from optlaws.files.writing import MARK
 from optlaws.jobs.cycle_entries import cycle_of
 from optlaws.laws.values import table_of_values
+from optlaws.shown.report import printable_page
 
 _ROWS = 361
 _WIDTH = 116
 _MOST_POINTS = 10_000
 _PUBLIC = frozenset(vars(optlaws)["__all__"])
-_TYPES = {".py": "text/x-python", ".toml": "application/toml", ".json": "application/json", ".csv": "text/csv"}
 _UNITS = "SI units but for mm and deg"
 
 File = tuple[str, str]  #: its name and its text
@@ -65,14 +66,23 @@ class FileRequest(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
 def answer(question: FileRequest) -> dict[str, str]:
     """A file: its name, its type, its text."""
     files, request = _read(question)
-    check_names([question.kind], files.kinds, f"file of the view {question.view}")
-    name, text = files.kinds[question.kind](request)
-    return {"name": name, "type": _TYPES.get(Path(name).suffix, "text/plain"), "text": text}
+    kinds: dict[str, Callable[[Any], File]] = {**files.kinds, "report": partial(_report, files)}
+    check_names([question.kind], kinds, f"file of the view {question.view}")
+    name, text = kinds[question.kind](request)
+    return {"name": name, "type": guess_type(name)[0] or "text/plain", "text": text}
 
 
 def _read(question: FileRequest) -> tuple[ViewFiles, Any]:
     check_names([question.view], VIEWS, "view")
     return VIEWS[question.view], read(bytes(question.request), VIEWS[question.view].request)
+
+
+def _report(files: ViewFiles, request: Any) -> File:
+    """What is shown as a page that is printed."""
+    study = getattr(request, "study", {})
+    name = study.get("title", "A motion") if isinstance(study, dict) else study.file
+    title_of_page = titled(request.law) if isinstance(request, LawsRequest) else name
+    return "report.html", printable_page(title_of_page, files.result(request).report())
 
 
 def _stem(name: str) -> str:
@@ -253,11 +263,14 @@ _OLD: dict[str, Callable[[Any], File]] = {
 _CUT = {form: partial(_cut, form) for form in cam_files.FORMATS}
 #: by the name of a view
 VIEWS = {
-    "laws": ViewFiles(LawsRequest, _LAWS, lambda request: law_of(request.law)),
+    "laws": ViewFiles(LawsRequest, _LAWS, lambda request: result_of(request.law)),
     "cycle": ViewFiles(cycle_view.CycleRequest, _CYCLE, cycle_view.cycle),
     "machine": ViewFiles(cycle_view.CycleRequest, _CYCLE, cycle_view.cycle),
     "axes": ViewFiles(cycle_view.CycleRequest, _CYCLE | _AXES, cycle_view.cycle),
-    "cam": ViewFiles(cycle_view.CycleRequest, {"problem": _study("cam.toml"), **_CUT}, cam_view.result_of),
+    "cam": ViewFiles(
+        cycle_view.CycleRequest, {"problem": _study("cam.toml"), **_CUT}, lambda request: cam_view.result_of(request).cam
+    ),
+    "advice": ViewFiles(cycle_view.CycleRequest, {}, advice_view.advice_of),
     "fastest": ViewFiles(cycle_view.CycleRequest, _FASTEST, fastest_view.fastest_of),
     "old": ViewFiles(cycle_view.CycleRequest, _OLD, old_cam_view.cycle),
 }
@@ -274,6 +287,7 @@ def exported(question: FileRequest) -> dict[str, Any]:
     """The file, and the peaks of the motion as the controller interpolates it beside the law's peaks."""
     files, request = _read(question)
     result = files.result(request)
+    result = result.law if isinstance(result, Solution) else result
     if not isinstance(result, Cycle | MotionLaw):
         raise InputError(f"the view {question.view} has no motion for a controller")
     given: dict[str, Any] = {"points": question.points, "counts": question.counts}

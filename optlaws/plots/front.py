@@ -17,6 +17,7 @@ if TYPE_CHECKING:
 
     from optlaws.cycles.advising.advice import Advice
     from optlaws.cycles.moves.time_front import TimeFront
+    from optlaws.shown.report import Panel
     from optlaws.synthesis.pareto import Front
     from optlaws.synthesis.proven.front import ProvenFront
 
@@ -77,7 +78,7 @@ def draw_advice(advice: Advice, axes: Axes | None = None, **style: Any) -> list[
     axes = axes or new_axes()
     x, y = ({law.name: law.values[name] for law in advice} for name in (advice.second, advice.minimise))
     units = {measure.name: measure.heading for measure in advice.measures}
-    artists = _front_of_advice(advice, axes, style) if advice.front else []
+    artists = [artist for panel in advice.report().panels for artist in _front_of_advice(panel, axes, style)]
     chosen = advice.recommendation.law.name
     for kind, colour, marker in (("given", GREY, "D"), ("standard", GREY, "s"), ("optimal", BLUES[3], "o")):
         names = [law.name for law in advice if law.kind == kind and np.isfinite(x[law.name] * y[law.name])]
@@ -97,24 +98,11 @@ def draw_advice(advice: Advice, axes: Axes | None = None, **style: Any) -> list[
     return artists
 
 
-def _front_of_advice(advice: Advice, axes: Axes, style: dict[str, Any]) -> list[Artist]:
+def _front_of_advice(panel: Panel, axes: Axes, style: dict[str, Any]) -> list[Artist]:
     """The points of the front, and between them what is reached and what no law is below."""
-    front = sorted((law.values[advice.second], law.values[advice.minimise], _proven(law)) for law in advice.front)
-    places, values, bounds = (np.array(column) for column in zip(*front, strict=True))
-    colour, usual = style.pop("color", BLUES[3]), advice.recommendation.usual
-    line = {"color": colour, "marker": "o", "markersize": 3.0, "linewidth": 0.0, "label": "front", **style}
-    others = [name for name in advice.guarded if name != advice.second]
-    no_more = f", with no more {', '.join(others)} than {usual.name}" if usual is not None and others else ""
-    points = axes.plot(places, values, **line)
-    # a law is one at every greater value too, and a bound one at every smaller one
-    ends = np.repeat(places, 2)[1:-1]
-    least, most = np.repeat(bounds[1:], 2), np.repeat(values[:-1], 2)
-    between = axes.fill_between(ends, least, most, color=colour, alpha=0.15, linewidth=0.0)
-    below = axes.plot(ends, least, color=GREY, linewidth=0.8, label=f"none below{no_more}")
-    return [*points, between, *below]
-
-
-def _proven(law: Any) -> float:
-    """The proven least value at a point of a front; 0 where nothing is proven."""
-    bound = law.proof.lower_bound
-    return 0.0 if bound is None else max(bound, 0.0)
+    front, reached, below = panel.series
+    colour = style.pop("color", BLUES[3])
+    line = {"color": colour, "marker": "o", "markersize": 3.0, "linewidth": 0.0, "label": front.name, **style}
+    points = axes.plot(front.at, front.values, **line)
+    between = axes.fill_between(reached.at, below.values, reached.values, color=colour, alpha=0.15, linewidth=0.0)
+    return [*points, between, *axes.plot(below.at, below.values, color=GREY, linewidth=0.8, label=below.name)]

@@ -134,13 +134,12 @@ def test_without_the_extra_the_remedy_is_told() -> None:
 
 
 def test_the_first_page_is_small_where_it_is_packed(served: Server) -> None:
-    # a browser asks for them at once; other views are loaded when they are shown
-    first = {
-        "index.html",
-        "style.css",
-        "icon.svg",
-        *re.findall(r'modulepreload" href="([^"]+)"', page()["index.html"].decode()),
-    }
+    # other views are loaded when they are shown
+    loaded = ["main.js", "views/laws.js"]
+    for name in loaded:
+        imports = re.findall(r'^import [^;]*?"(\.[^"]+)";$', page()[name].decode(), re.MULTILINE)
+        loaded += {urljoin(name, path) for path in imports} - set(loaded)
+    first = {"index.html", "style.css", "icon.svg", *loaded}
     assert {"panels.js", "state.js"} < first < set(page())
     packed = 0
     for path in ("api/start", *(name.replace("index.html", "") for name in first)):

@@ -82,7 +82,7 @@ def advise(
 
 
 def _data(advice: Mapping[str, Advice], *, alone: bool) -> dict[str, Any]:
-    brief = {name: each.report() for name, each in advice.items()}
+    brief = {name: each.report().data for name, each in advice.items()}
     for law in (law for data in brief.values() for law in (*data["laws"], *data["front"])):
         law.pop("solutions", None)  # which --output writes
     return brief[""] if alone else brief

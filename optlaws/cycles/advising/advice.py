@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
+
+import numpy as np
 
 from optlaws.cycles.advising.advised_law import AdvisedLaw, LawMeasure
 from optlaws.cycles.advising.recommendation import Recommendation
 from optlaws.errors import InfeasibleProblem, InputError, OptlawsError
 from optlaws.extras import needed
 from optlaws.numbers import bounded
+from optlaws.shown.report import Panel, PlainReport, Report, ReportTable, Series
 from optlaws.shown.summary import Row, Summary
 from optlaws.suggest import unknown_key
 
@@ -135,16 +138,30 @@ class Advice:
         pd = needed("pandas", "to_pandas")
         return pd.DataFrame(self.rows, columns=list(self.headings)).set_index("law")
 
-    def report(self) -> dict[str, Any]:
-        """The report as plain data in SI units, with whole solutions, to be written and not read again."""
+    def report(self) -> Report:
+        """The recommended law, the table of all laws, and the front with what no law is below.
+
+        Examples
+        --------
+        >>> import optlaws
+        >>> report = optlaws.advise(optlaws.Rise("1 m", "1 s"), points=0).report()
+        >>> report.tables[0].headings[0], report.data["recommendation"]["usual"]
+        ('law', 'modified sine')
+        """
+        y, x = (next(each for each in self.measures if each.name == name) for name in (self.minimise, self.second))
+        panels = front_panels(self.front, x, y, self.guarded, self.recommendation.usual)
+        return PlainReport(self.summary(), [ReportTable(self.headings, self.rows)], panels, self._data)
+
+    def _data(self) -> dict[str, Any]:
+        """The advice as plain data in SI units, with whole solutions, to be written and not read again."""
         chosen = self.recommendation
         return {
             "minimise": self.minimise,
             "second": self.second,
             "guarded": list(self.guarded),
             "measures": [{"name": measure.name, "unit": measure.unit} for measure in self.measures],
-            "laws": [law.report() for law in self.laws],
-            "front": [law.report() for law in self.front],
+            "laws": [law.to_dict() for law in self.laws],
+            "front": [law.to_dict() for law in self.front],
             "recommendation": {
                 "law": chosen.law.name,
                 "usual": None if chosen.usual is None else chosen.usual.name,
@@ -184,6 +201,24 @@ class Advice:
 
         chosen = self.recommendation
         return page("Advice", facts({"take": str(chosen), "rule": chosen.rule}), table(self.headings, self.rows))
+
+
+def front_panels(
+    front: Sequence[AdvisedLaw], x: LawMeasure, y: LawMeasure, guarded: Iterable[str], usual: AdvisedLaw | None
+) -> list[Panel]:
+    """The laws of a front over the second measure, what is reached between two, and what no law is below."""
+    if not front:
+        return []
+    bounds = [0.0 if law.proof is None else max(law.proof.lower_bound or 0.0, 0.0) for law in front]
+    rows = sorted((law.values[x.name], law.values[y.name], bound) for law, bound in zip(front, bounds, strict=True))
+    at, values, least = np.array(rows).T
+    # a law is one at every greater value too, and a bound one at every smaller one
+    ends = np.repeat(at, 2)[1:-1]
+    others = [name for name in guarded if name != x.name]
+    no_more = f", with no more {', '.join(others)} than {usual.name}" if usual is not None and others else ""
+    below = Series(ends, np.repeat(least[1:], 2), "limit", f"none below{no_more}")
+    curves = Series(at, values, 0, "front"), Series(ends, np.repeat(values[:-1], 2), 0, "reached"), below
+    return [Panel(y.name, y.unit, curves, across=x.heading)]
 
 
 def limits_in_words(law: AdvisedLaw) -> str:

@@ -10,6 +10,7 @@ from optlaws.cycles.optimisation.motion_limits import LimitTaken
 from optlaws.errors import InputError
 from optlaws.laws import MotionLaw
 from optlaws.numbers import bounded
+from optlaws.shown.report import Report
 from optlaws.synthesis.solution import Solution
 from optlaws.synthesis.status import Status
 
@@ -142,8 +143,12 @@ class AdvisedLaw:
             raise InputError(f"{self.name}: its {len(self.solutions)} motions have solutions of their own")
         return self.solutions[0] if self.solutions else None
 
-    def report(self) -> dict[str, Any]:
-        """The law's part of the report as plain data in SI units, with whole solutions."""
+    def report(self) -> Report:
+        """The report of the motion with this law."""
+        return self.motion.report()
+
+    def to_dict(self) -> dict[str, Any]:
+        """The law's part of the advice as plain data in SI units, with whole solutions; not read again."""
         proof = self.proof
         optimal = {} if proof is None else {
             "minimise": proof.minimise,

@@ -3,12 +3,13 @@
 import { DOCUMENT } from "./opening.js";
 
 const PICTURE = { kind: "picture", text: "Picture (SVG)", about: "The curves as they are seen" };
+const REPORT = { kind: "report", text: "Report (HTML)", about: "Facts, tables and curves on a page to print" };
 const WHOLE = { kind: "document", text: "Document (JSON)", about: "The name, the notes and all that is set, to open again here" };
 const DRAWN = ["fill", "stroke", "stroke-width", "stroke-dasharray", "stroke-linejoin", "opacity", "font-family", "font-size", "font-weight"];
 
 /** What can be saved of a view. */
 export function savings(view) {
-  return [...view.files, ...(view.drawings ? [PICTURE] : []), WHOLE];
+  return [...view.files, ...(view.request ? [REPORT] : []), ...(view.drawings ? [PICTURE] : []), WHOLE];
 }
 
 /** Save a file of a view in a state. */

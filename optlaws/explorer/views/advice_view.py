@@ -10,11 +10,10 @@ from typing import Any
 
 import msgspec
 
-from optlaws import AdvisedLaw, Cycle
-from optlaws.cycles.advising.advice import limits_in_words, proof_in_words
+from optlaws import Advice, AdvisedLaw, Cycle
+from optlaws.cycles.advising.advice import front_panels, limits_in_words, proof_in_words
 from optlaws.cycles.advising.advised_motion import advice_from, standard_candidates
 from optlaws.cycles.advising.candidates import Candidates
-from optlaws.cycles.report import CycleReport
 from optlaws.cycles.specification.segments import OPTIMAL, Move
 from optlaws.explorer.views import cycle_view
 from optlaws.explorer.views.cycle_view import MOST_POINTS, CycleRequest
@@ -40,7 +39,7 @@ def standard(request: CycleRequest) -> dict[str, Any]:
 def answer(request: CycleRequest) -> dict[str, Any]:
     """The laws side by side with the recommended one, or the reason why there is none."""
     cycle, candidates = _all(_question(request))
-    advice = advice_from(_copy(candidates), request.points)
+    advice = advice_of(request)
     chosen = advice.recommendation
     unchanged = chosen.usual is chosen.law
     return {
@@ -50,6 +49,11 @@ def answer(request: CycleRequest) -> dict[str, Any]:
         "chosen": chosen.law.name,
         "remarks": list(advice.remarks),
     }
+
+
+def advice_of(request: CycleRequest) -> Advice:
+    """The advice with so many points of the front."""
+    return advice_from(_copy(_all(_question(request))[1]), request.points)
 
 
 def _question(request: CycleRequest) -> bytes:
@@ -79,23 +83,24 @@ def _copy(candidates: Candidates) -> Candidates:
 def _side_by_side(
     cycle: Cycle, candidates: Candidates, drawn_laws: Sequence[AdvisedLaw | None], front: Sequence[AdvisedLaw]
 ) -> dict[str, Any]:
+    measures = {measure.name: measure for measure in candidates.motion.measures}
+    x, y = measures[candidates.second], measures[candidates.minimise]
+    curves = [panel_data(panel, 1.0) for panel in front_panels(front, x, y, candidates.most(), candidates.usual)]
     return {
-        "measures": [{"name": measure.name, "unit": measure.unit} for measure in candidates.motion.measures],
-        "rows": [_row(cycle, candidates, law) for law in candidates.laws.values()],
-        "picture": _picture(candidates, front),
+        "measures": [measure._asdict() for measure in measures.values()],
+        "rows": [
+            {
+                "name": law.name,
+                "kind": law.kind,
+                "values": [bounded(law.values[name]) for name in measures],
+                "limits": limits_in_words(law),
+                "proof": proof_in_words(law),
+                "take": _entries(cycle, law, vibrates=any(name.startswith("residual") for name in measures)),
+            }
+            for law in candidates.laws.values()
+        ],
+        "picture": {"x": x._asdict(), "y": y._asdict(), "front": [panel["series"] for panel in curves]},
         "curves": _curves([law for law in drawn_laws if law is not None]),
-    }
-
-
-def _row(cycle: Cycle, candidates: Candidates, law: AdvisedLaw) -> dict[str, Any]:
-    measures = candidates.motion.measures
-    return {
-        "name": law.name,
-        "kind": law.kind,
-        "values": [bounded(law.values[measure.name]) for measure in measures],
-        "limits": limits_in_words(law),
-        "proof": proof_in_words(law),
-        "take": _entries(cycle, law, vibrates=any(measure.name.startswith("residual") for measure in measures)),
     }
 
 
@@ -132,32 +137,11 @@ def _plain(limits: Any) -> dict[str, Any]:
     return {name: list(value) if isinstance(value, tuple) else value for name, value in limits.items()}
 
 
-def _picture(candidates: Candidates, front: Sequence[AdvisedLaw]) -> dict[str, Any]:
-    """The laws in the plane of what is minimised over the second measure, with the front and its bounds."""
-    units = {measure.name: measure.unit for measure in candidates.motion.measures}
-    usual, minimise, second = candidates.usual, candidates.minimise, candidates.second
-    others = candidates.most(second)
-    return {
-        "x": {"name": second, "unit": units[second]},
-        "y": {"name": minimise, "unit": units[minimise]},
-        "points": [
-            {"name": law.name, "kind": law.kind, "x": bounded(law.values[second]), "y": bounded(law.values[minimise])}
-            for law in candidates.laws.values()
-        ],
-        "front": sorted(
-            [law.values[second], law.values[minimise], law.proof.lower_bound or 0.0]
-            for law in front
-            if law.proof is not None
-        ),
-        "beside": "" if usual is None or not others else f"no more {', '.join(others)} than {usual.name}",
-    }
-
-
 def _curves(laws: Sequence[AdvisedLaw]) -> dict[str, Any]:
     """Velocity, acceleration and jerk of the usual law and of the recommended one, over the time."""
     if not laws:
         return {"panels": []}
-    motions = [(i, [CycleReport(law.motion).panel(nu) for nu in (1, 2, 3)]) for i, law in enumerate(laws)]
+    motions = [(i, law.report().panels[1:4]) for i, law in enumerate(laws)]
     panels = []
     for panel in beside_each_other(motions[0][1], motions):
         series = tuple(curve._replace(name=law.name) for curve, law in zip(panel.series, laws, strict=True))

@@ -16,6 +16,7 @@ from optlaws.errors import InfeasibleProblem, OptlawsError, SolverFailure
 from optlaws.explorer.views.panel_data import panel_data
 from optlaws.explorer.views.requests import (
     MOST_DEGREE,
+    UNITS,
     LawRequest,
     LawsRequest,
     Question,
@@ -25,7 +26,7 @@ from optlaws.explorer.views.requests import (
     solved,
     without,
 )
-from optlaws.motion.display_units import UNITS
+from optlaws.motion import display_units
 from optlaws.motion.piece import factor
 from optlaws.motion.quantities import either, positive_quantity
 from optlaws.numbers import bounded
@@ -200,36 +201,21 @@ def ways(problem: Problem) -> Iterator[dict[str, Any]]:
     J raise the bound of J from 20 to 47.504
     """
     if isinstance(problem.B, float):
-        yield from _velocity(problem, problem.B)
-    for name in ("C", "D", "J", "rms_c"):
-        yield from _bound(problem, name)
+        for word, B in zip(("raise", "lower"), possible_velocities(problem), strict=True):
+            outside = B is not None and (B > problem.B if word == "raise" else B < problem.B)
+            if outside and isinstance(solved(replace(problem, B=B)), Solution):
+                yield _way("B", B, f"{word} B", problem.B)
+    for name in UNITS:
+        bound = problem.range(name)
+        least = None if bound is None or bound.low > 0.0 else solved(without(problem, name, minimise=name))
+        if bound is not None and isinstance(least, Solution) and least.objective > bound.high:
+            value = _rounded_up(least.objective * (1.0 + BOUND_SLACK))
+            yield _way(name, value, f"raise the bound of {name}", bound.high)
     if isinstance(problem.basis, Chebyshev):
-        yield from _degree(problem, problem.basis.degree)
-
-
-def _velocity(problem: Problem, B: float) -> Iterator[dict[str, Any]]:
-    least, greatest = possible_velocities(problem)
-    if least is not None and least > B and _has_law(replace(problem, B=least)):
-        yield _way("B", least, f"raise B from {digits(B)} to {digits(least)}")
-    elif greatest is not None and greatest < B and _has_law(replace(problem, B=greatest)):
-        yield _way("B", greatest, f"lower B from {digits(B)} to {digits(greatest)}")
-
-
-def _bound(problem: Problem, name: str) -> Iterator[dict[str, Any]]:
-    """The least value that the rest of the problem leaves a bounded constant."""
-    bound = problem.range(name)
-    if bound is None or bound.low > 0.0:
-        return
-    least = solved(without(problem, name, minimise=name))
-    if isinstance(least, Solution) and least.objective > bound.high:
-        value = _rounded_up(least.objective * (1.0 + BOUND_SLACK))
-        yield _way(name, value, f"raise the bound of {name} from {digits(bound.high)} to {digits(value)}")
-
-
-def _degree(problem: Problem, degree: int) -> Iterator[dict[str, Any]]:
-    for higher in (degree + step for step in _STEPS if degree + step <= MOST_DEGREE):
-        if _has_law(replace(problem, basis=Chebyshev(higher))):
-            yield _way("degree", higher, f"raise the degree from {degree} to {higher}")
+        degree = problem.basis.degree
+        higher = (degree + step for step in _STEPS if degree + step <= MOST_DEGREE)
+        for value in (each for each in higher if _has_law(replace(problem, basis=Chebyshev(each)))):
+            yield _way("degree", value, "raise the degree", degree)
             return
 
 
@@ -247,8 +233,8 @@ def _rounded_up(value: float) -> float:
     return float(f"{ceil(value / unit) * unit:.{_FIGURES}g}")
 
 
-def _way(entry: str, value: float, text: str) -> dict[str, Any]:
-    return {"entry": entry, "value": value, "text": text}
+def _way(entry: str, value: Any, words: str, now: float) -> dict[str, Any]:
+    return {"entry": entry, "value": value, "text": f"{words} from {digits(now)} to {digits(value)}"}
 
 
 _INERTIAS = {"length": ("mass", "N"), "angle": ("moment of inertia", "N m")}
@@ -268,7 +254,7 @@ def in_machine_units(request: LawsRequest) -> dict[str, Any]:
     sizes = {"B": (of.B.value, 1), "C": (of.C.value, 2), "J": (of.J.value, 3), "rms_c": (of.rms_c, 2)}
     inertia, force = _INERTIAS[axis]
     peaks = {name: value * factor(stroke, time, nu) for name, (value, nu) in sizes.items()}
-    units = {name: UNITS[axis][nu] for name, (_, nu) in sizes.items()}
+    units = {name: display_units.UNITS[axis][nu] for name, (_, nu) in sizes.items()}
     cells = {name: Amount(abs(peak * units[name][1]), units[name][0], 5) for name, peak in peaks.items()}
     rows = [{"name": f"{request.stroke} in {request.time}", "cells": cells}]
     if request.mass:

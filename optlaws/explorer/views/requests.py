@@ -73,12 +73,7 @@ class LawsRequest(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
 
 
 def read(text: bytes, kind: type[Struct]) -> Struct:
-    """A question of the page.
-
-    Raises
-    ------
-    InputError
-        If it is no JSON, or has an entry that is unknown or wrong.
+    """A question of the page; an `InputError` says where it is no JSON, or has an entry that is unknown or wrong.
 
     >>> read(b'{"laws": [{"name": "cycloidal"}]}', LawsRequest).laws[0].name
     'cycloidal'

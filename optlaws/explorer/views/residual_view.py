@@ -79,19 +79,13 @@ def _greatest(law: MotionLaw, constant: Residual | None) -> dict[str, Any] | Non
 
 
 def spectrum(request: SpectrumRequest) -> dict[str, Any]:
-    """What a measured spectrum is over nu, in words, and the duration of the motion in seconds where one is given.
+    """The duration of the motion in seconds where one is given, for a spectrum that can weigh a band.
 
     >>> spectrum(SpectrumRequest(pairs=[(30.0, 0.2), (32.0, 1.0)], duration="0.1 s"))
-    {'text': '2 points, nu 18.85 to 20.11', 'seconds': 0.1}
+    {'seconds': 0.1}
     """
-    frequencies = np.array(request.pairs)[:, 0]
-    if (np.diff(frequencies) <= 0.0).any():
-        raise InputError("the frequencies of a spectrum increase from line to line: sort the file by its first column")
-    weight = weight_of(request.pairs, request.duration)
-    return {
-        "text": f"{len(weight)} points, nu {digits(weight[0][0], 4)} to {digits(weight[-1][0], 4)}",
-        "seconds": None if request.duration is None else positive_quantity(request.duration, "time", "duration"),
-    }
+    weight_of(request.pairs, request.duration)
+    return {"seconds": None if request.duration is None else positive_quantity(request.duration, "time", "duration")}
 
 
 QUESTIONS: dict[str, Question] = {"residual": (LawsRequest, residuals), "spectrum": (SpectrumRequest, spectrum)}

@@ -293,7 +293,7 @@ def test_the_residual_may_be_what_is_least_and_a_swing_is_in_radians() -> None:
 
 
 def test_an_advice_leaves_as_plain_data_a_table_and_a_picture(rise: Advice) -> None:
-    data = json.loads(json.dumps(rise.report()))
+    data = json.loads(json.dumps(rise.report().data))
     assert data["recommendation"]["law"] == rise.recommendation.law.name
     assert [law["name"] for law in data["laws"]] == [law.name for law in rise]
     assert rise.headings[:2] == ("law", "velocity, m/s")
@@ -310,7 +310,7 @@ def test_an_advice_leaves_as_plain_data_a_table_and_a_picture(rise: Advice) -> N
     assert str(rise) in rise._repr_html_().replace("&quot;", '"')
     harmonic = advise(Rise("35 mm", "0.1 s"), laws=["simple harmonic"], points=2, degree=13)
     assert harmonic["simple harmonic"].values["jerk"] == inf
-    assert json.loads(json.dumps(harmonic.report()))["laws"][0]["values"]["jerk"] is None
+    assert json.loads(json.dumps(harmonic.report().data))["laws"][0]["values"]["jerk"] is None
     assert harmonic.plot()
     assert harmonic.recommendation.law.name != "simple harmonic"
 

@@ -55,14 +55,18 @@ export class View {
   show(state) {
     this.#state = state;
     this.#form(state);
-    const { minimise, follower } = this.#asked(state);
-    const question = { study: this.#motion(state), axis: state.axis, ...(minimise && { minimise }) };
-    if (follower?.on) question.follower = { frequency: [follower.low, follower.high], damping: Number(follower.damping) || 0 };
+    const question = this.request(state);
     if (told(question) === this.#question) return;
     this.#question = told(question);
     this.#step = 0;
     this.#advice.stop();
     this.#standard.ask(question);
+  }
+
+  request(state) {
+    const { minimise, follower } = this.#asked(state);
+    const vibrates = follower?.on && { follower: { frequency: [follower.low, follower.high], damping: Number(follower.damping) || 0 } };
+    return { study: this.#motion(state), axis: state.axis, ...(minimise && { minimise }), ...vibrates };
   }
 
   #asked({ advice }) {
@@ -226,26 +230,23 @@ function refusal({ word: title, reason, tried }) {
 }
 
 /** The laws, the front and what is proven, in the plane of two measures. */
-function pictured({ picture: { x, y, points, front: stairs, beside }, chosen }) {
+function pictured({ picture: { x, y, front: [curves] }, measures, rows, chosen }) {
   const [across, up] = [x, y].map(({ unit }) => shownUnit(unit).factor);
-  const known = points.filter((point) => point.x !== null && point.y !== null).map((point) => ({ ...point, x: across * point.x, y: up * point.y }));
-  const front = stairs.map(([one, value, bound]) => [across * one, up * value, up * bound]);
-  const xs = [...known.map((point) => point.x), ...front.map(([value]) => value)];
+  const [i, j] = [x, y].map(({ name }) => measures.findIndex((one) => one.name === name));
+  const known = rows.filter(({ values }) => values[i] !== null && values[j] !== null).map(({ name, kind, values }) => ({ name, kind, x: across * values[i], y: up * values[j] }));
+  const [front, reached, below] = (curves ?? []).map(({ at, values, name }) => ({ title: name, points: at.map((one, k) => [across * one, up * values[k]]) }));
+  const xs = [...known.map((point) => point.x), ...(front?.points ?? []).map(([value]) => value)];
   const positive = xs.filter((value) => value > 0);
   const log = positive.length === xs.length && Math.max(...positive) > WIDE * Math.min(...positive);
   const range = log ? [Math.min(...positive) / 1.3, 1.6 * Math.max(...positive)] : spanOf(xs, { free: true, room: 0.12 });
-  const steps = (at) => front.flatMap((point, i) => at(point, front[i + 1]));
-  const lines = front.length < 2 ? [] : [
-    { name: "front", title: "the front", points: steps(([one, value], next) => (next ? [[one, value], [next[0], value]] : [[one, value]])) },
-    { name: "limit", title: `none below${beside ? `, with ${beside}` : ""}`, points: steps(([one, , bound], next) => (next ? [[one, next[2]], [next[0], next[2]]] : [[one, bound]])) },
-  ];
+  const lines = reached?.points.length ? [{ ...reached, name: "front", title: "the front" }, { ...below, name: "limit" }] : [];
   const best = known.find(({ name }) => name === chosen);
   return {
     x: { name: headed(x.name, x.unit), range, log },
-    y: { name: headed(y.name, y.unit), range: spanOf([...known.map((point) => point.y), ...front.map(([, value]) => value)], { free: true, room: 0.1 }) },
+    y: { name: headed(y.name, y.unit), range: spanOf([...known.map((point) => point.y), ...(front?.points ?? []).map(([, value]) => value)], { free: true, room: 0.1 }) },
     lines,
     marks: [
-      ...front.map(([one, value]) => ({ at: [one, value], name: "front-point", title: "a law of the front" })),
+      ...(front?.points ?? []).map((at) => ({ at, name: "front-point", title: "a law of the front" })),
       ...known.map((point) => ({ at: [point.x, point.y], name: `advised ${point.kind}${point.name === chosen ? " chosen" : ""}`, title: `${point.name}: ${word(point.y)}` })),
     ],
     labels: placed(known.map((point) => ({ ...point, of: point.name === chosen })), range, log),
