@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 from collections.abc import AsyncIterator, Callable
 from contextlib import asynccontextmanager
+from dataclasses import replace
 from functools import cache
 from importlib.resources import files
 from typing import TYPE_CHECKING, Any
@@ -24,6 +25,7 @@ from optlaws.explorer.answering import EXAMPLES, QUESTIONS, message
 from optlaws.explorer.views import cam_view, cycle_view, machine_view
 from optlaws.explorer.workers import MOST, SLICE, USUAL, Workers
 from optlaws.jobs.fastest import MoveEntries
+from optlaws.synthesis.problem.problem import ENTRIES
 
 if TYPE_CHECKING:
     from starlette.types import ASGIApp, Message, Receive, Scope, Send
@@ -32,6 +34,8 @@ if TYPE_CHECKING:
 MOST_BYTES = 400_000
 _SCRIPT = "text/javascript"
 _TYPES = {".html": "text/html", ".css": "text/css", ".js": _SCRIPT, ".mjs": _SCRIPT, ".svg": "image/svg+xml"}
+#: entries of the laws of a move, of which the order has a default of its own
+_SPACE: dict[str, Any] = {"order": {"default": 3}, "degree": {}, "monotone": {}}
 #: members of Savin's families that the page offers by name
 _MEMBERS = ("I(0)", "II(6)", "III(7.2)", "IV(10)")
 _BAD, _TOO_LONG, _LEFT = 400, 413, 499
@@ -47,6 +51,7 @@ def application(start: dict[str, Any], workers: Workers | None = None) -> Starle
         "cam": cam_view.form(),
         "programme": cycle_view.form(),
         "move": MoveEntries.form()["entries"],
+        "space": [replace(ENTRIES[name], **given).form for name, given in _SPACE.items()],
         "mechanisms": machine_view.kinds(),
         "drive": Drive.form()["entries"],
         "formats": downloads.formats(),
@@ -74,14 +79,8 @@ def application(start: dict[str, Any], workers: Workers | None = None) -> Starle
 def page() -> dict[str, bytes]:
     """The files of the page by their paths."""
     folder = files("optlaws.explorer") / "page"
-    folders = {"": folder, "views/": folder / "views"}
-    shown = [
-        (f"{path}{entry.name}", entry)
-        for path, inside in folders.items()
-        for entry in inside.iterdir()
-        if f".{entry.name.rpartition('.')[2]}" in _TYPES
-    ]
-    return {path: entry.read_bytes() for path, entry in sorted(shown, key=lambda pair: pair[0])}
+    inside = {f"{path}{entry.name}": entry for path in ("", "views/") for entry in (folder / path).iterdir()}
+    return {path: inside[path].read_bytes() for path in sorted(inside) if f".{path.rpartition('.')[2]}" in _TYPES}
 
 
 def _file(name: str) -> Callable[[Request], Response]:

@@ -10,19 +10,19 @@ import msgspec
 from optlaws import MotionLaw, Problem
 from optlaws.errors import InputError, located
 from optlaws.explorer.views import old_cam_view
-from optlaws.explorer.views.requests import MOST_LAWS, LawRequest, Question, problem_of
+from optlaws.explorer.views.requests import LawRequest, Question, problem_of
 from optlaws.files import reading
 from optlaws.files.packaged import is_problem, problem_file
-from optlaws.jobs.cycle_entries import CycleProblemFile
+from optlaws.jobs.cycle_entries import CycleProblemFile, motor_of
 from optlaws.jobs.solutions import SolutionsProblemFile, swept_entries
 from optlaws.laws.catalogue.reading import LARGEST_TABLE, is_file, is_table, law_of_points, read_law
-from optlaws.mechanisms.drives.motor import read_motors
 from optlaws.studies.problem_entries import problem
-from optlaws.suggest import unknown_key
 
 _FIRST = {"order": 4, "degree": 9, "B": 1.7}
 #: jobs with a view of their own name
-_SHOWN = frozenset({"cam", "cycle"})
+_SHOWN = frozenset({"cam", "fastest"})
+#: views of a cycle's file that has an entry
+_CYCLES = {"fastest": "fastest", "interlocks": "axes"}
 
 
 def start(given: str | None) -> dict[str, Any]:
@@ -32,31 +32,31 @@ def start(given: str | None) -> dict[str, Any]:
     {'view': 'laws', 'laws': [{'name': 'cycloidal'}]}
     """
     if given is None:
-        return _laws({"problem": dict(_FIRST), "weights": {"C": 1.0}})
+        return _law({"problem": dict(_FIRST), "weights": {"C": 1.0}})
     if is_problem(given):
         file = problem_file(Path(given))[0]
         return _of_problem_file(_with_motors(reading.toml(file), file), str(file))
     if not is_file(given):
         read_law(given)
-        return _laws({"name": given})
+        return _law({"name": given})
     file = Path(given)
     if file.suffix.lower() == ".json":
         return _of_stored(reading.json_file(file), given)
     return _of_table(given, reading.text(file, LARGEST_TABLE, legacy=True))
 
 
-def _laws(*laws: dict[str, Any]) -> dict[str, Any]:
-    return {"view": "laws", "laws": list(laws)[:MOST_LAWS]}
+def _law(law: dict[str, Any]) -> dict[str, Any]:
+    return {"view": "laws", "laws": [law]}
 
 
 def _of_stored(data: Any, name: str) -> dict[str, Any]:
     """The problem of a solution, so that it can be changed; else the law."""
-    if isinstance(data, dict) and isinstance(data.get("problem"), dict):
-        return _laws(_problem(data["problem"], name))
-    if isinstance(data, dict) and "kind" not in data and "law" in data:
-        data = data["law"]
     with located(name):
-        return _laws({"law": MotionLaw.from_dict(data).to_dict(), "title": _stem(name)})
+        if isinstance(data, dict) and isinstance(data.get("problem"), dict):
+            return _law(_law_entries(problem_of(LawRequest(problem=data["problem"]))))
+        if isinstance(data, dict) and "kind" not in data and "law" in data:
+            data = data["law"]
+        return _law({"law": MotionLaw.from_dict(data).to_dict(), "title": _stem(name)})
 
 
 def _of_table(name: str, text: str) -> dict[str, Any]:
@@ -64,7 +64,7 @@ def _of_table(name: str, text: str) -> dict[str, Any]:
     refused: InputError | None = None
     if is_table(name):
         try:
-            return _laws({"law": law_of_points(Path(name), content=text).to_dict(), "title": _stem(name)})
+            return _law({"law": law_of_points(Path(name), content=text).to_dict(), "title": _stem(name)})
         except InputError as error:
             refused = error
     try:
@@ -83,13 +83,12 @@ def _stem(name: str) -> str:
 
 def _of_problem_file(data: dict[str, Any], name: str) -> dict[str, Any]:
     """The view of a job, or a single law where the file has one problem."""
-    job = data["job"] if isinstance(data.get("job"), str) else None
-    if job == "fastest" or (job == "cycle" and data.get("fastest")):
-        return {"view": "fastest", "fastest": data}
-    if job == "cycle" and data.get("interlocks"):
-        return {"view": "axes", "axes": data}
+    job: Any = data["job"] if isinstance(data.get("job"), str) else None
     if job == "cycle":
-        return _of_cycle(data, name)
+        axes = CycleProblemFile.read(data, Path(name)).axis
+        driven = [i for i, axis in enumerate(axes) if axis.mechanism is not None]
+        view = next((view for entry, view in _CYCLES.items() if data.get(entry)), "machine" if driven else "cycle")
+        return {"view": view, view: data} | ({"axis": driven[0]} if view == "machine" else {})
     if job in _SHOWN:
         return {"view": job, job: data}
     with located(name):
@@ -98,7 +97,7 @@ def _of_problem_file(data: dict[str, Any], name: str) -> dict[str, Any]:
         raise InputError(
             f"{name}: the page shows a law, a cycle, a cam or a move; `optlaws run` does what this file says"
         )
-    return _laws(_law_entries(stated))
+    return _law(_law_entries(stated))
 
 
 def _single_problem(data: dict[str, Any]) -> Problem | None:
@@ -111,24 +110,15 @@ def _single_problem(data: dict[str, Any]) -> Problem | None:
     return problem("problem", data["problem"]) if single else None
 
 
-def _of_cycle(data: dict[str, Any], name: str) -> dict[str, Any]:
-    """A cycle, or its machine where one of the axes has a mechanism."""
-    axes = CycleProblemFile.read(data, Path(name)).axis
-    driven = next((i for i, axis in enumerate(axes) if axis.mechanism is not None), None)
-    return {"view": "cycle", "cycle": data} if driven is None else {"view": "machine", "machine": data, "axis": driven}
-
-
 def _with_motors(data: dict[str, Any], file: Path) -> dict[str, Any]:
     """The entries of a file with its motors as tables: the page reads no catalogue."""
     for entry in (entry for part in ("axis", "move") if isinstance(data.get(part), list) for entry in data[part]):
         drive = entry.get("drive") if isinstance(entry, dict) else None
         if isinstance(drive, dict) and isinstance(drive.get("motors"), str) and isinstance(drive.get("motor"), str):
             with located(str(file)):
-                catalogue = file.parent / drive.pop("motors")
-                known = read_motors(catalogue)
-                if drive["motor"] not in known:
-                    raise InputError(f"motor: {catalogue}: {unknown_key(drive['motor'], known, 'motor')}")
-                drive["motor"] = {"name": drive["motor"], **reading.toml(catalogue)[drive["motor"]]}
+                motor_of(drive["motor"], drive["motors"], file.parent)  # refuses what is no motor of it
+            motors = reading.toml(file.parent / drive.pop("motors"))
+            drive["motor"] = {"name": drive["motor"], **motors[drive["motor"]]}
     return data
 
 
@@ -151,11 +141,6 @@ def opened(request: OpenRequest) -> dict[str, Any]:
     if ending == ".json":
         return {"state": _of_stored(reading.json_text(request.text, name), name)}
     return {"state": _of_table(name, request.text)}
-
-
-def _problem(entries: dict[str, Any], name: str) -> dict[str, Any]:
-    with located(name):
-        return _law_entries(problem_of(LawRequest(problem=entries)))
 
 
 def _law_entries(stated: Problem) -> dict[str, Any]:

@@ -46,11 +46,6 @@ class Worker:
         self._thread = ThreadPoolExecutor(1)
         self._ended = False
 
-    @classmethod
-    async def begun(cls) -> Worker:
-        """A process that waits for questions."""
-        return await asyncio.get_running_loop().run_in_executor(None, cls)
-
     @property
     def alive(self) -> bool:
         """Whether the process can be given a question."""
@@ -97,7 +92,7 @@ class Workers:
     async def prepare(self) -> None:
         """Begin processes before the first question."""
         while len(self._idle) < _IDLE and not self._closed.is_set():
-            worker = await Worker.begun()
+            worker = await asyncio.get_running_loop().run_in_executor(None, Worker)
             self._all.add(worker)
             self._idle.append(worker)
         if self._closed.is_set():  # meanwhile

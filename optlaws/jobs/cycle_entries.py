@@ -319,11 +319,11 @@ def drive_of(
         )
     given = dict(drive)
     with located("drive"):
-        given["motor"] = _motor(given["motor"], given.pop("motors", None), folder)
+        given["motor"] = motor_of(given["motor"], given.pop("motors", None), folder)
         return Drive.from_dict({"mechanism": driven, **given})
 
 
-def _motor(motor: Any, catalogue: Any, folder: Path) -> Any:
+def motor_of(motor: Any, catalogue: Any, folder: Path) -> Any:
     """The table of a motor, or the motor of a catalogue that its name says."""
     if not isinstance(motor, str):
         if catalogue is not None:

@@ -59,10 +59,9 @@ class Clearance(Interlock, kind="clearance"):
     most: Any = entry(_BOUND, "The greatest position, likewise; one of them.", default=None, kw_only=True)
     units: Sequence[str] | None = entry(
         Together(Text(), Text()),
-        "Of a formula: the unit of x and that of the bound.",
+        'Of a formula: the unit of x and that of the bound, such as ["deg", "mm"].',
         default=None,
         kw_only=True,
-        example=["deg", "mm"],
     )
     name: str = entry(Text(empty=True), CALLED, default="", kw_only=True)
 

@@ -4,9 +4,6 @@ import { group } from "./fields.js";
 import { plain } from "./units.js";
 import { html, renew } from "./svg.js";
 
-/** Of two entries of which a kind has one, the one that a new interlock begins with. */
-const BEGUN = ["above", "least"];
-
 /** The entry that names the other axis, by the kind. */
 export const otherOf = (kinds, kind) => kinds[kind]?.find(({ name, axis }) => axis && name !== "axis")?.name;
 
@@ -53,9 +50,9 @@ export class Interlocks {
     renew(this.#root, group("Interlocks", ...cards, add));
   }
 
-  /** An interlock of a kind with what it needs, its axes named. */
+  /** An interlock of a kind with what it needs, and of two entries of which it has one that with an example; its axes named. */
   #begun(kind, named) {
-    const entries = this.#kinds[kind].filter(({ name, needed }) => needed || BEGUN.includes(name));
+    const entries = this.#kinds[kind].filter(({ needed, example }) => needed || example !== undefined);
     return { kind, ...Object.fromEntries(entries.map(({ name, example }) => [name, structuredClone(example)])), ...named };
   }
 

@@ -16,7 +16,6 @@ import { headed, number, shownUnit, written } from "../units.js";
 
 const told = (value) => JSON.stringify(value);
 const word = (value, digits = 5) => String(Number(value.toPrecision(digits))).replace("-", "−");
-const SPACE = { order: "3", degree: "9", monotone: "false" };
 const OWN = ["stroke", "start_velocity", "end_velocity", "start"];
 const LONGEST = 2; // times the least, where a front has no end of its own
 const FINEST = 1e-4; // s
@@ -33,6 +32,7 @@ export class View {
   #at;
   #fields;
   #declared;
+  #space;
   #built = "";
   #paths = [];
   #programme;
@@ -44,7 +44,8 @@ export class View {
   #front = null;
   #asked = null;
 
-  constructor(root, study, { programme, move }) {
+  constructor(root, study, { programme, move, space }) {
+    this.#space = space;
     this.#declared = Object.fromEntries(move.map((entry) => [entry.name, entry]));
     this.#study = study;
     this.#at = layout(root);
@@ -121,7 +122,6 @@ export class View {
       state.move = Number(several.value);
       delete state.time;
     }));
-    const rows = (entries, before = []) => Object.entries(entries).map(([name, text]) => this.#fields.field({ path: [...before, name], placeholder: text, label: name.replaceAll("_", " ") }));
     const { limits, follower, front } = this.#declared;
     const limited = limits.entries.filter(({ name }) => (!name.includes("torque") || move.drive) && (!name.startsWith("residual") || move.follower));
     const fields = (entry, entries = entry.entries) => this.#fields.fields(entries, [entry.name], []);
@@ -129,7 +129,7 @@ export class View {
     const groups = [
       group("Move", several, ...this.#fields.fields(OWN.map((name) => this.#declared[name]))),
       group("At most", ...fields(limits, limited)),
-      group("Laws", ...rows(SPACE, ["problem"])),
+      group("Laws", ...this.#fields.fields(this.#space, ["problem"], [])),
       ...(machine.length ? [group("Mechanism", ...of("mechanism")), group("Drive", ...of("drive"))] : []),
       group("What vibrates", ...fields(follower)),
       group("Front", ...fields(front, front.entries.filter(({ name }) => name === "longest"))),
