@@ -160,8 +160,8 @@ class Advice:
             "second": self.second,
             "guarded": list(self.guarded),
             "measures": [{"name": measure.name, "unit": measure.unit} for measure in self.measures],
-            "laws": [law.to_dict() for law in self.laws],
-            "front": [law.to_dict() for law in self.front],
+            "laws": [law.data for law in self.laws],
+            "front": [law.data for law in self.front],
             "recommendation": {
                 "law": chosen.law.name,
                 "usual": None if chosen.usual is None else chosen.usual.name,

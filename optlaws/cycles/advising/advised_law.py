@@ -147,8 +147,9 @@ class AdvisedLaw:
         """The report of the motion with this law."""
         return self.motion.report()
 
-    def to_dict(self) -> dict[str, Any]:
-        """The law's part of the advice as plain data in SI units, with whole solutions; not read again."""
+    @property
+    def data(self) -> dict[str, Any]:
+        """The law's part of the advice for programs, in SI units, with whole solutions."""
         proof = self.proof
         optimal = {} if proof is None else {
             "minimise": proof.minimise,
