@@ -27,7 +27,6 @@ from optlaws.explorer.views import (
     law_view,
     machine_view,
     old_cam_view,
-    residual_view,
 )
 from optlaws.explorer.views.requests import Question, read
 from optlaws.sentences import parts_of
@@ -42,10 +41,11 @@ _VIEWS: dict[str, ModuleType] = {
     "old": old_cam_view,
     "advice": advice_view,
 }
-_OTHERS: tuple[ModuleType, ...] = (law_view, front_view, residual_view, start, downloads)
 #: by the last part of the path: what a question is read as, and what answers it; each view names its own
 QUESTIONS: dict[str, Question] = {
-    name: question for each in (*_OTHERS, *_VIEWS.values()) for name, question in each.QUESTIONS.items()
+    name: question
+    for each in (law_view, front_view, start, downloads, *_VIEWS.values())
+    for name, question in each.QUESTIONS.items()
 }
 #: by a view's name in the page: the study that it shows where none was given
 EXAMPLES: dict[str, Callable[[], dict[str, Any]]] = {name: view.example for name, view in _VIEWS.items()}

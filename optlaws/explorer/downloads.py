@@ -190,12 +190,8 @@ def _cycle_python(request: cycle_view.CycleRequest) -> File:
     spec, axis = cycle_view.read(request)
     cycle, follower = cycle_of(replace(axis, follower=None), spec.speed, spec.period), axis.follower
     cam = "" if follower is None else f".cam({follower.period!r}, damping={follower.damping!r})"
-    lines = [
-        f"cycle = {_source(cycle)}{cam}",
-        "print(cycle.status.value, cycle.objective, cycle.lower_bound)",
-        'cycle.plot()[0].figure.savefig("cycle.png")',
-    ]
-    return _python("cycle", lines)
+    shown = "print(cycle.status.value, cycle.objective, cycle.lower_bound)"
+    return _python("cycle", [f"cycle = {_source(cycle)}{cam}", shown, 'cycle.plot()[0].figure.savefig("cycle.png")'])
 
 
 def _axes_python(request: cycle_view.CycleRequest) -> File:

@@ -15,7 +15,7 @@ from optlaws.files import reading
 from optlaws.files.packaged import is_problem, problem_file
 from optlaws.jobs.cycle_entries import CycleProblemFile, motor_of
 from optlaws.jobs.solutions import SolutionsProblemFile, swept_entries
-from optlaws.laws.catalogue.reading import LARGEST_TABLE, is_file, is_table, law_of_points, read_law
+from optlaws.laws.catalogue.reading import is_file, is_table, law_of_points, read_law
 from optlaws.studies.problem_entries import problem
 
 _FIRST = {"order": 4, "degree": 9, "B": 1.7}
@@ -39,10 +39,7 @@ def start(given: str | None) -> dict[str, Any]:
     if not is_file(given):
         read_law(given)
         return _law({"name": given})
-    file = Path(given)
-    if file.suffix.lower() == ".json":
-        return _of_stored(reading.json_file(file), given)
-    return _of_table(given, reading.text(file, LARGEST_TABLE, legacy=True))
+    return _of_text(given, reading.text(Path(given), legacy=not given.lower().endswith(".json")))
 
 
 def _law(law: dict[str, Any]) -> dict[str, Any]:
@@ -135,12 +132,14 @@ def opened(request: OpenRequest) -> dict[str, Any]:
     >>> opened(OpenRequest(name="one.toml", text="[problem]\norder = 4\nB = 1.7"))["state"]["laws"][0]["weights"]
     {'C': 1.0}
     """
-    name, ending = Path(request.name).name, Path(request.name).suffix.lower()
+    return {"state": _of_text(Path(request.name).name, request.text)}
+
+
+def _of_text(name: str, text: str) -> dict[str, Any]:
+    ending = Path(name).suffix.lower()
     if ending == ".toml":
-        return {"state": _of_problem_file(reading.toml_text(request.text, name), name)}
-    if ending == ".json":
-        return {"state": _of_stored(reading.json_text(request.text, name), name)}
-    return {"state": _of_table(name, request.text)}
+        return _of_problem_file(reading.toml_text(text, name), name)
+    return _of_stored(reading.json_text(text, name), name) if ending == ".json" else _of_table(name, text)
 
 
 def _law_entries(stated: Problem) -> dict[str, Any]:

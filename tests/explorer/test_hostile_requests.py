@@ -69,7 +69,7 @@ SEEDS: dict[str, list[Any]] = {
         {"laws": [OPTIMAL], "frequency": 12.0},
         {"laws": [OPTIMAL], "band": [18.0, 22.0], "spectrum": [[16.0, 0.1], [20.0, 1.0], [24.0, 0.2]]},
     ],
-    "spectrum": [{"pairs": [[30.0, 0.2], [32.0, 1.0]], "duration": "0.1 s"}],
+    "spectrum": [{"laws": [OPTIMAL], "spectrum": [[30.0, 0.2], [32.0, 1.0]], "duration": "0.1 s"}],
 }
 ODD: list[Any] = [
     None, True, 0, -1, 1e308, -1e-308, 9e15, 1e6, float("nan"), "", "x", "é\u202e", "9e15", "1e-400 mm", "inf deg", [],

@@ -46,7 +46,7 @@ def test_a_spectrum_of_many_lines_counts_whole(served: Server) -> None:
     nu = np.linspace(5.0, 60.0, 800)
     sizes = np.exp(0.3 * np.random.default_rng(1).normal(size=800)) / (1.0 + (nu - 20.0) ** 2)
     pairs = np.column_stack([nu, sizes.round(4)])
-    assert served.ask("spectrum", {"pairs": pairs.tolist()}) == {"seconds": None}
+    assert served.ask("spectrum", {"laws": [OPTIMAL], "spectrum": pairs.tolist()}) == {"seconds": None}
     (left,) = served.ask("residual", {"laws": [OPTIMAL], "spectrum": pairs.tolist()})["laws"]
     law = synthesize(Problem(order=4, B=1.7)).law
     assert left["band"]["value"] == residual_vibration(spectrum=pairs).value(law)
@@ -54,7 +54,7 @@ def test_a_spectrum_of_many_lines_counts_whole(served: Server) -> None:
     bound = {"problem": OPTIMAL["problem"] | {"bounds": {formula: [0, 0.5 * left["band"]["value"]]}}}
     (view,) = served.ask("laws", {"laws": [bound]})["laws"]
     assert "optimal" in str(view["trust"])
-    falling = served.ask("spectrum", {"pairs": [[2.0, 1.0], [1.0, 1.0]]})
+    falling = served.ask("spectrum", {"laws": [OPTIMAL], "spectrum": [[2.0, 1.0], [1.0, 1.0]]})
     assert "above 0 and increasing, got [2.0, 1.0]" in falling["error"]
 
 

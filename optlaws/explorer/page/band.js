@@ -125,10 +125,10 @@ export class Band {
   }
 
   #take(pairs, duration) {
-    this.#asked.ask({ pairs, ...(duration && { duration }) });
+    this.#asked.ask({ laws: this.#study.state.laws, spectrum: pairs, ...(duration && { duration }) });
   }
 
-  #taken({ pairs, duration }, seconds) {
+  #taken({ spectrum: pairs, duration }, seconds) {
     this.change("spectrum", (state) => {
       state.spectrum = { name: this.#name || state.spectrum?.name, raw: pairs, ...(duration && { duration, seconds }) };
     });

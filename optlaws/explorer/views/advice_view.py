@@ -118,7 +118,7 @@ def _entries(cycle: Cycle, law: AdvisedLaw, *, vibrates: bool) -> dict[str, Any]
         return {"laws": [law.name if i in moves else None for i in range(len(none))]}
     if not vibrates and proof.minimise == motion.minimise:
         laws = [OPTIMAL if i in moves else None for i in range(len(none))]
-        return {"laws": laws, "minimise": motion.minimise, "limits": _plain(motion.limits)}
+        return {"laws": laws, "minimise": motion.minimise, "limits": dict(motion.limits)}
     for i in moves:
         peaks = motion.peaks[i]
         piece = next((piece for piece in motion.pieces if piece.start == peaks.start), None)
@@ -131,10 +131,6 @@ def _entries(cycle: Cycle, law: AdvisedLaw, *, vibrates: bool) -> dict[str, Any]
 def _is_compared(before: Any, segment: Any) -> bool:
     """Whether a segment's law is compared: it is sought, or the user changed it."""
     return isinstance(segment, Move) and (segment.law == OPTIMAL or segment != before)
-
-
-def _plain(limits: Any) -> dict[str, Any]:
-    return {name: list(value) if isinstance(value, tuple) else value for name, value in limits.items()}
 
 
 def _curves(laws: Sequence[AdvisedLaw]) -> dict[str, Any]:

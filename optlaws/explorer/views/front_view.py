@@ -11,7 +11,6 @@ import numpy as np
 from optlaws import (
     FUNCTIONALS,
     Front,
-    MotionLaw,
     Problem,
     ProblemArray,
     SavinFamily,
@@ -120,17 +119,12 @@ def known_points(x: str, y: str) -> list[dict[str, Any]]:
     """Each standard law from rest to rest whose two constants are finite, with its text for the reader."""
     points = []
     for name, entry in catalogue.items():
+        place = FUNCTIONALS[x].value(entry.law), FUNCTIONALS[y].value(entry.law)
         # what moves at its ends is no rival of laws from rest to rest
-        place = _place(entry.law, x, y) if entry.continuity else None
-        if place is not None:
+        if entry.continuity and all(bounded(number) is not None for number in place) and place[1] > 0.0:
             text = f"{name}: {x} = {digits(place[0], 6)}, {y} = {digits(place[1], 6)}"
             points.append({"name": name, "at": place, "text": text, "named": name in NAMED})
     return points
-
-
-def _place(law: MotionLaw, x: str, y: str) -> tuple[float, float] | None:
-    pair = FUNCTIONALS[x].value(law), FUNCTIONALS[y].value(law)
-    return pair if all(bounded(number) is not None for number in pair) and pair[1] > 0.0 else None
 
 
 @cache

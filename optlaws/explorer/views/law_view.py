@@ -4,16 +4,27 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterable, Iterator
+from contextlib import suppress
 from dataclasses import replace
 from functools import lru_cache, wraps
 from math import ceil, floor, log10
 from typing import Any, TypeAlias
 
 import msgspec
+import numpy as np
 
-from optlaws import Chebyshev, MotionLaw, Problem, Range, Solution, Status
-from optlaws.errors import InfeasibleProblem, OptlawsError, SolverFailure
-from optlaws.explorer.views.panel_data import panel_data
+from optlaws import (
+    Chebyshev,
+    MotionLaw,
+    Problem,
+    Range,
+    Solution,
+    Status,
+    residual_vibration,
+    response_spectrum,
+)
+from optlaws.errors import InfeasibleProblem, InputError, OptlawsError, SolverFailure
+from optlaws.explorer.views.panel_data import beside_each_other, panel_data
 from optlaws.explorer.views.requests import (
     MOST_DEGREE,
     UNITS,
@@ -26,6 +37,8 @@ from optlaws.explorer.views.requests import (
     solved,
     without,
 )
+from optlaws.mechanisms.measured_spectrum import Spectrum, weight_of
+from optlaws.mechanisms.residual import Residual
 from optlaws.motion import display_units
 from optlaws.motion.piece import factor
 from optlaws.motion.quantities import either, positive_quantity
@@ -266,8 +279,68 @@ def in_machine_units(request: LawsRequest) -> dict[str, Any]:
     return {"rows": rows}
 
 
+_COUNT = 241
+_LOW = 2.0
+
+
+def residuals(request: LawsRequest) -> dict[str, Any]:
+    """Residual and peak acceleration of each law over frequencies, in units of a'', at one frequency, in a band."""
+    weight = None if request.spectrum is None else weight_of(request.spectrum, request.duration)
+    constant, laws = _constant(request, weight), dict(_known_laws(request))
+    frequencies = np.union1d(np.linspace(_LOW, request.most, _COUNT), request.frequency)
+    spectra = {i: response_spectrum(law, frequencies, request.damping) for i, law in laws.items()}
+    curves = [(i, spectrum.report().panels) for i, spectrum in spectra.items()]
+    left = {i: float(each.residual_acceleration[frequencies == request.frequency][0]) for i, each in spectra.items()}
+    shown = {i: {"text": digits(left[i], 6), "band": _greatest(law, constant)} for i, law in laws.items()}
+    return {
+        "range": [_LOW, request.most],
+        "panels": [panel_data(panel, 1.0) for panel in (beside_each_other(curves[0][1], curves) if curves else ())],
+        "laws": [shown.get(i) for i in range(len(request.laws))],
+        "at": request.frequency,
+        "weight": [] if weight is None else [list(pair) for pair in weight],
+        "band": None if constant is None else [constant.low, constant.high],
+        "constant": None if constant is None else str(constant),
+    }
+
+
+def _known_laws(request: LawsRequest) -> Iterator[tuple[int, MotionLaw]]:
+    """The laws that there are, by their numbers: the view of the others says why there is none."""
+    for i, law in enumerate(request.laws):
+        with suppress(OptlawsError):
+            yield i, law_of(law)
+
+
+def _constant(request: LawsRequest, weight: Spectrum | None) -> Residual | None:
+    """The greatest residual in the band, weighed where there is a spectrum; None without either."""
+    if weight is None and request.band is None:
+        return None
+    band = request.band
+    if weight is not None and band is not None:
+        band = max(band[0], weight[0][0]), min(band[1], weight[-1][0])
+        if not band[0] < band[1]:
+            ends = f"{digits(weight[0][0], 5)} to {digits(weight[-1][0], 5)}"
+            raise InputError(f"the spectrum is known from {ends}, where the band is not: move the band there")
+    return residual_vibration(frequency=band, damping=request.damping, spectrum=weight)
+
+
+def _greatest(law: MotionLaw, constant: Residual | None) -> dict[str, Any] | None:
+    """The greatest residual of a law in the band, and where."""
+    peak = None if constant is None else constant.peak(law)
+    if peak is None or bounded(peak.value) is None:
+        return None
+    return {"value": peak.value, "text": digits(peak.value, 6), "at": digits(peak.k, 5)}
+
+
+def spectrum(request: LawsRequest) -> dict[str, Any]:
+    """The duration of the motion in seconds where one is given, for a spectrum that can weigh a band."""
+    weight_of(request.spectrum or (), request.duration)
+    return {"seconds": None if request.duration is None else positive_quantity(request.duration, "time", "duration")}
+
+
 QUESTIONS: dict[str, Question] = {
-    "law-machine": (LawsRequest, in_machine_units),
     "laws": (LawsRequest, answer),
+    "law-machine": (LawsRequest, in_machine_units),
     "nearest": (LawsRequest, nearest),
+    "residual": (LawsRequest, residuals),
+    "spectrum": (LawsRequest, spectrum),
 }

@@ -31,7 +31,6 @@ Question = tuple[type[msgspec.Struct], Callable[[Any], dict[str, Any]]]
 Weight = Annotated[float, msgspec.Meta(ge=0.0, le=100.0)]
 Text = Annotated[str, msgspec.Meta(max_length=60)]
 Frequency = Annotated[float, msgspec.Meta(gt=0.0, le=1000.0)]
-Pairs = Annotated[list[tuple[float, float]], msgspec.Meta(min_length=2, max_length=MOST_POINTS)]
 
 
 class LawRequest(msgspec.Struct, kw_only=True, forbid_unknown_fields=True, frozen=True):
@@ -63,7 +62,7 @@ class LawsRequest(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     most: Annotated[float, msgspec.Meta(ge=10.0, le=1000.0)] = 80.0
     damping: Annotated[float, msgspec.Meta(ge=0.0, le=MOST_DAMPING)] = 0.0
     band: tuple[Frequency, Frequency] | None = None
-    spectrum: Pairs | None = None
+    spectrum: Annotated[list[tuple[float, float]], msgspec.Meta(min_length=2, max_length=MOST_POINTS)] | None = None
     duration: Text | None = None
 
     @property
