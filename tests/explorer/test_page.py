@@ -212,6 +212,7 @@ def test_what_is_saved_is_what_is_seen(page: Page, served: Server) -> None:
     go(page, served.link(laws=[at_velocity(1.859), {"name": "modified sine"}], picture="residual"))
     assert "Problem(B=1.859, order=4" in saves(page, "python")
     assert saves(page, "problem").startswith('job = "solutions"')
+    assert "<title>least C, B = 1.859" in saves(page, "report")
     picture = ET.fromstring(saves(page, "picture"))  # noqa: S314 - our own
     lines = [one for one in picture.iter("{http://www.w3.org/2000/svg}path") if one.get("fill") == "none"]
     assert len(lines) == 10
