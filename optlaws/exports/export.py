@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 from math import isfinite
 from pathlib import Path
 from typing import Any, Protocol
 
-from optlaws.errors import InputError
+from optlaws.errors import InputError, located
 from optlaws.exports.format import Format, Written, format_of
 from optlaws.exports.report import Report, TaskSampling, as_run, task_sampling
 from optlaws.exports.text import variable_names
@@ -117,9 +117,7 @@ class Export:
             "units": {"master": self.motion.units.master, "slave": self.motion.units.slave},
             "IsPeriodic": self.motion.repeats,
             **self.report.results(),
-            "task": None
-            if self.task is None
-            else {"seconds": self.task.seconds, "acceleration": self.task.acceleration},
+            "task": None if self.task is None else asdict(self.task),
         }
 
     def rows(self) -> list[Comparison]:
@@ -178,67 +176,54 @@ class Export:
         return [units.slave, *(f"{units.slave}/{per}{power}" for power in ("", "²", "³"))]
 
     def __str__(self) -> str:
-        written = self.written
-        lines = [
-            f"{self.format.target}: {written.points} {written.counted}, {written.model}",
-            *self.motion.proof,
-            *written.notes,
-        ]
-        width = max(len(name) for name, *_ in self.rows())
-        lines.append(f"{'':{width}}  {'run':>14}  {'law':>14}  {'run/law':>9}")
-        for name, run, law, ratio in self.rows():
-            cells = [_cell(run, 14), _cell(law, 14), _cell(ratio, 9)]
-            lines.append(f"{name:{width}}  {'  '.join(cells)}".rstrip())
-        return "\n".join(lines)
+        written, rows = self.written, self.rows()
+        head = f"{self.format.target}: {written.points} {written.counted}, {written.model}"
+        width = max(len(name) for name, *_ in rows)
+        table = [("", "run", "law", "run/law"), *((name, *map(_cell, values)) for name, *values in rows)]
+        lines = (f"{name:{width}}  {run:>14}  {law:>14}  {ratio:>9}".rstrip() for name, run, law, ratio in table)
+        return "\n".join([head, *self.motion.proof, *written.notes, *lines])
+
+
+def _export(form: Format, motion: Motion, written: Written, task: Quantity | None) -> Export:
+    """An export with its reports; `task` is the time of a drive's task, such as "1 ms"."""
+    sampling = None if task is None else task_sampling(written.run, motion, task)
+    return Export(form, motion, written, as_run(written.run, motion, written.bound, written.roundings), sampling)
 
 
 def export_motion(motion: Motion, to: Any, *, task: Quantity | None = None, **options: Any) -> Export:
-    """A motion in a format, which checks its options; `task` is the time of a drive's task, such as "1 ms"."""
-    chosen = format_of(to)
-    written = chosen.write(motion, chosen.request(**options))
-    sampling = None if task is None else task_sampling(written.run, motion, task)
-    return Export(chosen, motion, written, as_run(written.run, motion, written.bound, written.roundings), sampling)
+    """A motion in a format, which checks its options."""
+    form = format_of(to)
+    return _export(form, motion, form.write(motion, form.request(**options)), task)
 
 
 def export_law(
-    law: MotionLaw,
-    to: Quantity,
-    placement: dict[str, Any],
-    proof: tuple[str, ...] = (),
-    **options: Any,
+    law: MotionLaw, to: Any, placement: dict[str, Any], proof: tuple[str, ...] = (), **options: Any
 ) -> Export:
     """A law with its stroke, time and master, as `motion_of_law` takes them, in a format; `proof` heads it."""
-    chosen = format_of(to)
-    return export_motion(replace(motion_of_law(law, **placement), proof=proof), chosen.name, **options)
+    form = format_of(to)
+    return export_motion(replace(motion_of_law(law, **placement), proof=proof), form.name, **options)
 
 
 def export_cycle(cycle: _HasMotion, to: Any, placement: dict[str, Any], **options: Any) -> Export:
     """A cycle with its master and unit, as `Cycle.motion` takes them, in a format, which is checked before laws are."""
-    chosen = format_of(to)
-    return export_motion(cycle.motion(**placement), chosen.name, **options)
+    form = format_of(to)
+    return export_motion(cycle.motion(**placement), form.name, **options)
 
 
 def export_axes(
-    axes: Mapping[str, _HasMotion],
-    to: Mapping[str, Any],
-    placement: dict[str, Any],
-    **options: Any,
+    axes: Mapping[str, _HasMotion], to: Mapping[str, Any], placement: dict[str, Any], **options: Any
 ) -> dict[str, Export]:
     """Axes in formats by their names, each under a name of its own."""
-    names = variable_names(axes)
-    by_axis = {}
+    names, exports = variable_names(axes), {}
     for axis, form in to.items():
-        cycle = axes[axis]
-        try:
-            by_axis[axis] = export_cycle(cycle, form, placement, **options, name=names[axis])
-        except InputError as error:
-            raise InputError(f"axis {axis}: {error}") from None
-    return by_axis
+        with located(f"axis {axis}"):
+            exports[axis] = export_cycle(axes[axis], form, placement, **options, name=names[axis])
+    return exports
 
 
 def export_together(
     axes: Mapping[str, _HasMotion], to: Any, placement: dict[str, Any], *, task: Quantity | None = None, **options: Any
-) -> dict[str, Export]:  # fmt: skip
+) -> dict[str, Export]:
     """Axes in a single file, for formats that hold several: all exports share the text."""
     form = format_of(to)
     if form.write_joints is None:
@@ -248,12 +233,7 @@ def export_together(
     names = variable_names(axes)
     motions = {names[axis]: cycle.motion(**placement) for axis, cycle in axes.items()}
     written = form.write_joints(motions, form.request(**options))
-    exports = {}
-    for axis, name in names.items():
-        run, motion = written[name], motions[name]
-        sampling = None if task is None else task_sampling(run.run, motion, task)
-        exports[axis] = Export(form, motion, run, as_run(run.run, motion, run.bound, run.roundings), sampling)
-    return exports
+    return {axis: _export(form, motions[name], written[name], task) for axis, name in names.items()}
 
 
 def _finite(value: float | None) -> float | None:
@@ -264,5 +244,5 @@ def _ratio(run: float, law: float) -> float | None:
     return run / law if law > 0.0 else None
 
 
-def _cell(value: float | None, width: int) -> str:
-    return f"{'-' if value is None else format(value, '.7g'):>{width}}"
+def _cell(value: float | None) -> str:
+    return "-" if value is None else format(value, ".7g")

@@ -160,21 +160,11 @@ def format_of(name: Any) -> Format:
     return FORMATS[name]
 
 
-def file_format(
-    name: str,
-    *,
-    target: str,
-    contents: str,
-    model: str,
-    limits: str,
-    extension: str,
-    takes: tuple[str, ...] = ("points",),
-    joints: JointWriter | None = None,
-) -> Callable[[Writer], Writer]:
-    """A decorator that enters a format under its name, with the function that writes its files."""
+def file_format(name: str, **entries: Any) -> Callable[[Writer], Writer]:
+    """A decorator that enters a format under its name, with the function that writes its files and its other fields."""
 
     def entered(write: Writer) -> Writer:
-        FORMATS[name] = Format(name, target, contents, model, limits, extension, write, takes, joints)
+        FORMATS[name] = Format(name, write=write, **entries)
         return write
 
     return entered

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from math import floor, inf, isfinite, nan
@@ -134,53 +135,36 @@ def as_run(run: PiecewiseMotion, motion: Motion, bound: float = 0.0, roundings: 
     Roundings may add `bound` to the acceleration; jumps of velocity, acceleration and jerk up to `roundings` are such.
     """
     rate = motion.units.rate or 1.0
-    law = _of_law(motion, rate)
-    deviation = tuple(_deviation(run, motion, nu, rate, has=isfinite(law.peak(nu))) for nu in ORDERS[:3])
-    known = (0.0, *(roundings or (0.0,) * 3))
-    return Report(_of_run(run, motion, rate, known), law, deviation, rate, bound * rate**2)
-
-
-def _of_run(run: PiecewiseMotion, motion: Motion, rate: float, roundings: tuple[float, ...]) -> Characteristics:
-    extremes = [tuple(_sized(extreme, rate**nu) for extreme in run.extremes(nu)) for nu in ORDERS]
-    ends = [run.ends(nu) for nu in ORDERS]
-    start = tuple(float(first[0]) * rate**nu for nu, (first, _) in enumerate(ends))
-    end = tuple(float(last[-1]) * rate**nu for nu, (_, last) in enumerate(ends))
+    law = _characteristics(motion, motion, rate, (0.0,) * 4)
     height, step = run.peak(0).value, float(run.lengths.min())
-    small = tuple(
-        max(
-            ROUNDING[0] * max(abs(low.value), abs(high.value)),
-            ROUNDING[1] * height * (rate / step) ** nu,
-            roundings[nu] * rate**nu,
-        )
-        for nu, (low, high) in enumerate(extremes)
-    )
-    return Characteristics(
-        start,
-        end,
-        tuple(low for low, _ in extremes),
-        tuple(high for _, high in extremes),
-        rate * travel_of_run(run) / (run.stop - run.start),
-        rate**2 * run.rms(2) if _jump(run, 1, rate, small[1]).value == 0.0 else inf,
-        tuple(_jump(run, nu, rate, small[nu]) for nu in ORDERS[1:]),
-        _at_ends(start, end, motion, small),
-    )
+    known = (0.0, *(roundings or (0.0,) * 3))
+    floors = [max(ROUNDING[1] * height * (rate / step) ** nu, known[nu] * rate**nu) for nu in ORDERS]
+    deviation = tuple(_deviation(run, motion, nu, rate, has=isfinite(law.peak(nu))) for nu in ORDERS[:3])
+    return Report(_characteristics(run, motion, rate, floors), law, deviation, rate, bound * rate**2)
 
 
-def _of_law(motion: Motion, rate: float) -> Characteristics:
-    extremes = [tuple(_sized(Extreme(*pair), rate**nu) for pair in motion.extrema(nu)) for nu in ORDERS]
-    start, end = (tuple(rate**nu * motion.ends(nu)[side] for nu in ORDERS) for side in (0, 1))
-    small = tuple(ROUNDING[0] * max(abs(low.value), abs(high.value)) for low, high in extremes)
-    jumps = tuple(_sized(Extreme(*motion.jump(nu)), rate**nu) for nu in ORDERS[1:])
-    return Characteristics(
-        start,
-        end,
-        tuple(low for low, _ in extremes),
-        tuple(high for _, high in extremes),
-        rate * travel_of_law(motion) / motion.length,
-        inf if jumps[0].value else rate**2 * motion.rms(2),
-        jumps,
-        _at_ends(start, end, motion, small),
-    )
+def _characteristics(
+    side: Motion | PiecewiseMotion, motion: Motion, rate: float, floors: Sequence[float]
+) -> Characteristics:
+    """The characteristics of the law, which is the motion, or of its run; jumps up to floors are rounding."""
+    pairs = [side.extrema(nu) if isinstance(side, Motion) else side.extremes(nu) for nu in ORDERS]
+    extremes = [tuple(_sized(Extreme(*each), rate**nu) for each in pair) for nu, pair in enumerate(pairs)]
+    start, end = (tuple(rate**nu * float(np.ravel(side.ends(nu)[i])[-i]) for nu in ORDERS) for i in (0, 1))
+    small = [
+        max(ROUNDING[0] * max(abs(low.value), abs(high.value)), least)
+        for (low, high), least in zip(extremes, floors, strict=True)
+    ]
+    if isinstance(side, Motion):
+        jumps = tuple(_sized(Extreme(*side.jump(nu)), rate**nu) for nu in ORDERS[1:])
+        travel, length = travel_of_law(side), side.length
+    else:
+        jumps = tuple(_jump(side, nu, rate, small[nu]) for nu in ORDERS[1:])
+        travel, length = travel_of_run(side), side.stop - side.start
+    low, high = (tuple(pair[i] for pair in extremes) for i in (0, 1))
+    changes = (abs(b - a) if motion.repeats else max(abs(a), abs(b)) for a, b in zip(start, end, strict=True))
+    _, *at_ends = (change if change > least else 0.0 for change, least in zip(changes, small, strict=True))
+    effective = inf if jumps[0].value else rate**2 * side.rms(2)
+    return Characteristics(start, end, low, high, rate * travel / length, effective, jumps, tuple(at_ends))
 
 
 def _jump(run: PiecewiseMotion, nu: int, rate: float, small: float) -> Extreme:
@@ -188,14 +172,6 @@ def _jump(run: PiecewiseMotion, nu: int, rate: float, small: float) -> Extreme:
     if not jumps.size or jumps.max() <= small:
         return Extreme(0.0, run.start)
     return Extreme(float(jumps.max()), run.breaks[1 + int(jumps.argmax())])
-
-
-def _at_ends(
-    start: tuple[float, ...], end: tuple[float, ...], motion: Motion, small: tuple[float, ...]
-) -> tuple[float, ...]:
-    pairs = zip(start[1:], end[1:], small[1:], strict=True)
-    jumps = ((abs(b - a) if motion.repeats else max(abs(a), abs(b)), least) for a, b, least in pairs)
-    return tuple(jump if jump > least else 0.0 for jump, least in jumps)
 
 
 def _deviation(run: PiecewiseMotion, motion: Motion, nu: int, rate: float, *, has: bool) -> Extreme:

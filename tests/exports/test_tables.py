@@ -28,9 +28,9 @@ from tests.internals.exports import (
     Export,
     NumberFormat,
     export_motion,
+    point_table,
     profile_motion,
     profile_rows,
-    spline_table,
 )
 from tests.internals.motion import Motion, Piece, Units, motion_of_law
 
@@ -179,7 +179,7 @@ def test_counts_make_many_points_worse() -> None:
     assert many.written.resolution == pytest.approx(35.0 / 65536)
     assert many.report.bound / many.report.law.peak(2) == pytest.approx(6 * 360**2 / 65536 / 4.647776, rel=2e-2)
     best = export_motion(one_shot(), "csv", points="best", counts=65536)
-    each = [spline_table(one_shot(), count, NumberFormat(65536)).run.peak(2).value for count in range(6, 120)]
+    each = [point_table(one_shot(), count, NumberFormat(65536), "cubic").run.peak(2).value for count in range(6, 120)]
     assert best.report.ratio(2) <= 1.001 * min(each) / one_shot().peak(2)
     assert best.points < 60
 

@@ -14,17 +14,15 @@ from optlaws.exports.formats.point_table import (
     NumberFormat,
     chosen_table,
     hermite_table,
-    linear_table,
-    positions,
-    spline_table,
-    table_by_interpolation,
+    is_cyclic,
+    point_table,
 )
-from optlaws.exports.spacing import PointTable, chosen
+from optlaws.exports.spacing import PointTable, chosen, places
 from optlaws.exports.text import plain, plain_column, table_heading
 from optlaws.files.writing import MARK
 from optlaws.motion.motion import Motion
 from optlaws.motion.quantities import quantity
-from optlaws.numerics.splines import linear_powers
+from optlaws.numerics.splines import Ends, linear_powers
 from optlaws.tolerances import CLOSURE
 
 _DECADIC_STEP = 1e-4  # the last digit that an ISG cam table has
@@ -37,7 +35,6 @@ MODELS = {
     "quintic": "quintic Hermite",
     "septic": "Hermite of degree 7",
 }
-ORDERS = {"c1": 2, "quintic": 3, "septic": 4}
 ISG_LINES, ISG_LEAST = 360, 0.1
 TECHNOSOFT_POINTS, TECHNOSOFT_STEPS = 8192, 128
 PLCOPEN_POINTS = 64
@@ -56,12 +53,10 @@ def _columns_of_axes(motions: Mapping[str, Motion], request: Request) -> dict[st
     tables = {name: chosen_table(motion, request, interpolation, MOST_POINTS) for name, motion in motions.items()}
     if len(tables) > 1:
         numbers = NumberFormat(request.counts, request.digits)
-        places = np.unique(np.concatenate([table.x for table in tables.values()]))
+        x = np.unique(np.concatenate([table.x for table in tables.values()]))
         # what differs by rounding is one place
-        places = places[np.diff(places, append=np.inf) > CLOSURE * (places[-1] - places[0])]
-        tables = {
-            name: table_by_interpolation(motion, places, numbers, interpolation) for name, motion in motions.items()
-        }
+        x = x[np.diff(x, append=np.inf) > CLOSURE * (x[-1] - x[0])]
+        tables = {name: point_table(motion, x, numbers, interpolation) for name, motion in motions.items()}
     separator = ";" if request.decimal == "," else ","
     first = next(iter(motions.values()))
     headings, columns = [f"x {first.units.master}"], [next(iter(tables.values())).x.tolist()]
@@ -86,7 +81,7 @@ def _columns_of_axes(motions: Mapping[str, Motion], request: Request) -> dict[st
     model=f"as asked: {', '.join(MODELS)}",
     extension=".csv",
     takes=(*_TEXT, "interpolation"),
-    joints=_columns_of_axes,
+    write_joints=_columns_of_axes,
 )
 def _csv(motion: Motion, request: Request) -> Written:
     return _columns_of_axes({request.name: motion}, request)[request.name]
@@ -101,16 +96,12 @@ def _csv(motion: Motion, request: Request) -> Written:
 )
 def _sew(motion: Motion, request: Request) -> Written:
     interpolation = request.interpolation_among(("c1", "linear"), "c1")
-    number_format = NumberFormat(request.counts, request.digits)
-
-    def make(count: int) -> PointTable:
-        return (
-            linear_table(motion, count, number_format)
-            if interpolation == "linear"
-            else hermite_table(motion, count, number_format, 2, with_derivatives=False)
-        )
-
-    table = chosen(motion, request, make, least=2, most=MOST_POINTS)
+    if interpolation == "linear":
+        table = chosen_table(motion, request, interpolation, MOST_POINTS)
+    else:
+        numbers = NumberFormat(request.counts, request.digits)
+        make = partial(hermite_table, motion, numbers=numbers, orders=2, with_derivatives=False)
+        table = chosen(motion, request, make, least=2, most=MOST_POINTS)
     lines = [str(len(table.x)), *_rows(_x_and_y(table), request, ";")]
     model = {"linear": "straight lines", "c1": "cubics whose acceleration jumps at every point, here with the law's V"}
     return table.written(_lines(lines), model[interpolation])
@@ -133,14 +124,11 @@ def _lenze(motion: Motion, request: Request) -> Written:
 )
 def _plcopen(motion: Motion, request: Request) -> Written:
     interpolation = request.interpolation_among(("cubic", "linear"))
-    number_format = NumberFormat(request.counts, request.digits)
-    cyclic = motion.repeats and abs(motion.advance) <= CLOSURE * motion.stroke
-    if interpolation == "linear":
-        make, most, model = partial(linear_table, motion, number_format=number_format), MOST_POINTS, MODELS["linear"]
-    else:
-        make = partial(spline_table, motion, number_format=number_format, ends="periodic" if cyclic else "natural")
+    most, model, cyclic = MOST_POINTS, MODELS["linear"], is_cyclic(motion)
+    if interpolation == "cubic":
         most, model = PLCOPEN_POINTS, f"C2 cubic spline, {'cyclic' if cyclic else 'natural'}"
-    table = chosen(motion, request, make, least=4, most=most)
+    ends: Ends = "periodic" if cyclic else "natural"
+    table = chosen_table(motion, request, interpolation, most, least=4, ends=ends)
     heading = f"# {table_heading(motion, 'cam')[0]}; {MARK}"
     return table.written(_lines([heading, *_rows(_x_and_y(table), request, ",")]), model)
 
@@ -220,7 +208,7 @@ def _technosoft(motion: Motion, request: Request) -> Written:
 
 def _integers(motion: Motion, count: int, x_step: float, y_step: float, *, even: bool = False) -> PointTable:
     """Points whose coordinates are whole multiples of steps, in machine units."""
-    exact, _ = positions(motion, count, NumberFormat(), even=even)
+    exact = np.linspace(motion.start, motion.stop, count) if even else places(motion, count)
     x = np.rint(exact / x_step) * x_step
     if (np.diff(x) <= 0.0).any():
         raise InputError(f"{count} points of the master are closer than the target's step {x_step:g}: take fewer")

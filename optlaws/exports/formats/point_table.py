@@ -13,9 +13,12 @@ from optlaws.exports.spacing import PointTable, chosen, places
 from optlaws.motion.motion import Motion
 from optlaws.numbers import Array
 from optlaws.numerics.splines import Ends, hermite_powers, linear_powers, spline_powers
+from optlaws.tolerances import CLOSURE
 
 _TABLE_ROUNDING = 2.0**-46  # of a column of a table: less is printed as 0
 
+#: by interpolations: how many derivatives points have, with the position
+HERMITE = {"c1": 2, "quintic": 3, "septic": 4}
 DEGREES = {1: "linear", 2: "cubic Hermite", 3: "quintic Hermite", 4: "Hermite of degree 7"}
 
 
@@ -51,39 +54,32 @@ class NumberFormat:
 Points = int | Array
 
 
-def _exact_places(motion: Motion, points: Points, *, straight: bool) -> Array:
-    return points if isinstance(points, np.ndarray) else places(motion, points, straight=straight)
+def point_table(
+    motion: Motion, points: Points, numbers: NumberFormat, interpolation: str, *, ends: Ends = "clamped"
+) -> PointTable:
+    """Points as the target stores them and what it lays between them: linear, cubic, akima, c1, quintic or septic.
 
-
-def positions(
-    motion: Motion, points: Points, number_format: NumberFormat, *, even: bool = False, lines: bool = False
-) -> tuple[Array, Array]:
-    """x and y of points as the target stores them."""
-    if even and isinstance(points, int):
-        points = np.linspace(motion.start, motion.stop, points)
-    exact = _exact_places(motion, points, straight=lines)
-    x = number_format.numbers(exact)
+    A spline is clamped to the velocities of the motion's ends, natural, or periodic: then it ends exactly where it
+    begins, as the motion does but for rounding.
+    """
+    if interpolation in HERMITE:
+        return hermite_table(motion, points, numbers, HERMITE[interpolation])
+    exact = points if isinstance(points, np.ndarray) else places(motion, points, straight=interpolation == "linear")
+    x = numbers.numbers(exact)
     if (np.diff(x) <= 0.0).any():
         raise InputError(
             f"{len(x)} points of the master are closer than the digits can represent: take fewer points, more digits, "
             "or a unit that is smaller"
         )
-    return x, number_format.positions(np.asarray(motion(exact)), motion)
-
-
-def spline_table(motion: Motion, points: Points, number_format: NumberFormat, *, ends: Ends = "clamped") -> PointTable:
-    """Positions through which the controller lays the cubic spline; clamped to the velocities of the motion's ends.
-
-    A periodic one ends exactly where it begins, as the motion does but for rounding.
-    """
-    x, y = positions(motion, points, number_format)
-    slopes = end_slopes(motion, number_format)
+    y, resolution = numbers.positions(np.asarray(motion(exact)), motion), numbers.resolution(motion)
+    if interpolation != "cubic":
+        powers = linear_powers(x, y) if interpolation == "linear" else akima_powers(x, y)
+        return PointTable(x, y[None], powers, resolution)
     if ends == "periodic":
         y[-1] = y[0]
+    slopes = end_slopes(motion, numbers)
     powers = spline_powers(x, y, ends, (float(slopes[0]), float(slopes[1])))
-    return PointTable(
-        x, y[None], powers, number_format.resolution(motion), partial(rounding_bound, motion, x, y, slopes)
-    )
+    return PointTable(x, y[None], powers, resolution, partial(rounding_bound, motion, x, y, slopes))
 
 
 def end_slopes(motion: Motion, number_format: NumberFormat) -> Array:
@@ -91,12 +87,6 @@ def end_slopes(motion: Motion, number_format: NumberFormat) -> Array:
     slopes = np.array(motion.ends(1))
     rounding = _TABLE_ROUNDING * motion.stroke / motion.length
     return number_format.numbers(np.where(np.abs(slopes) <= rounding, 0.0, slopes))
-
-
-def linear_table(motion: Motion, points: Points, number_format: NumberFormat) -> PointTable:
-    """Positions between which the controller goes straight."""
-    x, y = positions(motion, points, number_format, lines=True)
-    return PointTable(x, y[None], linear_powers(x, y), number_format.resolution(motion))
 
 
 def akima_powers(x: Array, y: Array) -> Array:
@@ -111,54 +101,44 @@ def akima_powers(x: Array, y: Array) -> Array:
     return np.asarray(Akima1DInterpolator(x, y).c.T[:, ::-1])
 
 
-def akima_table(motion: Motion, points: Points, number_format: NumberFormat) -> PointTable:
-    """Positions through which the controller lays Akima's cubics."""
-    x, y = positions(motion, points, number_format)
-    return PointTable(x, y[None], akima_powers(x, y), number_format.resolution(motion))
-
-
 def hermite_table(
-    motion: Motion, points: Points, number_format: NumberFormat, orders: int, *, with_derivatives: bool = True
+    motion: Motion, points: Points, numbers: NumberFormat, orders: int, *, with_derivatives: bool = True
 ) -> PointTable:
     """Positions with derivatives for Hermite polynomials of the controller; their number or places are given.
 
     Where the table has no derivatives the controller computes them, and they are taken as the law's.
     """
-    exact = _exact_places(motion, points, straight=True)
+    exact = points if isinstance(points, np.ndarray) else places(motion, points, straight=True)
     values = _without_rounding(np.array([motion(exact, nu) for nu in range(orders)]))
     if not np.isfinite(values).all():
         raise InputError(
             "the law's acceleration or jerk is infinite at a point: export positions alone, or another law"
         )
-    x = number_format.numbers(exact)
-    derivatives = number_format.numbers(values[1:]) if with_derivatives else values[1:]
-    stored_values = np.vstack([number_format.positions(values[0], motion)[None], derivatives])
-    return PointTable(x, stored_values, hermite_powers(x, stored_values), number_format.resolution(motion))
-
-
-def table_by_interpolation(
-    motion: Motion, points: Points, number_format: NumberFormat, interpolation: str
-) -> PointTable:
-    """A table for an interpolation by its name: linear, cubic, akima, c1, quintic, septic."""
-    orders = {"c1": 2, "quintic": 3, "septic": 4}
-    if interpolation in orders:
-        return hermite_table(motion, points, number_format, orders[interpolation])
-    if interpolation == "akima":
-        return akima_table(motion, points, number_format)
-    return (
-        linear_table(motion, points, number_format)
-        if interpolation == "linear"
-        else spline_table(motion, points, number_format)
-    )
+    x = numbers.numbers(exact)
+    derivatives = numbers.numbers(values[1:]) if with_derivatives else values[1:]
+    stored_values = np.vstack([numbers.positions(values[0], motion)[None], derivatives])
+    return PointTable(x, stored_values, hermite_powers(x, stored_values), numbers.resolution(motion))
 
 
 def chosen_table(
-    motion: Motion, request: Request, interpolation: str, most: int, *, least: int = 2, single: bool = False
+    motion: Motion,
+    request: Request,
+    interpolation: str,
+    most: int,
+    *,
+    least: int = 2,
+    single: bool = False,
+    ends: Ends = "clamped",
 ) -> PointTable:
     """The table for an interpolation with the requested number of points, or with the best number."""
     numbers = NumberFormat(request.counts, request.digits, single)
-    make = partial(table_by_interpolation, motion, number_format=numbers, interpolation=interpolation)
+    make = partial(point_table, motion, numbers=numbers, interpolation=interpolation, ends=ends)
     return chosen(motion, request, make, least=least, most=most)
+
+
+def is_cyclic(motion: Motion) -> bool:
+    """Whether a motion repeats itself where it began."""
+    return motion.repeats and abs(motion.advance) <= CLOSURE * motion.stroke
 
 
 def _without_rounding(values: Array) -> Array:

@@ -54,7 +54,7 @@ def joints(motions: Mapping[str, Motion], request: Request) -> dict[str, Written
     limits="the master is time",
     extension=".yaml",
     takes=("points", "interpolation"),
-    joints=joints,
+    write_joints=joints,
 )
 def _write(motion: Motion, request: Request) -> Written:
     return joints({request.name: motion}, request)[request.name]

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.exports.format import MOST_POINTS, Request, Written, file_format
-from optlaws.exports.formats.point_table import NumberFormat, linear_table, spline_table
+from optlaws.exports.formats.point_table import chosen_table, is_cyclic
 from optlaws.exports.formats.program_polynomials import (
     ends_of,
     fields,
@@ -18,7 +18,7 @@ from optlaws.exports.formats.program_polynomials import (
     refuse_jumps,
 )
 from optlaws.exports.polynomial_pieces import Fitted
-from optlaws.exports.spacing import PointTable, chosen
+from optlaws.exports.spacing import PointTable
 from optlaws.exports.text import iec_comment, iec_name, real, table_heading
 from optlaws.motion.motion import Motion
 from optlaws.motion.polynomials import PiecewiseMotion
@@ -39,15 +39,8 @@ INTERPOLATIONS = {"linear": "MC_INTERPOLATIONTYPE_LINEAR", "spline": "MC_INTERPO
 def _table(motion: Motion, request: Request) -> Written:
     name = iec_name(request.name, "TwinCAT")
     interpolation = request.interpolation_among(INTERPOLATIONS, "spline")
-    cyclic = motion.repeats and abs(motion.advance) <= 1e-9 * motion.stroke
-
-    def make(count: int) -> PointTable:
-        number_format = NumberFormat(request.counts)
-        if interpolation == "linear":
-            return linear_table(motion, count, number_format)
-        return spline_table(motion, count, number_format, ends="periodic" if cyclic else "clamped")
-
-    table = chosen(motion, request, make, least=2, most=MOST_POINTS)
+    cyclic, kind = is_cyclic(motion), {"linear": "linear", "spline": "cubic"}[interpolation]
+    table = chosen_table(motion, request, kind, MOST_POINTS, ends="periodic" if cyclic else "clamped")
     text = _table_text(name, motion, table, INTERPOLATIONS[interpolation])
     model = (
         "straight lines" if interpolation == "linear" else f"C2 cubic spline, {'cyclic' if cyclic else 'tangential'}"

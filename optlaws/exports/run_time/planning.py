@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from bisect import bisect_left, bisect_right
 from dataclasses import dataclass
 from enum import IntEnum
 from math import cbrt, sqrt
@@ -70,16 +71,6 @@ class RunTimeMove:
     jerk: float = 0.0
 
 
-@dataclass(frozen=True)
-class _Choice:
-    """A place on the front: B, the law before it, its weight and what is proven."""
-
-    status: MoveStatus
-    law: int
-    share: float
-    velocity: float
-
-
 def least_time(table: FrontTable, stroke: float, velocity: float, acceleration: float, jerk: float) -> RunTimeMove:
     """The move of least time within limits of velocity, acceleration and jerk, in one system of units.
 
@@ -101,8 +92,8 @@ def least_time(table: FrontTable, stroke: float, velocity: float, acceleration: 
     if stroke == 0.0:
         return RunTimeMove(MoveStatus.PROVEN)
     rate = velocity / abs(stroke)
-    choice = _fastest(table, velocity / acceleration * rate, velocity / jerk * rate * rate)
-    return _move(table, choice, stroke, choice.velocity / rate * (1.0 + table.slack))
+    status, i, share, z = _fastest(table, velocity / acceleration * rate, velocity / jerk * rate * rate)
+    return _move(table, (status, i, share), stroke, z / rate * (1.0 + table.slack))
 
 
 def in_time(table: FrontTable, stroke: float, duration: float, velocity: float) -> RunTimeMove:
@@ -127,12 +118,9 @@ def in_time(table: FrontTable, stroke: float, duration: float, velocity: float) 
         return RunTimeMove(MoveStatus.TOO_SHORT)
     last = len(table) - 1
     if z >= of_b[last]:
-        return _move(table, _Choice(_at_end(table, last=True), last - 1, 1.0, of_b[last]), stroke, duration)
-    low, high = 0, last
-    while high - low > 1:
-        middle = (low + high) // 2
-        low, high = (middle, high) if z >= of_b[middle] else (low, middle)
-    return _move(table, _Choice(MoveStatus.PROVEN, low, _share(table, low, z), z), stroke, duration)
+        return _move(table, (_at_end(table, last=True), last - 1, 1.0), stroke, duration)
+    low = bisect_right(of_b, z) - 1
+    return _move(table, (MoveStatus.PROVEN, low, _share(table, low, z)), stroke, duration)
 
 
 def motion_at(table: FrontTable, move: RunTimeMove, times: Any) -> Array:
@@ -175,24 +163,24 @@ def _summed(table: FrontTable, mixed: Array, x: Array) -> list[Array]:
     return [x * p - q + c for p, q, c in zip(now, before, lower, strict=True)]
 
 
-def _fastest(table: FrontTable, of_c: float, of_j: float) -> _Choice:
-    """The first place where the velocity decides, z = B, for z² >= of_c C and z³ >= of_j J."""
+def _fastest(table: FrontTable, of_c: float, of_j: float) -> tuple[MoveStatus, int, float, float]:
+    """What is proven of the first place where the velocity decides, z = B, for z² >= of_c C and z³ >= of_j J.
+
+    With it the law before that place, the next one's weight, and z.
+    """
     b, c, j = table.velocities, table.accelerations, table.jerks
-    low, high = 0, len(table)
-    while low < high:
-        middle = (low + high) // 2
-        enough = b[middle] * b[middle] >= of_c * c[middle] and b[middle] ** 3 >= of_j * j[middle]
-        low, high = (low, middle) if enough else (middle + 1, high)
+    count = len(table)
+    low = bisect_left(range(count), x=True, key=lambda i: b[i] * b[i] >= of_c * c[i] and b[i] ** 3 >= of_j * j[i])
     if low == 0:
-        return _Choice(_at_end(table, last=False), 0, 0.0, b[0])
-    if low == len(table):
+        return _at_end(table, last=False), 0, 0.0, b[0]
+    if low == count:
         by_acceleration, by_jerk = sqrt(of_c * c[-1]), cbrt(of_j * j[-1])
         status = MoveStatus.JERK if by_jerk > by_acceleration else _at_end(table, last=True)
-        return _Choice(status, low - 2, 1.0, max(by_acceleration, by_jerk))
+        return status, low - 2, 1.0, max(by_acceleration, by_jerk)
     i = low - 1
     by_acceleration, by_jerk = _of_quadratic(of_c, b, c, i), _of_cubic(of_j, b, j, i)
-    z = min(max(by_acceleration, by_jerk, b[i]), b[i + 1])
-    return _Choice(MoveStatus.JERK if by_jerk > by_acceleration else MoveStatus.PROVEN, i, _share(table, i, z), z)
+    z = min(max(by_acceleration, by_jerk, b[i]), b[low])
+    return MoveStatus.JERK if by_jerk > by_acceleration else MoveStatus.PROVEN, i, _share(table, i, z), z
 
 
 def _line(factor: float, b: tuple[float, ...], peak: tuple[float, ...], i: int) -> tuple[float, float]:
@@ -221,14 +209,14 @@ def _share(table: FrontTable, i: int, z: float) -> float:
     return min(max((z - b[i]) / (b[i + 1] - b[i]), 0.0), 1.0)
 
 
-def _move(table: FrontTable, choice: _Choice, stroke: float, duration: float) -> RunTimeMove:
-    i, share = choice.law, choice.share
-    peaks = [
-        (p[i] + share * (p[i + 1] - p[i])) * (1.0 + table.slack)
-        for p in (table.velocities, table.accelerations, table.jerks)
-    ]
-    factors = [abs(stroke) / duration**nu for nu in (1, 2, 3)]
-    return RunTimeMove(choice.status, i, share, stroke, duration, *(p * f for p, f in zip(peaks, factors, strict=True)))
+def _move(table: FrontTable, place: tuple[MoveStatus, int, float], stroke: float, duration: float) -> RunTimeMove:
+    """The move by a law and the weight of the next one, with what is proven of it."""
+    _, i, share = place
+    bounds = (
+        (p[i] + share * (p[i + 1] - p[i])) * (1.0 + table.slack) * (abs(stroke) / duration**nu)
+        for nu, p in enumerate((table.velocities, table.accelerations, table.jerks), start=1)
+    )
+    return RunTimeMove(*place, stroke, duration, *bounds)
 
 
 def _at_end(table: FrontTable, *, last: bool) -> MoveStatus:
