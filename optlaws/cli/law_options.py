@@ -45,6 +45,15 @@ Frequencies = Annotated[
     list[float],
     _without_unit("the frequency nu is in radians in the motion: 2 pi times that in Hz and the duration in s"),
 ]
+
+
+def one_or_two(values: list[Any]) -> Any:
+    """A frequency that is given once, or the least and the greatest."""
+    if len(values) > 2:
+        raise InputError(f"--frequency is given once, or twice for the least and the greatest, got {len(values)} times")
+    return values[0] if len(values) == 1 else tuple(values)
+
+
 #: of the columns of a table, by headings or numbers, as 1,3
 COLUMNS: dict[str, Any] = {"type": str, "read": _columns}
 #: how a table of points is read

@@ -6,13 +6,11 @@ from collections.abc import Mapping
 from typing import Any
 
 import optlaws
-from optlaws.cli.law_options import Frequencies
+from optlaws.cli.law_options import Frequencies, one_or_two
 from optlaws.cli.options import Written, options, takes
 from optlaws.cli.show import Answer
-from optlaws.errors import InputError
 
 _COMPARED = "optlaws.cycles.law_comparison:compare_laws"
-_ONE, _INTERVAL = 1, 2
 
 
 @takes(
@@ -40,14 +38,10 @@ def compare(
     csv
         Write the table to this file.
     """
-    if frequency is not None and len(frequency) > _INTERVAL:
-        raise InputError(
-            f"--frequency is given once for a single one or twice for an interval, got {len(frequency)} times"
-        )
-    swept = None if frequency is None else frequency[0] if len(frequency) == _ONE else (frequency[0], frequency[1])
-    comparison = optlaws.compare_laws(*laws, **machine, frequency=swept, **follower)
     from optlaws.shown.report import ReportTable
 
+    swept = None if frequency is None else one_or_two(frequency)
+    comparison = optlaws.compare_laws(*laws, **machine, frequency=swept, **follower)
     table = ReportTable(list(comparison.rows[0]), [list(row.values()) for row in comparison.rows])
     if csv is not None:
         from optlaws.files import tables, writing

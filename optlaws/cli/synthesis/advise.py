@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import optlaws
-from optlaws.cli.law_options import LIMITS, read_axes
+from optlaws.cli.law_options import LIMITS, one_or_two, read_axes
 from optlaws.cli.options import Signed, Written, given, options, takes
 from optlaws.cli.show import Answer, busy, save
 from optlaws.errors import InputError, located
@@ -16,17 +16,10 @@ if TYPE_CHECKING:
     from optlaws.cycles.advising.advice import Advice
 
 
-def _interval(texts: list[str]) -> tuple[str, str]:
-    """The least and the greatest of a frequency that is given once, or twice."""
-    if len(texts) > 2:
-        raise InputError("--frequency is given once, or twice for the least and the greatest")
-    return texts[0], texts[-1]
-
-
 _FOLLOWER: dict[str, Any] = {
     "name": "--frequency",
     "type": list[str],
-    "read": _interval,
+    "read": one_or_two,
     "about": "Natural frequency of an elastic follower such as 30Hz, or twice for the least and the greatest.",
 }
 

@@ -52,15 +52,11 @@ def new(
     place = file or Path(f"{kind}.toml")
     if place.suffix != ".toml":
         raise InputError(f"a problem file's name ends in .toml, got {place}")
-    there = InputError(f"{place} is there already, and nothing is written over it: name another file")
     if place.exists():
-        raise there
+        raise InputError(f"{place} is there already, and nothing is written over it: name another file")
     writing.check_place(place)
     text = starter.text({**given(numbers), **others}, place)
-    try:
-        with place.open("x", encoding="utf-8", newline="\n") as out:
-            out.write(text)
-    except FileExistsError:
-        raise there from None
+    with place.open("x", encoding="utf-8", newline="\n") as out:
+        out.write(text)
     lines = [f"{place}: look at it, change what you like, then run", f"optlaws {starter.run(place)}"]
     return Answer(lambda: lines, list)
