@@ -44,8 +44,8 @@ from optlaws.cycles.specification.limit_entries import LIMITS_OF_CYCLE
 from optlaws.cycles.specification.load import LOAD, ElasticLoad, Load, read_load
 from optlaws.cycles.specification.process import is_process, read_process
 from optlaws.cycles.specification.programme import Programme, is_optimal, period_of, programme
-from optlaws.cycles.specification.segments import SEGMENTS, CycleSegment, Dwell
-from optlaws.entries.declared import ValueOf, declared, entry
+from optlaws.cycles.specification.segments import SEGMENTS, CycleSegment, Dwell, Transition
+from optlaws.entries.declared import ValueOf, declared, documented_by, entry
 from optlaws.entries.value_types import Measured, ReadBy, Text, Whole
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
@@ -655,22 +655,11 @@ class Cycle(CycleInterchange):
 
         return fastest_cycle(self, self._cycle_objective)
 
+    @documented_by(Transition)
     def run_in(
         self, at: Quantity, *, rest: Quantity | None = None, over: Quantity | None = None, order: int | None = None
     ) -> TransitionCam:
-        """The start cam: from rest into the cycle while the master turns, met at an angle.
-
-        Parameters
-        ----------
-        at
-            The angle of the master, or time, at which it meets the cycle: as after a joint there.
-        rest
-            The position of rest; where the cycle starts unless given.
-        over
-            The angle of the master, or time, that it takes; the least within the limits of the cycle, which is proven,
-            unless given.
-        order
-            How much is continuous where they meet: 3 the acceleration, 4 the jerk too. That of the cycle unless given.
+        """The start cam: from rest into the cycle while the master turns, met at an angle, as after a joint there.
 
         Raises
         ------
@@ -688,7 +677,7 @@ class Cycle(CycleInterchange):
         >>> start.status.value, round(start.duration, 6), start.least.binding
         ('optimal', 0.2, ('acceleration', 'jerk'))
         """
-        return self._transition("run-in", at=at, rest=rest, over=over, order=order)
+        return self._transition("run-in", Transition(at, rest, over, order))
 
     def run_out(
         self, at: Quantity, *, rest: Quantity | None = None, over: Quantity | None = None, order: int | None = None
@@ -706,12 +695,12 @@ class Cycle(CycleInterchange):
         >>> stop, round(stop(0.0, 1), 9), stop(stop.duration, 1)
         (TransitionCam('run-out', 270 to 370 deg of the master, 0.185185 s, status='optimal'), -0.21, 0.0)
         """
-        return self._transition("run-out", at=at, rest=rest, over=over, order=order)
+        return self._transition("run-out", Transition(at, rest, over, order))
 
-    def _transition(self, kind: TransitionKind, **given: Any) -> TransitionCam:
+    def _transition(self, kind: TransitionKind, given: Transition) -> TransitionCam:
         from optlaws.cycles.moves.transitions import transition_cam
 
-        return transition_cam(kind, self.programme, self.pieces, self._cycle_objective, **given)
+        return transition_cam(kind, self.programme, self.pieces, self._cycle_objective, given)
 
     def per_angle(self, degrees: Any, nu: int = 0) -> Any:
         """Derivatives by the master's angle in radians, as cams and controllers take them."""

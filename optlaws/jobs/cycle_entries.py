@@ -15,10 +15,10 @@ from optlaws.cycles.interlocks.interlock_kinds import INTERLOCKS
 from optlaws.cycles.specification.frozen import frozen, thawed
 from optlaws.cycles.specification.load import ElasticFollower
 from optlaws.cycles.specification.programme import period_of
-from optlaws.cycles.specification.segments import CycleSegment
+from optlaws.cycles.specification.segments import CycleSegment, Transition
 from optlaws.echo import shortened
 from optlaws.entries.declared import Declared, ValueOf, declared, entries_of, entry, same
-from optlaws.entries.value_types import Choice, Either, Listed, Measured, Number, ReadBy, Switch, Text, Whole
+from optlaws.entries.value_types import Choice, Either, Listed, Number, ReadBy, Switch, Text, Whole
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure, located
 from optlaws.exports.format import Request
 from optlaws.files.reading import check_names
@@ -63,26 +63,6 @@ class ExportEntries(Declared, title="an export"):
 
 
 @declared
-class TransitionEntries(Declared, title="a run-in or run-out"):
-    """A cam from rest into the cycle of an axis, or out of it."""
-
-    at: Quantity = entry(
-        Measured("angle", "time"), "The angle of the master, or time, at which it meets the cycle.", example="60 deg"
-    )
-    rest: Quantity | None = entry(
-        Measured("length", "angle"), "The position of rest; where the cycle starts unless given.", default=None
-    )
-    over: Quantity | None = entry(
-        Measured("angle", "time"),
-        "The angle of the master, or time, that it takes; the least within the limits unless given.",
-        default=None,
-    )
-    order: int | None = entry(
-        Whole(), "How much is continuous where they meet; that of the axis unless given.", default=None
-    )
-
-
-@declared
 class SweepEntries(Declared, title="a sweep"):
     """An entry of an axis, such as "drive.ratio" or "mechanism.crank", and the values that it takes."""
 
@@ -113,7 +93,7 @@ def _constants(value: Any) -> Any:
 
 
 _TABLE = ReadBy(_constants, "a table", thawed, {"type": "object"})
-_TRANSITIONS = Listed(ValueOf(TransitionEntries), most=8, each="cam")
+_TRANSITIONS = Listed(ValueOf(Transition), most=8, each="cam")
 
 
 @declared
@@ -154,8 +134,8 @@ class AxisEntries(Declared, title="an axis"):
     export: tuple[ExportEntries, ...] = entry(
         Listed(ValueOf(ExportEntries), most=20, each="export"), "Files for controllers.", default=()
     )
-    run_in: tuple[TransitionEntries, ...] = entry(_TRANSITIONS, "Cams from rest into the cycle.", default=())
-    run_out: tuple[TransitionEntries, ...] = entry(_TRANSITIONS, "Cams out of it.", default=())
+    run_in: tuple[Transition, ...] = entry(_TRANSITIONS, "Cams from rest into the cycle.", default=())
+    run_out: tuple[Transition, ...] = entry(_TRANSITIONS, "Cams out of it.", default=())
     order: int = same(Cycle, "order")
     degree: int = same(Cycle, "degree")
 

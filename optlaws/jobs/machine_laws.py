@@ -4,21 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import KW_ONLY, dataclass
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 
 from optlaws.cycles.specification.frozen import FrozenTable
 from optlaws.echo import shortened
 from optlaws.entries.declared import Declared, ValueOf, declared, entry
-from optlaws.entries.value_types import Choice, Either, Listed, Number, ReadBy, Table, Text, Together, Whole, is_list
+from optlaws.entries.value_types import Either, Listed, Number, ReadBy, Table, Text, Whole, is_list
 from optlaws.errors import InputError, located
 from optlaws.files.tables import Cell
 from optlaws.jobs.job_entries import ProblemFile
 from optlaws.laws import MotionLaw
 from optlaws.laws.catalogue.catalogue import catalogue
 from optlaws.laws.making.input_shaping import Shaper, shaped_law
-from optlaws.mechanisms.machine.machine import Machine
+from optlaws.mechanisms.machine.machine import SPREAD, Machine, Measure
 from optlaws.mechanisms.machine.modes import mode
 from optlaws.mechanisms.transforms import velocity_transform
 from optlaws.numbers import Array, bounded
@@ -32,9 +32,7 @@ from optlaws.synthesis.problem.problem import from_entries
 
 _RESIDUAL_ROUNDING = 1e-12  # of the vibration of a step: a residual that is less is rounding
 
-_PAIR = Together(Number(), Number())
 _MATRIX = Listed(Listed(Number()))
-_SPREAD = Number(least=0.0, most=1.0)
 _OUTPUT = "An output of the machine."
 
 
@@ -95,36 +93,6 @@ class MachineTable(Declared, title="a machine"):
 
 
 @declared
-class Measure(Declared, title="a constant of the machine"):
-    """A constant of the machine: the peak or the RMS of an output, or the residual amplitude of a mode in one."""
-
-    _: KW_ONLY
-    peak: str | None = entry(Text(), "The output whose peak it is.", default=None)
-    rms: str | None = entry(Text(), "The output whose root mean square it is.", default=None)
-    residual: int | None = entry(Whole(), "The mode whose amplitude after the motion it is.", default=None)
-    output: str | None = entry(Text(), "Of a residual: in which output.", default=None)
-    within: tuple[float, float] = entry(_PAIR, "Of a peak: between which k.", default=(0.0, 1.0))
-    cycle: tuple[float, float] | None = entry(_PAIR, "Dwell and rest of a motion that repeats.", default=None)
-    dwell: float = entry(Number(), "Of a root mean square: of the dwell too.", default=0.0)
-    spread: float = entry(_SPREAD, "The share by which frequencies may be off.", default=0.0)
-    damping: tuple[float, float] | None = entry(_PAIR, "The least and the greatest damping ratio.", default=None)
-    side: Literal["both", "high", "low"] = entry(Choice("both", "high", "low"), "Of a peak.", default="both")
-    offset: float = entry(Number(), "A constant load.", default=0.0)
-
-    def functional(self, machine: Machine) -> Functional:
-        """The constant of this machine."""
-        if sum(wish is not None for wish in (self.peak, self.rms, self.residual)) != 1:
-            raise InputError(
-                "a constant of the machine is one of peak and rms, each of an output, and residual of a mode"
-            )
-        if self.peak is not None:
-            return machine.peak(self.peak, within=self.within, cycle=self.cycle, side=self.side, offset=self.offset)
-        if self.rms is not None:
-            return machine.rms(self.rms, dwell=self.dwell, cycle=self.cycle, offset=self.offset)
-        return machine.residual(self.residual or 0, self.output, spread=self.spread, damping=self.damping)
-
-
-@declared
 class BoundedMeasure(Measure, title="a constant with its bound"):
     """A constant with its upper bound, of the machine, or of the law by its name."""
 
@@ -177,7 +145,7 @@ class Vibration(Declared, title="a vibration"):
     output: str = entry(Text(), _OUTPUT, example="sway")
     modes: tuple[int, ...] = entry(Listed(Whole(1), least=1, most=4), "By their numbers.", default=(1,))
     shaped: int = entry(Whole(1), "The mode that laws are shaped for.", default=1)
-    spread: float = entry(_SPREAD, "The share by which frequencies may be off.", default=0.1)
+    spread: float = entry(SPREAD, "The share by which frequencies may be off.", default=0.1)
 
 
 @declared
@@ -188,7 +156,7 @@ class Pictured(Declared, title="a figure"):
     output: str = entry(Text(), _OUTPUT, example="sway")
     laws: tuple[str, ...] = entry(Listed(Text(), least=1, most=6), "Of which laws.", example=["modified sine"])
     dwell: float = entry(Number(least=0.0, most=5.0), "How much of the dwell, in durations.", default=0.5)
-    spread: float = entry(_SPREAD, "Of the frequencies.", default=0.25)
+    spread: float = entry(SPREAD, "Of the frequencies.", default=0.25)
 
 
 @declared

@@ -8,6 +8,6 @@ from optlaws.jobs.cycle_entries import read as read_of_cycle_entries
 from optlaws.jobs.cycle_entries import read_given, sweeps_of
 from optlaws.jobs.job import JOBS, do, run
 from optlaws.jobs.job_entries import ProblemFile
-from optlaws.jobs.machine_laws import MachineTable, Measure
+from optlaws.jobs.machine_laws import MachineTable
 from optlaws.jobs.starters.starter import QUESTIONS, STARTERS
 from optlaws.jobs.starters.starter_numbers import numbers_of

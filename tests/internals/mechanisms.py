@@ -3,6 +3,7 @@
 from optlaws.mechanisms.cam_constants import CamPeak, CamPower, gain
 from optlaws.mechanisms.linkages.mechanism_kinds import MechanismKind
 from optlaws.mechanisms.linkages.move_limit import move_limit
+from optlaws.mechanisms.machine.machine import Measure
 from optlaws.mechanisms.machine.output_constants import OutputConstant, OutputPeak, output_peak, output_rms
 from optlaws.mechanisms.machine.residual_boxes import ModeResidual
 from optlaws.mechanisms.machine.response import MassMotion

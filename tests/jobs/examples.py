@@ -211,7 +211,7 @@ EXAMPLES = {
             (
                 '["-8 m/s^2", "12 m/s^2"]',
                 '["8 m/s^2", "12 m/s^2"]',
-                "limits: acceleration: the least value",
+                "limits: acceleration: the least must be below 0",
             ),
             (
                 '"300 m/s^3" }\n[[move]]',

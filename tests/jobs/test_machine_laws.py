@@ -3,7 +3,8 @@
 import pytest
 
 from optlaws import InputError, Machine
-from tests.internals.jobs import MachineTable, Measure
+from tests.internals.jobs import MachineTable
+from tests.internals.mechanisms import Measure
 
 
 def test_measured_modes_are_a_machine() -> None:

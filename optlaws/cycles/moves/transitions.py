@@ -16,11 +16,10 @@ from optlaws.cycles.optimisation.objectives import CycleObjective, kind_of, limi
 from optlaws.cycles.optimisation.optimal import scale, solved, span_problem
 from optlaws.cycles.specification.joints import LawSpan, State
 from optlaws.cycles.specification.programme import Programme, TimedSegment, time_of
-from optlaws.cycles.specification.segments import Move
+from optlaws.cycles.specification.segments import Move, Transition
 from optlaws.errors import InputError
 from optlaws.motion.piece import Piece, factor, values_of_pieces
 from optlaws.motion.quantities import quantity
-from optlaws.numbers import whole
 from optlaws.synthesis.least_time.move_limits import MoveLimits, TimedMove
 from optlaws.synthesis.least_time.time_search import least_time
 from optlaws.synthesis.problem.problem import Problem
@@ -54,32 +53,25 @@ def transition_cam(
     programme: Programme,
     pieces: Sequence[Piece],
     objective: CycleObjective,
-    *,
-    at: Any,
-    rest: Any,
-    over: Any,
-    order: Any,
+    given: Transition,
 ) -> TransitionCam:
     """The cam from rest into a cycle, or out of it to rest, in a given time or the least within its limits."""
-    meeting = _meeting(kind, programme, pieces, at)
-    still = programme.start if rest is None else quantity(rest, programme.axis, "rest")
+    meeting = _meeting(kind, programme, pieces, given.at)
+    still = programme.start if given.rest is None else quantity(given.rest, programme.axis, "rest")
     way = max(abs(stretch.displacement) for stretch in programme.stretches)
     if abs(meeting.state[0] - still) <= CLOSURE * way:
         still = meeting.state[0]
     of_motion = replace(
         objective,
         minimise=objective.minimise if kind_of(objective.minimise)[0] > 0 else "acceleration",
-        order=objective.order if order is None else whole(order, "order", least=2, most=10),
+        order=given.order or objective.order,
         load=None,
         loaded={},
         mean_force=None,
         energy=None,
     )
-    if over is not None:
-        duration = time_of(over, programme.period, "over")
-        if not duration > 0.0:
-            raise InputError(f"over must be above 0, got {over!r}")
-        return _in_time(meeting, programme, of_motion, still, duration)
+    if given.over is not None:
+        return _in_time(meeting, programme, of_motion, still, time_of(given.over, programme.period, "over"))
     return _soonest(meeting, programme, of_motion, still)
 
 

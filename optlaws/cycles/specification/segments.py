@@ -1,4 +1,4 @@
-"""Segments of a cycle as a person gives them: dwells, constant velocities, moves by laws, and free motions."""
+"""Segments of a cycle as a person gives them: dwells, moves by laws, free motions; and cams into it and out of it."""
 
 from __future__ import annotations
 
@@ -8,8 +8,8 @@ from typing import Any
 from optlaws.cycles.specification.frozen import FrozenTable
 from optlaws.cycles.specification.limit_entries import LIMITS_OF_SEGMENT
 from optlaws.echo import shortened
-from optlaws.entries.declared import Kinded, ValueOf, declared, entry
-from optlaws.entries.value_types import Either, Listed, Measured, ReadBy, Text, Together, is_list
+from optlaws.entries.declared import Declared, Kinded, ValueOf, declared, entry
+from optlaws.entries.value_types import Either, Listed, Measured, ReadBy, Text, Together, Whole, is_list
 from optlaws.errors import InputError
 from optlaws.laws import MotionLaw
 from optlaws.numbers import Quantity
@@ -177,6 +177,27 @@ class Free(CycleSegment, kind="free", title="a free motion"):
     )
     limits: Mapping[str, Any] = entry(LIMITS_OF_SEGMENT, _LIMITED, default=FrozenTable(), kw_only=True)
     name: str = entry(Text(empty=True), _NAMED, default="", kw_only=True)
+
+
+@declared
+class Transition(Declared, title="a run-in or run-out"):
+    """A cam from rest into a cycle, or out of it."""
+
+    at: Quantity = entry(
+        Measured("angle", "time"), "The angle of the master, or time, at which it meets the cycle.", example="60 deg"
+    )
+    rest: Quantity | None = entry(_PLACE, "The position of rest; where the cycle starts unless given.", default=None)
+    over: Quantity | None = entry(
+        Measured("angle", "time", above=0.0),
+        "The angle of the master, or time, that it takes; the least within the limits of the cycle, which is proven, "
+        "unless given.",
+        default=None,
+    )
+    order: int | None = entry(
+        Whole(2, 10),
+        "How much is continuous where they meet: 3 the acceleration, 4 the jerk too; that of the cycle unless given.",
+        default=None,
+    )
 
 
 #: the segments of a cycle, which errors call by their numbers

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import KW_ONLY
 from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
 
 from optlaws.echo import shortened
+from optlaws.entries.declared import Declared, declared, documented_by, entry
+from optlaws.entries.value_types import Choice, Number, Text, Together, Whole
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
@@ -22,7 +25,55 @@ from optlaws.numbers import NumberOrQuantity, not_negative, positive
 if TYPE_CHECKING:
     from optlaws.mechanisms.machine.output_constants import OutputPeak, OutputRms
     from optlaws.mechanisms.machine.residual_boxes import ModeResidual
+    from optlaws.synthesis import Functional
     from optlaws.synthesis.functionals.makers import PeakSide
+
+
+_PAIR = Together(Number(), Number())
+SPREAD = Number(least=0.0, most=1.0)
+
+
+@declared
+class Measure(Declared, title="a constant of the machine"):
+    """A constant of a machine: the peak or the RMS of an output, or the residual amplitude of a mode in one."""
+
+    _: KW_ONLY
+    peak: str | None = entry(Text(), "The output whose peak it is.", default=None)
+    rms: str | None = entry(Text(), "The output whose root mean square it is.", default=None)
+    residual: int | None = entry(Whole(), "The mode whose amplitude after the motion it is.", default=None)
+    output: str | None = entry(Text(), "Of a residual: in which output.", default=None)
+    within: tuple[float, float] = entry(
+        _PAIR,
+        "The first and the last time that count, in durations of the rise: (0, 1) the rise, (1, 1.5) a dwell after it, "
+        "(0, 1.5) both.",
+        default=(0.0, 1.0),
+    )
+    cycle: tuple[float, float] | None = entry(
+        _PAIR,
+        "The dwell and the rest of a cycle of rise, dwell, return and rest that repeats; then all of it counts.",
+        default=None,
+    )
+    dwell: float = entry(
+        Number(), "Of an RMS: how much of the dwell counts too, in durations of the rise.", default=0.0
+    )
+    spread: float = entry(SPREAD, "Share by which frequencies may be off, either way: 0.1 for 10 %.", default=0.0)
+    damping: tuple[float, float] | None = entry(
+        _PAIR, "The least and the greatest damping ratio; the mode's own unless given.", default=None
+    )
+    side: PeakSide = entry(Choice("both", "high", "low"), "The greatest magnitude, value, or opposite.", default="both")
+    offset: float = entry(Number(), "A constant load in the output's units, which is added to it.", default=0.0)
+
+    def functional(self, machine: Machine) -> Functional:
+        """The constant of this machine."""
+        if sum(wish is not None for wish in (self.peak, self.rms, self.residual)) != 1:
+            raise InputError(
+                "a constant of the machine is one of peak and rms, each of an output, and residual of a mode"
+            )
+        if self.peak is not None:
+            return machine.peak(self.peak, within=self.within, cycle=self.cycle, side=self.side, offset=self.offset)
+        if self.rms is not None:
+            return machine.rms(self.rms, dwell=self.dwell, cycle=self.cycle, offset=self.offset)
+        return machine.residual(self.residual or 0, self.output, spread=self.spread, damping=self.damping)
 
 
 class Machine(StateSpace):
@@ -281,6 +332,7 @@ class Machine(StateSpace):
         """
         return MachineCycle(self, rise, rise if fall is None else fall, dwell, fall_duration, rest)
 
+    @documented_by(Measure)
     def peak(
         self,
         output: str | None = None,
@@ -296,15 +348,6 @@ class Machine(StateSpace):
         ----------
         output
             Which output; the first one unless given.
-        within
-            The first and the last time that count, in durations of the rise: (0, 1) the rise, (1, 1.5) a dwell after
-            it, (0, 1.5) both.
-        cycle
-            The dwell and the rest of a cycle of rise, dwell, return and rest that repeats; then all of it counts.
-        side
-            "both" for the greatest magnitude, "high" for the greatest value, "low" for the greatest opposite.
-        offset
-            What is added to the output, in its units: a constant load, such as the weight that the drive holds.
 
         Examples
         --------
@@ -320,6 +363,7 @@ class Machine(StateSpace):
 
         return output_peak(of=self, within=within, cycle=cycle, output=output, side=side, offset=offset)
 
+    @documented_by(Measure)
     def rms(
         self,
         output: str | None = None,
@@ -334,12 +378,6 @@ class Machine(StateSpace):
         ----------
         output
             Which output; the first one unless given.
-        dwell
-            How much of the dwell after the rise counts too, in durations of the rise.
-        cycle
-            The dwell and the rest of a cycle of rise, dwell, return and rest that repeats; then all of it counts.
-        offset
-            What is added to the output, in its units: a constant load.
 
         Examples
         --------
@@ -351,6 +389,7 @@ class Machine(StateSpace):
 
         return output_rms(of=self, dwell=dwell, cycle=cycle, output=output, offset=offset)
 
+    @documented_by(Measure)
     def residual(
         self,
         mode: int = 1,
@@ -371,10 +410,6 @@ class Machine(StateSpace):
             Number of the mode, as in `modes`.
         output
             Which output; the first one unless given.
-        spread
-            Share by which the mode's frequency may be off, either way: 0.1 for 10 %.
-        damping
-            The least and the greatest damping ratio; the mode's own unless given.
 
         Examples
         --------
