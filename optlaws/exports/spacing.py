@@ -93,12 +93,12 @@ def best(motion: Motion, make: Callable[[int], PointTable], least: int, most: in
     the law's own peak is no gain. Among numbers as good to a thousandth those count whose acceleration jumps
     least further than the law's, at points and at the ends, to a thousandth of the peak, and of these the least.
     """
-    judge, tried = RunRanking.of(motion), dict[int, tuple[Rank, PointTable]]()
+    rank_of, tried = _ranking(motion), dict[int, tuple[Rank, PointTable]]()
 
     def attempt(counts: set[int]) -> None:
         for count in sorted(counts - tried.keys()):
             table = make(count)
-            tried[count] = (judge.rank(table), table)
+            tried[count] = (rank_of(table), table)
 
     rough = least * _RATIO ** np.arange(1 + int(np.log(most / least) / np.log(_RATIO)))
     attempt({*range(least, min(most, _EACH) + 1), *(int(guess) for guess in rough), most})
@@ -129,46 +129,42 @@ def _fewest(ranks: dict[int, Rank]) -> int:
     return min(count for count, jump in low.items() if jump <= smoothest)
 
 
-@dataclass(frozen=True)
-class RunRanking:
-    """The reference of runs: the motion, its peaks of velocity and acceleration, and its jumps of the latter."""
+def _ranking(motion: Motion) -> Callable[[PointTable], Rank]:
+    """What ranks the runs of tables of a motion, by its peaks of velocity and acceleration and its jumps of that."""
+    fastest, highest, jumping, ending = (
+        motion.peak(1),
+        motion.peak(2),
+        motion.jump(2)[0],
+        _change(motion, *motion.ends(2)),
+    )
 
-    motion: Motion
-    velocity: float
-    acceleration: float
-    jump: float
-    jump_at_ends: float
-
-    @classmethod
-    def of(cls, motion: Motion) -> RunRanking:
-        """The judge of runs of a motion."""
-        first, last = motion.ends(2)
-        ends = abs(last - first) if motion.repeats else max(abs(first), abs(last))
-        return cls(motion, motion.peak(1), motion.peak(2), motion.jump(2)[0], ends)
-
-    def rank(self, table: PointTable) -> Rank:
-        """Ranks of polynomials by deviation, peak and jump."""
-        x, powers, off = table.x, table.powers, self._off(table)
-        steps = np.diff(x)
-        if self.acceleration in {0.0, inf} or powers.shape[1] == 2:
-            first, last = _ends(powers, steps, 1)
-            edges = np.array([first[0] - last[-1]] if self.motion.repeats else [first[0], last[-1]])
-            jumps = np.abs(np.concatenate([first[1:] - last[:-1], edges]))
-            return Rank(off, 1.0 + float(jumps.max()) / self.velocity, 0.0)
-        first, last = _ends(powers, steps, 2)
-        ends = abs(last[-1] - first[0]) if self.motion.repeats else max(abs(first[0]), abs(last[-1]))
+    def rank(table: PointTable) -> Rank:
+        powers, steps = table.powers, np.diff(table.x)
+        nu = 1 if highest in {0.0, inf} or powers.shape[1] == 2 else 2
+        first, last = _ends(powers, steps, nu)
         jump = float(np.abs(first[1:] - last[:-1]).max(initial=0.0))
-        beyond = max(jump - self.jump, 0.0) + max(float(ends) - self.jump_at_ends, 0.0)
-        peak = max(_peak(powers, steps, first, last) / self.acceleration, 1.0)
-        return Rank(off, peak, beyond / self.acceleration)
+        at_ends = _change(motion, float(first[0]), float(last[-1]))
+        off = _off(motion, table)
+        if nu == 1:
+            return Rank(off, 1.0 + max(jump, at_ends) / fastest, 0.0)
+        beyond = max(jump - jumping, 0.0) + max(at_ends - ending, 0.0)
+        return Rank(off, max(_peak(powers, steps, first, last) / highest, 1.0), beyond / highest)
 
-    def _off(self, table: PointTable) -> float:
-        """The deviation of the polynomials from the motion between points, where it is typically greatest."""
-        after = _BETWEEN * np.diff(table.x)
-        run = (table.powers * after[:, None] ** np.arange(table.powers.shape[1])).sum(axis=1)
-        places = np.clip(table.x[:-1] + after, self.motion.start, self.motion.stop)
-        apart = float(np.abs(run - self.motion(places)).max())
-        return max(apart / max(_RUN_OFF * self.motion.stroke, table.resolution), 1.0)
+    return rank
+
+
+def _change(motion: Motion, first: float, last: float) -> float:
+    """The jump from the last value to the first where a motion repeats, else from and to rest."""
+    return abs(last - first) if motion.repeats else max(abs(first), abs(last))
+
+
+def _off(motion: Motion, table: PointTable) -> float:
+    """The deviation of the polynomials from the motion between points, where it is typically greatest."""
+    after = _BETWEEN * np.diff(table.x)
+    run = (table.powers * after[:, None] ** np.arange(table.powers.shape[1])).sum(axis=1)
+    at = np.clip(table.x[:-1] + after, motion.start, motion.stop)
+    apart = float(np.abs(run - motion(at)).max())
+    return max(apart / max(_RUN_OFF * motion.stroke, table.resolution), 1.0)
 
 
 def _ends(powers: Array, steps: Array, nu: int) -> tuple[Array, Array]:

@@ -93,15 +93,15 @@ def rockwell_cam(text: str) -> tuple[Array, Curve]:
     return np.array(x), spline(np.array(x), np.array(y), ((1, slopes[0]), (1, slopes[1])))
 
 
+def profile_numbers(rows: list[list[int]]) -> list[tuple[float, ...]]:
+    """X, Y and C0 to C3 of elements of CAM_PROFILE."""
+    assert {(len(row), row[0]) for row in rows} == {(14, 2)}
+    return [struct.unpack(">6d", struct.pack(">12i", *row[1:5], *row[6:])) for row in rows]
+
+
 def rockwell_profile(text: str) -> tuple[Array, Curve]:
     rows = [[int(one) for one in row.split(",")] for row in re.findall(r"\[(-?\d+(?:,-?\d+)+)\]", text)]
-    numbers = []
-    for row in rows:
-        assert (len(row), row[0]) == (14, 2)
-        data = struct.pack(">12i", *row[1:5], *row[6:])
-        numbers.append(struct.unpack(">6d", data))
-    table = np.array(numbers)
-    x, y, c0, c1, c2, c3 = table.T
+    x, y, c0, c1, c2, c3 = np.array(profile_numbers(rows)).T
     curve = PPoly(np.array([c3, c2, c1, y + c0])[:, :-1], x)
     return x, lambda places, nu: np.asarray(curve(places, nu))
 

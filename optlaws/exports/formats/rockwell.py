@@ -6,7 +6,6 @@ import struct
 from collections.abc import Sequence
 from functools import partial
 
-from optlaws.errors import InputError
 from optlaws.exports.format import MOST_POINTS, Request, Written, file_format
 from optlaws.exports.formats.point_table import NumberFormat, chosen_table, end_slopes
 from optlaws.exports.spacing import PointTable
@@ -42,26 +41,12 @@ def profile_rows(run: PiecewiseMotion, *, cubic: bool = True) -> list[list[int]]
     return [*rows, _row(run.stop, float(run.ends(0)[1][-1]), kind, (0.0,) * 4)]
 
 
-def profile_motion(rows: Sequence[Sequence[int]]) -> PiecewiseMotion:
-    """The motion that rows of CAM_PROFILE run."""
-    decoded = [_values(row) for row in rows]
-    breaks = [x for x, *_ in decoded]
-    return PiecewiseMotion(breaks, [[y + constant, *slopes] for _, y, constant, *slopes in decoded[:-1]])
-
-
 def _row(x: float, y: float, kind: int, constants: Sequence[float]) -> list[int]:
     return [CALCULATED, *_halves(x), *_halves(y), kind, *(half for constant in constants for half in _halves(constant))]
 
 
 def _halves(value: float) -> tuple[int, ...]:
     return _HALVES.unpack(_DOUBLE.pack(value + 0.0))
-
-
-def _values(row: Sequence[int]) -> list[float]:
-    if len(row) != 14:
-        raise InputError(f"an element of CAM_PROFILE has 14 DINT, got {len(row)}")
-    numbers = [*row[1:5], *row[6:]]
-    return [_DOUBLE.unpack(_HALVES.pack(*numbers[i : i + 2]))[0] for i in range(0, len(numbers), 2)]
 
 
 def _table(motion: Motion, request: Request, *, single: bool) -> PointTable:
