@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Self
 
 from optlaws.errors import OptlawsError
 
@@ -37,6 +37,11 @@ class Answer:
     data: Callable[[], object]
     drawn: Callable[[], Any] | None = None
     failure: OptlawsError | None = None
+
+    @classmethod
+    def of(cls, report: Report, drawn: Callable[[], Any]) -> Self:
+        """The answer of what makes a report."""
+        return cls(lambda: [report], lambda: report.data, drawn)
 
     def give(self, picture: Path | None, *, as_json: bool) -> None:
         """Draw the picture into its file, where there is one, and print the rest."""

@@ -109,19 +109,8 @@ def _of_file(file: Path, axis: str | None, wishes: Mapping[str, Any]) -> dict[st
 
 
 def _shown(advice: Mapping[str, Advice]) -> Iterable[Any]:
-    """The table of the laws of each axis, the reasons for missing ones, and the recommendation."""
-    from optlaws.numbers import chop
-    from optlaws.shown.report import ReportTable
-    from optlaws.tolerances import VALUE_ROUNDING
-
+    """The laws of each axis, the reasons for missing ones, and the recommendation."""
     for axis, each in advice.items():
-        sizes = {measure.name: max(abs(law.values[measure.name]) for law in each) for measure in each.measures}
-        rows = []
-        for law, row in zip(each, each.rows, strict=True):
-            cells = [f"{chop(law.values[name], size, VALUE_ROUNDING):.5g}" for name, size in sizes.items()]
-            mark = "> " if law.name == each.recommendation.law.name else "  "
-            rows.append([f"{mark}{law.name}", *cells, *row[-2:]])
-        if len(advice) > 1:
-            yield f"axis {axis}"
-        yield ReportTable(["  law", *each.headings[1:]], rows)
-        yield from (*each.remarks, "", *each.recommendation.sentences, f"(Rule: {each.recommendation.rule}.)")
+        report = each.report()
+        yield from ([f"axis {axis}"] if len(advice) > 1 else [])
+        yield from (*report.tables, *each.remarks, report.facts)

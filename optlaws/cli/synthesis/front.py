@@ -11,7 +11,6 @@ from optlaws.cli.problem_options import problem_options
 from optlaws.cli.show import Answer, busy, exported
 from optlaws.errors import InputError
 from optlaws.numbers import positive, whole
-from optlaws.shown.report import ReportTable
 from optlaws.synthesis.problem.named_constants import apart
 
 
@@ -71,36 +70,13 @@ def front(
     else:
         with busy("solving"):
             front = optlaws.proven_front(problem, names, between=curve["between"], gap=proven_to)
-    table = _table(front, whole(curve["points"], "points", least=2))
+    points = whole(curve["points"], "points", least=2)
+    report = front.report() if isinstance(front, optlaws.Front) else front.report(points)
     if csv is not None:
         from optlaws.files import tables, writing
 
         stated = front[0].problem if isinstance(front, optlaws.Front) else front.problem
-        writing.write(csv, tables.to_csv(*table, about=f"{' and '.join(front.over)} exchanged: {stated!r}"))
+        writing.write(csv, tables.to_csv(*report.tables[0], about=f"{' and '.join(front.over)} exchanged: {stated!r}"))
     if to is not None and isinstance(front, optlaws.ProvenFront):
         return exported(front.export(to, within, name=name), output, front.plot)
-    return Answer(lambda: [_shown(table), *_remarks(front)], front.to_dict, front.plot)
-
-
-def _table(front: optlaws.Front | optlaws.ProvenFront, points: int) -> ReportTable:
-    if isinstance(front, optlaws.Front):
-        return ReportTable(front.headings, front.rows)
-    low, high = front.between
-    values = [low + (high - low) * i / (points - 1) for i in range(points - 1)]
-    some = [front(value) for value in [*values, high]]
-    rows = [[point.value, point.objective, point.lower_bound, point.gap] for point in some]
-    return ReportTable((*front.over, "lower bound", "gap"), rows)
-
-
-def _shown(table: ReportTable) -> ReportTable:
-    """The table with rounded gaps."""
-    gap = list(table.headings).index("gap")
-    rows = [[f"{cell:.0e}" if i == gap else cell for i, cell in enumerate(row)] for row in table.rows]
-    return table._replace(rows=rows)
-
-
-def _remarks(front: optlaws.Front | optlaws.ProvenFront) -> list[str]:
-    if isinstance(front, optlaws.ProvenFront):
-        return [f"{front!r}"]
-    values = ", ".join(f"{value:.6g}" for value in front.failed)
-    return [f"no law was found at {front.over[0]} = {values}"] if values else []
+    return Answer.of(report, front.plot)

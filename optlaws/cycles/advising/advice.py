@@ -12,10 +12,11 @@ from optlaws.cycles.advising.advised_law import AdvisedLaw, LawMeasure
 from optlaws.cycles.advising.recommendation import Recommendation
 from optlaws.errors import InfeasibleProblem, InputError, OptlawsError
 from optlaws.extras import needed
-from optlaws.numbers import bounded
+from optlaws.numbers import bounded, chop
 from optlaws.shown.report import Panel, PlainReport, Report, ReportTable, Series
 from optlaws.shown.summary import Row, Summary
 from optlaws.suggest import unknown_key
+from optlaws.tolerances import VALUE_ROUNDING
 
 #: of why there is no law: formulas of machines are longer than anybody reads
 _LONGEST = 200
@@ -80,11 +81,12 @@ class Advice:
 
     @property
     def rows(self) -> list[list[float | str]]:
-        """A row for each law, with a cell for each heading."""
+        """A row for each law, with a cell for each heading; what is rounding beside the other laws is 0."""
+        sizes = {name: max(abs(law.values[name]) for law in self.laws) for name, _ in self.measures}
         return [
             [
                 law.name,
-                *(law.values[measure.name] for measure in self.measures),
+                *(chop(law.values[name], size, VALUE_ROUNDING) for name, size in sizes.items()),
                 limits_in_words(law),
                 proof_in_words(law),
             ]
