@@ -105,7 +105,9 @@ class AxesReport:
         times, values = refined(times, [curve(times) for curve in curves], curves, np.empty(0))
         shown = zip(self.cycles.items(), values, strict=True)
         return tuple(
-            Panel(name, UNITS[cycle.axis][0][0], (Series(times, places),), ends=(places.min(), places.max()))
+            Panel(
+                name, UNITS[cycle.axis][0][0], (Series(times, places),), ends=(float(places.min()), float(places.max()))
+            )
             for (name, cycle), places in shown
         )
 

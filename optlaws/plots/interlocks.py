@@ -154,8 +154,13 @@ def _clearances(report: AxesReport, axes: Any, style: dict[str, Any]) -> list[Ar
         panel = report.clearance(number, least)
         (curve,) = panel.series
         artists += draw_panel(panel, each, per=scale, **style)
-        below: Any = {"color": WARM, "alpha": 0.25, "linewidth": 0.0}
-        artists.append(each.fill_between(scale * curve.at, np.minimum(curve.values, 0.0), 0.0, **below))
+        if isinstance(least.interlock, After):
+            passes = [0.5 * (limit.start + limit.stop) for limit in panel.limits]
+            look: Any = {"color": GREY, "markersize": 4.5}
+            artists += each.plot(scale * np.array(passes), np.interp(passes, *curve[:2]), "o", **look)
+        else:
+            below: Any = {"color": WARM, "alpha": 0.25, "linewidth": 0.0}
+            artists.append(each.fill_between(scale * curve.at, np.minimum(curve.values, 0.0), 0.0, **below))
         artists += _least(each, least, (least.angle, panel.peaks[0][1]), right=least.angle < 0.6 * TURN_DEG)
         each.set_title(least.interlock.label, fontsize=8.5, color=GREY)
         each.set_ylabel(f"clearance, {panel.unit}")

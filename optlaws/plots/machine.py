@@ -9,10 +9,9 @@ import numpy as np
 
 from optlaws.cycles.report import CycleReport
 from optlaws.errors import InputError
-from optlaws.formulas.arithmetic import NUMPY, evaluate
-from optlaws.formulas.tree import Formula
-from optlaws.motion.display_units import DEGREES, MILLI, RPM
-from optlaws.numbers import Array
+from optlaws.mechanisms.linkages.report import INPUTS, MechanismReport
+from optlaws.motion.display_units import RPM
+from optlaws.plots.report import draw_panel
 from optlaws.plots.style import (
     BLUES,
     DISTINCT,
@@ -92,12 +91,7 @@ def draw_machine_spectrum(
     return list(lines)
 
 
-_POSITIONS = 721
 _SHOWN = 7  # positions of the linkage
-_SCALES = {
-    "angle": (DEGREES, "input, deg", ("J, kg m²", "J', kg m²/rad", "T, N m")),
-    "length": (MILLI, "input, mm", ("J, kg", "J', kg/m", "T, N")),
-}
 
 
 def draw_mechanism(mechanism: Mechanism, axes: Any = None, **style: Any) -> list[Artist]:
@@ -133,47 +127,33 @@ def _new_panels(linked: bool) -> list[Axes]:  # noqa: FBT001
     return [figure.add_subplot(grid[:, 0]), *panels]
 
 
-def _range(mechanism: Mechanism) -> Array:
-    """Positions of the input at which it is drawn: a turn or 0.1 m where it has no bound."""
-    low, high = mechanism.over if mechanism.has_end else (0.0, 2.0 * np.pi if mechanism.axis == "angle" else 0.1)
-    return np.linspace(low, high, _POSITIONS)
-
-
 def _curves(mechanism: Mechanism, panels: list[Axes], style: dict[str, Any]) -> list[Artist]:
-    x = _range(mechanism)
-    scale, label, names = _SCALES[mechanism.axis]
-    values = (mechanism.inertia(x), mechanism.inertia(x, 1), mechanism.load(x))
     artists: list[Artist] = []
-    for axes, name, curve, colour in zip(panels, names, values, (BLUES[3], GREEN, WARM), strict=True):
-        artists += axes.plot(scale * x, curve, **{"color": colour, **style})
+    report = MechanismReport(mechanism)
+    for panel, axes, colour in zip(report.panels, panels, (BLUES[3], GREEN, WARM), strict=True):
+        artists += draw_panel(panel, axes, per=1.0, **{"color": colour, **style})
         axes.axhline(0.0, color=GREY, linewidth=0.8)
-        axes.set(ylabel=name)
-    panels[-1].set(xlabel=label)
+    panels[-1].set(xlabel=f"input, {INPUTS[mechanism.axis][0]}")
     return artists
 
 
 def _linkage(mechanism: Mechanism, axes: Axes) -> list[Artist]:
     """The links in several positions, the first one dark, with the paths of their joints."""
-    x = _range(mechanism)
+    report = MechanismReport(mechanism)
+    x = report.positions
     closed = bool(np.isclose(x[-1] - x[0], 2.0 * np.pi))
     shown = np.linspace(x[0], x[-1], _SHOWN + closed)[: _SHOWN if closed else None]
     artists: list[Artist] = []
     axes.set_aspect("equal")
-    for chain in mechanism.linkage.chains:
-        joints = [placed(point, x) for point in chain]
-        for path in joints:
+    for paths, places, moving in zip(report.chains(x), report.chains(shown), report.moving, strict=True):
+        for path in paths:
             if np.ptp(path, axis=1).max() > 0.0:
                 artists += axes.plot(*path, color=GREY, linewidth=0.8, linestyle=":", zorder=1)
-        if len(chain) == 1:
-            fixed = not chain[0][0].names() | chain[0][1].names()
-            marker: dict[str, Any] = {
-                "marker": "^" if fixed else "s",
-                "color": GREY if fixed else WARM,
-                "markersize": 7.0 + 2.0 * fixed,
-            }
-            artists += axes.plot(*placed(chain[0], shown[:1]), linestyle="", zorder=5, **marker)
+        if len(places) == 1:
+            marker: dict[str, Any] = {"marker": "s", "color": WARM, "markersize": 7.0}
+            marker |= {} if moving[0] else {"marker": "^", "color": GREY, "markersize": 9.0}
+            artists += axes.plot(*places[0, :, :1], linestyle="", zorder=5, **marker)
             continue
-        places = np.array([placed(point, shown) for point in chain])
         for i in range(len(shown))[::-1]:
             line: dict[str, Any] = (
                 {"color": BLUES[4], "linewidth": 2.2} if i == 0 else {"color": BLUES[1], "linewidth": 1.0}
@@ -181,11 +161,6 @@ def _linkage(mechanism: Mechanism, axes: Axes) -> list[Artist]:
             artists += axes.plot(*places[:, :, i].T, marker="o", markersize=4.0 if i == 0 else 2.5, zorder=3, **line)
     axes.set(xlabel="x, mm", ylabel="y, mm", title=f"{mechanism.name}, {len(shown)} positions")
     return artists
-
-
-def placed(point: tuple[Formula, Formula], x: Array) -> Array:
-    """A joint's coordinates in millimetres, shape (2, n); one that is fixed has the same for all positions."""
-    return MILLI * np.array([evaluate(part, {"x": x}, NUMPY) + 0.0 * x for part in point])
 
 
 _SAMPLES = 801

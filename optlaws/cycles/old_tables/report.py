@@ -133,5 +133,7 @@ def _of_part(part: Stretch) -> tuple[Panel, ...]:
         peaks = [(part.start + length * k, size * value) for k, value in panel.peaks if nu and isfinite(value)]
         greatest = max(peaks, key=lambda peak: abs(peak[1]), default=(nan, 0.0))
         marked = (greatest,) if abs(greatest[1]) > NO_MARK else ()
-        panels.append(Panel("", "", (Series(part.start + length * curve.at, base + size * curve.values),), peaks=marked))
+        panels.append(
+            Panel("", "", (Series(part.start + length * curve.at, base + size * curve.values),), peaks=marked)
+        )
     return tuple(panels)

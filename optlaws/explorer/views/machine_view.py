@@ -4,14 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from functools import lru_cache
-from math import degrees
 from typing import Any, cast
 
 import msgspec
 import numpy as np
 
-from optlaws import Cycle, Drive, Mechanism, MotionLaw, Motor, Move, Status
+from optlaws import Cycle, Drive, Mechanism, Move, Status
 from optlaws.cams.at_shaft import CamAtShaft
 from optlaws.cycles.report import CycleReport
 from optlaws.cycles.specification.programme import is_optimal
@@ -23,14 +21,13 @@ from optlaws.explorer.views.cam_view import drawing
 from optlaws.explorer.views.cycle_view import CycleRequest, packaged_study
 from optlaws.explorer.views.law_view import refusal, refusing
 from optlaws.explorer.views.panel_data import beside_each_other, drawn, over_time, panel_data
-from optlaws.explorer.views.requests import MOST_LAWS, Question
-from optlaws.formulas.tree import Formula
+from optlaws.explorer.views.requests import MOST_LAWS, Question, stored_law
 from optlaws.jobs.cycle_entries import AxisEntries, CycleProblemFile, cycle_of
 from optlaws.mechanisms.linkages.mechanism_kinds import MechanismKind
+from optlaws.mechanisms.linkages.report import INPUTS, MechanismReport
 from optlaws.motion.display_units import MILLI, RPM
 from optlaws.motion.quantities import si_number
 from optlaws.numbers import Array, bounded
-from optlaws.plots.machine import placed
 from optlaws.shown.summary import Row
 
 _EACH = 240
@@ -39,54 +36,44 @@ _GIVEN = {"status": "given", "word": "given", "advice": "A law as it stands: not
 #: a curve of a motor is drawn up to so many times the speed that is used
 _FAR = 1.6
 _FRAMES = 181
-_SAMPLES = 241
+_COARSE = 3  # of the positions of a mechanism, so many go by from one of a path to the next
 _DECIMALS = 3
 #: what a mechanism in proportion is drawn from: the entry of its size
 _ROUND = {"rack": "radius", "belt": "radius", "screw": "lead"}
-#: units of the input, of its inertia and of its load, and how many of the first make one of SI
-_INPUTS = {"angle": ("deg", degrees(1.0), "kg m²", "N m"), "length": ("mm", MILLI, "kg", "N")}
 
 
 @refusing()
 def answer(request: CycleRequest) -> dict[str, Any]:
     """The machine with the laws of its file, or the reason why there is none."""
-    spec, axis = _read(request)
-    beside, given = _beside(spec, axis), request.laws
-    if given is not None and len(given) != len(beside):
+    spec, beside, place = _read(request)
+    axis, given = beside[place], [[]] * len(beside) if request.laws is None else request.laws
+    if len(given) != len(beside):
         raise InputError(f"laws: {len(beside)} axes have this machine, and laws of {len(given)} are given")
-    laws = [_law(spec, other, given[i] if given else []) for i, other in enumerate(beside)]
-    place = _place(spec, axis)
-    shown, earlier = laws[place], [bool(moves) for moves in given or [[]] * len(laws)]
+    laws = [_law(spec, other, moves) for other, moves in zip(beside, given, strict=True)]
+    shown = laws[place]
     known = {
         "laws": [{"refused": refusal(law)} if isinstance(law, OptlawsError) else {} for law in laws],
         "active": place,
         "limiting": [] if axis.limits.get("motor") else sorted(cycle_view.LIMITING),
-        "optima": None if given else _optima(beside, laws),
+        "optima": None if request.laws is not None else _optima(beside, laws),
     }
     if isinstance(shown, OptlawsError):
         return known | {"refused": refusal(shown)}
-    names = [other.name for other, before in zip(beside, earlier, strict=True) if before and other is not axis]
-    cycles = [(i, law) for i, law in enumerate(laws) if isinstance(law, Cycle)]
-    mechanism = shown.drive.mechanism if isinstance(shown.drive, Drive) else shown.drive
-    assert isinstance(mechanism, Mechanism)  # noqa: S101 - as the axis has one
-    report = CycleReport(shown)
-    inputs = {i: CycleReport(law).of_input for i, law in cycles}
+    cycles = {i: law for i, law in enumerate(laws) if isinstance(law, Cycle)}
+    inputs = {i: CycleReport(law).of_input for i, law in cycles.items()}
     panels = beside_each_other(inputs[place], list(inputs.items()))
-    used = inputs[place][-1].ends
     of = f"; torque and power at the {'motor' if isinstance(shown.drive, Drive) else 'input'}"
+    earlier = [other.name for other, moves in zip(beside, given, strict=True) if moves and other is not axis]
     return {
         **known,
-        **over_time([panel_data(panel) for panel in panels], max(law.duration for _, law in cycles), of),
-        "segments": [{"name": name, "at": [MILLI * start, MILLI * stop]} for name, start, stop in report.segments],
-        "drawing": {
-            **_picture(shown, mechanism, axis.mechanism or {}),
-            "ends": used,
-            "duration": MILLI * shown.duration,
-        },
-        "over_input": _over_input(mechanism, used),
+        **over_time(list(map(panel_data, panels)), max(law.duration for law in cycles.values()), of),
+        "segments": [
+            {"name": name, "at": [MILLI * start, MILLI * stop]} for name, start, stop in CycleReport(shown).segments
+        ],
+        **_pictures(shown, axis.mechanism or {}, inputs[place][-1].ends),
         "over_speed": _over_speed(shown, cycles),
         "rows": _rows(laws),
-        "trust": _trust(shown, names, earlier=earlier[place]),
+        "trust": _trust(shown, earlier, earlier=bool(given[place])),
     }
 
 
@@ -117,22 +104,15 @@ def _trust(shown: Cycle, others: Sequence[str], *, earlier: bool) -> dict[str, A
     return trust
 
 
-def _read(request: CycleRequest) -> tuple[CycleProblemFile, AxisEntries]:
+def _read(request: CycleRequest) -> tuple[CycleProblemFile, list[AxisEntries], int]:
+    """The study, the axes of the requested machine, which differ in their laws, and the place of the one on display."""
     spec, axis = cycle_view.read(request)
     if axis.mechanism is None:
         raise InputError(f"{axis.name} has no mechanism: choose a kind of mechanism, or see it in the view Cycle")
-    return spec, axis
-
-
-def _beside(spec: CycleProblemFile, axis: AxisEntries) -> list[AxisEntries]:
-    """The axes of the same machine, which differ in their laws."""
     same = [other for other in spec.axis if (other.mechanism, other.drive) == (axis.mechanism, axis.drive)]
     first = [other for other in same if other is not axis][: MOST_LAWS - 1]
-    return [other for other in same if other is axis or any(other is chosen for chosen in first)]
-
-
-def _place(spec: CycleProblemFile, axis: AxisEntries) -> int:
-    return next(i for i, other in enumerate(_beside(spec, axis)) if other is axis)
+    beside = [other for other in same if other is axis or any(other is chosen for chosen in first)]
+    return spec, beside, next(i for i, other in enumerate(beside) if other is axis)
 
 
 def _law(spec: CycleProblemFile, axis: AxisEntries, given: Sequence[dict[str, Any]] = ()) -> Cycle | OptlawsError:
@@ -151,13 +131,8 @@ def _evaluated(spec: CycleProblemFile, axis: AxisEntries, given: Sequence[dict[s
     if len(given) != len(moves):
         raise InputError(f"laws: {axis.name} has {len(moves)} optimised moves, and {len(given)} laws are given")
     for i, law in zip(moves, given, strict=True):
-        segments[i] = replace(cast("Move", segments[i]), law=_stored(msgspec.json.encode(law)))
+        segments[i] = replace(cast("Move", segments[i]), law=stored_law(msgspec.json.encode(law)))
     return replace(cycle, segments=segments).unchecked()
-
-
-@lru_cache(maxsize=64)
-def _stored(law: bytes) -> MotionLaw:
-    return MotionLaw.from_dict(msgspec.json.decode(law))
 
 
 def _rows(laws: Sequence[Cycle | OptlawsError]) -> list[dict[str, Any]]:
@@ -177,52 +152,27 @@ def _rows(laws: Sequence[Cycle | OptlawsError]) -> list[dict[str, Any]]:
     ]
 
 
-def _over_speed(shown: Cycle, cycles: Sequence[tuple[int, Cycle]]) -> dict[str, Any] | None:
-    """Torque over speed at the motor, in rpm and N m, with the motor's curves; None without a motor."""
+def _over_speed(shown: Cycle, cycles: Mapping[int, Cycle]) -> dict[str, Any] | None:
+    """Torque over speed at the motor, in rpm and N m, with the motor's curves and limits; None without a motor."""
     if not isinstance(shown.drive, Drive):
         return None
     courses: list[dict[str, Any]] = []
-    for law, cycle in cycles:
+    for law, cycle in cycles.items():
         speeds, torques = CycleReport(cycle).over_speed(_EACH)
         courses.append({"law": law, "speeds": drawn(RPM * speeds, 3), "torques": drawn(torques, 5)})
-    fastest = max(cycle.sheet.peak_speed for _, cycle in cycles)
-    greatest = {"torque": max(cycle.effort.peak_force for _, cycle in cycles), "speed": RPM * fastest}
-    return {"courses": courses, "greatest": greatest, "motor": _motor(shown.drive.motor, fastest)}
-
-
-def _motor(motor: Motor, fastest: float) -> dict[str, Any]:
-    """The curves of peak and continuous torque beyond a speed, and the numbers that limit them."""
+    motor, fastest = shown.drive.motor, max(cycle.sheet.peak_speed for cycle in cycles.values())
     speeds, limits = motor.limits_up_to(_FAR * fastest, 41)
-    at = np.round(RPM * speeds, 3).tolist()
+    at = np.round(RPM * speeds, 3)
     return {
-        "curves": {
-            name.partition(" ")[0]: [list(point) for point in zip(at, values.tolist(), strict=True)]
-            for name, values in limits.items()
+        "courses": courses,
+        "greatest": {"torque": max(cycle.effort.peak_force for cycle in cycles.values()), "speed": RPM * fastest},
+        "motor": {
+            "curves": {name.partition(" ")[0]: np.stack([at, curve], 1).tolist() for name, curve in limits.items()},
+            "peak_torque": bounded(motor.peak_torque),
+            "rated_torque": bounded(motor.rated_torque),
+            "greatest_speed": bounded(RPM * motor.greatest_speed),
+            "corners": [[round(RPM * speed, 6), torque] for speed, torque in motor.curve],
         },
-        "peak_torque": bounded(motor.peak_torque),
-        "rated_torque": bounded(motor.rated_torque),
-        "greatest_speed": bounded(RPM * motor.greatest_speed),
-        "corners": [[round(RPM * speed, 6), torque] for speed, torque in motor.curve],
-    }
-
-
-def ratios(request: CycleRequest) -> dict[str, Any]:
-    """Root mean square and peak of the torque at the motor over the ratio of the gear; None where there is no law."""
-    spec, axis = _read(request)
-    if not isinstance(axis.drive, dict) or "motor" not in axis.drive or not request.low < request.high:
-        return {"ratios": [], "laws": [], "bound": [], "words": "no gear: give the machine a motor"}
-    places = np.geomspace(request.low, request.high, _RATIOS).tolist()
-    laws = [[_at_ratio(spec, other, ratio) for ratio in places] for other in _beside(spec, axis)]
-    shown = laws[_place(spec, axis)]
-    cycles = [cycle for cycle in shown if cycle is not None]
-    searched = [cycle for cycle in cycles if cycle.solutions and cycle.minimise in _BOUNDED]
-    return {
-        "ratios": places,
-        "laws": [{"rms": _of(law, "rms_force"), "peak": _of(law, "peak_force")} for law in laws],
-        "fits": [None if cycle is None else cycle.sheet.fits for cycle in shown],
-        "bound": [None if cycle not in searched else _bound(cycle) for cycle in shown],
-        "of": _BOUNDED.get(cycles[0].minimise) if cycles else None,
-        "words": _words(searched),
     }
 
 
@@ -230,32 +180,43 @@ def ratios(request: CycleRequest) -> dict[str, Any]:
 _BOUNDED = {"rms torque": "rms", "torque": "peak"}
 
 
-def _words(searched: Sequence[Cycle]) -> str:
-    """The proven bounds of the laws over the ratio."""
-    if not searched:
-        return "torque at the motor over the ratio of the gear, of laws as they are given"
-    least = f"least {searched[0].minimise} at each ratio"
-    if all(cycle.status is Status.OPTIMAL for cycle in searched):
-        return f"{least}: proven"
-    return f"{least}: none is below the dashed line, of laws that never turn back"
+def ratios(request: CycleRequest) -> dict[str, Any]:
+    """Root mean square and peak of the torque at the motor over the ratio of the gear; None where there is no law."""
+    spec, beside, place = _read(request)
+    drive = beside[place].drive
+    if not isinstance(drive, dict) or "motor" not in drive or not request.low < request.high:
+        return {"ratios": [], "laws": [], "bound": [], "words": "no gear: give the machine a motor"}
+    places = np.geomspace(request.low, request.high, _RATIOS).tolist()
+    tried = [[_law(spec, replace(other, drive={**drive, "ratio": ratio})) for ratio in places] for other in beside]
+    laws = [[law if isinstance(law, Cycle) else None for law in course] for course in tried]
+    cycles = [cycle for cycle in laws[place] if cycle is not None]
+    searched = [cycle for cycle in cycles if cycle.solutions and cycle.minimise in _BOUNDED]
+    words = "torque at the motor over the ratio of the gear, of laws as they are given"
+    if searched:
+        proven = all(cycle.status is Status.OPTIMAL for cycle in searched)
+        bound = "proven" if proven else "none is below the dashed line, of laws that never turn back"
+        words = f"least {searched[0].minimise} at each ratio: {bound}"
+    return {
+        "ratios": places,
+        "laws": [{"rms": _of(course, "rms_force"), "peak": _of(course, "peak_force")} for course in laws],
+        "fits": [None if cycle is None else cycle.sheet.fits for cycle in laws[place]],
+        "bound": [
+            bounded(cycle.lower_bound) if cycle is not None and cycle in searched and cycle.lower_bound else None
+            for cycle in laws[place]
+        ],
+        "of": _BOUNDED.get(cycles[0].minimise) if cycles else None,
+        "words": words,
+    }
 
 
-def _bound(cycle: Cycle | None) -> float | None:
-    return None if cycle is None or not cycle.lower_bound else bounded(cycle.lower_bound)
-
-
-def _at_ratio(spec: CycleProblemFile, axis: AxisEntries, ratio: float) -> Cycle | None:
-    law = _law(spec, replace(axis, drive={**(axis.drive or {}), "ratio": ratio}))
-    return law if isinstance(law, Cycle) else None
-
-
-def _of(law: Sequence[Cycle | None], attribute: str) -> list[float | None]:
-    return [None if cycle is None else bounded(getattr(cycle.effort, attribute)) for cycle in law]
+def _of(course: Sequence[Cycle | None], attribute: str) -> list[float | None]:
+    return [None if cycle is None else bounded(getattr(cycle.effort, attribute)) for cycle in course]
 
 
 def limits(request: CycleRequest) -> dict[str, Any]:
     """The infimum of each move over laws that never turn back, beside this law's value; it takes longer."""
-    shown = _law(*_read(request))
+    spec, beside, place = _read(request)
+    shown = _law(spec, beside[place])
     efforts = [] if isinstance(shown, OptlawsError) else CycleReport(shown).least_efforts()
     return {
         "moves": [
@@ -268,60 +229,54 @@ def limits(request: CycleRequest) -> dict[str, Any]:
 # --- the mechanism to scale ---
 
 
-def _picture(cycle: Cycle, mechanism: Mechanism, entries: Mapping[str, Any]) -> dict[str, Any]:
-    """The mechanism at equal steps of time over a cycle, in mm and deg: links, a cam, or a drum with a slide."""
-    times = np.linspace(0.0, cycle.duration, _FRAMES)
-    x = np.asarray(cycle(times))
-    _, factor, _, _ = _INPUTS[mechanism.axis]
-    shown: dict[str, Any] = {
-        "name": mechanism.name,
-        "input": drawn(factor * x, 4),
-        "axis": mechanism.axis,
+def _pictures(cycle: Cycle, entries: Mapping[str, Any], used: tuple[float, float]) -> dict[str, Any]:
+    """The mechanism at equal steps of time over a cycle, in mm and deg, and its inertia and load over the input."""
+    mechanism = cycle.drive.mechanism if isinstance(cycle.drive, Drive) else cycle.drive
+    assert isinstance(mechanism, Mechanism)  # noqa: S101 - as the axis has one
+    unit, factor, _ = INPUTS[mechanism.axis]
+    report = MechanismReport(mechanism, (used[0] / factor, used[1] / factor))
+    x = np.asarray(cycle(np.linspace(0.0, cycle.duration, _FRAMES)))
+    panels = [panel_data(panel, 1.0) for panel in report.panels]
+    return {
+        "drawing": {
+            "name": mechanism.name,
+            "input": drawn(factor * x, 4),
+            "axis": mechanism.axis,
+            "ends": used,
+            "duration": MILLI * cycle.duration,
+            **_parts(report, x, entries),
+        },
+        "over_input": {
+            "across": f"input of the {mechanism.name}, {unit}; lines: what the cycle uses",
+            "range": [panels[0]["series"][0]["at"][i] for i in (0, -1)],
+            "panels": panels,
+            "segments": [{"name": "", "at": list(used)}, {"name": "", "at": [used[1]] * 2}],
+        },
     }
+
+
+def _parts(report: MechanismReport, x: Array, entries: Mapping[str, Any]) -> dict[str, Any]:
+    """Links with the paths of their joints, a cam, or a drum with a slide, at positions of the input."""
+    mechanism = report.mechanism
     if mechanism.linkage.chains:
-        return shown | {"kind": "links"} | _links(mechanism, x)
+        courses = report.chains(report.positions[::_COARSE])
+        return {
+            "kind": "links",
+            "chains": [list(map(_joint, chain)) for chain in report.chains(x)],
+            "fixed": [moving == [False] for moving in report.moving],
+            "paths": [_joint(joint) for course in courses for joint in course if np.ptp(joint, axis=1).any()],
+        }
     if mechanism.name == "cam":
-        return shown | {"kind": "cam", "dimensions": []} | drawing(CamAtShaft.from_dict(entries).cam)
+        return {"kind": "cam", "dimensions": [], **drawing(CamAtShaft.from_dict(entries).cam)}
     if mechanism.name in _ROUND:
         size = float(si_number(entries[_ROUND[mechanism.name]], ("length",), "size"))
         slide = drawn(MILLI * np.asarray(mechanism.driven_position("slide", x)), 4)
-        return shown | {"kind": mechanism.name, "size": MILLI * size, "slide": slide}
-    return shown | {"kind": "table"}
+        return {"kind": mechanism.name, "size": MILLI * size, "slide": slide}
+    return {"kind": "table"}
 
 
-def _links(mechanism: Mechanism, x: Array) -> dict[str, Any]:
-    """The joints of each chain at positions of the input, and their paths over the range of the mechanism."""
-    over = np.linspace(*mechanism.over, _SAMPLES) if mechanism.has_end else np.linspace(x.min(), x.max(), _SAMPLES)
-    chains = [[_placed(point, x) for point in chain] for chain in mechanism.linkage.chains]
-    moving = {point: _placed(point, over) for chain in mechanism.linkage.chains for point in chain if _is_moving(point)}
-    fixed = [len(chain) == 1 and not _is_moving(chain[0]) for chain in mechanism.linkage.chains]
-    return {"chains": chains, "fixed": fixed, "paths": list(moving.values())}
-
-
-def _is_moving(point: tuple[Formula, Formula]) -> bool:
-    return bool(point[0].names() | point[1].names())
-
-
-def _placed(point: tuple[Formula, Formula], x: Array) -> list[list[float | None]]:
-    return [drawn(place, _DECIMALS) for place in placed(point, x).T]
-
-
-def _over_input(mechanism: Mechanism, used: tuple[float, float]) -> dict[str, Any]:
-    """Panels of inertia and load over the input, with the part of it that is used, in deg or mm."""
-    unit, factor, inertia, load = _INPUTS[mechanism.axis]
-    low, high = mechanism.over if mechanism.has_end else (end / factor for end in used)
-    x = np.linspace(low, high, _SAMPLES)
-    curves = (("inertia J", inertia, mechanism.inertia(x)), ("load T", load, mechanism.load(x)))
-    at = drawn(factor * x, 4)
-    return {
-        "across": f"input of the {mechanism.name}, {unit}; lines: what the cycle uses",
-        "range": [factor * low, factor * high],
-        "panels": [
-            {"name": name, "unit": size, "series": [{"at": at, "values": drawn(np.asarray(values), 9)}]}
-            for name, size, values in curves
-        ],
-        "segments": [{"name": "", "at": list(used)}, {"name": "", "at": [used[1]] * 2}],
-    }
+def _joint(places: Array) -> list[list[float | None]]:
+    return [drawn(place, _DECIMALS) for place in places.T]
 
 
 #: how the input of a new mechanism moves: a turn and a rest, or for ever

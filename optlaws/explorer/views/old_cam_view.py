@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-import json
 from dataclasses import KW_ONLY, replace
 from functools import lru_cache
 from math import floor, log10
 from pathlib import Path
 from typing import Any
 
+import msgspec
 import numpy as np
 
-from optlaws import Cycle, MotionLaw, Solution
+from optlaws import Cycle, Solution
 from optlaws.cycles.old_tables.better_moves import better
 from optlaws.cycles.old_tables.reading import points_in
 from optlaws.cycles.old_tables.report import OldTableReport
@@ -22,7 +22,7 @@ from optlaws.errors import InputError
 from optlaws.explorer.views.cycle_view import CycleRequest
 from optlaws.explorer.views.law_view import refusing
 from optlaws.explorer.views.panel_data import panel_data, table_data
-from optlaws.explorer.views.requests import Question
+from optlaws.explorer.views.requests import Question, stored_law
 from optlaws.laws.catalogue.catalogue import catalogue
 from optlaws.shown.report import Panel
 from optlaws.tolerances import AGREEMENT
@@ -178,15 +178,8 @@ def with_laws(request: CycleRequest) -> OldTable:
     stretches = []
     for part in old.stretches:
         law = {} if part.law is None else next(chosen)
-        stretches.append(replace(part, law=_law_of(json.dumps(law))) if law else part)
+        stretches.append(replace(part, law=stored_law(msgspec.json.encode(law))) if law else part)
     return replace(old, stretches=tuple(stretches))
-
-
-@lru_cache(maxsize=128)
-def _law_of(text: str) -> MotionLaw:
-    """A law as it is stored, or that of a stored solution."""
-    entries = json.loads(text)
-    return Solution.from_dict(entries).law if "certificate" in entries else MotionLaw.from_dict(entries)
 
 
 def example() -> dict[str, Any]:

@@ -189,6 +189,13 @@ def given_law(request: LawRequest) -> MotionLaw:
     return reading.read_law(name)
 
 
+@lru_cache(maxsize=128)
+def stored_law(text: bytes) -> MotionLaw:
+    """A law as it is stored, or that of a stored solution, from JSON."""
+    entries = msgspec.json.decode(text)
+    return Solution.from_dict(entries).law if "certificate" in entries else MotionLaw.from_dict(entries)
+
+
 def result_of(request: LawRequest) -> MotionLaw | Solution:
     """The requested law, in any of its forms; of a problem its solution."""
     if request.problem is None:
