@@ -7,8 +7,10 @@ from pathlib import Path
 
 import pytest
 
+from optlaws import TranslatingRoller
 from tests.internals.cli import exit_code
-from tests.internals.jobs import QUESTIONS, STARTERS, numbers_of
+from tests.internals.entries import entries_of
+from tests.internals.jobs import STARTERS, TYPES, CamProblemFile, MachineLawsProblemFile, numbers_of
 
 Capture = pytest.CaptureFixture[str]
 
@@ -182,4 +184,13 @@ def test_the_help_says_what_every_number_is_and_of_which_kinds(capsys: Capture) 
         assert starter.kind == kind
         for name in numbers_of(kind):
             assert re.search(rf"--{name} STR [A-Z](?:(?! --).)*\((?:\w+, )*{kind}\b", text), name
-    assert {name for kind in STARTERS for name in numbers_of(kind)} == set(QUESTIONS)
+    assert {name for kind in STARTERS for name in numbers_of(kind)} == set(TYPES)
+
+
+def test_numbers_are_what_the_entries_that_they_are_for_may_be() -> None:
+    cam, roller = entries_of(CamProblemFile), entries_of(TranslatingRoller)
+    vibration = entries_of(MachineLawsProblemFile)["vibration"].type.tables()[""]
+    declared = {"speed": cam["speed"], "pressure-angle": cam["pressure_angle"], "curvature": cam["radius_of_curvature"]}
+    declared |= {"prime-radius": cam["prime_radius"], "roller": roller["radius"], "offset": roller["offset"]}
+    for name, each in {**declared, "spread": vibration["spread"]}.items():
+        assert TYPES[name] == each.type, name

@@ -2,12 +2,13 @@
 
 from optlaws.jobs import cycle as cycle_job
 from optlaws.jobs import job, solutions
+from optlaws.jobs.cam import CamProblemFile
 from optlaws.jobs.cam import read as read_of_cam
 from optlaws.jobs.cycle import sweep_table
 from optlaws.jobs.cycle_entries import read as read_of_cycle_entries
 from optlaws.jobs.cycle_entries import read_given, sweeps_of
 from optlaws.jobs.job import JOBS, do, run
 from optlaws.jobs.job_entries import ProblemFile
-from optlaws.jobs.machine_laws import MachineTable
-from optlaws.jobs.starters.starter import QUESTIONS, STARTERS
-from optlaws.jobs.starters.starter_numbers import numbers_of
+from optlaws.jobs.machine_laws import MachineLawsProblemFile, MachineTable
+from optlaws.jobs.starters.starter import STARTERS
+from optlaws.jobs.starters.starter_numbers import TYPES, numbers_of

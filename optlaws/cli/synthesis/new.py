@@ -11,14 +11,13 @@ from cyclopts import Parameter
 from optlaws.cli.options import Option, Options, given, takes
 from optlaws.cli.show import Answer
 from optlaws.errors import InputError
-from optlaws.jobs.starters.starter_numbers import NUMBERS
+from optlaws.jobs.starters.starter_numbers import ABOUT
 
 Kind = Literal["cycle", "cam", "machine", "study", "law"]
 _OPTIONS = Options(
     {
-        name: Option(f"--{name}", str, f"{about[:-1]} ({kinds}).", signed=True, group="Numbers of the kinds of files")
-        for kinds, numbers in NUMBERS.items()
-        for name, about in numbers.items()
+        name: Option(f"--{name}", str, about, signed=True, group="Numbers of the kinds of files")
+        for name, about in ABOUT.items()
     }
 )
 _Hidden = Parameter(show=False)

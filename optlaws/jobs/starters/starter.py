@@ -12,18 +12,16 @@ from shlex import quote
 from textwrap import fill
 from typing import Any
 
-from optlaws.cams.followers.rollers import TranslatingRoller
-from optlaws.cycles.cycle import Cycle
-from optlaws.entries.declared import Declared, entries_of
+from optlaws.entries.declared import Declared
 from optlaws.entries.reference import sentences
-from optlaws.entries.value_types import Choice, Measured, Number, ValueType, Whole
+from optlaws.entries.value_types import Measured, Number, Whole
 from optlaws.errors import InputError, located
 from optlaws.files.reading import check_names
 from optlaws.jobs.cam import CamProblemFile
 from optlaws.jobs.cycle_entries import CycleProblemFile, read_given
-from optlaws.jobs.machine_laws import MachineLawsProblemFile, Vibration
+from optlaws.jobs.machine_laws import MachineLawsProblemFile
 from optlaws.jobs.solutions import SolutionsProblemFile
-from optlaws.jobs.starters.starter_numbers import numbers_of
+from optlaws.jobs.starters.starter_numbers import DERIVATIVES, TYPES, numbers_of
 from optlaws.laws.catalogue.catalogue import catalogue
 from optlaws.motion.quantities import DIMENSIONS, either, quantity
 from optlaws.studies.problem_entries import problem
@@ -39,43 +37,13 @@ _USUAL = "modified sine"
 _DIGITS = 5
 
 
-_STROKE, _DURATION = Measured("length", "angle", above=0.0), Measured("angle", "time", above=0.0)
-_DERIVATIVES = ("velocity", "acceleration", "jerk")
-#: by the names of options what answers may be, and the answer unless another is given; None leaves the entry out
-QUESTIONS: dict[str, tuple[ValueType, str | None]] = {
-    "stroke": (_STROKE, "35 mm"),
-    "rise": (_DURATION, "120 deg"),
-    "dwell": (_DURATION, "90 deg"),
-    "return": (_DURATION, "100 deg"),
-    "speed": (entries_of(Cycle)["speed"].type, "200 rpm"),
-    **{name: (Measured(name, f"angular {name}", above=0.0), None) for name in _DERIVATIVES},
-    "mass": (Measured("mass", "moment of inertia", above=0.0), None),
-    "roller": (entries_of(TranslatingRoller)["radius"].type, "12 mm"),
-    "offset": (entries_of(TranslatingRoller)["offset"].type, None),
-    "pressure-angle": (entries_of(CamProblemFile)["pressure_angle"].type, "30 deg"),
-    "curvature": (entries_of(CamProblemFile)["radius_of_curvature"].type, "5 mm"),
-    "prime-radius": (entries_of(CamProblemFile)["prime_radius"].type, None),
-    "duration": (Measured("time", above=0.0), "0.1 s"),
-    "frequency": (Measured("frequency", above=0.0), "8.5 Hz"),
-    "damping": (Number(least=0.0), "0.02"),
-    "spread": (entries_of(Vibration)["spread"].type, "0.1"),
-    "sway": (_STROKE, "1 mm"),
-    "minimise": (Choice("C", "D", "J", "rms_c", "rms_j"), "C"),
-    "order": (Whole(1), "3"),
-    "degree": (Whole(1), "9"),
-    "from": (Number(above=1.0), "1.5"),
-    "to": (Number(above=1.0), "2"),
-    "steps": (Whole(1), "11"),
-}
-
-
 def _read(text: str, name: str) -> str:
     """The answer to the question of a name as it was typed, checked as the entry that it is for.
 
     >>> _read(" 35 mm", "stroke"), _read("3", "order")
     ('35 mm', '3')
     """
-    type_, answer = QUESTIONS[name][0], text.strip()
+    type_, answer = TYPES[name], text.strip()
     value: str | float = answer
     if isinstance(type_, Number | Whole):
         try:
@@ -109,11 +77,11 @@ class Starter:
         InputError
             If there is no such question, an answer is wrong, or the file with it could not be run.
         """
-        names = numbers_of(self.kind)
+        usual = numbers_of(self.kind)
         with located(self.kind):
-            check_names([f"--{name}" for name in given], [f"--{name}" for name in names], "option")
+            check_names([f"--{name}" for name in given], [f"--{name}" for name in usual], "option")
         typed: Answers = {name: _read(text, name) for name, text in given.items()}
-        answers: Answers = {name: QUESTIONS[name][1] for name in names} | self.usual | typed
+        answers = usual | self.usual | typed
         answers |= self.derived(answers) | {"run": self.run(file)}
         about = sentences(self.value)
         lines = (_FOLDER / f"{self.kind}.toml").read_text("utf-8").splitlines()
@@ -151,7 +119,7 @@ def _at_least(value: float) -> str:
 
 
 def _dimensions(name: str) -> tuple[str, ...]:
-    type_ = QUESTIONS[name][0]
+    type_ = TYPES[name]
     return type_.dimensions if isinstance(type_, Measured) else ()
 
 
@@ -184,7 +152,7 @@ def _of_law(answers: Answers) -> Answers:
     unit, turning = ("rad", "angular ") if axis == "angle" else ("m", "")
     bounds: Answers = {"B": None, "C": None, "J": _at_least(_usual("J"))}
     scales: Answers = {}
-    for nu, (name, constant) in enumerate(zip(_DERIVATIVES, bounds, strict=True), 1):
+    for nu, (name, constant) in enumerate(zip(DERIVATIVES, bounds, strict=True), 1):
         scale = stroke / duration**nu
         scales[f"{name}_scale"] = f"{scale:.6g} {unit}/s{'²³'[nu - 2] if nu > 1 else ''}"
         if answers[name] is not None:

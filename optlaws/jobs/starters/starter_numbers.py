@@ -1,51 +1,70 @@
-"""The numbers that starters of problem files take: the kinds of files that each is of, and what it says."""
+"""The numbers that starters of problem files take: the kinds of files that each is of, and what it may be."""
 
 from __future__ import annotations
 
-#: by the kinds of their files
-NUMBERS: dict[str, dict[str, str]] = {
-    "cycle, cam, machine, law": {"stroke": "How far it moves: a length or an angle, of a cam a length."},
+from optlaws.entries.value_types import Choice, Measured, Number, ValueType, Whole
+
+_STROKE, _DURATION = Measured("length", "angle", above=0.0), Measured("angle", "time", above=0.0)
+_LENGTH, _MASS = Measured("length", above=0.0), Measured("mass", "moment of inertia", above=0.0)
+DERIVATIVES = ("velocity", "acceleration", "jerk")
+_VELOCITY, _ACCELERATION, _JERK = (Measured(name, f"angular {name}", above=0.0) for name in DERIVATIVES)
+_UNTIL = "an angle of the master or a time."
+_LEAST = "unless given the least one that keeps pressure angle and radius of curvature."
+#: by the kinds of their files what numbers may be, what they are unless given, and what they say; None leaves one out
+_TABLES: dict[str, dict[str, tuple[ValueType, str | None, str]]] = {
+    "cycle, cam, machine, law": {
+        "stroke": (_STROKE, "35 mm", "How far it moves: a length or an angle, of a cam a length."),
+    },
     "cycle, cam": {
-        "rise": "How long the rise takes: an angle of the master or a time.",
-        "dwell": "How long it dwells behind the rise: an angle of the master or a time.",
-        "return": "How long the return takes: an angle of the master or a time.",
-        "speed": "Speed of the master.",
-        "mass": "Mass, or moment of inertia, that is moved: table and picture then show force and power.",
+        "rise": (_DURATION, "120 deg", f"How long the rise takes: {_UNTIL}"),
+        "dwell": (_DURATION, "90 deg", f"How long it dwells behind the rise: {_UNTIL}"),
+        "return": (_DURATION, "100 deg", f"How long the return takes: {_UNTIL}"),
+        "speed": (Measured("angular velocity", above=0.0), "200 rpm", "Speed of the master."),
+        "mass": (
+            _MASS,
+            None,
+            "Mass, or moment of inertia, that moves: table and picture then show force and power.",
+        ),
     },
     "cycle, cam, law": {
-        "velocity": "Greatest velocity; none unless given.",
-        "acceleration": "Greatest acceleration; none unless given.",
-        "jerk": "Greatest jerk; that of modified sine unless given.",
+        "velocity": (_VELOCITY, None, "Greatest velocity; none unless given."),
+        "acceleration": (_ACCELERATION, None, "Greatest acceleration; none unless given."),
+        "jerk": (_JERK, None, "Greatest jerk; that of modified sine unless given."),
     },
     "cam": {
-        "roller": "Radius of the roller.",
-        "offset": "Offset of the follower's line from the shaft; 0 unless given.",
-        "pressure-angle": "Greatest pressure angle.",
-        "curvature": "Least radius of curvature.",
-        "prime-radius": "Prime radius; unless given the least one that keeps pressure angle and radius of curvature.",
+        "roller": (_LENGTH, "12 mm", "Radius of the roller."),
+        "offset": (Measured("length"), None, "Offset of the follower's line from the shaft; 0 unless given."),
+        "pressure-angle": (Measured("angle"), "30 deg", "Greatest pressure angle."),
+        "curvature": (Measured("length", least=0.0), "5 mm", "Least radius of curvature."),
+        "prime-radius": (_LENGTH, None, f"Prime radius; {_LEAST}"),
     },
-    "machine, law": {"duration": "How long the move takes."},
+    "machine, law": {"duration": (Measured("time", above=0.0), "0.1 s", "How long the move takes.")},
     "machine": {
-        "frequency": "Natural frequency of the elastic load.",
-        "damping": "Damping ratio of the load.",
-        "spread": "How far the frequency may be off, as a share of it.",
-        "sway": "How far the load may sway afterwards.",
+        "frequency": (Measured("frequency", above=0.0), "8.5 Hz", "Natural frequency of the elastic load."),
+        "damping": (Number(least=0.0), "0.02", "Damping ratio of the load."),
+        "spread": (Number(least=0.0, most=1.0), "0.1", "How far the frequency may be off, as a share of it."),
+        "sway": (_STROKE, "1 mm", "How far the load may sway afterwards."),
     },
-    "law, study": {"minimise": "Constant that is least: C, D, J, rms_c or rms_j."},
-    "law": {"order": "Number of boundary conditions at each end."},
+    "law, study": {
+        "minimise": (Choice("C", "D", "J", "rms_c", "rms_j"), "C", "Constant that is least: C, D, J, rms_c or rms_j."),
+    },
+    "law": {"order": (Whole(1), "3", "Number of boundary conditions at each end.")},
     "study": {
-        "degree": "Degree of Z(k).",
-        "from": "Least peak velocity B, above 1.",
-        "to": "Greatest peak velocity B.",
-        "steps": "How many values of B.",
+        "degree": (Whole(1), "9", "Degree of Z(k)."),
+        "from": (Number(above=1.0), "1.5", "Least peak velocity B, above 1."),
+        "to": (Number(above=1.0), "2", "Greatest peak velocity B."),
+        "steps": (Whole(1), "11", "How many values of B."),
     },
 }
+TYPES = {name: number[0] for table in _TABLES.values() for name, number in table.items()}
+ABOUT = {name: f"{number[2][:-1]} ({kinds})." for kinds, table in _TABLES.items() for name, number in table.items()}
 
 
-def numbers_of(kind: str) -> list[str]:
-    """The names of the numbers of a kind of file.
+def numbers_of(kind: str) -> dict[str, str | None]:
+    """The numbers of a kind of file by their names, as they are unless given.
 
     >>> numbers_of("study")
-    ['minimise', 'degree', 'from', 'to', 'steps']
+    {'minimise': 'C', 'degree': '9', 'from': '1.5', 'to': '2', 'steps': '11'}
     """
-    return [name for kinds, numbers in NUMBERS.items() if kind in kinds.split(", ") for name in numbers]
+    tables = (table for kinds, table in _TABLES.items() if kind in kinds.split(", "))
+    return {name: usual for table in tables for name, (_, usual, _) in table.items()}

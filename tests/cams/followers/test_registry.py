@@ -21,7 +21,6 @@ MAKERS = {
     "cams/least_sizes.py": {"TranslatingRoller"},
     "jobs/cam.py": {"TranslatingRoller"},
     "explorer/views/cam_view.py": {"translating roller"},
-    "jobs/starters/starter.py": {"TranslatingRoller"},
 }
 
 
