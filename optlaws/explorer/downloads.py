@@ -264,7 +264,9 @@ VIEWS = {
     "machine": ViewFiles(cycle_view.CycleRequest, _CYCLE, cycle_view.cycle),
     "axes": ViewFiles(cycle_view.CycleRequest, _CYCLE | _AXES, cycle_view.cycle),
     "cam": ViewFiles(
-        cycle_view.CycleRequest, {"problem": _study("cam.toml"), **_CUT}, lambda request: cam_view.result_of(request).cam
+        cycle_view.CycleRequest,
+        {"problem": _study("cam.toml"), **_CUT},
+        lambda request: cam_view.result_of(request).cam,
     ),
     "advice": ViewFiles(cycle_view.CycleRequest, {}, advice_view.advice_of),
     "fastest": ViewFiles(cycle_view.CycleRequest, _FASTEST, fastest_view.fastest_of),
