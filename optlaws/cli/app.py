@@ -7,7 +7,7 @@ import re
 import sys
 import warnings
 from collections.abc import Sequence
-from contextlib import AbstractContextManager, nullcontext
+from contextlib import nullcontext
 from inspect import cleandoc
 from pathlib import Path
 from typing import Any
@@ -79,29 +79,27 @@ app = application()
 class NotProven(OptlawsError):  # noqa: N818
     """A file claims something that is false or not proven; the message names the claim."""
 
+    code = NOT_PROVEN
 
-class PartlyChecked(OptlawsError):  # noqa: N818
+
+class PartlyChecked(NotProven):
     """Nothing of a file is false, and some of it was only computed again in doubles; the message names that."""
+
+    code = PARTLY_CHECKED
 
 
 def exit_code(arguments: Sequence[str]) -> int:
     """Run the command and return its exit code; an error is one clear text on stderr."""
-    given = [argument for argument in arguments if argument != FORCE]
     try:
-        with warnings.catch_warnings(), _forced(arguments):
+        with warnings.catch_warnings():
             warnings.showwarning = _warn
-            listing = not given or given[0] in _HELP
-            commands = application(described=True) if listing else app
-            if not listing and given[0] in RETIRED:
-                raise InputError(f"there is no command {given[0]} any more: {RETIRED[given[0]]}")  # noqa: TRY301
-            with nullcontext() if listing else _files_of(given):
-                commands(given, exit_on_error=False, print_error=False, result_action="return_none")
+            _run([argument for argument in arguments if argument != FORCE], force=FORCE in arguments)
     except (CycloptsError, InputError) as error:
         text, code = cut(_plain(error)), BAD_INPUT
     except InfeasibleProblem as error:
         text, code = f"infeasible: {error}", INFEASIBLE
-    except (NotProven, PartlyChecked) as error:
-        text, code = str(error), PARTLY_CHECKED if isinstance(error, PartlyChecked) else NOT_PROVEN
+    except NotProven as error:
+        text, code = str(error), error.code
     except OptlawsError as error:
         text, code = str(error), SOLVER_FAILURE
     except BrokenPipeError:
@@ -125,22 +123,18 @@ def _plain(error: CycloptsError | InputError) -> str:
     return str(error)
 
 
-def _forced(arguments: Sequence[str]) -> AbstractContextManager[None]:
-    """What every command writes goes over files with other contents where `--force` is among its arguments."""
-    if FORCE not in arguments:
-        return nullcontext()
-    from optlaws.files.writing import forced
+def _run(arguments: list[str], *, force: bool) -> None:
+    """Run the command; it writes all files or, on an error, none, but a study resumes, and what is unproven stays."""
+    if not arguments or arguments[0] in _HELP:
+        application(described=True)(arguments, result_action="return_none")
+        return
+    if arguments[0] in RETIRED:
+        raise InputError(f"there is no command {arguments[0]} any more: {RETIRED[arguments[0]]}")
+    from optlaws.files.writing import all_or_none, forced
 
-    return forced()
-
-
-def _files_of(arguments: Sequence[str]) -> AbstractContextManager[None]:
-    """All files of a command or, on an error, none; but those of a study, which resumes, and what is not all proven."""
-    if arguments[:1] == ["study"]:
-        return nullcontext()
-    from optlaws.files.writing import all_or_none
-
-    return all_or_none(but=(NotProven,))
+    resumes = arguments[0] == "study"
+    with forced() if force else nullcontext(), nullcontext() if resumes else all_or_none(but=(NotProven,)):
+        app(arguments, exit_on_error=False, print_error=False, result_action="return_none")
 
 
 def _warn(message: Warning | str, *_: Any, **__: Any) -> None:

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 from cyclopts import Parameter, Token
 
-import optlaws
 from optlaws.cli.options import options
 from optlaws.echo import shortened
 from optlaws.errors import InputError
@@ -84,34 +83,26 @@ LIMITS: dict[str, Any] = {
 }
 
 
-def read_law(
-    text: str,
-    alpha: float | None = None,
-    B: float | None = None,
-    *,
-    by: str = "",
-    points: Mapping[str, Any] | None = None,
-) -> optlaws.MotionLaw:
-    """The law of a text, as every command takes it; a family I to IV may have its member by alpha, or B, beside it.
+def named(text: str, alpha: float | None, B: float | None, by: str) -> str:
+    """The name of a member, where a family I to IV has its alpha or its B beside it, by options; any other as it is.
 
-    `by` are the options that choose a member; `points` are the values of those of a table of points.
-
-    >>> read_law("iii", alpha=7.2) == read_law("III(7.2)")
-    True
+    >>> named("iii", 7.2, None, "--alpha")
+    'III(7.2)'
     """
     from optlaws.laws.catalogue import reading
+    from optlaws.laws.savin import SavinFamily
 
     family = reading.family_of(text)
-    if alpha is None and B is None:
-        if family is not None and by:
-            low, high = map(float, optlaws.SavinFamily.of(family).range)
-            raise InputError(f"laws of family {family} need {by}: alpha is from {low:.9g} to {high:.9g}")
-        return reading.read_law(text, **points or {})
-    if family is None:
-        raise InputError(
-            f"{by} choose a member of a family I, II, III or IV, and no other takes it, got {shortened(text)}"
-        )
-    return optlaws.savin(family, alpha, B=B)
+    if (family is None) != (alpha is None and B is None):
+        if family is None:
+            raise InputError(
+                f"{by} choose a member of a family I, II, III or IV, and no other takes it, got {shortened(text)}"
+            )
+        low, high = map(float, SavinFamily.of(family).range)
+        raise InputError(f"laws of family {family} need {by}: alpha is from {low:.9g} to {high:.9g}")
+    if alpha is not None and B is not None:
+        raise InputError(f"a member has one of {by}, got alpha and B")
+    return text if family is None else f"{family}({f'B={B!r}' if alpha is None else repr(alpha)})"
 
 
 def read_axes(file: Path, axis: str | None) -> dict[str, Cycle]:

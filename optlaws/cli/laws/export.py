@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from cyclopts import Parameter
 
-from optlaws.cli.law_options import TABLE, read_axes, read_law
+from optlaws.cli.law_options import TABLE, read_axes
 from optlaws.cli.options import Written, given, options, takes
 from optlaws.cli.show import Answer, exported
 from optlaws.errors import InputError
@@ -87,12 +87,13 @@ def export(
 
 def _motion(law: str, axis: str | None, move: Mapping[str, Any], points: Mapping[str, Any]) -> Motion:
     from optlaws.files.packaged import is_problem
+    from optlaws.laws.catalogue.reading import read_law
     from optlaws.motion.motion import motion_of_law
 
     if not is_problem(law):
         if axis is not None:
             raise InputError("--axis is one of a problem file with several; a law has none")
-        return motion_of_law(read_law(law, points=points), **move)
+        return motion_of_law(read_law(law, **points), **move)
     for option in given({**move, **points, "master": None}):
         raise InputError(f"--{option} is of a law alone: a cycle has its own")
     cycles = read_axes(Path(law), axis)

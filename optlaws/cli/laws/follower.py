@@ -7,10 +7,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import optlaws
-from optlaws.cli.law_options import FollowerFrequency, read_law
+from optlaws.cli.law_options import FollowerFrequency, named
 from optlaws.cli.options import given, options, takes
 from optlaws.cli.show import Answer
 from optlaws.errors import InputError
+from optlaws.laws.catalogue.reading import read_law
 from optlaws.motion.quantities import quantity, read_stroke
 from optlaws.shown.report import ReportTable
 from optlaws.shown.summary import Row, Summary
@@ -78,7 +79,7 @@ def follower(
     mass = _follower(frequency, given(vibration), times, damping)
     if height is not None:
         read_stroke(height)
-    reference = cam = read_law(law, alpha, by="--alpha")
+    reference = cam = read_law(named(law, alpha, None, "--alpha"))
     if design_frequency is None and design_damping is not None:
         raise InputError("--design-damping needs --design-frequency")
     if design_frequency is not None:

@@ -8,7 +8,7 @@ from typing import Annotated, Any
 from cyclopts import Parameter
 
 import optlaws
-from optlaws.cli.law_options import TABLE, read_law
+from optlaws.cli.law_options import TABLE, named
 from optlaws.cli.laws.catalogue import continuous
 from optlaws.cli.options import Whole, Written, takes
 from optlaws.cli.show import Answer
@@ -53,6 +53,7 @@ def law(
         How many lines for --csv; 201 unless given.
     """
     from optlaws.files import writing
+    from optlaws.laws.catalogue import reading
     from optlaws.laws.values import LETTERS, SAMPLES, table_of_values
 
     if samples is not None and csv is None:
@@ -63,13 +64,14 @@ def law(
     elif z is not None or order is not None:
         raise InputError(f"--z and --order make a law of their own: leave out {name!r}, or them")
     else:
-        motion_law = read_law(name, alpha, peak_velocity, by="--alpha or --peak-velocity", points=points)
-        about = _about(name, alpha, peak_velocity, motion_law)
+        name = named(name, alpha, peak_velocity, "--alpha or --peak-velocity")
+        motion_law = reading.read_law(name, **points)
+        about = _about(name, motion_law)
     with located("--at"):
         values = [{"k": k, **{letter: getattr(motion_law, letter)(k) for letter in LETTERS}} for k in at or ()]
     if csv is not None:
         writing.write(csv, table_of_values(motion_law, name or about["name"], SAMPLES if samples is None else samples))
-    return Answer(lambda: _shown(about, motion_law, values), lambda: {**about, "at": values}, motion_law.plot)
+    return Answer(lambda: _shown(about, motion_law, at or []), lambda: {**about, "at": values}, motion_law.plot)
 
 
 def _polynomial(z: str | None, order: int | None) -> optlaws.MotionLaw:
@@ -83,15 +85,13 @@ def _polynomial(z: str | None, order: int | None) -> optlaws.MotionLaw:
     return optlaws.law_from_z(optlaws.BoundaryConditions.rest(order), powers)
 
 
-def _about(name: str, alpha: float | None, B: float | None, motion_law: optlaws.MotionLaw) -> dict[str, Any]:
+def _about(name: str, motion_law: optlaws.MotionLaw) -> dict[str, Any]:
     from optlaws.laws.catalogue import reading
 
-    family = reading.family_of(name)
-    member = (optlaws.SavinFamily.of(family), alpha) if family is not None else reading.member(name)
+    member = reading.member(name)
     if member is not None:
-        savin, given = member
-        known = given if given is not None else savin.alphas(B=B)[0]
-        return {"name": f"Savin's {savin}", "alpha": known, "order": savin.order, **motion_law.report().data}
+        family, alpha = member
+        return {"name": f"Savin's {family}", "alpha": alpha, "order": family.order, **motion_law.report().data}
     if reading.is_file(name) or reading.is_formula(name):
         return _facts(name if reading.is_formula(name) else f"the law in {name}", motion_law)
     return optlaws.catalogue[name].to_dict()
@@ -103,12 +103,12 @@ def _facts(name: str, motion_law: optlaws.MotionLaw) -> dict[str, Any]:
     return {"name": name, **motion_law.report().data, "continuity": continuity_with_rest(motion_law)}
 
 
-def _shown(about: Mapping[str, Any], motion_law: optlaws.MotionLaw, values: list[dict[str, float]]) -> Iterator[Any]:
-    from optlaws.laws.values import sizes
-    from optlaws.numbers import chop
+def _shown(about: Mapping[str, Any], motion_law: optlaws.MotionLaw, at: list[float]) -> Iterator[Any]:
+    import numpy as np
+
+    from optlaws.laws.values import LETTERS, values
     from optlaws.shown.report import ReportTable
     from optlaws.shown.summary import Row, Summary
-    from optlaws.tolerances import VALUE_ROUNDING
 
     facts = {"law": about["name"], "alpha": about.get("alpha"), "order l": about.get("order")}
     if "source" in about:
@@ -119,10 +119,6 @@ def _shown(about: Mapping[str, Any], motion_law: optlaws.MotionLaw, values: list
         facts["continuous"] = continuous(about["continuity"])
     known = [Row(name, value) for name, value in facts.items() if value is not None]
     yield Summary([*known, *motion_law.constants.summary()], at="k")
-    if values:
-        most = (1.0, *sizes(motion_law))
-        rows = [
-            [chop(value, size, VALUE_ROUNDING) for value, size in zip(row.values(), most, strict=True)]
-            for row in values
-        ]
-        yield ReportTable(list(values[0]), [[f"{value:.10g}" for value in row] for row in rows])
+    if at:
+        rows = zip(at, *values(motion_law, np.array(at)), strict=True)
+        yield ReportTable(["k", *LETTERS], [[f"{value:.10g}" for value in row] for row in rows])

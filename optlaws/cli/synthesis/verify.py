@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from optlaws.cli.app import NotProven, PartlyChecked
 from optlaws.cli.options import takes
@@ -45,7 +45,7 @@ def verify(*files: Path) -> Answer:
     )
 
 
-def _failure(verifications: Mapping[str, Verification]) -> NotProven | PartlyChecked | None:
+def _failure(verifications: Mapping[str, Verification]) -> NotProven | None:
     """What is not proven or, if nothing is false, what was only computed again."""
     every = verifications.items()
     failed = [f"{name}: {claim}" for name, each in every for claim in each.claims if not claim.proven]
@@ -59,6 +59,7 @@ def _verified(file: Path) -> dict[str, Verification]:
     """The verifications of a file; of results that optlaws wrote without proofs, of their laws alone."""
     from optlaws.files import reading
     from optlaws.files.writing import MARK
+    from optlaws.verification import verify as verify_one
     from optlaws.verification import verify_all
     from optlaws.verification.file_entries import contradictions, holds_proof, laws_within
     from optlaws.verification.result import Claim
@@ -80,20 +81,16 @@ def _verified(file: Path) -> dict[str, Verification]:
         ):
             text = str(error)
             raise InputError(text if str(file) in text else f"{file}: {text}") from None
+    parts: dict[str, Verification] = {}
+    for place, law in laws_within(about):
+        try:
+            parts[place] = verify_one(law)
+        except InputError as error:
+            parts[place] = _unchecked("the law", str(error))
     names = ", ".join(name for name, value in about.items() if name not in {"about", "unit"} and value is not None)
     why = "results without proofs, which the file of --output, the explorer and to_dict() of a solution have"
     claims = [Claim(place, proven=False, detail=detail) for place, detail in contradictions(about)]
-    whole = _unchecked("the file", f"{why}; nothing but laws is computed again of: {names}", claims)
-    return {**{place: _law(law) for place, law in laws_within(about)}, "": whole}
-
-
-def _law(data: Mapping[str, Any]) -> Verification:
-    from optlaws import verification
-
-    try:
-        return verification.verify(data)
-    except InputError as error:
-        return _unchecked("the law", str(error))
+    return parts | {"": _unchecked("the file", f"{why}; nothing but laws is computed again of: {names}", claims)}
 
 
 def _unchecked(name: str, why: str, claims: Sequence[Claim] = ()) -> Verification:
