@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import importlib
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from itertools import chain, groupby
 from math import isfinite
 from time import perf_counter
@@ -37,7 +38,8 @@ Run = Sequence[tuple[int, Inputs]]
 _encode = msgspec.json.encode
 
 
-class Task(msgspec.Struct, kw_only=True):
+@dataclass(frozen=True, kw_only=True)
+class Task:
     """A chunk of points as plain data: the shared entries of their problems and what varies, by index."""
 
     chunk: int
@@ -45,7 +47,7 @@ class Task(msgspec.Struct, kw_only=True):
     points: list[tuple[int, dict[str, Any]]]
     bound: Bound = "quick"
     time_limit: float = 60.0
-    imports: list[str] = []
+    imports: tuple[str, ...] = ()
     alone: bool = False
 
 

@@ -16,6 +16,7 @@ from collections import Counter
 from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import Executor, Future, ThreadPoolExecutor
 from contextlib import contextmanager, suppress
+from dataclasses import replace
 from queue import Empty, SimpleQueue
 from threading import Lock, Thread
 from time import monotonic
@@ -156,7 +157,7 @@ class Processes:
                 continue
             if not task.alone:
                 # of points that are solved together nobody knows which one it was
-                task, strikes = msgspec.structs.replace(task, alone=True), Counter()
+                task, strikes = replace(task, alone=True), Counter()
                 continue
             if lost.late:
                 row = failed(task, place, Status.TIME_LIMIT, f"no answer within {task.time_limit:g} s", task.time_limit)

@@ -10,6 +10,7 @@ import shutil
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
+from dataclasses import dataclass
 from functools import lru_cache
 from itertools import islice
 from pathlib import Path
@@ -137,7 +138,8 @@ class Chunks:
         self.done.add(number)
 
 
-class _About(msgspec.Struct):
+@dataclass(frozen=True)
+class _About:
     """Required entries of `study.json`."""
 
     title: str

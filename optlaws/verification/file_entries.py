@@ -88,6 +88,8 @@ _KNOWN: dict[str, dict[str, ValueType]] = {
     },
 }
 
+_NEEDED = {"the solution": ("problem", "law", "certificate"), "the front": ("over", "values", "points")}
+
 
 @dataclass(frozen=True)
 class Around:
@@ -203,6 +205,8 @@ def _stated(data: Data, kind: str, path: str = "") -> dict[str, Any]:
         if key not in types:
             raise InputError(f"{name}: {unknown_key(key, types, 'entry')}; leave out what is not checked")
     given = {key: value for key, value in data.items() if value is not None}
+    if missing := [key for key in _NEEDED.get(kind, ()) if key not in given]:
+        raise InputError(f"{name} needs {', '.join(missing)}")
     with located(name):
         return dict.fromkeys(types) | {key: types[key].read(value, key) for key, value in given.items()}
 
@@ -280,7 +284,7 @@ def _no_law(row: Data, path: str) -> Iterator[tuple[str, FileEntry]]:
 
 
 def _front(front: Data, path: str) -> Iterator[tuple[str, FileEntry]]:
-    over, values_of_points, points = (front[name] or () for name in ("over", "values", "points"))
+    over, values_of_points, points = front["over"], front["values"], front["points"]
     if len(values_of_points) != len(points) or any(len(row) != len(over) for row in values_of_points):
         raise InputError(f"{path or 'the front'}: values must be as many as points, one for each of {list(over)}")
     if len(set(over)) < len(over):

@@ -1,6 +1,7 @@
 """Points that are solved together: the rows are those of each alone, and each has its share of the time."""
 
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 from time import perf_counter
 from typing import Any
@@ -146,7 +147,7 @@ def test_any_number_may_run_and_the_rows_are_those_of_each_alone(weights: list[f
     many = solved(one)
     (alone,) = tasks(asked, alone=True)
     picked = [0, 129, length, length + 40, 2 * length - 1]
-    turned = msgspec.structs.replace(alone, points=[alone.points[i] for i in picked])
+    turned = replace(alone, points=[alone.points[i] for i in picked])
     for i, row in zip(picked, solved(turned), strict=True):
         assert all(many[i][name] == row[name] for name in ("index", "key", "inputs", "status"))
         assert (many[i]["error"] is None) == (row["error"] is None)

@@ -42,6 +42,7 @@ def without_ground() -> dict[str, tuple[Data, str]]:
         ),
         "another status": (local | {"status": "PROVEN OPTIMAL"}, "'PROVEN OPTIMAL'"),
         "several statuses": (local | {"status": ["optimal"]}, "the solution: unknown status ['optimal']"),
+        "a certificate beside a law": (law | {"certificate": whole["certificate"]}, "the solution needs problem"),
         "a solution in a law": (law | {"inner": whole | {"objective": 1.0}}, "the law: unknown entry 'inner'"),
         "a solution in a solution": (whole | {"better": whole | {"objective": 1.0}}, "unknown entry 'better'"),
         "a claim in a certificate": (whole["certificate"] | {"gap": 0.0}, "unknown field `gap`"),
