@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from optlaws.errors import InputError
 from optlaws.plots.style import BLUES, DISTINCT, GREEN, GREY, WARM, new_figure, plot_style, titled
 
 if TYPE_CHECKING:
@@ -19,6 +20,7 @@ _COLOURS = (BLUES[3], GREY, WARM, GREEN, BLUES[1])
 _HEIGHT = 1.9
 #: more points are drawn as pixels
 _VECTORS = 2_000
+_DRAWN = 20_000
 
 
 def sweep_figure(headings: Sequence[str], rows: Sequence[Sequence[Cell]], title: str) -> Figure:
@@ -57,10 +59,19 @@ def _places(values: Sequence[Any]) -> tuple[Array, list[str] | None]:
     return np.array([names.index(str(value)) for value in values], dtype=np.float64), names
 
 
-def points_figure(
-    entries: Mapping[str, Sequence[Any]], objective: Array, peaks: Mapping[str, Array], title: str
-) -> Figure:
-    """The objective and the peaks of points over their entry of most values, coloured by the next entry."""
+def points_figure(study: Iterable[Any], place: str, title: str) -> Figure:
+    """The objective and the peaks of a study's points over their entry of most values, coloured by the next entry.
+
+    Drawn are those that have a law; of many, evenly spaced ones.
+    """
+    solved = [point for point in study if point.objective is not None]
+    if not solved:
+        raise InputError(f"{place} has no point with a law yet: there is nothing to draw")
+    solved = solved[:: -(-len(solved) // _DRAWN)]
+    entries = {entry: [point.inputs[entry] for point in solved] for entry in solved[0].inputs}
+    objective, *peaks = (
+        np.array([getattr(point, of) for point in solved], dtype=float) for of in ("objective", *"BCDJ")
+    )
     along, *others = sorted(entries, key=lambda name: -len(set(map(str, entries[name]))))
     places, names = _places(entries[along])
     colours, named = _places(entries[others[0]]) if others else (np.zeros(len(places)), None)
@@ -70,7 +81,7 @@ def points_figure(
     known = (places, objective)
     results = {"objective": objective} | {
         name: peak
-        for name, peak in peaks.items()
+        for name, peak in zip("BCDJ", peaks, strict=True)
         if np.isfinite(peak).any() and not any(np.allclose(peak, each) for each in known)
     }
     with plot_style():

@@ -15,6 +15,8 @@ from optlaws.extras import needed
 from optlaws.files.reading import check_names
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
+from optlaws.shown.report import PlainReport, Report, ReportTable, report_page
+from optlaws.shown.summary import Row, Summary
 from optlaws.studies.points import StudyPoints
 from optlaws.studies.store import GROUP, Chunks, StudyDirectory
 from optlaws.studies.tables import CONSTANTS, StudyPoint, arrow, dataset, row_of, schema
@@ -193,18 +195,23 @@ class Study:
         needed("xarray", "to_xarray")
         return dataset(self, self._points, self.about)
 
-    def _repr_html_(self) -> str:
-        from optlaws.shown.showing import facts, page, table
-
+    def report(self) -> Report:
+        """How many points are done, by status, and the first of them."""
+        counts, total, running = self.counts, len(self), self.running
+        done = sum(counts.values())
+        state = "finished" if done == total else "under way" if running else "interrupted: run the same command again"
+        facts = [Row(str(self.path), f"{done} of {total} points", note=state)]
+        facts += [Row(status.value, float(count)) for status, count in counts.items()]
         lines = [
-            [*point.inputs.values(), point.status, *(getattr(point, name) for name in CONSTANTS)]
+            [*point.inputs.values(), point.status.value, *(getattr(point, name) for name in CONSTANTS)]
             for point in islice(self, _SHOWN)
         ]
-        done = {
-            "done": f"{sum(self.counts.values())} of {len(self)}",
-            **{status.value: count for status, count in self.counts.items()},
-        }
-        return page(self.about["title"], facts(done), table((*self.file.names(), "status", *CONSTANTS), lines))
+        table = ReportTable((*self.file.names(), "status", *CONSTANTS), lines)
+        known = {"path": str(self.path), "points": total, "done": done, "running": running, "counts": counts}
+        return PlainReport(Summary(facts), [table], (), lambda: {**self.about, **known})
+
+    def _repr_html_(self) -> str:
+        return report_page(self.about["title"], self.report())
 
     def __repr__(self) -> str:
         counts = ", ".join(f"{number} {status}" for status, number in self.counts.items())

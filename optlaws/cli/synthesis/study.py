@@ -8,20 +8,13 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 import optlaws
 from optlaws.cli.options import Whole, takes
 from optlaws.cli.show import Answer, progress
 from optlaws.errors import InputError
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
     from optlaws.studies.study import Study
-
-_PEAKS = ("B", "C", "D", "J")
-_DRAWN = 20_000
 
 
 @takes("Draw objective and peaks of the finished points over the entry of most values into this file, PNG or SVG.")
@@ -87,26 +80,6 @@ def _cluster(address: str | None) -> Iterator[tuple[Executor | None, int | None]
 
 
 def _answer(study: Study) -> Answer:
-    from optlaws.studies.progress import listed
-
-    counts, total, running = study.counts, len(study), study.running
-    done = sum(counts.values())
-    state = "finished" if done == total else "under way" if running else "interrupted: run the same command again"
-    data = {"path": str(study.path), "points": total, "done": done, "running": running, "counts": counts}
-    lines = [f"{study.path}: {done} of {total} points, {state}", *([listed(counts)] if counts else [])]
-    return Answer(lambda: lines, lambda: {**study.about, **data}, lambda: _drawn(study))
-
-
-def _drawn(study: Study) -> Figure:
-    """Draw the points that have a law; of many, evenly spaced ones."""
     from optlaws.plots.sweep import points_figure
 
-    solved = [point for point in study if point.objective is not None]
-    if not solved:
-        raise InputError(f"{study.path} has no point with a law yet: there is nothing to draw")
-    solved = solved[:: -(-len(solved) // _DRAWN)]
-    entries = {name: [point.inputs[name] for point in solved] for name in solved[0].inputs}
-    objective, *peaks = (
-        np.array([getattr(point, name) for point in solved], dtype=np.float64) for name in ("objective", *_PEAKS)
-    )
-    return points_figure(entries, objective, dict(zip(_PEAKS, peaks, strict=True)), study.about["title"])
+    return Answer.of(study.report(), lambda: points_figure(study, str(study.path), study.about["title"]))
