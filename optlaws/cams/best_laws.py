@@ -262,7 +262,7 @@ def _with_solutions(cycle: Cycle) -> Solved:
     """The pieces of a cycle, each with the solution of its problem if its law is optimal."""
     if not cycle.solutions:
         raise InputError("cycle: none of its laws is optimised: leave the law of a move out, or give law='optimal'")
-    if OBJECTIVES[cycle.minimise][0] < 0:
+    if not OBJECTIVES[cycle.minimise][0].order:
         raise InputError(f"cycle: minimise a peak or a root mean square of the motion, not the {cycle.minimise}")
     known = {id(solution.law): solution for solution in cycle.solutions}
     return [SolvedPiece(piece, known.get(id(piece.law))) for piece in cycle.pieces]
@@ -353,7 +353,8 @@ def _objective(cycle: Cycle, solved: Solved) -> float:
 
 def _total(cycle: Cycle, solved: Solved) -> float:
     """The objective of a cycle whose pieces have their lower bounds, or else the constants of their laws."""
-    (nu, mean), sizes = OBJECTIVES[cycle.minimise], []
+    (kind, mean), sizes = OBJECTIVES[cycle.minimise], []
+    nu = kind.order
     for piece, solution, bound in solved:
         constant = solution.lower_bound if solution is not None and bound is None else bound
         if constant is None:

@@ -19,20 +19,16 @@ from optlaws.cycles.optimisation.bounds import bound_of, is_exact
 from optlaws.cycles.optimisation.drive_formulas import known_drive
 from optlaws.cycles.optimisation.durations import durations
 from optlaws.cycles.optimisation.joint_limits import check_limits_at_joints
-from optlaws.cycles.optimisation.motion_limits import FORCE, POWER, LimitTaken, both_sides, read_limits, tightest
+from optlaws.cycles.optimisation.motion_limits import LimitTaken, both_sides, read_limits, tightest
 from optlaws.cycles.optimisation.motor_limits import MOTOR, motor_limits
 from optlaws.cycles.optimisation.objectives import (
-    LOADED,
     OBJECTIVES,
     SUMS,
     CycleObjective,
     check_objective,
     kind_of,
-    least_of,
     limits_of_stretch,
-    read_energy,
     read_load_limits,
-    read_mean_force,
 )
 from optlaws.cycles.optimisation.search_spaces import remark_on_degrees, search_space
 from optlaws.cycles.optimisation.shared_limits import Best, best_of
@@ -57,6 +53,7 @@ from optlaws.mechanisms.machine.machine import Machine
 from optlaws.mechanisms.machine.over_time import RepeatedMotion
 from optlaws.motion.piece import Piece, by_pieces
 from optlaws.motion.quantities import TURN, quantity
+from optlaws.motion.quantity_kinds import Kind
 from optlaws.numbers import MOST_DEGREE, Array, Quantity, derivative, number_or_array, real_times
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.solution import Solution
@@ -300,19 +297,19 @@ class Cycle(CycleInterchange):
         (21.991149, 9.522447)
         """
         check_objective(name, self._load)
-        nu, mean = kind_of(name)
-        if nu == LOADED:
+        kind, mean = kind_of(name)
+        if kind is Kind.LOAD:
             output = name.removeprefix("rms ").removeprefix(LOAD)
             return self.load_motion.rms(output) if mean else self.load_motion.peak(output).value
-        if nu == POWER:
+        if kind is Kind.POWER:
             return self.effort.peak_power
-        if nu == FORCE:
+        if kind is Kind.FORCE:
             return self.effort.rms_force if mean else self.effort.peak_force
-        if nu in SUMS:
-            return total(self.pieces, nu, known_drive(self._drive))
+        if kind in SUMS:
+            return total(self.pieces, kind, known_drive(self._drive))
         if not mean:
-            return max(peak.peak(nu) for peak in self.peaks)
-        return sqrt(sum(piece.duration * piece.mean_square(nu) for piece in self.pieces) / self.duration)
+            return max(peak.peak(kind.order) for peak in self.peaks)
+        return sqrt(sum(piece.duration * piece.mean_square(kind.order) for piece in self.pieces) / self.duration)
 
     @property
     def limits_taken(self) -> tuple[LimitTaken, ...]:
@@ -557,7 +554,7 @@ class Cycle(CycleInterchange):
         period = period_of(speed, None)
         segments = self._timed.at_speed(period / self.duration)
         # laws that are known leave nothing of a load to look for
-        minimise = "acceleration" if kind_of(self.minimise)[0] == LOADED else self.minimise
+        minimise = "acceleration" if kind_of(self.minimise)[0] is Kind.LOAD else self.minimise
         return replace(self, segments=segments, speed=None, period=f"{period!r} s", minimise=minimise, limits={})
 
     def with_solutions(self, solutions: Sequence[Solution]) -> Cycle:
@@ -749,7 +746,7 @@ class Cycle(CycleInterchange):
         """
         limits = (limits_of_stretch(stretch, self._cycle_objective, self.axis) for stretch in self.programme.stretches)
         return tuple(
-            {} if isinstance(stretch.given, Dwell) else both_sides(limited)
+            {} if isinstance(stretch.given, Dwell) else {kind.value: ends for kind, ends in both_sides(limited).items()}
             for limited, stretch in zip(limits, self.programme.stretches, strict=True)
         )
 
@@ -784,14 +781,12 @@ class Cycle(CycleInterchange):
         motor = motor_limits(self.limits, self._drive, self.programme)
         return CycleObjective(
             self.minimise,
-            tightest(read_limits(self.limits, self.axis, "limits"), motor.of_motions),
+            tightest(read_limits(self.limits, self.axis, "limits"), motor),
             self.order,
             self.degree,
             self._drive,
             self._load,
             read_load_limits(self.limits, self._load),
-            least_of(read_mean_force(self.limits, self.axis), motor.mean_torque),
-            read_energy(self.limits),
         )
 
     @kept_property

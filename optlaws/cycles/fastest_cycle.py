@@ -9,12 +9,13 @@ from typing import Any
 
 from optlaws.cycles.greatest_speed.fastest_search import FastestSearch, TimedSpan
 from optlaws.cycles.kinematics import TimedCycle
-from optlaws.cycles.optimisation.motion_limits import CURVE, amount, word_of
+from optlaws.cycles.optimisation.motion_limits import amount, word_of
 from optlaws.cycles.optimisation.motor_limits import MOTOR
 from optlaws.cycles.optimisation.objectives import CycleObjective
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.motion.quantities import TURN
+from optlaws.motion.quantity_kinds import Kind
 from optlaws.sentences import Amount, joined, sentence
 from optlaws.shown.summary import Row, Summary
 from optlaws.synthesis.proof.certificate import VIOLATION, Certificate
@@ -253,7 +254,7 @@ def _least_duration(search: FastestSearch, span: TimedSpan) -> LeastDuration:
     axis = search.programme.axis
     limits = (
         "motor's curve"
-        if row.key == CURVE
+        if row.key.kind is Kind.CURVE
         else sentence("{} {}", word_of(row.key, axis), amount(row.key, row.most, axis))
         for row in span.least.binding
     )

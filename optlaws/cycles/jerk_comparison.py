@@ -24,7 +24,7 @@ def usual_jerk(spans: Iterable[LawSpan], objective: CycleObjective, axis: str) -
     greatest = 0.0
     for span in spans:
         keys = limits_of_stretch(span.stretches[0], objective, axis)
-        bounded = any((key if isinstance(key, int) else getattr(key, "nu", 0)) >= _JERK for key in keys)
+        bounded = any(key.kind.order >= _JERK for key in keys)
         if bounded or span.via or len(span.stretches) > 1 or (span.first, span.last) != (_REST, _REST):
             return None
         stroke = abs(span.displacement)

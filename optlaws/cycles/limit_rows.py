@@ -11,20 +11,16 @@ import numpy as np
 
 from optlaws.cycles.optimisation.drive_formulas import known_drive
 from optlaws.cycles.optimisation.motion_limits import (
-    CURVE,
-    FORCE,
     FORCES,
-    POWER,
-    LimitKey,
     LimitTaken,
-    OneSided,
+    Side,
     amount,
     limits_of_segment,
     name_of,
     read_limits,
 )
 from optlaws.cycles.optimisation.motor_limits import MOTOR
-from optlaws.cycles.optimisation.objectives import read_energy, read_load_limits, read_mean_force
+from optlaws.cycles.optimisation.objectives import read_load_limits
 from optlaws.cycles.specification.load import read_load
 from optlaws.cycles.specification.process import is_process
 from optlaws.cycles.specification.programme import TimedSegment, is_optimal
@@ -34,22 +30,23 @@ from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.mechanisms.drives.effort import PieceEffort
 from optlaws.mechanisms.drives.sheet import share_used
 from optlaws.motion.piece import Piece, jump_beside, unit_of
+from optlaws.motion.quantity_kinds import Kind
 from optlaws.numerics.peaks import is_kept
 from optlaws.sentences import Amount, joined, sentence
 from optlaws.shown.summary import Row
+from optlaws.tolerances import AGREEMENT
 
 #: a `Cycle`, which knows this module
 AnyCycle: TypeAlias = Any
 
-_JERK, _SNAP = 3, 4
-_DRIVEN = (FORCE, POWER, CURVE)
+_JERK = 3
 _OF_MOTOR = {"speed": "rad/s", "torque-speed curve": ""}
 
 
 class _Taken(NamedTuple):
     """The use of a limit by a segment, with the key of the limit and the time."""
 
-    key: LimitKey
+    key: Side
     taken: LimitTaken
     time: float | None
     stretch: TimedSegment
@@ -85,7 +82,7 @@ def limits_taken(cycle: AnyCycle, limited: AnyCycle | None = None) -> tuple[Limi
     return (*(taken.taken for taken in _most(segments)), *_of_whole(cycle, given))
 
 
-def refuse_beyond(cycle: AnyCycle, of_cycle: Mapping[LimitKey, float]) -> None:
+def refuse_beyond(cycle: AnyCycle, of_cycle: Mapping[Kind, tuple[float, float]]) -> None:
     """Refuse given laws that break a limit of the cycle or of their segments.
 
     The cycle has its given laws alone; where no law is optimised, the limits of the whole are looked at as well.
@@ -114,14 +111,19 @@ def refuse_beyond(cycle: AnyCycle, of_cycle: Mapping[LimitKey, float]) -> None:
 def _reason(broken: _Taken, cycle: AnyCycle) -> str:
     """The limit that a given law breaks, and what helps."""
     key, taken, time, stretch = broken
-    nu = key if isinstance(key, int) else key.nu
+    nu = key.kind.order
     at = "" if time is None else sentence(" at {} of the master", Amount(360.0 * time / cycle.duration, "deg"))
     if not isfinite(taken.value):
         return sentence(
             "{}: its {} jumps{}, so that no time keeps the {} {}: take a smoother law, or leave that limit out",
             taken.where, "acceleration" if nu == _JERK else "law", at, taken.name, taken.text,
         )  # fmt: skip
-    longer = f"{taken.share ** (1.0 / nu):.6g} times as much time" if nu > 0 else "more time"
+    if key.kind is Kind.VELOCITY_ALONG:
+        return sentence(
+            "{}: it goes back at {}{}, which its velocity must not: give it another law, or a least velocity below 0",
+            taken.where, taken.value_text, at,
+        )  # fmt: skip
+    longer = f"{taken.share ** (1.0 / nu):.6g} times as much time" if nu else "more time"
     remedy = f"give it {longer}, a wider limit{', or another law' * isinstance(stretch.given, Move)}"
     if isinstance(stretch.given, Dwell):
         remedy = "allow more, or change the drive's spring, preload, gravity or friction"
@@ -156,7 +158,7 @@ def limit_rows(cycle: AnyCycle) -> list[Row]:
         Row(
             taken.name,
             taken.value,
-            unit_of(cycle.axis, key if isinstance(key, int) else key.nu),
+            unit_of(cycle.axis, key.kind.order),
             time,
             f"limit {taken.text} of {taken.where}",
         )
@@ -164,9 +166,9 @@ def limit_rows(cycle: AnyCycle) -> list[Row]:
     ]
 
 
-def _is_unshown(key: LimitKey) -> bool:
+def _is_unshown(key: Side) -> bool:
     """Whether the peaks of a cycle do not show what is limited."""
-    return isinstance(key, OneSided) or key == _SNAP
+    return bool(key.sign) or key.kind is Kind.SNAP
 
 
 def _in_place(cycle: AnyCycle) -> list[_InPlace]:
@@ -195,50 +197,52 @@ def _most(taken: Iterable[_Taken]) -> list[_Taken]:
 def _of_segments(
     placed: Iterable[_InPlace],
     limited: Sequence[TimedSegment],
-    of_cycle: Mapping[LimitKey, float],
+    of_cycle: Mapping[Kind, tuple[float, float]],
     axis: str,
     *,
-    keys: Callable[[LimitKey], bool] = lambda _: True,
+    keys: Callable[[Side], bool] = lambda _: True,
 ) -> Iterator[_Taken]:
     """The use of limits by segments, whose own are those of `limited`; rests take of those of a drive alone."""
     for each in placed:
         limits = limits_of_segment(limited[each.stretch.number - 1], of_cycle, axis)
         for key, limit in limits.items():
-            if keys(key) and (key in _DRIVEN or not isinstance(each.stretch.given, Dwell)):
+            if keys(key) and (key.kind.is_driven or not isinstance(each.stretch.given, Dwell)):
                 value, time = _greatest(each, key)
                 texts = (amount(key, size, axis) for size in (limit, value))
                 taken = LimitTaken(name_of(key, axis), each.stretch.where, value, limit, *texts)
                 yield _Taken(key, taken, time, each.stretch)
 
 
-def _greatest(placed: _InPlace, key: LimitKey) -> tuple[float, float | None]:
+def _greatest(placed: _InPlace, key: Side) -> tuple[float, float | None]:
     """The greatest magnitude in a segment on the side that a limit bounds, and its time where it has one."""
     stretch, piece, start, stop, _, jump = placed
-    if key in _DRIVEN:
-        return _greatest_of_drive(placed, key)
-    nu = key if isinstance(key, int) else key.nu
+    if key.kind.is_driven:
+        return _greatest_of_drive(placed, key.kind)
+    nu = key.kind.order
     if not isinstance(stretch.given, Move | Free):
         # straight: what its law has beside is rounding
         speed = stretch.displacement / (stop - start) if nu == 1 else 0.0
-        return (key.sign * speed if isinstance(key, OneSided) else abs(speed)), start
+        return max(key.sign * speed, 0.0) if key.sign else abs(speed), start
     if not is_optimal(stretch.given) and not isfinite(piece.law.peak(nu).value):
         return inf, piece.start + piece.law.peak(nu).k * piece.duration
     if nu >= _JERK and jump is not None:
         return inf, jump
     (low, first), (high, last) = piece.extremes(nu, start, stop)
-    if isinstance(key, OneSided):
-        return (high, last) if key.sign > 0.0 else (-low, first)
+    if key.sign:
+        value, time = (high, last) if key.sign > 0.0 else (-low, first)
+        still = key.kind is Kind.VELOCITY_ALONG and value <= AGREEMENT * max(high, -low)
+        return 0.0 if still else value, time
     before, after = sorted([(first, abs(low)), (last, abs(high))])
     return (before if is_kept(after[1], before[1]) else after)[::-1]
 
 
-def _greatest_of_drive(placed: _InPlace, key: LimitKey) -> tuple[float, float | None]:
+def _greatest_of_drive(placed: _InPlace, kind: Kind) -> tuple[float, float | None]:
     """The greatest force or power in a segment, or share of the motor's curve of torque over speed."""
     drive = known_drive(placed.drive)
     along = PieceEffort(drive, placed.piece, (placed.start, placed.stop))
-    if key == POWER:
+    if kind is Kind.POWER:
         return max(along.powers), None
-    if key == FORCE:
+    if kind is Kind.FORCE:
         return along.peak_force
     motor = drive.motor
     return along.parts.greatest(lambda times: share_used(np.abs(along.force(times)), motor.peak_at(along.speed(times))))
@@ -246,12 +250,12 @@ def _greatest_of_drive(placed: _InPlace, key: LimitKey) -> tuple[float, float | 
 
 def _of_whole(cycle: AnyCycle, limited: AnyCycle) -> Iterator[LimitTaken]:
     """The use of limits of the whole: of means and sums, of the motor, of the load."""
-    mean, energy = read_mean_force(limited.limits, cycle.axis), read_energy(limited.limits)
+    of_cycle = read_limits(limited.limits, cycle.axis, "limits")
     force, unit = FORCES[cycle.axis], "N" if cycle.axis == "length" else "N m"
-    if mean is not None:
-        yield _of_cycle(f"rms {force}", cycle.effort.rms_force, mean, unit)
-    if energy is not None:
-        yield _of_cycle("energy", cycle.effort.energy, energy, "J")
+    if Kind.RMS_FORCE in of_cycle:
+        yield _of_cycle(f"rms {force}", cycle.effort.rms_force, of_cycle[Kind.RMS_FORCE][1], unit)
+    if Kind.ENERGY in of_cycle:
+        yield _of_cycle("energy", cycle.effort.energy, of_cycle[Kind.ENERGY][1], "J")
     for margin in cycle.sheet.margins if limited.limits.get(MOTOR) else ():
         unit = _OF_MOTOR.get(margin.name, "N m")
         yield _of_cycle(f"motor's {margin.name}", margin.needed, margin.limit, unit)

@@ -177,7 +177,8 @@ class CycleReport:
             for (_, start, stop), limits in zip(self.segments, self.cycle.limits_of_segments, strict=True):
                 low, high = limits.get(nu, (-inf, inf))
                 inside = (times >= start) & (times <= stop)
-                share = np.where(inside, np.maximum(share, np.maximum(values / high, values / low)), share)
+                uses = [values / side for side in (low, high) if side]
+                share = np.where(inside, np.maximum.reduce([share, *uses]), share)
             if share.any():
                 taken[DERIVATIVES[nu]] = share
         return taken

@@ -5,8 +5,7 @@ from __future__ import annotations
 from math import pi
 from typing import TYPE_CHECKING
 
-from optlaws.cycles.optimisation.motion_limits import FORCE, POWER
-from optlaws.cycles.optimisation.objectives import LOADED, SUMS, kind_of
+from optlaws.cycles.optimisation.objectives import SUMS, kind_of
 from optlaws.cycles.specification.load import LOAD, read_load
 from optlaws.cycles.specification.process import is_process
 from optlaws.errors import InfeasibleProblem, SolverFailure
@@ -14,6 +13,7 @@ from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.mechanisms.linkages.mechanism import Mechanism
 from optlaws.motion.piece import unit_of
 from optlaws.motion.quantities import QUANTITIES
+from optlaws.motion.quantity_kinds import Kind
 from optlaws.shown.summary import Row
 
 if TYPE_CHECKING:
@@ -33,12 +33,12 @@ _LOAD_UNITS = {
 def objective_unit(cycle: Cycle, name: str = "") -> str:
     """The SI unit of a cycle's objective, or of another value that may be one."""
     name = name or cycle.minimise
-    nu, _ = kind_of(name)
-    if nu == LOADED:
+    kind, _ = kind_of(name)
+    if kind is Kind.LOAD:
         return load_unit(cycle, name.removeprefix("rms ").removeprefix(LOAD))
-    if nu == POWER or nu in SUMS:
-        return "W" if nu == POWER else "J"
-    return force_unit(cycle) if nu == FORCE else unit_of(cycle.axis, nu)
+    if kind is Kind.POWER or kind in SUMS:
+        return "W" if kind is Kind.POWER else "J"
+    return force_unit(cycle) if kind is Kind.FORCE else unit_of(cycle.axis, kind.order)
 
 
 def force_unit(cycle: Cycle) -> str:

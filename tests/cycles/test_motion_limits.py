@@ -5,7 +5,20 @@ from typing import Any
 
 import pytest
 
-from optlaws import Axes, ConstantVelocity, Cycle, Dwell, Free, InfeasibleProblem, InputError, Move, Return, Rise
+from optlaws import (
+    Axes,
+    ConstantVelocity,
+    Cycle,
+    Dwell,
+    Free,
+    InfeasibleProblem,
+    InputError,
+    Move,
+    Problem,
+    Return,
+    Rise,
+    fastest,
+)
 
 MOVES = [Rise("35 mm", "120 deg"), Dwell("60 deg"), Return("35 mm", "120 deg"), Dwell()]
 PAIR = {"acceleration": ("-14 m/s^2", "20 m/s^2")}
@@ -145,3 +158,78 @@ def test_a_jerk_limit_of_laws_that_jump_at_their_ends_is_refused_with_the_remedy
     assert cycle(limits={"jerk": "9000 m/s^3"}).order == 3
     moved = (Rise("35 mm", "0.1 s", law="cycloidal"), Return(law="cycloidal"))
     assert Cycle(moved, period="0.25 s", limits={"jerk": "90000 m/s^3"}, order=2).order == 2
+
+
+FORTH = {"velocity": ("0 m/s", "2 m/s")}
+#: from a velocity to rest in more time than the way takes: the law of least acceleration overshoots and returns
+BRAKED = [ConstantVelocity("0.4 m/s", "0.1 s"), Move("20 mm", "0.2 s"), Dwell("0.1 s"), Return()]
+GOING_BACK = "formula: k^3*(10 - 15*k + 6*k^2) - 1.6*(k*(1 - k))^2*(1 - 2*k)"
+
+
+def backwards(limited: Cycle, i: int, stop: float | None = None) -> float:
+    """The greatest velocity against the way of a piece."""
+    piece = limited.pieces[i]
+    (low, _), (high, _) = piece.extremes(1, piece.start, stop or piece.stop)
+    return max(0.0, -low if piece.stroke > 0.0 else high)
+
+
+def test_a_velocity_from_0_on_never_turns_back() -> None:
+    steady, _, *rest = BRAKED
+    forth = [steady, Move("20 mm", "0.2 s", limits=FORTH), *rest]
+    free, limited = (Cycle(ways, period="0.7 s", minimise="jerk") for ways in (BRAKED, forth))
+    assert backwards(free, 1) > 0.01
+    assert backwards(limited, 1) < 1e-9
+    assert free.pieces[1].law.peak(3).value < limited.pieces[1].law.peak(3).value
+    assert limited.limits_of_segments == ({}, {1: (0.0, 2.0)}, {}, {})
+    assert all(taken.is_kept for taken in limited.limits_taken)
+    assert {taken.share for taken in limited.limits_taken if "backwards" in taken.name} == {0.0}
+
+
+def test_free_motions_that_must_not_turn_back_rest_where_they_meet() -> None:
+    """Forth and back by h in T each without turning before the end is two motions to or from rest: C >= 4 h/T^2."""
+    ways = [Dwell("0.1 s"), Free("30 mm", "0.2 s"), Free("-30 mm")]
+    free, limited = (Cycle(ways, period="0.6 s", limits=limits) for limits in ({}, FORTH))
+    assert limited.status == "optimal"
+    assert limited(0.3, 1) == pytest.approx(0.0, abs=1e-9)
+    assert limited.objective > 4.0 * 0.03 / 0.2**2 > free.objective
+    assert backwards(limited, 1, 0.3) < 1e-9
+
+
+def test_a_given_law_that_goes_back_is_refused_where_it_must_not() -> None:
+    moves = [Rise("35 mm", "120 deg", law=GOING_BACK), Dwell("60 deg"), Return(law="cycloidal")]
+    shown = cycle(segments=moves, limits=FORTH).unchecked()
+    assert shown.status == "infeasible"
+    (back,) = (taken for taken in shown.limits_taken if not taken.is_kept)
+    assert back.value == pytest.approx(backwards(shown, 0))
+    assert back.share == float("inf")
+    with pytest.raises(InfeasibleProblem, match=r"segment 1 \(Rise\): it goes back at .* mm/s at .* of the master"):
+        cycle(segments=moves, limits=FORTH).objective  # noqa: B018 - laws are looked at when they are needed
+    with pytest.raises(InfeasibleProblem, match=r"segment 1 \(Rise\): its law goes back, .* at any speed"):
+        cycle(segments=moves, limits=FORTH | {"acceleration": "20 m/s^2"}).fastest()
+
+
+@pytest.mark.parametrize(
+    ("segments", "error", "words"),
+    [
+        ([ConstantVelocity("1.5 m/s", "80 ms"), Return()], InfeasibleProblem, "begins or ends against its way"),
+        (
+            [Dwell("0.1 s"), Free("0 mm", "0.1 s", via=[("0.05 s", "5 mm")]), Dwell()],
+            InputError,
+            "ends where it begins, so that it must turn back",
+        ),
+    ],
+)
+def test_motions_that_must_turn_back_are_refused_where_they_must_not(segments: Any, error: Any, words: str) -> None:
+    with pytest.raises(error, match=words):
+        Cycle(segments, period="400 ms", limits=FORTH).objective  # noqa: B018
+
+
+def test_the_fastest_cycle_and_the_fastest_move_never_turn_back_alike() -> None:
+    limits = {"velocity": ("0 m/s", "1 m/s"), "acceleration": "20 m/s^2", "jerk": "900 m/s^3"}
+    found = cycle(segments=[Rise("35 mm", "180 deg"), Return()], limits=limits).fastest()
+    move = fastest(Problem(order=3), stroke="35 mm", limits=limits)
+    assert found.status == "optimal"
+    assert found.segments[0].least == pytest.approx(move.duration, rel=1e-8)
+    ways = [Dwell("90 deg"), Free("30 mm", "90 deg"), Free("5 mm", "60 deg"), Return("35 mm")]
+    several = cycle(segments=ways, limits=limits).fastest().cycle
+    assert max(backwards(several, i) for i in range(len(several.pieces))) < 1e-8

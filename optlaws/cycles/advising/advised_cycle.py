@@ -16,12 +16,12 @@ from optlaws.cycles.optimisation.motion_limits import (
     DECELERATION,
     LIMITS,
     LimitTaken,
-    OneSided,
+    Side,
     limits_of_segment,
-    name_of,
     read_limits,
+    word_of,
 )
-from optlaws.cycles.optimisation.objectives import LOADED, OBJECTIVES, kind_of
+from optlaws.cycles.optimisation.objectives import OBJECTIVES, kind_of
 from optlaws.cycles.specification.load import LOAD
 from optlaws.cycles.specification.process import is_process
 from optlaws.cycles.specification.programme import AXES, is_optimal
@@ -32,6 +32,7 @@ from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.motion.piece import Piece, factor, named_law, unit_of
 from optlaws.motion.quantities import quantity
+from optlaws.motion.quantity_kinds import Kind
 from optlaws.synthesis.least_time.follower_residual import RESIDUAL, FollowerResidual
 from optlaws.synthesis.problem.constants import FUNCTIONALS, Functional
 from optlaws.synthesis.solution import Solution
@@ -72,7 +73,7 @@ class AdvisedCycle:
     def measures(self) -> tuple[LawMeasure, ...]:
         """Everything that laws are compared by, in SI units."""
         cycle, force = self.cycle, force_name(self.cycle)
-        measures = [LawMeasure(name, unit_of(cycle.axis, kind_of(name)[0])) for name in _OF_MOTION]
+        measures = [LawMeasure(name, unit_of(cycle.axis, kind_of(name)[0].order)) for name in _OF_MOTION]
         if self.follower is not None:
             measures.append(LawMeasure(RESIDUAL, unit_of(cycle.axis, 2)))
         if cycle.load is not None and not is_process(cycle.load):
@@ -92,8 +93,7 @@ class AdvisedCycle:
         names = set(self.cycle.limits)
         for stretch in self.cycle.programme.stretches:
             for key in limits_of_segment(stretch, of_cycle, self.cycle.axis):
-                nu = key.nu if isinstance(key, OneSided) else key
-                names.add(name_of(nu, self.cycle.axis))
+                names.add(word_of(Side(key.kind), self.cycle.axis))
         if self.cycle.limits.get("motor"):
             names |= {"velocity", "torque", "rms torque"}
         if self.most < inf:
@@ -165,7 +165,7 @@ class AdvisedCycle:
         InfeasibleProblem, SolverFailure
             If the search fails.
         """
-        if self.follower is None and LIMITS.get(self.minimise, 0) > 0:
+        if self.follower is None and kind_of(self.minimise)[0].order and self.minimise in LIMITS:
             # what is near is a limit of the cycle, so that the law is one of a cycle too
             most = self._tighter(best.motion.limits, self.minimise, (1.0 + share) * best.values[self.minimise])
             cycle = replace(best.motion, minimise=minimise, limits={**best.motion.limits, **most})
@@ -191,7 +191,7 @@ class AdvisedCycle:
 
     def _known(self, segments: Sequence[CycleSegment]) -> Cycle:
         """A cycle of known laws, without limits and without an objective of the load."""
-        minimise = "acceleration" if kind_of(self.cycle.minimise)[0] == LOADED else self.cycle.minimise
+        minimise = "acceleration" if kind_of(self.cycle.minimise)[0] is Kind.LOAD else self.cycle.minimise
         cycle = replace(self.cycle, segments=segments, minimise=minimise, limits={}).unchecked()
         _ = cycle.peaks  # what does not fit is refused here
         return cycle
@@ -256,7 +256,7 @@ class AdvisedCycle:
         space, solutions = cycle.search_space or "", cycle.solutions
         if minimise == cycle.minimise:
             return ProvenLeast(minimise, cycle.lower_bound, _of_any_degree(cycle), space, cycle.status)
-        nu = kind_of("acceleration" if minimise == RESIDUAL else minimise)[0]
+        nu = kind_of("acceleration" if minimise == RESIDUAL else minimise)[0].order
         moves = [each for each in _solved(cycle) if minimise != RESIDUAL or _rests(each[0])]
         scaled = [solution.lower_bound * abs(factor(piece.stroke, piece.duration, nu)) for piece, solution in moves]
         proven = all(solution.status is Status.OPTIMAL for solution in solutions)
@@ -269,7 +269,8 @@ class AdvisedCycle:
         if name.startswith(LOAD):
             return {name: most if unit == "SI" else text}
         given = limits.get(name)
-        dimension = AXES[axis][LIMITS[name]] if LIMITS.get(name, 0) > 0 else None
+        order = LIMITS[name].order if name in LIMITS else 0
+        dimension = AXES[axis][order] if order else None
         if dimension is None:
             return {name: text}
         apart = {DECELERATION: limits[DECELERATION]} if name == "acceleration" and DECELERATION in limits else {}
@@ -325,8 +326,9 @@ def _solved(cycle: Cycle) -> list[tuple[Piece, Solution]]:
 
 def _of_any_degree(cycle: Cycle) -> float | None:
     """The least value for laws of any degree, where it is known of a peak of the motion."""
-    nu, mean = kind_of(cycle.minimise)
-    if nu <= 0 or mean:
+    kind, mean = kind_of(cycle.minimise)
+    nu = kind.order
+    if not nu or mean:
         return None
     limits = [
         solution.limit * abs(factor(piece.stroke, piece.duration, nu))

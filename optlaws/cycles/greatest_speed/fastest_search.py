@@ -14,26 +14,34 @@ from math import isfinite
 
 from optlaws.cycles.greatest_speed.force_rating import ForceRating, PlacedLaw
 from optlaws.cycles.greatest_speed.periods import DurationRange, duration_ranges, durations_at, least_period
-from optlaws.cycles.greatest_speed.scaling import slower
-from optlaws.cycles.greatest_speed.span_limits import SpanLimit, limits_of_span
+from optlaws.cycles.greatest_speed.scaling import SpanLimit, slower
+from optlaws.cycles.greatest_speed.span_limits import limits_of_span
 from optlaws.cycles.greatest_speed.span_time import SpanTime, least_time, least_time_of_law
-from optlaws.cycles.optimisation.motion_limits import FORCES, Limits, in_units, limits_of_segment, word_of
+from optlaws.cycles.optimisation.motion_limits import (
+    FORCES,
+    Sides,
+    in_units,
+    limits_of_segment,
+    raised,
+    word_of,
+)
 from optlaws.cycles.optimisation.objectives import CycleObjective
-from optlaws.cycles.optimisation.optimal import scale, solve, span_problem
+from optlaws.cycles.optimisation.optimal import forward_windows, scale, solve, span_problem
 from optlaws.cycles.optimisation.search_spaces import joint_windows
 from optlaws.cycles.specification.joints import LawSpan, Layout, State, layout
-from optlaws.cycles.specification.programme import Programme
+from optlaws.cycles.specification.programme import Programme, TimedSegment
 from optlaws.cycles.specification.segments import Dwell
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.motion.piece import Piece, factor, jump_beside
+from optlaws.motion.quantity_kinds import Kind
 from optlaws.sentences import sentence
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.proof.certificate import VIOLATION, Certificate
 from optlaws.synthesis.solution import Solution
 from optlaws.synthesis.status import Status
-from optlaws.tolerances import BINDING_LIMIT, CLOSURE, SAME_TIME
+from optlaws.tolerances import AGREEMENT, BINDING_LIMIT, CLOSURE, SAME_TIME
 
 #: so many times slower every limit of a derivative is kept
 _SLOW = 1e4
@@ -118,7 +126,7 @@ class FastestSearch:
             )
         name = f"rms {FORCES[self.programme.axis]}"
         return ForceRating(
-            replace(self.objective, limits=self._raised(dict(self.objective.limits))),
+            replace(self.objective, limits=raised(self.objective.limits, self.more, self.programme.axis)),
             self.programme.axis,
             most * self.more.get(name, 1.0),
             self.unrated,
@@ -290,9 +298,11 @@ class FastestSearch:
         first, last = (State(v if abs(v) > moving else 0.0, 0.0) for v in (piece.end(1, 0), piece.end(1, 1)))
         span = LawSpan((stretch,), (piece.start,), piece.stop, piece.offset, piece.stroke, first, last, ())
         still = isinstance(stretch.given, Dwell) or piece.stroke == 0.0
+        if not still:
+            self._check_way(stretch, piece)
         rows = [] if still else self._rows(span, piece.stroke)
         least = least_time_of_law(piece.law, rows)
-        jerked = [row for row in rows if (row.key if isinstance(row.key, int) else row.key.nu) >= _JERK]
+        jerked = [row for row in rows if row.key.kind.order >= _JERK]
         jumps = jerked and jump_beside(piece, self._layout.pieces, self.programme.period) is not None
         if jumps or not isfinite(least.scale):
             row = jerked[0] if jumps else next(row for row in rows if not isfinite(row.least_scale(piece.law)))
@@ -305,6 +315,17 @@ class FastestSearch:
             )  # fmt: skip
         return TimedSpan((i,), stretch.where, piece.duration, least, span, given=True)
 
+    def _check_way(self, stretch: TimedSegment, piece: Piece) -> None:
+        """Refuse a given law that goes back where its velocity must not."""
+        (low, _), (high, _) = piece.extremes(1, piece.start, piece.stop)
+        for key in limits_of_segment(stretch, self.objective.limits, self.programme.axis):
+            back = high if key.sign > 0.0 else -low
+            if key.kind is Kind.VELOCITY_ALONG and back > AGREEMENT * max(high, -low):
+                raise InfeasibleProblem(
+                    f"{stretch.where}: its law goes back, which its velocity must not at any speed: take another law, "
+                    "or a least velocity below 0"
+                )
+
     def _of_span(self, span: LawSpan) -> TimedSpan:
         """A motion with an optimised law."""
         places = tuple(stretch.number - 1 for stretch in span.stretches)
@@ -316,7 +337,7 @@ class FastestSearch:
             span, [self._raised(each) for each in limits], self.objective, stroke, self.programme.axis
         )
 
-    def _raised(self, limits: Limits) -> Limits:
+    def _raised(self, limits: Sides) -> Sides:
         return {key: most * self.more.get(word_of(key, self.programme.axis), 1.0) for key, most in limits.items()}
 
     def _base(self, span: LawSpan, stroke: float) -> Problem:
@@ -324,6 +345,8 @@ class FastestSearch:
         limited = span_problem(slower(span, _SLOW), self.objective, self.programme.axis, stroke)
         several = span.turns or len(span.stretches) > 1 or span.via
         windows = tuple(joint_windows(span, self.objective.order, stroke)) if several else ()
+        if several:
+            windows += tuple(forward_windows(span, self.objective, self.programme.axis, stroke))
         return replace(limited, windows=windows, bounds={}, B=None, C=None, D=None, J=None, minimise="C")
 
     def _turns(self, span: TimedSpan) -> bool:

@@ -14,7 +14,7 @@ from math import exp, log, sqrt
 
 from optlaws.cycles.greatest_speed.drive_limits_of_span import static_force
 from optlaws.cycles.optimisation.bounds import span_bound
-from optlaws.cycles.optimisation.motion_limits import FORCES
+from optlaws.cycles.optimisation.motion_limits import FORCES, of_segments
 from optlaws.cycles.optimisation.objectives import CycleObjective
 from optlaws.cycles.optimisation.optimal import solve
 from optlaws.cycles.specification.joints import LawSpan, Layout
@@ -122,7 +122,7 @@ class ForceRating:
 
     @property
     def _of_force(self) -> CycleObjective:
-        return replace(self.objective, minimise="rms force", mean_force=None)
+        return replace(self.objective, minimise="rms force", limits=of_segments(self.objective.limits))
 
     def _over(self, period: float) -> float:
         """The logarithm of the ratio of the root mean square to its limit."""

@@ -13,7 +13,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from math import inf, sqrt
 
-from optlaws.cycles.greatest_speed.span_limits import SpanLimit, least_scale
+from optlaws.cycles.greatest_speed.scaling import SpanLimit
+from optlaws.cycles.greatest_speed.span_limits import least_scale
 from optlaws.errors import InfeasibleProblem, SolverFailure
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
@@ -122,9 +123,8 @@ def _following(scale: float, share: float, slope: float, ends: tuple[float, floa
 def _first_scale(row: SpanLimit) -> float:
     """A scale at which a usual law takes a limit to the full."""
     _, weight = row.term(1.0)
-    nu = row.key if isinstance(row.key, int) else row.key.nu
-    usual = _USUAL.get(nu, 1.0)
-    return float((usual * weight) ** (1.0 / max(nu, 2 if nu < 0 else 1)))
+    nu = row.key.kind.order
+    return float((_USUAL.get(nu, 1.0) * weight) ** (1.0 / (nu or 2)))
 
 
 def _least_share(base: Problem, rows: Sequence[SpanLimit], scale: float, start: Solution | None) -> Solution:

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 from optlaws.cycles.moves.fastest_move import AXES, FastestMove
 from optlaws.cycles.moves.torque_limits import TORQUES, motor_torque, without_torques
 from optlaws.cycles.moves.vibration_limits import vibration_limit
-from optlaws.cycles.optimisation.motion_limits import DECELERATION, OneSided, greatest, read_limits
+from optlaws.cycles.optimisation.motion_limits import DECELERATION, greatest, read_limits, sides
 from optlaws.cycles.specification.limit_entries import LIMITS_OF_MOVE
 from optlaws.cycles.specification.programme import AXES as SI
 from optlaws.echo import shortened
@@ -18,6 +18,7 @@ from optlaws.entries.value_types import is_list
 from optlaws.errors import InputError
 from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.motion.quantities import either, quantity
+from optlaws.motion.quantity_kinds import Kind
 from optlaws.numbers import NumberOrQuantity, Quantity, listed
 from optlaws.synthesis.least_time.follower_residual import RESIDUAL
 from optlaws.synthesis.least_time.least_time import LeastTime
@@ -27,7 +28,13 @@ from optlaws.synthesis.least_time.time_search import least_time
 from optlaws.synthesis.problem.problem import Problem
 
 _MOST = 100_000
-_SIDES = (("velocity", 1, 0.0), ("acceleration", 2, 1.0), (DECELERATION, 2, -1.0), ("jerk", 3, 0.0), ("snap", 4, 0.0))
+_SIDES = (
+    ("velocity", Kind.VELOCITY, 0.0),
+    ("acceleration", Kind.ACCELERATION, 1.0),
+    (DECELERATION, Kind.ACCELERATION, -1.0),
+    ("jerk", Kind.JERK, 0.0),
+    ("snap", Kind.SNAP, 0.0),
+)
 _OF_OTHERS = {**dict.fromkeys(TORQUES, "at a motor: give its drive"), RESIDUAL: "that of a follower: give the follower"}
 
 
@@ -192,16 +199,14 @@ def _read_limits(entries: Mapping[str, Any], axis: str) -> tuple[MoveLimits, boo
     for name in entries:
         if name in _OF_OTHERS:
             raise InputError(f"limits: {name} is {_OF_OTHERS[name]}")
-    velocity: Any = entries.get("velocity")
-    sides = [quantity(side, SI[axis][1], "limits: velocity") for side in velocity] if is_list(velocity) else []
-    forward = bool(sides) and sides[0] == 0.0
-    given = read_limits({**entries, "velocity": velocity[1]} if forward else entries, axis, "limits")
+    limits = read_limits(entries, axis, "limits")
+    given = sides(limits, 1.0)
     if DECELERATION in entries and is_list(entries.get("acceleration")):
         raise InputError("limits: the acceleration is a pair, so that deceleration is given twice")
     for key in given:
-        if isinstance(key, OneSided) and key.nu != 2:
-            remedy = " or begin with 0" if key.nu == 1 else ""
+        if key.sign and key.kind not in {Kind.ACCELERATION, Kind.VELOCITY_ALONG}:
+            remedy = " or begin with 0" if key.kind is Kind.VELOCITY else ""
             pair = shortened(entries[key.name])
             raise InputError(f"limits: {key.name}: its two values must be opposite{remedy}, got {pair}")
-    least = {name: greatest(given, nu, side) for name, nu, side in _SIDES}
-    return MoveLimits(**{name: most for name, most in least.items() if isfinite(most)}), forward
+    least = {name: greatest(given, kind, side) for name, kind, side in _SIDES}
+    return MoveLimits(**{name: most for name, most in least.items() if isfinite(most)}), Kind.VELOCITY_ALONG in limits

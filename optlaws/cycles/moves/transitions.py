@@ -11,7 +11,7 @@ import numpy as np
 
 from optlaws.cycles.moves.fastest_move import AXES, FastestMove
 from optlaws.cycles.moves.transition_cam import TransitionCam, TransitionKind
-from optlaws.cycles.optimisation.motion_limits import OneSided, along_motion, greatest
+from optlaws.cycles.optimisation.motion_limits import Side, along_motion, greatest, of_segments
 from optlaws.cycles.optimisation.objectives import CycleObjective, kind_of, limits_of_stretch
 from optlaws.cycles.optimisation.optimal import scale, solved, span_problem
 from optlaws.cycles.specification.joints import LawSpan, State
@@ -20,6 +20,7 @@ from optlaws.cycles.specification.segments import Move, Transition
 from optlaws.errors import InputError
 from optlaws.motion.piece import Piece, factor, values_of_pieces
 from optlaws.motion.quantities import quantity
+from optlaws.motion.quantity_kinds import Kind
 from optlaws.synthesis.least_time.move_limits import MoveLimits, TimedMove
 from optlaws.synthesis.least_time.time_search import least_time
 from optlaws.synthesis.problem.problem import Problem
@@ -29,7 +30,7 @@ from optlaws.tolerances import CLOSURE, INSIDE_PIECE
 
 _REST = State(0.0, 0.0)
 _DEGREE = 15  # of Z at least, as of the motions of cycles whose ends move
-_NAMES = {1: "velocity", 3: "jerk", 4: "snap"}
+_NAMES = {Kind.VELOCITY: "velocity", Kind.JERK: "jerk", Kind.SNAP: "snap"}
 
 
 @dataclass(frozen=True)
@@ -63,12 +64,11 @@ def transition_cam(
         still = meeting.state[0]
     of_motion = replace(
         objective,
-        minimise=objective.minimise if kind_of(objective.minimise)[0] > 0 else "acceleration",
+        minimise=objective.minimise if kind_of(objective.minimise)[0].order else "acceleration",
         order=given.order or objective.order,
+        limits=of_segments(objective.limits),
         load=None,
         loaded={},
-        mean_force=None,
-        energy=None,
     )
     if given.over is not None:
         return _in_time(meeting, programme, of_motion, still, time_of(given.over, programme.period, "over"))
@@ -178,15 +178,17 @@ def _shown(meeting: Meeting) -> str:
     return f"{meeting.degrees:.6g} deg"
 
 
-def _move_limits(limits: Mapping[Any, float], sign: float) -> MoveLimits:
+def _move_limits(limits: Mapping[Side, float], sign: float) -> MoveLimits:
     """The limits of a move whose stroke has a sign."""
     for key, most in limits.items():
-        if isinstance(key, int) and key < 0:
+        if not key.kind.order:
             raise InputError("the least time is sought within limits of the motion, not of a drive: give `over`")
-        if isinstance(key, OneSided) and key.nu != 2 and greatest(limits, key.nu, -key.sign) != most:
-            raise InputError(f"limits: the {_NAMES[key.nu]} has two sides: the least time takes one limit of both")
+        one_sided = key.sign and key.kind not in {Kind.ACCELERATION, Kind.VELOCITY_ALONG}
+        if one_sided and greatest(limits, key.kind, -key.sign) != most:
+            raise InputError(f"limits: the {_NAMES[key.kind]} has two sides: the least time takes one limit of both")
     if not limits:
         raise InputError("nothing limits the least time: give the cycle limits, or say the time or angle as `over`")
-    both = {name: greatest(limits, nu, 1.0) for nu, name in _NAMES.items()}
-    sides = {"acceleration": greatest(limits, 2, sign), "deceleration": greatest(limits, 2, -sign)}
+    both = {name: greatest(limits, kind, 1.0) for kind, name in _NAMES.items()}
+    names = (("acceleration", sign), ("deceleration", -sign))
+    sides = {name: greatest(limits, Kind.ACCELERATION, side) for name, side in names}
     return MoveLimits(**{name: most for name, most in (both | sides).items() if most < inf})

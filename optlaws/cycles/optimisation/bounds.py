@@ -15,14 +15,14 @@ from math import hypot, inf, sqrt
 from typing import Any
 
 from optlaws.cycles.optimisation.drive_formulas import Driven, driven_mean, driven_peak, known_drive, may_turn
-from optlaws.cycles.optimisation.motion_limits import CURVE, FORCE, POWER
-from optlaws.cycles.optimisation.objectives import LOADED, SUMS, CycleObjective, kind_of, limits_of_stretch
+from optlaws.cycles.optimisation.objectives import SUMS, CycleObjective, kind_of, limits_of_stretch
 from optlaws.cycles.optimisation.sums import span_sum, total
 from optlaws.cycles.specification.joints import LawSpan, Layout
 from optlaws.errors import InfeasibleProblem, SolverFailure
 from optlaws.mechanisms.drives.effort import size_of
 from optlaws.mechanisms.linkages.linear_force import LinearForce
 from optlaws.motion.piece import Piece, factor
+from optlaws.motion.quantity_kinds import Kind
 from optlaws.synthesis.functionals.makers import peak, rms
 from optlaws.synthesis.limits.drive_limits import limit_beside
 from optlaws.synthesis.problem.constants import Functional
@@ -61,7 +61,7 @@ class _Powers:
 
 def bound_by_energy(span: LawSpan, objective: CycleObjective, stroke: float, solution: Solution) -> float:
     """The lower bound of a span, dimensionless: the bound of its solution, or a better bound by energy."""
-    least, most = kind_of(objective.minimise)[0] == POWER, objective.limits.get(POWER)
+    least, (_, most) = kind_of(objective.minimise)[0] is Kind.POWER, objective.limits.get(Kind.POWER, (0.0, 0.0))
     if (
         solution.problem.convex
         or not (least or most)
@@ -70,7 +70,7 @@ def bound_by_energy(span: LawSpan, objective: CycleObjective, stroke: float, sol
         or not _is_plain(span, objective.drive.linear)
     ):
         return solution.lower_bound
-    unit = driven_peak(span, objective.drive, stroke, POWER).unit
+    unit = driven_peak(span, objective.drive, stroke, Kind.POWER).unit
     ceiling = min(solution.objective if least else inf, most / unit if most else inf)
     powers = _powers(span, objective.drive.linear, stroke, unit / objective.drive.ratio)
     try:
@@ -114,19 +114,19 @@ Solved = Sequence[tuple[Piece, Solution]]
 
 def bound_of(layout: Layout, solved: Solved, objective: CycleObjective, period: float) -> float | None:
     """The lower bound of a cycle in the same times, from bounds of optimised laws and values of the others."""
-    nu, mean = kind_of(objective.minimise)
-    if nu == LOADED and not solved:
+    kind, mean = kind_of(objective.minimise)
+    if kind is Kind.LOAD and not solved:
         return None
-    if nu == LOADED:
+    if kind is Kind.LOAD:
         ((piece, solution),) = solved
         return solution.lower_bound * abs(piece.stroke)
     sizes = [
         (piece.duration, span_bound(layout.spans[i], *solved[i], objective)) for i, (piece, _) in enumerate(solved)
     ]
-    if nu in SUMS:
-        return sum(bound for _, bound in sizes) + total(layout.pieces, nu, objective.drive)
-    drive = None if nu > 0 else known_drive(objective.drive)
-    sizes += [(piece.duration, size_of(piece, nu, drive, mean=mean)) for piece in layout.pieces]
+    if kind in SUMS:
+        return sum(bound for _, bound in sizes) + total(layout.pieces, kind, objective.drive)
+    drive = None if kind.order else known_drive(objective.drive)
+    sizes += [(piece.duration, size_of(piece, kind, drive, mean=mean)) for piece in layout.pieces]
     if not mean:
         return max(size for _, size in sizes)
     return reduce(hypot, (size * sqrt(time / period) for time, size in sizes), 0.0)
@@ -134,12 +134,12 @@ def bound_of(layout: Layout, solved: Solved, objective: CycleObjective, period: 
 
 def span_bound(span: LawSpan, piece: Piece, solution: Solution, objective: CycleObjective) -> float:
     """The lower bound of a span in SI units."""
-    nu, mean = kind_of(objective.minimise)
-    if nu in SUMS:
-        return span_sum(span, nu, objective.drive, piece.stroke).bound(solution, exact=is_exact(span, objective))
+    kind, mean = kind_of(objective.minimise)
+    if kind in SUMS:
+        return span_sum(span, kind, objective.drive, piece.stroke).bound(solution, exact=is_exact(span, objective))
     least = bound_by_energy(span, objective, piece.stroke, solution) if is_exact(span, objective) else 0.0
-    if nu not in {FORCE, POWER}:
-        return least * abs(factor(piece.stroke, piece.duration, nu))
+    if kind.order:
+        return least * abs(factor(piece.stroke, piece.duration, kind.order))
     effort = _driven(span, objective, piece.stroke)
     makers = rms if mean else peak
     limits = (limit_beside(replace(solution.problem, minimise=makers(formula))) for formula in effort.beneath)
@@ -149,10 +149,10 @@ def span_bound(span: LawSpan, piece: Piece, solution: Solution, objective: Cycle
 
 
 def _driven(span: LawSpan, objective: CycleObjective, stroke: float) -> Driven:
-    nu, mean = kind_of(objective.minimise)
+    kind, mean = kind_of(objective.minimise)
     if mean:
         return driven_mean(span, objective.drive, stroke)
-    return driven_peak(span, objective.drive, stroke, nu)
+    return driven_peak(span, objective.drive, stroke, kind)
 
 
 def is_exact(span: LawSpan, objective: CycleObjective) -> bool:
@@ -160,8 +160,8 @@ def is_exact(span: LawSpan, objective: CycleObjective) -> bool:
 
     Peaks behind a gear with losses are counted as if power flowed back wherever the motor brakes.
     """
-    drive, (nu, mean) = objective.drive, kind_of(objective.minimise)
+    drive, (kind, mean) = objective.drive, kind_of(objective.minimise)
     if drive is None or not drive.train.loses or drive.brakes_as_it_drives:
         return True
-    limited = {order for stretch in span.stretches for order in limits_of_stretch(stretch, objective, "angle")}
-    return not limited & {CURVE, FORCE, POWER} and (mean or nu not in {FORCE, POWER})
+    limited = (key.kind for stretch in span.stretches for key in limits_of_stretch(stretch, objective, "angle"))
+    return not any(each.is_driven for each in limited) and (mean or not kind.is_driven)

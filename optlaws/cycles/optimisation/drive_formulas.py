@@ -12,7 +12,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 from itertools import pairwise
 
-from optlaws.cycles.optimisation.motion_limits import FORCE, POWER
 from optlaws.cycles.specification.joints import LawSpan
 from optlaws.cycles.specification.segments import Dwell
 from optlaws.errors import InputError
@@ -20,6 +19,7 @@ from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.mechanisms.linkages.dimensionless import StrokeTorque
 from optlaws.mechanisms.linkages.linear_force import LinearForce
 from optlaws.motion.piece import factor
+from optlaws.motion.quantity_kinds import Kind
 from optlaws.synthesis.functionals.makers import peak, rms
 from optlaws.synthesis.problem.constants import FUNCTIONALS, Functional
 from optlaws.synthesis.problem.expression import Maximum, maximum
@@ -54,23 +54,23 @@ def may_turn(span: LawSpan) -> bool:
     return any(state.velocity * span.displacement < 0.0 for state in (span.first, span.last))
 
 
-def driven_peak(span: LawSpan, drive: Drive | None, stroke: float, nu: int) -> Driven:
-    """Peak of the force (nu -1) or the power (nu -3) along a span's law."""
+def driven_peak(span: LawSpan, drive: Drive | None, stroke: float, kind: Kind) -> Driven:
+    """Peak of the force or the power along a span's law."""
     known = known_drive(drive)
-    if nu == POWER and known.linear is not None and known.linear.inertia > 0.0 and not any(known.linear[1:]):
+    if kind is Kind.POWER and known.linear is not None and known.linear.inertia > 0.0 and not any(known.linear[1:]):
         return Driven((FUNCTIONALS["D"],), known.ratio * known.linear.inertia * stroke**2 / span.duration**3)
-    formula, unit = driven_formula(span, drive, stroke, nu)
+    formula, unit = driven_formula(span, drive, stroke, kind)
     if not known.train.loses:
         return Driven((peak(formula),), unit)
     to_load, back = _branches(span, known, stroke)
-    braked = f"({back})*b" if nu == POWER else back
-    formula = f"max(({to_load})*b, {braked})" if nu == POWER else formula
+    braked = f"({back})*b" if kind is Kind.POWER else back
+    formula = f"max(({to_load})*b, {braked})" if kind is Kind.POWER else formula
     exact = known.brakes_as_it_drives
-    beneath = (back,) if exact and nu == FORCE else ()
+    beneath = (back,) if exact and kind is Kind.FORCE else ()
     return Driven((peak(formula, side="high"), peak(braked, side="low")), unit, beneath=beneath, exact=exact)
 
 
-def driven_formula(span: LawSpan, drive: Drive | None, stroke: float, nu: int) -> tuple[str, float]:
+def driven_formula(span: LawSpan, drive: Drive | None, stroke: float, kind: Kind) -> tuple[str, float]:
     """Force or power along a span's law as a formula, and its unit."""
     known = known_drive(drive)
     if known.dry > 0.0 and may_turn(span):
@@ -81,7 +81,7 @@ def driven_formula(span: LawSpan, drive: Drive | None, stroke: float, nu: int) -
         )
     unit = _unit(span, known, stroke)
     formula = _formula(span, known, stroke, unit)
-    if nu == POWER:
+    if kind is Kind.POWER:
         return f"({formula})*b", unit * known.ratio * abs(factor(stroke, span.duration, 1))
     return formula, unit
 
@@ -161,7 +161,7 @@ def _check_range(span: LawSpan, drive: Drive) -> None:
 
 def branches_of(span: LawSpan, drive: Drive, stroke: float) -> tuple[str, str, float]:
     """The torque at the motor, the torque of power that flows back through the gear, and their unit."""
-    formula, unit = driven_formula(span, drive, stroke, FORCE)
+    formula, unit = driven_formula(span, drive, stroke, Kind.FORCE)
     return formula, _branches(span, drive, stroke)[-1] if drive.train.loses else formula, unit
 
 

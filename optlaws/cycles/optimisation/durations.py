@@ -25,6 +25,7 @@ from optlaws.cycles.specification.segments import ConstantVelocity, Dwell, Free,
 from optlaws.errors import InfeasibleProblem, InputError
 from optlaws.laws import MotionLaw
 from optlaws.motion.piece import factor, named_law
+from optlaws.motion.quantity_kinds import Kind
 from optlaws.numerics.roots import bisect
 from optlaws.synthesis.problem.constants import FUNCTIONALS
 from optlaws.synthesis.problem.problem import Problem
@@ -59,18 +60,22 @@ def durations(programme: Programme, objective: CycleObjective) -> tuple[float, .
     left = programme.period - sum(stretch.least for stretch in programme.stretches if stretch.fixed)
     for i in free:
         _check_rest(programme, i)
-    nu, mean = kind_of(objective.minimise)
-    driven = any(isinstance(key, int) and key < 0 for key in objective.limits)
-    if nu < 0 or driven or objective.shares or objective.loaded:
+    kind, mean = kind_of(objective.minimise)
+    driven = any(limited.is_driven for limited in objective.limits)
+    if not kind.order or driven or objective.shares or objective.loaded:
         raise InputError(
             "free durations are shared by velocity, acceleration or jerk, not by a force, power or a load: "
             "give durations"
         )
     shares = [
-        Share(programme.stretches[i], _cost(programme, i, objective, nu, mean=mean), _quickest(programme, i, objective))
+        Share(
+            programme.stretches[i],
+            _cost(programme, i, objective, kind.order, mean=mean),
+            _quickest(programme, i, objective),
+        )
         for i in free
     ]
-    level = _slopes(shares, nu) if mean else [share.cost for share in shares]
+    level = _slopes(shares, kind.order) if mean else [share.cost for share in shares]
     given = dict(zip(free, _levelled(shares, level, left, programme.period), strict=True))
     return tuple(given.get(i, stretch.least) for i, stretch in enumerate(programme.stretches))
 
@@ -113,7 +118,7 @@ def _cost(programme: Programme, i: int, objective: CycleObjective, nu: int, *, m
 def _quickest(programme: Programme, i: int, objective: CycleObjective) -> float:
     stretch = programme.stretches[i]
     limits = limits_of_stretch(stretch, objective, programme.axis) if is_optimal(stretch.given) else {}
-    return abs(stretch.displacement) / greatest(limits, 1, -1.0 if stretch.displacement < 0.0 else 1.0)
+    return abs(stretch.displacement) / greatest(limits, Kind.VELOCITY, -1.0 if stretch.displacement < 0.0 else 1.0)
 
 
 def _shape(programme: Programme, i: int, objective: CycleObjective, nu: int, *, mean: bool) -> Callable[[float], float]:

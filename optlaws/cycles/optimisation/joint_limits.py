@@ -9,7 +9,7 @@ from math import copysign
 from operator import itemgetter
 
 from optlaws.cycles.optimisation.drive_formulas import may_turn
-from optlaws.cycles.optimisation.motion_limits import FORCE, along_motion, in_units
+from optlaws.cycles.optimisation.motion_limits import DECELERATION, SPEEDING_UP, Side, in_units, tightest
 from optlaws.cycles.optimisation.objectives import CycleObjective, kind_of, limits_of_stretch
 from optlaws.cycles.optimisation.optimal import solve
 from optlaws.cycles.specification.joints import LawSpan, Layout, State
@@ -18,11 +18,13 @@ from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.mechanisms.drives.effort import size_of
 from optlaws.motion.piece import Piece
 from optlaws.motion.quantities import in_small_units
+from optlaws.motion.quantity_kinds import Kind
 from optlaws.sentences import Amount, sentence
 from optlaws.synthesis.solution import Solution
 from optlaws.tolerances import AGREEMENT
 
-_VELOCITY, _ACCELERATION_KNOWN = 1, 3
+_ACCELERATION_KNOWN = 3
+_FORCE = Side(Kind.FORCE)
 
 Solved = tuple[tuple[Piece, Solution], ...]
 
@@ -38,12 +40,12 @@ class SegmentEnd:
     state: State
     direction: float
 
-    def demand(self, objective: CycleObjective, nu: int) -> float:
-        """The velocity (nu 1) or the force (-1) there, in SI units; 0 where it is not known."""
-        if nu == _VELOCITY:
+    def demand(self, objective: CycleObjective, kind: Kind) -> float:
+        """The velocity or the force there, in SI units; 0 where it is not known."""
+        if kind is Kind.VELOCITY:
             return abs(self.state.velocity)
         drive = objective.drive
-        if nu != FORCE or drive is None:
+        if kind is not Kind.FORCE or drive is None:
             return 0.0
         if (drive.linear is None or drive.linear.inertia) and objective.order < _ACCELERATION_KNOWN:
             return 0.0
@@ -58,10 +60,10 @@ def check_limits_at_joints(layout: Layout, objective: CycleObjective, axis: str,
         _check_direction(span, objective, axis)
         for edge in _edges(span):
             limits = limits_of_stretch(edge.stretch, objective, axis)
-            needed = edge.demand(objective, FORCE)
-            most = limits.get(FORCE, needed)
+            needed = edge.demand(objective, Kind.FORCE)
+            most = limits.get(_FORCE, needed)
             if needed > most * (1.0 + AGREEMENT):
-                taken, allowed = (in_units(FORCE, force, axis) for force in (needed, most))
+                taken, allowed = (in_units(_FORCE, force, axis) for force in (needed, most))
                 raise InfeasibleProblem(
                     sentence(
                         "{}: at its {}, at {} and {} of the master, every law takes {}, but its limit is {}: allow "
@@ -74,8 +76,13 @@ def check_limits_at_joints(layout: Layout, objective: CycleObjective, axis: str,
 
 def _check_direction(span: LawSpan, objective: CycleObjective, axis: str) -> None:
     """Refuse a limit of slowing down where the velocities at the ends turn the motion back."""
-    limited = (along_motion(limits_of_stretch(stretch, objective, axis)) for stretch in span.stretches)
-    if may_turn(span) and any(limited):
+    keys = [key for stretch in span.stretches for key in limits_of_stretch(stretch, objective, axis)]
+    against = any(state.velocity * span.displacement < 0.0 for state in (span.first, span.last))
+    if against and any(key.kind is Kind.VELOCITY_ALONG for key in keys):
+        raise InfeasibleProblem(
+            f"{span.where} begins or ends against its way, so that it turns back, which its velocity must not"
+        )
+    if may_turn(span) and any(key.name in {DECELERATION, SPEEDING_UP} for key in keys):
         raise InputError(
             f"{span.where} begins or ends against its way, so that slowing down is of no one direction: give its "
             "acceleration as the least and the greatest, such as ('-8 m/s^2', '12 m/s^2'), in place of a deceleration"
@@ -104,18 +111,18 @@ def ties_broken(
     There no law changes the peak of the velocity or force, so that many take no more elsewhere. Beside the laws: a
     remark that says so.
     """
-    nu, mean = kind_of(objective.minimise)
-    if mean or nu not in {_VELOCITY, FORCE} or not laws:
+    kind, mean = kind_of(objective.minimise)
+    if mean or kind not in {Kind.VELOCITY, Kind.FORCE} or not laws:
         return laws, ()
-    known = [(size_of(piece, nu, objective.drive), piece.start) for piece in layout.pieces]
-    known += [(edge.demand(objective, nu), edge.time) for span in layout.spans for edge in _edges(span)]
+    known = [(size_of(piece, kind, objective.drive), piece.start) for piece in layout.pieces]
+    known += [(edge.demand(objective, kind), edge.time) for span in layout.spans for edge in _edges(span)]
     greatest, time = max(known, key=itemgetter(0), default=(0.0, 0.0))
-    if max(size_of(piece, nu, objective.drive) for piece, _ in laws) > greatest * (1.0 + AGREEMENT):
+    if max(size_of(piece, kind, objective.drive) for piece, _ in laws) > greatest * (1.0 + AGREEMENT):
         return laws, ()
     calm = replace(
         objective,
         minimise="acceleration",
-        limits={**objective.limits, nu: min(greatest, objective.limits.get(nu, greatest))},
+        limits=tightest(objective.limits, {kind: (-greatest, greatest)}),
     )
     remark = sentence(
         "the {} is greatest at {} of the master, where no law changes it: of the laws that take no more elsewhere, "

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from math import inf
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeAlias
 
 from optlaws.cycles.specification.programme import AXES, TimedSegment
 from optlaws.cycles.specification.segments import Free, Move
@@ -12,37 +12,40 @@ from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.motion.piece import unit_of
 from optlaws.motion.quantities import in_small_units, positive_quantity, quantity
+from optlaws.motion.quantity_kinds import Kind
 from optlaws.numerics.peaks import is_kept
 from optlaws.sentences import Amount, sentence
 
-FORCE, POWER, CURVE = -1, -3, -6
-LIMITS = {"velocity": 1, "acceleration": 2, "jerk": 3, "snap": 4, "force": FORCE, "torque": FORCE, "power": POWER}
+LIMITS = {
+    "velocity": Kind.VELOCITY,
+    "acceleration": Kind.ACCELERATION,
+    "jerk": Kind.JERK,
+    "snap": Kind.SNAP,
+    "force": Kind.FORCE,
+    "torque": Kind.FORCE,
+    "power": Kind.POWER,
+}
 #: limits of the whole cycle alone
-MEANS = ("rms force", "rms torque")
+OF_WHOLE = {"rms force": Kind.RMS_FORCE, "rms torque": Kind.RMS_FORCE, "energy": Kind.ENERGY}
 FORCES = {"length": "force", "angle": "torque"}
-DECELERATION, SPEEDING_UP = "deceleration", "acceleration along the motion"
-_ALONG = (DECELERATION, SPEEDING_UP)
-_TWO_SIDED = (1, 2, 3)  # orders whose least and greatest value may be given apart
+DECELERATION, SPEEDING_UP, BACKWARDS = "deceleration", "acceleration along the motion", "velocity backwards"
+_ALONG = (DECELERATION, SPEEDING_UP, BACKWARDS)
+_KINDS_ALONG = (Kind.VELOCITY_ALONG, Kind.ACCELERATION_ALONG)
+
+#: the least and the greatest allowed value of each limited quantity in SI units
+Limits: TypeAlias = dict[Kind, tuple[float, float]]
 
 
-class OneSided(NamedTuple):
-    """One side of a derivative: `sign` times the derivative of order `nu` has a limit, under its given name.
+class Side(NamedTuple):
+    """What a limit of a segment bounds: the magnitude of a quantity, or with a sign one side of it, under its name."""
 
-    Along the motion its sign is that of a rise until the segment is known.
-    """
-
-    nu: int
-    sign: float
-    name: str
-
-    def in_direction(self, direction: float) -> OneSided:
-        """The side of a motion that goes in a direction."""
-        return self._replace(sign=self.sign * direction) if self.name in _ALONG else self
+    kind: Kind
+    sign: float = 0.0
+    name: str = ""
 
 
-#: what has a limit: the magnitude of a derivative, of force or power, or one side of a derivative
-LimitKey = int | OneSided
-Limits = dict[LimitKey, float]
+#: the greatest allowed value of each limited side, in SI units
+Sides: TypeAlias = dict[Side, float]
 
 
 class LimitTaken(NamedTuple):
@@ -75,7 +78,7 @@ class LimitTaken(NamedTuple):
     @property
     def share(self) -> float:
         """The share that is taken: above 1 where the limit is broken."""
-        return self.value / self.limit
+        return self.value / self.limit if self.limit else inf if self.value > 0.0 else 0.0
 
     @property
     def is_kept(self) -> bool:
@@ -88,164 +91,224 @@ class LimitTaken(NamedTuple):
 
 
 def read_limits(entries: Mapping[str, Any], axis: str, where: str) -> Limits:
-    """Limits in SI units by the limited quantity.
+    """The least and greatest value of each limited quantity in SI units, from the entries that have limits.
 
-    >>> read_limits({"acceleration": ("-8 m/s^2", "12 m/s^2"), "velocity": "2 m/s"}, "length", "limits")
-    {OneSided(nu=2, sign=-1.0, name='acceleration'): 8.0, OneSided(nu=2, sign=1.0, name='acceleration'): 12.0, 1: 2.0}
+    A velocity that is at least 0 never turns back: it is above 0 along the motion, whichever way that goes.
+
+    >>> read_limits({"acceleration": ("-8 m/s^2", "12 m/s^2"), "snap": "9 m/s^4"}, "length", "limits")
+    {<Kind.ACCELERATION: 2>: (-8.0, 12.0), <Kind.SNAP: 4>: (-9.0, 9.0)}
+
+    Raises
+    ------
+    InputError
+        If a quantity is wrong, or the same is limited twice.
     """
     limits: Limits = {}
-    apart = DECELERATION in entries
     for name, value in entries.items():
-        place = f"{where}: {name}"
+        kind, place = (LIMITS | OF_WHOLE).get(name), f"{where}: {name}"
         if name == DECELERATION:
-            limits[OneSided(2, -1.0, name)] = positive_quantity(value, AXES[axis][2], place)
-        elif name in LIMITS and isinstance(value, list | tuple):
-            limits |= _both(name, value, axis, place)
-        elif name == "acceleration" and apart:
-            limits[OneSided(2, 1.0, SPEEDING_UP)] = positive_quantity(value, AXES[axis][2], place)
-        elif name in LIMITS:
-            limits[LIMITS[name]] = positive_quantity(value, _dimension(LIMITS[name], axis), place)
+            limits = tightest(limits, {Kind.ACCELERATION_ALONG: (-positive_quantity(value, AXES[axis][2], place), inf)})
+        elif kind is None:
+            continue
+        elif kind in limits and name in OF_WHOLE:
+            raise InputError(f"{where}: rms force and rms torque are the same: give one of them")
+        elif isinstance(value, list | tuple):
+            limits = tightest(limits, _both(kind, value, axis, place))
+        else:
+            most = positive_quantity(value, _dimension(kind, axis), place)
+            apart = name == "acceleration" and DECELERATION in entries
+            limits = tightest(limits, {Kind.ACCELERATION_ALONG: (-inf, most)} if apart else {kind: (-most, most)})
+    if "energy" in entries and (Kind.RMS_FORCE in limits or "motor" in entries):
+        raise InputError(
+            f"{where}: energy and an rms force or torque, which a motor has as well, are both of the whole cycle: give "
+            "one of them"
+        )
     return limits
 
 
-def _both(name: str, value: Any, axis: str, place: str) -> Limits:
+def _both(kind: Kind, value: Any, axis: str, place: str) -> Limits:
     """The least and the greatest value of a derivative."""
-    nu = LIMITS[name]
-    low, high = (quantity(side, _dimension(nu, axis), place) for side in value)
+    low, high = (quantity(side, _dimension(kind, axis), place) for side in value)
+    if kind is Kind.VELOCITY and low == 0.0 < high:
+        return {kind: (-high, high), Kind.VELOCITY_ALONG: (0.0, inf)}
     if not low < 0.0 < high:
         raise InputError(
             f"{place}: the least must be below 0 and the greatest above 0, such as ('-8 m/s^2', '12 m/s^2'), "
             f"got {shortened(value)}"
         )
-    return {nu: high} if high == -low else {OneSided(nu, -1.0, name): -low, OneSided(nu, 1.0, name): high}
+    return {kind: (low, high)}
 
 
-def _dimension(nu: int, axis: str) -> str:
-    return AXES[axis][nu] if nu > 0 else {FORCE: FORCES[axis], POWER: "power"}[nu]
+def _dimension(kind: Kind, axis: str) -> str:
+    if kind.order:
+        return AXES[axis][kind.order]
+    return {Kind.POWER: "power", Kind.ENERGY: "energy"}.get(kind, FORCES[axis])
 
 
-def limits_of_segment(stretch: TimedSegment, of_cycle: Mapping[LimitKey, float], axis: str) -> Limits:
+def limits_of_segment(stretch: TimedSegment, of_cycle: Mapping[Kind, tuple[float, float]], axis: str) -> Sides:
     """Limits of a segment: the segment's own limits and the cycle's limits, whichever are lower.
 
     Raises
     ------
     InputError
-        If slowing down has a limit where the motion may turn back.
+        If slowing down has a limit where the motion may turn back, or what ends where it begins must not turn back.
     """
     entries = stretch.given.limits if isinstance(stretch.given, Move | Free) else {}
-    given = read_limits(entries, axis, f"{stretch.where}: limits")
-    limits: dict[tuple[int, float], tuple[float, LimitKey]] = {}
-    for key, most in (*of_cycle.items(), *given.items()):
-        here = key if isinstance(key, int) else key.in_direction(_direction(stretch, key))
-        place = (here, 0.0) if isinstance(here, int) else (here.nu, here.sign)
-        limits[place] = min(limits.get(place, (inf, here)), (most, here), key=lambda limit: limit[0])
-    least = {limits[place][1]: limits[place][0] for place in sorted(limits)}
-    for nu in _TWO_SIDED:
-        _part(least, nu)
-    return least
-
-
-def _part(limits: Limits, nu: int) -> None:
-    """Copy the limit of a derivative's magnitude to both sides, where a side has a limit of its own."""
-    sides = {key.sign: key for key in limits if isinstance(key, OneSided) and key.nu == nu}
-    most = limits.get(nu, inf)
-    if not sides or most == inf:
-        return
-    del limits[nu]
-    for sign in (-1.0, 1.0):
-        key = sides.get(sign, OneSided(nu, sign, name_of(nu, "length")))
-        limits[key] = min(limits.get(key, inf), most)
-
-
-def _direction(stretch: TimedSegment, key: OneSided) -> float:
-    if isinstance(stretch.given, Free) and key.name in _ALONG:
+    limits = tightest(of_cycle, read_limits(entries, axis, f"{stretch.where}: limits"))
+    if isinstance(stretch.given, Free) and Kind.ACCELERATION_ALONG in limits:
         raise InputError(
             f"{stretch.where} may turn back, where speeding up and slowing down are of no one direction: give its "
             "acceleration as the least and the greatest, such as ('-8 m/s^2', '12 m/s^2'), in place of a deceleration"
         )
-    return -1.0 if stretch.displacement < 0.0 else 1.0
+    if isinstance(stretch.given, Free) and Kind.VELOCITY_ALONG in limits and not stretch.displacement:
+        raise InputError(
+            f"{stretch.where} ends where it begins, so that it must turn back: give the limit of its velocity as "
+            "one quantity, or as a least one below 0"
+        )
+    return sides(limits, -1.0 if stretch.displacement < 0.0 else 1.0)
 
 
-def tightest(limits: Mapping[LimitKey, float], others: Mapping[LimitKey, float]) -> Limits:
+def of_segments(limits: Mapping[Kind, tuple[float, float]]) -> Limits:
+    """The limits of each segment, without those of the whole cycle."""
+    return {kind: ends for kind, ends in limits.items() if kind not in OF_WHOLE.values()}
+
+
+def sides(limits: Mapping[Kind, tuple[float, float]], direction: float) -> Sides:
+    """The limited sides of a motion that goes in a direction.
+
+    >>> sides({Kind.VELOCITY: (-2.0, 2.0), Kind.JERK: (-9.0, 7.0)}, 1.0)[Side(Kind.JERK, -1.0, "jerk")]
+    9.0
+    """
+    bounds: Sides = {}
+    along, both = limits.get(Kind.ACCELERATION_ALONG), (-inf, inf)
+    known = {**limits, Kind.ACCELERATION: limits.get(Kind.ACCELERATION, both)} if along else limits
+    for kind in sorted(of_segments(known).keys() - {*_KINDS_ALONG}, key=lambda kind: kind.value):
+        low, high = known[kind]
+        if low == -high and not (along and kind is Kind.ACCELERATION):
+            bounds[Side(kind)] = high
+            continue
+        slow, fast = (along or both) if kind is Kind.ACCELERATION else both
+        for sign, most in ((-1.0, -low), (1.0, high)):
+            most_along = fast if sign == direction else -slow
+            name = _name(kind) if most_along == inf else SPEEDING_UP if sign == direction else DECELERATION
+            if min(most, most_along) < inf:
+                bounds[Side(kind, sign, name)] = min(most, most_along)
+    if Kind.VELOCITY_ALONG in limits:
+        bounds[Side(Kind.VELOCITY_ALONG, -direction, BACKWARDS)] = 0.0
+    return bounds
+
+
+def tightest(limits: Mapping[Kind, tuple[float, float]], others: Mapping[Kind, tuple[float, float]]) -> Limits:
     """Limits of both, whichever is less.
 
-    >>> tightest({1: 2.0, 2: 9.0}, {1: 3.0, FORCE: 5.0})
-    {1: 2.0, 2: 9.0, -1: 5.0}
+    >>> tightest({Kind.VELOCITY: (-2.0, 2.0)}, {Kind.VELOCITY: (-3.0, 1.0)})
+    {<Kind.VELOCITY: 1>: (-2.0, 1.0)}
     """
-    return {key: min(limits.get(key, inf), others.get(key, inf)) for key in dict.fromkeys([*limits, *others])}
+    both = {**limits}
+    for kind, (low, high) in others.items():
+        least, most = both.get(kind, (-inf, inf))
+        both[kind] = (max(least, low), min(most, high))
+    return both
 
 
-def along_motion(limits: Mapping[LimitKey, float]) -> bool:
-    """Whether slowing down has a limit of its own, so that laws must not turn back."""
-    return any(isinstance(key, OneSided) and key.name in _ALONG for key in limits)
+def raised(limits: Mapping[Kind, tuple[float, float]], more: Mapping[str, float], axis: str) -> Limits:
+    """Limits times factors of those that have these names."""
+    slower = {Kind.ACCELERATION_ALONG: DECELERATION}
+
+    def factor(name: str) -> float:
+        return more.get(name, 1.0)
+
+    words = {kind: word_of(Side(kind), axis) for kind in limits}
+    return {
+        kind: (low * factor(slower.get(kind, words[kind])), high * factor(words[kind]))
+        for kind, (low, high) in limits.items()
+    }
 
 
-def greatest(limits: Mapping[LimitKey, float], nu: int, direction: float = 0.0) -> float:
+def along_motion(limits: Mapping[Side, float]) -> bool:
+    """Whether a limit is of the direction of the motion, so that laws must not turn back."""
+    return any(key.name in _ALONG for key in limits)
+
+
+def greatest(limits: Mapping[Side, float], kind: Kind, direction: float = 0.0) -> float:
     """The greatest magnitude that a derivative may have in a direction, or with 0 in both; infinite without a limit.
 
-    >>> greatest({1: 2.0, OneSided(1, -1.0, "velocity"): 1.5}, 1, -1.0)
+    >>> greatest({Side(Kind.VELOCITY, -1.0, "velocity"): 1.5}, Kind.VELOCITY, -1.0)
     1.5
     """
-    sides = [
-        most for key, most in limits.items() if isinstance(key, OneSided) and (key.nu, key.sign) == (nu, direction)
-    ]
-    return min([limits.get(nu, inf), *sides])
+    known = [most for key, most in limits.items() if (key.kind, key.sign) == (kind, direction)]
+    return min([limits.get(Side(kind), inf), *known])
 
 
-def both_sides(limits: Mapping[LimitKey, float]) -> dict[int, tuple[float, float]]:
+def both_sides(limits: Mapping[Side, float]) -> Limits:
     """The least and greatest allowed value of each limited quantity, infinite without a limit.
 
-    >>> both_sides({2: 9.0, OneSided(2, -1.0, "acceleration"): 8.0})
-    {2: (-8.0, 9.0)}
+    >>> both_sides({Side(Kind.ACCELERATION, -1.0, "acceleration"): 8.0})
+    {<Kind.ACCELERATION: 2>: (-8.0, inf)}
     """
-    orders = dict.fromkeys(key if isinstance(key, int) else key.nu for key in limits)
-    return {nu: (-greatest(limits, nu, -1.0), greatest(limits, nu, 1.0)) for nu in orders}
+    kinds = dict.fromkeys(key.kind for key in limits if key.kind is not Kind.VELOCITY_ALONG)
+    known: Limits = {kind: (-greatest(limits, kind, -1.0), greatest(limits, kind, 1.0)) for kind in kinds}
+    for sign in (key.sign for key in limits if key.kind is Kind.VELOCITY_ALONG):
+        low, high = known.get(Kind.VELOCITY, (-inf, inf))
+        known[Kind.VELOCITY] = (0.0, high) if sign < 0.0 else (low, 0.0)
+    return known
 
 
-def name_of(key: LimitKey, axis: str) -> str:
+def _name(kind: Kind) -> str:
+    return next(name for name, each in LIMITS.items() if each is kind)
+
+
+def name_of(key: Side, axis: str) -> str:
     """The name of a limited quantity.
 
-    >>> name_of(3, "length"), name_of(OneSided(2, -1.0, DECELERATION), "length"), name_of(FORCE, "angle")
-    ('jerk', 'deceleration', 'torque')
+    >>> name_of(Side(Kind.JERK), "length"), name_of(Side(Kind.FORCE), "angle")
+    ('jerk', 'torque')
     """
-    if isinstance(key, OneSided):
-        sides = {} if key.name in _ALONG else {-1.0: "lowest ", 1.0: "highest "}
-        return f"{sides.get(key.sign, '')}{key.name}"
-    if key in {FORCE, CURVE}:
-        return FORCES[axis] if key == FORCE else "share of the motor's curve"
-    return next(name for name, order in LIMITS.items() if order == key)
+    if key.sign:
+        beyond = {-1.0: "lowest ", 1.0: "highest "}
+        return f"{'' if key.name in _ALONG else beyond[key.sign]}{key.name}"
+    if key.kind is Kind.CURVE:
+        return "share of the motor's curve"
+    return FORCES[axis] if key.kind is Kind.FORCE else _name(key.kind)
 
 
-def word_of(key: LimitKey, axis: str) -> str:
+def word_of(key: Side, axis: str) -> str:
     """The key under which a limit was given.
 
-    >>> word_of(OneSided(2, 1.0, SPEEDING_UP), "length"), word_of(FORCE, "angle")
+    >>> word_of(Side(Kind.ACCELERATION, 1.0, SPEEDING_UP), "length"), word_of(Side(Kind.FORCE), "angle")
     ('acceleration', 'torque')
     """
-    if isinstance(key, OneSided):
-        return "acceleration" if key.name == SPEEDING_UP else key.name
-    return "motor" if key == CURVE else name_of(key, axis)
+    given = {
+        Kind.CURVE: "motor",
+        Kind.RMS_FORCE: f"rms {FORCES[axis]}",
+        Kind.ENERGY: "energy",
+        Kind.VELOCITY_ALONG: "velocity",
+        Kind.ACCELERATION_ALONG: "acceleration",
+    }
+    if key.sign:
+        return "acceleration" if key.name == SPEEDING_UP else given.get(key.kind, key.name)
+    return given[key.kind] if key.kind in given else name_of(key, axis)
 
 
-def in_units(key: LimitKey, value: float, axis: str) -> str:
+def in_units(key: Side, value: float, axis: str) -> str:
     """A limit as text, in the unit that machines have it in.
 
-    >>> in_units(1, 0.616, "length"), in_units(FORCE, 120.0, "length"), in_units(3, 900.0, "angle")
-    ('the velocity 616 mm/s', 'the force 120 N', 'the jerk 900 rad/s^3')
+    >>> in_units(Side(Kind.VELOCITY), 0.616, "length"), in_units(Side(Kind.FORCE), 120.0, "length")
+    ('the velocity 616 mm/s', 'the force 120 N')
     """
     return sentence("the {} {}", name_of(key, axis), amount(key, value, axis))
 
 
-def amount(key: LimitKey, value: float, axis: str) -> Amount:
+def amount(key: Side, value: float, axis: str) -> Amount:
     """The value of a limit with its unit; of the least value of a derivative with its sign.
 
-    >>> amount(OneSided(2, -1.0, "acceleration"), 8.0, "length"), amount(-3, 500.0, "length")
+    >>> amount(Side(Kind.ACCELERATION, -1.0, "acceleration"), 8.0, "length"), amount(Side(Kind.POWER), 500.0, "length")
     ('-8 m/s^2', '500 W')
     """
-    nu = key if isinstance(key, int) else key.nu
-    signed = value * key.sign if isinstance(key, OneSided) and key.name not in _ALONG else value
-    if nu == 1:
+    signed = value * key.sign if key.sign and key.name not in _ALONG else value
+    if key.kind.order == 1:
         return in_small_units(signed, axis, "/s")
-    if nu in {POWER, CURVE}:
-        return Amount(signed, "W" if nu == POWER else "")
-    return Amount(signed, ("N" if axis == "length" else "N m") if nu == FORCE else f"{unit_of(axis)}/s^{nu}")
+    if key.kind in {Kind.POWER, Kind.CURVE}:
+        return Amount(signed, "W" if key.kind is Kind.POWER else "")
+    force = "N" if axis == "length" else "N m"
+    return Amount(signed, f"{unit_of(axis)}/s^{key.kind.order}" if key.kind.order else force)

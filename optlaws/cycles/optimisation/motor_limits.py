@@ -3,36 +3,27 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
 from itertools import pairwise
 from math import inf, isfinite
 from typing import Any
 
 from optlaws.cycles.optimisation.drive_formulas import Driven, branches_of, known_drive, may_turn
-from optlaws.cycles.optimisation.motion_limits import CURVE, FORCE, Limits
+from optlaws.cycles.optimisation.motion_limits import Limits
 from optlaws.cycles.specification.joints import LawSpan
 from optlaws.cycles.specification.programme import Programme
 from optlaws.errors import InputError
 from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.mechanisms.drives.motor import Motor
 from optlaws.motion.piece import factor
+from optlaws.motion.quantity_kinds import Kind
 from optlaws.synthesis.functionals.makers import peak
 from optlaws.synthesis.problem.constants import Functional
 from optlaws.tolerances import AGREEMENT
 
 MOTOR = "motor"
-_VELOCITY = 1
 
 
-@dataclass(frozen=True)
-class MotorLimits:
-    """Limits of all motions by the limited quantity, and the limit of the RMS torque, None without one."""
-
-    of_motions: Limits = field(default_factory=dict)
-    mean_torque: float | None = None
-
-
-def motor_limits(entries: Mapping[str, Any], drive: Drive | None, programme: Programme) -> MotorLimits:
+def motor_limits(entries: Mapping[str, Any], drive: Drive | None, programme: Programme) -> Limits:
     """The limits of the motor, if the cycle is required to keep them.
 
     The continuous torque is that at the mean speed, which no law that never turns back changes.
@@ -43,18 +34,18 @@ def motor_limits(entries: Mapping[str, Any], drive: Drive | None, programme: Pro
         If there is no motor, or its curve of torque over speed is not concave.
     """
     if not entries.get(MOTOR):
-        return MotorLimits()
+        return {}
     if drive is None or not drive.has_motor:
         raise InputError("limits, motor: there is no motor: give one, as drive=Drive(mechanism, Motor(...), ratio=20)")
     motor, ratio = drive.motor, drive.ratio
     way = sum(abs(stretch.displacement) for stretch in programme.stretches)
     known = {
-        FORCE: motor.peak_torque,
-        _VELOCITY: motor.greatest_speed / ratio,
-        CURVE: 1.0 if curve_lines(motor) else inf,
+        Kind.FORCE: motor.peak_torque,
+        Kind.VELOCITY: motor.greatest_speed / ratio,
+        Kind.CURVE: 1.0 if curve_lines(motor) else inf,
+        Kind.RMS_FORCE: float(motor.continuous_at(ratio * way / programme.period)),
     }
-    rated = float(motor.continuous_at(ratio * way / programme.period))
-    return MotorLimits({nu: most for nu, most in known.items() if isfinite(most)}, rated if isfinite(rated) else None)
+    return {kind: (-most, most) for kind, most in known.items() if isfinite(most)}
 
 
 def curve_lines(motor: Motor) -> list[tuple[float, float]]:

@@ -6,32 +6,31 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from optlaws.cycles.optimisation.motion_limits import FORCE, FORCES, MEANS, POWER, LimitKey, Limits, limits_of_segment
+from optlaws.cycles.optimisation.motion_limits import Sides, limits_of_segment
 from optlaws.cycles.specification.load import Load, load_output
 from optlaws.cycles.specification.programme import TimedSegment
 from optlaws.errors import InputError
 from optlaws.mechanisms.drives.drive_train import Drive
-from optlaws.motion.quantities import positive_quantity
+from optlaws.motion.quantity_kinds import Kind
 from optlaws.suggest import unknown_key
 
-LOADED, ENERGY, HEAT = -2, -4, -5
 #: what is summed over the motions of a cycle as it is
-SUMS = (ENERGY, HEAT)
-#: what may be least over a cycle: the order of the derivative, and whether it is its root mean square
+SUMS = (Kind.ENERGY, Kind.HEAT)
+#: what may be least over a cycle, and whether it is its root mean square
 OBJECTIVES = {
-    "velocity": (1, False),
-    "acceleration": (2, False),
-    "jerk": (3, False),
-    "rms acceleration": (2, True),
-    "rms jerk": (3, True),
-    "rms snap": (4, True),
-    "force": (FORCE, False),
-    "torque": (FORCE, False),
-    "power": (POWER, False),
-    "rms force": (FORCE, True),
-    "rms torque": (FORCE, True),
-    "energy": (ENERGY, False),
-    "heat": (HEAT, False),
+    "velocity": (Kind.VELOCITY, False),
+    "acceleration": (Kind.ACCELERATION, False),
+    "jerk": (Kind.JERK, False),
+    "rms acceleration": (Kind.ACCELERATION, True),
+    "rms jerk": (Kind.JERK, True),
+    "rms snap": (Kind.SNAP, True),
+    "force": (Kind.FORCE, False),
+    "torque": (Kind.FORCE, False),
+    "power": (Kind.POWER, False),
+    "rms force": (Kind.FORCE, True),
+    "rms torque": (Kind.FORCE, True),
+    "energy": (Kind.ENERGY, False),
+    "heat": (Kind.HEAT, False),
 }
 
 
@@ -39,20 +38,27 @@ OBJECTIVES = {
 class CycleObjective:
     """The objective of a cycle, from `OBJECTIVES`, the limits of the whole in SI units, and the degree of its laws.
 
-    `limits` are by the order of the derivative or one side of it, of force or torque by -1, of power by -3, of a
-    motor's curve by -6; `loaded` by the load's output and whether of its root mean square; `mean_force` is that of the
-    root mean square of the force over the whole cycle, `energy` that of its energy.
+    Of the limits the root mean square of the force and the energy are of the whole cycle, the others of each segment;
+    `loaded` are by the load's output and whether of its root mean square.
     """
 
     minimise: str
-    limits: Mapping[LimitKey, float]
+    limits: Mapping[Kind, tuple[float, float]]
     order: int
     degree: int
     drive: Drive | None
     load: Load | None = None
     loaded: Mapping[tuple[str, bool], float] = field(default_factory=dict)
-    mean_force: float | None = None
-    energy: float | None = None
+
+    @property
+    def mean_force(self) -> float | None:
+        """The limit of the root mean square of the force over the whole cycle."""
+        return self.limits.get(Kind.RMS_FORCE, (None, None))[1]
+
+    @property
+    def energy(self) -> float | None:
+        """The limit of the energy over the whole cycle."""
+        return self.limits.get(Kind.ENERGY, (None, None))[1]
 
     @property
     def shares(self) -> bool:
@@ -62,18 +68,16 @@ class CycleObjective:
     @property
     def of_load(self) -> bool:
         """Whether the load is spoken of, so that the cycle is one problem."""
-        return bool(self.loaded) or kind_of(self.minimise)[0] == LOADED
+        return bool(self.loaded) or kind_of(self.minimise)[0] is Kind.LOAD
 
 
-def kind_of(minimise: str) -> tuple[int, bool]:
-    """The order of the minimised quantity, and whether its root mean square is minimised.
-
-    -1 is a force, -2 of the load, -3 the power, -4 the energy, -5 the heat.
+def kind_of(minimise: str) -> tuple[Kind, bool]:
+    """The kind of the minimised quantity, and whether its root mean square is minimised.
 
     >>> kind_of("rms jerk"), kind_of("load acceleration")
-    ((3, True), (-2, False))
+    ((<Kind.JERK: 3>, True), (<Kind.LOAD: -2>, False))
     """
-    return OBJECTIVES.get(minimise, (LOADED, minimise.startswith("rms ")))
+    return OBJECTIVES.get(minimise, (Kind.LOAD, minimise.startswith("rms ")))
 
 
 def check_objective(minimise: Any, load: Load | None) -> None:
@@ -92,33 +96,6 @@ def read_load_limits(entries: Mapping[str, Any], load: Load | None) -> dict[tupl
     return limits
 
 
-def read_mean_force(entries: Mapping[str, Any], axis: str) -> float | None:
-    """The limit of the root mean square of the force or torque over the cycle, in SI units; None without one."""
-    given = [name for name in MEANS if name in entries]
-    if len(given) > 1:
-        raise InputError(f"limits: {' and '.join(given)} are the same: give one of them")
-    if not given:
-        return None
-    return positive_quantity(entries[given[0]], FORCES[axis], f"limits, {given[0]}")
-
-
-def read_energy(entries: Mapping[str, Any]) -> float | None:
-    """The limit of the energy over the cycle, J; None without one."""
-    if "energy" not in entries:
-        return None
-    if any(name in entries for name in (*MEANS, "motor")):
-        raise InputError(
-            "limits: energy and an rms force or torque, which a motor has as well, are both of the whole cycle: give "
-            "one of them"
-        )
-    return positive_quantity(entries["energy"], "energy", "limits, energy")
-
-
-def limits_of_stretch(stretch: TimedSegment, objective: CycleObjective, axis: str) -> Limits:
+def limits_of_stretch(stretch: TimedSegment, objective: CycleObjective, axis: str) -> Sides:
     """Limits of a segment: the segment's own limits and the cycle's limits, whichever are lower."""
     return limits_of_segment(stretch, objective.limits, axis)
-
-
-def least_of(limit: float | None, other: float | None) -> float | None:
-    """The lesser of two limits of which any may be none."""
-    return min((known for known in (limit, other) if known is not None), default=None)

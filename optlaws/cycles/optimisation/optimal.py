@@ -14,19 +14,9 @@ from operator import itemgetter
 from typing import Any
 
 from optlaws.cycles.optimisation.drive_formulas import Driven, driven_formula, driven_mean, driven_peak, may_turn
-from optlaws.cycles.optimisation.motion_limits import (
-    CURVE,
-    FORCE,
-    POWER,
-    LimitKey,
-    Limits,
-    OneSided,
-    along_motion,
-    greatest,
-    in_units,
-)
+from optlaws.cycles.optimisation.motion_limits import Side, Sides, along_motion, greatest, in_units
 from optlaws.cycles.optimisation.motor_limits import driven_curve
-from optlaws.cycles.optimisation.objectives import ENERGY, LOADED, SUMS, CycleObjective, kind_of, limits_of_stretch
+from optlaws.cycles.optimisation.objectives import SUMS, CycleObjective, kind_of, limits_of_stretch
 from optlaws.cycles.optimisation.search_spaces import (
     halved,
     joined_basis,
@@ -43,6 +33,7 @@ from optlaws.cycles.specification.programme import is_optimal
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.motion.piece import Piece, factor
 from optlaws.motion.quantities import in_small_units
+from optlaws.motion.quantity_kinds import Kind
 from optlaws.sentences import sentence
 from optlaws.synthesis.functionals.makers import integral, peak
 from optlaws.synthesis.limits.drive_limits import limit_beside
@@ -57,10 +48,8 @@ from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
 from optlaws.synthesis.status import Status
 from optlaws.tolerances import AGREEMENT
 
-_DRIVEN = (FORCE, POWER, CURVE)
-_BY_DRIVE = (*_DRIVEN, *SUMS)
-_PEAKS = {1: "B", 2: "C", 3: "J", 4: "snap"}
-_SNAP = 4
+_PEAKS = {Kind.VELOCITY: "B", Kind.ACCELERATION: "C", Kind.JERK: "J", Kind.SNAP: "snap"}
+_SNAP = Side(Kind.SNAP)
 _ROUGH = 15  # degree of Z where points on the way or velocities bend the law
 
 
@@ -135,6 +124,8 @@ def with_least_limit(
     stroke = scale(span)
     problem = span_problem(span, objective, axis, stroke)
     for key, most in limits_of_stretch(span.stretches[0], objective, axis).items():
+        if key.kind is Kind.VELOCITY_ALONG:
+            continue
         limited = limited_by(span, objective, stroke, key)
         limit = problem.range(limited.constants[0].name)
         others = {other: best for other, best in problem.bounded if other not in limited.constants}
@@ -146,7 +137,9 @@ def with_least_limit(
         if limit is not None and least > limit.high:
             allowed, needed = (in_units(key, value, axis) for value in (most, least / limit.high * most))
             space = search_space(problem, span, objective.order)
-            proven = _whatever_degree(replace(problem, minimise=limited.objective), limited) if key in _DRIVEN else None
+            proven = (
+                _whatever_degree(replace(problem, minimise=limited.objective), limited) if key.kind.is_driven else None
+            )
             beyond = ""
             if proven is not None and proven > limit.high:
                 greater = in_units(key, proven / limit.high * most, axis)
@@ -181,7 +174,7 @@ def with_share(problem: Problem, span: LawSpan, objective: CycleObjective, strok
     """The problem of a span of which the squared force, or the energy, is at most a share, in SI units."""
     monotone = problem.monotone or never_back(span, objective)
     if objective.mean_force is None:
-        energy = span_sum(span, ENERGY, objective.drive, stroke)
+        energy = span_sum(span, Kind.ENERGY, objective.drive, stroke)
         bounds = {**problem.bounds, integral(energy.formula): Range(0.0, (share - energy.constant) / energy.unit)}
         return replace(problem, bounds=bounds, monotone=monotone, symmetric=False)
     driven, most = driven_mean(span, objective.drive, stroke), share / span.duration
@@ -224,8 +217,9 @@ def span_problem(span: LawSpan, objective: CycleObjective, axis: str, stroke: fl
     bounds, parts = _limits(span, objective, axis, stroke)
     limits = limits_of_stretch(span.stretches[0], objective, axis)
     _check_energy(span, objective, limits)
-    forced = kind_of(objective.minimise)[0] in _BY_DRIVE or any(key in _DRIVEN for key in limits)
-    sided = any(isinstance(key, OneSided) for key in limits)
+    minimised = kind_of(objective.minimise)[0]
+    forced = minimised.is_driven or minimised in SUMS or any(key.kind.is_driven for key in limits)
+    sided = any(key.sign and key.kind is not Kind.VELOCITY_ALONG for key in limits)
     return Problem(
         order=objective.order,
         basis=Chebyshev(objective.degree if plain else max(objective.degree, _ROUGH)),
@@ -238,31 +232,35 @@ def span_problem(span: LawSpan, objective: CycleObjective, axis: str, stroke: fl
     )
 
 
-def _follows_curve(span: LawSpan, limits: Limits) -> bool:
+def _follows_curve(span: LawSpan, limits: Sides) -> bool:
     """Whether a motor's curve limits a motion between rests, which falls with a speed of one sign."""
-    return CURVE in limits and not may_turn(span)
+    return Side(Kind.CURVE) in limits and not may_turn(span)
 
 
-def _check_energy(span: LawSpan, objective: CycleObjective, limits: Limits) -> None:
+def _check_energy(span: LawSpan, objective: CycleObjective, limits: Sides) -> None:
     """Refuse a least energy without a bound on the acceleration: the energy falls as accelerations grow."""
-    if kind_of(objective.minimise)[0] == ENERGY and not any(_holds_acceleration(key) for key in limits):
+    if kind_of(objective.minimise)[0] is Kind.ENERGY and not any(_holds_acceleration(key) for key in limits):
         raise InputError(
             f"{span.where}: its energy falls with ever greater accelerations, so that none is least: give a limit of "
             "the acceleration, or of the force or torque"
         )
 
 
-def _holds_acceleration(key: LimitKey) -> bool:
+def _holds_acceleration(key: Side) -> bool:
     """Whether a limit bounds the acceleration: any limit except a limit of the velocity or of one side alone."""
-    return isinstance(key, int) and key != 1
+    return not key.sign and key.kind is not Kind.VELOCITY
 
 
 def _problem_of_several(span: LawSpan, objective: CycleObjective, axis: str, stroke: float) -> Problem:
     """The problem of a single law over several stretches, or through points on the way."""
     bounds, parts = _limits(span, objective, axis, stroke)
-    minimised = max(kind_of(objective.minimise)[0], _highest_limited(span, objective, axis))
-    minimised = POWER if POWER in objective.limits or kind_of(objective.minimise)[0] in SUMS else minimised
-    minimised = LOADED if objective.of_load else minimised
+    minimised, highest = kind_of(objective.minimise)[0], _highest_limited(span, objective, axis)
+    if objective.of_load:
+        minimised = Kind.LOAD
+    elif Kind.POWER in objective.limits or minimised in SUMS:
+        minimised = Kind.POWER
+    elif highest > minimised.order:
+        minimised = Kind(highest)
     bounds |= {
         _of_load(objective, *output, span): Range(0.0, most / abs(stroke)) for output, most in objective.loaded.items()
     }
@@ -274,7 +272,11 @@ def _problem_of_several(span: LawSpan, objective: CycleObjective, axis: str, str
         minimise=_objective(span, objective, stroke),
         symmetric=False,
         boundary=plain if span.turns else _ends(span, stroke, objective.order),
-        windows=(*joint_windows(span, objective.order, stroke), *parts),
+        windows=(
+            *joint_windows(span, objective.order, stroke),
+            *forward_windows(span, objective, axis, stroke),
+            *parts,
+        ),
         bounds=bounds,
     )
 
@@ -282,7 +284,7 @@ def _problem_of_several(span: LawSpan, objective: CycleObjective, axis: str, str
 def _highest_limited(span: LawSpan, objective: CycleObjective, axis: str) -> int:
     """The order of the highest limited derivative from the jerk on, whose peaks are to be at breaks; else 0."""
     keys = (key for stretch in span.stretches for key in limits_of_stretch(stretch, objective, axis))
-    return max((nu for nu in (key if isinstance(key, int) else key.nu for key in keys) if nu > 2), default=0)
+    return max((key.kind.order for key in keys if key.kind.order > 2), default=0)
 
 
 def _ends(span: LawSpan, stroke: float, order: int) -> BoundaryConditions:
@@ -305,52 +307,64 @@ def _limits(
     ]
     sought = [limits for limits in of_each if limits is not None]
     if all(limits == sought[0] for limits in sought) and _straight_within(span, sought[0]):
-        of_limits = ((limited_by(span, objective, stroke, key), most) for key, most in sought[0].items())
+        bounded = ((key, most) for key, most in sought[0].items() if key.kind is not Kind.VELOCITY_ALONG)
+        of_limits = ((limited_by(span, objective, stroke, key), most) for key, most in bounded)
         ranges = ((known.constants, Range(0.0, most / known.unit)) for known, most in of_limits)
         return {constant: allowed for constants, allowed in ranges for constant in constants}, ()
     bounds, windows = dict[Any, Range](), list[Window]()
     for limits, start, stop in _alike(of_each, (*span.starts, span.stop)):
         for key, most in limits.items():
-            if key == CURVE:
+            if key.kind is Kind.CURVE:
                 known = driven_curve(span, objective.drive, stroke)
                 bounds |= dict.fromkeys(known.constants, Range(0.0, most / known.unit))
             elif key == _SNAP:
-                bounds[FUNCTIONALS[_PEAKS[_SNAP]]] = Range(0.0, _snap_of_all(span, sought) / _unit(span, stroke, _SNAP))
-            else:
+                bounds[FUNCTIONALS[_PEAKS[Kind.SNAP]]] = Range(0.0, _snap_of_all(span, sought) / _unit(span, stroke, 4))
+            elif key.kind is not Kind.VELOCITY_ALONG:
                 windows.append(_window(span, objective, stroke, key, most, (place(span, start), place(span, stop))))
     return bounds, tuple(windows)
 
 
-def limited_by(span: LawSpan, objective: CycleObjective, stroke: float, key: LimitKey) -> Driven:
+def limited_by(span: LawSpan, objective: CycleObjective, stroke: float, key: Side) -> Driven:
     """The constants of a whole span's law that a limit bounds, with their unit in SI."""
-    if isinstance(key, OneSided):
+    nu = key.kind.order
+    if key.sign:
         sign = key.sign * (1.0 if stroke > 0.0 else -1.0)
-        one_sided = FUNCTIONALS["C_plus" if sign > 0.0 else "C_minus"] if key.nu == 2 else None
-        constant = one_sided or peak("abcj"[key.nu], side="high" if sign > 0.0 else "low")
-        return Driven((constant,), _unit(span, stroke, key.nu))
-    if key == CURVE:
+        one_sided = FUNCTIONALS["C_plus" if sign > 0.0 else "C_minus"] if nu == 2 else None
+        constant = one_sided or peak("abcj"[nu], side="high" if sign > 0.0 else "low")
+        return Driven((constant,), _unit(span, stroke, nu))
+    if key.kind is Kind.CURVE:
         return driven_curve(span, objective.drive, stroke)
-    if key in _DRIVEN:
-        return driven_peak(span, objective.drive, stroke, key)
-    return Driven((FUNCTIONALS[_PEAKS[key]],), _unit(span, stroke, key))
+    if key.kind.is_driven:
+        return driven_peak(span, objective.drive, stroke, key.kind)
+    return Driven((FUNCTIONALS[_PEAKS[key.kind]],), _unit(span, stroke, nu))
 
 
 def _window(
-    span: LawSpan, objective: CycleObjective, stroke: float, key: LimitKey, most: float, ends: tuple[float, float]
+    span: LawSpan, objective: CycleObjective, stroke: float, key: Side, most: float, ends: tuple[float, float]
 ) -> Window:
     """A limit of a part of a span as a window of its law."""
-    if isinstance(key, OneSided):
-        most /= _unit(span, stroke, key.nu)
+    nu = key.kind.order
+    if key.sign:
+        most /= _unit(span, stroke, nu)
         high = key.sign * stroke > 0.0
-        return Window("abcj"[key.nu], -inf if high else -most, most if high else inf, *ends)
-    if key in _DRIVEN:
-        name, unit = driven_formula(span, objective.drive, stroke, key)
+        return Window("abcj"[nu], -inf if high else -most, most if high else inf, *ends)
+    if key.kind.is_driven:
+        name, unit = driven_formula(span, objective.drive, stroke, key.kind)
     else:
-        name, unit = "abcj"[key], _unit(span, stroke, key)
+        name, unit = "abcj"[nu], _unit(span, stroke, nu)
     return Window(name, -most / unit, most / unit, *ends)
 
 
-def _snap_of_all(span: LawSpan, sought: Sequence[Limits]) -> float:
+def forward_windows(span: LawSpan, objective: CycleObjective, axis: str, stroke: float) -> Iterator[Window]:
+    """Windows in which motions that must not turn back go on."""
+    for stretch, start, stop in span.timed:
+        limits = limits_of_stretch(stretch, objective, axis) if is_optimal(stretch.given) else {}
+        for key in (key for key in limits if key.kind is Kind.VELOCITY_ALONG):
+            sides = (0.0, inf) if key.sign * stroke < 0.0 else (-inf, 0.0)
+            yield Window("b", *sides, place(span, start), place(span, stop))
+
+
+def _snap_of_all(span: LawSpan, sought: Sequence[Sides]) -> float:
     """The snap limit of a law over several stretches, which must be the same in each."""
     given = {limits.get(_SNAP, inf) for limits in sought}
     if len(given) > 1:
@@ -364,11 +378,11 @@ def _of_load(objective: CycleObjective, output: str, mean: bool, span: LawSpan) 
     return objective.load.constant(output, span.duration, mean=mean)
 
 
-def _straight_within(span: LawSpan, limits: Limits) -> bool:
+def _straight_within(span: LawSpan, limits: Sides) -> bool:
     """Whether uniform motions keep the limits of the velocity."""
     return all(
         is_optimal(stretch.given)
-        or abs(stretch.displacement) <= greatest(limits, 1, _sign(stretch.displacement)) * (stop - start)
+        or abs(stretch.displacement) <= greatest(limits, Kind.VELOCITY, _sign(stretch.displacement)) * (stop - start)
         for stretch, start, stop in span.timed
     )
 
@@ -377,7 +391,7 @@ def _sign(displacement: float) -> float:
     return -1.0 if displacement < 0.0 else 1.0
 
 
-def _alike(of_each: Sequence[Limits | None], times: Sequence[float]) -> Iterator[tuple[Limits, float, float]]:
+def _alike(of_each: Sequence[Sides | None], times: Sequence[float]) -> Iterator[tuple[Sides, float, float]]:
     """Limits of stretches from where to where they are the same."""
     for limits, several in groupby(zip(of_each, times, times[1:], strict=False), key=itemgetter(0)):
         parts = list(several)
@@ -389,7 +403,10 @@ def _check_mean(span: LawSpan, objective: CycleObjective, axis: str) -> None:
     """Refuse a velocity limit that is no more than the mean velocity: such a law cannot start from rest."""
     for stretch, start, stop in span.timed:
         limits = limits_of_stretch(stretch, objective, axis) if is_optimal(stretch.given) else {}
-        most, mean = greatest(limits, 1, _sign(stretch.displacement)), abs(stretch.displacement) / (stop - start)
+        most, mean = (
+            greatest(limits, Kind.VELOCITY, _sign(stretch.displacement)),
+            abs(stretch.displacement) / (stop - start),
+        )
         if mean >= most:
             raise InfeasibleProblem(
                 sentence(
@@ -407,14 +424,14 @@ def _unit(span: LawSpan, stroke: float, nu: int) -> float:
 
 
 def _objective(span: LawSpan, objective: CycleObjective, stroke: float) -> Any:
-    nu, mean = kind_of(objective.minimise)
-    if nu > 0:
-        return {2: "rms_c", 3: "rms_j", 4: "rms_snap"}[nu] if mean else _PEAKS[nu]
-    output = load_output(objective.minimise, objective.load) if nu == LOADED else None
+    kind, mean = kind_of(objective.minimise)
+    if kind.order:
+        return {2: "rms_c", 3: "rms_j", 4: "rms_snap"}[kind.order] if mean else _PEAKS[kind]
+    output = load_output(objective.minimise, objective.load) if kind is Kind.LOAD else None
     if output is not None:
         return _of_load(objective, *output, span)
     if mean:
         return driven_mean(span, objective.drive, stroke).objective
-    if nu in SUMS:
-        return integral(span_sum(span, nu, objective.drive, stroke).formula)
-    return driven_peak(span, objective.drive, stroke, nu).objective
+    if kind in SUMS:
+        return integral(span_sum(span, kind, objective.drive, stroke).formula)
+    return driven_peak(span, objective.drive, stroke, kind).objective

@@ -10,6 +10,7 @@ from optlaws.cycles.specification.joints import LawSpan, State
 from optlaws.cycles.specification.programme import TimedSegment, is_optimal
 from optlaws.errors import InputError
 from optlaws.motion.piece import factor
+from optlaws.motion.quantity_kinds import Kind
 from optlaws.numbers import MOST_PIECES
 from optlaws.synthesis.problem.constants import FUNCTIONALS, RootMeanSquare
 from optlaws.synthesis.problem.problem import Problem
@@ -20,18 +21,17 @@ from optlaws.tolerances import AGREEMENT
 
 _MOST, _LEAST = 600, 3  # pieces of a law, and of a motion even so: fewer may not bend as its ends require
 #: pieces of a stretch where what is minimised has its peaks inside of pieces: the velocity, what a load does, power
-_FEW = {1: 6, -2: 4, -3: 4}
+_FEW = {Kind.VELOCITY: 6, Kind.LOAD: 4, Kind.POWER: 4}
 
 #: times and positions, in SI units
 Points = list[tuple[float, float]]
 
 
-def joined_basis(span: LawSpan, order: int, degree: int, minimised: int) -> Pieces:
+def joined_basis(span: LawSpan, order: int, degree: int, minimised: Kind) -> Pieces:
     """Splines with twice as many pieces in a stretch as a law with Z of a degree has coefficients and end conditions.
 
     Their acceleration is linear between breaks where the order is 3, so that its peaks, and those of the jerk, are at
-    breaks: a linear program on known places. `minimised` is the order of the derivative minimised, -2 of a load, -3 of
-    power.
+    breaks: a linear program on known places.
 
     >>> from optlaws import Cycle, Dwell, Free
     >>> motions = [Dwell("0.1 s"), Free("30 mm", "0.2 s"), Free("-30 mm")]
@@ -56,13 +56,13 @@ def joined_basis(span: LawSpan, order: int, degree: int, minimised: int) -> Piec
             continue
         for (low, y), (high, z) in pairwise(points):
             parts = ceil(each / (len(points) - 1))
-            if minimised == 1:
+            if minimised is Kind.VELOCITY:
                 turning = _pieces_to_turn(abs(z - y) / (high - low), fastest, order)
                 parts = max(parts, min(turning, ceil(most / (len(points) - 1))))
             begin, end = place(span, low), place(span, high)
             breaks += [begin + (end - begin) * i / parts for i in range(1, parts)] + [end]
-    smoothness = max(order - 1, minimised - 1, 1)
-    power = max(3, minimised, 2 * order - 1 if minimised == -2 else order)
+    smoothness = max(order - 1, minimised.order - 1, 1)
+    power = max(3, minimised.order, 2 * order - 1 if minimised is Kind.LOAD else order)
     if span.turns:
         return PeriodicPieces(breaks, power, smoothness, straight)
     return Pieces(breaks, power, smoothness)

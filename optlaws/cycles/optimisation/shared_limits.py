@@ -15,8 +15,8 @@ from math import exp, inf, log, sqrt
 
 from optlaws.cycles.optimisation.bounds import bound_of, is_exact, span_bound
 from optlaws.cycles.optimisation.joint_limits import ties_broken
-from optlaws.cycles.optimisation.motion_limits import FORCE
-from optlaws.cycles.optimisation.objectives import ENERGY, SUMS, CycleObjective, kind_of
+from optlaws.cycles.optimisation.motion_limits import tightest
+from optlaws.cycles.optimisation.objectives import SUMS, CycleObjective, kind_of
 from optlaws.cycles.optimisation.optimal import (
     scale,
     solve,
@@ -32,6 +32,7 @@ from optlaws.kept import kept_property
 from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.mechanisms.drives.effort import size_of
 from optlaws.motion.piece import Piece
+from optlaws.motion.quantity_kinds import Kind
 from optlaws.synthesis.functionals.makers import integral
 from optlaws.synthesis.solution import Solution
 from optlaws.tolerances import FEASIBILITY
@@ -99,21 +100,21 @@ class _SharedLimit:
         bound = bound_of(self.layout, laws, self.objective, self.period)
         if self._taken(laws) <= self.left * (1.0 + FEASIBILITY):
             return Best(laws, (), bound)
-        nu, mean = kind_of(self.objective.minimise)
-        summed = mean or nu in SUMS
-        if summed and self._nu == ENERGY:
+        kind, mean = kind_of(self.objective.minimise)
+        summed = mean or kind in SUMS
+        if summed and self._kind is Kind.ENERGY:
             # the least energy has no bound without one of the acceleration
             return self._by_multiplier(laws, bound or 0.0)
-        ceiling = inf if self._nu == FORCE else _HIGHEST * self._greatest(laws)
+        ceiling = inf if self._kind is Kind.FORCE else _HIGHEST * self._greatest(laws)
         least = tuple(self._least(span, ceiling) for span in self.layout.spans)
         if self._least_taken(least) > self.left:
             raise self._too_much(self._given + self._least_taken(least), "no law takes less than")
         return self._by_multiplier(laws, bound or 0.0) if summed else self._by_peak(laws, least, bound or 0.0)
 
     @property
-    def _nu(self) -> int:
-        """The order of the summed and limited quantity, in the numbering of objectives."""
-        return FORCE if self.objective.mean_force is not None else ENERGY
+    def _kind(self) -> Kind:
+        """The summed and limited quantity."""
+        return Kind.FORCE if self.objective.mean_force is not None else Kind.ENERGY
 
     @property
     def most(self) -> float:
@@ -130,10 +131,10 @@ class _SharedLimit:
     @kept_property
     def _given(self) -> float:
         """The share of the sum that dwells and given laws take."""
-        return total(self.layout.pieces, self._nu, self.drive)
+        return total(self.layout.pieces, self._kind, self.drive)
 
     def _too_much(self, taken: float, why: str) -> InfeasibleProblem:
-        what = "energy" if self._nu == ENERGY else f"rms {'force' if self.axis == 'length' else 'torque'}"
+        what = "energy" if self._kind is Kind.ENERGY else f"rms {'force' if self.axis == 'length' else 'torque'}"
         most, least = (self._shown(value) for value in (self.most, taken))
         return InfeasibleProblem(
             f"limits: the {what} over the cycle is to be at most {most:.9g}, but {why} {least:.9g}: allow more, or "
@@ -147,7 +148,7 @@ class _SharedLimit:
 
     def _shown(self, taken: float) -> float:
         """A sum as its limit is given: a root mean square, or an energy."""
-        return taken if self._nu == ENERGY else sqrt(taken / self.period)
+        return taken if self._kind is Kind.ENERGY else sqrt(taken / self.period)
 
     def _alone(self) -> Best:
         """The only span takes the whole remainder; the limit is lowered where friction takes more than estimated."""
@@ -166,7 +167,7 @@ class _SharedLimit:
         try:
             return solve(span, self.objective, self.axis, allowed)
         except InfeasibleProblem:
-            if self._nu == ENERGY:
+            if self._kind is Kind.ENERGY:
                 raise
             least = (self._least(span, inf),)
             if self._least_taken(least) > self.left:
@@ -175,23 +176,23 @@ class _SharedLimit:
 
     def _taken(self, laws: Sequence[tuple[Piece, Solution]]) -> float:
         """The laws' contribution to the sum."""
-        return total([piece for piece, _ in laws], self._nu, self.drive)
+        return total([piece for piece, _ in laws], self._kind, self.drive)
 
     def _least_taken(self, laws: Sequence[tuple[Piece, Solution]]) -> float:
         """The lower bound of the sum, from laws that take the least of it."""
         of_sum = self._of_sum()
         bounds = [span_bound(span, *law, of_sum) for span, law in zip(self.layout.spans, laws, strict=True)]
-        if self._nu == ENERGY:
+        if self._kind is Kind.ENERGY:
             return sum(bounds)
         return sum(stretch.duration * bound**2 for stretch, bound in zip(self.layout.spans, bounds, strict=True))
 
     def _of_sum(self, peak: float = inf) -> CycleObjective:
         """The objective of the least sum, where what is minimised is at most a peak."""
-        nu, mean = kind_of(self.objective.minimise)
-        limits = dict(self.objective.limits)
-        if not mean and nu not in SUMS and peak < inf:
-            limits[nu] = min(peak, limits.get(nu, inf))
-        return replace(self.objective, minimise="energy" if self._nu == ENERGY else "rms force", limits=limits)
+        kind, mean = kind_of(self.objective.minimise)
+        limits = self.objective.limits
+        if not mean and kind not in SUMS and peak < inf:
+            limits = tightest(limits, {kind: (-peak, peak)})
+        return replace(self.objective, minimise="energy" if self._kind is Kind.ENERGY else "rms force", limits=limits)
 
     def _least(self, span: LawSpan, peak: float) -> tuple[Piece, Solution]:
         return solve(span, self._of_sum(peak), self.axis)
@@ -241,9 +242,9 @@ class _SharedLimit:
 
     def _greatest(self, laws: Sequence[tuple[Piece, Solution]]) -> float:
         """The greatest value of the objective over the whole cycle, for any laws."""
-        nu, _ = kind_of(self.objective.minimise)
+        kind, _ = kind_of(self.objective.minimise)
         pieces = [*(piece for piece, _ in laws), *self.layout.pieces]
-        return max(size_of(piece, nu, self.drive) for piece in pieces)
+        return max(size_of(piece, kind, self.drive) for piece in pieces)
 
     def _by_multiplier(self, laws: Sequence[tuple[Piece, Solution]], bound: float) -> Best:
         """The least root mean square or sum, by the limit's multiplier; `bound` is the bound without the limit."""
@@ -255,8 +256,8 @@ class _SharedLimit:
             tried[multiplier] = tuple(self._with_multiplier(span, exp(multiplier)) for span in self.layout.spans)
             return log(self._taken(tried[multiplier]) / self.left)
 
-        nu, _ = kind_of(self.objective.minimise)
-        first = log(abs(total([piece for piece, _ in laws], nu, self.drive)) / self._taken(laws))
+        kind, _ = kind_of(self.objective.minimise)
+        first = log(abs(total([piece for piece, _ in laws], kind, self.drive)) / self._taken(laws))
         low, high = first - 2.0, first + 2.0
         while over(low) < 0.0:
             low -= 4.0
@@ -271,7 +272,7 @@ class _SharedLimit:
             multiplier for multiplier, laws in tried.items() if self._taken(laws) <= self.left * (1.0 + FEASIBILITY)
         )
         pieces = [*self.layout.pieces, *(piece for piece, _ in tried[least])]
-        attained = self._of_total(total(pieces, nu, self.drive))
+        attained = self._of_total(total(pieces, kind, self.drive))
         # the laws may miss the limit by a rounding, the bound is of those that keep it: it is no better than they are
         proven = max(self._bound_with_multiplier(tried[least], exp(least)), bound)
         return Best(tried[least], (), min(proven, attained))
@@ -290,10 +291,10 @@ class _SharedLimit:
 
     def _bound_with_multiplier(self, laws: Sequence[tuple[Piece, Solution]], multiplier: float) -> float:
         """The lower bound for laws that keep the limit: the bound with the multiplier, less multiplier times limit."""
-        nu, _ = kind_of(self.objective.minimise)
+        kind, _ = kind_of(self.objective.minimise)
         if not self._exact:
-            return 0.0 if nu not in SUMS else -inf
-        least = -multiplier * self.left + total(self.layout.pieces, nu, self.drive)
+            return 0.0 if kind not in SUMS else -inf
+        least = -multiplier * self.left + total(self.layout.pieces, kind, self.drive)
         for span, (piece, solution) in zip(self.layout.spans, laws, strict=True):
             minimised, limited = self._sums(span, piece.stroke)
             least += minimised.unit * solution.lower_bound + minimised.constant + multiplier * limited.constant
@@ -301,10 +302,10 @@ class _SharedLimit:
 
     def _sums(self, span: LawSpan, stroke: float) -> tuple[SpanSum, SpanSum]:
         """The objective and the limited quantity over a span."""
-        nu, _ = kind_of(self.objective.minimise)
-        return span_sum(span, nu, self.drive, stroke), span_sum(span, self._nu, self.drive, stroke)
+        kind, _ = kind_of(self.objective.minimise)
+        return span_sum(span, kind, self.drive, stroke), span_sum(span, self._kind, self.drive, stroke)
 
     def _of_total(self, taken: float) -> float:
         """A sum in the form of the objective: a root mean square, or an energy."""
-        nu, _ = kind_of(self.objective.minimise)
-        return taken if nu in SUMS else sqrt(max(taken, 0.0) / self.period)
+        kind, _ = kind_of(self.objective.minimise)
+        return taken if kind in SUMS else sqrt(max(taken, 0.0) / self.period)

@@ -14,14 +14,13 @@ from dataclasses import dataclass, replace
 from math import inf
 
 from optlaws.cycles.optimisation.drive_formulas import driven_formula, driven_mean, known_drive, moved
-from optlaws.cycles.optimisation.motion_limits import FORCE
-from optlaws.cycles.optimisation.objectives import ENERGY, HEAT
 from optlaws.cycles.specification.joints import LawSpan
 from optlaws.errors import InputError
 from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.mechanisms.drives.effort import PieceEffort
 from optlaws.mechanisms.linkages.dimensionless import recovering
 from optlaws.motion.piece import Piece, factor
+from optlaws.motion.quantity_kinds import Kind
 from optlaws.motion.smooth_parts import SmoothParts
 from optlaws.synthesis.functionals.makers import integral
 from optlaws.synthesis.limits.drive_limits import limit_beside
@@ -61,11 +60,12 @@ class SpanSum:
         return max((limit.value for limit in limits if limit is not None), default=-inf)
 
 
-def span_sum(span: LawSpan, nu: int, drive: Drive | None, stroke: float) -> SpanSum:
-    """The integrand over a span: the square of a derivative or of the force (nu -1), energy (-4) or heat (-5)."""
-    if nu > 0:
+def span_sum(span: LawSpan, kind: Kind, drive: Drive | None, stroke: float) -> SpanSum:
+    """The integrand over a span: the square of a derivative or of the force, energy or heat."""
+    nu = kind.order
+    if nu:
         return SpanSum(f"{'abcj'[nu]}^2", factor(stroke, span.duration, nu) ** 2 * span.duration)
-    if nu == FORCE:
+    if kind is Kind.FORCE:
         driven = driven_mean(span, drive, stroke)
         # in the direction of the stroke, as phase planes have it
         force = (
@@ -76,8 +76,8 @@ def span_sum(span: LawSpan, nu: int, drive: Drive | None, stroke: float) -> Span
         return SpanSum(f"({force})^2", driven.unit**2 * span.duration, driven.friction * span.duration)
     known = known_drive(drive)
     # a span that may turn back is refused as it is for forces
-    force, unit = driven_formula(span, known, stroke, FORCE)
-    if nu == HEAT:
+    force, unit = driven_formula(span, known, stroke, Kind.FORCE)
+    if kind is Kind.HEAT:
         return _heat(span, known, stroke)
     least = _least_energy(span, known, stroke)
     if known.linear is None:
@@ -89,19 +89,19 @@ def span_sum(span: LawSpan, nu: int, drive: Drive | None, stroke: float) -> Span
     return SpanSum(recovering([power], known.regeneration), unit * known.ratio * abs(stroke), least=least)
 
 
-def sum_of_piece(piece: Piece, nu: int, drive: Drive | None) -> float:
+def sum_of_piece(piece: Piece, kind: Kind, drive: Drive | None) -> float:
     """A piece's contribution to a sum, in SI units."""
-    if nu > 0:
-        return piece.duration * piece.mean_square(nu)
+    if kind.order:
+        return piece.duration * piece.mean_square(kind.order)
     along = PieceEffort(known_drive(drive), piece)
-    if nu == FORCE:
+    if kind is Kind.FORCE:
         return along.square
-    return along.energy if nu == ENERGY else along.heat
+    return along.energy if kind is Kind.ENERGY else along.heat
 
 
-def total(pieces: Sequence[Piece], nu: int, drive: Drive | None) -> float:
+def total(pieces: Sequence[Piece], kind: Kind, drive: Drive | None) -> float:
     """A sum over pieces, in SI units."""
-    return sum(sum_of_piece(piece, nu, drive) for piece in pieces)
+    return sum(sum_of_piece(piece, kind, drive) for piece in pieces)
 
 
 def _least_energy(span: LawSpan, drive: Drive, stroke: float) -> float:

@@ -14,16 +14,16 @@ def _limit(about: str, *dimensions: str, example: str) -> Any:
     return entry(Measured(*dimensions, above=0.0), about, default=None, example=example)
 
 
-def _sided(of: str, example: str) -> Any:
+def _sided(of: str, example: str, more: str = "") -> Any:
     """A limit of a derivative: of its magnitude, or its least and its greatest value."""
     dimensions = of, f"angular {of}"
     sides = Listed(Measured(*dimensions), least=2, most=2)
-    about = f"The greatest {of}; of two the first is the least value."
+    about = f"The greatest {of}; of two the first is the least value{more}."
     return entry(Either(Measured(*dimensions, above=0.0), sides, which=is_list), about, default=None, example=example)
 
 
 _OF_MOTION = {
-    "velocity": _sided("velocity", "616 mm/s"),
+    "velocity": _sided("velocity", "616 mm/s", ", 0 where motions never turn back"),
     "acceleration": _sided("acceleration", "20 m/s^2"),
     "deceleration": _limit("Of moves that slow down.", "acceleration", "angular acceleration", example="14 m/s^2"),
     "jerk": _sided("jerk", "2000 m/s^3"),

@@ -189,9 +189,9 @@ def _ways(spec: CycleProblemFile, axis: AxisEntries) -> Iterator[dict[str, Any]]
             least = stored(spec, freed).objective
         except (InfeasibleProblem, SolverFailure):
             continue
-        order, cycle = LIMITS[name], stored(spec, freed)
+        order, cycle = LIMITS[name].order, stored(spec, freed)
         # in the unit of its limit, of which so many make one of SI
-        unit, factor = UNITS[cycle.axis][order] if order > 0 else (objective_unit(cycle), 1.0)
+        unit, factor = UNITS[cycle.axis][order] if order else (objective_unit(cycle), 1.0)
         raised = Amount(least * factor * (1.0 + BOUND_SLACK), unit)
         text = sentence("raise the limit of {} from {} to {}", name, given, raised)
         yield {"entry": name, "value": str(raised), "text": text}

@@ -19,11 +19,10 @@ from optlaws.mechanisms.drives.motor import Motor
 from optlaws.mechanisms.linkages.dimensionless import Train
 from optlaws.mechanisms.linkages.mechanism import Mechanism
 from optlaws.motion.piece import Piece, factor
+from optlaws.motion.quantity_kinds import Kind
 from optlaws.motion.smooth_parts import Greatest, SmoothParts
 from optlaws.numbers import Array
 from optlaws.tolerances import VALUE_ROUNDING
-
-FORCE, POWER = -1, -3
 
 
 class AnyDrive(Protocol):
@@ -228,14 +227,15 @@ def effort(along: Sequence[PieceEffort], period: float) -> Effort:
     )
 
 
-def size_of(piece: Piece, nu: int, drive: AnyDrive | None, *, mean: bool = False) -> float:
-    """The peak or RMS of a derivative, or of the force (-1) or power (-3) of a drive, in a piece, in SI units."""
-    if nu > 0 or drive is None:
+def size_of(piece: Piece, kind: Kind, drive: AnyDrive | None, *, mean: bool = False) -> float:
+    """The peak or RMS of a derivative, or of the force or power of a drive, in a piece, in SI units."""
+    nu = kind.order
+    if nu or drive is None:
         if not piece.stroke:
             return 0.0
         constant = piece.law.rms(nu) if mean else piece.law.peak(nu).value
         return constant * abs(factor(piece.stroke, piece.duration, nu))
     along = PieceEffort(drive, piece)
-    if nu == POWER:
+    if kind is Kind.POWER:
         return max(along.powers)
     return sqrt(along.square / piece.duration) if mean else along.peak_force.value

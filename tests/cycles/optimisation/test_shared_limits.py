@@ -22,7 +22,7 @@ from optlaws import (
     smoothstep,
     synthesize,
 )
-from tests.internals.cycles import FORCE, POWER, SharedLimit, read_drive, size_of
+from tests.internals.cycles import Kind, SharedLimit, read_drive, size_of
 from tests.internals.motion import Piece
 from tests.sampling import sampled
 
@@ -194,10 +194,10 @@ def test_peaks_of_pieces_are_in_units_of_the_machine() -> None:
     rise = Piece(0.0, 0.2, 0.0, 0.03, smoothstep(3))
     drive = read_drive({"mass": "2 kg"}, "length")
     constants = smoothstep(3).constants
-    assert size_of(rise, 1, drive) == pytest.approx(constants.B.value * 0.03 / 0.2)
-    assert size_of(rise, 2, drive) == pytest.approx(constants.C.value * 0.03 / 0.2**2)
-    assert size_of(rise, 3, drive) == pytest.approx(constants.J.value * 0.03 / 0.2**3)
-    assert size_of(rise, FORCE, drive) == pytest.approx(2.0 * constants.C.value * 0.03 / 0.2**2)
-    assert size_of(rise, POWER, drive) == pytest.approx(2.0 * constants.D.value * 0.03**2 / 0.2**3)
-    assert size_of(replace(rise, stroke=-0.03), 2, drive) == size_of(rise, 2, drive)
-    assert size_of(replace(rise, stroke=0.0), 2, drive) == 0.0
+    assert size_of(rise, Kind.VELOCITY, drive) == pytest.approx(constants.B.value * 0.03 / 0.2)
+    assert size_of(rise, Kind.ACCELERATION, drive) == pytest.approx(constants.C.value * 0.03 / 0.2**2)
+    assert size_of(rise, Kind.JERK, drive) == pytest.approx(constants.J.value * 0.03 / 0.2**3)
+    assert size_of(rise, Kind.FORCE, drive) == pytest.approx(2.0 * constants.C.value * 0.03 / 0.2**2)
+    assert size_of(rise, Kind.POWER, drive) == pytest.approx(2.0 * constants.D.value * 0.03**2 / 0.2**3)
+    assert size_of(replace(rise, stroke=-0.03), Kind.ACCELERATION, drive) == size_of(rise, Kind.ACCELERATION, drive)
+    assert size_of(replace(rise, stroke=0.0), Kind.ACCELERATION, drive) == 0.0
