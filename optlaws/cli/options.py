@@ -174,7 +174,7 @@ def _plain(annotation: Any) -> str:
 
 def _sentences(text: str) -> dict[str, str]:
     """What a docstring says of each parameter."""
-    section = text.partition(_PARAMETERS)[2]
+    section = text.partition(_PARAMETERS)[2].partition("\n\n")[0]
     return {name: " ".join(text.split()) for names, text in _PARAMETER.findall(section) for name in names.split(", ")}
 
 

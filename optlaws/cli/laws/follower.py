@@ -17,7 +17,7 @@ from optlaws.shown.report import ReportTable
 from optlaws.shown.summary import Row, Summary
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+    from matplotlib.artist import Artist
 
 _POINTS = 2001
 _UNITS = "A follower with units"
@@ -88,7 +88,7 @@ def follower(
     data = _results(mass, cam, reference, response)
     if height is not None:
         data["machine"] = response.in_units(height, **times) | {"dynamic factor": data["dynamic_factor"]}
-    drawn = response.plot if spectrum is None else lambda: _spectrum(cam, reference, damping, spectrum)
+    drawn = response.plot if spectrum is None else lambda: _spectrum(cam, damping, spectrum)
     return Answer(lambda: _shown(data, cam), lambda: data, drawn)
 
 
@@ -153,24 +153,15 @@ def _shown(data: Mapping[str, Any], cam: optlaws.MotionLaw) -> Iterator[Summary 
     yield ReportTable(headings, [[f"{off:+g} %" if off else "0 %", *row] for off, *row in rows])
 
 
-def _spectrum(
-    cam: optlaws.MotionLaw, reference: optlaws.MotionLaw, damping: float, span: tuple[float, float]
-) -> Figure:
+def _spectrum(cam: optlaws.MotionLaw, damping: float, span: tuple[float, float]) -> list[Artist]:
     import numpy as np
 
-    from optlaws.plots.machine import draw_spectrum
-    from optlaws.plots.style import BLUES, WARM, empty_figure
+    from optlaws.plots.report import draw_panels
+    from optlaws.plots.style import one_below_the_other
 
     if not 0.0 < span[0] < span[1]:
         raise InputError(
             f"--spectrum takes a range of frequencies, two rising numbers above 0, got {span[0]:g} {span[1]:g}"
         )
-    spectrum = optlaws.response_spectrum(cam, np.linspace(*span, _POINTS), damping)
-    C = reference.constants.C.value
-    figure = empty_figure()
-    axes = figure.subplots()
-    draw_spectrum(spectrum, axes, what="peak", over=C, color=BLUES[3], label="in the rise")
-    draw_spectrum(spectrum, axes, over=C, color=WARM, linestyle="--", label="free vibration after it")
-    axes.set(xlim=span, ylim=(0.0, None), ylabel="acceleration of the mass / C")
-    axes.legend()
-    return figure
+    panels = optlaws.response_spectrum(cam, np.linspace(*span, _POINTS), damping).report().panels
+    return draw_panels(panels, (), one_below_the_other(None, len(panels), 6.4))
