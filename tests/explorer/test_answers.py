@@ -306,16 +306,16 @@ def test_a_cam_is_drawn_where_its_follower_touches_it(file: str) -> None:
     study = start(str(ROOT / "problems" / f"{file}.toml"))["cam"]
     view = cam_view.answer(CycleRequest(study=study))
     cam = cam_view.result_of(CycleRequest(study=study)).cam
-    frames, roller = view["frames"], view["follower"]["roller"]
-    for centre, contact in zip(frames["centre"], frames["contact"], strict=True):
+    roller, turns = view["follower"]["roller"], np.exp(1j * view["turning"] * np.radians(np.arange(361.0)))
+    centres = (np.array(view["curves"]["pitch"]) @ np.array([1.0, 1j])) * turns  # as the follower is seen
+    for centre, contact in zip(view["curves"]["pitch"], view["curves"]["profile"], strict=True):
         assert hypot(centre[0] - contact[0], centre[1] - contact[1]) == pytest.approx(roller or 0.0, abs=1e-3)
     pivot, arm = view["follower"]["pivot"], study["follower"].get("arm")
     if arm is not None:
-        lengths = [hypot(x - pivot, y) for x, y in frames["centre"]]
-        assert lengths == pytest.approx([float(arm.split()[0])] * len(lengths), abs=1e-3)
+        assert np.abs(centres - pivot) == pytest.approx(float(arm.split()[0]), abs=1e-3)
     elif pivot is None and roller is not None:
         offset = float(study["follower"].get("offset", "0 mm").split()[0])
-        assert [x for x, _ in frames["centre"]] == pytest.approx([offset] * 361, abs=1e-3)
+        assert centres.real == pytest.approx(offset, abs=1e-3)
     worst = degrees(cam.extremes.greatest_pressure_angle.value)
     assert abs(view["panels"][1]["peaks"][0]["value"]) == pytest.approx(worst)
     assert max(abs(one) for one in view["panels"][1]["series"][0]["values"]) <= worst + 1e-6

@@ -32,7 +32,7 @@ export class Mechanism {
   }
 
   show(answer) {
-    this.#shown = answer.refused ? null : answer;
+    this.#shown = answer.refused ? null : { ...answer, frames: framesOf(answer) };
     this.#force = null;
     this.#draw();
   }
@@ -151,4 +151,13 @@ export class Mechanism {
     parts.push(svg("circle", { class: "contact", cx: contact[0], cy: contact[1], r: 0.018 * size }));
     return parts;
   }
+}
+
+/** The follower at each angle of the cam: its roller's centre, its point of contact, the direction of its face. */
+function framesOf({ curves, tangents, turning }) {
+  const turned = (points) => points.map(([x, y], i) => {
+    const angle = (turning * 2 * Math.PI * i) / (points.length - 1);
+    return [Math.cos(angle) * x - Math.sin(angle) * y, Math.sin(angle) * x + Math.cos(angle) * y];
+  });
+  return { centre: turned(curves.pitch), contact: turned(curves.profile), edge: turned(tangents) };
 }

@@ -154,14 +154,7 @@ def _trust(axes: Axes, report: AxesReport) -> dict[str, Any]:
         status, word = "refused", "beyond a limit" if worst == "clear" else f"{word}, beyond a limit"
     text = joined(" ", [f"{advice}{named}{'.' if named else ''}", *limits])
     proof = any(cycle.solutions for cycle in axes.values())
-    return {
-        "status": status,
-        "word": word,
-        "advice": text,
-        "gap": "",
-        "facts": fact_sentences(report.facts),
-        "proof": proof,
-    }
+    return {"status": status, "word": word, "advice": text, "facts": fact_sentences(report.facts), "proof": proof}
 
 
 @refusing()
@@ -191,15 +184,15 @@ def _timed(study: dict[str, Any], axes: Axes) -> dict[str, Any]:
     """The study with the durations that its axes have now, in the unit of its clock."""
     clock = "period" if "period" in study else "speed"
     turn = f"{axes.duration:.{_FIGURES}g} s" if clock == "period" else f"{60.0 / axes.duration:.{_FIGURES}g} rpm"
-    timed = {name: cycle.to_dict()["segments"] for name, cycle in axes.items()}
-    for segments in timed.values():
+    size, unit = (1.0, "s") if clock == "period" else (TURN_DEG / axes.duration, "deg")
+    changed = []
+    for axis in study["axis"]:
+        segments = axes[axis["name"]].to_dict()["segments"]
         for segment in segments:
             if isinstance(segment.get("law"), dict):
                 segment["law"] = json.dumps(segment["law"])
-            seconds = float(segment["duration"].split()[0])
-            size, unit = (1.0, "s") if clock == "period" else (TURN_DEG / axes.duration, "deg")
-            segment["duration"] = f"{size * seconds:.{_FIGURES}g} {unit}"
-    changed = [axis | {"segment": timed[axis["name"]]} for axis in study["axis"]]
+            segment["duration"] = f"{size * float(segment['duration'].split()[0]):.{_FIGURES}g} {unit}"
+        changed.append(axis | {"segment": segments})
     same = abs(axes.duration - axes_of(study).duration) == 0.0
     return study | ({} if same else {clock: turn}) | {"axis": changed}
 

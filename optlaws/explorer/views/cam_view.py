@@ -24,7 +24,6 @@ from optlaws.explorer.views.requests import Question, check_size, without_files
 from optlaws.jobs.cam import CamProblemFile, CamResult
 from optlaws.motion.display_units import DEGREES, MILLI
 from optlaws.motion.quantities import quantity
-from optlaws.numbers import Array
 from optlaws.sentences import Sentence, capital, joined, sentence
 
 _STEPS = 360
@@ -36,7 +35,17 @@ _TITLES = {"free": ("no undercut", "optimal"), "undercut": ("undercut", "refused
 @refusing("no such cam")
 def answer(request: CycleRequest) -> dict[str, Any]:
     """The view of a cam, or the reason why there is none."""
-    return _view(result_of(request))
+    result = result_of(request)
+    spec, cam, report = result.spec, result.cam, result.report
+    displacement, pressure, _, radius = (panel_data(panel, DEGREES) for panel in report.panels)
+    pressure["beyond"] = PRESSURE in spec.limits.broken(cam.extremes)
+    return drawing(cam, spec.cutter_radius) | {
+        "dimensions": _dimensions(spec, cam),
+        "panels": [displacement, pressure, radius],
+        "across": "angle of the cam, deg",
+        "segments": [],
+        "trust": _trust(report),
+    }
 
 
 def result_of(request: CycleRequest) -> CamResult:
@@ -56,62 +65,24 @@ def _solved(question: str) -> CamResult:
         return CamResult.of_file(spec)
 
 
-def _view(result: CamResult) -> dict[str, Any]:
-    spec, cam, report = result.spec, result.cam, result.report
-    displacement, pressure, _, radius = (panel_data(panel, DEGREES) for panel in report.panels)
-    pressure["beyond"] = PRESSURE in spec.limits.broken(cam.extremes)
-    return drawing(cam, spec.cutter_radius) | {
-        "dimensions": _dimensions(spec, cam),
-        "panels": [displacement, pressure, radius],
-        "across": "angle of the cam, deg",
-        "segments": [],
-        "trust": _trust(report),
-    }
-
-
 def drawing(cam: DiscCam, cutter: Any = None) -> dict[str, Any]:
-    """The curves of a cam in mm, and its follower while the cam turns, degree by degree."""
+    """The curves of a cam in mm and the directions of its profile, degree by degree, and what its follower is."""
     angles = np.linspace(0.0, 2.0 * np.pi, _STEPS + 1)
     curves = {"profile": cam.profile, "pitch": cam.pitch_curve}
     if cutter is not None:
         curves["cutter"] = cam.cutter_path(cutter)
-    return {
-        "curves": {name: _points(np.asarray(curve(angles))) for name, curve in curves.items()},
-        "frames": _frames(cam, angles),
-        "turning": cam.contact.turning,
-        "follower": _follower(cam),
-    }
-
-
-def _points(metres: Array) -> list[list[float | None]]:
-    return [drawn(row, 4) for row in MILLI * metres]
-
-
-def _frames(cam: DiscCam, angles: Array) -> dict[str, Any]:
-    """Positions of the follower at each angle of the cam: its roller's centre, its point of contact, its face."""
-    return {
-        "centre": _points(_as_seen(cam, angles, np.asarray(cam.pitch_curve(angles)))),
-        "contact": _points(_as_seen(cam, angles, np.asarray(cam.profile(angles)))),
-        "edge": [
-            drawn(coordinates, 6) for coordinates in _as_seen(cam, angles, np.asarray(cam.profile.tangent(angles)))
-        ],
-    }
-
-
-def _as_seen(cam: DiscCam, angles: Array, vectors: Array) -> Array:
-    """Vectors of the cam, turned with it."""
-    turned = cam.contact.turning * angles
-    cosine, sine = np.cos(turned), np.sin(turned)
-    x, y = vectors.T
-    return np.column_stack([cosine * x - sine * y, sine * x + cosine * y])
-
-
-def _follower(cam: DiscCam) -> dict[str, Any]:
     roller, pivot = cam.contact.roller, cam.contact.pivot
     return {
-        "kind": cam.follower.kind,
-        "roller": MILLI * roller if roller else None,
-        "pivot": None if pivot is None else MILLI * pivot,
+        "curves": {
+            name: [drawn(row, 4) for row in MILLI * np.asarray(curve(angles))] for name, curve in curves.items()
+        },
+        "tangents": [drawn(row, 6) for row in np.asarray(cam.profile.tangent(angles))],
+        "turning": cam.contact.turning,
+        "follower": {
+            "kind": cam.follower.kind,
+            "roller": MILLI * roller if roller else None,
+            "pivot": None if pivot is None else MILLI * pivot,
+        },
     }
 
 
@@ -138,7 +109,7 @@ def _trust(report: CamReport) -> dict[str, Any]:
     if beyond and undercut.status != UNDERCUT:
         (word, status), advice = _BEYOND, sentence("beyond what is allowed: {}.", joined("; ", beyond))
     facts = fact_sentences(report.extremes)
-    return {"status": status, "word": word, "advice": capital(advice), "gap": "", "facts": facts}
+    return {"status": status, "word": word, "advice": capital(advice), "facts": facts}
 
 
 def sizes(request: CycleRequest) -> dict[str, Any]:

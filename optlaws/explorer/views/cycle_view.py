@@ -33,7 +33,7 @@ from optlaws.mechanisms.drives.motor import OF_TORQUE, Motor
 from optlaws.motion.display_units import MILLI, TURN_DEG, UNITS
 from optlaws.numbers import Quantity
 from optlaws.numerics.peaks import is_kept
-from optlaws.sentences import Amount, Sentence, joined, sentence
+from optlaws.sentences import Amount, joined, sentence
 from optlaws.tolerances import BOUND_SLACK
 
 _MOTION = ("velocity", "acceleration", "deceleration", "jerk", "snap")
@@ -84,8 +84,7 @@ def answer(request: CycleRequest) -> dict[str, Any]:
 
 def nearest(request: CycleRequest) -> dict[str, Any]:
     """The least relaxation of each single limit, the others unchanged, after which a motion exists again."""
-    spec, axis = read(request)
-    return {"ways": list(_ways(spec, axis))}
+    return {"ways": list(_ways(*read(request)))}
 
 
 def machine(study: dict[str, Any]) -> CycleProblemFile:
@@ -153,7 +152,7 @@ def trust(shown: Cycle) -> dict[str, Any] | None:
     """The status of the laws and what is proven of them, and which limits they do not keep; None of laws as given."""
     broken = broken_limits(shown)
     if not shown.solutions:
-        return {"gap": "", "facts": []} | broken if broken else None
+        return {"facts": []} | broken if broken else None
     facts = fact_sentences(row for row in proof_rows(shown) if row.name != "status")
     gap = "" if shown.lower_bound is None else gap_text(1.0 - shown.lower_bound / shown.objective)
     optimal = f"The lower bound meets the objective: none is better of {shown.search_space}."
@@ -163,20 +162,13 @@ def trust(shown: Cycle) -> dict[str, Any] | None:
 def broken_limits(shown: Cycle) -> dict[str, str]:
     """A verdict on the limits that the given laws exceed; nothing where all limits are satisfied."""
     broken = [str(taken) for taken in shown.limits_taken if not taken.is_kept]
-    if not shown.limits.get(MOTOR):
-        broken += _too_weak(shown)
+    if isinstance(shown.drive, Drive) and not shown.limits.get(MOTOR):
+        weak = (margin for margin in shown.sheet.margins if not margin.is_kept)
+        broken += [sentence("the motor's {}, {} % of it", each.name, digits(100.0 * each.use, 4)) for each in weak]
     if not broken:
         return {}
     advice = sentence("Beyond what is allowed: {}.", joined("; ", broken))
     return {"status": "refused", "word": "beyond a limit", "advice": advice}
-
-
-def _too_weak(shown: Cycle) -> Iterator[Sentence]:
-    """The quantity of which a motor provides too little."""
-    if isinstance(shown.drive, Drive):
-        for margin in shown.sheet.margins:
-            if not margin.is_kept:
-                yield sentence("the motor's {}, {} % of it", margin.name, digits(100.0 * margin.use, 4))
 
 
 def _ways(spec: CycleProblemFile, axis: AxisEntries) -> Iterator[dict[str, Any]]:

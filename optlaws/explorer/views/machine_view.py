@@ -20,7 +20,7 @@ from optlaws.explorer.views import cycle_view
 from optlaws.explorer.views.cam_view import drawing
 from optlaws.explorer.views.cycle_view import CycleRequest, packaged_study
 from optlaws.explorer.views.law_view import refusal, refusing
-from optlaws.explorer.views.panel_data import beside_each_other, drawn, over_time, panel_data
+from optlaws.explorer.views.panel_data import beside_each_other, drawn, over_time, panel_data, segments_data
 from optlaws.explorer.views.requests import MOST_LAWS, Question, stored_law
 from optlaws.jobs.cycle_entries import AxisEntries, CycleProblemFile, cycle_of
 from optlaws.mechanisms.linkages.mechanism_kinds import MechanismKind
@@ -32,7 +32,7 @@ from optlaws.shown.summary import Row
 
 _EACH = 240
 _RATIOS = 7
-_GIVEN = {"status": "given", "word": "given", "advice": "A law as it stands: nothing was optimised.", "gap": ""}
+_GIVEN = {"status": "given", "word": "given", "advice": "A law as it stands: nothing was optimised."}
 #: a curve of a motor is drawn up to so many times the speed that is used
 _FAR = 1.6
 _FRAMES = 181
@@ -67,9 +67,7 @@ def answer(request: CycleRequest) -> dict[str, Any]:
     return {
         **known,
         **over_time(list(map(panel_data, panels)), max(law.duration for law in cycles.values()), of),
-        "segments": [
-            {"name": name, "at": [MILLI * start, MILLI * stop]} for name, start, stop in CycleReport(shown).segments
-        ],
+        "segments": segments_data(CycleReport(shown).segments),
         **_pictures(shown, axis.mechanism or {}, inputs[place][-1].ends),
         "over_speed": _over_speed(shown, cycles),
         "rows": _rows(laws),

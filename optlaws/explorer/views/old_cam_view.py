@@ -21,7 +21,7 @@ from optlaws.entries.value_types import Number, Text
 from optlaws.errors import InputError
 from optlaws.explorer.views.cycle_view import CycleRequest
 from optlaws.explorer.views.law_view import refusing
-from optlaws.explorer.views.panel_data import panel_data, table_data
+from optlaws.explorer.views.panel_data import panel_data, segments_data, table_data
 from optlaws.explorer.views.requests import Question, stored_law
 from optlaws.laws.catalogue.catalogue import catalogue
 from optlaws.shown.report import Panel
@@ -88,7 +88,7 @@ def answer(request: CycleRequest) -> dict[str, Any]:
         "unit": old.unit,
         "drawn": "" if stride == 1 else f"every {stride}th point is drawn",
         "panels": panels,
-        "segments": [{"name": name, "at": ends} for name, *ends in report.segments],
+        "segments": segments_data(report.segments, 1.0),
         "tables": list(map(table_data, report.tables)),
         "moves": [f"{part.kind} from {part.start:g}" for part in old.moves],
         "trust": _trust(old),
@@ -120,7 +120,6 @@ def _trust(old: OldTable) -> dict[str, Any]:
         "status": "given" if near else "local",
         "word": "read" if near else "off a point",
         "advice": f"{old.layout}, {len(old.places)} points: {len(old.moves)} moves, {named} of them standard laws.",
-        "gap": "",
         "facts": old.remarks,
     }
 

@@ -11,7 +11,7 @@ import numpy as np
 from optlaws.motion.display_units import MILLI
 from optlaws.numbers import Array, bounded
 from optlaws.sentences import Amount, Sentence, joined, sentence
-from optlaws.shown.report import Panel, ReportTable
+from optlaws.shown.report import Panel, ReportSegment, ReportTable
 from optlaws.shown.summary import Row
 
 _DRAWN = 6  # decimals of what is drawn; what is read is a text of its own
@@ -87,6 +87,11 @@ def panel_data(panel: Panel, per: float = MILLI) -> dict[str, Any]:
     return (
         shown if panel.peaks or not any(panel.ends) or not isfinite(panel.peak) else shown | {"ends": list(panel.ends)}
     )
+
+
+def segments_data(segments: Iterable[ReportSegment], per: float = MILLI) -> list[dict[str, Any]]:
+    """Segments as JSON, over so many units of time a second."""
+    return [{"name": name, "at": [round(per * start, 9), round(per * stop, 9)]} for name, start, stop in segments]
 
 
 def table_data(table: ReportTable) -> dict[str, Any]:

@@ -107,7 +107,7 @@ export class View {
   }
 
   #find(answer, { study, axis }) {
-    if (told(study) !== told(this.#bounded)) return;
+    if (told(study) !== told(this.#bounded) || told(near(this.#study.state.old)) !== told(near(this.#asked))) return;
     this.#found[axis] = answer;
     this.#draw();
     if (answer.law) this.#tables.ask({ study, laws: this.#laws });
