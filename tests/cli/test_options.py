@@ -8,10 +8,21 @@ from typing import TYPE_CHECKING, Any
 import pytest
 from cyclopts import App
 
-from optlaws import InputError
-from tests.internals.cli import Option, options, takes
+from optlaws import (
+    Follower,
+    InputError,
+    Response,
+    advise,
+    compare_laws,
+    fastest,
+    pareto_front,
+    read_cycle_table,
+    read_law,
+)
+from tests.internals.cli import Option, _head, _of_object, options, takes
 from tests.internals.cycles import ElasticFollower
 from tests.internals.entries import entries_of
+from tests.internals.motion import motion_of_law
 
 if TYPE_CHECKING:
     from optlaws.typing import Quantity
@@ -54,6 +65,29 @@ def test_a_function_says_what_its_options_are() -> None:
         "turns": ("--turns", "How often, or how far.", 3),
         "share": ("--part", "How often, or how far.", None),
     }
+
+
+@pytest.mark.parametrize(
+    ("place", "function"),
+    [
+        ("optlaws.cycles.moves.timed_moves:fastest", fastest),
+        ("optlaws.motion.motion:motion_of_law", motion_of_law),
+        ("optlaws.cycles.law_comparison:compare_laws", compare_laws),
+        ("optlaws.cycles.advising.advised_motion:advise", advise),
+        ("optlaws.laws.catalogue.reading:read_law", read_law),
+        ("optlaws.cycles.old_tables.table:read_cycle_table", read_cycle_table),
+        ("optlaws.synthesis.pareto:pareto_front", pareto_front),
+        ("optlaws.mechanisms.machine.follower:from_vibration", Follower.from_vibration),
+        ("optlaws.mechanisms.machine.response:in_units", Response.in_units),
+    ],
+)
+def test_a_function_is_read_as_text_as_it_is_when_imported(place: str, function: Any) -> None:
+    (parameters, text), (known, said) = _head(place), _of_object(function)
+    assert text.strip() == said.strip()
+    assert known.keys() <= parameters.keys() | {"laws"}
+    for name, (kind, default) in known.items():
+        if name in parameters and name != "self":
+            assert parameters[name] == (kind, default if isinstance(default, str | int | float) else None), name
 
 
 def test_a_declared_value_is_given_by_its_options() -> None:

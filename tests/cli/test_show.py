@@ -1,0 +1,73 @@
+"""The one layout of results on a terminal: facts with notes behind them, columns for places, tables, lines."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from optlaws import InfeasibleProblem, smoothstep
+from tests.internals.cli import Answer, show
+from tests.internals.shown import PlainReport, ReportTable, Row, Summary
+
+Capture = pytest.CaptureFixture[str]
+
+FACTS = Summary(
+    [
+        Row("status", "optimal", note="nothing is better"),
+        Row("time", 0.25, "s", note="proven"),
+        Row("C", 5.5, place=0.125),
+        Row("RMS of c", 3.9),
+        Row("", "3 iterations"),
+        Row("a remark alone"),
+    ],
+    at="k",
+)
+SHOWN = """\
+status          optimal (nothing is better)
+time            0.25 s (proven)
+                value  at k
+C               5.5    0.125
+RMS of c        3.9
+                3 iterations
+a remark alone
+"""
+TABLE = ReportTable(("law", "C", "status"), [["K", 4.93480220054, "optimal"], ["Co", None, "local"]])
+
+
+def test_facts_have_units_and_notes_behind_them_and_places_columns(capsys: Capture) -> None:
+    show(FACTS)
+    assert capsys.readouterr().out == SHOWN
+
+
+def test_a_report_is_its_facts_and_its_tables_below_and_texts_stay_as_they_are(capsys: Capture) -> None:
+    show(PlainReport(FACTS, [TABLE], (), dict), "[a text] of\n  two lines")
+    table = "law  C         status\nK    4.934802  optimal\nCo             local\n"
+    assert capsys.readouterr().out == f"{SHOWN}{table}[a text] of\n  two lines\n"
+
+
+def test_a_narrow_window_cuts_nothing(capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("COLUMNS", "8")
+    show(FACTS, TABLE)
+    out = capsys.readouterr().out
+    assert out.startswith(SHOWN)
+    assert all(line == line.rstrip() for line in out.splitlines())
+
+
+def test_an_answer_computes_what_it_gives_and_no_more(capsys: Capture, tmp_path: Path) -> None:
+    def never(*_: Any) -> Any:
+        raise AssertionError("nobody wants it")
+
+    Answer(never, lambda: {"C": 4.0}, never).give(None, as_json=True)
+    assert capsys.readouterr().out == '{"C": 4.0}\n'
+    Answer(lambda: ["four"], never, smoothstep(3).plot).give(tmp_path / "law.svg", as_json=False)
+    assert capsys.readouterr().out == "four\n"
+    assert "<svg" in (tmp_path / "law.svg").read_text("utf-8")
+
+
+def test_an_answer_that_fails_is_given_first(capsys: Capture) -> None:
+    answer = Answer(lambda: ["four"], dict, failure=InfeasibleProblem("no law"))
+    with pytest.raises(InfeasibleProblem, match="no law"):
+        answer.give(None, as_json=False)
+    assert capsys.readouterr().out == "four\n"
