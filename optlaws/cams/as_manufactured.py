@@ -10,12 +10,12 @@ from typing import Any, Literal
 import numpy as np
 
 from optlaws.cams.curves.approximations import Arcs, arcs, spline
-from optlaws.cams.curves.cam_files import Cutting, polar
+from optlaws.cams.curves.cam_files import DECIMALS, POINTS, Cutting, polar
 from optlaws.cams.curves.plane_curve import CurveAlongNormals, Outline, PiecewiseCurve
 from optlaws.cams.disc import DiscCam
 from optlaws.cams.followers.contact import FollowerContact, shifted
-from optlaws.entries.declared import documented_by
-from optlaws.entries.value_types import Whole
+from optlaws.entries.declared import Declared, declared, documented_by, entry
+from optlaws.entries.value_types import Choice, Listed, Measured, Whole
 from optlaws.errors import InputError
 from optlaws.files.reading import check_names
 from optlaws.kept import kept_property
@@ -321,10 +321,28 @@ def as_made(
     return run_against(cam, _CURVES_OF[form](outline, Cutting(tolerance, decimals, points, degree)), outside)
 
 
-def manufactured_tables(cam: DiscCam, curve: str, tables: Sequence[Cutting]) -> list[AsMade | None]:
-    """What `as_made` finds of tables of points, by their points and decimals; None of those that it refuses to run."""
-    outline, outside = _cut(cam, curve)
-    return [_peaks(cam, _points(outline, table), outside) for table in tables]
+@declared
+class PeaksAsMade(Declared, title="peaks as made"):
+    """The files whose executed motion is reported: tables of a number of points and decimals, and profile errors."""
+
+    points: tuple[int, ...] = entry(Listed(POINTS, most=10), "Of tables that the cam is cut by.", default=(361, 721))
+    decimals: tuple[int, ...] = entry(Listed(DECIMALS, most=10), "Of a millimetre in these tables.", default=(3, 4, 6))
+    curve: str = entry(Choice(*MADE_CURVES), "Of the tables.", default="profile")
+    error: Quantity | None = entry(
+        Measured("length", above=0.0), "Of the profile: the amplitude of its waves.", default=None, example="0.01 mm"
+    )
+    waves: tuple[int, ...] = entry(Listed(WAVES, most=10), "Of the error, in a turn.", default=(3, 12))
+
+    def of(self, cam: DiscCam) -> dict[str, AsMade | None]:
+        """Peaks of a cam by what it is cut from; None where its follower does not reach all of it."""
+        outline, outside = _cut(cam, self.curve)
+        tables = [Cutting(points=points, decimals=decimals) for points in self.points for decimals in self.decimals]
+        names = (f"{each.points} points of the {self.curve}, {each.decimals} decimals of a mm" for each in tables)
+        peaks = {name: _peaks(cam, _points(outline, each), outside) for name, each in zip(names, tables, strict=True)}
+        if self.error is not None:
+            names = (f"error of {self.error}, {count} waves a turn" for count in self.waves)
+            peaks |= zip(names, profile_errors(cam, self.error, self.waves), strict=True)
+        return peaks
 
 
 def _cut(cam: DiscCam, curve: str) -> tuple[Outline, float]:

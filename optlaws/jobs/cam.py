@@ -9,11 +9,11 @@ from math import degrees
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from optlaws.cams.as_manufactured import MADE_CURVES, WAVES, AsMade, manufactured_tables, profile_errors
+from optlaws.cams.as_manufactured import PeaksAsMade
 from optlaws.cams.barrel import BarrelCam, Groove
 from optlaws.cams.best_laws import BestCam, BestPrimeCircle, best_cam, best_prime_circle
 from optlaws.cams.conjugate import ReturnFollower, conjugate_cam
-from optlaws.cams.curves.cam_files import DECIMALS, FORMATS, POINTS, Cutting, format_of
+from optlaws.cams.curves.cam_files import FORMATS, Cutting, format_of
 from optlaws.cams.curves.extremes import UNDERCUT
 from optlaws.cams.disc import CURVES, TURNINGS, CutCurve, DiscCam, Turning
 from optlaws.cams.followers.follower import CamFollower, stated_prime_radius
@@ -39,7 +39,7 @@ from optlaws.cams.springs_and_flywheels import (
 from optlaws.cycles.cycle import Cycle
 from optlaws.cycles.specification.process import ProcessEntries
 from optlaws.cycles.summary import objective_unit
-from optlaws.entries.declared import Declared, ValueOf, declared, entries_of, entry, same
+from optlaws.entries.declared import ValueOf, declared, entries_of, entry, same
 from optlaws.entries.value_types import Choice, Listed, Measured, Number, Switch, Text, Whole
 from optlaws.errors import InfeasibleProblem, InputError, located
 from optlaws.files import writing
@@ -78,29 +78,6 @@ class CamForcesEntries(Surfaces, title="forces"):
         default=None,
         example=0.04,
     )
-
-
-@declared
-class MadeEntries(Declared, title="peaks as made"):
-    """The files whose executed motion is reported: tables of a number of points and decimals, and profile errors."""
-
-    points: tuple[int, ...] = entry(Listed(POINTS, most=10), "Of tables that the cam is cut by.", default=(361, 721))
-    decimals: tuple[int, ...] = entry(Listed(DECIMALS, most=10), "Of a millimetre in these tables.", default=(3, 4, 6))
-    curve: str = entry(Choice(*MADE_CURVES), "Of the tables.", default="profile")
-    error: Quantity | None = entry(
-        _LENGTH, "Of the profile: the amplitude of its waves.", default=None, example="0.01 mm"
-    )
-    waves: tuple[int, ...] = entry(Listed(WAVES, most=10), "Of the error, in a turn.", default=(3, 12))
-
-    def peaks(self, cam: DiscCam) -> dict[str, AsMade | None]:
-        """Peaks of the cam as manufactured; None where its follower does not reach all of it."""
-        tables = [Cutting(points=points, decimals=decimals) for points in self.points for decimals in self.decimals]
-        names = [f"{each.points} points of the {self.curve}, {each.decimals} decimals of a mm" for each in tables]
-        peaks = manufactured_tables(cam, self.curve, tables) if tables else []
-        if self.error and self.waves:
-            names += [f"error of {self.error}, {count} waves a turn" for count in self.waves]
-            peaks += profile_errors(cam, self.error, self.waves)
-        return dict(zip(names, peaks, strict=True))
 
 
 @declared
@@ -199,7 +176,7 @@ class CamProblemFile(CamOfMotion, title="a cam"):
     spring: SoughtSpring | None = entry(
         ValueOf(SoughtSpring), "The least spring that keeps the follower on the cam.", default=None
     )
-    as_made: MadeEntries | None = entry(ValueOf(MadeEntries), "Peaks as made.", default=None)
+    as_made: PeaksAsMade | None = entry(ValueOf(PeaksAsMade), "Peaks as made.", default=None)
     file: tuple[CutFile, ...] = entry(Listed(ValueOf(CutFile), most=50), "Files that cut the cam.", default=())
     animation: bool = entry(Switch(), "Whether animation.svg is written, in which the cam turns.", default=False)
 
@@ -498,7 +475,7 @@ class CamResult:
     @kept_property
     def manufactured(self) -> Section:
         """Peaks of the cam as manufactured; none where its follower does not reach all of it."""
-        peaks = {} if self.spec.as_made is None else self.spec.as_made.peaks(self.cam)
+        peaks = {} if self.spec.as_made is None else self.spec.as_made.of(self.cam)
         if not peaks:
             return Section()
         columns = {

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from optlaws.cycles.moves.fastest_move import AXES, FastestMove
-from optlaws.cycles.moves.front_over_time import time_front
+from optlaws.cycles.moves.front_over_time import FrontOverTime, time_front
 from optlaws.cycles.moves.time_front import TimeFront
 from optlaws.cycles.moves.timed_moves import fastest, fastest_moves
 from optlaws.cycles.moves.vibration_limits import VibratingFollower
@@ -17,7 +17,7 @@ from optlaws.cycles.specification.frozen import FrozenTable
 from optlaws.cycles.specification.limit_entries import LIMITS_OF_MOVE
 from optlaws.cycles.specification.segments import Move
 from optlaws.entries.declared import Declared, ValueOf, declared, entry, same
-from optlaws.entries.value_types import Either, Listed, Measured, Text, Whole, is_list
+from optlaws.entries.value_types import Either, Listed, Measured, Text, is_list
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure, located
 from optlaws.files import writing
 from optlaws.files.tables import Cell
@@ -43,23 +43,6 @@ _STROKE = Measured("length", "angle")
 
 
 @declared
-class FrontOverTimeEntries(Declared, title="a front"):
-    """Fronts over the time: what is least, how long the longest time is, and how many points there are."""
-
-    minimise: tuple[str, ...] = entry(
-        Listed(Text(), least=1, most=6), "What is least, each with a front.", example=["rms acceleration"]
-    )
-    longest: Quantity | None = entry(
-        Measured("time", above=0.0), "The longest time; twice the least unless given.", default=None, example="0.3 s"
-    )
-    points: int = entry(Whole(2, 200), "How many there are.", default=17)
-
-    def _check(self) -> None:
-        if len(set(self.minimise)) < len(self.minimise):
-            raise InputError(f"minimise names one of them twice: {', '.join(self.minimise)}")
-
-
-@declared
 class MoveEntries(Declared, title="a move"):
     """A move, or moves of several strokes, within the limits of a machine."""
 
@@ -81,9 +64,7 @@ class MoveEntries(Declared, title="a move"):
         _STROKE, "Where the input of the mechanism begins, 0 unless given.", default=None, example="0 deg"
     )
     follower: VibratingFollower | None = entry(ValueOf(VibratingFollower), "What vibrates.", default=None)
-    front: FrontOverTimeEntries | None = entry(
-        ValueOf(FrontOverTimeEntries), "What is least over the time.", default=None
-    )
+    front: FrontOverTime | None = entry(ValueOf(FrontOverTime), "What is least over the time.", default=None)
 
 
 @declared

@@ -13,10 +13,12 @@ from optlaws.cycles.moves.time_front import MOST_POINTS, TimeFront
 from optlaws.cycles.moves.torque_limits import motor_torque
 from optlaws.cycles.moves.vibration_limits import vibration_limit
 from optlaws.echo import shortened
+from optlaws.entries.declared import Declared, declared, documented_by, entry
+from optlaws.entries.value_types import Listed, Measured, Text, Whole
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.motion.quantities import positive_quantity
-from optlaws.numbers import NumberOrQuantity, Quantity, whole
+from optlaws.numbers import NumberOrQuantity, Quantity
 from optlaws.suggest import unknown_key
 from optlaws.synthesis.least_time.follower_residual import RESIDUAL, FollowerResidual
 from optlaws.synthesis.least_time.move_limits import TimedMove
@@ -27,8 +29,27 @@ from optlaws.synthesis.solve import synthesize
 from optlaws.tolerances import LEAST_TIME_GAP
 
 _LONGEST = 2.0
+_POINTS = Whole(2, MOST_POINTS)
 
 
+@declared
+class FrontOverTime(Declared, title="a front"):
+    """Fronts over the time: what is least, how long the longest time is, and how many points there are."""
+
+    minimise: tuple[str, ...] = entry(
+        Listed(Text(), least=1, most=6), "What is least, each with a front.", example=["rms acceleration"]
+    )
+    longest: Quantity | None = entry(
+        Measured("time", above=0.0), "The longest time; twice the least unless given.", default=None, example="0.3 s"
+    )
+    points: int = entry(_POINTS, "How many there are, each the same share longer than the last.", default=17)
+
+    def _check(self) -> None:
+        if len(set(self.minimise)) < len(self.minimise):
+            raise InputError(f"minimise names one of them twice: {', '.join(self.minimise)}")
+
+
+@documented_by(FrontOverTime)
 def time_front(
     move: FastestMove,
     minimise: str,
@@ -48,10 +69,6 @@ def time_front(
     minimise
         "velocity", "acceleration", "jerk", "snap" or the "rms acceleration", "rms jerk", "rms snap"; with a drive the
         "torque", "rms torque" or "energy" at its motor; with a follower the "residual acceleration".
-    longest
-        The longest time, such as "0.5 s"; twice the least unless given.
-    points
-        How many times, each the same share longer than the one before.
     drive, start
         The motor, and the position of its mechanism where the move begins, as `fastest` takes them. Unless given they
         are those of the move, whose laws then never turn back; an energy needs them.
@@ -87,10 +104,7 @@ def time_front(
     last = _LONGEST * move.duration if longest is None else positive_quantity(longest, "time", "longest")
     if not last > least * (1.0 + LEAST_TIME_GAP):
         raise InputError(f"longest must be above the least time, {move.duration:.9g} s, got {shortened(longest)}")
-    count = whole(points, "points", least=2)
-    if count > MOST_POINTS:
-        raise InputError(f"points must be at most {MOST_POINTS}, got {count}")
-    durations = tuple(np.geomspace(least, last, count).tolist())
+    durations = tuple(np.geomspace(least, last, _POINTS.read(points, "points")).tolist())
     return TimeFront(move, objective, durations, tuple(_least_in(move, objective, time) for time in durations))
 
 

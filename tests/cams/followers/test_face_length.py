@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from optlaws import Cycle, DiscCam, Dwell, InclinedFlat, InputError, OscillatingFlat, Return, Rise, TranslatingFlat
-from tests.internals.explorer import CamRequest, cam_view
+from tests.internals.explorer import CycleRequest, cam_view
 from tests.internals.jobs import read_of_cam
 
 STUDY = {
@@ -86,7 +86,7 @@ def test_a_face_that_is_too_short_is_reported_by_job_and_page() -> None:
     length = read_of_cam(STUDY, Path("flat.toml")).data["length_of_face"]
     assert length["low"] == pytest.approx(0.05, rel=1e-9)
     assert (length["limit"], length["kept"]) == (0.04, False)
-    trust = cam_view.answer(CamRequest(study=STUDY))["trust"]
+    trust = cam_view.answer(CycleRequest(study=STUDY))["trust"]
     assert trust["word"] == "beyond a limit"
     assert "the length of face, 50 mm of 40 mm" in trust["advice"]
     kinds = next(entry for entry in cam_view.form()["entries"] if entry["name"] == "follower")["kinds"]
