@@ -4,9 +4,9 @@ from optlaws.exports.error_bounds import DOUBLE, SINGLE, as_stored, error_bounds
 from optlaws.exports.export import Export, export_motion
 from optlaws.exports.format import FORMATS
 from optlaws.exports.formats.c99 import c_name, header
-from optlaws.exports.formats.point_table import NumberFormat, akima_powers, point_table
 from optlaws.exports.formats.rockwell import profile_rows
 from optlaws.exports.formats.structured_text import function_block
+from optlaws.exports.points import NumberFormat, akima_powers, point_table
 from optlaws.exports.polynomial_pieces import fitted
 from optlaws.exports.program_text import filled, template
 from optlaws.exports.report import task_sampling

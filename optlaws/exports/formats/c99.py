@@ -75,8 +75,8 @@ def _in(motion: PiecewiseMotion, name: str, *, single: bool) -> str:
     run, source = as_stored(motion, SINGLE if single else DOUBLE), template("motion.h")
     kind, f, suffix = ("float", "_f", "F") if single else ("double", "", "")
     if single:
-        source = re.sub(r"\b(?:name_\w+|\d\.\d)", lambda at: at[0] + (f if at[0][0] == "n" else suffix), source)
-        source = source.replace("double", kind)
+        source = re.sub(r"\bname_\w+", r"\g<0>_f", source.replace("double", kind))
+        source = re.sub(r"\b\d\.\d", r"\g<0>F", source)
 
     def numbers(values: Sequence[float]) -> list[str]:
         return [real(value, single=single) + suffix for value in values]

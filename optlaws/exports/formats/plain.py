@@ -10,14 +10,16 @@ import numpy as np
 
 from optlaws.errors import InputError
 from optlaws.exports.format import MOST_POINTS, Request, Written, file_format
-from optlaws.exports.formats.point_table import (
+from optlaws.exports.points import (
     NumberFormat,
+    PointTable,
+    chosen,
     chosen_table,
     hermite_table,
     is_cyclic,
+    places,
     point_table,
 )
-from optlaws.exports.spacing import PointTable, chosen, places
 from optlaws.exports.text import plain, plain_column, table_heading
 from optlaws.files.writing import MARK
 from optlaws.motion.motion import Motion
