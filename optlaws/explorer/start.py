@@ -32,7 +32,7 @@ def start(given: str | None) -> dict[str, Any]:
     {'view': 'laws', 'laws': [{'name': 'cycloidal'}]}
     """
     if given is None:
-        return _law({"problem": dict(_FIRST), "weights": {"C": 1.0}})
+        return _law({"problem": dict(_FIRST)})
     if is_problem(given):
         file = problem_file(Path(given))[0]
         return _of_problem_file(_with_motors(reading.toml(file), file), str(file))
@@ -50,7 +50,7 @@ def _of_stored(data: Any, name: str) -> dict[str, Any]:
     """The problem of a solution, so that it can be changed; else the law."""
     with located(name):
         if isinstance(data, dict) and isinstance(data.get("problem"), dict):
-            return _law(_law_entries(problem_of(LawRequest(problem=data["problem"]))))
+            return _law({"problem": problem_of(LawRequest(problem=data["problem"])).to_dict()})
         if isinstance(data, dict) and "kind" not in data and "law" in data:
             data = data["law"]
         return _law({"law": MotionLaw.from_dict(data).to_dict(), "title": _stem(name)})
@@ -94,7 +94,7 @@ def _of_problem_file(data: dict[str, Any], name: str) -> dict[str, Any]:
         raise InputError(
             f"{name}: the page shows a law, a cycle, a cam or a move; `optlaws run` does what this file says"
         )
-    return _law(_law_entries(stated))
+    return _law({"problem": stated.to_dict()})
 
 
 def _single_problem(data: dict[str, Any]) -> Problem | None:
@@ -129,8 +129,8 @@ class OpenRequest(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
 def opened(request: OpenRequest) -> dict[str, Any]:
     r"""The state that shows a file; no file of this machine is read for it.
 
-    >>> opened(OpenRequest(name="one.toml", text="[problem]\norder = 4\nB = 1.7"))["state"]["laws"][0]["weights"]
-    {'C': 1.0}
+    >>> opened(OpenRequest(name="one.toml", text="[problem]\norder = 4\nB = 1.7"))["state"]["laws"][0]["problem"]["B"]
+    1.7
     """
     return {"state": _of_text(Path(request.name).name, request.text)}
 
@@ -140,14 +140,6 @@ def _of_text(name: str, text: str) -> dict[str, Any]:
     if ending == ".toml":
         return _of_problem_file(reading.toml_text(text, name), name)
     return _of_stored(reading.json_text(text, name), name) if ending == ".json" else _of_table(name, text)
-
-
-def _law_entries(stated: Problem) -> dict[str, Any]:
-    """A problem in the page's form of a law: with weights where a single constant is minimised."""
-    plain = stated.to_dict()
-    if plain.get("minimise") in {"C", "D", "J", "rms_c"}:
-        return {"weights": {plain.pop("minimise"): 1.0}, "problem": plain}
-    return {"problem": plain}
 
 
 QUESTIONS: dict[str, Question] = {"open": (OpenRequest, opened)}

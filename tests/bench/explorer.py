@@ -45,7 +45,7 @@ def measured(degree: int) -> tuple[list[list[float]], float]:
     from playwright.sync_api import sync_playwright
 
     # every step is a law that was not solved before
-    law = f'{{"problem": {{"order": 4, "degree": {degree}, "B": {FIRST}}}, "weights": {{"C": 1}}}}'
+    law = f'{{"problem": {{"order": 4, "degree": {degree}, "B": {FIRST}}}}}'
     with subprocess.Popen([sys.executable, "-c", SERVER], stdout=subprocess.PIPE, text=True) as serving:
         assert serving.stdout is not None
         address = f"http://127.0.0.1:{serving.stdout.readline().strip()}/#{urlencode({'law': law})}"

@@ -7,7 +7,7 @@ from http.client import HTTPConnection, HTTPResponse
 from typing import Any
 from urllib.parse import urlencode
 
-OPTIMAL = {"problem": {"order": 4, "degree": 9, "B": 1.7}, "weights": {"C": 1.0}}
+OPTIMAL = {"problem": {"order": 4, "degree": 9, "B": 1.7}}
 
 
 @dataclass(frozen=True)

@@ -14,7 +14,7 @@ from tests.internals.explorer import cam_view, example
 if TYPE_CHECKING:
     from playwright.sync_api import FloatRect, Locator, Page
 
-STEEP = {"problem": {"order": 4, "degree": 41, "B": 1.7}, "weights": {"C": 1}}
+STEEP = {"problem": {"order": 4, "degree": 41, "B": 1.7}}
 
 
 def boxes(texts: Locator) -> list[FloatRect]:

@@ -144,7 +144,7 @@ def focused(page: Page) -> str:
 
 
 def test_the_focus_stays_where_the_reader_is(page: Page, served: Server) -> None:
-    none = {"problem": {"order": 4, "degree": 9, "B": 1.7, "J": [0, 20]}, "weights": {"C": 1.0}}
+    none = {"problem": {"order": 4, "degree": 9, "B": 1.7, "J": [0, 20]}}
     go(page, served.link(laws=[none, OPTIMAL], picture="residual"))
     for name in ("+ copy", "raise the bound of J from 20 to"):
         page.get_by_role("button", name=name).focus()

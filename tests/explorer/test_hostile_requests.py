@@ -36,7 +36,7 @@ SEEDS: dict[str, list[Any]] = {
     "laws": [{"laws": LAWS}],
     "law-machine": [{"laws": [OPTIMAL], "stroke": "35 mm", "time": "0.1 s", "mass": "2 kg"}],
     "front": [{"laws": [OPTIMAL], "over": ["B", "C"]}],
-    "nearest": [{"laws": [{"problem": {"order": 4, "degree": 9, "B": 1.7, "J": [0, 20]}, "weights": {"C": 1.0}}]}],
+    "nearest": [{"laws": [{"problem": {"order": 4, "degree": 9, "B": 1.7, "J": [0, 20]}}]}],
     "advice": [CYCLE | {"follower": {"frequency": ["20 Hz", "24 Hz"], "damping": 0.05}, "minimise": "jerk"}],
     "advice-standard": [CYCLE],
     "axes": [AXES],

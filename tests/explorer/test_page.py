@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from playwright.sync_api import Page
 
 CONSTANTS = ("B", "C", "D", "J", "rms_c")
-NONE = {"problem": {"order": 4, "degree": 9, "B": 1.7, "J": [0, 20]}, "weights": {"C": 1.0}}
+NONE = {"problem": {"order": 4, "degree": 9, "B": 1.7, "J": [0, 20]}}
 
 
 def settle(page: Page) -> None:
@@ -43,7 +43,7 @@ def told(served: Server, law: dict[str, Any]) -> list[str]:
 
 
 def at_velocity(B: float) -> dict[str, Any]:
-    return {"problem": OPTIMAL["problem"] | {"B": B}, "weights": {"C": 1}}
+    return {"problem": OPTIMAL["problem"] | {"B": B}}
 
 
 def velocity(page: Page) -> float:
@@ -165,9 +165,12 @@ def test_bounds_and_weights_are_asked(page: Page, served: Server) -> None:
     page.get_by_label("Greatest peak jerk, number").fill("80")
     page.get_by_label("Weight of peak power in the objective, number").fill("0.5")
     settle(page)
-    law = {"problem": OPTIMAL["problem"] | {"J": [0, 80]}, "weights": {"C": 1, "D": 0.5}}
+    law = {"problem": OPTIMAL["problem"] | {"J": [0, 80], "minimise": "C/4 + 0.5*D/2.25"}}
     assert texts(page) == told(served, law)
     assert page.locator("#trust .word").inner_text() == "local"
+    # links of earlier versions have the weights beside the problem
+    go(page, served.link(laws=[{"problem": OPTIMAL["problem"] | {"J": [0, 80]}, "weights": {"C": 1, "D": 0.5}}]))
+    assert texts(page) == told(served, law)
 
 
 def test_dragging_over_another_constant_bounds_it(page: Page, served: Server) -> None:
@@ -178,7 +181,7 @@ def test_dragging_over_another_constant_bounds_it(page: Page, served: Server) ->
     page.keyboard.press("PageDown")
     settle(page)
     bound = float(page.get_by_label("Greatest peak jerk, number").input_value())
-    assert texts(page) == told(served, {"problem": OPTIMAL["problem"] | {"J": [0, bound]}, "weights": {"C": 1}})
+    assert texts(page) == told(served, {"problem": OPTIMAL["problem"] | {"J": [0, bound]}})
 
 
 def test_nothing_overflows(page: Page, served: Server) -> None:

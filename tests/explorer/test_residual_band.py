@@ -83,7 +83,7 @@ def test_a_law_is_made_for_the_band_and_for_a_spectrum(page: Page, served: Serve
     page.keyboard.press("PageUp")
     settle(page)
     bound = {"residual(frequency=(18, 23), damping=0.02)": [0, float(most.input_value())]}
-    robust = {"problem": OPTIMAL["problem"] | {"bounds": bound}, "weights": {"C": 1}}
+    robust = {"problem": OPTIMAL["problem"] | {"bounds": bound}}
     (view,) = served.ask("laws", {"laws": [robust]})["laws"]
     assert page.locator("#table [data-constant=C]").first.inner_text() == view["constants"][1]["text"]
     handed = page.evaluate_handle(

@@ -26,10 +26,21 @@ export function setVelocity(law, value) {
   else law.problem.B = value;
 }
 
-/** What is minimised alone becomes a weight; a formula stays one. */
+/** The least value of each constant over all laws from rest to rest, by which its weight in an objective is divided. */
+const LEAST = { C: 4, D: 2.25, J: 32, rms_c: Number(Math.sqrt(12).toPrecision(12)) };
+
+/** The weights of an objective that is a constant, or a sum of such; null of another formula. */
+export function weights({ problem }) {
+  const terms = (problem.minimise ?? "C").split(" + ").map((text) => /^(?:([-\de.]+)\*)?(\w+)(?:\/([\d.]+))?$/.exec(text.trim()));
+  const own = terms.every((term) => term && Object.hasOwn(LEAST, term[2]) && (terms.length === 1 ? term[0] === term[2] : Number(term[3]) === LEAST[term[2]]));
+  return own ? Object.fromEntries(terms.map(([, weight = 1, name]) => [name, Number(weight)])) : null;
+}
+
+/** Make the sum of weighted constants the objective; a constant alone is that whatever its weight. */
 export function minimise(law, weights) {
-  law.weights = weights;
-  delete law.problem.minimise;
+  const heavy = Object.entries(weights).filter(([, weight]) => weight > 0);
+  const sum = heavy.map(([name, weight]) => `${weight}*${name}/${LEAST[name]}`).join(" + ");
+  if (heavy.length) law.problem.minimise = heavy.length === 1 ? heavy[0][0] : sum;
 }
 
 /** Move a law to a value of the constant that a front sweeps. */

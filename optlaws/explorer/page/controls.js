@@ -1,6 +1,6 @@
 // What is asked of the active law: objective, peak velocity, order, degree, bounds.
 
-import { CONSTANTS, bound, minimise, setBound, setVelocity, velocity } from "./asked.js";
+import { CONSTANTS, bound, minimise, setBound, setVelocity, velocity, weights } from "./asked.js";
 import { group, slider } from "./fields.js";
 import { html } from "./svg.js";
 
@@ -32,13 +32,12 @@ export class Controls {
     this.#problem.hidden = !law.problem;
     this.#known.hidden = Boolean(law.problem);
     if (!law.problem) return;
-    const formula = law.problem.minimise ?? "";
-    const weighed = law.weights && Object.keys(law.weights).length > 0;
+    const weighed = weights(law);
     for (const name of CONSTANTS) {
-      this.#fields[`weight ${name}`].set(weighed ? law.weights[name] ?? 0 : 0);
+      this.#fields[`weight ${name}`].set(weighed?.[name] ?? 0);
       this.#fields[`bound ${name}`].set(bound(law, name));
     }
-    if (document.activeElement !== this.#formula) this.#formula.value = weighed ? "" : formula;
+    if (document.activeElement !== this.#formula) this.#formula.value = weighed ? "" : law.problem.minimise;
     this.#fields.B.set(velocity(law));
     this.#fields.order.set(law.problem.order ?? 2);
     this.#fields.degree.set(law.problem.degree ?? 9);
@@ -58,7 +57,7 @@ export class Controls {
 
   #objective() {
     const rows = CONSTANTS.map((name) => {
-      const row = this.#field(`weight ${name}`, { name: SHOWN[name], title: `Weight of ${WORDS[name]} in the objective`, low: 0, high: 1, step: 0.05, most: 100 }, (law, value) => minimise(law, { ...law.weights, [name]: Math.max(0, value) }));
+      const row = this.#field(`weight ${name}`, { name: SHOWN[name], title: `Weight of ${WORDS[name]} in the objective`, low: 0, high: 1, step: 0.05, most: 100 }, (law, value) => minimise(law, { ...weights(law), [name]: Math.max(0, value) }));
       const alone = html("button", { type: "button", class: "link", title: `Minimise the ${WORDS[name]} alone`, text: SHOWN[name], onclick: () => this.#change(`alone ${name}`, (law) => minimise(law, { [name]: 1 })) });
       row.firstElementChild.replaceChildren(alone);
       return row;
@@ -67,7 +66,6 @@ export class Controls {
     this.#formula.addEventListener("change", () => this.#change("formula", (law) => {
       const text = this.#formula.value.trim();
       if (!text) return minimise(law, { C: 1 });
-      delete law.weights;
       law.problem.minimise = text;
     }));
     return group("Minimise", html("p", { class: "hint", text: "weights of C/4, D/2.25, J/32, rms c/3.46: each by its least value of all laws" }), ...rows, this.#formula);
@@ -109,7 +107,6 @@ export class Controls {
       const B = this.#value("B");
       for (const name of ["name", "law", "title"]) delete law[name];
       law.problem = { order: 4, degree: 9, B: Number((B ?? 1.7).toPrecision(8)) };
-      law.weights = { C: 1 };
       alter(law);
     });
     return group(

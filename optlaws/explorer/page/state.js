@@ -1,5 +1,6 @@
 // The study: all that the page shows follows from it, the address holds it, and every step can be undone.
 
+import { minimise } from "./asked.js";
 import { VIEWS, object } from "./views.js";
 
 const MERGED = 800; // ms within which changes of one thing are one step
@@ -10,7 +11,7 @@ export const FIRST = {
   name: "",
   notes: "",
   view: "laws",
-  laws: [{ problem: { order: 4, degree: 9, B: 1.7 }, weights: { C: 1 } }],
+  laws: [{ problem: { order: 4, degree: 9, B: 1.7 } }],
   active: 0,
   picture: "B-C",
   axis: 0,
@@ -37,6 +38,12 @@ export function written(state) {
   return `#${parts}`;
 }
 
+/** A law of earlier versions, whose objective was a table of weights. */
+function asNow({ weights, ...law }) {
+  if (object(law.problem) && object(weights)) minimise(law, weights);
+  return law;
+}
+
 /** The state of a fragment; what is not there is as at first, what cannot be read is left out. */
 export function read(fragment) {
   const parts = new URLSearchParams(fragment.replace(/^#/, ""));
@@ -49,7 +56,7 @@ export function read(fragment) {
     }
   };
   const laws = parts.getAll("law").map(parsed).filter(object).slice(0, 4);
-  if (laws.length) state.laws = laws;
+  if (laws.length) state.laws = laws.map(asNow);
   for (const [name, text] of parts) {
     const value = parsed(text);
     if (KNOWN.includes(name) && value !== undefined && value !== null) state[name] = value;

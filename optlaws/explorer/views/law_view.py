@@ -27,7 +27,6 @@ from optlaws.errors import InfeasibleProblem, InputError, OptlawsError, SolverFa
 from optlaws.explorer.views.panel_data import beside_each_other, panel_data
 from optlaws.explorer.views.requests import (
     MOST_DEGREE,
-    UNITS,
     LawRequest,
     LawsRequest,
     Question,
@@ -218,7 +217,7 @@ def ways(problem: Problem) -> Iterator[dict[str, Any]]:
             outside = B is not None and (B > problem.B if word == "raise" else B < problem.B)
             if outside and isinstance(solved(replace(problem, B=B)), Solution):
                 yield _way("B", B, f"{word} B", problem.B)
-    for name in UNITS:
+    for name in ("C", "D", "J", "rms_c"):
         bound = problem.range(name)
         least = None if bound is None or bound.low > 0.0 else solved(without(problem, name, minimise=name))
         if bound is not None and isinstance(least, Solution) and least.objective > bound.high:

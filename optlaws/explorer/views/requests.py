@@ -15,29 +15,23 @@ from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.laws.catalogue import reading
 from optlaws.mechanisms.measured_spectrum import MOST_POINTS
 from optlaws.numbers import whole
-from optlaws.suggest import unknown_key
 
 #: beyond this nobody drags, and an answer takes longer than a page should wait
 MOST_ORDER, MOST_DEGREE, MOST_LAWS = 12, 41, 4
 #: beyond this the envelope of the vibration, which the residual is, says nothing of what little is left to see
 MOST_DAMPING = 0.5
-#: what weights are of, each beside its least value over all laws from rest to rest (with zero end accelerations)
-UNITS = {"C": 4.0, "D": 2.25, "J": 32.0, "rms_c": 12.0**0.5}
-_FIGURES = 12
 
 Struct = TypeVar("Struct", bound=msgspec.Struct)
 #: what a question of the page is read as, and what answers it
 Question = tuple[type[msgspec.Struct], Callable[[Any], dict[str, Any]]]
-Weight = Annotated[float, msgspec.Meta(ge=0.0, le=100.0)]
 Text = Annotated[str, msgspec.Meta(max_length=60)]
 Frequency = Annotated[float, msgspec.Meta(gt=0.0, le=1000.0)]
 
 
 class LawRequest(msgspec.Struct, kw_only=True, forbid_unknown_fields=True, frozen=True):
-    """A law: a problem with weights for its objective, the name of a standard law, or a stored law."""
+    """A law: a problem, the name of a standard law, or a stored law."""
 
     problem: dict[str, Any] | None = None
-    weights: dict[str, Weight] = {}
     name: Annotated[str, msgspec.Meta(max_length=100)] | None = None
     law: dict[str, Any] | None = None
     title: Annotated[str, msgspec.Meta(max_length=200)] | None = None
@@ -83,23 +77,6 @@ def read(text: bytes, kind: type[Struct]) -> Struct:
         raise InputError(f"the question cannot be read: {error}") from None
 
 
-def objective(weights: Mapping[str, float]) -> str:
-    """The objective of weights: a constant alone, or the sum of those above 0, each by its least value over all laws.
-
-    >>> objective({"C": 1.0, "D": 0.0}), objective({"C": 0.5, "J": 1.0})
-    ('C', '0.5*C/4 + 1*J/32')
-    """
-    for name in weights:
-        if name not in UNITS:
-            raise InputError(f"weights: {unknown_key(name, UNITS, 'constant')}")
-    heavy = {name: weight for name, weight in weights.items() if weight > 0.0}
-    if not heavy:
-        raise InputError("every weight of the objective is 0: raise one, such as that of C")
-    if len(heavy) == 1:
-        return next(iter(heavy))
-    return " + ".join(f"{weight:.{_FIGURES}g}*{name}/{UNITS[name]:.{_FIGURES}g}" for name, weight in heavy.items())
-
-
 _SPECTRUM = re.compile(r"spectrum\s*=\s*(['\"])(.*?)\1")
 _PAIRS = re.compile(r"\s*\{?\s*[-+.\deE]+\s*:")
 
@@ -139,11 +116,9 @@ def check_size(order: Any, degree: Any) -> None:
 
 def problem_of(request: LawRequest) -> Problem:
     """The problem of a page's request."""
-    entries = dict(request.problem or {})
+    entries = request.problem or {}
     without_files(entries)
     check_size(entries.get("order"), entries.get("degree"))
-    if request.weights:
-        entries["minimise"] = objective(request.weights)
     return Problem.from_dict(entries)
 
 
