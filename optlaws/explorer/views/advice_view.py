@@ -10,8 +10,9 @@ from typing import Any
 
 import msgspec
 
-from optlaws import Advice, AdvisedLaw, Cycle
+from optlaws import Advice, AdvisedLaw
 from optlaws.cycles.advising.advice import front_panels, limits_in_words, proof_in_words
+from optlaws.cycles.advising.advised_cycle import AdvisedCycle
 from optlaws.cycles.advising.advised_motion import advice_from, standard_candidates
 from optlaws.cycles.advising.candidates import Candidates
 from optlaws.cycles.specification.segments import OPTIMAL, Move
@@ -31,19 +32,18 @@ def standard(request: CycleRequest) -> dict[str, Any]:
     >>> [row["name"] for row in standard(CycleRequest(study=cycle_view.example()))["rows"]][:2]
     ['modified sine', 'modified trapezoid']
     """
-    cycle, candidates = _standard(_question(request))
-    return _side_by_side(cycle, candidates, [candidates.usual], ())
+    candidates = _standard(_question(request))
+    return _side_by_side(candidates, [candidates.usual], ())
 
 
 @refusing()
 def answer(request: CycleRequest) -> dict[str, Any]:
     """The laws side by side with the recommended one, or the reason why there is none."""
-    cycle, candidates = _all(_question(request))
     advice = advice_of(request)
     chosen = advice.recommendation
     unchanged = chosen.usual is chosen.law
     return {
-        **_side_by_side(cycle, candidates, [None if unchanged else chosen.usual, chosen.law], advice.front),
+        **_side_by_side(_all(_question(request)), [None if unchanged else chosen.usual, chosen.law], advice.front),
         "sentences": list(chosen.sentences),
         "rule": chosen.rule,
         "chosen": chosen.law.name,
@@ -53,7 +53,7 @@ def answer(request: CycleRequest) -> dict[str, Any]:
 
 def advice_of(request: CycleRequest) -> Advice:
     """The advice with so many points of the front."""
-    return advice_from(_copy(_all(_question(request))[1]), request.points)
+    return advice_from(_copy(_all(_question(request))), request.points)
 
 
 def _question(request: CycleRequest) -> bytes:
@@ -62,18 +62,17 @@ def _question(request: CycleRequest) -> bytes:
 
 
 @lru_cache(maxsize=16)
-def _standard(question: bytes) -> tuple[Cycle, Candidates]:
+def _standard(question: bytes) -> Candidates:
     request = msgspec.json.decode(question, type=CycleRequest)
     cycle = cycle_view.stored(*cycle_view.read(request))
-    return cycle, standard_candidates(cycle, minimise=request.minimise or None, follower=request.follower)
+    return standard_candidates(cycle, minimise=request.minimise or None, follower=request.follower)
 
 
 @lru_cache(maxsize=16)
-def _all(question: bytes) -> tuple[Cycle, Candidates]:
-    cycle, known = _standard(question)
-    candidates = _copy(known)
+def _all(question: bytes) -> Candidates:
+    candidates = _copy(_standard(question))
     candidates.add_optimal()
-    return cycle, candidates
+    return candidates
 
 
 def _copy(candidates: Candidates) -> Candidates:
@@ -81,7 +80,7 @@ def _copy(candidates: Candidates) -> Candidates:
 
 
 def _side_by_side(
-    cycle: Cycle, candidates: Candidates, drawn_laws: Sequence[AdvisedLaw | None], front: Sequence[AdvisedLaw]
+    candidates: Candidates, drawn_laws: Sequence[AdvisedLaw | None], front: Sequence[AdvisedLaw]
 ) -> dict[str, Any]:
     measures = {measure.name: measure for measure in candidates.motion.measures}
     x, y = measures[candidates.second], measures[candidates.minimise]
@@ -95,7 +94,7 @@ def _side_by_side(
                 "values": [bounded(law.values[name]) for name in measures],
                 "limits": limits_in_words(law),
                 "proof": proof_in_words(law),
-                "take": _entries(cycle, law, vibrates=any(name.startswith("residual") for name in measures)),
+                "take": _entries(candidates.motion, law),
             }
             for law in candidates.laws.values()
         ],
@@ -104,33 +103,25 @@ def _side_by_side(
     }
 
 
-def _entries(cycle: Cycle, law: AdvisedLaw, *, vibrates: bool) -> dict[str, Any] | None:
+def _entries(advised: AdvisedCycle, law: AdvisedLaw) -> dict[str, Any] | None:
     """The entries of the cycle with a law: by its name, by what is least within limits, or as it stands.
 
     Laws that were sought for a follower are given as they stand: a cycle's entries know none.
     """
     motion, proof = law.motion, law.proof
-    moves = [i for i, segment in enumerate(motion.segments) if _is_compared(cycle.segments[i], segment)]
-    none: list[str | None] = [None] * len(motion.segments)
     if law.kind == "given":
         return None
+    # laws that are compared are sought, or changed by the user
+    before = zip(advised.cycle.segments, motion.segments, strict=True)
+    compared = [isinstance(now, Move) and (now.law == OPTIMAL or now != then) for then, now in before]
     if proof is None:
-        return {"laws": [law.name if i in moves else None for i in range(len(none))]}
-    if not vibrates and proof.minimise == motion.minimise:
-        laws = [OPTIMAL if i in moves else None for i in range(len(none))]
+        return {"laws": [law.name if own else None for own in compared]}
+    if advised.follower is None and proof.minimise == motion.minimise:
+        laws = [OPTIMAL if own else None for own in compared]
         return {"laws": laws, "minimise": motion.minimise, "limits": dict(motion.limits)}
-    for i in moves:
-        peaks = motion.peaks[i]
-        piece = next((piece for piece in motion.pieces if piece.start == peaks.start), None)
-        if piece is None or not isinstance(motion.segments[i], Move):
-            return None
-        none[i] = json.dumps(piece.law.to_dict())
-    return {"laws": none}
-
-
-def _is_compared(before: Any, segment: Any) -> bool:
-    """Whether a segment's law is compared: it is sought, or the user changed it."""
-    return isinstance(segment, Move) and (segment.law == OPTIMAL or segment != before)
+    known = {piece.start: json.dumps(piece.law.to_dict()) for piece in motion.pieces}
+    taken = [known.get(peaks.start, "") if own else None for own, peaks in zip(compared, motion.peaks, strict=True)]
+    return None if "" in taken else {"laws": taken}
 
 
 def _curves(laws: Sequence[AdvisedLaw]) -> dict[str, Any]:
