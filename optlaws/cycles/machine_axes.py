@@ -3,21 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import KW_ONLY, dataclass, field, replace
+from dataclasses import KW_ONLY, replace
 from typing import Any, Literal, TypeAlias, Unpack
 
 from optlaws.cycles.cycle import Cycle
 from optlaws.cycles.interchange import problem_file
 from optlaws.cycles.interlocks.interlock import Interlock, LeastClearance
-from optlaws.cycles.interlocks.interlock_kinds import checked
+from optlaws.cycles.interlocks.interlock_kinds import INTERLOCKS
 from optlaws.cycles.specification.programme import is_optimal, period_of
 from optlaws.cycles.specification.segments import CycleSegment, Dwell
 from optlaws.echo import shortened
-from optlaws.entries.declared import Declared, declared, entry
+from optlaws.entries.declared import Declared, declared, entry, same
 from optlaws.entries.value_types import Choice, Listed, Number, ReadBy, Text
 from optlaws.errors import InfeasibleProblem, InputError, located
 from optlaws.extras import needed
-from optlaws.files.reading import JsonText, check_names
+from optlaws.files.reading import check_names
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.laws.exporting import AxesExportOptions
@@ -34,21 +34,22 @@ AxesPicture: TypeAlias = Literal["motion", "timing", "plane", "clearance"]
 FORMAT = "optlaws axes 1"
 
 
-@dataclass(frozen=True, repr=False, eq=False)
-class Axes(JsonText, Mapping[str, Cycle]):
-    """Axes that turn with one master: cycles by their names, all of the same duration.
+def _named(given: Any) -> dict[str, Any]:
+    if not isinstance(given, Mapping) or not given:
+        raise InputError("they are a table of segments by name, such as {'table': [Rise('45 deg', '0.4 s'), Dwell()]}")
+    unnamed = [name for name in given if not isinstance(name, str) or not name]
+    if unnamed:
+        raise InputError(f"an axis has a name, such as 'table', got {shortened(unnamed[0])}")
+    return dict(given)
 
-    Parameters
-    ----------
-    axes
-        What each axis does, by its name: a list of segments, a table of what `Cycle` takes (`{"segments": [...],
-        "limits": {...}}`), or a `Cycle` of the same duration.
-    speed, period
-        Of the master, "200 rpm", or the duration of the cycle, "0.3 s": one of them; where all axes are cycles neither
-        is needed.
-    interlocks
-        Conditions between two axes each: `After`, `Clearance`, `Forbidden`, `Synchronous`, or the plain data of such.
-        `clearances` states which are clear and where they are nearest.
+
+def _plain_cycles(cycles: Mapping[str, Cycle]) -> dict[str, Any]:
+    return {name: cycle.to_dict() for name, cycle in cycles.items()}
+
+
+@declared
+class Axes(Declared, Mapping[str, Cycle], title="stored axes"):
+    """Axes that turn with one master: cycles by their names, all of the same duration.
 
     Raises
     ------
@@ -68,22 +69,27 @@ class Axes(JsonText, Mapping[str, Cycle]):
     ('optimal', 21.313898, 0.125000)
     """
 
-    _json_name = "stored axes"
+    __eq__, __hash__ = Mapping.__eq__, Mapping.__hash__
 
-    axes: Mapping[str, Sequence[CycleSegment] | Mapping[str, Any] | Cycle]
-    speed: Quantity | None = field(default=None, kw_only=True)
-    period: Quantity | None = field(default=None, kw_only=True)
-    interlocks: Sequence[Interlock | Mapping[str, Any]] = field(default=(), kw_only=True)
+    axes: Mapping[str, Sequence[CycleSegment] | Mapping[str, Any] | Cycle] = entry(
+        ReadBy(_named, "a table by the names of the axes", _plain_cycles, {"type": "object", "minProperties": 1}),
+        'What each axis does: a list of segments, a table of what `Cycle` takes (`{"segments": [...], "limits": '
+        "{...}}`), or a `Cycle` of the same duration; where all are cycles neither speed nor period is needed.",
+    )
+    _: KW_ONLY
+    speed: Quantity | None = same(Cycle, "speed", default=None)
+    period: Quantity | None = same(Cycle, "period", default=None)
+    interlocks: Sequence[Interlock | Mapping[str, Any]] = entry(
+        INTERLOCKS,
+        "Conditions between two axes: `After`, `Clearance`, `Forbidden`, `Synchronous`, or the plain data of such. "
+        "`clearances` states which are clear and where they are nearest.",
+        default=(),
+    )
 
-    def __post_init__(self) -> None:
-        given: Any = self.axes
-        if not isinstance(given, Mapping) or not given:
-            raise InputError(
-                "axes are a table of segments by name, such as {'table': [Rise('45 deg', '0.4 s'), Dwell()]}"
-            )
-        object.__setattr__(self, "axes", dict(given))
-        # errors of an axis are raised at once
-        object.__setattr__(self, "interlocks", checked(self.interlocks, self._cycles))
+    def _check(self) -> None:
+        cycles = self._cycles  # errors of an axis are raised at once
+        for interlock in self.rules:
+            interlock.check(cycles)
 
     def __getitem__(self, name: str) -> Cycle:
         check_names([name], tuple(self._cycles), "axis")
@@ -287,20 +293,15 @@ class Axes(JsonText, Mapping[str, Cycle]):
         return export_axes(self, formats, {"master": master}, **options)
 
     def to_dict(self) -> dict[str, Any]:
-        """The entries of the axes as they were given, plain and JSON-able."""
-        axes = {name: cycle.to_dict() for name, cycle in self.items()}
-        interlocks = [interlock.to_dict() for interlock in self.rules]
-        return {"format": FORMAT, "axes": axes} | ({"interlocks": interlocks} if interlocks else {})
+        """The cycles of the axes and their interlocks, plain and JSON-able."""
+        return {"format": FORMAT, **super(Axes, replace(self, axes=dict(self), speed=None, period=None)).to_dict()}
 
     @classmethod
-    def from_dict(cls, data: Any) -> Axes:
-        """The axes that `to_dict` wrote."""
-        stored = data.get("axes") if isinstance(data, Mapping) else None
-        if not isinstance(stored, Mapping) or data.get("format", FORMAT) != FORMAT:
+    def _from_earlier(cls, data: dict[str, Any]) -> dict[str, Any]:
+        stored = data.get("axes")
+        if not isinstance(stored, Mapping) or data.pop("format", FORMAT) != FORMAT:
             raise InputError(f"stored axes have format {FORMAT!r} and a table of axes, got {shortened(data)}")
-        check_names(data, ("format", "axes", "interlocks"), "key of stored axes")
-        cycles = {str(name): Cycle.from_dict(cycle) for name, cycle in stored.items()}
-        return cls(cycles, interlocks=data.get("interlocks", ()))
+        return {**data, "axes": {str(name): Cycle.from_dict(cycle) for name, cycle in stored.items()}}
 
     def to_toml(self, title: str = "Machine") -> str:
         """A problem file for `optlaws cycle` with all axes.
@@ -411,10 +412,6 @@ class Axes(JsonText, Mapping[str, Cycle]):
     def _cycles(self) -> dict[str, Cycle]:
         clock = self._clock()
         cycles: dict[str, Cycle] = {}
-        keys: list[Any] = list(self.axes)
-        unnamed = [name for name in keys if not isinstance(name, str) or not name]
-        if unnamed:
-            raise InputError(f"an axis has a name, such as 'table', got {shortened(unnamed[0])}")
         for name, given in self.axes.items():
             with located(f"axis {name}"):
                 cycles[name] = given if isinstance(given, Cycle) else Cycle(**_entries(given), **clock)

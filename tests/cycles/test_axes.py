@@ -75,7 +75,7 @@ def test_axes_are_exported_under_their_own_names(form: str) -> None:
 @pytest.mark.parametrize(
     ("make", "says"),
     [
-        (lambda: Axes({}), "axes are a table of segments by name"),
+        (lambda: Axes({}), "axes: they are a table of segments by name"),
         (lambda: Axes({"x": HEAD}), "either a speed such as"),
         (lambda: Axes({"x": HEAD}, period="1 s"), r"axis x: the durations sum to"),
         (lambda: Axes({"x": NO_SEGMENTS}, period="1 s"), "axis x: its segments are a list such as"),
