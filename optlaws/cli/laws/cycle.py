@@ -18,17 +18,17 @@ from optlaws.cli.show import Answer, busy
 from optlaws.cli.show import save as save_json
 from optlaws.cli.synthesis.run import written
 from optlaws.echo import shortened
-from optlaws.errors import InputError
+from optlaws.errors import InputError, located
 from optlaws.synthesis.status import Status
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from optlaws.cycles.cycle import Cycle
     from optlaws.cycles.old_tables.table import OldTable
     from optlaws.results import Results
 
 _GROUP = "The table of an old cam"
+_SEGMENTS = "the cycle, whose segments are the stretches of the table"
 
 
 @takes(
@@ -173,7 +173,8 @@ def _old_cam(
     if save is not None:
         files["saved"] = str(_save(latest, save, file, speed))
     if chosen is not None:
-        exported = _cycle(latest, speed).export(chosen.name)
+        with located(_SEGMENTS):
+            exported = latest.cycle(speed=speed).export(chosen.name)
         place = (out or Path()) / f"{file.stem}_{chosen.name}{chosen.extension}"
         files["exported"] = str(exported.write(place))
         lines.append(str(exported))
@@ -196,17 +197,6 @@ def _tolerance(text: str, old: OldTable) -> float:
         return either(text, (dimension,), "--modernise")[1] / size
 
 
-def _cycle(old: OldTable, speed: str | None) -> Cycle:
-    if speed is None and old.rate is None and old.master not in {"s", "ms"}:
-        raise InputError("--save and --export need the speed of the master, such as --speed 200rpm: the file has none")
-    try:
-        return old.cycle(speed=speed)
-    except InputError as error:
-        raise InputError(
-            f"{error}; segments are the stretches of the table, as they are listed without --save"
-        ) from None
-
-
 def _save(latest: OldTable, place: Path, source: Path, speed: str | None) -> Path:
     """The problem file of a cycle; laws that have no name as files beside it."""
     from optlaws.files.writing import MARK, write
@@ -220,5 +210,6 @@ def _save(latest: OldTable, place: Path, source: Path, speed: str | None) -> Pat
             stretches.append(replace(part, law=str(beside)))
         else:
             stretches.append(part)
-    cycle = _cycle(replace(latest, stretches=tuple(stretches)), speed)
+    with located(_SEGMENTS):
+        cycle = replace(latest, stretches=tuple(stretches)).cycle(speed=speed)
     return write(place, f"# from {source.name}; {MARK}\n{cycle.to_toml(f'The cam of {source.name}', axis='cam')}")

@@ -234,6 +234,8 @@ class OldTable:
             speed = f"{self.rate!r} {self.master}/s"
         elif from_file and self.master in {"s", "ms"}:
             period = f"{self.stretches[-1].stop - self.stretches[0].start!r} {self.master}"
+        elif from_file:
+            raise InputError('speed: give the speed of the master, such as "200 rpm": the file has none')
         advance = f"{ahead!r} {self.unit}" if ahead else None
         return Cycle(segments, speed=speed, period=period, start=start, advance=advance)
 

@@ -157,10 +157,7 @@ def cycle(request: CycleRequest) -> Cycle:
     InputError
         If there are more laws than moves, or the speed of the master is not known.
     """
-    old, speed = with_laws(request), OldCamEntries.from_dict(request.study).speed
-    if speed is None and old.rate is None and old.master not in {"s", "ms"}:
-        raise InputError('speed: say the speed of the master, such as "200 rpm": the file has none')
-    return old.cycle(speed=speed)
+    return with_laws(request).cycle(speed=OldCamEntries.from_dict(request.study).speed)
 
 
 def laws_of(request: CycleRequest) -> list[dict[str, Any]]:
