@@ -15,7 +15,7 @@ from optlaws.cycles.optimisation.motion_limits import Side
 from optlaws.cycles.specification.joints import LawSpan
 from optlaws.laws import MotionLaw
 from optlaws.synthesis.problem.constants import Functional
-from optlaws.tolerances import DURATION_STEP, LEAST_SHARE, SAME_TIME
+from optlaws.tolerances import LEAST_SHARE, SAME_TIME
 
 _SLOWEST = 2.0**40
 
@@ -43,15 +43,6 @@ class SpanLimit:
         """The share of the limit that a law uses, at a scale of the time."""
         constant, weight = self.term(scale)
         return constant.value(law) * weight
-
-    def slope(self, law: MotionLaw, scale: float) -> float:
-        """The exponent with which the share of a law falls with the scale: by differences where it is no derivative."""
-        if self.key.kind.order:
-            return float(self.key.kind.order)
-        before, after = (
-            max(self.share(law, scale * (1.0 + sign * DURATION_STEP)), LEAST_SHARE) for sign in (-1.0, 1.0)
-        )
-        return max(0.0, log(before / after) / log((1.0 + DURATION_STEP) / (1.0 - DURATION_STEP)))
 
     def least_scale(self, law: MotionLaw) -> float:
         """The least scale from which on a law satisfies the limit; infinite if no scale does, 0 if all do."""

@@ -21,8 +21,8 @@ from optlaws.motion.quantities import positive_quantity
 from optlaws.numbers import NumberOrQuantity, Quantity
 from optlaws.suggest import unknown_key
 from optlaws.synthesis.least_time.follower_residual import RESIDUAL, FollowerResidual
-from optlaws.synthesis.least_time.move_limits import TimedMove
 from optlaws.synthesis.least_time.move_objective import AT_MOTOR, OBJECTIVES, MoveObjective
+from optlaws.synthesis.least_time.timed_move import TimedMove
 from optlaws.synthesis.problem.constants import meant
 from optlaws.synthesis.solution import Solution
 from optlaws.synthesis.solve import synthesize

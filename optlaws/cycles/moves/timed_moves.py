@@ -23,8 +23,9 @@ from optlaws.numbers import NumberOrQuantity, Quantity, listed
 from optlaws.synthesis.least_time.follower_residual import RESIDUAL
 from optlaws.synthesis.least_time.least_time import LeastTime
 from optlaws.synthesis.least_time.motor_torque import MotorTorque
-from optlaws.synthesis.least_time.move_limits import MoveLimits, TimedMove
+from optlaws.synthesis.least_time.move_limits import MoveLimits
 from optlaws.synthesis.least_time.time_search import least_time
+from optlaws.synthesis.least_time.timed_move import TimedMove
 from optlaws.synthesis.problem.problem import Problem
 
 _MOST = 100_000

@@ -21,8 +21,9 @@ from optlaws.errors import InputError
 from optlaws.motion.piece import Piece, factor, values_of_pieces
 from optlaws.motion.quantities import quantity
 from optlaws.motion.quantity_kinds import Kind
-from optlaws.synthesis.least_time.move_limits import MoveLimits, TimedMove
+from optlaws.synthesis.least_time.move_limits import MoveLimits
 from optlaws.synthesis.least_time.time_search import least_time
+from optlaws.synthesis.least_time.timed_move import TimedMove
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.spaces.bases import Chebyshev
 from optlaws.synthesis.spaces.end_conditions import BoundaryConditions

@@ -4,22 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import lru_cache
-from math import inf
 from typing import Any
 
-from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
+from optlaws.errors import InputError
 from optlaws.files.reading import JsonText, entries_of, of_known_format
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.numbers import finite, listed, positive, real
 from optlaws.synthesis.least_time.follower_residual import FollowerResidual
 from optlaws.synthesis.least_time.motor_torque import MotorTorque
-from optlaws.synthesis.least_time.move_limits import MoveLimits, TimedMove, power
-from optlaws.synthesis.least_time.segment_times import segment_times, time_of_any_law
+from optlaws.synthesis.least_time.move_limits import MoveLimits
 from optlaws.synthesis.least_time.time_proof import Multipliers, TimeProof, covers
-from optlaws.synthesis.limits.drive_limits import limit_of_plane, phase_torque
-from optlaws.synthesis.limits.phase_plane import PhasePlane, TorqueLimit
+from optlaws.synthesis.least_time.timed import power
+from optlaws.synthesis.least_time.timed_move import TimedMove
 from optlaws.synthesis.problem.constants import meant
 from optlaws.synthesis.proof.data import problem_of
 from optlaws.synthesis.solution import Solution
@@ -29,7 +26,6 @@ from optlaws.tolerances import BOUND_FEASIBILITY, LEAST_TIME_GAP, MIRROR, PHASE_
 _LIMIT_REACHED = 1e-6  # of a limit of a move: where no more of it is left, the law reaches it
 
 _MOST_PROOFS = 100
-_AT_REST = 2  # of the orders: where ends move, its laws are bounded without the jerk
 
 
 @dataclass(frozen=True)
@@ -85,20 +81,16 @@ class LeastTime(JsonText):
         """Whether the least time is proven, or the least of the search: where a torque is not convex in the law."""
         return Status.OPTIMAL if self.gap <= 2.0 * LEAST_TIME_GAP else Status.LOCAL
 
-    @kept_property
+    @property
     def limit(self) -> float | None:
         """The time that no law of any degree is faster than, s; None where no closed form is known."""
-        return limit_of_all_laws(self.move)
+        return self.move.limit
 
     @property
     def limit_breaks(self) -> tuple[float, ...]:
         """Breaks of pieces of degree 3 that reach the limit, 1/2 among them; empty where no segments are known."""
-        move, limits, order = self.move, self.move.limits, self.move.problem.order
-        reached = move.at_rest or (move.concave and (limits.jerk is None or order > _AT_REST))
-        if not reached or move.torque is not None:
-            return ()
-        segments = segment_times(move.stroke, limits, order, move.velocities, forward=move.problem.monotone)
-        if segments is None:
+        segments = self.move.segments
+        if segments is None or not segments.are_reached or self.move.torque is not None:
             return ()
         return tuple(sorted([0.5, *(k for k in segments.breaks if abs(k - 0.5) > MIRROR)]))
 
@@ -218,42 +210,6 @@ class LeastTime(JsonText):
         if not covers(self.move, self.proofs, claimed):
             return f"the proofs leave out times that are shorter than the least by more than {LEAST_TIME_GAP:g}"
         return ""
-
-
-def limit_of_all_laws(move: TimedMove) -> float | None:
-    """The time that no law of any degree is faster than; within a torque, that no law which never turns back is.
-
-    None is known where a move ends with an acceleration or a jerk.
-    """
-    torque, limits, stroke = move.torque, move.limits, move.stroke
-    if not move.concave:
-        return None
-    known = time_of_any_law(stroke, limits, move.problem.order, move.velocities, forward=move.problem.monotone)
-    if torque is None or not torque.lines:
-        return known
-    accelerations = [limit for limit in (limits.acceleration, limits.deceleration) if limit is not None]
-    velocity = inf if limits.velocity is None else limits.velocity / stroke
-    # a bound of both ways is the greater one, so that none of the laws is left out
-    acceleration = max(accelerations) / stroke if len(accelerations) == 2 else inf
-    # of a line that rises the greatest torque alone is left
-    lines = tuple((most / torque.unit, fall / torque.unit) for most, fall in torque.lines if fall >= 0.0)
-    in_plane = _in_phase_plane(torque.text(1.0), velocity, acceleration, lines) if lines else None
-    return known if in_plane is None else max(known or 0.0, in_plane)
-
-
-@lru_cache(maxsize=64)
-def _in_phase_plane(
-    torque: str, velocity: float, acceleration: float, lines: tuple[tuple[float, float], ...]
-) -> float | None:
-    """The least time in the phase plane within lines of torque over velocity; None where nothing is known."""
-    try:
-        form = phase_torque(torque)
-        limits = tuple(
-            TorqueLimit(form.scaled(1.0 / form.size), most / form.size, fall / form.size) for most, fall in lines
-        )
-        return limit_of_plane(PhasePlane(limits=limits, B=velocity, C=acceleration), "time", form.size).value
-    except (InputError, InfeasibleProblem, SolverFailure):
-        return None
 
 
 #: of a file, where the end moves so

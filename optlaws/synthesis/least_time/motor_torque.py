@@ -4,17 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import lru_cache
 from math import inf
-from typing import Any, NamedTuple
+from typing import Any
 
 from optlaws.echo import shortened
 from optlaws.entries.declared import Declared, ValueOf, declared, entry
 from optlaws.entries.value_types import Listed, Number, ReadBy, Together
-from optlaws.errors import InputError
+from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.formulas.reading import read
 from optlaws.formulas.slopes import constant
 from optlaws.laws import smoothstep
 from optlaws.synthesis.functionals.makers import drive_torque, peak, rms
+from optlaws.synthesis.least_time.timed import TimedLimit
+from optlaws.synthesis.limits.drive_limits import limit_of_plane, phase_torque
+from optlaws.synthesis.limits.phase_plane import PhasePlane, TorqueLimit
 from optlaws.synthesis.problem.constants import Functional
 from optlaws.tolerances import AGREEMENT
 
@@ -62,14 +66,6 @@ class LossyGear(Declared, title="a gear with losses"):
             (self.load * duration * duration, ""),
         )
         return [f"{size!r}{name}" for size, name in parts if size]
-
-
-class TimedLimit(NamedTuple):
-    """A limit of a law in a time: its name, the constant of the law and the greatest allowed value."""
-
-    name: str
-    constant: Functional
-    bound: float
 
 
 def _formula(value: Any) -> str:
@@ -232,3 +228,27 @@ class MotorTorque(Declared, title="the torque of a move"):
             for sign, torque in (*((1.0, each) for each in driving), (-1.0, driving[-1]))
         ]
         return peak(f"max({', '.join(shares)})", side="high")
+
+    def limit(self, velocity: float, acceleration: float) -> float | None:
+        """The time in the phase plane that no law which never turns back is faster than; None where nothing is known.
+
+        The velocity and the acceleration of a law with the stroke 1 are at most these, of both ways.
+        """
+        # of a line that rises the greatest torque alone is left
+        lines = tuple((most / self.unit, fall / self.unit) for most, fall in self.lines if fall >= 0.0)
+        return _in_phase_plane(self.text(1.0), velocity, acceleration, lines) if lines else None
+
+
+@lru_cache(maxsize=64)
+def _in_phase_plane(
+    torque: str, velocity: float, acceleration: float, lines: tuple[tuple[float, float], ...]
+) -> float | None:
+    """The least time in the phase plane within lines of torque over velocity; None where nothing is known."""
+    try:
+        form = phase_torque(torque)
+        limits = tuple(
+            TorqueLimit(form.scaled(1.0 / form.size), most / form.size, fall / form.size) for most, fall in lines
+        )
+        return limit_of_plane(PhasePlane(limits=limits, B=velocity, C=acceleration), "time", form.size).value
+    except (InputError, InfeasibleProblem, SolverFailure):
+        return None

@@ -50,9 +50,12 @@ class LimitSegments:
     ----------
     times
         Their durations, s; 0 where a segment is not needed.
+    are_reached
+        Whether laws come as near as one likes: not where a limit of the jerk is left out.
     """
 
     times: tuple[float, ...]
+    are_reached: bool = True
 
     @property
     def duration(self) -> float:
@@ -108,7 +111,8 @@ def segment_times(
     if order < _AT_REST:
         # the velocities at the ends are free, so that uniform motion is the fastest
         up = down = jerk = inf
-    elif order == _AT_REST and any(ends):
+    jumps = order == _AT_REST and any(ends) and jerk < inf
+    if jumps:
         jerk = inf
     if jerk == up == down == velocity == inf:
         return None
@@ -130,13 +134,11 @@ def segment_times(
     above = most if jerk == up == down == inf or covered(most) <= stroke else _crossing(covered, stroke)
     cruise = 0.0 if above < most else (stroke - covered(most)) / velocity if velocity else inf
     first, last = phases(above)
-    return LimitSegments((*first.times, cruise, *reversed(last.times)))
+    return LimitSegments((*first.times, cruise, *reversed(last.times)), not jumps)
 
 
-def time_of_any_law(
-    stroke: float, limits: MoveLimits, order: int, ends: tuple[float, float] = (0.0, 0.0), *, forward: bool = False
-) -> float | None:
-    """A time that no law between given velocities is faster than, whatever its degree; None where none is known.
+def time_of_any_law(stroke: float, limits: MoveLimits, order: int) -> float | None:
+    """A time that no law from rest to rest is faster than, whatever its degree; None where none is known.
 
     Without a limit of the snap laws come as near as one likes. With it, the greater of two bounds is taken.
 
@@ -145,9 +147,9 @@ def time_of_any_law(
     >>> time_of_any_law(384.0, MoveLimits(snap=1.0), 4), time_of_any_law(2.0, MoveLimits(1.0, 1.0, 1.0, 1.0), 3)
     (19.595918, 4.0)
     """
-    segments = segment_times(stroke, limits, order, ends, forward=forward)
+    segments = segment_times(stroke, limits, order)
     known = [] if segments is None else [segments.duration]
-    if limits.snap is not None and order >= _SMOOTH_SNAP and not any(ends):
+    if limits.snap is not None and order >= _SMOOTH_SNAP:
         known.append((_SNAP * stroke / limits.snap) ** 0.25)
     return max(known, default=None)
 

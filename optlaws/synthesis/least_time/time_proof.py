@@ -19,7 +19,7 @@ from optlaws.entries.declared import Declared, ValueOf, declared, entry
 from optlaws.entries.value_types import Number
 from optlaws.errors import InputError, SolverFailure
 from optlaws.synthesis.families import names
-from optlaws.synthesis.least_time.move_limits import TimedMove, control_point, power, powers_of
+from optlaws.synthesis.least_time.timed import Timed, control_point, power, powers_of
 from optlaws.synthesis.proof.certificate import VIOLATION, Certificate
 from optlaws.synthesis.proof.nodes import Contact
 from optlaws.synthesis.solution import Solution
@@ -47,17 +47,17 @@ class TimeProof(Declared, title="a proof of a least time"):
         if self.shortest > self.longest:
             raise InputError(f"the shortest time, {self.shortest!r}, is above the longest, {self.longest!r}")
 
-    def stands(self, move: TimedMove) -> bool:
+    def stands(self, move: Timed) -> bool:
         """Whether the multipliers prove the stated time of the move, with numpy alone."""
         certificates = self.certificates(move)
         return bool(certificates) and all(proof.proves_infeasible for proof in certificates)
 
-    def certificates(self, move: TimedMove) -> list[Certificate]:
+    def certificates(self, move: Timed) -> list[Certificate]:
         """The certificates at the ends of the interval; none where they are not of the move.
 
         What is proven without the limit of the vibration that is left holds with it.
         """
-        if move.residual is not None and self.shortest > 0.0:
+        if move.vibrates and self.shortest > 0.0:
             over = move.within(self.longest, self.shortest) if move.stays_possible else None
             proves = self.certificate.problem == over and self.certificate.program == VIOLATION
             return [self.certificate] if proves else []
@@ -94,7 +94,7 @@ class Multipliers:
     ends: tuple[tuple[int, float], ...]
 
     @classmethod
-    def of(cls, move: TimedMove, duration: float, solution: Solution) -> Multipliers:
+    def of(cls, move: Timed, duration: float, solution: Solution) -> Multipliers:
         """The multipliers of the least greatest share of the limits in a time."""
         proof, bound, powers = solution.certificate, solution.lower_bound, powers_of(duration)
         weights = _weights(move, duration, proof.contacts)
@@ -173,14 +173,14 @@ class Multipliers:
         points = (control_point(shortest, longest, i, degree) for i in range(degree + 1))
         return all(self.constant + sum(a * point[nu - 1] for nu, a in steep.items()) > 0.0 for point in points)
 
-    def proof(self, move: TimedMove, shortest: float, longest: float) -> TimeProof:
+    def proof(self, move: Timed, shortest: float, longest: float) -> TimeProof:
         """The proof of an interval, by the multipliers of the limits alone."""
         return proof_by(self.certificate, move, shortest, longest)
 
 
-def proof_by(certificate: Certificate, move: TimedMove, shortest: float, longest: float) -> TimeProof:
+def proof_by(certificate: Certificate, move: Timed, shortest: float, longest: float) -> TimeProof:
     """The proof of an interval by the multipliers of an optimum, without multipliers of the share's parts."""
-    problem = move.within(longest, shortest if shortest and move.residual is not None else None)
+    problem = move.within(longest, shortest if shortest and move.vibrates else None)
     # rows of an amplitude are in units of its bound, where it has one
     units = {constant.name: bound.high for constant, bound in problem.bounds.items() if constant.normalised}
     of_rows = [
@@ -194,7 +194,7 @@ def proof_by(certificate: Certificate, move: TimedMove, shortest: float, longest
     return TimeProof(shortest, longest, Certificate.of_leaf(problem, contacts, equations, VIOLATION))
 
 
-def covering(move: TimedMove, known: Sequence[tuple[float, Multipliers]], duration: float) -> tuple[TimeProof, ...]:
+def covering(move: Timed, known: Sequence[tuple[float, Multipliers]], duration: float) -> tuple[TimeProof, ...]:
     """Few proofs that cover every time that is conceivable and shorter than a duration, the shortest times first.
 
     Raises
@@ -220,7 +220,7 @@ def covering(move: TimedMove, known: Sequence[tuple[float, Multipliers]], durati
     return tuple(reversed(proofs))
 
 
-def _in_parts(multipliers: Multipliers, move: TimedMove, shortest: float, longest: float) -> list[TimeProof]:
+def _in_parts(multipliers: Multipliers, move: Timed, shortest: float, longest: float) -> list[TimeProof]:
     """The proofs of an interval, the longest times first: a single proof, or several for its parts."""
     middle = 0.5 * (shortest + longest)
     if move.concave or multipliers.above_between(shortest, longest) or not shortest < middle < longest:
@@ -229,7 +229,7 @@ def _in_parts(multipliers: Multipliers, move: TimedMove, shortest: float, longes
     return [proof for low, high in parts for proof in _in_parts(multipliers, move, low, high)]
 
 
-def _weights(move: TimedMove, duration: float, contacts: Sequence[Contact]) -> tuple[tuple[int, float], ...]:
+def _weights(move: Timed, duration: float, contacts: Sequence[Contact]) -> tuple[tuple[int, float], ...]:
     """Weights of the limits: multipliers of the greatest share's parts, over powers of the time."""
     rates = move.rates
     if len(rates) == 1:
@@ -242,13 +242,12 @@ def _weights(move: TimedMove, duration: float, contacts: Sequence[Contact]) -> t
     return tuple((limit.nu, share / power(duration, limit.nu)) for limit, share in zip(rates, shares, strict=True))
 
 
-def covers(move: TimedMove, proofs: Sequence[TimeProof], duration: float) -> bool:
+def covers(move: Timed, proofs: Sequence[TimeProof], duration: float) -> bool:
     """Whether proofs cover every time shorter than a duration, up to the allowed gap."""
     least = duration * (1.0 - LEAST_TIME_GAP)
-    if not proofs and move.torque is not None:
-        return True  # nothing is claimed but the limit of all laws
     if not proofs:
-        return least <= move.least_conceivable()
+        # with a torque nothing is claimed but the limit of all laws
+        return not move.without_residual.of_rates or least <= move.least_conceivable()
     first = 0.0 if move.at_rest else move.least_conceivable()
     joined = all(proof.longest == after.shortest for proof, after in pairwise(proofs))
     return joined and proofs[0].shortest <= first and proofs[-1].longest >= least

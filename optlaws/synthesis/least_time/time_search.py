@@ -7,19 +7,26 @@ keeps the limits; that time is the next. From below the steps end at the first t
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from math import exp, log, sqrt
+from math import copysign, exp, inf, log, sqrt
 
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.synthesis.families.active_set import ActiveSet
-from optlaws.synthesis.least_time.least_time import LeastTime, limit_of_all_laws
-from optlaws.synthesis.least_time.move_limits import TimedMove
-from optlaws.synthesis.least_time.segment_times import time_of_any_law
+from optlaws.synthesis.least_time.least_time import LeastTime
 from optlaws.synthesis.least_time.time_proof import Multipliers, TimeProof, covering, proof_by
+from optlaws.synthesis.least_time.timed import Timed
+from optlaws.synthesis.least_time.timed_move import TimedMove
 from optlaws.synthesis.problem.constants import meant
 from optlaws.synthesis.program.writer import model_of
 from optlaws.synthesis.search import LawSearch, best_available
 from optlaws.synthesis.solution import Solution
-from optlaws.tolerances import BOUND_FEASIBILITY, FEASIBILITY, LEAST_TIME_GAP, LEAST_TIME_MET, NO_OBJECTIVE
+from optlaws.tolerances import (
+    BOUND_FEASIBILITY,
+    DURATION_STEP,
+    FEASIBILITY,
+    LEAST_TIME_GAP,
+    LEAST_TIME_MET,
+    NO_OBJECTIVE,
+)
 
 _UNBOUNDED = (
     "the limits leave the time without a least value: laws of order {order} keep {names} in any time. Limit the "
@@ -27,7 +34,7 @@ _UNBOUNDED = (
 )
 
 
-def law_in_time(move: TimedMove, duration: float, warm: ActiveSet | None, shortest: float | None = None) -> Solution:
+def law_in_time(move: Timed, duration: float, warm: ActiveSet | None, shortest: float | None = None) -> Solution:
     """The law whose greatest share of the limits in a time is least, begun from the contacts of a time near by.
 
     With a shortest time the limits are those of all times between.
@@ -53,7 +60,7 @@ def law_in_time(move: TimedMove, duration: float, warm: ActiveSet | None, shorte
 
 
 def _no_law(
-    move: TimedMove, duration: float, error: InfeasibleProblem | SolverFailure
+    move: Timed, duration: float, error: InfeasibleProblem | SolverFailure
 ) -> InfeasibleProblem | SolverFailure:
     """The error of a space without laws: without any from rest to rest, or in a time that the limits require."""
     if isinstance(error, SolverFailure):
@@ -67,7 +74,7 @@ def _no_law(
     return InfeasibleProblem(message, problem=move.problem, tried=error.tried, proof=error.proof)
 
 
-def unsettled(move: TimedMove, duration: float) -> SolverFailure:
+def unsettled(move: Timed, duration: float) -> SolverFailure:
     """The error of a search that ends without a time."""
     return SolverFailure(
         f"the steps of the time did not settle, the last at {duration:.9g} s; another degree or order helps",
@@ -75,8 +82,12 @@ def unsettled(move: TimedMove, duration: float) -> SolverFailure:
     )
 
 
-#: of the logarithm of the time: by how much a bracket is widened at once, and how far at most
+#: of the logarithm of the time: by how much a bracket is widened where nothing says more, and how far at most
 _WIDER, _WIDEST = 0.1, 20.0
+#: of the logarithm of the least time, which two searches of one motion agree in
+_MET = 0.1 * LEAST_TIME_MET
+#: a slope below it is that of a force that is mostly static
+_LEVEL = 0.2
 #: by how much the logarithm of the time grows where a limit of vibrations is not kept
 _UPWARD = 0.01
 #: of the times not yet proven to be too short: the first box, the longest, the shortest; how boxes grow and shrink
@@ -87,11 +98,15 @@ _MOST_BOXES = 60
 _OF_GAP = 0.9
 
 
+#: a least time, its law and the proofs that no law is faster
+Found = tuple[float, Solution, tuple[TimeProof, ...]]
+
+
 @dataclass
 class _Trials:
     """The laws of the least greatest share of the limits in the times that were tried."""
 
-    move: TimedMove
+    move: Timed
     solutions: dict[float, Solution] = field(default_factory=dict)
     first: Solution | None = None  #: of another move near by
 
@@ -108,53 +123,74 @@ class _Trials:
         """The logarithm of the greatest share in a time, by its logarithm: above 0 where a limit is exceeded."""
         return log(self.solution(exp(logarithm)).objective)
 
-    def root(self, low: float, high: float) -> float:
-        """The least time tried in which a law keeps the limits, once it is bracketed, by logarithms."""
-        if low < high:
-            from scipy.optimize import brentq
+    def root(self, logarithm: float, low: float = -inf, high: float = inf) -> float:
+        """The least time tried in which a law keeps the limits, by secants from a time, between two if these are known.
 
-            brentq(self.excess, low, high, xtol=0.1 * LEAST_TIME_MET)
-        return min(time for time, solution in self.solutions.items() if solution.objective <= 1.0 + FEASIBILITY)
+        Raises
+        ------
+        SolverFailure
+            If there is none far and wide.
+        """
+        begin, before = logarithm, None
+        for _ in range(_STEPS):
+            excess = self.excess(logarithm)
+            low, high = (logarithm, high) if excess > _MET else (low, logarithm)
+            if high == logarithm and (excess >= -_MET or high - low <= _MET):
+                return min(time for time, solution in self.solutions.items() if log(solution.objective) <= _MET)
+            steep = self._slope(logarithm) if before is None else (before[1] - excess) / (logarithm - before[0])
+            before, following = (logarithm, excess), logarithm + excess / max(steep, _LEVEL)
+            if not low < following < high:
+                following = 0.5 * (low + high) if high - low < inf else logarithm + copysign(_WIDER, excess)
+            logarithm = following
+            if abs(logarithm - begin) > _WIDEST:
+                break
+        raise unsettled(self.move, exp(logarithm))
+
+    def _slope(self, logarithm: float) -> float:
+        """The exponent with which the greatest share of a law falls with the time, by that law alone."""
+        law = self.solution(exp(logarithm)).law
+        shares = (self.move.greatest_share(law, exp(logarithm + step)) for step in (-DURATION_STEP, DURATION_STEP))
+        before, after = shares
+        return log(before / after) / (2.0 * DURATION_STEP)
 
 
-def least_time_of_motor(move: TimedMove, near: LeastTime | None = None) -> LeastTime:
-    """The least time by bracketing between an infeasible and a feasible time, perhaps started near another.
+def _by_bracketing(move: Timed, near: LeastTime | None = None) -> Found:
+    """The least time between an infeasible and a feasible time, perhaps started near another.
 
     Where laws that keep the limits keep them in every longer time, a certificate of one time proves the shorter ones.
     """
-    if near is None:
-        trials, begin = _Trials(move), max(limit_of_all_laws(move) or 0.0, move.least_conceivable()) or 1.0
+    if near is None or not isinstance(move, TimedMove):
+        trials, begin = _Trials(move), move.begin
     else:
         # a torque that accelerates alone takes times as the roots of the strokes
         trials = _Trials(move, first=near.solution)
         begin = near.duration * sqrt(move.stroke / near.move.stroke)
-    low, high = _bracket(trials, log(begin))
-    duration = trials.root(low, high)
+    duration = trials.root(log(begin))
     too_short = duration * (1.0 - LEAST_TIME_GAP)
     proofs: tuple[TimeProof, ...] = ()
     if move.stays_possible and move.shares(duration).convex:
         proof = proof_by(trials.solution(too_short).certificate, move, 0.0, too_short)
         proofs = (proof,) if proof.stands(move) else ()
-    return LeastTime(move, duration, trials.solutions[duration], proofs)
+    return duration, trials.solutions[duration], proofs
 
 
-def least_time_of_follower(move: TimedMove, without: LeastTime) -> LeastTime:
+def _of_vibration(move: Timed, without: Found) -> Found:
     """The least time within a limit of the vibration that is left, from the least time without that limit.
 
     Laws of a longer time may leave more again. The search goes up to a law; boxes of the times before are then proven
     to be too short, and a law that they come upon is a faster one.
     """
     trials = _Trials(move)
-    low = high = log(without.duration)
+    least, _, (*proofs,) = without
+    low = high = log(least)
     while trials.excess(high) > log(1.0 + FEASIBILITY):
         low, high = high, high + _UPWARD
-        if high - log(without.duration) > _WIDEST:
+        if high - log(least) > _WIDEST:
             raise unsettled(move, exp(high))
-    duration = trials.root(low, high)
-    proofs = list(without.proofs)
+    duration = trials.root(high, low) if low < high else least
     if proofs and low < high and move.stays_possible and move.shares(duration).convex:
         duration = _exclude(trials, proofs, duration)
-    return LeastTime(move, duration, trials.solutions[duration], tuple(proofs))
+    return duration, trials.solutions[duration], tuple(proofs)
 
 
 def _exclude(trials: _Trials, proofs: list[TimeProof], duration: float) -> float:
@@ -172,29 +208,10 @@ def _exclude(trials: _Trials, proofs: list[TimeProof], duration: float) -> float
             proofs.append(proof)
             share = min(_MORE * share, _MOST_BOX)
         elif trials.excess(log(longest)) <= log(1.0 + FEASIBILITY):
-            duration = trials.root(log(shortest), log(longest))
+            duration = trials.root(log(longest), log(shortest))
         else:
             share *= _LESS
     return duration
-
-
-def _bracket(trials: _Trials, logarithm: float) -> tuple[float, float]:
-    """Logarithms of a time that is too short and of a time that is long enough.
-
-    Raises
-    ------
-    SolverFailure
-        If there are none far and wide.
-    """
-    excess, last = trials.excess(logarithm), logarithm
-    # most limits fall with the time or a power of it, so that the excess is about how far the end is
-    step = max(-_WIDER, min(_WIDER, excess)) or -_WIDER
-    while abs(last - logarithm) < _WIDEST:
-        here = last + step
-        if (trials.excess(here) > 0.0) == (step < 0.0):
-            return min(last, here), max(last, here)
-        last, step = here, 1.5 * step
-    raise unsettled(trials.move, exp(last))
 
 
 #: how much slower than all laws those of a space are that is tried first, so that the right limits bind at once
@@ -214,6 +231,17 @@ def least_time(move: TimedMove, near: LeastTime | None = None) -> LeastTime:
 
     Raises
     ------
+    InfeasibleProblem, InputError, SolverFailure
+        As `found`.
+    """
+    return LeastTime(move, *found(move, near))
+
+
+def found(move: Timed, near: LeastTime | None = None) -> Found:
+    """The least time of a move or of a span of a cycle, the law that takes it, and the proofs that none is faster.
+
+    Raises
+    ------
     InfeasibleProblem
         If no law keeps the problem's own windows and bounds, however long it takes.
     InputError
@@ -222,20 +250,20 @@ def least_time(move: TimedMove, near: LeastTime | None = None) -> LeastTime:
         If the steps do not settle.
     """
     with meant():
-        if move.residual is not None:
-            return least_time_of_follower(move, least_time(move.without_residual))
-        if move.torque is not None:
-            return least_time_of_motor(move, near)
+        if move.vibrates:
+            return _of_vibration(move, found(move.without_residual))
+        if not move.of_rates:
+            return _by_bracketing(move, near)
         duration, solution, known = _from_either_side(move, near) if move.at_rest else _from_below(move)
-    return LeastTime(move, duration, solution, covering(move, known, duration * (1.0 - LEAST_TIME_GAP)))
+    return duration, solution, covering(move, known, duration * (1.0 - LEAST_TIME_GAP))
 
 
 _Known = list[tuple[float, Multipliers]]
 
 
-def _from_either_side(move: TimedMove, near: LeastTime | None) -> tuple[float, Solution, _Known]:
+def _from_either_side(move: Timed, near: LeastTime | None) -> tuple[float, Solution, _Known]:
     """Steps from rest to rest: the multipliers of any time prove an interval from zero up to the next time."""
-    duration, warm = _first(move) if near is None else _beside(move, near)
+    duration, warm = _beside(move, near)
     known: _Known = []
     for step in range(_STEPS):
         solution = law_in_time(move, duration, warm)
@@ -255,21 +283,17 @@ def _from_either_side(move: TimedMove, near: LeastTime | None) -> tuple[float, S
     raise unsettled(move, duration)
 
 
-def _first(move: TimedMove) -> tuple[float, ActiveSet | None]:
-    """An initial time slightly above the least time of all laws."""
-    known = time_of_any_law(move.stroke, move.limits, move.problem.order)
-    return _SLOWER * max(known or 0.0, move.least_conceivable()), None
-
-
-def _beside(move: TimedMove, near: LeastTime) -> tuple[float, ActiveSet | None]:
-    """The time up to which the multipliers of another stroke prove that no law keeps the limits, and its contacts."""
-    if near.move.problem != move.problem or near.move.limits != move.limits:
-        return _first(move)
+def _beside(move: Timed, near: LeastTime | None) -> tuple[float, ActiveSet | None]:
+    """A time slightly above that of all laws, or the one up to which the multipliers of another stroke prove."""
+    if near is None or not isinstance(move, TimedMove):
+        return _SLOWER * move.begin, None
+    if (near.move.problem, near.move.limits) != (move.problem, move.limits):
+        return _SLOWER * move.begin, None
     multipliers = Multipliers.of(near.move, near.duration, near.solution).of_stroke(move.stroke / near.move.stroke)
     return multipliers.longest(near.duration), near.solution.active_set
 
 
-def _from_below(move: TimedMove) -> tuple[float, Solution, _Known]:
+def _from_below(move: Timed) -> tuple[float, Solution, _Known]:
     """Steps from a time that is too short for any motion: no step skips a time with a law."""
     duration, warm = move.least_conceivable(), None
     known: _Known = []

@@ -13,8 +13,10 @@ from optlaws import (
     InputError,
     Mechanism,
     Motor,
+    Problem,
     Return,
     Rise,
+    fastest,
     slider_crank,
 )
 from optlaws.verification import verify_all
@@ -251,3 +253,19 @@ def test_a_rating_of_given_laws_and_one_below_the_weight() -> None:
     free = [Rise("90 deg"), Dwell("40 ms"), Return(), Dwell("90 deg")]
     with pytest.raises(InputError, match="give all durations as angles"):
         cycle(segments=free, drive=MOTOR, limits={"rms torque": "1.75 N m", "torque": "9 N m"}).fastest()
+
+
+@pytest.mark.parametrize("rated", [False, True])
+def test_a_cycle_and_a_move_have_one_least_time(*, rated: bool) -> None:
+    """The same motion by `Cycle.fastest` and by `fastest`: within rates, and within a motor with friction and load."""
+    drive: Drive | None = None
+    limits: dict[str, Any] = {"velocity": "1.2 m/s", "acceleration": "25 m/s^2", "jerk": "2500 m/s^3"}
+    of_move, stroke, known = limits, "60 mm", 0.11067408296762
+    if rated:
+        motor = Motor("3e-4 kg m^2", peak_torque="4 N m", greatest_speed="900 rpm")
+        drive = Drive(Mechanism("0.8 kg m^2", "20 N m", viscous="0.5 N m s/rad"), motor, ratio=20)
+        limits, of_move, stroke, known = {"motor": True}, {}, "45 deg", 0.23176085010
+    move = fastest(Problem(order=3), stroke=stroke, limits=of_move, drive=drive)
+    whole = cycle(segments=[Rise(stroke, "180 deg"), Return()], drive=drive, limits=limits, order=3, degree=9).fastest()
+    assert whole.segments[0].least == pytest.approx(move.duration, rel=1e-11)
+    assert move.duration == pytest.approx(known, rel=1e-10)

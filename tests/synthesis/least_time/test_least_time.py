@@ -15,9 +15,7 @@ from tests.internals.synthesis import (
     MoveLimits,
     TimedMove,
     least_time,
-    limit_of_all_laws,
     segment_times,
-    time_of_any_law,
 )
 from tests.synthesis.least_time.otg import fastest_motion
 
@@ -44,7 +42,7 @@ def test_the_time_of_all_laws_is_the_closed_form(
     segments = segment_times(stroke, limits, order)
     assert segments is not None
     assert segments.duration == pytest.approx(duration, rel=1e-14)
-    assert time_of_any_law(stroke, limits, order) == segments.duration
+    assert TimedMove(Problem(order=order), stroke, limits).limit == segments.duration
 
 
 def test_the_segments_of_order_2_cover_the_stroke() -> None:
@@ -192,7 +190,7 @@ def compare_with_ruckig(count: int, seed: int, *, moving: bool) -> None:
         # the fastest motion is of these pieces, and none is faster
         assert found.duration == pytest.approx(duration, rel=1e-8), move
         if not moving:
-            assert time_of_any_law(move.stroke, move.limits, 3) == pytest.approx(duration, rel=1e-9)
+            assert move.limit == pytest.approx(duration, rel=1e-9)
 
 
 @pytest.mark.sample(2)
@@ -290,9 +288,9 @@ def compare_limits_with_ruckig(count: int, seed: int) -> None:
         if numbers.uniform() < 0.1:
             move = replace(move, start_velocity=float(move.limits.velocity or 0.0))
         time = fastest_motion(move)[0]
-        assert limit_of_all_laws(move) == pytest.approx(time, rel=1e-12), move
+        assert move.limit == pytest.approx(time, rel=1e-12), move
         far, long = (10.0 ** numbers.uniform(-12.0, 9.0, 2)).tolist()
-        assert limit_of_all_laws(in_units(move, far, long)) == pytest.approx(time * long, rel=1e-12), move
+        assert in_units(move, far, long).limit == pytest.approx(time * long, rel=1e-12), move
 
 
 def in_units(move: TimedMove, far: float, long: float) -> TimedMove:
@@ -359,19 +357,19 @@ def test_the_limit_without_a_jerk_is_that_of_a_linear_program(seed: int, *, forw
     stroke = (1.02 if forward else 0.6) * stopping
     problem = Problem(order=2, monotone=forward)
     move = TimedMove(problem, stroke, plain, ends[0], ends[1])
-    known = limit_of_all_laws(move)
+    known = move.limit
     assert known is not None
     assert linear_program(move, known * 1.001, 1000)
     assert not linear_program(move, known * 0.999, 1000)
     jerked = replace(move, limits=replace(plain, jerk=1e3))
-    assert limit_of_all_laws(jerked) == known
-    smooth = limit_of_all_laws(replace(jerked, problem=replace(problem, order=3)))
+    assert jerked.limit == known
+    smooth = replace(jerked, problem=replace(problem, order=3)).limit
     assert smooth is not None
     assert smooth > known
 
 
 def test_no_limit_is_known_of_an_acceleration_at_the_end() -> None:
-    assert limit_of_all_laws(TimedMove(Problem(order=3), 1.0, UNEVEN, 0.0, 0.5, end_acceleration=1.0)) is None
+    assert TimedMove(Problem(order=3), 1.0, UNEVEN, 0.0, 0.5, end_acceleration=1.0).limit is None
 
 
 def test_a_file_from_before_the_limit_of_ends_that_move_is_read() -> None:

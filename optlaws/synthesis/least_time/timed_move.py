@@ -1,0 +1,263 @@
+"""A move of which the time is sought, and the problem that its limits define in a given time."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from math import factorial, inf, nextafter
+from typing import Any
+
+from optlaws.echo import shortened
+from optlaws.errors import InputError
+from optlaws.kept import kept_property
+from optlaws.numbers import finite, positive
+from optlaws.synthesis.least_time.follower_residual import FollowerResidual
+from optlaws.synthesis.least_time.motor_torque import MotorTorque
+from optlaws.synthesis.least_time.move_limits import MoveLimits, RateLimit
+from optlaws.synthesis.least_time.segment_times import LimitSegments, segment_times, time_of_any_law
+from optlaws.synthesis.least_time.timed import Powers, Timed, TimedLimit, power, powers_of
+from optlaws.synthesis.problem.constants import B, C, C_minus, C_plus, J, snap
+from optlaws.synthesis.problem.problem import Problem
+from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
+
+_EXAMPLE = "{'velocity': 1.0, 'acceleration': 12.0}"
+
+
+@dataclass(frozen=True)
+class TimedMove(Timed):
+    """A move of which the time is sought: the space of its laws, its stroke, its limits and its motion at the ends.
+
+    Attributes
+    ----------
+    problem
+        Order, basis, windows and shape of the laws; it bounds none of the limited constants.
+    stroke
+        How far, in units of which the limits are.
+    limits
+        What the move must keep.
+    start_velocity, end_velocity
+        Velocities at the ends, in units of the stroke a second.
+    end_acceleration, end_jerk
+        Of a move that begins at rest, at its end; the order is 3 or 4 at least for them.
+    torque
+        At the motor, with its limits; only for laws from rest to rest that never turn back. None without a motor.
+    residual
+        The vibration that is left in a follower, with its limit; only from rest to rest. None without a follower.
+
+    Raises
+    ------
+    InputError
+        If the problem has limits, an objective or ends of its own or is not convex, or a number is out of range.
+    """
+
+    problem: Problem
+    stroke: float
+    limits: MoveLimits
+    start_velocity: float = 0.0
+    end_velocity: float = 0.0
+    torque: MotorTorque | None = None
+    residual: FollowerResidual | None = None
+    end_acceleration: float = 0.0
+    end_jerk: float = 0.0
+
+    def __post_init__(self) -> None:
+        if not self.limits.to_dict() and self.torque is None:
+            raise InputError(f"limits must name one at least, as in {_EXAMPLE}")
+        object.__setattr__(self, "stroke", positive(self.stroke, "stroke"))
+        for name in ("start_velocity", "end_velocity"):
+            object.__setattr__(self, name, finite(getattr(self, name), name))
+            most = self.limits.velocity
+            if most is not None and abs(getattr(self, name)) > most:
+                raise InputError(f"{name} is beyond the limit of the velocity: no move keeps it, however long it takes")
+        self._check_end()
+        even = self.at_rest and self.limits.symmetric and self.torque is None
+        object.__setattr__(self, "problem", _checked(self.problem, even=even))
+        if self.torque is not None and not (self.at_rest and self.problem.monotone):
+            raise InputError("a torque at the motor is limited from rest to rest, by laws that never turn back")
+        if self.torque is not None:
+            self.torque.check_mean()
+        if self.residual is not None and not self.at_rest:
+            raise InputError("the vibration that is left is limited from rest to rest")
+        if not self.at_rest and self.problem.order < max(2, self._lowest.nu):
+            raise InputError(
+                f"ends that move need order >= {max(2, self._lowest.nu)} where the {self._lowest.name} is the lowest "
+                f"derivative that is limited, got order {self.problem.order}"
+            )
+
+    def _check_end(self) -> None:
+        """Refuse an acceleration and a jerk at the end that the start, the order or a limit does not allow."""
+        limits = self.limits
+        sides = limits.deceleration if self.end_acceleration < 0.0 else limits.acceleration
+        for name, least, most in (("end_acceleration", 3, sides), ("end_jerk", 4, limits.jerk)):
+            value = finite(getattr(self, name), name)
+            object.__setattr__(self, name, value)
+            if value and self.start_velocity:
+                raise InputError(f"{name} is that of a move which begins at rest: give no start_velocity")
+            if value and self.problem.order < least:
+                raise InputError(f"{name} needs order >= {least}, got order {self.problem.order}")
+            if most is not None and abs(value) > most:
+                what = name.removeprefix("end_")
+                raise InputError(f"{name} is beyond the limit of the {what}: no move keeps it, however long it takes")
+
+    @kept_property
+    def segments(self) -> LimitSegments | None:
+        """The motion that no law of any degree is faster than; None where none is known, as with a torque alone.
+
+        A motor is left out, and so is an acceleration or a jerk at the end, with which none is known.
+        """
+        if not self.concave:
+            return None
+        ends = self.start_velocity, self.end_velocity
+        return segment_times(self.stroke, self.limits, self.problem.order, ends, forward=self.problem.monotone)
+
+    @kept_property
+    def limit(self) -> float | None:
+        """The time that no law of any degree is faster than; within a torque, that no law which never turns back is."""
+        limits, known = self.limits, [0.0 if self.segments is None else self.segments.duration]
+        if self.at_rest:
+            known.append(time_of_any_law(self.stroke, limits, self.problem.order) or 0.0)
+        if self.torque is not None:
+            sides = [limit for limit in (limits.acceleration, limits.deceleration) if limit is not None]
+            # a bound of both ways is the greater one, so that none of the laws is left out
+            acceleration = max(sides) / self.stroke if len(sides) == 2 else inf
+            velocity = inf if limits.velocity is None else limits.velocity / self.stroke
+            known.append(self.torque.limit(velocity, acceleration) or 0.0)
+        return max(known) or None
+
+    @property
+    def of_rates(self) -> bool:
+        """Whether these are all limits, so that the multipliers of one time speak of all times."""
+        return self.torque is None and self.residual is None
+
+    @property
+    def vibrates(self) -> bool:
+        """Whether the vibration that is left has a limit, which a longer time may break."""
+        return self.residual is not None
+
+    @property
+    def begin(self) -> float:
+        """A time in which the search may begin: where it is known, one that is too short by little."""
+        return max(self.limit or 0.0, self.least_conceivable()) or 1.0
+
+    @property
+    def at_rest(self) -> bool:
+        """Whether both ends are at rest: then limits that hold in a time hold in any longer time."""
+        return self.start_velocity == self.end_velocity == 0.0 and self.concave
+
+    @property
+    def concave(self) -> bool:
+        """Whether multipliers give a concave function of the time: only velocities may be nonzero at the ends."""
+        return self.end_acceleration == self.end_jerk == 0.0
+
+    @property
+    def stays_possible(self) -> bool:
+        """Whether a law that keeps all limits but the residual's keeps them in every longer time."""
+        if self.torque is None:
+            return self.at_rest
+        greatest = inf if self.limits.velocity is None else self.limits.velocity / self.stroke
+        return self.torque.grows_possible and self.torque.brakes_with_load(greatest)
+
+    @property
+    def rates(self) -> tuple[RateLimit, ...]:
+        """The limits of the law with stroke 1, in 1/s^nu."""
+        return self.limits.rates(self.stroke)
+
+    def limits_in(self, duration: float) -> tuple[TimedLimit, ...]:
+        """Every limit in a time, as a bound of a constant of the law."""
+        of_rates = self._limits_of_rates(powers_of(duration))
+        torques = () if self.torque is None else self.torque.limits_in(duration)
+        left = () if self.residual is None else (self.residual.limit_in(duration, self.stroke),)
+        return (*of_rates, *torques, *left)
+
+    def limits_over(self, shortest: float, longest: float) -> tuple[TimedLimit, ...]:
+        """Limits of every law from rest to rest that keeps the move's limits in some time of an interval.
+
+        Limits that hold in a time hold in every longer one, except that of the residual vibration.
+        """
+        if self.residual is None:
+            return self.limits_in(longest)
+        left = self.residual.limit_over(shortest, longest, self.stroke, *self._sizes_in(longest))
+        return (*self.without_residual.limits_in(longest), *((left,) if left.bound < inf else ()))
+
+    def _sizes_in(self, duration: float) -> tuple[float, float]:
+        """A priori bounds of laws within the limits in a time: the integrals of |k - 1/2| |b| and of |k - 1/2| |c|."""
+        most = {limit.constant: limit.bound for limit in self.without_residual.limits_in(duration)}
+        smooth = getattr(self.problem.basis, "continuity", 2) >= 2
+        velocity, jerk = 0.25 * most.get(B, inf), most.get(J, inf) if smooth else inf
+        up, down = (most.get(side, most.get(C, inf)) for side in (C_plus, C_minus))
+        # what is gained is lost again: the integral of |c| is at most twice that of one side; and c vanishes somewhere
+        acceleration = min(0.25 * max(up, down), up, down, 0.25 * jerk)
+        return min(velocity, 0.5) if self.problem.monotone else velocity, acceleration
+
+    @property
+    def without_residual(self) -> TimedMove:
+        """The move without its residual limit; every law of the original move remains a law of this one."""
+        return replace(self, residual=None)
+
+    @property
+    def _lowest(self) -> RateLimit:
+        return min(self.rates, key=lambda limit: limit.nu)
+
+    def _ends(self, powers: Powers) -> BoundaryConditions | None:
+        """The motion at the ends as a law of a time with these powers has it."""
+        if self.at_rest:
+            return None
+        start, end = (
+            tuple(rate * powers[i] / self.stroke if rate else 0.0 for i, rate in enumerate(rates))
+            for rates in (self.rates_at_start, self.rates_at_end)
+        )
+        return BoundaryConditions((0.0, *start), (1.0, *end))
+
+    @property
+    def rates_at_start(self) -> tuple[float, ...]:
+        """Velocity, acceleration, jerk at the start, as many as the order has conditions."""
+        return self._as_conditions(self.start_velocity, 0.0, 0.0)
+
+    @property
+    def rates_at_end(self) -> tuple[float, ...]:
+        """Velocity, acceleration, jerk at the end, as many as the order has conditions."""
+        return self._as_conditions(self.end_velocity, self.end_acceleration, self.end_jerk)
+
+    def _as_conditions(self, *rates: float) -> tuple[float, ...]:
+        count = self.problem.order - 1
+        return (rates + (0.0,) * count)[:count]
+
+    def least_conceivable(self) -> float:
+        """A time that no motion is faster than, by the lowest derivative that is limited and the velocity at an end."""
+        if not self.rates:
+            return 0.0
+        lowest = self._lowest
+        # a deceleration alone bounds what is covered before the end, all others what is covered after the start
+        velocity = self.end_velocity if lowest.constant == C_minus else self.start_velocity
+        start = 0.0 if lowest.nu == 1 else max(velocity, 0.0) / self.stroke
+
+        def far(duration: float) -> float:
+            return start * duration + lowest.rate * power(duration, lowest.nu) / factorial(lowest.nu)
+
+        high: float = (factorial(lowest.nu) / lowest.rate) ** (1.0 / lowest.nu)
+        while far(high) <= 1.0:
+            high = nextafter(high, inf)
+        low = 0.0 if start else nextafter(high, 0.0)
+        while low < (middle := 0.5 * (low + high)) < high:
+            low, high = (middle, high) if far(middle) <= 1.0 else (low, middle)
+        return high
+
+
+def _checked(problem: Any, *, even: bool) -> Problem:
+    """The problem that gives the space of laws; where limits or ends differ, its laws need not be symmetric."""
+    if not isinstance(problem, Problem):
+        raise InputError(f"the least time is sought of a Problem, got {type(problem).__name__}")
+    given = [name for name in ("B", "C", "D", "J") if getattr(problem, name) is not None]
+    given += [constant.name for constant in problem.bounds if constant in {C_plus, C_minus, snap}]
+    if given:
+        raise InputError(f"the problem of a least time leaves {', '.join(given)} free: say it in limits, with its unit")
+    if problem.minimise != "C":
+        raise InputError(f"a least time minimises nothing else: leave out minimise={shortened(problem.minimise)}")
+    if problem.boundary is not None:
+        raise InputError("the problem of a least time has no boundary: give start_velocity and end_velocity")
+    if problem.inflexion is not None:
+        raise InputError("the problem of a least time has no inflexion: the velocity is greatest where it is fastest")
+    low = [constant.title for constant, limits in problem.bounded if limits.low > 0.0 or limits.high == inf]
+    if low or not problem.convex:
+        which = f": {', '.join(low)} is bounded from below" if low else ""
+        raise InputError(f"a least time is proven where every bound and window is convex, not so here{which}")
+    return problem if even or not problem.symmetric else replace(problem, symmetric=False)
