@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import pairwise
 from math import floor, inf, isfinite, nan
 from typing import Any
 
@@ -18,7 +17,6 @@ from optlaws.motion.polynomials import Extreme, PiecewiseMotion
 from optlaws.motion.quantities import quantity
 from optlaws.numbers import MOST_VALUES, Array, Quantity
 from optlaws.numerics import bernstein
-from optlaws.numerics.roots import bisect_each
 
 _NAMES = ("Position", "Velocity", "Acceleration", "Jerk")
 ORDERS = range(4)
@@ -197,7 +195,6 @@ def _point(values: tuple[float, ...]) -> dict[str, Any]:
     return {f"Slave{name}": _known(value) for name, value in zip(_NAMES, values, strict=True)}
 
 
-_EACH = 257
 _CUTS = 9  # in eight: the way is of second order in the length that is left
 
 
@@ -214,15 +211,10 @@ def travel_of_run(run: PiecewiseMotion) -> float:
 
 
 def travel_of_law(motion: Motion) -> float:
-    """The way of an exact motion, turned where its velocity changes its sign."""
-    grids = [np.linspace(low, high, _EACH) for low, high in pairwise(motion.breaks)]
-    x = np.concatenate([[motion.start], *(grid[1:] for grid in grids)])
-    signs = np.sign(motion(x, 1))
-    which = np.flatnonzero(signs[1:] * signs[:-1] < 0.0)
-    turns, sign = x[which], signs[which]
-    if which.size:
-        turns, _ = bisect_each(lambda at: motion(at, 1) * sign > 0.0, turns, x[which + 1])
-    return float(np.abs(np.diff(motion(np.sort(np.concatenate([x, turns]))))).sum())
+    """The total travel of a motion of laws, which turn where their direction changes."""
+    turns = ([piece.start, *piece.turns, piece.stop] for piece in motion.pieces)
+    ways = (np.diff(piece.values(np.array(x), 0)) for piece, x in zip(motion.pieces, turns, strict=True))
+    return float(sum(np.abs(way).sum() for way in ways))
 
 
 def _turns(control: Array) -> NDArray[np.bool_]:

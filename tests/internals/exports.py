@@ -6,7 +6,7 @@ from optlaws.exports.format import FORMATS
 from optlaws.exports.formats.c99 import c_name, header
 from optlaws.exports.formats.rockwell import profile_rows
 from optlaws.exports.formats.structured_text import function_block
-from optlaws.exports.points import NumberFormat, akima_powers, point_table
+from optlaws.exports.point_tables import NumberFormat, akima_powers, point_table
 from optlaws.exports.polynomial_pieces import fitted
 from optlaws.exports.program_text import filled, template
 from optlaws.exports.report import task_sampling

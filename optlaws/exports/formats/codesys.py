@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from optlaws.exports.format import Request, Written, file_format
 from optlaws.exports.formats.program_polynomials import fields, iec_heading, polynomials_for
-from optlaws.exports.points import chosen_table
+from optlaws.exports.point_tables import chosen_table
 from optlaws.exports.text import iec_comment, iec_name, real, table_heading
 from optlaws.motion.motion import Motion
 

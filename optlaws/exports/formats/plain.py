@@ -10,7 +10,7 @@ import numpy as np
 
 from optlaws.errors import InputError
 from optlaws.exports.format import MOST_POINTS, Request, Written, file_format
-from optlaws.exports.points import (
+from optlaws.exports.point_tables import (
     NumberFormat,
     PointTable,
     chosen,

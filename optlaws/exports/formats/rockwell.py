@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from functools import partial
 
 from optlaws.exports.format import MOST_POINTS, Request, Written, file_format
-from optlaws.exports.points import NumberFormat, PointTable, chosen_table, end_slopes
+from optlaws.exports.point_tables import NumberFormat, PointTable, chosen_table, end_slopes
 from optlaws.exports.text import iec_comment, iec_name, real, table_heading
 from optlaws.motion.motion import Motion
 from optlaws.motion.polynomials import PiecewiseMotion

@@ -10,7 +10,7 @@ import numpy as np
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.exports.format import MOST_POINTS, Request, Written, file_format
-from optlaws.exports.points import DEGREES, NumberFormat, PointTable, chosen, hermite_table
+from optlaws.exports.point_tables import DEGREES, NumberFormat, PointTable, chosen, hermite_table
 from optlaws.exports.text import table_heading
 from optlaws.files.writing import MARK
 from optlaws.motion.motion import Motion, Units

@@ -16,7 +16,7 @@ from optlaws.exports.formats.program_polynomials import (
     polynomials_for,
     refuse_jumps,
 )
-from optlaws.exports.points import PointTable, chosen_table, is_cyclic
+from optlaws.exports.point_tables import PointTable, chosen_table, is_cyclic
 from optlaws.exports.polynomial_pieces import Fitted
 from optlaws.exports.text import iec_comment, iec_name, real, table_heading
 from optlaws.motion.motion import Motion
