@@ -623,8 +623,6 @@ class Cycle(CycleInterchange):
         other = replace(self, drive=replace(source, motor=motor))
         same = ("durations", "_layout", "_best", "_reports", "pieces", "_timed", "peaks", "effort")
         vars(other).update({name: getattr(self, name) for name in same})
-        known = replace(known_drive(self._drive), motor=motor)
-        vars(other)["_along"] = tuple(each.of_drive(known) for each in self._along)
         return other
 
     def fastest(self) -> FastestCycle:

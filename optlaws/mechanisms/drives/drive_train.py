@@ -26,10 +26,8 @@ from optlaws.mechanisms.linkages.move_limit import (
     MOVED,
     LimitedMove,
     MoveBounds,
-    MoveCosts,
     MovedKind,
     MoveLimit,
-    MoveScales,
     PhaseMove,
     move_limit,
 )
@@ -446,11 +444,10 @@ def phase_move_of(move: LimitedMove) -> PhaseMove:
     moved = drive.dimensionless(move.start, move.stroke, duration_of(move.minimise, move.duration))
     dimensions = DIMENSIONS[drive.mechanism.axis]
     unit = "N m" if dimensions["load"] == "torque" else "N"
-    scales = MoveScales(moved.unit, moved.energy_unit, abs(moved.stroke) / moved.duration, moved.duration, unit)
     lines = [] if move.minimise == "peak torque" else drive.motor.peak_lines
     bounds = MoveBounds.read(dict(move.limits), dimensions).over(moved.start, moved.stroke)
     bounds = bounds.within(drive.motor.greatest_speed / drive.ratio, [(top, fall * drive.ratio) for top, fall in lines])
-    return PhaseMove(moved.torque, scales, bounds, MoveCosts(drive.regeneration, move.heat), moved.holding)
+    return PhaseMove(moved, bounds, move.heat, unit)
 
 
 MOVED["mechanism"] = MovedKind(Mechanism, phase_move_of)

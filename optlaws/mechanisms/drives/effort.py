@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import partial
 from math import sqrt
 from typing import Any, Protocol
@@ -118,12 +118,6 @@ class PieceEffort:
     drive: AnyDrive
     piece: Piece
     ends: tuple[float, float] | None = None
-
-    def of_drive(self, drive: AnyDrive) -> PieceEffort:
-        """The same effort by a drive whose torque is the same, with what is known of it."""
-        other = replace(self, drive=drive)
-        vars(other).update({**vars(self), "drive": drive})
-        return other
 
     def force(self, times: Array) -> Array:
         """The force or torque."""

@@ -29,6 +29,7 @@ from optlaws.formulas.reading import read
 from optlaws.formulas.slopes import scaled
 from optlaws.kept import kept_property
 from optlaws.lazy import Registry
+from optlaws.mechanisms.linkages.dimensionless import StrokeTorque
 from optlaws.numbers import positive
 from optlaws.synthesis.limits.drive_limits import (
     LONG,
@@ -174,7 +175,7 @@ class MoveLimit(Declared, title="the limit of a move"):
 
     @kept_property
     def _scale(self) -> tuple[float, str]:
-        return _phase_move(self.move).scales.of(self.minimise)
+        return _phase_move(self.move).scale(self.minimise)
 
     @property
     def minimise(self) -> DriveObjective:
@@ -343,68 +344,42 @@ class MoveBounds(NamedTuple):
         return self._replace(velocity=min(self.velocity, velocity), torques=(*self.torques, *torques))
 
 
-class MoveScales(NamedTuple):
-    """Scales of a dimensionless move: torque and energy, the input's mean velocity, and the time.
-
-    The dimension is that of the torque, or force: "N m" or "N".
-    """
-
-    torque: float
-    energy: float
-    velocity: float
-    duration: float
-    dimension: str = "N m"
-
-    def of(self, minimise: DriveObjective) -> tuple[float, str]:
-        """The scale of what is minimised, and its unit."""
-        known = {"energy": (self.energy, "J"), "time": (self.duration, "s")}
-        return known.get(minimise, (self.torque, self.dimension))
-
-    @property
-    def of_velocity(self) -> str:
-        """The unit of the velocity."""
-        return "rad/s" if self.dimension == "N m" else "m/s"
-
-
-class MoveCosts(NamedTuple):
-    """Weights of a move's energy: the share of braking power that is recovered, and copper heat.
-
-    The heat is in W a squared N m, or N, of the torque.
-    """
-
-    recovered: float = 0.0
-    heat: float = 0.0
-
-
 class PhaseMove(NamedTuple):
     """A move without dimensions.
 
     Attributes
     ----------
-    torque
-        The torque over a, b and c.
-    scales
-        What the torque's numbers mean; for the least time the duration is a unit of time alone.
+    over
+        The torque over the stroke, with the units of its numbers; for the least time its duration is a unit alone.
     bounds
         In SI units.
-    costs
-        What of an energy counts.
-    holding
-        The torque over a that holds the load at rest, without friction and losses.
+    heat
+        Copper heat that counts with an energy, in W a squared N m, or N, of the torque.
+    dimension
+        That of the torque, or force: "N m" or "N".
     """
 
-    torque: str
-    scales: MoveScales
+    over: StrokeTorque
     bounds: MoveBounds
-    costs: MoveCosts
-    holding: str
+    heat: float
+    dimension: str
+
+    def scale(self, minimise: DriveObjective) -> tuple[float, str]:
+        """The scale of what is minimised, and its unit."""
+        known = {"energy": (self.over.energy_unit, "J"), "time": (self.over.duration, "s")}
+        return known.get(minimise, (self.over.unit, self.dimension))
+
+    @property
+    def velocity(self) -> float:
+        """The mean velocity of the input."""
+        return abs(self.over.stroke) / self.over.duration
 
     def plane(self, minimise: DriveObjective) -> tuple[PhasePlane, AnyTorque]:
         """The phase plane of the move, its torques divided by the size of the torque, which is given too."""
-        form = phase_torque(self.torque)
-        plane = _plane(form, minimise, self.scales, self.bounds, self.costs)
+        form = phase_torque(self.over.torque)
+        plane = _plane(form, minimise, self)
         if plane.squared is not None or plane.peak is not None:
-            plane = replace(plane, holding=scaled(read(self.holding, ("a",)), 1.0 / form.size))
+            plane = replace(plane, holding=scaled(read(self.over.holding, ("a",)), 1.0 / form.size))
         return plane, form
 
 
@@ -431,10 +406,11 @@ def move_limit(move: LimitedMove) -> MoveLimit:
     """
     minimise = move.minimise
     parts = _phase_move(move)
-    scales, bounds = parts.scales, parts.bounds
-    if minimise != "time" and (least := bounds.least_share(scales.velocity)) >= 1.0:
-        takes, given = f"{least * scales.duration:.{_DIGITS}g} s", f"{scales.duration:.{_DIGITS}g} s"
-        speed = f" of {bounds.velocity:.{_DIGITS}g} {scales.of_velocity}" if bounds.velocity < inf else ""
+    bounds, time = parts.bounds, parts.over.duration
+    if minimise != "time" and (least := bounds.least_share(parts.velocity)) >= 1.0:
+        takes, given = f"{least * time:.{_DIGITS}g} s", f"{time:.{_DIGITS}g} s"
+        unit_of_velocity = "rad/s" if parts.dimension == "N m" else "m/s"
+        speed = f" of {bounds.velocity:.{_DIGITS}g} {unit_of_velocity}" if bounds.velocity < inf else ""
         shown = f"at the greatest velocity{speed} alone the stroke takes {takes}"
         raise InfeasibleProblem(f"{shown}, and {given} are given: take more time, or a greater velocity", proof=shown)
     plane, form = parts.plane(minimise)
@@ -442,30 +418,28 @@ def move_limit(move: LimitedMove) -> MoveLimit:
     try:
         limit = limit_of_plane(plane, minimise, unit)
     except InfeasibleProblem as error:
-        raise _infeasible(plane, form, move, scales, error) from None
+        raise _infeasible(plane, form, move, parts, error) from None
     except SolverFailure as error:
         beyond = unreachable(plane, unit)
         if beyond is None:
             raise
         proof = MoveLimit(beyond, move)
         raise InfeasibleProblem(
-            f"no motion keeps the limits in up to {LONG * scales.duration:.{_DIGITS}g} s, which is proven: the load "
-            f"takes a peak of at least {proof.value:.{_DIGITS}g} {scales.dimension}. Allow more torque",
+            f"no motion keeps the limits in up to {LONG * time:.{_DIGITS}g} s, which is proven: the load "
+            f"takes a peak of at least {proof.value:.{_DIGITS}g} {parts.dimension}. Allow more torque",
             proof=proof,
             tried=str(error),
         ) from None
     return MoveLimit(limit, move)
 
 
-def _plane(
-    form: AnyTorque, minimise: DriveObjective, scales: MoveScales, bounds: MoveBounds, costs: MoveCosts
-) -> PhasePlane:
+def _plane(form: AnyTorque, minimise: DriveObjective, move: PhaseMove) -> PhasePlane:
     """The phase plane of a move, its torques divided by their size."""
-    unit = form.size
+    unit, over, bounds, velocity = form.size, move.over, move.bounds, move.velocity
     form = form.scaled(1.0 / unit)
-    torque = unit * scales.torque
-    limits = tuple(TorqueLimit(form, most / torque, fall * scales.velocity / torque) for most, fall in bounds.torques)
-    unit_of = {"velocity": scales.velocity, "acceleration": scales.velocity / scales.duration, "load": torque}
+    torque = unit * over.unit
+    limits = tuple(TorqueLimit(form, most / torque, fall * velocity / torque) for most, fall in bounds.torques)
+    unit_of = {"velocity": velocity, "acceleration": velocity / over.duration, "load": torque}
     B, C = bounds.velocity / unit_of["velocity"], bounds.acceleration / unit_of["acceleration"]
     windows = [(name, low, high, bound / unit_of[name]) for name, low, high, bound in bounds.windows]
     velocities = [VelocityLimit(low, high, most) for name, low, high, most in windows if name == "velocity"]
@@ -481,32 +455,31 @@ def _plane(
         return replace(plane, squared=form)
     if minimise == "time":
         return plane
-    plane = replace(plane, maxima=((form, form.scaled(costs.recovered)),))
-    if not costs.heat:
+    plane = replace(plane, maxima=((form, form.scaled(over.train.regeneration)),))
+    if not move.heat:
         return plane
     # the mean of the squared torque over the time, in the unit of the energy
-    return replace(plane, squared=form, heat=costs.heat * torque**2 * scales.duration / scales.energy / unit)
+    return replace(plane, squared=form, heat=move.heat * torque**2 * over.duration / over.energy_unit / unit)
 
 
 def _infeasible(
-    plane: PhasePlane, form: AnyTorque, move: LimitedMove, scales: MoveScales, error: InfeasibleProblem
+    plane: PhasePlane, form: AnyTorque, move: LimitedMove, parts: PhaseMove, error: InfeasibleProblem
 ) -> InfeasibleProblem:
     """The error in SI units: the least time and, where torques are bounded, the least peak torque in the time given."""
     if not isinstance(error.proof, DriveLimit):
         return error
-    least = error.proof.value * scales.duration
+    given, least = f"{parts.over.duration:.{_DIGITS}g} s", error.proof.value * parts.over.duration
     reached = [f"within them the move takes at least {least:.{_DIGITS}g} s"]
     if plane.limits:
         unit = form.size
         free = replace(plane, squared=None, maxima=(), peak=form.scaled(1.0 / unit), limits=(), holding=None)
         try:
-            peak = limit_of_plane(free, "peak torque", unit).value * scales.torque
-            time = f"{scales.duration:.{_DIGITS}g} s"
-            reached.append(f"and in {time} a peak of at least {peak:.{_DIGITS}g} {scales.dimension}")
+            peak = limit_of_plane(free, "peak torque", unit).value * parts.over.unit
+            reached.append(f"and in {given} a peak of at least {peak:.{_DIGITS}g} {parts.dimension}")
         except (InfeasibleProblem, SolverFailure, InputError):
             pass
     return InfeasibleProblem(
-        f"no motion keeps the limits in {scales.duration:.{_DIGITS}g} s, which is proven: {', '.join(reached)}",
+        f"no motion keeps the limits in {given}, which is proven: {', '.join(reached)}",
         proof=MoveLimit(error.proof, move),
     )
 

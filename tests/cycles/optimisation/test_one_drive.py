@@ -209,3 +209,31 @@ def test_tables_on_a_line_are_lines() -> None:
         {"0 mm": "10 N", "20 mm": "30 N", "40 mm": "50 N"}, axis="length")  # fmt: skip
     known = {"mass": "2 kg", "stiffness": "1 N/mm", "preload": "10 N"}
     agree(outcome("cam", table, minimise="power"), outcome("cam", known, minimise="power"))
+
+
+@pytest.mark.parametrize("what", ["force", "rms force", "power"])
+def test_a_constant_force_is_a_weight_and_one_over_the_way_a_spring(what: str) -> None:
+    motion, spring = "cam" if what == "power" else "swings", "300 N/m"
+    held = {"mass": "2 kg", "gravity": "19.6 N", "stiffness": spring}
+    pushed = Cycle(MOTIONS[motion], **TIMES[motion], minimise=what, drive={"mass": "2 kg"},
+        load={"force": "-19.6 - 300*x", "over": "input"})  # fmt: skip
+    weighed = Cycle(MOTIONS[motion], **TIMES[motion], minimise=what, drive={"mass": "2 kg", "stiffness": spring},
+        load={"force": "-19.6 N"})  # fmt: skip
+    known = outcome(motion, held, minimise=what)
+    for cycle in (pushed, weighed):
+        agree((cycle.status, cycle.objective, cycle.lower_bound), known[:3])
+
+
+@pytest.mark.parametrize("rests", [True, False])
+def test_the_limits_of_a_motor_make_one_fastest_cycle(rests: bool) -> None:  # noqa: FBT001 - a case
+    ratio, rubs = 5.0, 0.08 if rests else 0.0
+    table = Mechanism("0.5 kg m^2", 3.0 if rests else 0.0, coulomb=ratio * rubs)
+    drive = Drive(table, Motor("0.01 kg m^2", peak_torque="3 N m", greatest_speed="30 rad/s"), ratio)
+    known = {"inertia": "0.15 kg m^2", "gravity": f"{0.6 if rests else 0.0} N m", "dry": f"{rubs} N m"}
+    moves = TURNS["cam"] if rests else [Free("35 deg", "120 deg"), Free("-35 deg", "120 deg"), Dwell()]
+    first, second = (
+        Cycle(moves, speed="60 rpm", drive=said, limits=limits).fastest()
+        for said, limits in ((drive, {"motor": True}), (known, {"torque": "3 N m", "velocity": "6 rad/s"}))
+    )
+    assert (first.status, first.binding) == (second.status, second.binding)
+    assert first.period == pytest.approx(second.period, rel=1e-9)
