@@ -5,10 +5,10 @@ from .balancing.levers.design import Span as Span
 from .cams.as_manufactured import ManufacturedFormat as ManufacturedFormat
 from .cams.barrel import Side as Side, SpaceCurve as SpaceCurve
 from .cams.best_laws import BestCam as BestCam, BestPrimeCircle as BestPrimeCircle
-from .cams.curves.cam_files import CutFormat as CutFormat
+from .cams.curves.cam_files import CutCurve as CutCurve, CutFormat as CutFormat
 from .cams.curves.motion_by_angle import CamStretch as CamStretch, Direction as Direction
 from .cams.curves.plane_curve import PlaneCurve as PlaneCurve
-from .cams.disc import CutCurve as CutCurve, Turning as Turning
+from .cams.disc import Turning as Turning
 from .cams.followers.faces import FaceContact as FaceContact
 from .cams.followers.follower import CamFollower as CamFollower, Place as Place
 from .cams.followers.rollers import RollerContact as RollerContact

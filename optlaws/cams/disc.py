@@ -8,7 +8,7 @@ from typing import Any, Literal, Unpack
 
 import numpy as np
 
-from optlaws.cams.curves.cam_files import CutFormat, Cutting, CuttingOptions, write_outline
+from optlaws.cams.curves.cam_files import CURVES, CutCurve, CutFormat, Cutting, CuttingOptions, write_outline
 from optlaws.cams.curves.extremes import CamExtremes
 from optlaws.cams.curves.motion_by_angle import CamMotion, as_motion
 from optlaws.cams.curves.plane_curve import PlaneCurve
@@ -30,8 +30,6 @@ from optlaws.shown.summary import Summary
 from optlaws.suggest import keywords_of
 
 Turning = Literal["counterclockwise", "clockwise"]
-CutCurve = Literal["profile", "pitch", "cutter"]
-CURVES = ("profile", "pitch", "cutter")
 TURNINGS: dict[Turning, float] = {"counterclockwise": 1.0, "clockwise": -1.0}
 
 

@@ -13,9 +13,9 @@ from optlaws.cams.as_manufactured import PeaksAsMade
 from optlaws.cams.barrel import BarrelCam, Groove
 from optlaws.cams.best_laws import BestCam, BestPrimeCircle, best_cam, best_prime_circle
 from optlaws.cams.conjugate import ReturnFollower, conjugate_cam
-from optlaws.cams.curves.cam_files import FORMATS, Cutting, format_of
+from optlaws.cams.curves.cam_files import CutFile
 from optlaws.cams.curves.extremes import UNDERCUT
-from optlaws.cams.disc import CURVES, TURNINGS, CutCurve, DiscCam, Turning
+from optlaws.cams.disc import TURNINGS, DiscCam, Turning
 from optlaws.cams.followers.follower import CamFollower, stated_prime_radius
 from optlaws.cams.followers.rollers import TranslatingRoller
 from optlaws.cams.forces import CamForces, Surfaces
@@ -40,9 +40,8 @@ from optlaws.cycles.cycle import Cycle
 from optlaws.cycles.specification.process import ProcessEntries
 from optlaws.cycles.summary import objective_unit
 from optlaws.entries.declared import ValueOf, declared, entries_of, entry, same
-from optlaws.entries.value_types import Choice, Listed, Measured, Number, Switch, Text, Whole
+from optlaws.entries.value_types import Choice, Listed, Measured, Number, Switch, Whole
 from optlaws.errors import InfeasibleProblem, InputError, located
-from optlaws.files import writing
 from optlaws.jobs.cycle_entries import AxisEntries, cycle_of
 from optlaws.jobs.job_entries import ProblemFile
 from optlaws.kept import kept_property
@@ -78,36 +77,6 @@ class CamForcesEntries(Surfaces, title="forces"):
         default=None,
         example=0.04,
     )
-
-
-@declared
-class CutFile(Cutting, title="a file"):
-    """A file that cuts the cam."""
-
-    _: KW_ONLY
-    name: str = entry(Text(), "Of the file, in the folder of results.", example="profile.dxf")
-    format: str | None = entry(
-        Choice(*FORMATS), "That of the name's ending unless given.", default=None, example="dxf spline"
-    )
-    curve: CutCurve | None = entry(
-        Choice(*CURVES), "The profile, or the path of a cutter with a radius, unless given.", default=None
-    )
-    cutter_radius: Quantity | None = entry(
-        _LENGTH, "Of the cutter whose path the file has.", default=None, example="10 mm"
-    )
-
-    def _check(self) -> None:
-        super()._check()
-        if Path(self.name).name != self.name:
-            raise InputError(f"name must be that of a file in the folder of results, got {self.name!r}")
-        writing.check_name(Path(self.name))
-        format_of(Path(self.name), self.format)
-
-    def write(self, cam: DiscCam, file: Path, about: str) -> Path:
-        """The file of a cam at a place; `about` is what it says of itself."""
-        outline: Any = {"as_": self.format, "curve": self.curve, "cutter_radius": self.cutter_radius}
-        options: Any = {name: getattr(self, name) for name in entries_of(Cutting)}
-        return cam.export(file, about=about, **outline, **options)
 
 
 @declared
@@ -225,8 +194,9 @@ def run(results: Results) -> None:
     if isinstance(result, CamResult):
         if result.spec.animation:
             results.text("animation.svg", animated(result.cam))
-        for name, write in result.files.items():
-            results.add(name, partial(write, about=results.about))
+        for name, (each, cam) in result.files.items():
+            write = replace(each, about=results.about).write
+            results.add(name, partial(write, cam.outline(each.curve, each.cutter_radius)))
 
 
 def read(data: Mapping[str, Any], file: Path) -> CamResult | BarrelResult:
@@ -311,10 +281,10 @@ class CamResult:
             return conjugate_cam(cam, entries.follower, distance=entries.distance, angle=entries.angle)
 
     @property
-    def files(self) -> dict[str, Callable[..., Path]]:
-        """What writes the files that cut the cams, by their names."""
+    def files(self) -> dict[str, tuple[CutFile, DiscCam]]:
+        """The files that cut the cams by their names, each with its cam."""
         cams = {"": self.cam} if self.second is None else {"": self.cam, _RETURN: self.second}
-        return {f"{way}{each.name}": partial(each.write, cam) for way, cam in cams.items() for each in self.spec.file}
+        return {f"{way}{each.name}": (each, cam) for way, cam in cams.items() for each in self.spec.file}
 
     @kept_property
     def forces(self) -> CamForces | None:

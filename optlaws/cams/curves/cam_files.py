@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from dataclasses import KW_ONLY
 from logging import ERROR, getLogger
 from math import atan2, degrees, tau
 from pathlib import Path
@@ -17,7 +18,7 @@ from optlaws.cams.curves.approximations import DEGREES, Spline, arcs, polygon, s
 from optlaws.cams.curves.plane_curve import Outline
 from optlaws.echo import shortened
 from optlaws.entries.declared import Declared, declared, entry
-from optlaws.entries.value_types import Measured, Whole
+from optlaws.entries.value_types import Choice, Measured, Text, Whole
 from optlaws.errors import InputError
 from optlaws.files import writing
 from optlaws.files.reading import check_names
@@ -32,6 +33,8 @@ if TYPE_CHECKING:
 
 
 DECIMALS, POINTS = Whole(0, 12), Whole(13, 100_000)
+CutCurve = Literal["profile", "pitch", "cutter"]
+CURVES = ("profile", "pitch", "cutter")
 CutFormat = Literal["dxf spline", "dxf polyline", "dxf arcs", "svg", "csv", "csv polar", "g-code", "g-code arcs"]
 
 
@@ -354,6 +357,36 @@ def format_of(file: Path, name: str | None = None) -> str:
     return known
 
 
+@declared
+class CutFile(Cutting, title="a file"):
+    """A file that cuts the cam."""
+
+    _: KW_ONLY
+    name: str = entry(Text(), "Of the file, in the folder of results.", example="profile.dxf")
+    format: CutFormat | None = entry(
+        Choice(*FORMATS), "That of the name's ending unless given.", default=None, example="dxf spline"
+    )
+    curve: CutCurve | None = entry(
+        Choice(*CURVES), "The profile, or the path of a cutter with a radius, unless given.", default=None
+    )
+    cutter_radius: Quantity | None = entry(
+        Measured("length", above=0.0), "Of the cutter whose path the file has.", default=None, example="10 mm"
+    )
+
+    def _check(self) -> None:
+        super()._check()
+        if Path(self.name).name != self.name:
+            raise InputError(f"name must be that of a file in the folder of results, got {self.name!r}")
+        writing.check_name(Path(self.name))
+        format_of(Path(self.name), self.format)
+
+    def write(self, outline: Outline, file: Path, *, force: bool = False) -> Path:
+        """The file of a closed curve at a place, written whole or not at all; `force` replaces other contents."""
+        writing.check_place(file)
+        text = FORMATS[format_of(file, self.format)](outline, self)
+        return writing.write(file, text, exact=True, force=force)
+
+
 def write_outline(
     outline: Outline,
     file: str | Path,
@@ -364,13 +397,9 @@ def write_outline(
 ) -> Path:
     """The file of a closed curve, written whole or not at all: a profile, a pitch curve, the path of a cutter.
 
-    `as_` is one of `FORMATS`, that of the file's ending unless given; `force` replaces other contents; options are
-    those of `Cutting`.
+    `as_` is the format; options are those of `Cutting`.
     """
     place = Path(file)
-    name = format_of(place, as_)
     given: dict[str, Any] = {key: value for key, value in options.items() if value is not None}
     check_names(given, Cutting.__dataclass_fields__, "entry")
-    cutting = Cutting(**given)
-    writing.check_place(place)
-    return writing.write(place, FORMATS[name](outline, cutting), exact=True, force=force)
+    return CutFile(name=place.name, **(given | {"format": as_})).write(outline, place, force=force)
