@@ -11,13 +11,14 @@ import numpy as np
 from optlaws.cycles.moves.fastest_move import FastestMove
 from optlaws.cycles.moves.time_front import MOST_POINTS, TimeFront
 from optlaws.cycles.moves.torque_limits import motor_torque
-from optlaws.cycles.moves.vibration_limits import vibration_limit
+from optlaws.cycles.moves.vibration_limits import read_follower
 from optlaws.echo import shortened
 from optlaws.entries.declared import Declared, declared, documented_by, entry
 from optlaws.entries.value_types import Listed, Measured, Text, Whole
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.motion.quantities import positive_quantity
+from optlaws.motion.quantity_kinds import Kind
 from optlaws.numbers import NumberOrQuantity, Quantity
 from optlaws.suggest import unknown_key
 from optlaws.synthesis.least_time.follower_residual import RESIDUAL, FollowerResidual
@@ -133,12 +134,12 @@ def _objective(
     timed = move.least.move
     if name in AT_MOTOR:
         return _at_motor(name, timed, drive, start)
-    return MoveObjective(name, residual=_left(timed, move.unit, follower) if name == RESIDUAL else None)
+    return MoveObjective(name, residual=_left(timed, follower) if name == RESIDUAL else None)
 
 
 def _at_motor(name: str, move: TimedMove, drive: Drive | None, start: NumberOrQuantity) -> MoveObjective:
     """The torque or the energy at the motor of a move."""
-    torque = move.torque if drive is None else motor_torque(drive, start, move.stroke, {"rms torque": "1 N m"})
+    torque = move.torque if drive is None else motor_torque(drive, start, move.stroke, {Kind.RMS_FORCE: (-1.0, 1.0)})
     if torque is None or (drive is None and name == "energy"):
         raise InputError(f"minimise: the {name} is that of a motor: give its drive")
     if name == "torque" and torque.gear is not None:
@@ -159,13 +160,13 @@ def _at_motor(name: str, move: TimedMove, drive: Drive | None, start: NumberOrQu
     return MoveObjective(name, free, drive.ratio * move.stroke, drive.regeneration)
 
 
-def _left(move: TimedMove, unit: str, follower: Mapping[str, Any] | None) -> FollowerResidual:
+def _left(move: TimedMove, follower: Mapping[str, Any] | None) -> FollowerResidual:
     """The follower of which what is left is least, with the limit 1."""
     if not move.at_rest:
         raise InputError("minimise: what is left vibrating is that of a move from rest to rest")
     known = None if move.residual is None else replace(move.residual, most=1.0)
     if follower is not None:
-        given = vibration_limit(follower, {RESIDUAL: {"m": "1 m/s^2", "rad": "1 rad/s^2"}[unit]})[1](unit)
+        given = read_follower(follower)
         if known is not None and given != known:
             raise InputError("follower: it is another than that of the move")
         return given

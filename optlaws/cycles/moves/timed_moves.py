@@ -8,9 +8,9 @@ from math import isfinite
 from typing import Any, NamedTuple
 
 from optlaws.cycles.moves.fastest_move import AXES, FastestMove
-from optlaws.cycles.moves.torque_limits import TORQUES, motor_torque, without_torques
-from optlaws.cycles.moves.vibration_limits import vibration_limit
-from optlaws.cycles.optimisation.motion_limits import DECELERATION, greatest, read_limits, sides
+from optlaws.cycles.moves.torque_limits import motor_torque
+from optlaws.cycles.moves.vibration_limits import read_follower
+from optlaws.cycles.optimisation.motion_limits import DECELERATION, Limits, greatest, read_limits, sides, tightest
 from optlaws.cycles.specification.limit_entries import LIMITS_OF_MOVE
 from optlaws.cycles.specification.programme import AXES as SI
 from optlaws.echo import shortened
@@ -22,7 +22,6 @@ from optlaws.motion.quantity_kinds import Kind
 from optlaws.numbers import NumberOrQuantity, Quantity, listed
 from optlaws.synthesis.least_time.follower_residual import RESIDUAL
 from optlaws.synthesis.least_time.least_time import LeastTime
-from optlaws.synthesis.least_time.motor_torque import MotorTorque
 from optlaws.synthesis.least_time.move_limits import MoveLimits
 from optlaws.synthesis.least_time.time_search import least_time
 from optlaws.synthesis.least_time.timed_move import TimedMove
@@ -36,7 +35,7 @@ _SIDES = (
     ("jerk", Kind.JERK, 0.0),
     ("snap", Kind.SNAP, 0.0),
 )
-_OF_OTHERS = {**dict.fromkeys(TORQUES, "at a motor: give its drive"), RESIDUAL: "that of a follower: give the follower"}
+_EXAMPLE = '{"frequency": ("15.9 Hz", "17.5 Hz"), "damping": 0.05}'
 
 
 def fastest(
@@ -159,48 +158,41 @@ class _Machine(NamedTuple):
     follower: Mapping[str, Any] | None
 
 
-def _timed(problem: Problem, stroke: Quantity, limits: Mapping[str, Any], machine: _Machine) -> tuple[TimedMove, str]:
+def _timed(problem: Any, stroke: Any, limits: Mapping[str, Any], machine: _Machine) -> tuple[TimedMove, str]:
     """The move whose time is sought within all its limits in SI units, and the unit of its stroke."""
-    rest, left, torque = LIMITS_OF_MOVE.read(limits, "limits"), None, None
-    if machine.follower is not None:
-        rest, left = vibration_limit(machine.follower, rest)
-    if machine.drive is not None:
-        torque = motor_torque(machine.drive, machine.start, stroke, rest)
-        rest = without_torques(machine.drive, rest)
-    move, unit = _move(problem, stroke, rest, machine.ends, torque)
-    return (move if left is None else replace(move, residual=left(unit))), unit
-
-
-def _move(
-    problem: Any,
-    stroke: Any,
-    limits: Any,
-    ends: tuple[Any, Any],
-    torque: MotorTorque | None = None,
-) -> tuple[TimedMove, str]:
-    """The move whose time is sought in SI units, and the unit of its stroke."""
+    entries = LIMITS_OF_MOVE.read(limits, "limits")
     dimension, far = either(stroke, tuple(AXES.values()), "stroke")
     if not far > 0.0:
         remedy = "turn the axis and its limits round" if far else "give how far it moves, such as '100 mm'"
         raise InputError(f"stroke must be above 0, got {shortened(stroke)}: {remedy}")
-    allowed, forward = _read_limits(limits, dimension)
+    allowed, torque, residual = read_limits(entries, dimension, "limits"), None, None
+    if machine.follower is not None:
+        if Kind.RESIDUAL not in allowed:
+            raise InputError(f'a follower, as in {_EXAMPLE}, needs limits={{"{RESIDUAL}": "0.5 m/s^2"}}')
+        residual = replace(read_follower(machine.follower), most=allowed[Kind.RESIDUAL][1])
+    elif Kind.RESIDUAL in allowed:
+        raise InputError(f"limits: {RESIDUAL} is that of a follower: give the follower")
+    if machine.drive is not None:
+        torque = motor_torque(machine.drive, machine.start, stroke, allowed)
+        most = machine.drive.motor.greatest_speed / machine.drive.ratio
+        allowed = tightest(allowed, {Kind.VELOCITY: (-most, most)})
+    elif Kind.FORCE in allowed or Kind.RMS_FORCE in allowed:
+        name = "torque" if Kind.FORCE in allowed else "rms torque"
+        raise InputError(f"limits: {name} is at a motor: give its drive")
     if not isinstance(problem, Problem):
         raise InputError(f"a least time is sought of a Problem, got {type(problem).__name__}")
     start, end = (
         0.0 if value is None else quantity(value, SI[dimension][1], name)
-        for name, value in zip(("start_velocity", "end_velocity"), ends, strict=True)
+        for name, value in zip(("start_velocity", "end_velocity"), machine.ends, strict=True)
     )
-    space = replace(problem, monotone=True) if forward or torque is not None else problem
+    forward = Kind.VELOCITY_ALONG in allowed or torque is not None
+    space = replace(problem, monotone=True) if forward else problem
     unit = next(unit for unit, axis in AXES.items() if axis == dimension)
-    return TimedMove(space, far, allowed, start, end, torque), unit
+    return TimedMove(space, far, _of_move(entries, allowed), start, end, torque, residual), unit
 
 
-def _read_limits(entries: Mapping[str, Any], axis: str) -> tuple[MoveLimits, bool]:
-    """Limits of the move in SI units, and whether it must never turn back."""
-    for name in entries:
-        if name in _OF_OTHERS:
-            raise InputError(f"limits: {name} is {_OF_OTHERS[name]}")
-    limits = read_limits(entries, axis, "limits")
+def _of_move(entries: Mapping[str, Any], limits: Limits) -> MoveLimits:
+    """The limits of a move to greater positions, which has one limit of both sides but of the acceleration."""
     given = sides(limits, 1.0)
     if DECELERATION in entries and is_list(entries.get("acceleration")):
         raise InputError("limits: the acceleration is a pair, so that deceleration is given twice")
@@ -210,4 +202,4 @@ def _read_limits(entries: Mapping[str, Any], axis: str) -> tuple[MoveLimits, boo
             pair = shortened(entries[key.name])
             raise InputError(f"limits: {key.name}: its two values must be opposite{remedy}, got {pair}")
     least = {name: greatest(given, kind, side) for name, kind, side in _SIDES}
-    return MoveLimits(**{name: most for name, most in least.items() if isfinite(most)}), Kind.VELOCITY_ALONG in limits
+    return MoveLimits(**{name: most for name, most in least.items() if isfinite(most)})

@@ -4,47 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from math import inf, isfinite
-from typing import Any
 
+from optlaws.cycles.optimisation.motion_limits import tightest
 from optlaws.cycles.optimisation.motor_limits import curve_lines
 from optlaws.errors import InputError
 from optlaws.mechanisms.drives.drive_train import Drive
-from optlaws.motion.quantities import positive_quantity, quantity
+from optlaws.motion.quantity_kinds import Kind
 from optlaws.numbers import NumberOrQuantity
 from optlaws.synthesis.least_time.motor_torque import LossyGear, MotorTorque
 
-#: limits at the motor
-TORQUES = ("torque", "rms torque")
-
-
-def without_torques(drive: Drive, limits: Mapping[str, Any]) -> dict[str, Any]:
-    """The limits of the input's motion, with the velocity that the motor's greatest speed leaves it.
-
-    Raises
-    ------
-    InputError
-        If the velocity is no quantity.
-
-    Examples
-    --------
-    >>> from optlaws import Mechanism, Motor
-    >>> drive = Drive(Mechanism("0.8 kg m^2"), Motor("3e-4 kg m^2", greatest_speed="40 rad/s"), ratio=20)
-    >>> without_torques(drive, {"torque": "3 N m", "velocity": "5 rad/s"})
-    {'velocity': '2.0 rad/s'}
-    """
-    rest = {name: limit for name, limit in limits.items() if name not in TORQUES}
-    fastest = drive.motor.greatest_speed / drive.ratio
-    given = rest.get("velocity")
-    if not isfinite(fastest):
-        return rest
-    if given is not None:
-        last = given[-1] if isinstance(given, list | tuple) and given else given
-        fastest = min(fastest, quantity(last, "angular velocity", "limits: velocity"))
-    return rest | {"velocity": f"{fastest!r} rad/s"}
-
 
 def motor_torque(
-    drive: Drive, start: NumberOrQuantity, stroke: NumberOrQuantity, limits: Mapping[str, Any]
+    drive: Drive, start: NumberOrQuantity, stroke: NumberOrQuantity, limits: Mapping[Kind, tuple[float, float]]
 ) -> MotorTorque:
     """The torque at the motor over a stroke of the mechanism's input, and its limit.
 
@@ -58,16 +29,15 @@ def motor_torque(
     --------
     >>> from optlaws import Mechanism, Motor
     >>> drive = Drive(Mechanism("0.8 kg m^2"), Motor("3e-4 kg m^2", peak_torque="4 N m"), ratio=20)
-    >>> torque = motor_torque(drive, "0 deg", "45 deg", {"rms torque": "2 N m"})
+    >>> torque = motor_torque(drive, "0 deg", "45 deg", {Kind.RMS_FORCE: (-2.0, 2.0)})
     >>> torque.inertia, torque.friction, torque.load, torque.peak, torque.rms
     ('1.15', 0.0, '0.0', 4.0, 2.0)
     """
-    most = {name: positive_quantity(limits[name], "torque", f"limits: {name}") for name in TORQUES if name in limits}
-    if isfinite(drive.motor.peak_torque):
-        most["torque"] = min(most.get("torque", drive.motor.peak_torque), drive.motor.peak_torque)
     lines = curve_lines(drive.motor)
-    if lines:
-        most["torque"] = min(most.get("torque", inf), max(torque for _, torque in drive.motor.curve))
+    greatest = min(drive.motor.peak_torque, max((torque for _, torque in drive.motor.curve), default=inf))
+    within = tightest(limits, {Kind.FORCE: (-greatest, greatest)})
+    known = (("torque", Kind.FORCE), ("rms torque", Kind.RMS_FORCE))
+    most = {name: within[kind][1] for name, kind in known if kind in within and isfinite(within[kind][1])}
     if not most:
         raise InputError('nothing limits the torque: give limits={"torque": "3 N m"}, or a motor with a peak torque')
     moved, train, i = drive.mechanism.dimensionless(start, stroke, 1.0), drive.train, drive.ratio

@@ -25,8 +25,13 @@ LIMITS = {
     "torque": Kind.FORCE,
     "power": Kind.POWER,
 }
-#: limits of the whole cycle alone
-OF_WHOLE = {"rms force": Kind.RMS_FORCE, "rms torque": Kind.RMS_FORCE, "energy": Kind.ENERGY}
+#: limits of the whole cycle or move alone
+OF_WHOLE = {
+    "rms force": Kind.RMS_FORCE,
+    "rms torque": Kind.RMS_FORCE,
+    "energy": Kind.ENERGY,
+    "residual acceleration": Kind.RESIDUAL,
+}
 FORCES = {"length": "force", "angle": "torque"}
 DECELERATION, SPEEDING_UP, BACKWARDS = "deceleration", "acceleration along the motion", "velocity backwards"
 _ALONG = (DECELERATION, SPEEDING_UP, BACKWARDS)
@@ -142,7 +147,8 @@ def _both(kind: Kind, value: Any, axis: str, place: str) -> Limits:
 def _dimension(kind: Kind, axis: str) -> str:
     if kind.order:
         return AXES[axis][kind.order]
-    return {Kind.POWER: "power", Kind.ENERGY: "energy"}.get(kind, FORCES[axis])
+    known = {Kind.POWER: "power", Kind.ENERGY: "energy", Kind.RESIDUAL: AXES[axis][2]}
+    return known.get(kind, FORCES[axis])
 
 
 def limits_of_segment(stretch: TimedSegment, of_cycle: Mapping[Kind, tuple[float, float]], axis: str) -> Sides:
