@@ -164,12 +164,13 @@ def not_negative(value: Any, name: str) -> float:
 
 def numbers(values: Any, name: str, most: int = MOST_VALUES) -> tuple[float, ...]:
     """The values as a tuple of floats; errors call them `name`."""
-    if type(values) in {tuple, list} and len(values) <= most and all(map(_plain, values)):
+    if type(values) in {tuple, list} and len(values) <= most and all(map(is_usual, values)):
         return tuple(values)
     return tuple(float(value) for value in fractions(values, name, most))
 
 
-def _plain(value: object) -> bool:
+def is_usual(value: object) -> bool:
+    """Whether a value is a float that `finite` takes."""
     return type(value) is float and -MAGNITUDE_LIMIT <= value <= MAGNITUDE_LIMIT
 
 
@@ -200,7 +201,7 @@ def listed(values: Any, name: str, most: int = MOST_TERMS) -> list[Any]:
 
 
 def _fraction(value: Any, name: str) -> Fraction:
-    if _plain(value):
+    if is_usual(value):
         return Fraction(value)
     if not isinstance(value, bool) and isinstance(value, Rational):
         exact = Fraction(int(value.numerator), int(value.denominator))

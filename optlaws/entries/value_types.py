@@ -5,14 +5,14 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from math import inf, isfinite
+from math import inf
 from typing import TYPE_CHECKING, Any, Generic, TypeAlias, TypeVar
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError, located
 from optlaws.files.reading import check_names
 from optlaws.motion.quantities import DIMENSIONS, either, written
-from optlaws.numbers import bounded, finite, real, whole
+from optlaws.numbers import bounded, finite, is_usual, real, whole
 
 if TYPE_CHECKING:
     from optlaws.numbers import NumberOrQuantity
@@ -294,6 +294,9 @@ class Listed(ValueType):
     >>> Listed(Whole(1), least=2).read([3], "waves")
     Traceback (most recent call last):
     optlaws.errors.InputError: waves must be a list of 2 at least, each a whole number from 1 on, got [3]
+    >>> Listed(Number()).read([0.5, 1e200], "places")
+    Traceback (most recent call last):
+    optlaws.errors.InputError: places 2 must not exceed 1e+100 in magnitude, got 1e+200
     """
 
     of: ValueType
@@ -308,7 +311,7 @@ class Listed(ValueType):
         if not self.least <= len(value) <= self.most:
             ends = f"{self.least} at least" if len(value) < self.least else f"{self.most} at most"
             raise InputError(f"{name} must be a list of {ends}, each {self.of.words}, got {shortened(list(value))}")
-        if self.of == _NUMBER and all(type(part) is float and isfinite(part) for part in value):
+        if self.of == _NUMBER and all(map(is_usual, value)):
             return tuple(value)
         return tuple(
             self.of.read(part, f"{self.each or name} {self._called(part) or i}") for i, part in enumerate(value, 1)
