@@ -115,12 +115,14 @@ def _entries(advised: AdvisedCycle, law: AdvisedLaw) -> dict[str, Any] | None:
     before = zip(advised.cycle.segments, motion.segments, strict=True)
     compared = [isinstance(now, Move) and (now.law == OPTIMAL or now != then) for then, now in before]
     if proof is None:
-        return {"laws": [law.name if own else None for own in compared]}
+        return {"laws": [law.name if sought else None for sought in compared]}
     if advised.follower is None and proof.minimise == motion.minimise:
-        laws = [OPTIMAL if own else None for own in compared]
+        laws = [OPTIMAL if sought else None for sought in compared]
         return {"laws": laws, "minimise": motion.minimise, "limits": dict(motion.limits)}
     known = {piece.start: json.dumps(piece.law.to_dict()) for piece in motion.pieces}
-    taken = [known.get(peaks.start, "") if own else None for own, peaks in zip(compared, motion.peaks, strict=True)]
+    taken = [
+        known.get(peaks.start, "") if sought else None for sought, peaks in zip(compared, motion.peaks, strict=True)
+    ]
     return None if "" in taken else {"laws": taken}
 
 
