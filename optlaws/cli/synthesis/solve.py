@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
+from functools import cache
 from typing import TYPE_CHECKING, Any, Literal
 
 import optlaws
@@ -57,28 +58,28 @@ def solve(
         raise InputError(f"{_MOVE[name].name} goes with --fastest")
     problem = optlaws.Problem.from_dict(entries)
     result = optlaws.fastest(problem, **move) if fastest else optlaws.synthesize(problem, bound=bound)
+    whole = cache(result.to_dict)  # with proofs, which takes a tenth of a second
     if output is not None:
-        save(output, result.to_dict())  # with proofs, which takes a tenth of a second
+        save(output, whole())
     if isinstance(result, optlaws.Solution):
         solution = result
-        return Answer(lambda: [solution.summary(), *_remarks(solution)], lambda: _part(solution, _KEYS), solution.plot)
-    return Answer(lambda: [result.summary()], lambda: _move_data(result), lambda: _drawn(result, move["stroke"]))
+        return Answer(
+            lambda: [solution.summary(), *_remarks(solution)],
+            lambda: {name: whole()[name] for name in _KEYS},
+            solution.plot,
+        )
+    timed = result
 
+    def data() -> dict[str, Any]:
+        rest = {"none_below": timed.none_below, "binding": list(timed.binding), "gains": timed.gains()}
+        return {name: whole()[name] for name in _MOVE_KEYS} | rest
 
-def _part(result: Any, keys: Sequence[str]) -> dict[str, Any]:
-    whole = result.to_dict()
-    return {name: whole[name] for name in keys}
+    def drawn() -> Figure:
+        from optlaws.plots.moves import motion_figure
 
+        return motion_figure(timed, f"{move['stroke']} in {timed.duration:.6g} s")
 
-def _move_data(timed: optlaws.FastestMove) -> dict[str, Any]:
-    rest = {"none_below": timed.none_below, "binding": list(timed.binding), "gains": timed.gains()}
-    return _part(timed, _MOVE_KEYS) | rest
-
-
-def _drawn(timed: optlaws.FastestMove, stroke: str) -> Figure:
-    from optlaws.plots.moves import motion_figure
-
-    return motion_figure(timed, f"{stroke} in {timed.duration:.6g} s")
+    return Answer(lambda: [timed.summary()], data, drawn)
 
 
 def _remarks(solution: optlaws.Solution) -> list[str]:
