@@ -13,7 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.echo import shortened
-from optlaws.errors import InfeasibleProblem, InputError, OptlawsError, SolverFailure
+from optlaws.entries.declared import ValueOf
+from optlaws.errors import InfeasibleProblem, InputError, OptlawsError, SolverFailure, located
 from optlaws.extras import needed
 from optlaws.files.reading import JsonText, entries_of
 from optlaws.kept import kept_property
@@ -200,15 +201,16 @@ class Front(JsonText):
         InputError
             If an entry is missing or wrong, or one states what does not follow from problems, laws and proofs.
         """
-        from optlaws.synthesis.stored_rows import StatedError, at, equal_data, read_error
+        from optlaws.synthesis.stored_rows import StatedError, equal_data, read_error
 
         entries = entries_of(data, ("over", "values", "points", "failed"), cls._json_name)
         over, values, points, failed = (listed(entries[name], name, MOST_VALUES) for name in entries)
         errors: dict[float, OptlawsError] = {finite(value, "failed"): SolverFailure("") for value in failed}
         for i, (value, row) in enumerate(zip(errors, listed(data.get("errors", ()), "errors"), strict=False)):
             error = stated(row, StatedError, f"errors[{i}]")
-            errors[value] = at(f"errors[{i}]", partial(read_error, error, partial(problem_of, error.problem or {})))
-        read = [at(f"points[{i}]", partial(Solution.from_dict, row)) for i, row in enumerate(points)]
+            with located(f"errors[{i}]"):
+                errors[value] = read_error(error, partial(problem_of, error.problem or {}))
+        read = [ValueOf(Solution).read(row, f"points[{i}]") for i, row in enumerate(points)]
         front = cls(tuple(map(named_or_refused, over)), tuple(read), errors)
         if not read or not equal_data(front.values.tolist(), as_json(values)):
             raise InputError("the values of a front are other than the constants of its laws")

@@ -316,14 +316,6 @@ def _read(read: Callable[[Plain], Kind], data: Plain | None) -> Kind | None:
     return None if data is None else read(data)
 
 
-def at(name: str, read: Callable[[], Kind]) -> Kind:
-    """A value read at a place, which errors name."""
-    try:
-        return read()
-    except InputError as error:
-        raise InputError(f"{name}: {error}") from None
-
-
 def plainly(read: Callable[[], Kind], name: str) -> Kind:
     """A value read from data of any kind."""
     try:

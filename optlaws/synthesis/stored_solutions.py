@@ -14,7 +14,7 @@ import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.errors import InputError, OptlawsError
+from optlaws.errors import InputError, OptlawsError, located
 from optlaws.synthesis.arrays.problems import ProblemArray
 from optlaws.synthesis.arrays.programs import FOLLOWING, NO_CONTACT, SolvedBatch
 from optlaws.synthesis.families.family import Program
@@ -31,7 +31,6 @@ from optlaws.synthesis.stored_rows import (
     StatedError,
     StatedSolution,
     StatedState,
-    at,
     attributes,
     bound_of,
     check_numbers,
@@ -129,10 +128,8 @@ class _Reading:
         others: dict[int, Solution | OptlawsError] = {}
         parts = [_part(part, problems, rows) for part in entries.parts]
         for place in sorted(set(range(len(rows))) - {place for part in entries.parts for place in part.places}):
-            others[place] = at(
-                f"solutions[{place}]",
-                lambda place=place: self._alone(place, rows[place], problems),  # type: ignore[misc]
-            )
+            with located(f"solutions[{place}]"):
+                others[place] = self._alone(place, rows[place], problems)
         return StoredSolutions(problems, parts, others, entries.seconds, [row.status for row in rows])
 
     def _problems(self) -> ProblemArray:
@@ -176,7 +173,8 @@ def _part(
         if isinstance(row, StatedError):
             raise InputError(f"solutions[{place}] has no law, but the arrays have one")
         problem = problems.problem(place)
-        at(f"solutions[{place}]", lambda: _check_row(row, problem, replace(model, problem=problem), laws, i))  # noqa: B023
+        with located(f"solutions[{place}]"):
+            _check_row(row, problem, replace(model, problem=problem), laws, i)
     same = problems.problem(part.places[0]) if part.places else model.problem
     if not differ_in_numbers(same, model.problem) or (
         problems.one_objective and repr(same.objective) != repr(model.problem.objective)
