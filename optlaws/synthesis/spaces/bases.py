@@ -6,6 +6,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import cache
 from inspect import signature
 from itertools import pairwise
 from math import comb
@@ -326,6 +327,9 @@ class Pieces(Basis):
         return {"basis": self.name, "breaks": list(self.breaks), "degree": self.degree, "continuity": self.continuity}
 
 
+_signature = cache(signature)  # which takes ten times as long as the basis itself
+
+
 def basis(name: str, degree: int, **parameters: Any) -> Basis:
     """The basis called `name` with the given degree and, for B-splines and pieces, breaks and continuity.
 
@@ -343,9 +347,9 @@ def basis(name: str, degree: int, **parameters: Any) -> Basis:
     if not isinstance(stated, str) or stated not in Basis.kinds:
         raise InputError(f"basis {shortened(name)} is unknown; known are {', '.join(sorted(Basis.kinds))}")
     kind: Any = Basis.kinds[name]
-    taken = signature(kind).parameters
+    taken = _signature(kind).parameters
     for parameter in parameters.keys() - taken.keys():
-        having = sorted(other for other, each in Basis.kinds.items() if parameter in signature(each).parameters)
+        having = sorted(other for other, each in Basis.kinds.items() if parameter in _signature(each).parameters)
         raise InputError(f"the basis {name!r} has no {parameter}: leave it out, or take {' or '.join(having)}")
     if "breaks" in taken and "breaks" not in parameters:
         raise InputError(f"the basis {name!r} needs its breaks, such as breaks=8 or breaks=[0, 0.3, 1]")
