@@ -8,7 +8,6 @@ from math import floor, inf, isfinite, nan
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError
@@ -199,15 +198,20 @@ _CUTS = 9  # in eight: the way is of second order in the length that is left
 
 
 def travel_of_run(run: PiecewiseMotion) -> float:
-    """The total travel of a motion of polynomials."""
-    first, last = run.ends(0)
-    moved = np.abs(last - first)
-    table = run.powers(1)
-    control = bernstein.from_powers(table * run.lengths[:, None] ** np.arange(table.shape[1]))
-    # where all Bernstein coefficients of the velocity have one sign it does not change it
-    rows = np.flatnonzero(_turns(control))
-    moved[rows] = _travelled(control[rows], run.lengths[rows])
-    return float(moved.sum())
+    """The total travel of a motion of polynomials, cut where the velocity may change its sign.
+
+    Where all Bernstein coefficients of it have one sign it does not.
+    """
+    table, lengths, way = run.powers(1), run.lengths, 0.0
+    control = bernstein.from_powers(table * lengths[:, None] ** np.arange(table.shape[1]))
+    for cut in range(_CUTS + 1):
+        turning = (control.min(axis=1) < 0.0) & (control.max(axis=1) > 0.0) & (cut < _CUTS)
+        way += float(np.abs(control.mean(axis=1) * lengths)[~turning].sum())
+        if not turning.any():
+            break
+        control = bernstein.in_parts(control[turning])
+        lengths = np.repeat(lengths[turning] / bernstein.PARTS, bernstein.PARTS)
+    return way
 
 
 def travel_of_law(motion: Motion) -> float:
@@ -215,23 +219,6 @@ def travel_of_law(motion: Motion) -> float:
     turns = ([piece.start, *piece.turns, piece.stop] for piece in motion.pieces)
     ways = (np.diff(piece.values(np.array(x), 0)) for piece, x in zip(motion.pieces, turns, strict=True))
     return float(sum(np.abs(way).sum() for way in ways))
-
-
-def _turns(control: Array) -> NDArray[np.bool_]:
-    return np.asarray((control.min(axis=1) < 0.0) & (control.max(axis=1) > 0.0))
-
-
-def _travelled(control: Array, lengths: Array) -> Array:
-    """The ways of pieces given by Bernstein coefficients of their velocities, cut where they may turn."""
-    ways, rows = np.zeros(len(control)), np.arange(len(control))
-    for cut in range(_CUTS + 1):
-        turning = _turns(control) if cut < _CUTS else np.zeros(len(control), dtype=np.bool_)
-        np.add.at(ways, rows[~turning], np.abs(control.mean(axis=1) * lengths)[~turning])
-        if not turning.any():
-            break
-        control, rows = bernstein.in_parts(control[turning]), np.repeat(rows[turning], bernstein.PARTS)
-        lengths = np.repeat(lengths[turning] / bernstein.PARTS, bernstein.PARTS)
-    return ways
 
 
 @dataclass(frozen=True)

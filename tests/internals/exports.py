@@ -9,7 +9,7 @@ from optlaws.exports.formats.structured_text import function_block
 from optlaws.exports.point_tables import NumberFormat, akima_powers, point_table
 from optlaws.exports.polynomial_pieces import fitted
 from optlaws.exports.program_text import filled, template
-from optlaws.exports.report import task_sampling
+from optlaws.exports.report import task_sampling, travel_of_run
 from optlaws.exports.run_time.front_export import FrontExport
 from optlaws.exports.run_time.front_table import summation_bounds
 from optlaws.exports.run_time.planning import MoveStatus, RunTimeMove

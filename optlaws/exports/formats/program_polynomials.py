@@ -11,7 +11,7 @@ from optlaws.errors import InputError
 from optlaws.exports.error_bounds import SINGLE, error_bounds
 from optlaws.exports.format import BEST, Request
 from optlaws.exports.polynomial_pieces import OFF, Fitted, exactly, fitted
-from optlaws.exports.text import Labels, program_heading, real, rounded_up, safe
+from optlaws.exports.text import Labels, iec_comment, program_heading, real, rounded_up
 from optlaws.files.writing import MARK
 from optlaws.motion.motion import Motion
 from optlaws.motion.polynomials import PiecewiseMotion
@@ -64,8 +64,7 @@ def labels_of(motion: Motion, notes: Sequence[str] = ()) -> Labels:
 
 def iec_heading(title: str, motion: Motion, run: PiecewiseMotion, notes: Sequence[str]) -> str:
     """The comment at the head of a program in a language of IEC 61131-3."""
-    lines = safe([title, *program_heading(run, labels_of(motion, notes), []), MARK])
-    return "\n".join(["(*", *(f"   {line}".rstrip() for line in lines), "*)", ""])
+    return iec_comment((title, *program_heading(run, labels_of(motion, notes), []), MARK))
 
 
 def fields(**values: object) -> str:
