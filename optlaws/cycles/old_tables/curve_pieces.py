@@ -12,7 +12,6 @@ from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.laws.catalogue.catalogue import catalogue
 from optlaws.numbers import Array
-from optlaws.numerics.splines import hermite_powers
 
 _POLYNOMIAL = re.compile(r"POLY(?:NOM(?:IAL)?)?_?([1357])(?:_MM)?", re.IGNORECASE)
 _LINE = ("linear", "line")
@@ -44,8 +43,10 @@ def hermite(start: float, stop: float, first: Sequence[float], last: Sequence[fl
     >>> hermite(0.0, 2.0, [0.0, 0.0, 0.0], [1.0, 0.0, 0.0]).position(np.array([1.0])).tolist()
     [0.5]
     """
+    from scipy.interpolate import BPoly
+
     _check(start, stop)
-    return powers(start, stop, hermite_powers(np.array([0.0, stop - start]), np.array([first, last]).T)[0].tolist())
+    return CurvePiece(start, stop, BPoly.from_derivatives([0.0, stop - start], [list(first), list(last)]))
 
 
 def of_profile(
