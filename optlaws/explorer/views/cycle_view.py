@@ -145,7 +145,8 @@ def _segments(report: CycleReport) -> Iterator[dict[str, Any]]:
 
 def _beyond(extremes: tuple[tuple[float, float], tuple[float, float]], limits: tuple[float, float]) -> bool:
     (least, _), (most, _) = extremes
-    return not (is_kept(-least, -limits[0]) and is_kept(most, limits[1]))
+    rounding = AGREEMENT * max(abs(least), abs(most))
+    return least < limits[0] - rounding or most > limits[1] + rounding
 
 
 def trust(shown: Cycle) -> dict[str, Any] | None:
