@@ -32,9 +32,8 @@ from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.mechanisms.drives.motor import OF_TORQUE, Motor
 from optlaws.motion.display_units import MILLI, TURN_DEG, UNITS
 from optlaws.numbers import Quantity
-from optlaws.numerics.peaks import is_kept
 from optlaws.sentences import Amount, joined, sentence
-from optlaws.tolerances import BOUND_SLACK
+from optlaws.tolerances import AGREEMENT, BOUND_SLACK
 
 _MOTION = ("velocity", "acceleration", "deceleration", "jerk", "snap")
 _LIMITS = {"motion": _MOTION, "machine": (*_MOTION, "torque", "rms torque", "power", "energy", "motor")}
