@@ -307,7 +307,8 @@ class Listed(ValueType):
 
     def read(self, value: Any, name: str) -> tuple[Any, ...]:
         if isinstance(value, str | Mapping) or not isinstance(value, Sequence):
-            raise InputError(f"{name} must be {self.words}, got {shortened(value)}")
+            remedy = f"; in a file write [[{name}]] in place of [{name}]" if isinstance(value, Mapping) else ""
+            raise InputError(f"{name} must be {self.words}, got {shortened(value)}{remedy}")
         if not self.least <= len(value) <= self.most:
             ends = f"{self.least} at least" if len(value) < self.least else f"{self.most} at most"
             raise InputError(f"{name} must be a list of {ends}, each {self.of.words}, got {shortened(list(value))}")

@@ -121,6 +121,7 @@ def _of_cycle(cam: TransitionCam, cycle: Cycle, nu: int, size: float) -> tuple[A
 
 
 _INSIDE_RUN = 25
+_DESIGNED = {"color": GREY, "linewidth": 4.0, "alpha": 0.5, "label": "as designed"}  # wide, to be seen below the run
 
 
 def draw_export(export: Export, axes: Any = None, **style: Any) -> list[Artist]:
@@ -132,7 +133,7 @@ def draw_export(export: Export, axes: Any = None, **style: Any) -> list[Artist]:
     # a piece with its ends as seen from inside, so that a jump is upright
     shares = np.linspace(INSIDE_PIECE, 1.0 - INSIDE_PIECE, _INSIDE_RUN)
     places = (joints[:-1, None] + np.diff(joints)[:, None] * shares).ravel()
-    looks: Any = ({"color": GREY, "label": "as designed"}, {"color": BLUES[3], "label": "as run"} | style)
+    looks: Any = (_DESIGNED, {"color": BLUES[3], "label": "as run"} | style)
     artists: list[Artist] = []
     for nu, panel in enumerate(panels):
         for values, look in zip((motion(places, nu), run(places, nu)), looks, strict=True):

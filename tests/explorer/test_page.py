@@ -195,6 +195,23 @@ def test_nothing_overflows(page: Page, served: Server) -> None:
         assert page.evaluate(f"() => {cells}.every((one) => one.scrollWidth <= one.clientWidth)")
 
 
+CUT = """() => [...document.querySelectorAll(".view:not([hidden]) :is(input[type=text], select)")].filter((one) => {
+  const pen = document.createElement("canvas").getContext("2d");
+  const style = getComputedStyle(one);
+  pen.font = `${style.fontWeight} ${style.fontSize} ${style.fontFamily}`;
+  const text = one.tagName === "SELECT" ? one.selectedOptions[0]?.textContent ?? "" : one.value || one.placeholder;
+  const sides = parseFloat(style.paddingLeft) + parseFloat(style.paddingRight);
+  return one.checkVisibility() && one.title !== text && pen.measureText(text).width > one.clientWidth - sides + 0.5;
+}).map((one) => one.getAttribute("aria-label"))"""
+
+
+@pytest.mark.parametrize("view", ["laws", "cycle", "axes", "cam", "machine", "fastest", "old"])
+def test_no_field_is_cut_that_does_not_tell_its_text(page: Page, served: Server, view: str) -> None:
+    go(page, served.link(view=view, laws=[OPTIMAL]))
+    settle(page)
+    assert page.evaluate(CUT) == []
+
+
 def test_dark_and_light_are_the_readers_choice(page: Page, served: Server) -> None:
     go(page, f"http://{served.host}/")
     ground = "() => getComputedStyle(document.body).color"

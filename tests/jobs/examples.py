@@ -178,6 +178,8 @@ EXAMPLES = {
         (
             ("200 rpm", "200 mm", "speed must be an angular velocity such as '200 rpm', but '200 mm' is a length"),
             ('"616 mm/s"', '"616 mm"', "axis slide: limits: velocity must be a velocity.*is a length"),
+            ('speed = "200 rpm"\n', "", r"(?<=small\.toml): a cycle has either a speed"),
+            ("[[axis]]", "[axis]", r"write \[\[axis\]\] in place of \[axis\]"),
             ("120 deg", "220 deg", "axis slide: the durations sum to 410 deg"),
             ('kind = "return"', 'kind = "retrun"', "kind"),
             ('duration = "90 deg"', 'duration = "90 deg"\nby = "3 mm"', "segment 2: unknown entry of a dwell 'by'"),

@@ -54,6 +54,7 @@ export class Form {
       const value = read(table, path);
       const shown = choices && value === String(usual) ? "" : value;
       if (document.activeElement !== field || field.value.trim() !== shown) field.value = shown;
+      field.title = value || placeholder;
     });
     return html("label", { class: "entry" }, html("span", { class: "field-name", text: label, title: about ?? name }), field);
   }

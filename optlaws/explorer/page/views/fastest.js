@@ -12,7 +12,7 @@ import { table } from "../report_table.js";
 import { Strip } from "../strip.js";
 import { html, renew, svg } from "../svg.js";
 import { showTrust, unanswered } from "../trust.js";
-import { headed, number, shownUnit, written } from "../units.js";
+import { headed, shownUnit, written } from "../units.js";
 
 const told = (value) => JSON.stringify(value);
 const word = (value, digits = 5) => String(Number(value.toPrecision(digits))).replace("-", "−");
@@ -283,7 +283,7 @@ function coloured({ panels, segments }) {
   return panels.map((panel) => {
     const [curve] = panel.series;
     const parts = segments.map(({ at: [from, to], law }) => {
-      const [start, stop] = [curve.at.findIndex((at) => at >= from), curve.at.findLastIndex((at) => at <= to) + 1];
+      const [start, stop] = [curve.at.findIndex((at) => at >= from), curve.at.findLastIndex((at) => at <= to) + 2]; // on to the first place of the next one
       return { law: `bind-${law}`, at: curve.at.slice(start, stop), values: curve.values.slice(start, stop) };
     });
     return { ...panel, series: [curve, ...parts] };
@@ -297,6 +297,6 @@ function legend({ shares }) {
 }
 
 function taken({ rows }) {
-  const cells = rows.map(({ name, value, text, full }) => [...(value.unit ? [headed(name, value.unit), number(value.value, value.unit, value.digits)] : [name, value]), text && `${text} %${full ? " binds" : ""}`]);
+  const cells = rows.map(({ name, value, text, full }) => [name, value, text && `${text} %${full ? " binds" : ""}`]);
   return table("What is taken of each limit", ["", "value", "of the limit"], cells, (i, j) => (j === 2 && rows[i].full ? { class: "best" } : {}));
 }
