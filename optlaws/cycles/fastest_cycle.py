@@ -9,6 +9,7 @@ from typing import Any
 
 from optlaws.cycles.greatest_speed.fastest_search import FastestSearch, TimedSpan
 from optlaws.cycles.kinematics import TimedCycle
+from optlaws.cycles.moves.fastest_move import limit_row
 from optlaws.cycles.optimisation.motion_limits import amount, word_of
 from optlaws.cycles.optimisation.motor_limits import MOTOR
 from optlaws.cycles.optimisation.objectives import CycleObjective
@@ -105,6 +106,9 @@ class FastestCycle:
         `proofs` or, of laws that are given, by their closed form; else local.
     proofs
         By the name of a motion: no law keeps its limits in a millionth less time than the motion has.
+    limit
+        The period in seconds that no laws of any degree beat, by the segments of greatest jerk, acceleration and
+        velocity; None where it is not known, as within limits of a drive, and of ends that move.
 
     Examples
     --------
@@ -124,6 +128,7 @@ class FastestCycle:
     binding: tuple[str, ...]
     proofs: Mapping[str, Certificate] = field(compare=False)
     _raised: Mapping[str, Callable[[], float]] = field(compare=False)
+    limit: float | None = None
 
     @property
     def speed(self) -> float:
@@ -178,6 +183,7 @@ class FastestCycle:
         rows = [Row("greatest speed", self.rpm, "rpm"), Row("least period", self.period, "s")]
         if self.lower_bound is not None:
             rows.append(Row("proven: none below", self.lower_bound, "s"))
+        rows.append(limit_row(self.limit, self.period))
         return Summary([*rows, *(Row("binds", text) for text in self.binding)])
 
     def claims(self) -> dict[str, Any]:
@@ -242,7 +248,15 @@ def fastest_cycle(cycle: Any, objective: CycleObjective) -> FastestCycle:
     segments = tuple(_least_duration(search, span) for span in search.spans)
     raised = {name: partial(_raised_period, search, name) for name in search.binding_limits}
     return FastestCycle(
-        cycle, limited, segments, search.status, laws.period, _binding(search, segments), search.proofs, raised
+        cycle,
+        limited,
+        segments,
+        search.status,
+        laws.period,
+        _binding(search, segments),
+        search.proofs,
+        raised,
+        search.limit,
     )
 
 

@@ -157,7 +157,7 @@ def fastest_facts(fastest: FastestCycle) -> dict[str, Any]:
     """The greatest speed of an axis for programs."""
     return {
         "status": fastest.status.value,
-        **{name: getattr(fastest, name) for name in ("speed", "rpm", "period", "lower_bound")},
+        **{name: getattr(fastest, name) for name in ("speed", "rpm", "period", "lower_bound", "limit")},
         "gains": [vars(gain) for gain in fastest.gains],
         "segments": [{**vars(each), "limits": list(each.limits)} for each in fastest.segments],
     }

@@ -8,7 +8,7 @@ motion less than its least time, in which no law keeps its limits.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from math import isfinite
 
@@ -138,19 +138,36 @@ class FastestSearch:
     @kept_property
     def unrated(self) -> float:
         """The least period by the limits of the segments, in seconds."""
-        turned = (
-            max((span.least.scale for span in self.spans if self._turns(span)), default=0.0) * self.programme.period
-        )
-        free = least_period(self.ranges, self.needed)
-        if free >= turned and not self.turning:
-            self._check_vanishing(free)
-        return max(turned, free)
+        period, turned = self._summed([span.least.scale for span in self.spans])
+        if period > turned and not self.turning:
+            self._check_vanishing(period)
+        return period
+
+    @property
+    def limit(self) -> float | None:
+        """A period that no laws of any degree beat, in seconds; None where it is not known of a motion that binds."""
+        if self.rating is not None and self.rating.binds:
+            return None
+        if any(span.least.limit is None for span in self.binding):
+            return None
+        return self._summed([span.least.limit or 0.0 for span in self.spans])[0]
+
+    def _summed(self, scales: Sequence[float]) -> tuple[float, float]:
+        """The least period at which motions have such scales of their times, and that of those which turn alone."""
+        turning = [scale for span, scale in zip(self.spans, scales, strict=True) if self._turns(span)]
+        turned = max(turning, default=0.0) * self.programme.period
+        return max(turned, least_period(self.ranges, self._alone(scales))), turned
+
+    def _alone(self, scales: Sequence[float]) -> tuple[float, ...]:
+        """The least duration of each segment in seconds, by its own limits; 0 without any."""
+        timed = zip(self.spans, scales, strict=True)
+        alone = {span.places[0]: span.duration * scale for span, scale in timed if len(span.places) == 1}
+        return tuple(alone.get(i, 0.0) for i in range(len(self.ranges)))
 
     @property
     def needed(self) -> tuple[float, ...]:
         """The least duration of each segment in seconds, by its own limits; 0 without any."""
-        alone = {span.places[0]: span.needed for span in self.spans if len(span.places) == 1}
-        return tuple(alone.get(i, 0.0) for i in range(len(self.ranges)))
+        return self._alone([span.least.scale for span in self.spans])
 
     @kept_property
     def durations(self) -> tuple[float, ...]:

@@ -11,10 +11,10 @@ from optlaws.cycles.optimisation.motion_limits import name_of
 from optlaws.errors import InfeasibleProblem, SolverFailure
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
-from optlaws.synthesis.least_time.move_limits import MoveLimits, RateLimit
+from optlaws.synthesis.least_time.move_limits import MoveLimits, RateLimit, TimedLimit
 from optlaws.synthesis.least_time.segment_times import time_of_any_law
-from optlaws.synthesis.least_time.time_search import found
-from optlaws.synthesis.least_time.timed import Timed, TimedLimit
+from optlaws.synthesis.least_time.time_search import fastest_law
+from optlaws.synthesis.least_time.timed import Timed
 from optlaws.synthesis.problem.constants import B, C, C_minus, C_plus, D, J, meant, snap
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.proof.certificate import Certificate
@@ -109,6 +109,11 @@ class SpanTime:
         return bound if bound is not None and bound.bound > allowed else None
 
     @property
+    def limit(self) -> float | None:
+        """The scale that no law of any degree is faster than, or that of a given law; None where it is not known."""
+        return self.scale if self.base is None else TimedProblem(self.base, self.rows).limit
+
+    @property
     def binding(self) -> tuple[SpanLimit, ...]:
         """The limits that the law takes to the full."""
         if self.law is None:
@@ -131,7 +136,7 @@ def least_time(base: Problem, rows: Sequence[SpanLimit], where: str) -> SpanTime
         If the scale is not met.
     """
     try:
-        scale, solution, proofs = found(TimedProblem(base, tuple(rows)))
+        scale, solution, proofs = fastest_law(TimedProblem(base, tuple(rows)))
     except SolverFailure as error:
         raise SolverFailure(
             f"{where}: no least time was found: widen its limits a little, or give it another degree",

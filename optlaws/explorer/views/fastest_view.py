@@ -193,12 +193,16 @@ class _CycleSearch:
     spec: CycleProblemFile
     axis: AxisEntries
     least: FastestCycle
-    word, note, limit = "period", "", None
+    word, note = "period", ""
     objectives = ()
 
     @property
     def time(self) -> float:
         return self.least.period
+
+    @property
+    def limit(self) -> float | None:
+        return self.least.limit
 
     @property
     def minimise(self) -> str:

@@ -7,7 +7,7 @@ from math import inf, nextafter, sqrt
 from optlaws.entries.declared import Declared, declared, entry
 from optlaws.entries.value_types import Number
 from optlaws.errors import InputError
-from optlaws.synthesis.least_time.timed import TimedLimit
+from optlaws.synthesis.least_time.move_limits import TimedLimit
 from optlaws.synthesis.problem.named_constants import named
 from optlaws.tolerances import LIMIT_ROUNDING
 

@@ -16,7 +16,7 @@ from optlaws.formulas.reading import read
 from optlaws.formulas.slopes import constant
 from optlaws.laws import smoothstep
 from optlaws.synthesis.functionals.makers import drive_torque, peak, rms
-from optlaws.synthesis.least_time.timed import TimedLimit
+from optlaws.synthesis.least_time.move_limits import TimedLimit
 from optlaws.synthesis.limits.drive_limits import limit_of_plane, phase_torque
 from optlaws.synthesis.limits.phase_plane import PhasePlane, TorqueLimit
 from optlaws.synthesis.problem.constants import Functional

@@ -19,6 +19,14 @@ class RateLimit(NamedTuple):
     rate: float
 
 
+class TimedLimit(NamedTuple):
+    """A limit of a law in a time: its name, the constant of the law and the greatest allowed value."""
+
+    name: str
+    constant: Functional
+    bound: float
+
+
 _LIMIT = Number(above=0.0)
 
 

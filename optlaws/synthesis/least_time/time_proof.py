@@ -57,7 +57,7 @@ class TimeProof(Declared, title="a proof of a least time"):
 
         What is proven without the limit of the vibration that is left holds with it.
         """
-        if move.vibrates and self.shortest > 0.0:
+        if move.residual is not None and self.shortest > 0.0:
             over = move.within(self.longest, self.shortest) if move.stays_possible else None
             proves = self.certificate.problem == over and self.certificate.program == VIOLATION
             return [self.certificate] if proves else []
@@ -99,8 +99,7 @@ class Multipliers:
         proof, bound, powers = solution.certificate, solution.lower_bound, powers_of(duration)
         weights = _weights(move, duration, proof.contacts)
         ends, constant = [], bound
-        moving = zip(move.rates_at_start, move.rates_at_end, strict=True)
-        for i in (i for i, rates in enumerate(moving) if any(rates)):
+        for i in (i for i, rates in enumerate(move.moving) if any(rates)):
             doubled = tuple(2.0 * each if i == j else each for j, each in enumerate(powers))
             share = replace(proof, problem=move.shares(duration, ends=doubled)).bound - bound
             ends.append((i + 1, share / powers[i]))
@@ -180,7 +179,7 @@ class Multipliers:
 
 def proof_by(certificate: Certificate, move: Timed, shortest: float, longest: float) -> TimeProof:
     """The proof of an interval by the multipliers of an optimum, without multipliers of the share's parts."""
-    problem = move.within(longest, shortest if shortest and move.vibrates else None)
+    problem = move.within(longest, shortest if shortest and move.residual is not None else None)
     # rows of an amplitude are in units of its bound, where it has one
     units = {constant.name: bound.high for constant, bound in problem.bounds.items() if constant.normalised}
     of_rows = [

@@ -232,12 +232,12 @@ def least_time(move: TimedMove, near: LeastTime | None = None) -> LeastTime:
     Raises
     ------
     InfeasibleProblem, InputError, SolverFailure
-        As `found`.
+        As `fastest_law`.
     """
-    return LeastTime(move, *found(move, near))
+    return LeastTime(move, *fastest_law(move, near))
 
 
-def found(move: Timed, near: LeastTime | None = None) -> Found:
+def fastest_law(move: Timed, near: LeastTime | None = None) -> Found:
     """The least time of a move or of a span of a cycle, the law that takes it, and the proofs that none is faster.
 
     Raises
@@ -250,8 +250,8 @@ def found(move: Timed, near: LeastTime | None = None) -> Found:
         If the steps do not settle.
     """
     with meant():
-        if move.vibrates:
-            return _of_vibration(move, found(move.without_residual))
+        if move.residual is not None:
+            return _of_vibration(move, fastest_law(move.without_residual))
         if not move.of_rates:
             return _by_bracketing(move, near)
         duration, solution, known = _from_either_side(move, near) if move.at_rest else _from_below(move)

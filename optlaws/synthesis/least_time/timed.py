@@ -6,10 +6,10 @@ from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import replace
 from math import comb
-from typing import NamedTuple
 
 from optlaws.laws import MotionLaw
-from optlaws.synthesis.least_time.move_limits import RateLimit
+from optlaws.synthesis.least_time.follower_residual import FollowerResidual
+from optlaws.synthesis.least_time.move_limits import RateLimit, TimedLimit
 from optlaws.synthesis.problem.constants import Functional
 from optlaws.synthesis.problem.expression import Expression, maximum
 from optlaws.synthesis.problem.problem import Problem
@@ -20,14 +20,6 @@ _HIGHEST = 4
 
 #: a time to the powers 1 to 4, or what stands for them in a Bernstein form
 Powers = tuple[float, ...]
-
-
-class TimedLimit(NamedTuple):
-    """A limit of a law in a time: its name, the constant of the law and the greatest allowed value."""
-
-    name: str
-    constant: Functional
-    bound: float
 
 
 class Timed(ABC):
@@ -73,19 +65,14 @@ class Timed(ABC):
         return True
 
     @property
-    def rates_at_start(self) -> tuple[float, ...]:
-        """Velocity, acceleration, jerk at the start, as many as the order has conditions."""
+    def moving(self) -> tuple[tuple[float, float], ...]:
+        """Velocity, acceleration and so on at both ends where they are given, in units of the stroke and seconds."""
         return ()
 
     @property
-    def rates_at_end(self) -> tuple[float, ...]:
-        """Velocity, acceleration, jerk at the end, as many as the order has conditions."""
-        return ()
-
-    @property
-    def vibrates(self) -> bool:
-        """Whether the vibration that is left has a limit, which a longer time may break."""
-        return False
+    def residual(self) -> FollowerResidual | None:
+        """The vibration that is left, with its limit, which a longer time may break; None without a follower."""
+        return None
 
     @property
     def without_residual(self) -> Timed:
@@ -132,7 +119,7 @@ class Timed(ABC):
         >>> [each.range("J").high for each in move.within_control_points(1.0, 2.0)]
         [1.0, 2.0, 4.0, 8.0]
         """
-        ends = (nu for rates in (self.rates_at_start, self.rates_at_end) for nu, rate in enumerate(rates, 1) if rate)
+        ends = (nu for nu, rates in enumerate(self.moving, start=1) if any(rates))
         degree = max([2, *ends, *(limit.nu for limit in self.rates)])
         points = [control_point(shortest, longest, i, degree) for i in range(degree + 1)]
         return [self._within(self._limits_of_rates(powers), powers) for powers in points]
@@ -160,10 +147,10 @@ class Timed(ABC):
 
     def _within(self, limits: Sequence[TimedLimit], powers: Powers) -> Problem:
         bounds: dict[object, Range] = dict(self.problem.bounds)
-        own: dict[Functional, float] = {}
+        most: dict[Functional, float] = {}
         for limit in limits:
-            own[limit.constant] = min(limit.bound, own.get(limit.constant, limit.bound))
-        bounds.update((constant, at_most(bound)) for constant, bound in own.items())
+            most[limit.constant] = min(limit.bound, most.get(limit.constant, limit.bound))
+        bounds.update((constant, at_most(bound)) for constant, bound in most.items())
         return replace(self.problem, boundary=self._ends(powers), bounds=bounds)
 
     def _ends(self, powers: Powers) -> BoundaryConditions | None:  # noqa: ARG002 - of ends that move

@@ -12,9 +12,9 @@ from optlaws.kept import kept_property
 from optlaws.numbers import finite, positive
 from optlaws.synthesis.least_time.follower_residual import FollowerResidual
 from optlaws.synthesis.least_time.motor_torque import MotorTorque
-from optlaws.synthesis.least_time.move_limits import MoveLimits, RateLimit
+from optlaws.synthesis.least_time.move_limits import MoveLimits, RateLimit, TimedLimit
 from optlaws.synthesis.least_time.segment_times import LimitSegments, segment_times, time_of_any_law
-from optlaws.synthesis.least_time.timed import Powers, Timed, TimedLimit, power, powers_of
+from optlaws.synthesis.least_time.timed import Powers, Timed, power, powers_of
 from optlaws.synthesis.problem.constants import B, C, C_minus, C_plus, J, snap
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
@@ -125,13 +125,8 @@ class TimedMove(Timed):
 
     @property
     def of_rates(self) -> bool:
-        """Whether these are all limits, so that the multipliers of one time speak of all times."""
+        """Whether all limits are of derivatives."""
         return self.torque is None and self.residual is None
-
-    @property
-    def vibrates(self) -> bool:
-        """Whether the vibration that is left has a limit, which a longer time may break."""
-        return self.residual is not None
 
     @property
     def begin(self) -> float:
@@ -202,24 +197,17 @@ class TimedMove(Timed):
         if self.at_rest:
             return None
         start, end = (
-            tuple(rate * powers[i] / self.stroke if rate else 0.0 for i, rate in enumerate(rates))
-            for rates in (self.rates_at_start, self.rates_at_end)
+            [rates[side] * powers[i] / self.stroke if rates[side] else 0.0 for i, rates in enumerate(self.moving)]
+            for side in (0, 1)
         )
         return BoundaryConditions((0.0, *start), (1.0, *end))
 
     @property
-    def rates_at_start(self) -> tuple[float, ...]:
-        """Velocity, acceleration, jerk at the start, as many as the order has conditions."""
-        return self._as_conditions(self.start_velocity, 0.0, 0.0)
-
-    @property
-    def rates_at_end(self) -> tuple[float, ...]:
-        """Velocity, acceleration, jerk at the end, as many as the order has conditions."""
-        return self._as_conditions(self.end_velocity, self.end_acceleration, self.end_jerk)
-
-    def _as_conditions(self, *rates: float) -> tuple[float, ...]:
+    def moving(self) -> tuple[tuple[float, float], ...]:
+        """Velocity, acceleration and jerk at both ends, as many as the order has conditions."""
+        given = ((self.start_velocity, self.end_velocity), (0.0, self.end_acceleration), (0.0, self.end_jerk))
         count = self.problem.order - 1
-        return (rates + (0.0,) * count)[:count]
+        return (*given, *((0.0, 0.0),) * count)[:count]
 
     def least_conceivable(self) -> float:
         """A time that no motion is faster than, by the lowest derivative that is limited and the velocity at an end."""
