@@ -257,7 +257,7 @@ def _problem_of_several(span: LawSpan, objective: CycleObjective, axis: str, str
     minimised, highest = kind_of(objective.minimise)[0], _highest_limited(span, objective, axis)
     if objective.of_load:
         minimised = Kind.LOAD
-    elif Kind.POWER in objective.limits or minimised in SUMS:
+    elif Kind.POWER in objective.limits or minimised is Kind.ENERGY:
         minimised = Kind.POWER
     elif highest > minimised.order:
         minimised = Kind(highest)

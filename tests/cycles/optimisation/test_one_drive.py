@@ -237,3 +237,17 @@ def test_the_limits_of_a_motor_make_one_fastest_cycle(rests: bool) -> None:  # n
     )
     assert (first.status, first.binding) == (second.status, second.binding)
     assert first.period == pytest.approx(second.period, rel=1e-9)
+
+
+@pytest.mark.parametrize("regeneration", [0.0, 1.0])
+def test_motions_that_turn_back_burn_no_more_heat_than_those_of_the_least_rms_torque(regeneration: float) -> None:
+    """The copper heat is that of the root mean square: where all braking is fed back both have the same laws."""
+    motor = Motor("0.01 kg m^2", constant=0.3)
+    drive = Drive(Mechanism("0.5 kg m^2", "1.5 N m"), motor, ratio=5, regeneration=regeneration)
+    heat, rms = (Cycle(TURNS["swings"], period="0.5 s", drive=drive, minimise=what) for what in ("heat", "rms torque"))
+    known = rms.value("heat")
+    assert heat.objective == pytest.approx(known, rel=1e-8) if regeneration else heat.objective < known
+    assert heat.lower_bound is not None
+    assert heat.lower_bound <= heat.objective * (1.0 + 1e-9)
+    copper = rms.effort.rms_force**2 * rms.duration / 0.3**2
+    assert known == pytest.approx(copper + (1.0 - regeneration) * rms.effort.braking_energy)
