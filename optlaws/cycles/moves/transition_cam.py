@@ -209,6 +209,11 @@ class TransitionCam(Declared, title="a transition cam"):
             binding = ", ".join(self.least.binding)
             rows.append(Row("proven: none below", self.least.none_below, "s", note=f"{binding} binds"))
             rows.append(limit_row(self.least.limit, self.duration))
+        elif self.solution.limit is None:
+            rows.append(limit_row(None, self.duration))
+        else:
+            note = f"least {self.solution.problem.minimise} of any degree, as a share of that of the law"
+            rows.append(Row("limit", self.solution.limit / self.solution.objective, note=note))
         for nu, name in enumerate(QUANTITIES[1:], start=1):
             value, place = max(self.piece.extremes(nu, 0.0, self.duration), key=lambda each: abs(each[0]))
             rows.append(Row(f"peak {name}", abs(value), unit_of(self.axis, nu), place))

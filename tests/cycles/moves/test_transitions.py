@@ -273,3 +273,22 @@ def test_they_are_tabled_drawn_exported_and_proven(tmp_path: Path) -> None:
     table = [row.split(",") for row in (tmp_path / "out" / "slide_run_in.csv").read_text("utf-8").splitlines()[2:]]
     assert [float(cell) for cell in table[-1][:4]] == pytest.approx([20.0, 0.25, 10 * (0.5 - 1 / pi), 90.0], rel=1e-6)
     assert exit_code(["verify", str(tmp_path / "out" / "transitions.json")]) == 0
+
+
+def test_the_summary_says_what_no_law_of_any_degree_beats_or_that_it_is_not_known() -> None:
+    """Of a cycle with a dwell: in a given time from rest to rest, into a motion, and in the least time."""
+    segments = [Rise("35 mm", "90 deg", law="cycloidal"), Dwell("90 deg"), Return(law="cycloidal")]
+    cycle = Cycle(segments, speed="30 rpm", limits=LIMITS)
+
+    def limit(**given: Any) -> Any:
+        return next(row.value for row in cycle.run_in(**given).summary() if row.name == "limit")
+
+    assert limit(at="30 deg", over="90 deg") == "not known"
+    assert limit(at="30 deg", rest="-20 mm") == "not known"
+    assert 0.5 < limit(at="120 deg", over="90 deg") <= 1.0
+    least = cycle.run_in(at="120 deg").least
+    assert least is not None
+    assert limit(at="120 deg") == least.limit
+    # seven segments over 35 mm: the acceleration and the jerk bind, not the velocity
+    ramp, peak = 0.04, (-0.16 + (0.16**2 + 16.0 * 0.035) ** 0.5) / 2.0
+    assert least.limit == pytest.approx(2.0 * (peak / 4.0 + ramp), rel=1e-9)
