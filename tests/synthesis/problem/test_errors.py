@@ -180,7 +180,7 @@ def test_a_start_that_is_no_solution_is_refused(wrong: Any) -> None:
     "call",
     [
         lambda: Problem(B=1.5, ordr=4),  # type: ignore[call-arg]
-        lambda: Problem(1.5, 4),  # type: ignore[call-arg]
+        lambda: Problem(1.5, 4),  # type: ignore[arg-type, call-arg]
         lambda: Powers(degre=3),  # type: ignore[call-arg]
         lambda: Chebyshev(degre=3),  # type: ignore[call-arg]
         lambda: BoundaryConditions(begin=(0,), end=(1,)),  # type: ignore[call-arg]
