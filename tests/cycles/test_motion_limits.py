@@ -206,6 +206,8 @@ def test_a_given_law_that_goes_back_is_refused_where_it_must_not() -> None:
         cycle(segments=moves, limits=FORTH).objective  # noqa: B018 - laws are looked at when they are needed
     with pytest.raises(InfeasibleProblem, match=r"segment 1 \(Rise\): its law goes back, .* at any speed"):
         cycle(segments=moves, limits=FORTH | {"acceleration": "20 m/s^2"}).fastest()
+    with pytest.raises(InfeasibleProblem, match=r"axis slide: segment 1 \(Rise\): its law goes back, .* at any speed"):
+        Axes({"slide": cycle(segments=moves, limits=FORTH | {"acceleration": "20 m/s^2"})}).fastest()
 
 
 @pytest.mark.parametrize(

@@ -227,6 +227,7 @@ class FastestSearch:
 
     def of_law(self, span: LawSpan, law: MotionLaw) -> SpanTime:
         """The least time of a law within the limits of a span."""
+        self._check_way(span.stretches[0], Piece(*span.times, span.offset, scale(span), law))
         return least_time_of_law(law, self._rows(span, scale(span)))
 
     def fastest(self, span: LawSpan) -> SpanTime:

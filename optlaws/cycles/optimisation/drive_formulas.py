@@ -110,20 +110,16 @@ def driven_mean(span: LawSpan, drive: Drive | None, stroke: float) -> Driven:
     return Driven((rms(formula),), unit, _friction(span, linear), formula)
 
 
-def force_unit(span: LawSpan, drive: Drive, stroke: float) -> float:
-    """The order of magnitude of the force along a span, as its unit."""
-    if drive.linear is not None:
-        return drive.linear.size(stroke, span.duration, span.origin)
-    return 4.0 * moved(span, drive, stroke).unit
-
-
 def moved(span: LawSpan, drive: Drive, stroke: float) -> StrokeTorque:
     """Torque, power and energy over a span as formulas of a law that never turns back."""
     return drive.dimensionless(span.origin, stroke, span.duration, begins=span.start)
 
 
 def _unit(span: LawSpan, drive: Drive, stroke: float) -> float:
-    unit = force_unit(span, drive, stroke)
+    """The order of magnitude of the force along a span, as its unit."""
+    if drive.linear is None:
+        return 4.0 * moved(span, drive, stroke).unit
+    unit = drive.linear.size(stroke, span.duration, span.origin)
     if unit == 0.0:
         raise InputError("drive: nothing resists the motion: give it a mass, an inertia, a spring or friction")
     return unit
