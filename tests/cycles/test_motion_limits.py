@@ -1,9 +1,11 @@
 """Limits of both sides apart, of slowing down, and of the snap: against closed forms, and kept over the whole cycle."""
 
-from math import sqrt
+from math import inf, sqrt
 from typing import Any
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from optlaws import (
     Axes,
@@ -235,3 +237,37 @@ def test_the_fastest_cycle_and_the_fastest_move_never_turn_back_alike() -> None:
     ways = [Dwell("90 deg"), Free("30 mm", "90 deg"), Free("5 mm", "60 deg"), Return("35 mm")]
     several = cycle(segments=ways, limits=limits).fastest().cycle
     assert max(backwards(several, i) for i in range(len(several.pieces))) < 1e-8
+
+
+_SOME = st.none() | st.floats(1.0, 99.0)
+
+
+def accelerations(data: st.DataObject, name: str) -> tuple[dict[str, Any], tuple[float, float], tuple[float, float]]:
+    """Limits of the acceleration as entries, as an interval of the axis, and as one along the motion."""
+    entries: dict[str, Any] = {}
+    signed, along = (-inf, inf), (-inf, inf)
+    most, slow, low = (data.draw(_SOME, f"{name}: {what}") for what in ("most", "deceleration", "least"))
+    if slow is not None:
+        entries["deceleration"], along = f"{slow!r} m/s^2", (-slow, inf)
+    if most is not None and low is not None:
+        entries["acceleration"], signed = (f"{-low!r} m/s^2", f"{most!r} m/s^2"), (-low, most)
+    elif most is not None:
+        entries["acceleration"] = f"{most!r} m/s^2"
+        signed, along = (signed, (along[0], most)) if slow is not None else ((-most, most), along)
+    return entries, signed, along
+
+
+@given(st.data(), st.booleans())
+def test_limits_of_a_segment_are_what_those_of_cycle_and_segment_have_in_common(
+    data: st.DataObject,
+    back: bool,  # noqa: FBT001 - a case
+) -> None:
+    of_cycle, *known = accelerations(data, "cycle")
+    of_segment, *more = accelerations(data, "segment")
+    move = Move("-35 mm" if back else "35 mm", "120 deg", limits=of_segment, law="cycloidal")
+    limited = cycle(segments=[move, Dwell("60 deg"), Move(to="0 mm", law="cycloidal")], limits=of_cycle)
+    low, high = -inf, inf
+    for signed, along in (known, more):
+        turned = (-along[1], -along[0]) if back else along
+        low, high = max(low, signed[0], turned[0]), min(high, signed[1], turned[1])
+    assert limited.limits_of_segments[0].get(2, (-inf, inf)) == (low, high)
