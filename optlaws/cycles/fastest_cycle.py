@@ -243,20 +243,13 @@ def fastest_cycle(cycle: Any, objective: CycleObjective) -> FastestCycle:
         )
     search = FastestSearch(cycle.programme, objective, {})
     laws = search.laws()
-    timed = TimedCycle(laws.programme, laws.starts, laws.pieces)
-    limited = replace(cycle, segments=timed.at_speed(1.0), speed=None, period=f"{laws.period!r} s")
+    timed = TimedCycle(replace(search.programme, period=search.period), laws.starts, laws.pieces)
+    limited = replace(cycle, segments=timed.at_speed(1.0), speed=None, period=f"{search.period!r} s")
     segments = tuple(_least_duration(search, span) for span in search.spans)
     raised = {name: partial(_raised_period, search, name) for name in search.binding_limits}
+    binding = _binding(search, segments)
     return FastestCycle(
-        cycle,
-        limited,
-        segments,
-        search.status,
-        laws.period,
-        _binding(search, segments),
-        search.proofs,
-        raised,
-        search.limit,
+        cycle, limited, segments, search.status, search.period, binding, search.proofs, raised, search.limit
     )
 
 

@@ -12,7 +12,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from math import isfinite
 
-from optlaws.cycles.greatest_speed.force_rating import ForceRating, PlacedLaw
+from optlaws.cycles.greatest_speed.force_rating import ForceRating
 from optlaws.cycles.greatest_speed.periods import DurationRange, duration_ranges, durations_at, least_period
 from optlaws.cycles.greatest_speed.scaling import SpanLimit, slower
 from optlaws.cycles.greatest_speed.span_limits import limits_of_span
@@ -39,7 +39,6 @@ from optlaws.motion.quantity_kinds import Kind
 from optlaws.sentences import sentence
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.proof.certificate import VIOLATION, Certificate
-from optlaws.synthesis.solution import Solution
 from optlaws.synthesis.status import Status
 from optlaws.tolerances import AGREEMENT, BINDING_LIMIT, CLOSURE, SAME_TIME
 
@@ -50,30 +49,26 @@ _JERK = 3
 
 @dataclass(frozen=True)
 class TimedSpan:
-    """A motion of the cycle: its segments by their places, its duration where it was looked at, and its least time."""
+    """A motion of the cycle, its duration where it was looked at, and its least time."""
 
-    places: tuple[int, ...]
-    where: str
+    span: LawSpan
     duration: float
     least: SpanTime
-    span: LawSpan
-    given: bool
+
+    @property
+    def where(self) -> str:
+        """The name that errors give it."""
+        return self.span.where
+
+    @property
+    def places(self) -> tuple[int, ...]:
+        """Its segments among those of the cycle."""
+        return tuple(stretch.number - 1 for stretch in self.span.stretches)
 
     @property
     def needed(self) -> float:
         """The least duration that the motion needs, in seconds."""
         return self.duration * self.least.scale
-
-
-@dataclass(frozen=True)
-class FastestLaws:
-    """The laws of a cycle at its least period, with the solutions of the optimised ones."""
-
-    period: float
-    starts: tuple[float, ...]
-    pieces: tuple[Piece, ...]
-    solutions: tuple[Solution, ...]
-    programme: Programme
 
 
 @dataclass(frozen=True)
@@ -97,7 +92,8 @@ class FastestSearch:
     @kept_property
     def spans(self) -> tuple[TimedSpan, ...]:
         """The motions that have limits, each with its least time."""
-        spans = [*(self._of_piece(piece) for piece in self._layout.pieces), *map(self._of_span, self._layout.spans)]
+        spans = [*map(self._of_piece, self._layout.pieces)]
+        spans += [TimedSpan(span, span.duration, self.fastest(span)) for span in self._layout.spans]
         for span in spans:
             self._check(span)
         limited = [span for span in spans if span.least.rows]
@@ -195,7 +191,7 @@ class FastestSearch:
         if self.rating is not None and self.rating.binds:
             return Status.OPTIMAL if self.rating.scales and self.rating.proofs is not None else Status.LOCAL
         binding = self.binding
-        proven = [span.given or span.least.proof is not None for span in binding]
+        proven = [span.least.base is None or span.least.proof is not None for span in binding]
         turning = any(self._turns(span) and known for span, known in zip(binding, proven, strict=True))
         return Status.OPTIMAL if turning or all(proven) else Status.LOCAL
 
@@ -239,40 +235,31 @@ class FastestSearch:
         """The time that a motion has at the least period."""
         return sum(self.durations[i] for i in span.places)
 
-    def laws(self) -> FastestLaws:
+    def laws(self) -> Layout:
         """The laws at the least period: the fastest where there is no time left, else the best within the limits."""
-        placed = self._placed(self.period)
-        rated = self.rating is not None and self.rating.binds
-        laws = [] if rated else [self._law(span) for span in placed.spans]
-        pieces = [*placed.pieces, *(piece for piece, _ in laws)]
-        if self.rating is not None and (rated or not self.rating.keeps(pieces, self.period)):
+        placed, rating = self._placed(self.period), self.rating
+        rated = rating is not None and rating.binds
+        pieces = [] if rated else [*placed.pieces, *map(self._law, placed.spans)]
+        if rating is not None and (rated or not rating.keeps(pieces, self.period)):
             # the best laws share the limit as the fastest cycle does: each takes least of it
-            laws = self.rating.laws(self.period)
-            pieces = [*placed.pieces, *(piece for piece, _ in laws)]
-        return FastestLaws(
-            self.period,
-            placed.starts,
-            tuple(sorted(pieces, key=lambda piece: piece.start)),
-            tuple(solution for _, solution in laws if solution is not None),
-            replace(self.programme, period=self.period),
-        )
+            pieces = [*placed.pieces, *rating.laws(self.period)]
+        return Layout(placed.starts, tuple(sorted(pieces, key=lambda piece: piece.start)), ())
 
-    def _law(self, span: LawSpan) -> PlacedLaw:
+    def _law(self, span: LawSpan) -> Piece:
         known = self._known(span)
         fastest = self._fastest(span)
         spare = known is None or known.needed < span.duration * (1.0 - BINDING_LIMIT)
         if fastest is None or spare:
             try:
-                return solve(span, self.objective, self.programme.axis)
+                return solve(span, self.objective, self.programme.axis)[0]
             except (InfeasibleProblem, SolverFailure):
                 if fastest is None:
                     raise
-        return fastest, None
+        return fastest
 
     def _known(self, span: LawSpan) -> TimedSpan | None:
         """The span with its least time, if limits bound it."""
-        places = tuple(stretch.number - 1 for stretch in span.stretches)
-        return next((known for known in self.spans if known.places == places), None)
+        return next((known for known in self.spans if known.span.stretches == span.stretches), None)
 
     def _fastest(self, span: LawSpan) -> Piece | None:
         """The fastest law of a span in its place; None where no limit bounds it."""
@@ -331,7 +318,7 @@ class FastestSearch:
                     stretch.where, limit,
                 )
             )  # fmt: skip
-        return TimedSpan((i,), stretch.where, piece.duration, least, span, given=True)
+        return TimedSpan(span, piece.duration, least)
 
     def _check_way(self, stretch: TimedSegment, piece: Piece) -> None:
         """Refuse a given law that goes back where its velocity must not."""
@@ -343,11 +330,6 @@ class FastestSearch:
                     f"{stretch.where}: its law goes back, which its velocity must not at any speed: take another law, "
                     "or a least velocity below 0"
                 )
-
-    def _of_span(self, span: LawSpan) -> TimedSpan:
-        """A motion with an optimised law."""
-        places = tuple(stretch.number - 1 for stretch in span.stretches)
-        return TimedSpan(places, span.where, span.duration, self.fastest(span), span, given=False)
 
     def _rows(self, span: LawSpan, stroke: float) -> list[SpanLimit]:
         limits = [limits_of_segment(stretch, self.objective.limits, self.programme.axis) for stretch in span.stretches]

@@ -29,9 +29,6 @@ from optlaws.tolerances import AGREEMENT, FASTER, LEAST_SCALE_MET
 
 _SLOWEST = 2.0**40
 
-#: the law of a span in its place, with its solution where it was looked for there
-PlacedLaw = tuple[Piece, Solution | None]
-
 
 @dataclass(frozen=True)
 class ForceRating:
@@ -93,9 +90,9 @@ class ForceRating:
         taken = sum(PieceEffort(self.drive, piece).square for piece in pieces)
         return taken <= self.most**2 * period * (1.0 + AGREEMENT)
 
-    def laws(self, period: float) -> list[PlacedLaw]:
+    def laws(self, period: float) -> list[Piece]:
         """The laws of least mean square of the force at a period, within the other limits."""
-        return [self._law(span) for span in self.placed(period).spans]
+        return [self._law(span)[0] for span in self.placed(period).spans]
 
     @kept_property
     def proofs(self) -> dict[str, Certificate] | None:
@@ -126,11 +123,12 @@ class ForceRating:
 
     def _over(self, period: float) -> float:
         """The logarithm of the ratio of the root mean square to its limit."""
-        pieces = [*self.placed(period).pieces, *(piece for piece, _ in self.laws(period))]
+        pieces = [*self.placed(period).pieces, *self.laws(period)]
         square = sum(PieceEffort(self.drive, piece).square for piece in pieces)
         return log(sqrt(square / period) / self.most)
 
-    def _law(self, span: LawSpan) -> PlacedLaw:
+    def _law(self, span: LawSpan) -> tuple[Piece, Solution | None]:
+        """The law of a span in its place, with its solution where it was looked for there."""
         try:
             return solve(span, self._of_force, self.axis)
         except (InfeasibleProblem, SolverFailure):
