@@ -296,7 +296,7 @@ def limit_row(limit: float | None, least: float, laws: str = "of any degree") ->
     ('not known', 'that no law of any degree beats: the space costs 5 %')
     """
     if limit is None:
-        return Row("limit", "not known", note=f"that no law {laws} beats")
+        return Row("limit", "not known", note=f"of what no law {laws} beats")
     price = 100.0 * max(least / limit - 1.0, 0.0)
     return Row("limit", limit, "s", note=f"that no law {laws} beats: the space costs {price:.2g} %")
 
