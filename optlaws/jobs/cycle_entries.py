@@ -236,8 +236,6 @@ def _swept(spec: CycleProblemFile, axis: dict[str, Any], entry: str, value: str 
 def with_entry(axis: dict[str, Any], entry: str, value: str | float) -> dict[str, Any]:
     """The entries of an axis with another value of a single entry; parts of a list are counted from 1.
 
-    Examples
-    --------
     >>> with_entry({"drive": {"ratio": 20}, "segment": [{"by": "3 mm"}]}, "drive.ratio", 30.0)
     {'drive': {'ratio': 30.0}, 'segment': [{'by': '3 mm'}]}
     >>> with_entry({"segment": [{"by": "3 mm"}]}, "segment.1.by", "5 mm")

@@ -131,8 +131,6 @@ def _sought(move: MoveEntries, space: Problem, folder: Path) -> SoughtMove:
 def arguments_of(move: MoveEntries, folder: Path) -> dict[str, Any]:
     """The arguments of `fastest` besides a move's laws and its stroke.
 
-    Examples
-    --------
     >>> arguments_of(MoveEntries(name="slide", stroke="100 mm", limits={"jerk": "300 m/s^3"}), Path())["limits"]
     {'jerk': '300 m/s^3'}
     """

@@ -86,8 +86,6 @@ class GivenProblem(NamedTuple):
 def problem_of_job(given: Path, job: str) -> GivenProblem:
     """A problem file, as `problem_file` finds it, of one job, which it need not name.
 
-    Examples
-    --------
     >>> problem_of_job(Path("cam_press"), "cycle")
     Traceback (most recent call last):
     optlaws.errors.InputError: cam_press is of the job 'cam', not 'cycle': `optlaws run cam_press` does it

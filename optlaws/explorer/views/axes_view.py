@@ -120,8 +120,6 @@ def _plane(axes: Axes, plane: Plane) -> dict[str, Any]:
 def clearances(request: CycleRequest) -> dict[str, Any]:
     """The proven clearances of the interlocks over the whole cycle, and the use of the limits of each axis.
 
-    Examples
-    --------
     >>> clearances(CycleRequest(study=example()))["trust"]["word"]
     'interlocks clear'
     """
@@ -161,8 +159,6 @@ def _trust(axes: Axes, report: AxesReport) -> dict[str, Any]:
 def together(request: CycleRequest) -> dict[str, Any]:
     """The study with its moves overlapped, and the gain; or the reason for a refusal.
 
-    Examples
-    --------
     >>> answered = together(CycleRequest(study=example() | {"overlap": {"goal": "acceleration", "of": ["die"]}}))
     >>> answered["facts"][1]
     'greatest acceleration, as a share of the given one 0.1938937'

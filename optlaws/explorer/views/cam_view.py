@@ -117,8 +117,6 @@ def sizes(request: CycleRequest) -> dict[str, Any]:
 
     They take longer than the view.
 
-    Examples
-    --------
     >>> sizes(CycleRequest(study=example()))["facts"][0]
     'least prime circle, by the pressure angle 58.60757 mm at 264.38 deg'
     """
@@ -144,8 +142,6 @@ def example() -> dict[str, Any]:
 def form() -> dict[str, Any]:
     """The entries of a cam as a form shows them, whether each kind of follower slides or swings, and what these move.
 
-    Examples
-    --------
     >>> form()["axes"]["inclined flat"], form()["drive"]["length"][0]["placeholder"]
     ('length', 'none, or 2.5 kg')
     """

@@ -87,13 +87,7 @@ def nearest(request: CycleRequest) -> dict[str, Any]:
 
 
 def machine(study: dict[str, Any]) -> CycleProblemFile:
-    """The machine of a study.
-
-    Raises
-    ------
-    InputError
-        If an entry is unknown or wrong, or larger than the explorer takes, or names a file.
-    """
+    """The machine of a study."""
     without_files(study)
     spec = CycleProblemFile.read(study, _WHERE)
     for axis in spec.axis:
@@ -201,8 +195,6 @@ SEGMENTS = [
 def form() -> dict[str, Any]:
     """What the form of a cycle shows: objectives, limits of motions and of machines that turn, segments, interlocks.
 
-    Examples
-    --------
     >>> [limit["name"] for limit in form()["limits"]["motion"]], form()["segments"]["dwell"][0]["name"]
     (['velocity', 'acceleration', 'deceleration', 'jerk', 'snap'], 'duration')
     """

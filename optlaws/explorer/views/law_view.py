@@ -13,16 +13,7 @@ from typing import Any, TypeAlias
 import msgspec
 import numpy as np
 
-from optlaws import (
-    Chebyshev,
-    MotionLaw,
-    Problem,
-    Range,
-    Solution,
-    Status,
-    residual_vibration,
-    response_spectrum,
-)
+from optlaws import Chebyshev, MotionLaw, Problem, Range, Solution, Status, residual_vibration, response_spectrum
 from optlaws.errors import InfeasibleProblem, InputError, OptlawsError, SolverFailure
 from optlaws.explorer.views.panel_data import beside_each_other, panel_data
 from optlaws.explorer.views.requests import (

@@ -285,8 +285,6 @@ _STEADILY = [{"kind": "constant velocity", "velocity": "720 deg/s"}]
 def kinds() -> dict[str, dict[str, Any]]:
     """Kinds of mechanisms: the entries of an example and its motion, and the fields of its form.
 
-    Examples
-    --------
     >>> sorted(kinds()["table"]), kinds()["rack"]["mechanism"]
     (['axis', 'fields', 'mechanism'], {'radius': '20 mm', 'mass': '12 kg'})
     """

@@ -50,13 +50,7 @@ class OldCamEntries(Declared, title="the table of an old cam"):
 
 
 def table(entries: OldCamEntries) -> OldTable:
-    """The table of a study.
-
-    Raises
-    ------
-    InputError
-        If the text holds no table, is damaged, or makes no cycle of dwells and moves from rest to rest.
-    """
+    """The table of a study."""
     return _table(replace(entries, within=None, speed=None))
 
 
@@ -150,13 +144,7 @@ def _better(entries: OldCamEntries, number: int) -> dict[str, Any]:
 
 
 def cycle(request: CycleRequest) -> Cycle:
-    """The cycle of the table with the laws that are given, at the speed of the study or of the file.
-
-    Raises
-    ------
-    InputError
-        If there are more laws than moves, or the speed of the master is not known.
-    """
+    """The cycle of the table with the laws that are given, at the speed of the study or of the file."""
     return with_laws(request).cycle(speed=OldCamEntries.from_dict(request.study).speed)
 
 

@@ -70,13 +70,7 @@ class Starter:
         return f"{self.command} {quote(file.as_posix())} --out {quote(file.stem)}"
 
     def text(self, given: Mapping[str, str], file: Path) -> str:
-        """The text of the file: each place with its answer; the line of an entry that is left out as a comment.
-
-        Raises
-        ------
-        InputError
-            If there is no such question, an answer is wrong, or the file with it could not be run.
-        """
+        """The text of the file: each place with its answer; the line of an entry that is left out as a comment."""
         usual = numbers_of(self.kind)
         with located(self.kind):
             check_names([f"--{name}" for name in given], [f"--{name}" for name in usual], "option")
