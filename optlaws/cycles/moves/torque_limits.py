@@ -40,20 +40,19 @@ def motor_torque(
     most = {name: within[kind][1] for name, kind in known if kind in within and isfinite(within[kind][1])}
     if not most:
         raise InputError('nothing limits the torque: give limits={"torque": "3 N m"}, or a motor with a peak torque')
-    moved, train, i = drive.mechanism.dimensionless(start, stroke, 1.0), drive.train, drive.ratio
-    unit, way = moved.unit / i, abs(moved.stroke)
-    inertia, friction, coulomb = train.inertia * i * way / unit, train.viscous * i * way / unit, train.coulomb / unit
+    moved = drive.dimensionless(start, stroke, 1.0)
+    inertia, friction, coulomb = moved.of_motor
     to_load, back = drive.efficiencies
-    gear = None if to_load == back == 1.0 else LossyGear(1.0 / to_load, back, inertia, friction, coulomb)
+    gear = LossyGear(1.0 / to_load, back, inertia, friction, coulomb) if moved.train.loses else None
     return MotorTorque(
         moved.inertia if gear else _sum(inertia, moved.inertia),
         float(moved.friction) + (0.0 if gear else friction),
         moved.load if gear else _sum(coulomb, moved.load),
-        unit,
+        moved.unit,
         most.get("torque"),
         most.get("rms torque"),
         gear,
-        tuple((torque, -slope * i * way) for torque, slope in lines if slope),
+        tuple((torque, -slope * drive.ratio * abs(moved.stroke)) for torque, slope in lines if slope),
     )
 
 

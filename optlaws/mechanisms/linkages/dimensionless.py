@@ -140,15 +140,15 @@ class StrokeTorque:
         return self.unit * self.train.ratio * abs(self.stroke)
 
     @property
-    def _motor(self) -> list[str]:
-        """The torques that the motor takes itself."""
+    def of_motor(self) -> tuple[float, float, float]:
+        """The torques that motor and gear take themselves in the unit: by c, by b, and always."""
         train, speed = self.train, self.train.ratio * abs(self.stroke) / self.duration
-        parts = {"c": train.inertia * speed / self.duration, "b": train.viscous * speed, "1": train.coulomb}
-        return [
-            f"{size / self.unit!r}*{name}" if name != "1" else repr(size / self.unit)
-            for name, size in parts.items()
-            if size
-        ]
+        inertia, viscous = train.inertia * speed / self.duration, train.viscous * speed
+        return inertia / self.unit, viscous / self.unit, train.coulomb / self.unit
+
+    @property
+    def _motor(self) -> list[str]:
+        return [f"{size!r}{name}" for size, name in zip(self.of_motor, ("*c", "*b", ""), strict=True) if size]
 
     @property
     def _through(self) -> list[str]:
