@@ -11,7 +11,7 @@ from functools import partial
 from mimetypes import guess_type
 from pathlib import Path
 from pprint import pformat
-from typing import Annotated, Any, NamedTuple
+from typing import Annotated, Any
 
 import msgspec
 
@@ -23,6 +23,7 @@ from optlaws.cycles.cycle import Cycle
 from optlaws.cycles.report import CycleReport
 from optlaws.errors import InputError
 from optlaws.explorer.views import advice_view, axes_view, cam_view, cycle_view, fastest_view, old_cam_view
+from optlaws.explorer.views.cycle_view import CycleRequest
 from optlaws.explorer.views.law_view import digits, title, titled
 from optlaws.explorer.views.requests import LawRequest, LawsRequest, Question, Text, law_of, problem_of, read, result_of
 from optlaws.exports.format import FORMATS
@@ -37,17 +38,10 @@ _ROWS = 361
 _WIDTH = 116
 _MOST_POINTS = 10_000
 _PUBLIC = frozenset(vars(optlaws)["__all__"])
-_UNITS = "SI units but for mm and deg"
 
 File = tuple[str, str]  #: its name and its text
-
-
-class ViewFiles(NamedTuple):
-    """The request of a view, its files by their kinds, and the result of which they are."""
-
-    request: type[msgspec.Struct]
-    kinds: Mapping[str, Callable[[Any], File]]
-    result: Callable[[Any], Any]
+#: of a view its files by their kinds, and the result of which they are
+ViewFiles = tuple[Mapping[str, Callable[[Any], File]], Callable[[Any], Any]]
 
 
 class FileRequest(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
@@ -65,24 +59,19 @@ class FileRequest(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
 
 def answer(question: FileRequest) -> dict[str, str]:
     """A file: its name, its type, its text."""
-    files, request = _read(question)
-    kinds: dict[str, Callable[[Any], File]] = {**files.kinds, "report": partial(_report, files)}
-    check_names([question.kind], kinds, f"file of the view {question.view}")
-    name, text = kinds[question.kind](request)
+    (kinds, result), request = _read(question)
+    check_names([question.kind], {*kinds, "report"}, f"file of the view {question.view}")
+    if question.kind == "report":
+        of = titled(request.law) if isinstance(request, LawsRequest) else request.study.get("title", "A motion")
+        name, text = "report.html", printable_page(of, result(request).report())
+    else:
+        name, text = kinds[question.kind](request)
     return {"name": name, "type": guess_type(name)[0] or "text/plain", "text": text}
 
 
 def _read(question: FileRequest) -> tuple[ViewFiles, Any]:
     check_names([question.view], VIEWS, "view")
-    return VIEWS[question.view], read(bytes(question.request), VIEWS[question.view].request)
-
-
-def _report(files: ViewFiles, request: Any) -> File:
-    """What is shown as a page that is printed."""
-    study = getattr(request, "study", {})
-    name = study.get("title", "A motion") if isinstance(study, dict) else study.file
-    title_of_page = titled(request.law) if isinstance(request, LawsRequest) else name
-    return "report.html", printable_page(title_of_page, files.result(request).report())
+    return VIEWS[question.view], read(bytes(question.request), LawsRequest if question.view == "laws" else CycleRequest)
 
 
 def _stem(name: str) -> str:
@@ -175,17 +164,22 @@ def _law_table(request: LawsRequest) -> File:
     return f"{_stem(name)}.csv", table_of_values(law_of(request.law), name)
 
 
-def _cycle_table(request: cycle_view.CycleRequest) -> File:
+def _cycle_table(request: CycleRequest) -> File:
     spec, axis = cycle_view.read(request)
-    about = " ".join(f"{spec.title}: {axis.name}; {_UNITS}".split())
-    return f"{_stem(axis.name)}.csv", to_csv(*CycleReport(cycle_view.cycle(request)).motion(_ROWS), about=about)
+    about = " ".join(f"{spec.title}: {axis.name}".split())
+    return _motion_table(_stem(axis.name), about, cycle_view.cycle(request))
+
+
+def _motion_table(name: str, about: str, cycle: Cycle) -> File:
+    text = to_csv(*CycleReport(cycle).motion(_ROWS), about=f"{about}; SI units but for mm and deg")
+    return f"{name}.csv", text
 
 
 def _proofs(*cycles: Cycle) -> File:
     return _json("motion", solutions=[solution.to_dict() for cycle in cycles for solution in cycle.solutions])
 
 
-def _cycle_python(request: cycle_view.CycleRequest) -> File:
+def _cycle_python(request: CycleRequest) -> File:
     """Python lines that compute the same cycle, or the cycle of the cam whose follower moves so."""
     spec, axis = cycle_view.read(request)
     cycle, follower = cycle_of(replace(axis, follower=None), spec.speed, spec.period), axis.follower
@@ -194,7 +188,7 @@ def _cycle_python(request: cycle_view.CycleRequest) -> File:
     return _python("cycle", [f"cycle = {_source(cycle)}{cam}", shown, 'cycle.plot()[0].figure.savefig("cycle.png")'])
 
 
-def _axes_python(request: cycle_view.CycleRequest) -> File:
+def _axes_python(request: CycleRequest) -> File:
     """Python lines that make the same axes with their interlocks, and say what is clear."""
     lines = [
         f"axes = {_source(axes_view.axes_of(request.study))}",
@@ -205,27 +199,22 @@ def _axes_python(request: cycle_view.CycleRequest) -> File:
     return _python("axes", lines)
 
 
-def _cut(form: str, request: cycle_view.CycleRequest) -> File:
+def _cut(form: str, request: CycleRequest) -> File:
     result = cam_view.result_of(request)
     kind = form.partition(" ")[0]
     ending = next(end for end, name in cam_files.ENDINGS.items() if name.partition(" ")[0] == kind)
     return f"cam{ending}", cam_files.FORMATS[form](result.cam.profile, Cutting(about=result.spec.title))
 
 
-def _old_problem(request: cycle_view.CycleRequest) -> File:
+def _old_problem(request: CycleRequest) -> File:
     if any(isinstance(part.law, MotionLaw) for part in old_cam_view.with_laws(request).moves):
         raise InputError("a problem file names laws, and some of these have no name: save the cycle with its laws")
     about = f"The cam of {_stem(str(request.study.get('file', 'table')))}"
     return f"{_old_name(request)}.toml", old_cam_view.cycle(request).to_toml(about, axis="cam")
 
 
-def _old_name(request: cycle_view.CycleRequest) -> str:
+def _old_name(request: CycleRequest) -> str:
     return _stem(Path(str(request.study.get("file", "table"))).stem)
-
-
-def _old_table(request: cycle_view.CycleRequest) -> File:
-    name, report = _old_name(request), CycleReport(old_cam_view.cycle(request))
-    return f"{name}_motion.csv", to_csv(*report.motion(_ROWS), about=f"{name}; {_UNITS}")
 
 
 _CYCLE: dict[str, Callable[[Any], File]] = {
@@ -233,17 +222,6 @@ _CYCLE: dict[str, Callable[[Any], File]] = {
     "problem": _study("cycle.toml"),
     "table": _cycle_table,
     "proof": lambda request: _proofs(cycle_view.cycle(request)),
-}
-_AXES: dict[str, Callable[[Any], File]] = {
-    "python": _axes_python,
-    "proof": lambda request: _proofs(*axes_view.axes_of(request.study).values()),
-}
-_LAWS = {
-    "python": _laws_python,
-    "problem": _law_problem,
-    "law": _law_file,
-    "table": _law_table,
-    "proof": _law_file,
 }
 _FASTEST: dict[str, Callable[[Any], File]] = {
     "problem": _study("fastest.toml"),
@@ -253,24 +231,34 @@ _FASTEST: dict[str, Callable[[Any], File]] = {
 _OLD: dict[str, Callable[[Any], File]] = {
     "problem": _old_problem,
     "law": lambda request: (f"{_old_name(request)}.json", old_cam_view.cycle(request).to_json()),
-    "table": _old_table,
+    "table": lambda request: _motion_table(
+        f"{_old_name(request)}_motion", _old_name(request), old_cam_view.cycle(request)
+    ),
     "proof": lambda request: _json("old_cam", solutions=[law for law in old_cam_view.laws_of(request) if law]),
 }
-_CUT = {form: partial(_cut, form) for form in cam_files.FORMATS}
 #: by the name of a view
-VIEWS = {
-    "laws": ViewFiles(LawsRequest, _LAWS, lambda request: result_of(request.law)),
-    "cycle": ViewFiles(cycle_view.CycleRequest, _CYCLE, cycle_view.cycle),
-    "machine": ViewFiles(cycle_view.CycleRequest, _CYCLE, cycle_view.cycle),
-    "axes": ViewFiles(cycle_view.CycleRequest, _CYCLE | _AXES, cycle_view.cycle),
-    "cam": ViewFiles(
-        cycle_view.CycleRequest,
-        {"problem": _study("cam.toml"), **_CUT},
+VIEWS: dict[str, ViewFiles] = {
+    "laws": (
+        {"python": _laws_python, "problem": _law_problem, "law": _law_file, "table": _law_table, "proof": _law_file},
+        lambda request: result_of(request.law),
+    ),
+    "cycle": (_CYCLE, cycle_view.cycle),
+    "machine": (_CYCLE, cycle_view.cycle),
+    "axes": (
+        {
+            **_CYCLE,
+            "python": _axes_python,
+            "proof": lambda request: _proofs(*axes_view.axes_of(request.study).values()),
+        },
+        cycle_view.cycle,
+    ),
+    "cam": (
+        {"problem": _study("cam.toml"), **{form: partial(_cut, form) for form in cam_files.FORMATS}},
         lambda request: cam_view.result_of(request).cam,
     ),
-    "advice": ViewFiles(cycle_view.CycleRequest, {}, advice_view.advice_of),
-    "fastest": ViewFiles(cycle_view.CycleRequest, _FASTEST, fastest_view.fastest_of),
-    "old": ViewFiles(cycle_view.CycleRequest, _OLD, old_cam_view.cycle),
+    "advice": ({}, advice_view.advice_of),
+    "fastest": (_FASTEST, fastest_view.fastest_of),
+    "old": (_OLD, old_cam_view.cycle),
 }
 
 
@@ -283,8 +271,8 @@ def formats() -> list[dict[str, Any]]:
 
 def exported(question: FileRequest) -> dict[str, Any]:
     """The file, and the peaks of the motion as the controller interpolates it beside the law's peaks."""
-    files, request = _read(question)
-    result = files.result(request)
+    (_, result_of_view), request = _read(question)
+    result = result_of_view(request)
     result = result.law if isinstance(result, Solution) else result
     if not isinstance(result, Cycle | MotionLaw):
         raise InputError(f"the view {question.view} has no motion for a controller")

@@ -446,7 +446,7 @@ def test_python_and_files_make_the_same_cycle(file: str, tmp_path: Path, monkeyp
 @pytest.mark.parametrize("view", downloads.VIEWS)
 def test_the_page_offers_files_that_there_are_of_its_view(view: str) -> None:
     offered = set(re.findall(r'\{ kind: "(\w+)"', page()[f"views/{view}.js"].decode()))
-    assert offered <= set(downloads.VIEWS[view].kinds)
+    assert offered <= set(downloads.VIEWS[view][0])
     assert {"problem"} <= offered or not offered
 
 
@@ -456,9 +456,9 @@ def test_the_report_of_a_view_is_printed_with_its_facts_and_curves(view: str) ->
     asked: dict[str, Any] = {"laws": [OPTIMAL]} if view == "laws" else {"study": study}
     file = file_of("report", view, **asked, **({"points": 2} if view == "advice" else {}))
     assert (file["name"], file["type"]) == ("report.html", "text/html")
-    files = downloads.VIEWS[view]
-    request = msgspec.json.decode(msgspec.json.encode(asked), type=files.request)
-    report = files.result(request).report()
+    result = downloads.VIEWS[view][1]
+    request = msgspec.json.decode(msgspec.json.encode(asked), type=LawsRequest if view == "laws" else CycleRequest)
+    report = result(request).report()
     assert file["text"].count("<svg") == len(report.panels)
     assert file["text"].count("<table") == 1 + len(report.tables)
     assert all(escape(row.name) in file["text"] for row in report.facts)
@@ -467,7 +467,7 @@ def test_the_report_of_a_view_is_printed_with_its_facts_and_curves(view: str) ->
 
 @pytest.mark.parametrize("view", ["cycle", "axes", "machine", "cam", "fastest", "old"])
 def test_every_kind_of_file_is_made_of_the_first_study_of_its_view(view: str) -> None:
-    for kind in downloads.VIEWS[view].kinds:
+    for kind in downloads.VIEWS[view][0]:
         file = file_of(kind, view, study=EXAMPLES[view]())
         assert file["text"]
         assert Path(file["name"]).suffix
