@@ -91,23 +91,14 @@ class _ProblemOptions(Options):
     def values_of(self, typed: Mapping[str, Any]) -> dict[str, Any]:
         entries: dict[str, Any] = {}
         for entry in ENTRIES.values():
-            options = options_of(entry)
-            values = [typed[option.keyword] for option in options]
-            first = next(
-                (
-                    option
-                    for option, value in zip(options, values, strict=True)
-                    if not (value is None or value is False)
-                ),
-                None,
-            )
+            values = {option: typed[option.keyword] for option in options_of(entry)}
+            first = next((option for option, value in values.items() if value is not None and value is not False), None)
             if first is None:
                 continue
             if entry.name in self._refused:
                 raise InputError(f"{first.name} is not for this command: {self._refused[entry.name]}")
-            entries[entry.name] = (
-                read_bounds(*(value or [] for value in values)) if len(values) > 1 else first.value(*values)
-            )
+            bounds = [value or [] for value in values.values()]
+            entries[entry.name] = read_bounds(*bounds) if len(bounds) > 1 else first.value(values[first])
         return entries | ({"symmetric": False} if _is_unsymmetric(entries) else {})
 
 

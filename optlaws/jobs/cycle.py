@@ -297,11 +297,11 @@ def _export_row(name: str, export: Export) -> list[Cell]:
 
 def sweep_table(sweep: SweepEntries, rows: Sequence[SweptCycle]) -> ReportTable:
     """Headings and cells of a sweep: the objective with its bound, and what drive and motor need."""
-    cycles = [row.cycle for row in rows if row.cycle is not None]
+    cycles = [cycle for _, cycle, _ in rows if cycle is not None]
     columns = _columns(cycles[0]) if cycles else {}
     cells: list[list[Cell]] = [
-        [row.value, row.status.value, *(None if row.cycle is None else cell(row.cycle) for cell in columns.values())]
-        for row in rows
+        [value, status.value, *(None if cycle is None else cell(cycle) for cell in columns.values())]
+        for value, cycle, status in rows
     ]
     return ReportTable([sweep.entry, "status", *columns], cells)
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from copy import deepcopy
-from dataclasses import KW_ONLY, dataclass, replace
+from dataclasses import KW_ONLY, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 from optlaws.cams import at_shaft  # noqa: F401 - by which the kind "cam" is known
 from optlaws.cycles.cycle import Cycle
@@ -77,13 +77,8 @@ class SweepEntries(Declared, title="a sweep"):
     )
 
 
-@dataclass(frozen=True)
-class SweptCycle:
-    """The cycle of an axis with a value of its entry; None without a motion, with the reason as its status."""
-
-    value: str | float
-    cycle: Cycle | None
-    status: Status
+#: a value of an entry, and the cycle of the axis with it; None without a motion, with the reason as its status
+SweptCycle: TypeAlias = tuple[str | float, Cycle | None, Status]
 
 
 def _constants(value: Any) -> Any:
@@ -228,9 +223,9 @@ def _swept(spec: CycleProblemFile, axis: dict[str, Any], entry: str, value: str 
             changed = AxisEntries.from_dict(with_entry(axis, entry, value))
             cycle = cycle_of(changed, spec.speed, spec.period, folder)
             _ = cycle.peaks  # laws are looked for now
-            return SweptCycle(value, cycle, cycle.status)
+            return value, cycle, cycle.status
     except (InfeasibleProblem, SolverFailure) as error:
-        return SweptCycle(value, None, Status.of(error))
+        return value, None, Status.of(error)
 
 
 def with_entry(axis: dict[str, Any], entry: str, value: str | float) -> dict[str, Any]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from importlib import import_module
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 from optlaws.errors import InputError
 from optlaws.files import reading
@@ -75,16 +75,8 @@ def _job_of(entries: Mapping[str, Any], file: Path) -> str:
     return name
 
 
-class GivenProblem(NamedTuple):
-    """A problem file, the folder for its results unless it is the file's own, and the file's contents."""
-
-    file: Path
-    results: Path | None
-    entries: dict[str, Any]
-
-
-def problem_of_job(given: Path, job: str) -> GivenProblem:
-    """A problem file, as `problem_file` finds it, of one job, which it need not name.
+def problem_of_job(given: Path, job: str) -> tuple[Path, Path | None, dict[str, Any]]:
+    """A problem file of one job, which it need not name; the folder for its results, as `problem_file` finds both.
 
     >>> problem_of_job(Path("cam_press"), "cycle")
     Traceback (most recent call last):
@@ -95,7 +87,7 @@ def problem_of_job(given: Path, job: str) -> GivenProblem:
     named = _job_of({"job": job, **entries}, given)
     if named != job:
         raise InputError(f"{given} is of the job {named!r}, not {job!r}: `optlaws run {given}` does it")
-    return GivenProblem(file, results, entries)
+    return file, results, entries
 
 
 def _scripted(file: Path) -> Results:

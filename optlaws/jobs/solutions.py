@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import KW_ONLY, dataclass
+from dataclasses import KW_ONLY
 from itertools import product
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeAlias
 
 from optlaws.entries.declared import Declared, ValueOf, declared, entry
 from optlaws.entries.value_types import Choice, Listed, Text
@@ -22,18 +22,15 @@ from optlaws.synthesis.problem.fields import CONSTANTS
 from optlaws.synthesis.problem.problem import ENTRIES, PROBLEM, SWEPT
 from optlaws.synthesis.solve import Bound
 
-
-def _above_limit(solution: Solution) -> tables.Cell:
-    return None if solution.limit is None else f"{100.0 * (solution.objective / solution.limit - 1.0):.2f}"
-
-
 #: the columns of what was found beside the constants of its law
 RESULTS: dict[str, Callable[[Solution], tables.Cell]] = {
     "objective": lambda solution: solution.objective,
     "lower bound": lambda solution: solution.lower_bound,
     "gap": gap,
     "limit": lambda solution: solution.limit,
-    "above limit, %": _above_limit,
+    "above limit, %": lambda solution: (
+        None if solution.limit is None else f"{100.0 * (solution.objective / solution.limit - 1.0):.2f}"
+    ),
     "status": lambda solution: solution.status.value,
 }
 COLUMNS = (*FUNCTIONALS, *RESULTS)
@@ -80,23 +77,8 @@ class SolutionsProblemFile(ProblemFile, title="a problem file"):
     beside: Beside | None = entry(ValueOf(Beside), "Printed data in the same rows.", default=None)
 
 
-@dataclass(frozen=True)
-class SolvedRow:
-    """The swept entries, their problem, and the answers: None where no law exists, with the reason and its proof."""
-
-    entries: Mapping[str, Any]
-    stated: Problem
-    solution: Solution | None
-    others: tuple[Solution | None, ...]
-    status: Status
-    proof: Certificate | None
-
-    @property
-    def data(self) -> dict[str, Any]:
-        """The row for programs."""
-        solution = None if self.solution is None else record(self.solution)
-        known = {"asked": self.stated.to_dict(), "status": self.status, "solution": solution}
-        return known if self.proof is None else {**known, "proof": self.proof.to_dict()}
+#: a problem, its solution and the reason where there is none, and the proof of that
+Tried: TypeAlias = tuple[Problem, Solution | None, Status, Certificate | None]
 
 
 def run(results: Results) -> None:
@@ -107,11 +89,18 @@ def run(results: Results) -> None:
     entries = list(swept_entries(spec))
     beside = _beside(spec, results.file, entries)
     problems = [_problems(spec, i, entry) for i, entry in enumerate(entries, 1)]
-    rows = [_solved(spec, entry, *stated) for entry, stated in zip(entries, problems, strict=True)]
-    table = _table(spec, rows, beside)
+    rows = [(_tried(first, spec.bound), [_tried(other)[1] for other in others]) for first, *others in problems]
+    table = _table(spec, entries, rows, beside)
     results.table("table", *table)
     results.page("table").text(spec.text).table(*table)
-    results.records("laws.json", "rows", [row.data for row in rows])
+    results.records("laws.json", "rows", [_data(*tried) for tried, _ in rows])
+
+
+def _data(stated: Problem, solution: Solution | None, status: Status, proof: Certificate | None) -> dict[str, Any]:
+    """A row for programs."""
+    solved = None if solution is None else record(solution)
+    known = {"asked": stated.to_dict(), "status": status, "solution": solved}
+    return known if proof is None else {**known, "proof": proof.to_dict()}
 
 
 def swept_entries(spec: SolutionsProblemFile) -> Iterator[dict[str, Any]]:
@@ -131,30 +120,22 @@ def swept_entries(spec: SolutionsProblemFile) -> Iterator[dict[str, Any]]:
         yield {name: value for part in chosen for name, value in part.items()}
 
 
-def _problems(spec: SolutionsProblemFile, number: int, entries: Mapping[str, Any]) -> tuple[Problem, list[Problem]]:
-    others = [
-        problem(f"compare, {compared.name}, row {number}", spec.problem, entries, compared.problem)
-        for compared in spec.compare
-    ]
-    return problem(f"row {number}", spec.problem, entries), others
+def _problems(spec: SolutionsProblemFile, number: int, entries: Mapping[str, Any]) -> list[Problem]:
+    """The problem of a row, and those that are compared with it."""
+    row, others = f"row {number}", spec.compare
+    others_stated = [problem(f"compare, {each.name}, {row}", spec.problem, entries, each.problem) for each in others]
+    return [problem(row, spec.problem, entries), *others_stated]
 
 
-def _solved(
-    spec: SolutionsProblemFile, entries: Mapping[str, Any], stated: Problem, others: Sequence[Problem]
-) -> SolvedRow:
-    solution, status, proof = _tried(stated, spec.bound)
-    return SolvedRow(entries, stated, solution, tuple(_tried(other)[0] for other in others), status, proof)
-
-
-def _tried(stated: Problem, bound: Bound = "quick") -> tuple[Solution | None, Status, Certificate | None]:
+def _tried(stated: Problem, bound: Bound = "quick") -> Tried:
     """The solution of a problem; None where there is none, with the proof of that if it is one of this problem."""
     try:
         solution = synthesize(stated, bound=bound)
     except (InfeasibleProblem, SolverFailure) as error:
         proof = getattr(error, "proof", None)
         proves = isinstance(proof, Certificate) and proof.problem == stated
-        return None, Status.of(error), proof if proves else None
-    return solution, solution.status, None
+        return stated, None, Status.of(error), proof if proves else None
+    return stated, solution, solution.status, None
 
 
 def _beside(spec: SolutionsProblemFile, file: Path, entries: Sequence[Mapping[str, Any]]) -> list[list[tables.Cell]]:
@@ -174,18 +155,21 @@ def _beside(spec: SolutionsProblemFile, file: Path, entries: Sequence[Mapping[st
 
 
 def _table(
-    spec: SolutionsProblemFile, rows: Sequence[SolvedRow], beside: Sequence[Sequence[tables.Cell]]
+    spec: SolutionsProblemFile,
+    entries: Sequence[Mapping[str, Any]],
+    rows: Sequence[tuple[Tried, Sequence[Solution | None]]],
+    beside: Sequence[Sequence[tables.Cell]],
 ) -> ReportTable:
-    swept = list(rows[0].entries)
+    swept = list(entries[0])
     headings = [*(ENTRIES[name].label for name in swept), *spec.columns]
     headings += [f"{column}, {compared.name}" for compared in spec.compare for column in compared.columns]
     if spec.beside is not None:
         headings += [f"{column}, {spec.beside.name}" for column in spec.beside.columns]
     cells = []
-    for row, aside in zip(rows, beside, strict=True):
-        line: list[tables.Cell] = [shown(name, row.entries[name]) for name in swept]
-        line += [row.status if name == "status" else _cell(row.solution, name) for name in spec.columns]
-        for compared, other in zip(spec.compare, row.others, strict=True):
+    for row, ((_, solution, status, _), others), aside in zip(entries, rows, beside, strict=True):
+        line: list[tables.Cell] = [shown(name, row[name]) for name in swept]
+        line += [status if name == "status" else _cell(solution, name) for name in spec.columns]
+        for compared, other in zip(spec.compare, others, strict=True):
             line += [_cell(other, name) for name in compared.columns]
         cells.append([*line, *aside])
     return ReportTable(headings, cells)
