@@ -20,10 +20,10 @@ from starlette.responses import PlainTextResponse, Response
 from starlette.routing import Route
 
 from optlaws import Drive, __version__, catalogue
-from optlaws.explorer import downloads
 from optlaws.explorer.answering import EXAMPLES, QUESTIONS, message
 from optlaws.explorer.views import cam_view, cycle_view, machine_view
 from optlaws.explorer.workers import MOST, SLICE, USUAL, Workers
+from optlaws.exports.format import FORMATS
 from optlaws.jobs.fastest import MoveEntries
 from optlaws.synthesis.problem.problem import ENTRIES
 
@@ -36,6 +36,8 @@ _SCRIPT = "text/javascript"
 _TYPES = {".html": "text/html", ".css": "text/css", ".js": _SCRIPT, ".mjs": _SCRIPT, ".svg": "image/svg+xml"}
 #: entries of the laws of a move, of which the order has a default of its own
 _SPACE: dict[str, Any] = {"order": {"default": 3}, "degree": {}, "monotone": {}}
+#: what the page shows of the format of a controller
+_FORM = ("name", "target", "takes")
 #: members of Savin's families that the page offers by name
 _MEMBERS = ("I(0)", "II(6)", "III(7.2)", "IV(10)")
 _BAD, _TOO_LONG, _LEFT = 400, 413, 499
@@ -54,7 +56,7 @@ def application(start: dict[str, Any], workers: Workers | None = None) -> Starle
         "space": [replace(ENTRIES[name], **given).form for name, given in _SPACE.items()],
         "mechanisms": machine_view.kinds(),
         "drive": Drive.form()["entries"],
-        "formats": downloads.formats(),
+        "formats": [{key: getattr(form, key) for key in _FORM} for _, form in sorted(FORMATS.items())],
         "version": __version__,
     }
     first = msgspec.json.encode({"state": start, **known})

@@ -26,7 +26,6 @@ from optlaws.explorer.views import advice_view, axes_view, cam_view, cycle_view,
 from optlaws.explorer.views.cycle_view import CycleRequest
 from optlaws.explorer.views.law_view import digits, title, titled
 from optlaws.explorer.views.requests import LawRequest, LawsRequest, Question, Text, law_of, problem_of, read, result_of
-from optlaws.exports.format import FORMATS
 from optlaws.files.reading import check_names
 from optlaws.files.tables import to_csv, to_toml
 from optlaws.files.writing import MARK
@@ -260,13 +259,6 @@ VIEWS: dict[str, ViewFiles] = {
     "fastest": (_FASTEST, fastest_view.fastest_of),
     "old": (_OLD, old_cam_view.cycle),
 }
-
-
-def formats() -> list[dict[str, Any]]:
-    """The export formats, with their controllers and their options."""
-    return [
-        {"name": name, "target": FORMATS[name].target, "takes": list(FORMATS[name].takes)} for name in sorted(FORMATS)
-    ]
 
 
 def exported(question: FileRequest) -> dict[str, Any]:

@@ -83,7 +83,25 @@ def answer(request: CycleRequest) -> dict[str, Any]:
 
 def nearest(request: CycleRequest) -> dict[str, Any]:
     """The least relaxation of each single limit, the others unchanged, after which a motion exists again."""
-    return {"ways": list(_ways(*read(request)))}
+    spec, axis = read(request)
+    ways = []
+    for name, given in axis.limits.items():
+        if name not in LIMITS or name not in OBJECTIVES or not isinstance(given, str):
+            continue
+        others = {other: value for other, value in axis.limits.items() if other != name}
+        freed = replace(axis, limits=others, minimise=name, follower=None)
+        try:
+            cycle = stored(spec, freed)
+            least = cycle.objective
+        except (InfeasibleProblem, SolverFailure):
+            continue
+        order = LIMITS[name].order
+        # in the unit of its limit, of which so many make one of SI
+        unit, factor = UNITS[cycle.axis][order] if order else (objective_unit(cycle), 1.0)
+        raised = Amount(least * factor * (1.0 + BOUND_SLACK), unit)
+        text = sentence("raise the limit of {} from {} to {}", name, given, raised)
+        ways.append({"entry": name, "value": str(raised), "text": text})
+    return {"ways": ways}
 
 
 def machine(study: dict[str, Any]) -> CycleProblemFile:
@@ -163,24 +181,6 @@ def broken_limits(shown: Cycle) -> dict[str, str]:
         return {}
     advice = sentence("Beyond what is allowed: {}.", joined("; ", broken))
     return {"status": "refused", "word": "beyond a limit", "advice": advice}
-
-
-def _ways(spec: CycleProblemFile, axis: AxisEntries) -> Iterator[dict[str, Any]]:
-    for name, given in axis.limits.items():
-        if name not in LIMITS or name not in OBJECTIVES or not isinstance(given, str):
-            continue
-        others = {other: value for other, value in axis.limits.items() if other != name}
-        freed = replace(axis, limits=others, minimise=name, follower=None)
-        try:
-            least = stored(spec, freed).objective
-        except (InfeasibleProblem, SolverFailure):
-            continue
-        order, cycle = LIMITS[name].order, stored(spec, freed)
-        # in the unit of its limit, of which so many make one of SI
-        unit, factor = UNITS[cycle.axis][order] if order else (objective_unit(cycle), 1.0)
-        raised = Amount(least * factor * (1.0 + BOUND_SLACK), unit)
-        text = sentence("raise the limit of {} from {} to {}", name, given, raised)
-        yield {"entry": name, "value": str(raised), "text": text}
 
 
 #: segments of what is shown at first, as a cycle and as a cam

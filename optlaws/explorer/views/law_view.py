@@ -276,7 +276,10 @@ _LOW = 2.0
 def residuals(request: LawsRequest) -> dict[str, Any]:
     """Residual and peak acceleration of each law over frequencies, in units of a'', at one frequency, in a band."""
     weight = None if request.spectrum is None else weight_of(request.spectrum, request.duration)
-    constant, laws = _constant(request, weight), dict(_known_laws(request))
+    constant, laws = _constant(request, weight), dict[int, MotionLaw]()
+    for i, law in enumerate(request.laws):
+        with suppress(OptlawsError):  # the view of this law says why there is none
+            laws[i] = law_of(law)
     frequencies = np.union1d(np.linspace(_LOW, request.most, _COUNT), request.frequency)
     spectra = {i: response_spectrum(law, frequencies, request.damping) for i, law in laws.items()}
     curves = [(i, spectrum.report().panels) for i, spectrum in spectra.items()]
@@ -291,13 +294,6 @@ def residuals(request: LawsRequest) -> dict[str, Any]:
         "band": None if constant is None else [constant.low, constant.high],
         "constant": None if constant is None else str(constant),
     }
-
-
-def _known_laws(request: LawsRequest) -> Iterator[tuple[int, MotionLaw]]:
-    """The laws that there are, by their numbers: the view of the others says why there is none."""
-    for i, law in enumerate(request.laws):
-        with suppress(OptlawsError):
-            yield i, law_of(law)
 
 
 def _constant(request: LawsRequest, weight: Spectrum | None) -> Residual | None:
