@@ -40,7 +40,7 @@ def test_the_command_says_what_is_not_proven(tmp_path: Path, text: str, capsys: 
     bad.write_text(json.dumps(data), "utf-8")
     command(good)
     assert "good.json: proven" in capsys.readouterr().out
-    command(good, as_json=True)
+    command(good, json=True)
     assert json.loads(capsys.readouterr().out)[str(good)]["proven"] is True
     with pytest.raises(NotProven, match=r"bad\.json: not proven +the certificate's bound"):
         command(good, bad)
