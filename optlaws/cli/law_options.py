@@ -16,10 +16,6 @@ if TYPE_CHECKING:
     from optlaws.cycles.cycle import Cycle
 
 
-def _columns(text: str) -> list[str]:
-    return text.split(",")
-
-
 def _without_unit(remedy: str) -> Parameter:
     """How frequencies without dimension are read, which people give in Hz."""
 
@@ -54,7 +50,7 @@ def one_or_two(values: list[Any]) -> Any:
 
 
 #: of the columns of a table, by headings or numbers, as 1,3
-COLUMNS: dict[str, Any] = {"type": str, "read": _columns}
+COLUMNS: dict[str, Any] = {"type": str, "read": lambda text: text.split(",")}
 #: how a table of points is read
 TABLE = options("optlaws.laws.catalogue.reading:read_law", "tolerance", columns=COLUMNS)
 

@@ -67,7 +67,13 @@ def advise(
         raise InputError("--stroke, --duration and --mass are of a single move: a file has its own")
     wishes = given(wishes)
     with busy("laws are compared"):
-        advice = _of_move(**move, mass=mass, wishes=wishes) if file is None else _of_file(file, axis, wishes)
+        if file is None:
+            advice = {"": _of_move(**move, mass=mass, wishes=wishes)}
+        else:
+            advice = {}
+            for name, cycle in read_axes(file, axis).items():
+                with located(f"{file}: axis {name}"):
+                    advice[name] = optlaws.advise(cycle, **wishes)
     if output is not None:
         proofs = {name: each.proofs() for name, each in advice.items()}
         save(output, {"axes": proofs} if file is not None else {"move": proofs[""]})
@@ -87,9 +93,7 @@ def _drawn(advice: Mapping[str, Advice]) -> Any:
     return next(iter(advice.values())).plot()
 
 
-def _of_move(
-    stroke: str | None, duration: str | None, mass: str | None, wishes: Mapping[str, Any]
-) -> dict[str, Advice]:
+def _of_move(stroke: str | None, duration: str | None, mass: str | None, wishes: Mapping[str, Any]) -> Advice:
     if stroke is None or duration is None:
         raise InputError("give a problem file, or --stroke such as 35mm and --duration such as 0.1s")
     from optlaws.motion.quantities import either, quantity
@@ -97,15 +101,7 @@ def _of_move(
     dimension, _ = either(stroke, ("length", "angle"), "--stroke")
     quantity(duration, "time", "--duration")
     drive = None if mass is None else {"mass" if dimension == "length" else "inertia": mass}
-    return {"": optlaws.advise(optlaws.Rise(stroke, duration), drive=drive, **wishes)}
-
-
-def _of_file(file: Path, axis: str | None, wishes: Mapping[str, Any]) -> dict[str, Advice]:
-    advice = {}
-    for name, cycle in read_axes(file, axis).items():
-        with located(f"{file}: axis {name}"):
-            advice[name] = optlaws.advise(cycle, **wishes)
-    return advice
+    return optlaws.advise(optlaws.Rise(stroke, duration), drive=drive, **wishes)
 
 
 def _shown(advice: Mapping[str, Advice]) -> Iterable[Any]:

@@ -67,18 +67,14 @@ def _verified(file: Path) -> dict[str, Verification]:
     try:
         return dict(verify_all(file))
     except InputError as error:
-        about = reading.json_file(file)
-        if isinstance(about, dict) and str(about.get("format")).startswith(("optlaws cycle", "optlaws axes")):
+        stored = reading.json_file(file)
+        about = stored if isinstance(stored, dict) else {}
+        if str(about.get("format")).startswith(("optlaws cycle", "optlaws axes")):
             raise InputError(
                 f"{file}: it has the entries of a cycle or of axes, and claims nothing of their laws: Cycle.from_json "
                 "or Axes.from_json solves them again; the solutions of a cycle are stored with their proofs"
             ) from None
-        if (
-            not isinstance(about, dict)
-            or MARK not in str(about.get("about"))
-            or "problem" in about
-            or holds_proof(about)
-        ):
+        if MARK not in str(about.get("about")) or "problem" in about or holds_proof(about):
             text = str(error)
             raise InputError(text if str(file) in text else f"{file}: {text}") from None
     parts: dict[str, Verification] = {}
