@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Annotated, Any
 
 import msgspec
 
-from optlaws import MotionLaw, Problem
+from optlaws import MotionLaw
 from optlaws.errors import InputError, located
 from optlaws.explorer.views import old_cam_view
 from optlaws.explorer.views.requests import LawRequest, Question, problem_of
@@ -89,22 +90,13 @@ def _of_problem_file(data: dict[str, Any], name: str) -> dict[str, Any]:
     if job in _SHOWN:
         return {"view": job, job: data}
     with located(name):
-        stated = _single_problem(data)
-    if stated is None:
-        raise InputError(
-            f"{name}: the page shows a law, a cycle, a cam or a move; `optlaws run` does what this file says"
-        )
-    return _law({"problem": stated.to_dict()})
-
-
-def _single_problem(data: dict[str, Any]) -> Problem | None:
-    """The problem of a file that has one."""
-    if data.get("job") == "solutions":
-        spec = SolutionsProblemFile.from_dict(data)
-        swept = [*swept_entries(spec)]
-        return problem("problem", spec.problem, swept[0]) if len(swept) == 1 else None
-    single = isinstance(data.get("problem"), dict) and "job" not in data and "vary" not in data
-    return problem("problem", data["problem"]) if single else None
+        given, swept = data.get("problem"), [dict[str, Any]()]
+        if job == "solutions":
+            spec = SolutionsProblemFile.from_dict(data)
+            given, swept = spec.problem, [*swept_entries(spec)]
+        if isinstance(given, Mapping) and len(swept) == 1 and (job == "solutions" or not {"job", "vary"} & data.keys()):
+            return _law({"problem": problem("problem", given, swept[0]).to_dict()})
+        raise InputError("the page shows a law, a cycle, a cam or a move; `optlaws run` does what this file says")
 
 
 def _with_motors(data: dict[str, Any], file: Path) -> dict[str, Any]:
