@@ -60,13 +60,12 @@ def law(
         raise InputError("--samples is the number of lines of --csv FILE: name the file")
     if name is None:
         motion_law = _polynomial(z, order)
-        about = _facts(f"Z(k) of order {order}", motion_law)
     elif z is not None or order is not None:
         raise InputError(f"--z and --order make a law of their own: leave out {name!r}, or them")
     else:
         name = named(name, alpha, peak_velocity, "--alpha or --peak-velocity")
         motion_law = reading.read_law(name, **points)
-        about = _about(name, motion_law)
+    about = _about(name, order, motion_law)
     with located("--at"):
         values = [{"k": k, **{letter: getattr(motion_law, letter)(k) for letter in LETTERS}} for k in at or ()]
     if csv is not None:
@@ -85,22 +84,20 @@ def _polynomial(z: str | None, order: int | None) -> optlaws.MotionLaw:
     return optlaws.law_from_z(optlaws.BoundaryConditions.rest(order), powers)
 
 
-def _about(name: str, motion_law: optlaws.MotionLaw) -> dict[str, Any]:
+def _about(name: str | None, order: int | None, motion_law: optlaws.MotionLaw) -> dict[str, Any]:
+    """What is known of a law by its name, or without one by its order."""
     from optlaws.laws.catalogue import reading
+    from optlaws.laws.catalogue.entry import continuity_with_rest
 
-    member = reading.member(name)
+    member, title = None if name is None else reading.member(name), f"Z(k) of order {order}"
     if member is not None:
         family, alpha = member
         return {"name": f"Savin's {family}", "alpha": alpha, "order": family.order, **motion_law.report().data}
-    if reading.is_file(name) or reading.is_formula(name):
-        return _facts(name if reading.is_formula(name) else f"the law in {name}", motion_law)
-    return optlaws.catalogue[name].to_dict()
-
-
-def _facts(name: str, motion_law: optlaws.MotionLaw) -> dict[str, Any]:
-    from optlaws.laws.catalogue.entry import continuity_with_rest
-
-    return {"name": name, **motion_law.report().data, "continuity": continuity_with_rest(motion_law)}
+    if name is not None:
+        if not reading.is_file(name) and not reading.is_formula(name):
+            return optlaws.catalogue[name].to_dict()
+        title = name if reading.is_formula(name) else f"the law in {name}"
+    return {"name": title, **motion_law.report().data, "continuity": continuity_with_rest(motion_law)}
 
 
 def _shown(about: Mapping[str, Any], motion_law: optlaws.MotionLaw, at: list[float]) -> Iterator[Any]:

@@ -220,12 +220,7 @@ def example() -> dict[str, Any]:
         "title": "Rise, dwell, return, dwell",
         "speed": "200 rpm",
         "axis": [
-            {
-                "name": "slide",
-                "minimise": "acceleration",
-                "limits": {"velocity": "616 mm/s"},
-                "segment": SEGMENTS,
-            }
+            {"name": "slide", "minimise": "acceleration", "limits": {"velocity": "616 mm/s"}, "segment": SEGMENTS}
         ],
     }
 
