@@ -63,7 +63,7 @@ def test_the_command_study_says_what_it_did(tmp_path: Path, capsys: pytest.Captu
     assert json.loads(results.out)["counts"] == {"optimal": 1, "infeasible": 1}
     assert "2 of 2" in results.err
     assert exit_code(["study", "--status", out]) == 0
-    assert "2 of 2 points, finished" in capsys.readouterr().out
+    assert "2 of 2 points (finished)" in capsys.readouterr().out
     for wrong, text in (
         ([], "name a study file"),
         ([str(file), "--status", out], "--status takes a directory and neither"),
