@@ -154,8 +154,8 @@ class _Trials:
         return log(before / after) / (2.0 * DURATION_STEP)
 
 
-def _by_bracketing(move: Timed, near: LeastTime | None = None) -> Found:
-    """The least time between an infeasible and a feasible time, perhaps started near another.
+def _by_secants(move: Timed, near: LeastTime | None = None) -> Found:
+    """The least time by secants of the greatest share over the time, perhaps started near another.
 
     Where laws that keep the limits keep them in every longer time, a certificate of one time proves the shorter ones.
     """
@@ -187,7 +187,7 @@ def _of_vibration(move: Timed, without: Found) -> Found:
         low, high = high, high + _UPWARD
         if high - log(least) > _WIDEST:
             raise unsettled(move, exp(high))
-    duration = trials.root(high, low) if low < high else least
+    duration = trials.root(high, low) if low < high else exp(high)
     if proofs and low < high and move.stays_possible and move.shares(duration).convex:
         duration = _exclude(trials, proofs, duration)
     return duration, trials.solutions[duration], tuple(proofs)
@@ -253,7 +253,7 @@ def fastest_law(move: Timed, near: LeastTime | None = None) -> Found:
         if move.residual is not None:
             return _of_vibration(move, fastest_law(move.without_residual))
         if not move.of_rates:
-            return _by_bracketing(move, near)
+            return _by_secants(move, near)
         duration, solution, known = _from_either_side(move, near) if move.at_rest else _from_below(move)
     return duration, solution, covering(move, known, duration * (1.0 - LEAST_TIME_GAP))
 
