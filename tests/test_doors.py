@@ -238,7 +238,7 @@ def test_problem_files_of_each_job(tmp_path: Path, file: Path) -> None:
             damaged_line = f"{lines[i].partition('=')[0]}= {value}"
             copy.write_text("\n".join([*lines[:i], damaged_line, *lines[i + 1 :]]), "utf-8")
             with a_door(), pytest.raises(OptlawsError):
-                job.run(copy, tmp_path / "out")
+                job.done(copy).write(tmp_path / "out")
 
 
 @pytest.mark.parametrize(
@@ -256,7 +256,7 @@ def test_problem_files_of_each_job(tmp_path: Path, file: Path) -> None:
 def test_files_that_are_none(tmp_path: Path, content: bytes) -> None:
     file = tmp_path / "problem.toml"
     file.write_bytes(content)
-    for door in (job.run, read_study, reading.json_file):
+    for door in (job.done, read_study, reading.json_file):
         with a_door(), pytest.raises(OptlawsError):
             door(file)
 
@@ -264,7 +264,7 @@ def test_files_that_are_none(tmp_path: Path, content: bytes) -> None:
 def test_paths_that_are_no_files(tmp_path: Path) -> None:
     for path in (Path("a\0b"), Path("a\ud800"), Path("/dev/zero"), tmp_path, tmp_path / ("x" * 300)):
         with a_door(), pytest.raises(OptlawsError):
-            job.run(path)
+            job.done(path).write(job.folder_of(path))
 
 
 def test_a_byte_order_mark_is_read(tmp_path: Path) -> None:

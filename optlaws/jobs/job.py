@@ -33,11 +33,6 @@ def do(name: str, results: Results) -> None:
     import_module(f"optlaws.jobs.{name.replace(' ', '_')}").run(results)
 
 
-def run(file: Path, out: Path | None = None) -> list[Path]:
-    """Do the job of a problem file and return the files written, into `folder_of` the file unless another is given."""
-    return done(file).write(folder_of(file) if out is None else out)
-
-
 def folder_of(file: Path) -> Path:
     """The folder of the results, `results/<name of the file>` beside the problem file's folder."""
     return file.resolve().parent.parent / "results" / file.stem

@@ -96,7 +96,7 @@ def test_a_job_that_fails_leaves_nothing_behind(folder: Path, monkeypatch: pytes
         with monkeypatch.context() as patched:
             failing(patched, after, RuntimeError("interrupted"))
             with pytest.raises(RuntimeError, match="interrupted"):
-                job.run(file, out)
+                job.done(file).write(out)
         assert contents(folder) == before
 
 

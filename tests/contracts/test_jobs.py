@@ -28,7 +28,7 @@ def done(folder: Path, name: str, change: Callable[[str], str] = str, beside: Ca
         (folder / other).write_text(beside(content), "utf-8")
     file = folder / "small.toml"
     file.write_text(change(EXAMPLES[name].text), "utf-8")
-    return job.run(file, folder / "out")
+    return job.done(file).write(folder / "out")
 
 
 def replaced(old: str, new: str) -> Callable[[str], str]:

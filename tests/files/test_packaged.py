@@ -85,7 +85,7 @@ def test_words_that_a_problem_file_may_not_hold_are_told_with_the_right_ones(tmp
     text = packaged.packaged("problems/cycle_savin_design.toml").read_text("utf-8")
     file.write_text(text.replace('kind = "rise"', 'kind = "rize"', 1), "utf-8")
     with pytest.raises(InputError, match="segment 1: unknown kind of a segment 'rize'; did you mean 'rise'"):
-        job.run(file, tmp_path / "results")
+        job.done(file).write(tmp_path / "results")
     assert not (tmp_path / "results").exists()
 
 

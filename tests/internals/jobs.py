@@ -7,7 +7,7 @@ from optlaws.jobs.cam import read as read_of_cam
 from optlaws.jobs.cycle import sweep_table
 from optlaws.jobs.cycle_entries import read as read_of_cycle_entries
 from optlaws.jobs.cycle_entries import read_given, sweeps_of
-from optlaws.jobs.job import JOBS, do, run
+from optlaws.jobs.job import JOBS, do
 from optlaws.jobs.job_entries import ProblemFile
 from optlaws.jobs.machine_laws import MachineLawsProblemFile, MachineTable
 from optlaws.jobs.starters.starter import STARTERS

@@ -17,7 +17,7 @@ def run(folder: Path, text: str) -> Path:
     (folder / "printed.csv").write_text("# comment\nB,C\n1.53,7.3617\n", "utf-8")
     file = folder / "small.toml"
     file.write_text(text, "utf-8")
-    job.run(file, folder / "out")
+    job.done(file).write(folder / "out")
     return folder / "out"
 
 
@@ -60,7 +60,7 @@ def test_a_problem_without_a_law_is_a_row_that_says_so(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("name", sampled(["j_minimal", "d_minimal"]))
 def test_results_in_the_repository_are_what_the_job_gives(tmp_path: Path, name: str) -> None:
-    job.run(ROOT / "problems" / f"{name}.toml", tmp_path)
+    job.done(ROOT / "problems" / f"{name}.toml").write(tmp_path)
     for file in ("table.csv", "table.md"):
         assert (tmp_path / file).read_bytes() == (ROOT / "results" / name / file).read_bytes()
 

@@ -130,7 +130,7 @@ def test_a_file_of_a_user_s_is_never_code(
     Path(name).write_text(content, "utf-8")
     Path("mine.py").write_text("raise SystemExit(7)\n", "utf-8")
     with pytest.raises(InputError, match=message):
-        job.run(Path(name), tmp_path / "out")
+        job.done(Path(name)).write(tmp_path / "out")
     assert not (tmp_path / "out").exists()
 
 

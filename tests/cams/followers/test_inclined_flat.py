@@ -217,7 +217,7 @@ kind = "dwell"
 def run(folder: Path, text: str) -> tuple[dict[str, Any], set[str]]:
     file = folder / "inclined.toml"
     file.write_text(text, "utf-8")
-    written = job.run(file, folder / "out")
+    written = job.done(file).write(folder / "out")
     return json.loads((folder / "out" / "cam.json").read_text("utf-8")), {path.name for path in written}
 
 

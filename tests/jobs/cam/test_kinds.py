@@ -78,7 +78,7 @@ def done(folder: Path, text: str) -> tuple[str, dict[str, Any], set[str]]:
     """The page, what a program is told, and the names of the files."""
     file = folder / "small.toml"
     file.write_text(text, "utf-8")
-    written = job.run(file, folder / "out")
+    written = job.done(file).write(folder / "out")
     reply = json.loads((folder / "out" / "cam.json").read_text("utf-8"))
     return (folder / "out" / "cam.md").read_text("utf-8"), reply, {one.name for one in written}
 
@@ -204,7 +204,7 @@ def test_what_is_wrong_names_file_and_entry(tmp_path: Path, text: str, old: str,
     file = tmp_path / "small.toml"
     file.write_text(text.replace(old, new, 1), "utf-8")
     with pytest.raises(InputError, match=rf"(?s)small\.toml.*{message}"):
-        job.run(file, tmp_path / "out")
+        job.done(file).write(tmp_path / "out")
     assert not (tmp_path / "out").exists()
 
 
