@@ -203,7 +203,11 @@ def read(data: Mapping[str, Any], file: Path) -> CamResult | BarrelResult:
     """The result of a file's entries; an error names the file."""
     spec = (BarrelProblemFile if "barrel" in data else CamProblemFile).read(data, file)
     with located(str(file)):
-        return CamResult.of_file(spec) if isinstance(spec, CamProblemFile) else BarrelResult.of_file(spec)
+        if isinstance(spec, CamProblemFile):
+            return CamResult.of_file(spec)
+        cam = BarrelCam(spec.cycle, **spec.barrel.to_dict(), turning=spec.turning)
+        section, table = barrel_section(cam), barrel_coordinates(cam, spec.rows, spec.cutter_radius)
+        return BarrelResult(spec, (section,), {"unit": "SI", **section.data}, table, partial(barrel_figure, cam))
 
 
 class BarrelResult(NamedTuple):
@@ -214,13 +218,6 @@ class BarrelResult(NamedTuple):
     data: dict[str, Any]
     table: ReportTable
     drawn: Callable[[str], Figure]
-
-    @classmethod
-    def of_file(cls, spec: BarrelProblemFile) -> BarrelResult:
-        """The cam of a problem file."""
-        cam = BarrelCam(spec.cycle, **spec.barrel.to_dict(), turning=spec.turning)
-        section, table = barrel_section(cam), barrel_coordinates(cam, spec.rows, spec.cutter_radius)
-        return cls(spec, (section,), {"unit": "SI", **section.data}, table, partial(barrel_figure, cam))
 
 
 @dataclass(frozen=True)
