@@ -21,6 +21,9 @@ from optlaws.synthesis.proof.certificate import Certificate
 from optlaws.synthesis.solve import synthesize
 from optlaws.tolerances import BINDING_LIMIT, FASTER
 
+#: about what constants of laws from rest to rest are, from which a first scale is taken
+_USUAL = {1: 1.6, 2: 5.0, 3: 40.0, 4: 600.0}
+
 
 @dataclass(frozen=True)
 class TimedProblem(Timed):
@@ -57,10 +60,8 @@ class TimedProblem(Timed):
 
     @property
     def begin(self) -> float:
-        """The scale that no law is faster than, or that of the law of least acceleration."""
-        if self.limit is not None:
-            return self.limit
-        return least_scale(self.limits, synthesize(self.problem).law)
+        """The scale that no law is faster than, or the greatest at which a usual law takes a limit to the full."""
+        return self.limit or max(map(_usual_scale, self.limits))
 
     def limits_in(self, duration: float) -> tuple[TimedLimit, ...]:
         """Every limit at a scale of the time."""
@@ -144,3 +145,10 @@ def least_time(base: Problem, rows: Sequence[SpanLimit], where: str) -> SpanTime
         ) from error
     certificate = proofs[-1].certificate if proofs else None
     return SpanTime(scale, solution.law, tuple(rows), base, certificate)
+
+
+def _usual_scale(limit: SpanLimit) -> float:
+    """A scale at which a usual law takes a limit to the full."""
+    nu = limit.key.kind.order
+    usual = _USUAL.get(nu, 1.0) * limit.term(1.0)[1]
+    return float(usual ** (1.0 / (nu or 2)))
