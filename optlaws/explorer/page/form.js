@@ -46,7 +46,7 @@ export class Form {
   /** The field of an entry at its path; `name` is what a reader of the screen hears. */
   field({ path, label, about, placeholder, choices, default: usual }, name = spoken(path)) {
     const field = choices
-      ? html("select", { "aria-label": name }, ...["", ...choices.map(String)].filter((value) => value !== String(usual)).map((value) => html("option", { value, text: value || (usual ?? (placeholder || "none")) })))
+      ? html("select", { "aria-label": name }, ...["", ...choices.map(String)].filter((value) => value !== String(usual)).map((value) => html("option", { value, text: value || String(usual ?? (placeholder || "none")) })))
       : html("input", { type: "text", placeholder, spellcheck: "false", maxlength: 400, "aria-label": name });
     field.addEventListener("input", () => this.#change(name, (table) => put(table, path, plain(field.value.trim()))));
     field.addEventListener("change", () => this.#rested());
