@@ -31,7 +31,7 @@ from optlaws.files.tables import to_csv, to_toml
 from optlaws.files.writing import MARK
 from optlaws.jobs.cycle_entries import cycle_of
 from optlaws.laws.values import table_of_values
-from optlaws.shown.report import printable_page
+from optlaws.motion.display_units import DEGREES, MILLI
 
 _ROWS = 361
 _WIDTH = 116
@@ -61,8 +61,12 @@ def answer(question: FileRequest) -> dict[str, str]:
     (kinds, result), request = _read(question)
     check_names([question.kind], {*kinds, "report"}, f"file of the view {question.view}")
     if question.kind == "report":
+        from optlaws.plots.report import printable_page  # matplotlib costs a start that other questions do without
+
         of = titled(request.law) if isinstance(request, LawsRequest) else request.study.get("title", "A motion")
-        name, text = "report.html", printable_page(of, result(request).report())
+        shown = axes_view.axes_of(request.study) if question.view == "axes" else result(request)
+        per = DEGREES if question.view == "cam" else MILLI
+        name, text = "report.html", printable_page(of, shown.report(), per)
     else:
         name, text = kinds[question.kind](request)
     return {"name": name, "type": guess_type(name)[0] or "text/plain", "text": text}

@@ -2,24 +2,33 @@
 
 from __future__ import annotations
 
+from base64 import b64encode
 from collections.abc import Sequence
-from itertools import pairwise
+from itertools import groupby, pairwise
 from math import isfinite
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
 from optlaws.motion.display_units import MILLI
-from optlaws.plots.style import BLUES, GREY, WARM
+from optlaws.plots.style import BLUES, GREY, WARM, one_below_the_other, rendered
+from optlaws.shown.showing import cell, table
 
 if TYPE_CHECKING:
     from matplotlib.artist import Artist
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
-    from optlaws.shown.report import Panel, ReportSegment
+    from optlaws.shown.report import Panel, Report, ReportSegment
 
 #: a limit is drawn up to so many times what is used of it on its side
 _NEAR = 4.0
+_INCHES = 2.0  # of a page for each panel
+_PRINTED = (
+    "body{font:9.5pt sans-serif;margin:12mm;color:#000;background:#fff}h1{font-size:14pt}"
+    "table{border-collapse:collapse;margin:1em 0}td,th{text-align:left;padding:1px 1em 1px 0;vertical-align:top}"
+    "tr:first-child{border-bottom:1px solid #888}img{display:block;width:100%;max-width:18cm;break-inside:avoid}"
+)
 
 
 def draw_panels(
@@ -83,3 +92,22 @@ def set_range(axes: Axes, panels: Sequence[Panel], per: float = MILLI) -> None:
     least = min(0.0 if not panel.across else float(panel.series[0].at[0]) for panel in panels)
     label = panels[0].across or ("time, ms" if per == MILLI else "cam, deg")
     axes.set(xlabel=label, xlim=(per * least, per * longest))
+
+
+def printable_page(title: object, report: Report, per: float = MILLI) -> str:
+    """A report as a file of HTML by itself, to be read anywhere and printed: facts, tables, pictures of its panels."""
+    tables = [table(*each) for each in report.tables]
+    pictures = [
+        _picture(list(panels), report.segments, per) for _, panels in groupby(report.panels, lambda each: each.across)
+    ]
+    head = f'<meta charset="utf-8"><title>{cell(title)}</title><style>{_PRINTED}</style>'
+    body = "".join([f"<h1>{cell(title)}</h1>", report.facts._repr_html_(), *tables, *pictures])
+    return f'<!doctype html>\n<html lang="en"><head>{head}</head><body>{body}</body></html>\n'
+
+
+def _picture(panels: Sequence[Panel], segments: Sequence[ReportSegment], per: float) -> str:
+    """Panels over one abscissa as an image that the page contains."""
+    axes = one_below_the_other(None, len(panels), _INCHES * len(panels) + 0.4)
+    draw_panels(panels, segments, axes, per=per)
+    text = b64encode(rendered(cast("Figure", axes[0].get_figure(root=True)), "svg")).decode()
+    return f'<img alt="{cell(", ".join(panel.title for panel in panels))}" src="data:image/svg+xml;base64,{text}">'

@@ -7,13 +7,8 @@ from dataclasses import dataclass, field, replace
 from typing import Any, NamedTuple, Protocol, Self
 
 from optlaws.numbers import Array, bounded
-from optlaws.shown.showing import cell, drawing, page, table
+from optlaws.shown.showing import drawing, page, table
 from optlaws.shown.summary import Row, Summary
-
-_PRINTED = (
-    "body{font:10pt sans-serif;margin:15mm;color:#000;background:#fff}td,th{text-align:left;padding:0 1em 0 0}"
-    "table{margin:1em 0}svg{display:block;width:12cm;height:auto;margin:1em 0;break-inside:avoid}"
-)
 
 
 class ReportTable(NamedTuple):
@@ -196,12 +191,6 @@ def report_page(title: object, report: Report) -> str:
     """A report as HTML: its facts, its tables, and a small drawing of every panel."""
     tables = (table(*each) for each in report.tables)
     return page(title, report.facts._repr_html_(), *tables, *map(panel_drawing, report.panels))
-
-
-def printable_page(title: object, report: Report) -> str:
-    """A report as a file of HTML by itself, to be read anywhere and printed."""
-    head = f'<meta charset="utf-8"><title>{cell(title)}</title><style>{_PRINTED}</style>'
-    return f'<!doctype html>\n<html lang="en"><head>{head}</head><body>{report_page(title, report)}</body></html>\n'
 
 
 def panel_drawing(panel: Panel) -> str:

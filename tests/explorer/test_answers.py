@@ -3,6 +3,7 @@
 import json
 import re
 import tomllib
+from base64 import b64decode
 from dataclasses import replace
 from html import escape
 from math import degrees, hypot
@@ -24,6 +25,7 @@ from tests.internals.explorer import (
     LawRequest,
     LawsRequest,
     OpenRequest,
+    axes_view,
     cam_view,
     cycle_view,
     downloads,
@@ -456,13 +458,18 @@ def test_the_report_of_a_view_is_printed_with_its_facts_and_curves(view: str) ->
     asked: dict[str, Any] = {"laws": [OPTIMAL]} if view == "laws" else {"study": study}
     file = file_of("report", view, **asked, **({"points": 2} if view == "advice" else {}))
     assert (file["name"], file["type"]) == ("report.html", "text/html")
-    result = downloads.VIEWS[view][1]
     request = msgspec.json.decode(msgspec.json.encode(asked), type=LawsRequest if view == "laws" else CycleRequest)
-    report = result(request).report()
-    assert file["text"].count("<svg") == len(report.panels)
+    report = (axes_view.axes_of(study) if view == "axes" else downloads.VIEWS[view][1](request)).report()
+    pictures = [
+        b64decode(text).decode() for text in re.findall(r"src=\"data:image/svg\+xml;base64,([^\"]+)\"", file["text"])
+    ]
+    assert len(pictures) == len({panel.across for panel in report.panels})
+    alternatives = ", ".join(re.findall(r'<img alt="([^"]*)"', file["text"]))
+    assert alternatives == ", ".join(escape(panel.title) for panel in report.panels)
+    assert sum(picture.count('<g id="axes_') for picture in pictures) == len(report.panels)
     assert file["text"].count("<table") == 1 + len(report.tables)
     assert all(escape(row.name) in file["text"] for row in report.facts)
-    assert not re.search("<script|href=|src=", file["text"])
+    assert not re.search('<script|href=|src="(?!data:)', file["text"])
 
 
 @pytest.mark.parametrize("view", ["cycle", "axes", "machine", "cam", "fastest", "old"])
