@@ -369,7 +369,8 @@ class Together(ValueType):
 
     @property
     def words(self) -> str:
-        return f"a list of {' and '.join(each.words for each in self.of)}"
+        *first, last = (each.words for each in self.of)
+        return f"a list of {', '.join(first)} and {last}" if first else f"a list of {last}"
 
     def schema(self) -> dict[str, Any]:
         return {

@@ -83,7 +83,7 @@ def test_parts_of_the_way_of_a_mechanism_are_positions_of_its_input() -> None:
     assert forth.value > table.limit("rms torque", "0 deg", "45 deg", "0.25 s").value * 1.1
     with pytest.raises(InputError, match="within the stroke"):
         table.limit("rms torque", "0 deg", "25 deg", "0.25 s", limits=slow)
-    with pytest.raises(InputError, match="two positions with a bound"):
+    with pytest.raises(InputError, match="velocity 1 must be a list of an angle, an angle and an angular"):
         table.limit("rms torque", "0 deg", "45 deg", "0.25 s", limits={"velocity": [("20 deg", "2 rad/s")]})
     with pytest.raises(InputError, match="ascend"):
         VelocityLimit(0.4, 0.2, 1.0)
