@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import optlaws
 from optlaws.cli.law_options import FollowerFrequency, named
@@ -12,9 +12,7 @@ from optlaws.cli.options import given, options, takes
 from optlaws.cli.show import Answer
 from optlaws.errors import InputError
 from optlaws.laws.catalogue.reading import read_law
-from optlaws.motion.quantities import quantity, read_stroke
-from optlaws.shown.report import ReportTable
-from optlaws.shown.summary import Row, Summary
+from optlaws.motion.quantities import quantity
 
 if TYPE_CHECKING:
     from matplotlib.artist import Artist
@@ -77,19 +75,14 @@ def follower(
         )
     vibration = {"--natural-frequency": natural_frequency, "--natural-period": natural_period}
     mass = _follower(frequency, given(vibration), times, damping)
-    if height is not None:
-        read_stroke(height)
     reference = cam = read_law(named(law, alpha, None, "--alpha"))
     if design_frequency is None and design_damping is not None:
         raise InputError("--design-damping needs --design-frequency")
     if design_frequency is not None:
         cam = optlaws.polydyne(reference, design_frequency, damping if design_damping is None else design_damping)
-    response = mass.response(cam)
-    data = _results(mass, cam, reference, response)
-    if height is not None:
-        data["machine"] = response.in_units(height, **times) | {"dynamic factor": data["dynamic_factor"]}
-    drawn = response.plot if spectrum is None else lambda: _spectrum(cam, damping, spectrum)
-    return Answer(lambda: _shown(data, cam), lambda: data, drawn)
+    machine = {} if height is None else {"stroke": height, **times}
+    drawn = mass.response(cam).plot if spectrum is None else lambda: _spectrum(cam, damping, spectrum)
+    return Answer.of(mass.report(cam, reference, machine), drawn)
 
 
 def _follower(
@@ -108,49 +101,6 @@ def _follower(
     ((name, text),) = vibration.items()
     quantity(text, "frequency" if name == "--natural-frequency" else "time", name)
     return optlaws.Follower.from_vibration(text, **times, damping=damping)
-
-
-def _results(
-    mass: optlaws.Follower, cam: optlaws.MotionLaw, reference: optlaws.MotionLaw, response: optlaws.Response
-) -> dict[str, Any]:
-    return {
-        "frequency": mass.frequency,
-        "damping": mass.damping,
-        "dynamic_factor": response.dynamic_factor(reference),
-        "peak_acceleration": response.peak(2).to_dict(),
-        "dwell_acceleration": response.dwell_peak(2).to_dict(),
-        "residual_displacement": response.residual_displacement,
-        "residual_acceleration": response.residual_acceleration,
-        "off_design": [
-            {
-                "percent": deviation.percent,
-                "frequency": deviation.response.frequency,
-                "dynamic_factor": deviation.dynamic_factor,
-                "residual_acceleration": deviation.response.residual_acceleration,
-            }
-            for deviation in optlaws.off_design(cam, reference, mass)
-        ],
-        "cam": {"constants": cam.constants.to_dict(rms=False), "law": cam.to_dict()},
-    }
-
-
-def _shown(data: Mapping[str, Any], cam: optlaws.MotionLaw) -> Iterator[Summary | ReportTable]:
-    machine = {name: value for name, value in data.get("machine", {}).items() if name != "dynamic factor"}
-    rise, dwell = data["peak_acceleration"], data["dwell_acceleration"]
-    facts = [
-        Row("frequency", data["frequency"]),
-        Row("damping ratio", data["damping"]),
-        Row("dynamic factor", data["dynamic_factor"]),
-        Row("acceleration in the rise", rise["value"], place=rise["k"]),
-        Row("acceleration in the dwell", dwell["value"], place=dwell["k"]),
-        *(Row(f"residual {name}", data[f"residual_{name}"]) for name in ("acceleration", "displacement")),
-        *(Row(name, value) for name, value in machine.items()),
-        *(row._replace(name=f"{row.name} of the cam") for row in cam.constants.summary() if row.place is not None),
-    ]
-    yield Summary(facts, at="k")
-    headings = ("frequency off by", "frequency", "dynamic factor", "residual acceleration")
-    rows = (list(each.values()) for each in data["off_design"])
-    yield ReportTable(headings, [[f"{off:+g} %" if off else "0 %", *row] for off, *row in rows])
 
 
 def _spectrum(cam: optlaws.MotionLaw, damping: float, span: tuple[float, float]) -> list[Artist]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from math import cos, exp, pi, sqrt, tau
 from typing import Any, Literal
@@ -14,6 +14,8 @@ from optlaws.laws.law import motion_law
 from optlaws.mechanisms.machine.response import CycleResponse, Response, duration_of_rise
 from optlaws.motion.quantities import check_scale, either
 from optlaws.numbers import Quantity, circular_frequency, not_negative, numbers, positive
+from optlaws.shown.report import PlainReport, Report, ReportTable
+from optlaws.shown.summary import Row, Summary
 
 _SHOWN = 240
 
@@ -172,6 +174,52 @@ class Follower:
         k = [i / _SHOWN for i in range(_SHOWN + 1)]
         decay = [exp(-self.n * place) * cos(nu * sqrt(max(0.0, 1.0 - zeta**2)) * place) for place in k]
         return page("Follower", facts(known), drawing("free vibration", k, decay))
+
+    def report(self, cam: MotionLaw, reference: MotionLaw, machine: Mapping[str, Any]) -> Report:
+        """Peaks and vibration on a cam, off its design too, beside the law meant for the mass.
+
+        The entries of the `machine`, if there are any, are arguments of `Response.in_units`.
+
+        Examples
+        --------
+        >>> from optlaws import savin
+        >>> law = savin("III", 7.2)
+        >>> [row.name for row in Follower(frequency=18).report(law, law, {}).facts][2:4]
+        ['dynamic factor', 'acceleration in the rise']
+        """
+        response = self.response(cam)
+        peaks = {"rise": response.peak(2), "dwell": response.dwell_peak(2)}
+        left = {name: getattr(response, name) for name in ("residual_displacement", "residual_acceleration")}
+        factor = response.dynamic_factor(reference)
+        known = response.in_units(**machine) | {"dynamic factor": factor} if machine else {}
+        keys = ("percent", "frequency", "dynamic_factor", "residual_acceleration")
+        off = [
+            (each.percent, each.response.frequency, each.dynamic_factor, each.response.residual_acceleration)
+            for each in off_design(cam, reference, self)
+        ]
+        data = {
+            "frequency": self.frequency,
+            "damping": self.damping,
+            "dynamic_factor": factor,
+            "peak_acceleration": peaks["rise"].to_dict(),
+            "dwell_acceleration": peaks["dwell"].to_dict(),
+            **left,
+            "off_design": [dict(zip(keys, row, strict=True)) for row in off],
+            "cam": {"constants": cam.constants.to_dict(rms=False), "law": cam.to_dict()},
+            **({"machine": known} if known else {}),
+        }
+        facts = [
+            Row("frequency", self.frequency),
+            Row("damping ratio", self.damping),
+            Row("dynamic factor", factor),
+            *(Row(f"acceleration in the {where}", peak.value, place=peak.k) for where, peak in peaks.items()),
+            *(Row(name.replace("_", " "), value) for name, value in reversed(left.items())),
+            *(Row(name, value) for name, value in known.items() if name != "dynamic factor"),
+            *(row._replace(name=f"{row.name} of the cam") for row in cam.constants.summary() if row.place is not None),
+        ]
+        headings = ("frequency off by", *(key.replace("_", " ") for key in keys[1:]))
+        table = ReportTable(headings, [[f"{row[0]:+g} %" if row[0] else "0 %", *row[1:]] for row in off])
+        return PlainReport(Summary(facts, at="k"), [table], (), lambda: data)
 
     def response(self, law: MotionLaw, *, initial: tuple[float, float] | None = None) -> Response:
         """Motion of the mass when the cam moves by `law` and rests afterwards.
