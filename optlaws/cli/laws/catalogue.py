@@ -7,8 +7,6 @@ from optlaws.cli.options import takes
 from optlaws.cli.show import Answer
 from optlaws.errors import InputError
 
-_LETTERS = ("b", "c", "j", "j'", "j''")
-
 
 @takes("Draw the acceleration of each listed law, in a panel each, into this file, PNG or SVG.")
 def catalogue(search: str | None = None, /) -> Answer:
@@ -19,6 +17,7 @@ def catalogue(search: str | None = None, /) -> Answer:
     search
         A name in any language or of a controller, or part of one.
     """
+    from optlaws.laws.catalogue.entry import continuity_row
     from optlaws.plots.law import accelerations_figure
     from optlaws.shown.report import ReportTable
 
@@ -27,7 +26,7 @@ def catalogue(search: str | None = None, /) -> Answer:
     if not entries:
         raise InputError(f"no law is like {search!r}; `optlaws catalogue` lists all {len(known)}")
     rows = (
-        [entry.name, *(getattr(entry.constants, name).value for name in "BCDJ"), continuous(entry.continuity)]
+        [entry.name, *(getattr(entry.constants, name).value for name in "BCDJ"), continuity_row(entry.continuity).value]
         for entry in entries
     )
     return Answer(
@@ -35,8 +34,3 @@ def catalogue(search: str | None = None, /) -> Answer:
         lambda: [{key: value for key, value in entry.to_dict().items() if key != "law"} for entry in entries],
         lambda: accelerations_figure({entry.name: entry.law for entry in entries}),
     )
-
-
-def continuous(order: int) -> str:
-    """Which derivatives of a law are continuous, in letters."""
-    return "a" + "".join(f", {letter}" for letter in _LETTERS[:order])

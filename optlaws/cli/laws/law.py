@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from typing import Annotated, Any
 
 from cyclopts import Parameter
 
 import optlaws
 from optlaws.cli.law_options import TABLE, named
-from optlaws.cli.laws.catalogue import continuous
 from optlaws.cli.options import Whole, Written, takes
 from optlaws.cli.show import Answer
 from optlaws.errors import InputError, located
+from optlaws.shown.report import PlainReport, Report, ReportTable
+from optlaws.shown.summary import Row, Summary
 
 
 @takes("Draw a, b, c and j into this file, PNG or SVG.", points=TABLE)
@@ -52,9 +53,11 @@ def law(
     samples
         How many lines for --csv; 201 unless given.
     """
+    import numpy as np
+
     from optlaws.files import writing
     from optlaws.laws.catalogue import reading
-    from optlaws.laws.values import LETTERS, SAMPLES, table_of_values
+    from optlaws.laws.values import LETTERS, SAMPLES, table_of_values, values
 
     if samples is not None and csv is None:
         raise InputError("--samples is the number of lines of --csv FILE: name the file")
@@ -65,12 +68,17 @@ def law(
     else:
         name = named(name, alpha, peak_velocity, "--alpha or --peak-velocity")
         motion_law = reading.read_law(name, **points)
-    about = _about(name, order, motion_law)
+    report = _report(name, order, motion_law)
     with located("--at"):
-        values = [{"k": k, **{letter: getattr(motion_law, letter)(k) for letter in LETTERS}} for k in at or ()]
+        exact = [{"k": k, **{letter: getattr(motion_law, letter)(k) for letter in LETTERS}} for k in at or ()]
     if csv is not None:
-        writing.write(csv, table_of_values(motion_law, name or about["name"], SAMPLES if samples is None else samples))
-    return Answer(lambda: _shown(about, motion_law, at or []), lambda: {**about, "at": values}, motion_law.plot)
+        title = name or f"Z(k) of order {order}"
+        writing.write(csv, table_of_values(motion_law, title, SAMPLES if samples is None else samples))
+    shown: list[Summary | ReportTable] = [report.facts]
+    if at:
+        rows = zip(at, *values(motion_law, np.array(at)), strict=True)
+        shown.append(ReportTable(["k", *LETTERS], [[f"{value:.10g}" for value in row] for row in rows]))
+    return Answer(lambda: shown, lambda: {**report.data, "at": exact}, motion_law.plot)
 
 
 def _polynomial(z: str | None, order: int | None) -> optlaws.MotionLaw:
@@ -84,38 +92,21 @@ def _polynomial(z: str | None, order: int | None) -> optlaws.MotionLaw:
     return optlaws.law_from_z(optlaws.BoundaryConditions.rest(order), powers)
 
 
-def _about(name: str | None, order: int | None, motion_law: optlaws.MotionLaw) -> dict[str, Any]:
-    """What is known of a law by its name, or without one by its order."""
+def _report(name: str | None, order: int | None, motion_law: optlaws.MotionLaw) -> Report:
+    """The report of a law under its name, or without one under its order."""
     from optlaws.laws.catalogue import reading
-    from optlaws.laws.catalogue.entry import continuity_with_rest
+    from optlaws.laws.catalogue.entry import continuity_row, continuity_with_rest
 
-    member, title = None if name is None else reading.member(name), f"Z(k) of order {order}"
+    report, member = motion_law.report(), None if name is None else reading.member(name)
     if member is not None:
         family, alpha = member
-        return {"name": f"Savin's {family}", "alpha": alpha, "order": family.order, **motion_law.report().data}
-    if name is not None:
-        if not reading.is_file(name) and not reading.is_formula(name):
-            return optlaws.catalogue[name].to_dict()
-        title = name if reading.is_formula(name) else f"the law in {name}"
-    return {"name": title, **motion_law.report().data, "continuity": continuity_with_rest(motion_law)}
-
-
-def _shown(about: Mapping[str, Any], motion_law: optlaws.MotionLaw, at: list[float]) -> Iterator[Any]:
-    import numpy as np
-
-    from optlaws.laws.values import LETTERS, values
-    from optlaws.shown.report import ReportTable
-    from optlaws.shown.summary import Row, Summary
-
-    facts = {"law": about["name"], "alpha": about.get("alpha"), "order l": about.get("order")}
-    if "source" in about:
-        names = "; ".join(f"{language}: {', '.join(some)}" for language, some in about["aliases"].items())
-        memory = "the definition is from memory: compare it with the source" if about["from_memory"] else None
-        facts |= {"also": names, "built": about["formula"], "source": about["source"], "": memory}
-    if "continuity" in about:
-        facts["continuous"] = continuous(about["continuity"])
-    known = [Row(name, value) for name, value in facts.items() if value is not None]
-    yield Summary([*known, *motion_law.constants.summary()], at="k")
-    if at:
-        rows = zip(at, *values(motion_law, np.array(at)), strict=True)
-        yield ReportTable(["k", *LETTERS], [[f"{value:.10g}" for value in row] for row in rows])
+        data = {"name": f"Savin's {family}", "alpha": alpha, "order": family.order, **report.data}
+        rows = [Row("law", data["name"]), Row("alpha", alpha), Row("order l", family.order)]
+    elif name is not None and not reading.is_file(name) and not reading.is_formula(name):
+        return optlaws.catalogue[name].report()
+    else:
+        of_file = name if name is None or reading.is_formula(name) else f"the law in {name}"
+        continuity = continuity_with_rest(motion_law)
+        data = {"name": of_file or f"Z(k) of order {order}", **report.data, "continuity": continuity}
+        rows = [Row("law", data["name"]), continuity_row(continuity)]
+    return PlainReport(Summary([*rows, *report.facts], at="k"), (), report.panels, lambda: data)

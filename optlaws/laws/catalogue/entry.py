@@ -21,6 +21,8 @@ from optlaws.laws.polynomial import smoothstep
 from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import Segment
 from optlaws.laws.segments.sine import HarmonicSegment, SineSegment
+from optlaws.shown.report import PlainReport, Report, report_page
+from optlaws.shown.summary import Row, Summary
 from optlaws.tolerances import JUMP
 
 #: half segments, which end or begin at their greatest velocity: acceleration in words, and exactly
@@ -30,6 +32,7 @@ _HALVES = {
     "H1": ("c = π²/4 cos πk/2", SineSegment(0.25 * pi * pi, 0.5 * pi, 0.5 * pi)),
     "H2": ("c = -π²/4 sin πk/2, b(0) = π/2", SineSegment(-0.25 * pi * pi, 0.5 * pi, b0=0.5 * pi)),
 }
+_LETTERS = ("a", "b", "c", "j", "j'", "j''")
 BUILDERS = ("smoothstep", "sines", "cosines", "half", "scca", "trapezoid", "code")
 
 
@@ -112,14 +115,16 @@ class CatalogueEntry(JsonText):
     def __repr__(self) -> str:
         return f"CatalogueEntry({self.name!r}, {self.formula!r})"
 
-    def _repr_html_(self) -> str:
-        from optlaws.shown.report import panel_drawing
-        from optlaws.shown.showing import facts, page
+    def report(self) -> Report:
+        """Its names, how it is built, its source and its constants, with the curves of its law."""
+        also = "; ".join(f"{language}: {', '.join(some)}" for language, some in self.names)
+        rows = [Row("law", self.name), Row("also", also), Row("built", self.formula), Row("source", self.source)]
+        rows += [Row("", "the definition is from memory: compare it with the source")] if self.from_memory else []
+        facts = Summary([*rows, continuity_row(self.continuity), *self.constants.summary()], at="k")
+        return PlainReport(facts, (), self.law.report().panels, self.to_dict)
 
-        known = {"also": ", ".join(self.aliases) or None, "built": self.formula, "source": self.source}
-        return page(
-            self.name, facts(known), self.constants._repr_html_(), *map(panel_drawing, self.law.report().panels)
-        )
+    def _repr_html_(self) -> str:
+        return report_page(self.name, self.report())
 
     @property
     def aliases(self) -> tuple[str, ...]:
@@ -207,6 +212,11 @@ def _published(row: Mapping[str, Any]) -> Published:
 
 def _in_tuples(value: Any) -> Any:
     return tuple(map(_in_tuples, value)) if isinstance(value, list | tuple) else value
+
+
+def continuity_row(order: int) -> Row:
+    """Which derivatives of a law are continuous, in letters."""
+    return Row("continuous", ", ".join(_LETTERS[: order + 1]))
 
 
 def continuity_with_rest(law: MotionLaw) -> int:
