@@ -461,13 +461,11 @@ class CamResult:
     @property
     def sections(self) -> tuple[Section, ...]:
         """The parts of its page."""
-        turning, files = Section(), Section()
-        if self.spec.animation:
-            turning = Section("Turning", figure=("animation", "The cam turns under its follower"))
-        if self.spec.file:
-            files = Section("Files", note=self._links())
+        turning = Section("Turning", figure=("animation", "The cam turns under its follower"))
+        files = Section("Files", note=self._links())
         sized = (self.laws, self.report.section, self.offset, self.sizes, self.pair)
-        return *sized, *self.loads, self.spring, self.manufactured, turning, files
+        last = ([turning] if self.spec.animation else []) + ([files] if self.spec.file else [])
+        return *sized, *self.loads, self.spring, self.manufactured, *last
 
     @property
     def data(self) -> dict[str, Any]:
