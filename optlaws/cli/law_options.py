@@ -42,6 +42,14 @@ Frequencies = Annotated[
 ]
 
 
+def numbers_in(text: str, expected: str) -> list[float]:
+    """The numbers of a text, separated by blanks or commas."""
+    try:
+        return [float(number) for number in text.replace(",", " ").split()]
+    except ValueError as error:
+        raise InputError(f"{expected}, got {shortened(text)}: {error}") from None
+
+
 def one_or_two(values: list[Any]) -> Any:
     """A frequency that is given once, or the least and the greatest."""
     if len(values) > 2:

@@ -6,8 +6,8 @@ from collections.abc import Callable, Mapping
 from dataclasses import replace
 from typing import Any, Literal
 
+from optlaws.cli.law_options import numbers_in
 from optlaws.cli.options import Option, Options, Whole
-from optlaws.echo import shortened
 from optlaws.entries import value_types
 from optlaws.entries.declared import Entry
 from optlaws.entries.value_types import Either, Listed, Switch, Text, ValueType
@@ -18,14 +18,6 @@ from optlaws.synthesis.problem.problem import ENTRIES
 from optlaws.synthesis.problem.ranges import as_range, read_bounds
 from optlaws.synthesis.spaces.bases import read_breaks
 
-
-def _numbers(text: str) -> list[float]:
-    try:
-        return [float(number) for number in text.replace(",", " ").split()]
-    except ValueError:
-        raise InputError(f'start and end are numbers such as "0, 0.5", got {shortened(text)}') from None
-
-
 #: type and reader of an option for each type of an entry
 _KINDS: dict[type[ValueType], tuple[Any, Callable[[Any], Any] | None]] = {
     ConstantBounds: (float, None),
@@ -33,7 +25,7 @@ _KINDS: dict[type[ValueType], tuple[Any, Callable[[Any], Any] | None]] = {
     Text: (str, None),
     value_types.Number: (float, None),
     value_types.Whole: (Whole, None),
-    Listed: (str, _numbers),
+    Listed: (str, lambda text: numbers_in(text, 'start and end are numbers such as "0, 0.5"')),
     Either: (str, read_breaks),
 }
 

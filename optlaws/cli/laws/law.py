@@ -8,7 +8,7 @@ from typing import Annotated, Any
 from cyclopts import Parameter
 
 import optlaws
-from optlaws.cli.law_options import TABLE, named
+from optlaws.cli.law_options import TABLE, named, numbers_in
 from optlaws.cli.options import Whole, Written, takes
 from optlaws.cli.show import Answer
 from optlaws.errors import InputError, located
@@ -85,10 +85,7 @@ def _polynomial(z: str | None, order: int | None) -> optlaws.MotionLaw:
     """The law from rest to rest with the given Z."""
     if z is None or order is None:
         raise InputError("name a law, or give --z and --order in its place")
-    try:
-        powers = [float(text) for text in z.replace(",", " ").split()]
-    except ValueError as error:
-        raise InputError(f"--z takes numbers separated by blanks: {error}") from None
+    powers = numbers_in(z, "--z takes numbers separated by blanks")
     return optlaws.law_from_z(optlaws.BoundaryConditions.rest(order), powers)
 
 
