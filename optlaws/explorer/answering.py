@@ -9,7 +9,6 @@ from collections.abc import Callable
 from multiprocessing import parent_process
 from multiprocessing.connection import Connection, wait
 from threading import Thread
-from types import ModuleType
 from typing import Any
 
 import msgspec
@@ -28,27 +27,55 @@ from optlaws.explorer.views import (
     machine_view,
     old_cam_view,
 )
-from optlaws.explorer.views.requests import Question, read
+from optlaws.explorer.views.cycle_view import CycleRequest
+from optlaws.explorer.views.requests import LawsRequest, read
 from optlaws.sentences import parts_of
 
-#: the views that show a study, by their names in the page; where none is given each shows its example
-_VIEWS: dict[str, ModuleType] = {
-    "cycle": cycle_view,
-    "cam": cam_view,
-    "axes": axes_view,
-    "machine": machine_view,
-    "fastest": fastest_view,
-    "old": old_cam_view,
-    "advice": advice_view,
+_OF_LAWS: dict[str, Callable[[LawsRequest], dict[str, Any]]] = {
+    "laws": law_view.answer,
+    "law-machine": law_view.in_machine_units,
+    "nearest": law_view.nearest,
+    "residual": law_view.residuals,
+    "spectrum": law_view.spectrum,
+    "front": front_view.answer,
 }
-#: by the last part of the path: what a question is read as, and what answers it; each view names its own
-QUESTIONS: dict[str, Question] = {
-    name: question
-    for each in (law_view, front_view, start, downloads, *_VIEWS.values())
-    for name, question in each.QUESTIONS.items()
+_OF_STUDIES: dict[str, Callable[[CycleRequest], dict[str, Any]]] = {
+    "advice": advice_view.answer,
+    "advice-standard": advice_view.standard,
+    "axes": axes_view.answer,
+    "axes-clearances": axes_view.clearances,
+    "axes-together": axes_view.together,
+    "cam": cam_view.answer,
+    "cam-loads": cam_view.loads,
+    "cam-sizes": cam_view.sizes,
+    "cycle": cycle_view.answer,
+    "cycle-nearest": cycle_view.nearest,
+    "fastest": fastest_view.answer,
+    "fastest-front": fastest_view.front,
+    "machine": machine_view.answer,
+    "machine-limits": machine_view.limits,
+    "machine-ratios": machine_view.ratios,
+    "old": old_cam_view.answer,
+    "old-move": old_cam_view.move,
+}
+#: by the last part of the path: what a question is read as, and what answers it
+QUESTIONS: dict[str, tuple[type[msgspec.Struct], Callable[[Any], dict[str, Any]]]] = {
+    **{name: (LawsRequest, answer) for name, answer in _OF_LAWS.items()},
+    **{name: (CycleRequest, answer) for name, answer in _OF_STUDIES.items()},
+    "export": (downloads.FileRequest, downloads.exported),
+    "save": (downloads.FileRequest, downloads.answer),
+    "open": (start.OpenRequest, start.opened),
 }
 #: by a view's name in the page: the study that it shows where none was given
-EXAMPLES: dict[str, Callable[[], dict[str, Any]]] = {name: view.example for name, view in _VIEWS.items()}
+EXAMPLES: dict[str, Callable[[], dict[str, Any]]] = {
+    "advice": advice_view.example,
+    "axes": axes_view.example,
+    "cam": cam_view.example,
+    "cycle": cycle_view.example,
+    "fastest": fastest_view.example,
+    "machine": machine_view.example,
+    "old": old_cam_view.example,
+}
 OK, UNREADABLE, FAULT = 200, 422, 500
 #: bytes that a process may take for its data, where the system can limit it
 _MOST_DATA = 1 << 30

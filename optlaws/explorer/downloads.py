@@ -25,7 +25,7 @@ from optlaws.errors import InputError
 from optlaws.explorer.views import advice_view, axes_view, cam_view, cycle_view, fastest_view, old_cam_view
 from optlaws.explorer.views.cycle_view import CycleRequest
 from optlaws.explorer.views.law_view import digits, title, titled
-from optlaws.explorer.views.requests import LawRequest, LawsRequest, Question, Text, law_of, problem_of, read, result_of
+from optlaws.explorer.views.requests import LawRequest, LawsRequest, Text, law_of, problem_of, read, result_of
 from optlaws.files.reading import check_names
 from optlaws.files.tables import to_csv, to_toml
 from optlaws.files.writing import MARK
@@ -288,6 +288,3 @@ def exported(question: FileRequest) -> dict[str, Any]:
             for name, *numbers in export.rows()
         ],
     }
-
-
-QUESTIONS: dict[str, Question] = {"export": (FileRequest, exported), "save": (FileRequest, answer)}

@@ -11,7 +11,7 @@ import msgspec
 from optlaws import MotionLaw
 from optlaws.errors import InputError, located
 from optlaws.explorer.views import old_cam_view
-from optlaws.explorer.views.requests import LawRequest, Question, problem_of
+from optlaws.explorer.views.requests import LawRequest, problem_of
 from optlaws.files import reading
 from optlaws.files.packaged import is_problem, problem_file
 from optlaws.jobs.cycle_entries import CycleProblemFile, motor_of
@@ -132,6 +132,3 @@ def _of_text(name: str, text: str) -> dict[str, Any]:
     if ending == ".toml":
         return _of_problem_file(reading.toml_text(text, name), name)
     return _of_stored(reading.json_text(text, name), name) if ending == ".json" else _of_table(name, text)
-
-
-QUESTIONS: dict[str, Question] = {"open": (OpenRequest, opened)}

@@ -20,7 +20,6 @@ from optlaws.explorer.views import cycle_view
 from optlaws.explorer.views.cycle_view import MOST_POINTS, CycleRequest
 from optlaws.explorer.views.law_view import refusing
 from optlaws.explorer.views.panel_data import beside_each_other, over_time, panel_data
-from optlaws.explorer.views.requests import Question
 from optlaws.numbers import bounded
 
 
@@ -141,6 +140,3 @@ def _curves(laws: Sequence[AdvisedLaw]) -> dict[str, Any]:
 def example() -> dict[str, Any]:
     """The view's initial question: the cycle, with a follower that is switched off."""
     return {"of": "", "minimise": "", "follower": {"on": False, "low": "27 Hz", "high": "33 Hz", "damping": 0.05}}
-
-
-QUESTIONS: dict[str, Question] = {"advice": (CycleRequest, answer), "advice-standard": (CycleRequest, standard)}

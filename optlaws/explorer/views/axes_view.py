@@ -21,7 +21,6 @@ from optlaws.explorer.views import cycle_view
 from optlaws.explorer.views.cycle_view import CycleRequest, packaged_study
 from optlaws.explorer.views.law_view import TITLES, digits, refusing
 from optlaws.explorer.views.panel_data import drawn, fact_sentences, panel_data, table_data
-from optlaws.explorer.views.requests import Question
 from optlaws.motion.display_units import TURN_DEG, UNITS
 from optlaws.sentences import Amount, joined, sentence
 from optlaws.shown.report import Panel
@@ -196,10 +195,3 @@ def _timed(study: dict[str, Any], axes: Axes) -> dict[str, Any]:
 def example() -> dict[str, Any]:
     """The axes that the page shows where none were given: a table that indexes, and a die that waits for it."""
     return packaged_study("cycle_die_and_table", "overlap")
-
-
-QUESTIONS: dict[str, Question] = {
-    "axes": (CycleRequest, answer),
-    "axes-clearances": (CycleRequest, clearances),
-    "axes-together": (CycleRequest, together),
-}

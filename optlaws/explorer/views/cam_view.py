@@ -20,7 +20,7 @@ from optlaws.errors import InfeasibleProblem, InputError, OptlawsError, located
 from optlaws.explorer.views.cycle_view import SEGMENTS, CycleRequest
 from optlaws.explorer.views.law_view import refusing
 from optlaws.explorer.views.panel_data import drawn, fact_sentences, panel_data
-from optlaws.explorer.views.requests import Question, check_size, without_files
+from optlaws.explorer.views.requests import check_size, without_files
 from optlaws.jobs.cam import CamProblemFile, CamResult
 from optlaws.motion.display_units import DEGREES, MILLI
 from optlaws.motion.quantities import quantity
@@ -175,10 +175,3 @@ def _spring(result: CamResult) -> list[Sentence]:
         return [sentence("no spring: {}", error.args[0])]
     sizes = joined(", ", fact_sentences(spring.facts, spring.digits))
     return [sentence("least spring without lift-off: {}. {}", sizes, spring.note)] if spring.facts else []
-
-
-QUESTIONS: dict[str, Question] = {
-    "cam": (CycleRequest, answer),
-    "cam-loads": (CycleRequest, loads),
-    "cam-sizes": (CycleRequest, sizes),
-}

@@ -24,7 +24,7 @@ from optlaws.entries.declared import entries_of
 from optlaws.errors import InfeasibleProblem, SolverFailure, located
 from optlaws.explorer.views.law_view import digits, gap_text, refusing, verdict
 from optlaws.explorer.views.panel_data import fact_sentences, panel_data, table_data
-from optlaws.explorer.views.requests import MOST_LAWS, Question, check_size, without_files
+from optlaws.explorer.views.requests import MOST_LAWS, check_size, without_files
 from optlaws.files import reading
 from optlaws.files.packaged import packaged
 from optlaws.jobs.cycle_entries import AxisEntries, CycleProblemFile, cycle_of
@@ -223,6 +223,3 @@ def example() -> dict[str, Any]:
             {"name": "slide", "minimise": "acceleration", "limits": {"velocity": "616 mm/s"}, "segment": SEGMENTS}
         ],
     }
-
-
-QUESTIONS: dict[str, Question] = {"cycle": (CycleRequest, answer), "cycle-nearest": (CycleRequest, nearest)}

@@ -21,7 +21,7 @@ from optlaws.explorer.views import cycle_view
 from optlaws.explorer.views.cycle_view import CycleRequest, packaged_study
 from optlaws.explorer.views.law_view import digits, gap_text, refusing, verdict
 from optlaws.explorer.views.panel_data import drawn, fact_sentences, over_time, panel_data
-from optlaws.explorer.views.requests import Question, check_size, without_files
+from optlaws.explorer.views.requests import check_size, without_files
 from optlaws.jobs.cycle_entries import AxisEntries, CycleProblemFile
 from optlaws.jobs.fastest import FastestProblemFile, MoveEntries, arguments_of, front_of
 from optlaws.motion.display_units import MILLI
@@ -259,6 +259,3 @@ def example() -> dict[str, Any]:
     study = packaged_study("fastest_pick")
     table, gripper, _ = study["move"]
     return study | {"move": [gripper, table]}
-
-
-QUESTIONS: dict[str, Question] = {"fastest": (CycleRequest, answer), "fastest-front": (CycleRequest, front)}

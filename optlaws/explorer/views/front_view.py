@@ -24,7 +24,7 @@ from optlaws import (
 from optlaws.errors import InputError, OptlawsError
 from optlaws.explorer.views.law_view import digits, objective_title
 from optlaws.explorer.views.panel_data import drawn, panel_data
-from optlaws.explorer.views.requests import LawsRequest, Question, problem_of, solved, without
+from optlaws.explorer.views.requests import LawsRequest, problem_of, solved, without
 from optlaws.laws.savin import FAMILIES
 from optlaws.numbers import bounded
 from optlaws.synthesis.proof.infeasible import possible_velocities
@@ -138,6 +138,3 @@ def families(x: str, y: str) -> list[dict[str, Any]]:
         columns = [drawn(np.array([FUNCTIONALS[constant].value(law) for law in laws]), 5) for constant in (x, y)]
         lines.append({"name": name, "line": [list(column) for column in zip(*columns, strict=True)]})
     return lines
-
-
-QUESTIONS: dict[str, Question] = {"front": (LawsRequest, answer)}

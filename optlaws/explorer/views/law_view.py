@@ -20,7 +20,6 @@ from optlaws.explorer.views.requests import (
     MOST_DEGREE,
     LawRequest,
     LawsRequest,
-    Question,
     law_of,
     problem_of,
     result_of,
@@ -321,12 +320,3 @@ def spectrum(request: LawsRequest) -> dict[str, Any]:
     """The duration of the motion in seconds where one is given, for a spectrum that can weigh a band."""
     weight_of(request.spectrum or (), request.duration)
     return {"seconds": None if request.duration is None else positive_quantity(request.duration, "time", "duration")}
-
-
-QUESTIONS: dict[str, Question] = {
-    "laws": (LawsRequest, answer),
-    "law-machine": (LawsRequest, in_machine_units),
-    "nearest": (LawsRequest, nearest),
-    "residual": (LawsRequest, residuals),
-    "spectrum": (LawsRequest, spectrum),
-}

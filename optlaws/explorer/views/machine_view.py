@@ -21,7 +21,7 @@ from optlaws.explorer.views.cam_view import drawing
 from optlaws.explorer.views.cycle_view import CycleRequest, packaged_study
 from optlaws.explorer.views.law_view import refusal, refusing
 from optlaws.explorer.views.panel_data import beside_each_other, drawn, over_time, panel_data, segments_data
-from optlaws.explorer.views.requests import MOST_LAWS, Question, stored_law
+from optlaws.explorer.views.requests import MOST_LAWS, stored_law
 from optlaws.jobs.cycle_entries import AxisEntries, CycleProblemFile, cycle_of
 from optlaws.mechanisms.linkages.mechanism_kinds import MechanismKind
 from optlaws.mechanisms.linkages.report import INPUTS, MechanismReport
@@ -306,10 +306,3 @@ def example() -> dict[str, Any]:
     drive = {"motor": {"inertia": "1.5e-3 kg m^2", "rated_torque": "8 N m", "curve": curve}, "ratio": 10.0}
     axes = [{**axis, "drive": drive} for axis in study["axis"]]
     return study | {"title": "A slider-crank press by a motor and a gear", "axis": axes}
-
-
-QUESTIONS: dict[str, Question] = {
-    "machine": (CycleRequest, answer),
-    "machine-limits": (CycleRequest, limits),
-    "machine-ratios": (CycleRequest, ratios),
-}

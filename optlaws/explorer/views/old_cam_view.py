@@ -22,7 +22,7 @@ from optlaws.errors import InputError
 from optlaws.explorer.views.cycle_view import CycleRequest
 from optlaws.explorer.views.law_view import refusing
 from optlaws.explorer.views.panel_data import panel_data, segments_data, table_data
-from optlaws.explorer.views.requests import Question, stored_law
+from optlaws.explorer.views.requests import stored_law
 from optlaws.laws.catalogue.catalogue import catalogue
 from optlaws.shown.report import Panel
 from optlaws.tolerances import AGREEMENT
@@ -173,6 +173,3 @@ def example() -> dict[str, Any]:
     lift = 35.0 * (up(np.clip(turn / 120.0, 0.0, 1.0)) - down(np.clip((turn - 210.0) / 100.0, 0.0, 1.0)))
     lines = [f"{angle:.0f};{height:.2f}" for angle, height in zip(turn, np.abs(lift), strict=True)]
     return {"file": "turn.csv", "text": "\n".join(["degree;mm", *lines]) + "\n", "speed": "200 rpm"}
-
-
-QUESTIONS: dict[str, Question] = {"old": (CycleRequest, answer), "old-move": (CycleRequest, move)}

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import replace
 from functools import lru_cache
 from typing import Annotated, Any, TypeVar
@@ -22,8 +22,6 @@ MOST_ORDER, MOST_DEGREE, MOST_LAWS = 12, 41, 4
 MOST_DAMPING = 0.5
 
 Struct = TypeVar("Struct", bound=msgspec.Struct)
-#: what a question of the page is read as, and what answers it
-Question = tuple[type[msgspec.Struct], Callable[[Any], dict[str, Any]]]
 Text = Annotated[str, msgspec.Meta(max_length=60)]
 Frequency = Annotated[float, msgspec.Meta(gt=0.0, le=1000.0)]
 
