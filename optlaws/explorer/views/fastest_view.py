@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from itertools import groupby
@@ -14,6 +14,7 @@ import numpy as np
 
 from optlaws import Cycle, FastestCycle, FastestMove, Problem, Solution, Status, fastest
 from optlaws.cycles.moves.report import MoveReport
+from optlaws.cycles.moves.time_front import TimeFront
 from optlaws.cycles.report import CycleReport
 from optlaws.cycles.summary import objective_unit
 from optlaws.errors import InputError, OptlawsError
@@ -42,10 +43,26 @@ _SLOWER = 1.0001
 #: a limit is taken to the full from this share of it
 _FULL = 0.999
 
-#: a motion in a time: its report, how far it can be trusted, and the solutions beside those of the least time
-Motion: TypeAlias = tuple[MoveReport | CycleReport, dict[str, Any], list[Solution]]
-#: what is least over the time: times, values and lower bounds, its name and unit, and whether it is proven
-Front: TypeAlias = tuple[Sequence[tuple[float, float | None, float | None]], str, str, bool]
+_Motion: TypeAlias = tuple[MoveReport | CycleReport, dict[str, Any], list[Solution]]
+_Points: TypeAlias = tuple[Sequence[tuple[float, float | None, float | None]], str, bool]
+
+
+@dataclass(frozen=True)
+class _Search:
+    """A least time in seconds, by a law or a cycle, and how it goes on in longer times.
+
+    `motion` is, in a time, the report of the motion, how far it can be trusted, and the solutions beside the least
+    time's; `points` are those of the front: times, values and lower bounds, the unit, and whether all are proven.
+    """
+
+    least: FastestMove | FastestCycle
+    time: float
+    minimise: str | None
+    motion: Callable[[float | None], _Motion]
+    points: Callable[[], _Points]
+    word: str = "period"
+    objectives: Sequence[str] = ()
+    note: str = ""
 
 
 @refusing()
@@ -68,7 +85,7 @@ def answer(request: CycleRequest) -> dict[str, Any]:
             *({"name": row.name, "value": Amount(row.value, row.unit), "text": ""} for row in report.demands),
         ],
         "time": report.duration,
-        "least": {"time": search.time, "text": digits(MILLI * search.time), "limit": search.limit},
+        "least": {"time": search.time, "text": digits(MILLI * search.time), "limit": search.least.limit},
         "objectives": search.objectives,
         "minimise": search.minimise,
         "trust": trust,
@@ -81,160 +98,108 @@ def front(request: CycleRequest) -> dict[str, Any]:
     search = _search(request)
     if search.minimise is None:
         return {"points": [], "words": "choose what is to be least in longer times"}
-    points, name, unit, proven = search.front()
+    points, unit, proven = search.points()
     proof = "proven at every point" if proven else "local, with its bound"
-    words = f"least {name} in each {search.word}: {proof}"
-    return {"points": points, "name": name, "unit": unit, "proven": proven, "words": words}
+    words = f"least {search.minimise} in each {search.word}: {proof}"
+    return {"points": points, "name": search.minimise, "unit": unit, "proven": proven, "words": words}
 
 
 def proof_of(request: CycleRequest) -> dict[str, Any]:
     """The stored proof of a least time, and of the laws in the displayed time."""
     search = _search(request)
     solutions = [solution.to_dict() for solution in search.motion(request.time)[2]]
-    if isinstance(search, _CycleSearch):
+    if isinstance(search.least, FastestCycle):
         return search.least.claims() | {"solutions": solutions}
     return search.least.to_dict() | ({"in_this_time": solutions[0]} if solutions else {})
 
 
 def fastest_of(request: CycleRequest) -> FastestMove:
     """The least time of the move that is shown, with its proof."""
-    search = _search(request)
-    if isinstance(search, _CycleSearch):
+    least = _search(request).least
+    if isinstance(least, FastestCycle):
         raise InputError("a least period is saved as a problem file")
-    return search.least
+    return least
 
 
-def _search(request: CycleRequest) -> _MoveSearch | _CycleSearch:
+def _search(request: CycleRequest) -> _Search:
     """The search of the least time of what is shown."""
     if request.study.get("job") == "cycle":
-        return _cycle_search(*cycle_view.read(request))
+        return _of_cycle(*cycle_view.read(request))
     without_files(request.study)
     spec = FastestProblemFile.read(request.study, _WHERE)
     space = spec.problem or {}
     if space.get("bounds"):
         raise InputError("problem: it gives no limits of its own: limits are those of the move")
-    return _move_search(spec.move[min(request.axis, len(spec.move) - 1)], json.dumps(space))
+    return _of_move(spec.move[min(request.axis, len(spec.move) - 1)], json.dumps(space))
 
 
 @lru_cache(maxsize=64)
-def _move_search(move: MoveEntries, entries: str) -> _MoveSearch:
+def _of_move(move: MoveEntries, entries: str) -> _Search:
+    """The least time of a single move, with laws of the space that has such entries."""
     space: Problem = problem("problem", {"order": 3}, json.loads(entries))
     check_size(space.order, space.basis.to_dict().get("degree"))
-    given = arguments_of(move, _WHERE)
-    stroke: Quantity = move.stroke[0] if isinstance(move.stroke, tuple) else move.stroke
-    return _MoveSearch(move, given, fastest(space, stroke=stroke, **given))
+    given, strokes = arguments_of(move, _WHERE), move.stroke if isinstance(move.stroke, tuple) else (move.stroke,)
+    least = fastest(space, stroke=strokes[0], **given)
+    drive, minimise = given.get("drive"), None if move.front is None else move.front.minimise[0]
+    start = 0.0 if drive is None else float(si_number(given["start"], ("angle",), "start"))
 
+    def line(longest: Quantity | None, points: int) -> TimeFront:
+        return front_of(least, move, minimise or "", given, (longest, points))
 
-@dataclass(frozen=True)
-class _MoveSearch:
-    """A single move: its entries, the arguments of its search, and its least time."""
+    def points() -> _Points:
+        front = line(None if move.front is None else move.front.longest, _POINTS)
+        known = [(point.duration, point.value, bounded(point.lower_bound)) for point in front]
+        return known, front.unit, front.status is Status.OPTIMAL
 
-    move: MoveEntries
-    given: dict[str, Any]
-    least: FastestMove
-    word = "time"
-
-    @property
-    def time(self) -> float:
-        return self.least.duration
-
-    @property
-    def limit(self) -> float | None:
-        return self.least.limit
-
-    @property
-    def minimise(self) -> str | None:
-        return None if self.move.front is None else self.move.front.minimise[0]
-
-    @property
-    def objectives(self) -> list[str]:
-        names = [name for name in OBJECTIVES if name not in AT_MOTOR and name != RESIDUAL]
-        names += list(AT_MOTOR) if "drive" in self.given else []
-        return names + ([RESIDUAL] if self.move.follower is not None else [])
-
-    @property
-    def note(self) -> str:
-        return f"the first of {len(self.move.stroke)} strokes" if isinstance(self.move.stroke, tuple) else ""
-
-    def motion(self, time: float | None) -> Motion:
-        """The fastest law, or in a longer time that of the least objective."""
-        least, law, duration = self.least, self.least.law, self.time
-        solutions, facts = list[Solution](), fact_sentences(least.proof_rows())
-        if self.minimise is None or time is None or time <= duration * (1.0 + LEAST_TIME_GAP) ** 2:
+    def motion(time: float | None) -> _Motion:
+        facts = fact_sentences(least.proof_rows())
+        if minimise is None or time is None or time <= least.duration * (1.0 + LEAST_TIME_GAP) ** 2:
             words = "No law of this order and degree is faster within the limits."
             trust = verdict(least.status, gap_text(least.gap), [*facts, *least.notes], words)
-        else:
-            line = front_of(least, self.move, self.minimise, self.given, (f"{time!r} s", 2))
-            solution, point = line.solutions[1], line[1]
-            solutions, law, duration = [solution], point.law, point.duration
-            rows = [Row(f"least {self.minimise} in this time", point.value, line.unit)]
-            if bounded(point.lower_bound) is not None:
-                rows.append(Row("none below", point.lower_bound, line.unit))
-            trust = verdict(solution.status, gap_text(solution.gap), [*fact_sentences(rows), *facts])
-        start = float(si_number(self.given["start"], ("angle",), "start")) if "drive" in self.given else 0.0
-        return MoveReport(least, law, duration, self.given.get("drive"), start), trust, solutions
+            return MoveReport(least, least.law, least.duration, drive, start), trust, []
+        front = line(f"{time!r} s", 2)
+        solution, point = front.solutions[1], front[1]
+        rows = [Row(f"least {minimise} in this time", point.value, front.unit)]
+        if bounded(point.lower_bound) is not None:
+            rows.append(Row("none below", point.lower_bound, front.unit))
+        trust = verdict(solution.status, gap_text(solution.gap), [*fact_sentences(rows), *facts])
+        return MoveReport(least, point.law, point.duration, drive, start), trust, [solution]
 
-    def front(self) -> Front:
-        extent = None if self.move.front is None else self.move.front.longest
-        line = front_of(self.least, self.move, self.minimise or "", self.given, (extent, _POINTS))
-        points = [(point.duration, point.value, bounded(point.lower_bound)) for point in line]
-        return points, line.minimise, line.unit, line.status is Status.OPTIMAL
+    objectives = [name for name in OBJECTIVES if name not in AT_MOTOR and name != RESIDUAL]
+    objectives += [*(() if drive is None else AT_MOTOR), *(() if move.follower is None else [RESIDUAL])]
+    note = f"the first of {len(strokes)} strokes" if len(strokes) > 1 else ""
+    return _Search(least, least.duration, minimise, motion, points, "time", objectives, note)
 
 
 @lru_cache(maxsize=32)
-def _cycle_search(spec: CycleProblemFile, axis: AxisEntries) -> _CycleSearch:
-    return _CycleSearch(spec, axis, cycle_view.stored(spec, axis).fastest())
+def _of_cycle(spec: CycleProblemFile, axis: AxisEntries) -> _Search:
+    """The least period of a whole cycle."""
+    least = cycle_view.stored(spec, axis).fastest()
 
+    def slower(time: float) -> Cycle:
+        return cycle_view.stored(replace(spec, speed=None, period=f"{time!r} s"), axis)
 
-@dataclass(frozen=True)
-class _CycleSearch:
-    """A whole cycle: its entries, and its greatest speed."""
-
-    spec: CycleProblemFile
-    axis: AxisEntries
-    least: FastestCycle
-    word, note = "period", ""
-    objectives = ()
-
-    @property
-    def time(self) -> float:
-        return self.least.period
-
-    @property
-    def limit(self) -> float | None:
-        return self.least.limit
-
-    @property
-    def minimise(self) -> str:
-        return self.axis.minimise
-
-    def _cycle(self, time: float | None) -> Cycle:
-        """The cycle at its greatest speed, or in a longer period with the laws of its objective."""
-        if time is None or time <= self.least.period * (1.0 + AGREEMENT):
-            cycle: Cycle = self.least.cycle
-            return cycle
-        return cycle_view.stored(replace(self.spec, speed=None, period=f"{time!r} s"), self.axis)
-
-    def motion(self, time: float | None) -> Motion:
-        cycle = self._cycle(time)
-        trust = None if cycle is self.least.cycle else cycle_view.trust(cycle)
+    def motion(time: float | None) -> _Motion:
+        cycle = least.cycle if time is None or time <= least.period * (1.0 + AGREEMENT) else slower(time)
+        trust = None if cycle is least.cycle else cycle_view.trust(cycle)
         if trust is None:
             words = "No law of this order and degree lets the cycle run faster."
-            trust = verdict(self.least.status, "", [], words, proof=bool(self.least.proofs))
-        trust["facts"] += fact_sentences(self.least.proof_rows())
+            trust = verdict(least.status, "", [], words, proof=bool(least.proofs))
+        trust["facts"] += fact_sentences(least.proof_rows())
         return CycleReport(cycle), trust, list(cycle.solutions)
 
-    def front(self) -> Front:
-        points, proven = list[tuple[float, float | None, float | None]](), True
-        for time in np.geomspace(_SLOWER * self.least.period, _LONGEST * self.least.period, _CYCLE_POINTS).tolist():
+    def points() -> _Points:
+        known, proven = list[tuple[float, float | None, float | None]](), True
+        for time in np.geomspace(_SLOWER * least.period, _LONGEST * least.period, _CYCLE_POINTS).tolist():
             try:
-                cycle = self._cycle(time)
-                bound = None if cycle.lower_bound is None else bounded(cycle.lower_bound)
-                points.append((time, cycle.objective, bound))
+                cycle = slower(time)
+                known.append((time, cycle.objective, cycle.lower_bound and bounded(cycle.lower_bound)))
                 proven = proven and cycle.status is Status.OPTIMAL
             except OptlawsError:
-                points.append((time, None, None))
-        return points, self.minimise, objective_unit(self.least.specification), proven
+                known.append((time, None, None))
+        return known, objective_unit(least.specification), proven
+
+    return _Search(least, least.period, axis.minimise, motion, points)
 
 
 def _use(name: str, share: float) -> dict[str, Any]:
