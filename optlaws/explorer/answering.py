@@ -82,11 +82,7 @@ _MOST_DATA = 1 << 30
 
 
 def answered(name: str, body: bytes) -> tuple[int, bytes]:
-    """The code and the JSON of an answer; only a question that cannot be read is an error.
-
-    >>> answered("laws", b'{"laws": []}')
-    (422, b'{"error":"the question cannot be read: Expected `array` of length >= 1 - at `$.laws`"}')
-    """
+    """The code and the JSON of an answer; only a question that cannot be read is an error."""
     kind, answer = QUESTIONS[name]
     try:
         question = read(body, kind)
@@ -104,11 +100,7 @@ def answered(name: str, body: bytes) -> tuple[int, bytes]:
 
 
 def message(text: str) -> bytes:
-    """A sentence for the page, as JSON.
-
-    >>> message("no such law")
-    b'{"error":"no such law"}'
-    """
+    """A sentence for the page, as JSON."""
     return msgspec.json.encode({"error": cut(text)})
 
 

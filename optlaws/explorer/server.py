@@ -21,12 +21,7 @@ _GRACE = 2  # seconds for answers that are being written
 
 
 def opened(port: int | None) -> socket.socket:
-    """A socket that listens on this machine alone; any free port where the usual one is taken.
-
-    >>> with opened(0) as listening:
-    ...     listening.getsockname()[0]
-    '127.0.0.1'
-    """
+    """A socket that listens on this machine alone; any free port where the usual one is taken."""
     if port is not None and not 0 <= port <= _MOST_PORT:
         raise InputError(f"--port is a number from 0 (any free one) to {_MOST_PORT}, got {port}")
     try:

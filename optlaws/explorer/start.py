@@ -27,11 +27,7 @@ _CYCLES = {"fastest": "fastest", "interlocks": "axes"}
 
 
 def start(given: str | None) -> dict[str, Any]:
-    """The page's first state for a law's name or file, a problem file or a solution; an optimal law unless given.
-
-    >>> start("cycloidal")
-    {'view': 'laws', 'laws': [{'name': 'cycloidal'}]}
-    """
+    """The page's first state for a law's name or file, a problem file or a solution; an optimal law unless given."""
     if given is None:
         return _law({"problem": dict(_FIRST)})
     if is_problem(given):
@@ -119,11 +115,7 @@ class OpenRequest(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
 
 
 def opened(request: OpenRequest) -> dict[str, Any]:
-    r"""The state that shows a file; no file of this machine is read for it.
-
-    >>> opened(OpenRequest(name="one.toml", text="[problem]\norder = 4\nB = 1.7"))["state"]["laws"][0]["problem"]["B"]
-    1.7
-    """
+    """The state that shows a file; no file of this machine is read for it."""
     return {"state": _of_text(Path(request.name).name, request.text)}
 
 

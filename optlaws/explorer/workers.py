@@ -170,9 +170,5 @@ class Workers:
 
 
 def late(patience: float) -> bytes:
-    """A sentence about a question that had no answer in time, with the seconds that it had.
-
-    >>> late(4.0)
-    b'{"error":"this takes more than 4 s","late":4.0}'
-    """
+    """A sentence about a question that had no answer in time, with the seconds that it had."""
     return msgspec.json.encode({"error": f"this takes more than {patience:g} s", "late": patience})

@@ -25,12 +25,7 @@ from optlaws.numbers import bounded
 
 @refusing()
 def standard(request: CycleRequest) -> dict[str, Any]:
-    """The standard laws side by side, which take no search; or the reason why there is none.
-
-    >>> from optlaws.explorer.views import cycle_view
-    >>> [row["name"] for row in standard(CycleRequest(study=cycle_view.example()))["rows"]][:2]
-    ['modified sine', 'modified trapezoid']
-    """
+    """The standard laws side by side, which take no search; or the reason why there is none."""
     candidates = _standard(_question(request))
     return _side_by_side(candidates, [candidates.usual], ())
 

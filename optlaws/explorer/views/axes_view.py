@@ -117,11 +117,7 @@ def _plane(axes: Axes, plane: Plane) -> dict[str, Any]:
 
 @refusing()
 def clearances(request: CycleRequest) -> dict[str, Any]:
-    """The proven clearances of the interlocks over the whole cycle, and the use of the limits of each axis.
-
-    >>> clearances(CycleRequest(study=example()))["trust"]["word"]
-    'interlocks clear'
-    """
+    """The proven clearances of the interlocks over the whole cycle, and the use of the limits of each axis."""
     axes = axes_of(request.study)
     report, scale = cast("AxesReport", axes.report()), TURN_DEG / axes.duration
     panels = [
@@ -156,12 +152,7 @@ def _trust(axes: Axes, report: AxesReport) -> dict[str, Any]:
 
 @refusing()
 def together(request: CycleRequest) -> dict[str, Any]:
-    """The study with its moves overlapped, and the gain; or the reason for a refusal.
-
-    >>> answered = together(CycleRequest(study=example() | {"overlap": {"goal": "acceleration", "of": ["die"]}}))
-    >>> answered["facts"][1]
-    'greatest acceleration, as a share of the given one 0.1938937'
-    """
+    """The study with its moves overlapped, and the gain; or the reason for a refusal."""
     study, axes = request.study, axes_of(request.study)
     overlap = cycle_view.machine(study).overlap_of(axes, Path("the machine"))
     if overlap is None:

@@ -116,9 +116,6 @@ def sizes(request: CycleRequest) -> dict[str, Any]:
     """The least prime circle that keeps the limits, where some are given, and the greatest roller.
 
     They take longer than the view.
-
-    >>> sizes(CycleRequest(study=example()))["facts"][0]
-    'least prime circle, by the pressure angle 58.60757 mm at 264.38 deg'
     """
     others = {name: value for name, value in request.study.items() if name not in {"cutter_radius", "title", "text"}}
     section = result_of(CycleRequest(study=others | {"title": "a cam"})).sizes
@@ -140,11 +137,7 @@ def example() -> dict[str, Any]:
 
 
 def form() -> dict[str, Any]:
-    """The entries of a cam as a form shows them, whether each kind of follower slides or swings, and what these move.
-
-    >>> form()["axes"]["inclined flat"], form()["drive"]["length"][0]["placeholder"]
-    ('length', 'none, or 2.5 kg')
-    """
+    """The entries of a cam as a form shows them, whether a kind of follower slides or swings, and what these move."""
     return {
         **CamProblemFile.form(),
         "axes": {name: kind.axis for name, kind in CamFollower.kinds().items()},

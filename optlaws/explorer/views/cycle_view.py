@@ -193,11 +193,7 @@ SEGMENTS = [
 
 
 def form() -> dict[str, Any]:
-    """What the form of a cycle shows: objectives, limits of motions and of machines that turn, segments, interlocks.
-
-    >>> [limit["name"] for limit in form()["limits"]["motion"]], form()["segments"]["dwell"][0]["name"]
-    (['velocity', 'acceleration', 'deceleration', 'jerk', 'snap'], 'duration')
-    """
+    """What the form of a cycle shows: objectives, limits of motions and of machines that turn, segments, interlocks."""
     kinds = CycleSegment.form()["kinds"]
     return {
         "objectives": entries_of(Cycle)["minimise"].form["choices"],

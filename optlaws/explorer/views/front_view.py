@@ -56,22 +56,13 @@ def answer(request: LawsRequest) -> dict[str, Any]:
 
 
 def swept_problem(problem: Problem, x: str, y: str) -> Problem:
-    """The problem whose first constant is to run: where that is not B, the second is minimised.
-
-    >>> swept_problem(Problem(B=1.7, order=4), "C", "D")
-    Problem(B=1.7, order=4, basis=Chebyshev(degree=9), minimise='D')
-    """
+    """The problem whose first constant is to run: where that is not B, the second is minimised."""
     return without(problem, x) if x == "B" else without(problem, x, minimise=y)
 
 
 @lru_cache(maxsize=64)
 def front(problem: Problem, x: str, y: str) -> dict[str, Any]:
-    """The optimal laws over x with what is proven of them, and the limit of their order at any degree, as curves.
-
-    >>> shown = front(Problem(order=4), "B", "C")
-    >>> shown["words"], len(shown["series"][0]["at"]) > 30
-    ('least C at each B: proven at every point', True)
-    """
+    """The optimal laws over x with what is proven of them, and the limit of their order at any degree, as curves."""
     span = _span(problem, x)
     if span is None:
         return {"words": f"no {x} has a law of this problem"}

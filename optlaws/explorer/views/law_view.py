@@ -97,11 +97,7 @@ def refusing(word: str = "not understood") -> Callable[[Answer], Answer]:
 
 
 def title(problem: Problem) -> str:
-    """A short title of a problem.
-
-    >>> title(Problem(B=1.7, order=4, minimise="J"))
-    'least J, B = 1.7, order 4, degree 9'
-    """
+    """A short title of a problem."""
     bounds = [*((constant.title, bound) for constant, bound in problem.bounded), ("B", problem.range("B"))]
     texts = [_bound_text(name, bound) for name, bound in bounds if bound is not None]
     size = problem.basis.to_dict().get("degree")
@@ -116,11 +112,7 @@ def _bound_text(name: str, bound: Range) -> str:
 
 
 def objective_title(problem: Problem) -> str:
-    """The objective of a problem, with numbers rounded for reading.
-
-    >>> objective_title(Problem(order=4, minimise="C/4 + D/2.25"))
-    '0.25*C + 0.4444*D'
-    """
+    """The objective of a problem, with numbers rounded for reading."""
     return _LONG_NUMBER.sub(lambda match: f"{float(match[0]):.4g}", problem.titled(str(problem.minimise)))
 
 
@@ -140,11 +132,7 @@ def shown(result: MotionLaw | Solution) -> dict[str, Any]:
 
 
 def digits(number: float, count: int = 7) -> str:
-    """A number as the page prints it.
-
-    >>> digits(1.7), digits(float("-inf")), digits(-0.25)
-    ('1.7', '−∞', '−0.25')
-    """
+    """A number as the page prints it."""
     if bounded(number) is None:
         return "−∞" if number < 0.0 else "∞"
     return f"{number:.{count}g}".replace("-", "−")
@@ -172,11 +160,7 @@ def verdict(status: Status, gap: str, facts: Iterable[str], optimal: str = "", *
 
 
 def gap_text(gap: float) -> str:
-    """The gap in words; what is below 1e-12 is rounding, and 1 is the gap of the bound 0.
-
-    >>> gap_text(0.07), gap_text(3e-14), gap_text(1.0)
-    ('gap 7.0e-02', 'gap below 1e-12', 'no bound above 0 is known')
-    """
+    """The gap in words; what is below 1e-12 is rounding, and 1 is the gap of the bound 0."""
     if bounded(gap) is None:
         return "no bound is known"
     if gap == 1.0:
@@ -195,13 +179,7 @@ def nearest(request: LawsRequest) -> dict[str, Any]:
 
 
 def ways(problem: Problem) -> Iterator[dict[str, Any]]:
-    """Each way back: the entry to change, its nearest value that has a law, and both in words.
-
-    >>> from optlaws import at_most
-    >>> for way in ways(Problem(B=1.7, order=4, J=at_most(20.0))):
-    ...     print(way["entry"], way["text"])
-    J raise the bound of J from 20 to 47.504
-    """
+    """Each way back: the entry to change, its nearest value that has a law, and both in words."""
     if isinstance(problem.B, float):
         for word, B in zip(("raise", "lower"), possible_velocities(problem), strict=True):
             outside = B is not None and (B > problem.B if word == "raise" else B < problem.B)
@@ -243,14 +221,7 @@ _INERTIAS = {"length": ("mass", "N"), "angle": ("moment of inertia", "N m")}
 
 
 def in_machine_units(request: LawsRequest) -> dict[str, Any]:
-    """Peaks of the active law in the units of a machine, by the constant that each comes of.
-
-    >>> press = LawsRequest(laws=[LawRequest(name="cubic")], stroke="40 mm", time="0.2 s", mass="3 kg")
-    >>> for row in in_machine_units(press)["rows"]:
-    ...     print(row["name"], row["cells"])
-    40 mm in 0.2 s {'B': '300 mm/s', 'C': '6 m/s²', 'J': '60 m/s³', 'rms_c': '3.4641 m/s²'}
-    3 kg {'C': '18 N', 'D': '2.0785 W', 'rms_c': '10.392 N'}
-    """
+    """Peaks of the active law in the units of a machine, by the constant that each comes of."""
     of, time = law_of(request.law).constants, positive_quantity(request.time, "time", "time")
     axis, stroke = either(request.stroke, ("length", "angle"), "stroke")
     sizes = {"B": (of.B.value, 1), "C": (of.C.value, 2), "J": (of.J.value, 3), "rms_c": (of.rms_c, 2)}

@@ -283,11 +283,7 @@ _STEADILY = [{"kind": "constant velocity", "velocity": "720 deg/s"}]
 
 
 def kinds() -> dict[str, dict[str, Any]]:
-    """Kinds of mechanisms: the entries of an example and its motion, and the fields of its form.
-
-    >>> sorted(kinds()["table"]), kinds()["rack"]["mechanism"]
-    (['axis', 'fields', 'mechanism'], {'radius': '20 mm', 'mass': '12 kg'})
-    """
+    """Kinds of mechanisms: the entries of an example and its motion, and the fields of its form."""
     return {
         name: {
             "mechanism": {each.name: each.example for each in entries_of(kind).values() if each.needed},

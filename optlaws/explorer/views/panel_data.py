@@ -29,22 +29,12 @@ def _rounded(values: Array, decimals: int) -> list[float | None]:
 
 
 def drawn(values: Array, decimals: int = _DRAWN) -> list[float | None]:
-    """Values to draw: rounded, small ones to more decimals, None where they are missing.
-
-    >>> drawn(np.array([1.23456789, np.inf])), drawn(np.array([1.23456789e-9]))
-    ([1.234568, None], [1.234568e-09])
-    """
+    """Values to draw: rounded, small ones to more decimals, None where they are missing."""
     return _rounded(values, _decimals([values], decimals))
 
 
 def fact_sentences(facts: Iterable[Row], digits: int = 7) -> list[Sentence]:
-    """Facts in words: the name of each, its value or both its ends, where it is, which is in degrees, and its note.
-
-    >>> fact_sentences([Row("contact force", (78.0, 151.5), "N"), Row("radius", (5.0, 5.0), "mm", 30.0)])
-    ['contact force 78 N to 151.5 N', 'radius 5 mm at 30 deg']
-    >>> fact_sentences([Row("least time", 0.25, "s", note="proven"), Row("binds", "jerk")])
-    ['least time 0.25 s: proven', 'binds: jerk']
-    """
+    """Facts in words: the name of each, its value or both its ends, where it is, which is in degrees, and its note."""
     sentences = []
     for row in facts:
         ends = row.value if isinstance(row.value, tuple) else (row.value,)
@@ -91,11 +81,7 @@ def segments_data(segments: Iterable[ReportSegment], per: float = MILLI) -> list
 
 
 def table_data(table: ReportTable) -> dict[str, Any]:
-    """A table as JSON; the numbers of a row with a unit have it with them.
-
-    >>> table_data(ReportTable(["what", "least", "unit"], [["radius", 5.0, "mm"], ["turn", np.inf, ""]]))
-    {'headings': ['what', 'least'], 'rows': [['radius', '5 mm'], ['turn', None]]}
-    """
+    """A table as JSON; the numbers of a row with a unit have it with them."""
     headings = list(table.headings)
     rows: list[list[Any]] = [[bounded(cell) if isinstance(cell, float) else cell for cell in row] for row in table.rows]
     if "unit" in headings:

@@ -64,11 +64,7 @@ class LawsRequest(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
 
 
 def read(text: bytes, kind: type[Struct]) -> Struct:
-    """A question of the page; an `InputError` says where it is no JSON, or has an entry that is unknown or wrong.
-
-    >>> read(b'{"laws": [{"name": "cycloidal"}]}', LawsRequest).laws[0].name
-    'cycloidal'
-    """
+    """A question of the page; an `InputError` says where it is no JSON, or has an entry that is unknown or wrong."""
     try:
         return msgspec.json.decode(text, type=kind)
     except (msgspec.DecodeError, UnicodeDecodeError, RecursionError) as error:
@@ -80,12 +76,7 @@ _PAIRS = re.compile(r"\s*\{?\s*[-+.\deE]+\s*:")
 
 
 def without_files(entries: Any) -> None:
-    """Refuse what names a file, such as a measured spectrum, a law or a catalogue of motors: the page reads none.
-
-    >>> without_files({"bounds": {"residual(spectrum='{shaker.csv}')": [0, 1]}})
-    Traceback (most recent call last):
-    optlaws.errors.InputError: spectrum: '{shaker.csv}' names a file, and the page reads none: drop it onto the page
-    """
+    """Refuse what names a file, such as a measured spectrum, a law or a catalogue of motors: the page reads none."""
     if isinstance(entries, str):
         for _, given in _SPECTRUM.findall(entries):
             if not _PAIRS.match(given):
@@ -136,11 +127,7 @@ def solved(problem: Problem) -> Solution | InfeasibleProblem | SolverFailure:
 
 
 def without(problem: Problem, constant: str, **changes: Any) -> Problem:
-    """The problem without its bound of a constant, with other entries replaced.
-
-    >>> without(Problem(B=1.7, order=4, bounds={"rms_c": [0, 4]}), "rms_c", minimise="rms_c")
-    Problem(B=1.7, order=4, basis=Chebyshev(degree=9), minimise='rms_c')
-    """
+    """The problem without its bound of a constant, with other entries replaced."""
     if hasattr(problem, constant):
         free: dict[str, Any] = {constant: None}
         return replace(problem, **free, **changes)
@@ -149,11 +136,7 @@ def without(problem: Problem, constant: str, **changes: Any) -> Problem:
 
 
 def given_law(request: LawRequest) -> MotionLaw:
-    """The law of a name or of stored data; no file is read.
-
-    >>> given_law(LawRequest(name="III(7.2)")).constants.B.value
-    1.859375
-    """
+    """The law of a name or of stored data; no file is read."""
     if request.law is not None:
         return MotionLaw.from_dict(request.law)
     name = request.name or ""
