@@ -11,7 +11,6 @@ import multiprocessing
 import os
 import signal
 from collections.abc import AsyncIterator
-from concurrent.futures import ThreadPoolExecutor
 from contextlib import asynccontextmanager
 from typing import Any
 
@@ -43,7 +42,6 @@ class Worker:
         self._process = context.Process(target=answer_from, args=(its_own,), daemon=True)
         self._process.start()
         its_own.close()
-        self._thread = ThreadPoolExecutor(1)
         self._ended = False
 
     @property
@@ -51,13 +49,8 @@ class Worker:
         """Whether the process can be given a question."""
         return not self._ended and self._process.is_alive()
 
-    async def answer(self, name: str, body: bytes, patience: float) -> Reply:
-        """The answer to a question; if the process ends first, a sentence that reports it."""
-        if self._ended:
-            return _ENDED
-        return await asyncio.get_running_loop().run_in_executor(self._thread, self._exchange, name, body, patience)
-
-    def _exchange(self, name: str, body: bytes, patience: float) -> Reply:
+    def answer(self, name: str, body: bytes, patience: float) -> Reply:
+        """Wait for the answer to a question; if the process ends first, it is a sentence that reports it."""
         try:
             self._connection.send((name, body, patience))
             reply: Reply = self._connection.recv()
@@ -65,17 +58,13 @@ class Worker:
             self._process.join()
             in_time = self._process.exitcode != _OUT_OF_TIME
             self.end()
-            if in_time:
-                return _ENDED
-            return OK, late(patience)
+            reply = _ENDED if in_time else (OK, late(patience))
         return reply
 
     def end(self) -> None:
         """End the process, whatever it does."""
-        if not self._ended:
-            self._ended = True
-            self._process.kill()
-            self._thread.shutdown(wait=False)
+        self._ended = True
+        self._process.kill()
 
 
 class Workers:
@@ -92,7 +81,7 @@ class Workers:
     async def prepare(self) -> None:
         """Begin processes before the first question."""
         while len(self._idle) < _IDLE and not self._closed.is_set():
-            worker = await asyncio.get_running_loop().run_in_executor(None, Worker)
+            worker = await asyncio.to_thread(Worker)
             self._all.add(worker)
             self._idle.append(worker)
         if self._closed.is_set():  # meanwhile
@@ -129,7 +118,7 @@ class Workers:
         self._idle = [worker for worker in self._idle if worker.alive]
         await self.prepare()
         worker = self._idle.pop()
-        return worker, asyncio.create_task(worker.answer(name, body, patience))
+        return worker, asyncio.create_task(asyncio.to_thread(worker.answer, name, body, patience))
 
     @staticmethod
     async def _wait(worker: Worker, reply: asyncio.Task[Reply], seconds: float, *, end: bool) -> None:
