@@ -134,28 +134,22 @@ class Workers:
     @asynccontextmanager
     async def _turn(self) -> AsyncIterator[None]:
         """The right to begin a question: the last to come is the first to have it."""
-        if self._busy:
-            turn = asyncio.get_running_loop().create_future()
-            self._newcomers.append(turn)
-            try:
-                await turn
-            except asyncio.CancelledError:
-                if turn.done() and not turn.cancelled():
-                    self._pass_on()
-                raise
-        self._busy = True
+        turn = asyncio.get_running_loop().create_future()
+        self._newcomers.append(turn)
+        self._pass_on()
         try:
+            await turn
             yield
         finally:
-            self._pass_on()
+            if not turn.cancelled():
+                self._busy = False
+                self._pass_on()
 
     def _pass_on(self) -> None:
-        self._busy = False
-        while self._newcomers and not self._busy:
-            turn = self._newcomers.pop()
-            if not turn.done():
-                self._busy = True
-                turn.set_result(None)
+        self._newcomers = [turn for turn in self._newcomers if not turn.done()]
+        if self._newcomers and not self._busy:
+            self._busy = True
+            self._newcomers.pop().set_result(None)
 
 
 def late(patience: float) -> bytes:
