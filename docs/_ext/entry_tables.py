@@ -4,7 +4,7 @@
 line of `TABLES`, and its two marks in the page: `<!-- entries of NAME -->` and `<!-- end of the entries of NAME -->`.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from functools import partial
 from pathlib import Path
 
@@ -48,13 +48,18 @@ TABLES: dict[str, Callable[[], str]] = {
 }
 
 
-def page_with_tables(page: str) -> str:
-    """The page with the entries of today."""
-    for name, table_of in TABLES.items():
-        begin, end = f"<!-- entries of {name} -->\n", f"<!-- end of the entries of {name} -->\n"
+def between_marks(page: str, what: str, tables: Mapping[str, Callable[[], str]]) -> str:
+    """The page with these tables, each between its marks, which say what it lists and by which name."""
+    for name, table_of in tables.items():
+        begin, end = f"<!-- {what} of {name} -->\n", f"<!-- end of the {what} of {name} -->\n"
         before, _, rest = page.partition(begin)
         page = f"{before}{begin}\n{table_of()}\n\n{end}{rest.partition(end)[2]}"
     return page
+
+
+def page_with_tables(page: str) -> str:
+    """The page with the entries of today."""
+    return between_marks(page, "entries", TABLES)
 
 
 if __name__ == "__main__":

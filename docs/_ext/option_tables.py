@@ -4,11 +4,13 @@
 between two marks in the page: `<!-- options of NAME -->` and `<!-- end of the options of NAME -->`.
 """
 
+from functools import partial
 from inspect import Parameter
 from itertools import groupby
 from pathlib import Path
 from typing import Any
 
+from docs._ext.entry_tables import between_marks
 from optlaws.cli.app import COMMANDS, app
 
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "reference" / "command-line.md"
@@ -51,11 +53,7 @@ def _row(argument: Any) -> str:
 
 def page_with_tables(page: str) -> str:
     """The page with the options of today."""
-    for name in COMMANDS:
-        begin, end = f"<!-- options of {name} -->\n", f"<!-- end of the options of {name} -->\n"
-        before, _, rest = page.partition(begin)
-        page = f"{before}{begin}\n{option_tables(name)}\n\n{end}{rest.partition(end)[2]}"
-    return page
+    return between_marks(page, "options", {name: partial(option_tables, name) for name in COMMANDS})
 
 
 if __name__ == "__main__":
