@@ -29,8 +29,8 @@ from .cycles.moves.transition_cam import TransitionKind as TransitionKind
 from .cycles.old_tables.better_moves import MoveGain as MoveGain
 from .cycles.old_tables.stretches import Stretch as Stretch
 from .cycles.specification.segments import CycleSegment as CycleSegment
-from .exports.run_time.front_export import FrontExport as FrontExport
-from .exports.run_time.planning import MoveStatus as MoveStatus, RunTimeMove as RunTimeMove
+from .exports.front_export import FrontExport as FrontExport
+from .exports.front_table import MoveStatus as MoveStatus, RunTimeMove as RunTimeMove
 from .formulas.tree import Formula as Formula
 from .laws.curve import Many as Many
 from .laws.exporting import Interpolation as Interpolation

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from rich.table import Table
 
     from optlaws.exports.export import Export
-    from optlaws.exports.run_time.front_export import FrontExport
+    from optlaws.exports.front_export import FrontExport
     from optlaws.shown.report import Report, ReportTable
     from optlaws.shown.summary import Row, Summary
 

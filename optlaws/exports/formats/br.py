@@ -7,7 +7,7 @@ from fractions import Fraction
 from optlaws.errors import InputError
 from optlaws.exports.error_bounds import SINGLE, as_stored
 from optlaws.exports.format import Request, Written, file_format
-from optlaws.exports.formats.program_polynomials import iec_heading, jumps_in_words, jumps_of_single, polynomials_for
+from optlaws.exports.polynomial_pieces import iec_heading, jumps_in_words, jumps_of_single, polynomials_for
 from optlaws.exports.text import iec_name, real
 from optlaws.motion.motion import Motion
 from optlaws.motion.polynomials import PiecewiseMotion

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from optlaws.exports.format import Request, Written, file_format
-from optlaws.exports.formats.program_polynomials import fields, iec_heading, polynomials_for
 from optlaws.exports.point_tables import chosen_table
+from optlaws.exports.polynomial_pieces import fields, iec_heading, polynomials_for
 from optlaws.exports.text import iec_comment, iec_name, real, table_heading
 from optlaws.motion.motion import Motion
 

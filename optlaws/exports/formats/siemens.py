@@ -7,15 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from optlaws.exports.format import Request, Written, file_format
-from optlaws.exports.formats.program_polynomials import (
-    Ends,
-    ends_of,
-    fields,
-    iec_heading,
-    polynomials_for,
-    refuse_jumps,
-)
-from optlaws.exports.polynomial_pieces import Fitted
+from optlaws.exports.polynomial_pieces import Ends, Fitted, ends_of, fields, iec_heading, polynomials_for, refuse_jumps
 from optlaws.exports.text import iec_name
 from optlaws.motion.motion import Motion
 from optlaws.motion.polynomials import PiecewiseMotion

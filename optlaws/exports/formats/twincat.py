@@ -8,7 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.exports.format import MOST_POINTS, Request, Written, file_format
-from optlaws.exports.formats.program_polynomials import (
+from optlaws.exports.point_tables import PointTable, chosen_table, is_cyclic
+from optlaws.exports.polynomial_pieces import (
+    Fitted,
     ends_of,
     fields,
     iec_heading,
@@ -16,8 +18,6 @@ from optlaws.exports.formats.program_polynomials import (
     polynomials_for,
     refuse_jumps,
 )
-from optlaws.exports.point_tables import PointTable, chosen_table, is_cyclic
-from optlaws.exports.polynomial_pieces import Fitted
 from optlaws.exports.text import iec_comment, iec_name, real, table_heading
 from optlaws.motion.motion import Motion
 from optlaws.motion.polynomials import PiecewiseMotion

@@ -436,7 +436,7 @@ class ProvenFront(JsonText):
         >>> export.points, export.size, export.gap <= 1e-3
         (32, 3072, True)
         """
-        from optlaws.exports.run_time.front_export import export_front, function_format
+        from optlaws.exports.front_export import export_front, function_format
         from optlaws.synthesis.proven.fewest_laws import ChordSelection, proven_ends
 
         function_format(to)

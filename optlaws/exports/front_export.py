@@ -2,18 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
 from optlaws.errors import InputError
 from optlaws.exports.format import FORMATS, format_of
-from optlaws.exports.run_time.front_programs import front_block, front_header
-from optlaws.exports.run_time.front_table import FrontTable, front_table
-from optlaws.exports.run_time.planning import RunTimeMove, in_time, least_time, motion_at
-from optlaws.exports.text import rounded_up
+from optlaws.exports.front_table import (
+    FrontTable,
+    MoveStatus,
+    RunTimeMove,
+    end_status,
+    front_table,
+    in_time,
+    least_time,
+    motion_at,
+)
+from optlaws.exports.text import c_array, c_name, c_row, filled, iec_name, real, rounded_up, safe, st_array, template
 from optlaws.files import writing
+from optlaws.files.writing import MARK
 from optlaws.laws import MotionLaw
 from optlaws.laws.making.transform import law_between
 from optlaws.numbers import Array, finite
@@ -22,8 +31,6 @@ from optlaws.tolerances import RUN_TIME_RANGE
 
 #: a jerk that limits nothing
 NO_LIMIT = 1.0 / RUN_TIME_RANGE
-
-_WRITERS: dict[str, Callable[[FrontTable, str, Sequence[str]], str]] = {"c99": front_header, "iec-st": front_block}
 
 
 @dataclass(frozen=True)
@@ -80,8 +87,7 @@ class FrontExport:
         InputError
             If an entry is no finite number.
         """
-        values = {"stroke": stroke, "velocity": velocity, "acceleration": acceleration, "jerk": jerk}
-        return least_time(self.table, *(finite(value, name) for name, value in values.items()))
+        return least_time(self.table, **_finite(stroke=stroke, velocity=velocity, acceleration=acceleration, jerk=jerk))
 
     def in_time(self, *, stroke: float, duration: float, velocity: float) -> RunTimeMove:
         """The move of least acceleration in a given time within a velocity, as the controller plans it.
@@ -91,8 +97,7 @@ class FrontExport:
         InputError
             If an entry is no finite number.
         """
-        values = {"stroke": stroke, "duration": duration, "velocity": velocity}
-        return in_time(self.table, *(finite(value, name) for name, value in values.items()))
+        return in_time(self.table, **_finite(stroke=stroke, duration=duration, velocity=velocity))
 
     def motion(self, move: RunTimeMove, times: Any) -> Array:
         """Position, velocity, acceleration and jerk of a move at times since it began, shape (4, ...)."""
@@ -175,13 +180,6 @@ def export_front(
 def function_format(to: object) -> str:
     """The name of a format that has functions.
 
-    Raises
-    ------
-    InputError
-        If it is unknown, or its target interpolates tables and takes no functions.
-
-    Examples
-    --------
     >>> function_format("csv")
     Traceback (most recent call last):
     optlaws.errors.InputError: to: csv holds one motion and no functions; a front is exported to c99 or iec-st
@@ -192,6 +190,10 @@ def function_format(to: object) -> str:
             f"to: {form} holds one motion and no functions; a front is exported to {' or '.join(_WRITERS)}"
         )
     return form
+
+
+def _finite(**values: float) -> dict[str, float]:
+    return {name: finite(value, name) for name, value in values.items()}
 
 
 def _heading(table: FrontTable, about: str) -> list[str]:
@@ -205,7 +207,82 @@ def _heading(table: FrontTable, about: str) -> list[str]:
         "rounding in LREAL, proven, at most, times stroke/duration^n for n = 0, 1, 2, 3: " + errors,
         f"times are lengthened by {rounded_up(table.slack)} of them, so that limits are kept whatever is rounded",
     ]
-    for end, proven in zip(("first", "last"), table.ends, strict=True):
-        if not proven:
-            lines.append(f"AT_END: beyond the {end} law there may be better ones, which the front does not hold")
-    return lines
+    beyond = [end for end, proven in zip(("first", "last"), table.ends, strict=True) if not proven]
+    return lines + [
+        f"AT_END: beyond the {end} law there may be better ones, which the front does not hold" for end in beyond
+    ]
+
+
+def _header(table: FrontTable, name: str, heading: list[str]) -> str:
+    """A C99 header that plans moves by the table and evaluates them."""
+    called = c_name(name)
+    upper, arrays = called.upper(), _arrays(table, "b", "c", "j")
+    rows = [[c_row(list(map(real, row))) for row in law] for law in table.series.tolist()]
+    laws, pieces, terms = table.series.shape
+    shape = f"[{laws}][{terms}]" if pieces == 1 else f"[{laws}][{pieces}][{terms}]"
+    words = {
+        "name": called,
+        "NAME": upper,
+        "GUARD": f"OPTLAWS_{upper}_H",
+        "HEADING": safe([*heading, "", MARK]),
+        "AT_FIRST": f"{upper}_{end_status(table, last=False).name}",
+        "AT_LAST": f"{upper}_{end_status(table, last=True).name}",
+        "TABLES": [
+            *(
+                line
+                for array, values in arrays.items()
+                for line in c_array(f"double {called}_{array}[{len(values)}]", list(map(real, values)))
+            ),
+            f"static const double {called}_series{shape} = {{",
+            *(f"{law[0]}," if len(law) == 1 else "    {\n" + ",\n".join(law) + ",\n    }," for law in rows),
+            "};",
+        ],
+    }
+    return _filled(template("front.h"), table, words)
+
+
+def _block(table: FrontTable, name: str, heading: list[str]) -> str:
+    """A function block that plans a move in a call with `plan`; other calls evaluate it at the time since it began."""
+    arrays = {**_arrays(table, "tableB", "tableC", "tableJ"), "series": table.series.ravel().tolist()}
+    words = {
+        **{status.name: status.value for status in MoveStatus},
+        "NAME": iec_name(name, "IEC 61131-3"),
+        "HEADING": safe([*heading, f"status: {', '.join(f'{each.value} {each.name}' for each in MoveStatus)}", MARK]),
+        "AT_FIRST": end_status(table, last=False).value,
+        "AT_LAST": end_status(table, last=True).value,
+        "TERMS": table.terms,
+        "LAW_SIZE": table.terms * table.series.shape[1],
+        "TABLES": [
+            # literals in expressions may be REAL
+            f"    widened : LREAL := {real(1.0 + table.slack)};",
+            *(line for array, values in arrays.items() for line in st_array(array, "LREAL", list(map(real, values)))),
+        ],
+    }
+    return _filled(template("front.st"), table, words)
+
+
+def _arrays(table: FrontTable, *names: str) -> dict[str, tuple[float, ...]]:
+    """The arrays of B, C and J under their names in a language, and of the breaks of several pieces."""
+    arrays = dict(zip(names, (table.velocities, table.accelerations, table.jerks), strict=True))
+    if len(table.breaks) > 2:
+        scales = tuple(2.0 / (high - low) for low, high in pairwise(table.breaks))
+        arrays |= {"breaks": table.breaks, "scales": scales}
+    return arrays
+
+
+def _filled(source: str, table: FrontTable, words: Mapping[str, object]) -> str:
+    numbers = {
+        "LEAST": real(RUN_TIME_RANGE),
+        "MOST": real(1.0 / RUN_TIME_RANGE),
+        "WIDENED": real(1.0 + table.slack),
+        "COUNT": len(table),
+        "LAST": len(table) - 1,
+        "BEFORE": len(table) - 2,
+        "HIGHEST": table.terms - 1,
+        "LAST_PIECE": len(table.breaks) - 2,
+    }
+    choices = {"ODD": table.odd, "PIECES": len(table.breaks) > 2}
+    return filled(source, {**numbers, **words}, [name for name, chosen in choices.items() if chosen])
+
+
+_WRITERS = {"c99": _header, "iec-st": _block}

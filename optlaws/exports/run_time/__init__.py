@@ -1,1 +1,0 @@
-"""Functions for controllers that choose a law while they run: proven fronts."""
