@@ -77,7 +77,7 @@ from .synthesis.functionals.makers import FormulaKind as FormulaKind, PeakSide a
 from .synthesis.least_time.follower_residual import FollowerResidual as FollowerResidual
 from .synthesis.least_time.least_time import LeastTime as LeastTime
 from .synthesis.least_time.motor_torque import MotorTorque as MotorTorque
-from .synthesis.least_time.move_limits import MoveLimits as MoveLimits, RateLimit as RateLimit, TimedLimit as TimedLimit
+from .synthesis.least_time.move_limits import MoveLimits as MoveLimits, SpanLimit as SpanLimit, TimedLimit as TimedLimit
 from .synthesis.least_time.move_objective import MoveObjective as MoveObjective
 from .synthesis.least_time.time_proof import TimeProof as TimeProof
 from .synthesis.least_time.timed_move import TimedMove as TimedMove

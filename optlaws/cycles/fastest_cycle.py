@@ -7,7 +7,8 @@ from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import Any
 
-from optlaws.cycles.greatest_speed.fastest_search import FastestSearch, TimedSpan
+from optlaws.cycles.greatest_speed.fastest_search import FastestSearch
+from optlaws.cycles.greatest_speed.timed_spans import TimedSpan
 from optlaws.cycles.kinematics import TimedCycle
 from optlaws.cycles.moves.fastest_move import limit_row
 from optlaws.cycles.optimisation.motion_limits import amount, word_of
@@ -263,7 +264,7 @@ def _least_duration(search: FastestSearch, span: TimedSpan) -> LeastDuration:
         "motor's curve"
         if row.key.kind is Kind.CURVE
         else sentence("{} {}", word_of(row.key, axis), amount(row.key, row.most, axis))
-        for row in span.least.binding
+        for row in span.binding
     )
     return LeastDuration(
         span.where, span.needed, search.time_of(span), tuple(dict.fromkeys(limits)), binding=span in search.binding

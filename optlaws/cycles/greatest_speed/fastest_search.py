@@ -14,9 +14,7 @@ from math import isfinite
 
 from optlaws.cycles.greatest_speed.force_rating import ForceRating
 from optlaws.cycles.greatest_speed.periods import DurationRange, duration_ranges, durations_at, least_period
-from optlaws.cycles.greatest_speed.scaling import SpanLimit, slower
-from optlaws.cycles.greatest_speed.span_limits import limits_of_span
-from optlaws.cycles.greatest_speed.span_time import SpanTime, least_time, least_time_of_law
+from optlaws.cycles.greatest_speed.timed_spans import TimedSpan, least_scale, limits_of_span, slower
 from optlaws.cycles.optimisation.motion_limits import (
     FORCES,
     Sides,
@@ -37,6 +35,7 @@ from optlaws.laws import MotionLaw
 from optlaws.motion.piece import Piece, factor, jump_beside
 from optlaws.motion.quantity_kinds import Kind
 from optlaws.sentences import sentence
+from optlaws.synthesis.least_time.move_limits import SpanLimit
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.proof.certificate import VIOLATION, Certificate
 from optlaws.synthesis.status import Status
@@ -45,30 +44,6 @@ from optlaws.tolerances import AGREEMENT, BINDING_LIMIT, CLOSURE, SAME_TIME
 #: so many times slower every limit of a derivative is kept
 _SLOW = 1e4
 _JERK = 3
-
-
-@dataclass(frozen=True)
-class TimedSpan:
-    """A motion of the cycle, its duration where it was looked at, and its least time."""
-
-    span: LawSpan
-    duration: float
-    least: SpanTime
-
-    @property
-    def where(self) -> str:
-        """The name that errors give it."""
-        return self.span.where
-
-    @property
-    def places(self) -> tuple[int, ...]:
-        """Its segments among those of the cycle."""
-        return tuple(stretch.number - 1 for stretch in self.span.stretches)
-
-    @property
-    def needed(self) -> float:
-        """The least duration that the motion needs, in seconds."""
-        return self.duration * self.least.scale
 
 
 @dataclass(frozen=True)
@@ -92,11 +67,10 @@ class FastestSearch:
     @kept_property
     def spans(self) -> tuple[TimedSpan, ...]:
         """The motions that have limits, each with its least time."""
-        spans = [*map(self._of_piece, self._layout.pieces)]
-        spans += [TimedSpan(span, span.duration, self.fastest(span)) for span in self._layout.spans]
+        spans = [*map(self._of_piece, self._layout.pieces), *map(self.fastest, self._layout.spans)]
         for span in spans:
             self._check(span)
-        limited = [span for span in spans if span.least.rows]
+        limited = [span for span in spans if span.limits]
         if not limited and self.objective.mean_force is None:
             raise InputError(
                 "no limit bounds the motions, so that every speed is possible: give limits of the cycle or of its "
@@ -134,7 +108,7 @@ class FastestSearch:
     @kept_property
     def unrated(self) -> float:
         """The least period by the limits of the segments, in seconds."""
-        period, turned = self._summed([span.least.scale for span in self.spans])
+        period, turned = self._summed([span.scale for span in self.spans])
         if period > turned and not self.turning:
             self._check_vanishing(period)
         return period
@@ -144,9 +118,9 @@ class FastestSearch:
         """A period that no laws of any degree beat, in seconds; None where it is not known of a motion that binds."""
         if self.rating is not None and self.rating.binds:
             return None
-        if any(span.least.limit is None for span in self.binding):
+        if any(span.limit is None for span in self.binding):
             return None
-        return self._summed([span.least.limit or 0.0 for span in self.spans])[0]
+        return self._summed([span.limit or 0.0 for span in self.spans])[0]
 
     def _summed(self, scales: Sequence[float]) -> tuple[float, float]:
         """The least period at which motions have such scales of their times, and that of those which turn alone."""
@@ -163,7 +137,7 @@ class FastestSearch:
     @property
     def needed(self) -> tuple[float, ...]:
         """The least duration of each segment in seconds, by its own limits; 0 without any."""
-        return self._alone([span.least.scale for span in self.spans])
+        return self._alone([span.scale for span in self.spans])
 
     @kept_property
     def durations(self) -> tuple[float, ...]:
@@ -186,12 +160,12 @@ class FastestSearch:
         Of motions that turn with the master one that has no time left is enough. Where free motions sum to the period,
         one of them would have less than its least time, and any of them may be it.
         """
-        if not all(row.scales for span in self.spans for row in span.least.rows):
+        if not all(row.scales for span in self.spans for row in span.limits):
             return Status.LOCAL
         if self.rating is not None and self.rating.binds:
             return Status.OPTIMAL if self.rating.scales and self.rating.proofs is not None else Status.LOCAL
         binding = self.binding
-        proven = [span.least.base is None or span.least.proof is not None for span in binding]
+        proven = [span.space is None or span.proof is not None for span in binding]
         turning = any(self._turns(span) and known for span, known in zip(binding, proven, strict=True))
         return Status.OPTIMAL if turning or all(proven) else Status.LOCAL
 
@@ -200,7 +174,7 @@ class FastestSearch:
         """The keys of the limits by which the speed is greatest."""
         if self.rating is not None and self.rating.binds:
             return (self.rating.name,)
-        rows = (row for span in self.binding for row in span.least.binding)
+        rows = (row for span in self.binding for row in span.binding)
         return tuple(dict.fromkeys(word_of(row.key, self.programme.axis) for row in rows))
 
     @property
@@ -208,11 +182,7 @@ class FastestSearch:
         """The certificates that the motions have no laws a little faster, by their names."""
         if self.rating is not None and self.rating.binds:
             return self.rating.proofs or {}
-        return {
-            f"{span.where}{_of_what(span.least.proof)}": span.least.proof
-            for span in self.binding
-            if span.least.proof is not None
-        }
+        return {f"{span.where}{_of_what(span.proof)}": span.proof for span in self.binding if span.proof is not None}
 
     def alone(self, i: int) -> LawSpan:
         """A move by itself, from rest to rest whatever is beside it."""
@@ -221,15 +191,15 @@ class FastestSearch:
         rest = State(0.0, 0.0)
         return LawSpan((stretch,), (start,), stop, offset, stretch.displacement, rest, rest, ())
 
-    def of_law(self, span: LawSpan, law: MotionLaw) -> SpanTime:
-        """The least time of a law within the limits of a span."""
+    def of_law(self, span: LawSpan, law: MotionLaw) -> TimedSpan:
+        """A span with a law within its limits."""
         self._check_way(span.stretches[0], Piece(*span.times, span.offset, scale(span), law))
-        return least_time_of_law(law, self._rows(span, scale(span)))
+        return TimedSpan(span, span.duration, self._limits(span, scale(span)), given=law)
 
-    def fastest(self, span: LawSpan) -> SpanTime:
-        """The least time of all laws within the limits of a span; without a law where nothing limits it."""
-        rows = self._rows(span, scale(span))
-        return least_time(self._base(span, scale(span)), rows, span.where) if rows else SpanTime(0.0, None, ())
+    def fastest(self, span: LawSpan) -> TimedSpan:
+        """A span with its limits and all laws; without a law where nothing limits it."""
+        limits = self._limits(span, scale(span))
+        return TimedSpan(span, span.duration, limits, self._base(span, scale(span)) if limits else None)
 
     def time_of(self, span: TimedSpan) -> float:
         """The time that a motion has at the least period."""
@@ -246,10 +216,8 @@ class FastestSearch:
         return Layout(placed.starts, tuple(sorted(pieces, key=lambda piece: piece.start)), ())
 
     def _law(self, span: LawSpan) -> Piece:
-        known = self._known(span)
-        fastest = self._fastest(span)
-        spare = known is None or known.needed < span.duration * (1.0 - BINDING_LIMIT)
-        if fastest is None or spare:
+        fastest, known = self._fastest(span), self._known(span)
+        if fastest is None or known is None or known.needed < span.duration * (1.0 - BINDING_LIMIT):
             try:
                 return solve(span, self.objective, self.programme.axis)[0]
             except (InfeasibleProblem, SolverFailure):
@@ -258,15 +226,13 @@ class FastestSearch:
         return fastest
 
     def _known(self, span: LawSpan) -> TimedSpan | None:
-        """The span with its least time, if limits bound it."""
         return next((known for known in self.spans if known.span.stretches == span.stretches), None)
 
     def _fastest(self, span: LawSpan) -> Piece | None:
         """The fastest law of a span in its place; None where no limit bounds it."""
         known = self._known(span)
-        if known is None or known.least.law is None:
-            return None
-        return Piece(span.start, span.duration, span.offset, scale(span), known.least.law)
+        law = None if known is None else known.law
+        return None if law is None else Piece(span.start, span.duration, span.offset, scale(span), law)
 
     def _placed(self, period: float) -> Layout:
         """The pieces and spans at a period."""
@@ -305,20 +271,19 @@ class FastestSearch:
         still = isinstance(stretch.given, Dwell) or piece.stroke == 0.0
         if not still:
             self._check_way(stretch, piece)
-        rows = [] if still else self._rows(span, piece.stroke)
-        least = least_time_of_law(piece.law, rows)
-        jerked = [row for row in rows if row.key.kind.order >= _JERK]
+        timed = TimedSpan(span, piece.duration, () if still else self._limits(span, piece.stroke), given=piece.law)
+        jerked = [limit for limit in timed.limits if limit.nu >= _JERK]
         jumps = jerked and jump_beside(piece, self._layout.pieces, self.programme.period) is not None
-        if jumps or not isfinite(least.scale):
-            row = jerked[0] if jumps else next(row for row in rows if not isfinite(row.least_scale(piece.law)))
-            limit = in_units(row.key, row.most, self.programme.axis)
+        if jumps or not isfinite(timed.scale):
+            endless = (limit for limit in timed.limits if not isfinite(least_scale(limit, piece.law)))
+            limit = jerked[0] if jumps else next(endless)
             raise InfeasibleProblem(
                 sentence(
                     "{}: its law jumps, so that no speed keeps {}: take a smoother law, or leave that limit out",
-                    stretch.where, limit,
+                    stretch.where, in_units(limit.key, limit.most, self.programme.axis),
                 )
             )  # fmt: skip
-        return TimedSpan(span, piece.duration, least)
+        return timed
 
     def _check_way(self, stretch: TimedSegment, piece: Piece) -> None:
         """Refuse a given law that goes back where its velocity must not."""
@@ -331,14 +296,12 @@ class FastestSearch:
                     "or a least velocity below 0"
                 )
 
-    def _rows(self, span: LawSpan, stroke: float) -> list[SpanLimit]:
-        limits = [limits_of_segment(stretch, self.objective.limits, self.programme.axis) for stretch in span.stretches]
-        return limits_of_span(
-            span, [self._raised(each) for each in limits], self.objective, stroke, self.programme.axis
-        )
-
-    def _raised(self, limits: Sides) -> Sides:
-        return {key: most * self.more.get(word_of(key, self.programme.axis), 1.0) for key, most in limits.items()}
+    def _limits(self, span: LawSpan, stroke: float) -> tuple[SpanLimit, ...]:
+        axis, limits = self.programme.axis, list[Sides]()
+        for stretch in span.stretches:
+            given = limits_of_segment(stretch, self.objective.limits, axis)
+            limits.append({key: most * self.more.get(word_of(key, axis), 1.0) for key, most in given.items()})
+        return tuple(limits_of_span(span, limits, self.objective, stroke, axis))
 
     def _base(self, span: LawSpan, stroke: float) -> Problem:
         """The problem of a span without its limits."""
@@ -366,7 +329,7 @@ class FastestSearch:
                 f"{span.where} moves where it begins or ends, which fits its neighbours at one speed alone: give all "
                 "durations as angles, so that velocities turn with the master"
             )
-        if self._stays(span) and span.least.scale > 1.0 + CLOSURE:
+        if self._stays(span) and span.scale > 1.0 + CLOSURE:
             raise InfeasibleProblem(
                 f"{span.where} takes {span.duration:.9g} s at any speed, but within its limits no law takes less than "
                 f"{span.needed:.9g} s: give it more time, wider limits, or an angle of the master"

@@ -10,9 +10,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from math import exp, log, sqrt
+from math import inf, log, sqrt
 
-from optlaws.cycles.greatest_speed.drive_limits_of_span import static_force
+from optlaws.cycles.greatest_speed.timed_spans import falling_root, static_force
 from optlaws.cycles.optimisation.bounds import span_bound
 from optlaws.cycles.optimisation.motion_limits import FORCES, of_segments
 from optlaws.cycles.optimisation.objectives import CycleObjective
@@ -26,8 +26,6 @@ from optlaws.motion.piece import Piece
 from optlaws.synthesis.proof.certificate import Certificate
 from optlaws.synthesis.solution import Solution
 from optlaws.tolerances import AGREEMENT, FASTER, LEAST_SCALE_MET
-
-_SLOWEST = 2.0**40
 
 
 @dataclass(frozen=True)
@@ -60,25 +58,15 @@ class ForceRating:
     @kept_property
     def period(self) -> float:
         """The least period in seconds."""
-        from scipy.optimize import brentq
-
-        high = self.least or self.given
         if self.least and self._over(self.least) <= 0.0:
             return self.least
-        while self._over(high) > 0.0:
-            high *= 1.5
-            if high > _SLOWEST * self.given:
-                raise InfeasibleProblem(
-                    f"limits: no speed keeps the {self.name} of {self.most:.9g}: the static load alone needs more: "
-                    "allow more, or change the drive's spring, preload, gravity or friction"
-                )
-        low = self.least or high / 1.5
-        while self._over(low) <= 0.0:
-            low, high = low / 1.5, low
-        root = brentq(
-            lambda place: self._over(exp(place)), log(low), log(high), xtol=LEAST_SCALE_MET, rtol=LEAST_SCALE_MET
-        )
-        return exp(float(root)) * (1.0 + 2.0 * LEAST_SCALE_MET)
+        period = falling_root(self._over, self.least or self.given, 1.5, LEAST_SCALE_MET)
+        if period == inf:
+            raise InfeasibleProblem(
+                f"limits: no speed keeps the {self.name} of {self.most:.9g}: the static load alone needs more: "
+                "allow more, or change the drive's spring, preload, gravity or friction"
+            )
+        return period * (1.0 + 2.0 * LEAST_SCALE_MET)
 
     @property
     def binds(self) -> bool:

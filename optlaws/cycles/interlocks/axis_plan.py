@@ -10,7 +10,7 @@ from typing import Any, Literal
 import numpy as np
 
 from optlaws.cycles.greatest_speed.fastest_search import FastestSearch
-from optlaws.cycles.greatest_speed.scaling import slower
+from optlaws.cycles.greatest_speed.timed_spans import slower
 from optlaws.cycles.optimisation.motion_limits import word_of
 from optlaws.cycles.optimisation.optimal import solve
 from optlaws.cycles.specification.joints import LawSpan
@@ -206,13 +206,13 @@ class OwnLaws:
         elif self.way == "gentlest" and times is not None:
             law = self._gentlest(slower(span, times[i] / span.duration))
         least = search.fastest(span) if law is None else search.of_law(span, law)
-        if not least.rows:
+        if not least.limits:
             law = law or solve(span, search.objective, self.cycle.axis)[0].law
             return law, 0.0 if self.way == "gentlest" else None, ""
         limit = word_of(least.binding[0].key, self.cycle.axis)
         if least.law is None or not least.scale < inf:
             raise InfeasibleProblem(f"{stretch.where}: its law has no finite {limit}, and so keeps no limit of it")
-        return least.law, least.scale * span.duration, f"{limit} of axis {self.name}: {stretch.where}"
+        return least.law, least.needed, f"{limit} of axis {self.name}: {stretch.where}"
 
     def _as_it_is(self, i: int, stretch: TimedSegment) -> MotionLaw:
         """The law that a move has in the cycle."""

@@ -90,21 +90,18 @@ class MoveReport:
     @kept_property
     def limits_taken(self) -> tuple[LimitTaken, ...]:
         """The use of each limit of the move, in SI units."""
-        move, axis = self.move.least.move, AXES[self.move.unit]
-        known: dict[str, tuple[float | None, str]] = {
-            limit.name: (limit.rate, unit_of(axis, limit.nu)) for limit in move.limits.rates(1.0)
-        }
-        if move.torque is not None:
-            known |= {"torque": (move.torque.peak, "N m"), "rms torque": (move.torque.rms, "N m")}
-        if move.residual is not None:
-            known[RESIDUAL] = move.residual.most, unit_of(axis, 2)
-        taken = []
-        for name, constant, bound in move.limits_in(self.duration):
-            most, unit = known.get(name, (None, ""))
-            limit = most or 1.0
-            value = constant.value(self.law) / bound * limit
-            taken.append(LimitTaken(name, "", value, limit, "", unit=unit))
-        return tuple(taken)
+        axis, others = AXES[self.move.unit], {CURVE_LIMIT: "", RESIDUAL: unit_of(AXES[self.move.unit], 2)}
+        return tuple(
+            LimitTaken(
+                limit.name,
+                "",
+                limit.at(self.duration).share(self.law) * limit.most,
+                limit.most,
+                "",
+                unit=unit_of(axis, limit.nu) if limit.nu else others.get(limit.name, "N m"),
+            )
+            for limit in self.move.least.move.along
+        )
 
     def shares(self, times: Array) -> dict[str, Array]:
         """The share of each limit of the motion and of the motor that is taken at each time, 0 to 1."""

@@ -19,8 +19,8 @@ from optlaws.motion.piece import unit_of
 from optlaws.motion.quantities import positive_quantity
 from optlaws.numbers import Quantity, bounded, listed, positive, real
 from optlaws.synthesis.least_time.follower_residual import RESIDUAL
+from optlaws.synthesis.least_time.move_limits import power
 from optlaws.synthesis.least_time.move_objective import AT_MOTOR, MoveObjective
-from optlaws.synthesis.least_time.timed import power
 from optlaws.synthesis.problem.constants import meant
 from optlaws.synthesis.solution import Solution
 from optlaws.synthesis.status import Status, measure

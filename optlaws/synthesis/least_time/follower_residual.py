@@ -7,7 +7,7 @@ from math import inf, nextafter, sqrt
 from optlaws.entries.declared import Declared, declared, entry
 from optlaws.entries.value_types import Number
 from optlaws.errors import InputError
-from optlaws.synthesis.least_time.move_limits import TimedLimit
+from optlaws.synthesis.least_time.move_limits import SpanLimit, TimedLimit
 from optlaws.synthesis.problem.named_constants import named
 from optlaws.tolerances import LIMIT_ROUNDING
 
@@ -38,6 +38,10 @@ class FollowerResidual(Declared, title="the residual vibration of a move"):
     def _check(self) -> None:
         if self.lowest > self.highest or self.damping >= 1.0:
             raise InputError("the frequencies of a follower must be in order, and its damping below 1")
+
+    def along(self, stroke: float) -> SpanLimit:
+        """The limit of a law with the stroke 1 over the time."""
+        return SpanLimit(RESIDUAL, self.most, lambda duration: self.limit_in(duration, stroke)[1:])
 
     def limit_in(self, duration: float, stroke: float) -> TimedLimit:
         """The limit of a law with the stroke 1 in a time."""

@@ -13,9 +13,8 @@ from optlaws.laws import MotionLaw
 from optlaws.numbers import finite, listed, positive, real
 from optlaws.synthesis.least_time.follower_residual import FollowerResidual
 from optlaws.synthesis.least_time.motor_torque import MotorTorque
-from optlaws.synthesis.least_time.move_limits import MoveLimits
+from optlaws.synthesis.least_time.move_limits import MoveLimits, power
 from optlaws.synthesis.least_time.time_proof import Multipliers, TimeProof, covers
-from optlaws.synthesis.least_time.timed import power
 from optlaws.synthesis.least_time.timed_move import TimedMove
 from optlaws.synthesis.problem.constants import meant
 from optlaws.synthesis.proof.data import problem_of
@@ -52,7 +51,7 @@ class LeastTime(JsonText):
     (3.249852, 3.174802, ('jerk',))
     """
 
-    move: TimedMove
+    move: TimedMove  #: or a span of a cycle, which is not stored
     duration: float
     solution: Solution
     proofs: tuple[TimeProof, ...]
@@ -102,8 +101,7 @@ class LeastTime(JsonText):
     @kept_property
     def used(self) -> dict[str, float]:
         """The share of each limit that the law uses, 1 where it reaches it."""
-        limits = self.move.limits_in(self.duration)
-        return {limit.name: limit.constant.value(self.law) / limit.bound for limit in limits}
+        return {limit.name: limit.share(self.law) for limit in self.move.limits_in(self.duration)}
 
     @property
     def binding(self) -> tuple[str, ...]:
@@ -119,7 +117,7 @@ class LeastTime(JsonText):
 
         Empty where a torque or what vibrates is limited: the multipliers speak of one time alone.
         """
-        if self.move.torque is not None or self.move.residual is not None:
+        if not self.move.of_rates:
             return {}
         multipliers = Multipliers.of(self.move, self.duration, self.solution)
         weighed, left = (

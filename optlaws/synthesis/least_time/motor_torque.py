@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import lru_cache
 from math import inf
@@ -16,7 +16,7 @@ from optlaws.formulas.reading import read
 from optlaws.formulas.slopes import constant
 from optlaws.laws import smoothstep
 from optlaws.synthesis.functionals.makers import drive_torque, peak, rms
-from optlaws.synthesis.least_time.move_limits import TimedLimit
+from optlaws.synthesis.least_time.move_limits import SpanLimit
 from optlaws.synthesis.limits.drive_limits import limit_of_plane, phase_torque
 from optlaws.synthesis.limits.phase_plane import PhasePlane, TorqueLimit
 from optlaws.synthesis.problem.constants import Functional
@@ -93,8 +93,8 @@ class MotorTorque(Declared, title="the torque of a move"):
 
     Examples
     --------
-    >>> MotorTorque("1 + 0.3*a", 0.0, "0.2", unit=2.0, peak=3.0).limits_in(0.5)
-    (TimedLimit(name='torque', constant=peak((1 + 0.3*a)*c + 0.15*b^2 + 0.25*0.2), bound=0.375),)
+    >>> MotorTorque("1 + 0.3*a", 0.0, "0.2", unit=2.0, peak=3.0).along()[0].at(0.5)
+    TimedLimit(name='torque', constant=peak((1 + 0.3*a)*c + 0.15*b^2 + 0.25*0.2), bound=0.375)
     """
 
     writes_defaults = True
@@ -202,20 +202,23 @@ class MotorTorque(Declared, title="the torque of a move"):
         weighed = "0" if constant(load) == 0.0 else f"{duration * duration!r}*({self.load})"
         return drive_torque(inertia=self.inertia, friction=repr(self.friction * duration), load=weighed)
 
-    def limits_in(self, duration: float) -> tuple[TimedLimit, ...]:
-        """The limits in a time: bounds of T² times the torque, and of its share of the curve.
+    def along(self) -> tuple[SpanLimit, ...]:
+        """The limits over the time: bounds of T² times the torque, and of its share of the curve.
 
         Braking behind a gear with losses is limited as if power always flowed back, which is no less.
         """
-        factor = duration * duration / self.unit
-        limits = []
-        if self.peak is not None:
-            highest = peak(self.text(duration)) if self.gear is None else self._greatest([(1.0, 0.0)], duration)
-            limits.append(TimedLimit("torque", highest, self.peak * factor))
+
+        def limit(name: str, most: float, highest: Callable[[float], Functional]) -> SpanLimit:
+            return SpanLimit(name, most, lambda time: (highest(time), most * (time * time / self.unit)))
+
+        def of_peak(time: float) -> Functional:
+            return peak(self.text(time)) if self.gear is None else self._greatest([(1.0, 0.0)], time)
+
+        limits = [] if self.peak is None else [limit("torque", self.peak, of_peak)]
         if self.curve:
-            limits.append(TimedLimit(CURVE_LIMIT, self._greatest(self.curve, duration), factor))
+            limits.append(limit(CURVE_LIMIT, 1.0, lambda time: self._greatest(self.curve, time)))
         if self.rms is not None:
-            limits.append(TimedLimit("rms torque", rms(self.text(duration)), self.rms * factor))
+            limits.append(limit("rms torque", self.rms, lambda time: rms(self.text(time))))
         return tuple(limits)
 
     def _greatest(self, lines: Sequence[tuple[float, float]], duration: float) -> Functional:

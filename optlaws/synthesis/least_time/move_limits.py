@@ -1,22 +1,15 @@
-"""Limits of velocity, acceleration, jerk and snap of a move."""
+"""Limits of a motion whose time is sought: along a span as functions of its time, and those of a single move."""
 
 from __future__ import annotations
 
-from dataclasses import replace
-from typing import NamedTuple
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import Any, NamedTuple
 
 from optlaws.entries.declared import Declared, declared, entry
 from optlaws.entries.value_types import Number
+from optlaws.laws import MotionLaw
 from optlaws.synthesis.problem.constants import B, C, C_minus, C_plus, Functional, J, snap
-
-
-class RateLimit(NamedTuple):
-    """A limit of one derivative: its name, the constant of the law, the order of the derivative and the limit."""
-
-    name: str
-    constant: Functional
-    nu: int
-    rate: float
 
 
 class TimedLimit(NamedTuple):
@@ -25,6 +18,61 @@ class TimedLimit(NamedTuple):
     name: str
     constant: Functional
     bound: float
+
+    def share(self, law: MotionLaw) -> float:
+        """The share of the limit that a law takes."""
+        return float(self.constant.value(law) / self.bound)
+
+
+@dataclass(frozen=True)
+class SpanLimit:
+    """A limit along a span as a function of its time, or of a scale of its time.
+
+    Attributes
+    ----------
+    name, most
+        What is limited, and how much of it is allowed in SI units.
+    term
+        The limited constant of the law and its greatest allowed value, in a time.
+    nu
+        The order of the derivative that is limited, of which so high a power of the time is allowed; 0 of others.
+    scales
+        Whether a law that keeps the limit keeps it in every longer time.
+    key
+        What the caller knows it by.
+    """
+
+    name: str
+    most: float
+    term: Callable[[float], tuple[Functional, float]]
+    nu: int = 0
+    scales: bool = True
+    key: Any = None
+
+    def at(self, duration: float) -> TimedLimit:
+        """The limit in a time."""
+        return TimedLimit(self.name, *self.term(duration))
+
+    @property
+    def rate(self) -> float:
+        return self.term(1.0)[1]
+
+
+def derivative_limit(name: str, most: float, constant: Functional, nu: int, rate: float, key: Any = None) -> SpanLimit:
+    """The limit of a derivative of the law, in 1/s^nu."""
+    return SpanLimit(name, most, lambda duration: (constant, rate * power(duration, nu)), nu, key=key)
+
+
+def power(duration: float, nu: int) -> float:
+    """A time to a whole power by products, which every machine rounds alike.
+
+    >>> power(1.5, 3)
+    3.375
+    """
+    product = duration
+    for _ in range(nu - 1):
+        product *= duration
+    return product
 
 
 _LIMIT = Number(above=0.0)
@@ -51,16 +99,11 @@ class MoveLimits(Declared, title="limits of a move"):
         """Whether a law and its mirror image keep the limits alike."""
         return self.acceleration == self.deceleration
 
-    def rates(self, stroke: float) -> tuple[RateLimit, ...]:
-        """The limits of the law with stroke 1, in 1/s^nu, the lowest derivative first.
+    def along(self, stroke: float) -> tuple[SpanLimit, ...]:
+        """The limits of the law with stroke 1, the lowest derivative first.
 
-        Examples
-        --------
-        >>> [
-        ...     (limit.name, limit.constant, limit.rate)
-        ...     for limit in MoveLimits(velocity=1.0, deceleration=8.0).rates(0.5)
-        ... ]
-        [('velocity', B, 2.0), ('deceleration', C_minus, 16.0)]
+        >>> [limit.at(2.0) for limit in MoveLimits(velocity=1.0, deceleration=8.0).along(0.5)][1]
+        TimedLimit(name='deceleration', constant=C_minus, bound=64.0)
         """
         both = self.symmetric
         known = (
@@ -70,13 +113,13 @@ class MoveLimits(Declared, title="limits of a move"):
             ("jerk", J, 3, self.jerk),
             ("snap", snap, 4, self.snap),
         )
-        return tuple(RateLimit(name, of, nu, limit / stroke) for name, of, nu, limit in known if limit is not None)
+        return tuple(
+            derivative_limit(name, most, of, nu, most / stroke) for name, of, nu, most in known if most is not None
+        )
 
     def scaled(self, name: str, factor: float) -> MoveLimits:
         """The limits with one of them multiplied by a factor; both sides of a common acceleration limit are scaled.
 
-        Examples
-        --------
         >>> MoveLimits(acceleration=8.0, deceleration=8.0).scaled("acceleration", 2.0).deceleration
         16.0
         """

@@ -12,8 +12,7 @@ from optlaws.formulas.slopes import constant
 from optlaws.synthesis.functionals.makers import integral, peak, rms
 from optlaws.synthesis.least_time.follower_residual import RESIDUAL, FollowerResidual
 from optlaws.synthesis.least_time.motor_torque import MotorTorque
-from optlaws.synthesis.least_time.move_limits import TimedLimit
-from optlaws.synthesis.least_time.timed import power
+from optlaws.synthesis.least_time.move_limits import TimedLimit, power
 from optlaws.synthesis.least_time.timed_move import TimedMove
 from optlaws.synthesis.problem.constants import B, C, Functional, J, rms_c, rms_j, rms_snap, snap
 from optlaws.synthesis.problem.problem import Problem

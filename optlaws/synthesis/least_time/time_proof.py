@@ -19,7 +19,8 @@ from optlaws.entries.declared import Declared, ValueOf, declared, entry
 from optlaws.entries.value_types import Number
 from optlaws.errors import InputError, SolverFailure
 from optlaws.synthesis.families import names
-from optlaws.synthesis.least_time.timed import Timed, control_point, power, powers_of
+from optlaws.synthesis.least_time.move_limits import power
+from optlaws.synthesis.least_time.timed_move import Timed, control_point, powers_of
 from optlaws.synthesis.proof.certificate import VIOLATION, Certificate
 from optlaws.synthesis.proof.nodes import Contact
 from optlaws.synthesis.solution import Solution

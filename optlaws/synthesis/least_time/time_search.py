@@ -8,13 +8,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from math import copysign, exp, inf, log, sqrt
+from typing import cast
 
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.least_time.least_time import LeastTime
 from optlaws.synthesis.least_time.time_proof import Multipliers, TimeProof, covering, proof_by
-from optlaws.synthesis.least_time.timed import Timed
-from optlaws.synthesis.least_time.timed_move import TimedMove
+from optlaws.synthesis.least_time.timed_move import Timed, TimedMove
 from optlaws.synthesis.problem.constants import meant
 from optlaws.synthesis.program.writer import model_of
 from optlaws.synthesis.search import LawSearch, best_available
@@ -98,10 +98,6 @@ _MOST_BOXES = 60
 _OF_GAP = 0.9
 
 
-#: a least time, its law and the proofs that no law is faster
-Found = tuple[float, Solution, tuple[TimeProof, ...]]
-
-
 @dataclass
 class _Trials:
     """The laws of the least greatest share of the limits in the times that were tried."""
@@ -154,7 +150,7 @@ class _Trials:
         return log(before / after) / (2.0 * DURATION_STEP)
 
 
-def _by_secants(move: Timed, near: LeastTime | None = None) -> Found:
+def _by_secants(move: Timed, near: LeastTime | None = None) -> LeastTime:
     """The least time by secants of the greatest share over the time, perhaps started near another.
 
     Where laws that keep the limits keep them in every longer time, a certificate of one time proves the shorter ones.
@@ -171,26 +167,26 @@ def _by_secants(move: Timed, near: LeastTime | None = None) -> Found:
     if move.stays_possible and move.shares(duration).convex:
         proof = proof_by(trials.solution(too_short).certificate, move, 0.0, too_short)
         proofs = (proof,) if proof.stands(move) else ()
-    return duration, trials.solutions[duration], proofs
+    return LeastTime(cast("TimedMove", move), duration, trials.solutions[duration], proofs)
 
 
-def _of_vibration(move: Timed, without: Found) -> Found:
+def _of_vibration(move: Timed, without: LeastTime) -> LeastTime:
     """The least time within a limit of the vibration that is left, from the least time without that limit.
 
     Laws of a longer time may leave more again. The search goes up to a law; boxes of the times before are then proven
     to be too short, and a law that they come upon is a faster one.
     """
     trials = _Trials(move)
-    least, _, (*proofs,) = without
-    low = high = log(least)
+    proofs = [*without.proofs]
+    least = low = high = log(without.duration)
     while trials.excess(high) > log(1.0 + FEASIBILITY):
         low, high = high, high + _UPWARD
-        if high - log(least) > _WIDEST:
+        if high - least > _WIDEST:
             raise unsettled(move, exp(high))
     duration = trials.root(high, low) if low < high else exp(high)
     if proofs and low < high and move.stays_possible and move.shares(duration).convex:
         duration = _exclude(trials, proofs, duration)
-    return duration, trials.solutions[duration], tuple(proofs)
+    return LeastTime(cast("TimedMove", move), duration, trials.solutions[duration], tuple(proofs))
 
 
 def _exclude(trials: _Trials, proofs: list[TimeProof], duration: float) -> float:
@@ -223,22 +219,11 @@ _SETTLING = 12
 _LITTLE = 0.1
 
 
-def least_time(move: TimedMove, near: LeastTime | None = None) -> LeastTime:
-    """The least time in which a law of the move's space keeps its limits, proven to a millionth.
+def least_time(move: Timed, near: LeastTime | None = None) -> LeastTime:
+    """The least time in which a law of a move, or of a span of a cycle, keeps its limits, proven to a millionth.
 
     From rest to rest the search may begin near that of another stroke in the same space: its multipliers say of this
     stroke too which times are too short; its contacts are those to begin with where a torque is limited.
-
-    Raises
-    ------
-    InfeasibleProblem, InputError, SolverFailure
-        As `fastest_law`.
-    """
-    return LeastTime(move, *fastest_law(move, near))
-
-
-def fastest_law(move: Timed, near: LeastTime | None = None) -> Found:
-    """The least time of a move or of a span of a cycle, the law that takes it, and the proofs that none is faster.
 
     Raises
     ------
@@ -251,11 +236,13 @@ def fastest_law(move: Timed, near: LeastTime | None = None) -> Found:
     """
     with meant():
         if move.residual is not None:
-            return _of_vibration(move, fastest_law(move.without_residual))
+            return _of_vibration(move, least_time(move.without_residual))
         if not move.of_rates:
             return _by_secants(move, near)
         duration, solution, known = _from_either_side(move, near) if move.at_rest else _from_below(move)
-    return duration, solution, covering(move, known, duration * (1.0 - LEAST_TIME_GAP))
+    return LeastTime(
+        cast("TimedMove", move), duration, solution, covering(move, known, duration * (1.0 - LEAST_TIME_GAP))
+    )
 
 
 _Known = list[tuple[float, Multipliers]]

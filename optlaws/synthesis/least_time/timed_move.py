@@ -1,25 +1,171 @@
-"""A move of which the time is sought, and the problem that its limits define in a given time."""
+"""A motion of which the time is sought, and the problem that its limits define in a given time."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from math import factorial, inf, nextafter
+from math import comb, factorial, inf, nextafter
 from typing import Any
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
+from optlaws.laws import MotionLaw
 from optlaws.numbers import finite, positive
+from optlaws.numerics.roots import bisect
 from optlaws.synthesis.least_time.follower_residual import FollowerResidual
 from optlaws.synthesis.least_time.motor_torque import MotorTorque
-from optlaws.synthesis.least_time.move_limits import MoveLimits, RateLimit, TimedLimit
+from optlaws.synthesis.least_time.move_limits import MoveLimits, SpanLimit, TimedLimit, power
 from optlaws.synthesis.least_time.segment_times import LimitSegments, segment_times, time_of_any_law
-from optlaws.synthesis.least_time.timed import Powers, Timed, power, powers_of
-from optlaws.synthesis.problem.constants import B, C, C_minus, C_plus, J, snap
+from optlaws.synthesis.problem.constants import B, C, C_minus, C_plus, Functional, J, snap
+from optlaws.synthesis.problem.expression import Expression, maximum
 from optlaws.synthesis.problem.problem import Problem
+from optlaws.synthesis.problem.ranges import Range, at_most
 from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
 
 _EXAMPLE = "{'velocity': 1.0, 'acceleration': 12.0}"
+_HIGHEST = 4
+_HALVINGS = 2000  # of a time: more than there are numbers between two to halve
+
+#: a time to the powers 1 to 4, or what stands for them in a Bernstein form
+Powers = tuple[float, ...]
+
+
+class Timed:
+    """A motion of which the time is sought: the space of its laws, and limits along it as functions of the time.
+
+    Unless a kind of motion says otherwise, its ends are in every time those of its problem.
+    """
+
+    problem: Problem
+
+    @property
+    def along(self) -> tuple[SpanLimit, ...]:
+        """The limits of the law."""
+        raise NotImplementedError
+
+    @property
+    def begin(self) -> float:
+        """A time in which the search may begin: where it is known, one that is too short by little."""
+        raise NotImplementedError
+
+    @property
+    def limit(self) -> float | None:
+        """The time that no law of any degree is faster than; None where it is not known."""
+        return None
+
+    @property
+    def rates(self) -> tuple[SpanLimit, ...]:
+        """The limits of derivatives."""
+        return tuple(limit for limit in self.along if limit.nu)
+
+    @property
+    def of_rates(self) -> bool:
+        """Whether these are all limits, so that the multipliers of one time speak of all times."""
+        return len(self.rates) == len(self.along)
+
+    @property
+    def stays_possible(self) -> bool:
+        """Whether a law that keeps all limits but the residual's keeps them in every longer time."""
+        return all(limit.scales for limit in self.along)
+
+    @property
+    def at_rest(self) -> bool:
+        """Whether both ends are at rest: then limits that hold in a time hold in any longer time."""
+        return True
+
+    @property
+    def concave(self) -> bool:
+        """Whether multipliers give a concave function of the time: only velocities may be nonzero at the ends."""
+        return True
+
+    @property
+    def moving(self) -> tuple[tuple[float, float], ...]:
+        """Velocity, acceleration and so on at both ends where they are given, in units of the stroke and seconds."""
+        return ()
+
+    @property
+    def residual(self) -> FollowerResidual | None:
+        """The vibration that is left, with its limit, which a longer time may break; None without a follower."""
+        return None
+
+    @property
+    def without_residual(self) -> Timed:
+        return self
+
+    def least_conceivable(self) -> float:
+        """A time that no motion is faster than."""
+        return 0.0
+
+    def limits_in(self, duration: float) -> tuple[TimedLimit, ...]:
+        """Every limit in a time, as a bound of a constant of the law."""
+        return tuple(limit.at(duration) for limit in self.along)
+
+    def limits_over(self, shortest: float, longest: float) -> tuple[TimedLimit, ...]:  # noqa: ARG002 - of vibrations
+        """Limits of every law from rest to rest that keeps the motion's limits in some time of an interval."""
+        return self.limits_in(longest)
+
+    def greatest_share(self, law: MotionLaw, duration: float) -> float:
+        """The greatest share of a limit that a law takes in a time."""
+        return max(limit.share(law) for limit in self.limits_in(duration))
+
+    def within(self, duration: float, shortest: float | None = None) -> Problem:
+        """The problem of the laws that keep every limit in a time: its ends, and bounds B <= v T/h, C <= a T²/h.
+
+        With a shortest time it is a problem of every law that keeps them in some time between these two.
+
+        >>> move = TimedMove(Problem(order=3), 2.0, MoveLimits(velocity=1.0, jerk=3.0))
+        >>> move.within(4.0)
+        Problem(B=at_most(2.0), order=3, basis=Chebyshev(degree=9), minimise='C', J=at_most(96.0))
+        """
+        limits = self.limits_in(duration) if shortest is None else self.limits_over(shortest, duration)
+        return self._within(limits, powers_of(duration))
+
+    def within_control_points(self, shortest: float, longest: float) -> list[Problem]:
+        """The problems of the times between two, in Bernstein form: of each time a convex mean of them, in its numbers.
+
+        What multipliers leave is affine in the powers of the time, so that a contradiction by the same multipliers in
+        all of these problems is one in every time between.
+
+        >>> move = TimedMove(Problem(order=3), 1.0, MoveLimits(jerk=1.0), end_velocity=1.0, end_acceleration=0.5)
+        >>> [each.range("J").high for each in move.within_control_points(1.0, 2.0)]
+        [1.0, 2.0, 4.0, 8.0]
+        """
+        ends = (nu for nu, rates in enumerate(self.moving, start=1) if any(rates))
+        degree = max([2, *ends, *(limit.nu for limit in self.rates)])
+        points = [control_point(shortest, longest, i, degree) for i in range(degree + 1)]
+        return [self._within(self._limits_of_rates(powers), powers) for powers in points]
+
+    def shares(self, duration: float, ends: Powers | None = None, shortest: float | None = None) -> Problem:
+        """The problem of the least greatest share of the limits in a time; with the ends of other powers if given.
+
+        With a shortest time the limits are those of all times between.
+
+        >>> TimedMove(Problem(order=3), 1.0, MoveLimits(velocity=1.0, jerk=1.0)).shares(2.0).minimise
+        'max(0.5*B, 0.125*J)'
+        """
+        limits = self.limits_in(duration) if shortest is None else self.limits_over(shortest, duration)
+        parts = [limit.constant / limit.bound for limit in limits]
+        objective: Expression = maximum(*parts).expression() if len(parts) > 1 else parts[0]
+        return replace(
+            self.problem, boundary=self._ends(powers_of(duration) if ends is None else ends), minimise=objective
+        )
+
+    def _limits_of_rates(self, powers: Powers) -> tuple[TimedLimit, ...]:
+        known = ((limit.name, *limit.term(1.0), limit.nu) for limit in self.rates)
+        return tuple(TimedLimit(name, constant, rate * powers[nu - 1]) for name, constant, rate, nu in known)
+
+    def _within(self, limits: Sequence[TimedLimit], powers: Powers) -> Problem:
+        bounds: dict[object, Range] = dict(self.problem.bounds)
+        most: dict[Functional, float] = {}
+        for limit in limits:
+            most[limit.constant] = min(limit.bound, most.get(limit.constant, limit.bound))
+        bounds.update((constant, at_most(bound)) for constant, bound in most.items())
+        return replace(self.problem, boundary=self._ends(powers), bounds=bounds)
+
+    def _ends(self, powers: Powers) -> BoundaryConditions | None:  # noqa: ARG002 - of ends that move
+        """The motion at the ends as a law of a time with these powers has it."""
+        return self.problem.boundary
 
 
 @dataclass(frozen=True)
@@ -124,11 +270,6 @@ class TimedMove(Timed):
         return max(known) or None
 
     @property
-    def of_rates(self) -> bool:
-        """Whether all limits are of derivatives."""
-        return self.torque is None and self.residual is None
-
-    @property
     def begin(self) -> float:
         """A time in which the search may begin: where it is known, one that is too short by little."""
         return max(self.limit or 0.0, self.least_conceivable()) or 1.0
@@ -152,16 +293,11 @@ class TimedMove(Timed):
         return self.torque.grows_possible and self.torque.brakes_with_load(greatest)
 
     @property
-    def rates(self) -> tuple[RateLimit, ...]:
-        """The limits of the law with stroke 1, in 1/s^nu."""
-        return self.limits.rates(self.stroke)
-
-    def limits_in(self, duration: float) -> tuple[TimedLimit, ...]:
-        """Every limit in a time, as a bound of a constant of the law."""
-        of_rates = self._limits_of_rates(powers_of(duration))
-        torques = () if self.torque is None else self.torque.limits_in(duration)
-        left = () if self.residual is None else (self.residual.limit_in(duration, self.stroke),)
-        return (*of_rates, *torques, *left)
+    def along(self) -> tuple[SpanLimit, ...]:
+        """The limits of the law with stroke 1."""
+        torques = () if self.torque is None else self.torque.along()
+        left = () if self.residual is None else (self.residual.along(self.stroke),)
+        return (*self.limits.along(self.stroke), *torques, *left)
 
     def limits_over(self, shortest: float, longest: float) -> tuple[TimedLimit, ...]:
         """Limits of every law from rest to rest that keeps the move's limits in some time of an interval.
@@ -189,7 +325,7 @@ class TimedMove(Timed):
         return replace(self, residual=None)
 
     @property
-    def _lowest(self) -> RateLimit:
+    def _lowest(self) -> SpanLimit:
         return min(self.rates, key=lambda limit: limit.nu)
 
     def _ends(self, powers: Powers) -> BoundaryConditions | None:
@@ -213,21 +349,18 @@ class TimedMove(Timed):
         """A time that no motion is faster than, by the lowest derivative that is limited and the velocity at an end."""
         if not self.rates:
             return 0.0
-        lowest = self._lowest
+        nu, (constant, rate) = self._lowest.nu, self._lowest.term(1.0)
         # a deceleration alone bounds what is covered before the end, all others what is covered after the start
-        velocity = self.end_velocity if lowest.constant == C_minus else self.start_velocity
-        start = 0.0 if lowest.nu == 1 else max(velocity, 0.0) / self.stroke
+        velocity = self.end_velocity if constant == C_minus else self.start_velocity
+        start = 0.0 if nu == 1 else max(velocity, 0.0) / self.stroke
 
-        def far(duration: float) -> float:
-            return start * duration + lowest.rate * power(duration, lowest.nu) / factorial(lowest.nu)
+        def too_short(duration: float) -> bool:
+            return start * duration + rate * power(duration, nu) / factorial(nu) <= 1.0
 
-        high: float = (factorial(lowest.nu) / lowest.rate) ** (1.0 / lowest.nu)
-        while far(high) <= 1.0:
+        high: float = (factorial(nu) / rate) ** (1.0 / nu)
+        while too_short(high):
             high = nextafter(high, inf)
-        low = 0.0 if start else nextafter(high, 0.0)
-        while low < (middle := 0.5 * (low + high)) < high:
-            low, high = (middle, high) if far(middle) <= 1.0 else (low, middle)
-        return high
+        return bisect(too_short, 0.0 if start else nextafter(high, 0.0), high, _HALVINGS)[1]
 
 
 def _checked(problem: Any, *, even: bool) -> Problem:
@@ -249,3 +382,28 @@ def _checked(problem: Any, *, even: bool) -> Problem:
         which = f": {', '.join(low)} is bounded from below" if low else ""
         raise InputError(f"a least time is proven where every bound and window is convex, not so here{which}")
     return problem if even or not problem.symmetric else replace(problem, symmetric=False)
+
+
+def powers_of(duration: float) -> Powers:
+    """A time to the powers 1 to 4.
+
+    >>> powers_of(2.0)
+    (2.0, 4.0, 8.0, 16.0)
+    """
+    return tuple(power(duration, nu) for nu in range(1, _HIGHEST + 1))
+
+
+def control_point(shortest: float, longest: float, i: int, degree: int) -> Powers:
+    """The Bernstein coefficients of number i of the powers of the time between two, up to the degree.
+
+    >>> control_point(1.0, 2.0, 1, 2)
+    (1.5, 2.0)
+    """
+
+    def coefficient(nu: int) -> float:
+        return sum(
+            comb(i, k) * comb(degree - i, nu - k) / comb(degree, nu) * longest**k * shortest ** (nu - k)
+            for k in range(max(0, nu - degree + i), min(i, nu) + 1)
+        )
+
+    return tuple(coefficient(nu) for nu in range(1, degree + 1))

@@ -1,0 +1,337 @@
+"""Motions of a cycle at any scale of their time: their limits, the least scale within these, and its proof.
+
+A motion that is run `scale` times slower has its velocity divided by the scale, its acceleration by the square of it. A
+derivative of order nu so falls with the power nu of the scale, whatever the law: a law that keeps such a limit keeps it
+at every lower speed. Of force it takes what it takes at rest in its positions, the static force F_0, and the rest
+divided by the square of the scale. With u = 1/scale² that is (1 - u) F_0 + u F: between two forces that keep the limit,
+where the static one does. With viscous friction, below a motor's curve and of power this follows between rests where
+inertia and static force are constant: docs/theory/cycles.md.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from functools import partial
+from math import exp, inf, log
+
+from optlaws.cycles.optimisation.drive_formulas import Driven, driven_peak
+from optlaws.cycles.optimisation.motion_limits import Side, Sides, in_units, name_of
+from optlaws.cycles.optimisation.motor_limits import driven_curve, torque_at_rest
+from optlaws.cycles.optimisation.objectives import CycleObjective
+from optlaws.cycles.optimisation.optimal import limited_by
+from optlaws.cycles.optimisation.search_spaces import place
+from optlaws.cycles.specification.joints import LawSpan
+from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
+from optlaws.formulas.tree import Number
+from optlaws.kept import kept_property
+from optlaws.laws import MotionLaw
+from optlaws.mechanisms.drives.drive_train import Drive
+from optlaws.motion.quantities import in_small_units
+from optlaws.motion.quantity_kinds import Kind
+from optlaws.sentences import sentence
+from optlaws.synthesis.functionals.makers import peak
+from optlaws.synthesis.least_time.least_time import LeastTime
+from optlaws.synthesis.least_time.move_limits import MoveLimits, SpanLimit, derivative_limit
+from optlaws.synthesis.least_time.segment_times import time_of_any_law
+from optlaws.synthesis.least_time.time_search import least_time
+from optlaws.synthesis.least_time.timed_move import Timed
+from optlaws.synthesis.problem.constants import B, C, C_minus, C_plus, D, Functional, J, meant, snap
+from optlaws.synthesis.problem.problem import Problem
+from optlaws.synthesis.proof.certificate import Certificate
+from optlaws.synthesis.solve import synthesize
+from optlaws.tolerances import AGREEMENT, BINDING_LIMIT, FASTER, LEAST_SHARE, SAME_TIME
+
+_SLOWEST = 2.0**40
+_PLACES = 65  # at which the static torque of a mechanism is looked at
+#: about what constants of laws from rest to rest are, from which a first scale is taken
+_USUAL = {1: 1.6, 2: 5.0, 3: 40.0, 4: 600.0}
+
+
+@dataclass(frozen=True)
+class TimedSpan(Timed):
+    """A motion of the cycle with its duration where it was looked at, whose least scale of this time is sought.
+
+    Attributes
+    ----------
+    span, duration
+        The motion, and its duration in seconds.
+    limits
+        Over the scale of its time.
+    space
+        The problem without its limits, None for a law that is given.
+    given
+        The law that is given, if any.
+    """
+
+    span: LawSpan
+    duration: float
+    limits: tuple[SpanLimit, ...]
+    space: Problem | None = None
+    given: MotionLaw | None = None
+
+    @property
+    def problem(self) -> Problem:  # type: ignore[override]
+        assert self.space is not None  # noqa: S101 - only then is it sought
+        return self.space
+
+    @property
+    def along(self) -> tuple[SpanLimit, ...]:
+        return self.limits
+
+    @property
+    def begin(self) -> float:
+        """The scale that no law is faster than, or the greatest at which a usual law takes a limit to the full."""
+        usual = ((_USUAL.get(limit.nu, 1.0) / limit.rate) ** (1.0 / (limit.nu or 2)) for limit in self.limits)
+        return self.limit or max(usual)
+
+    @property
+    def where(self) -> str:
+        """The name that errors give it."""
+        return self.span.where
+
+    @property
+    def places(self) -> tuple[int, ...]:
+        """Its segments among those of the cycle."""
+        return tuple(stretch.number - 1 for stretch in self.span.stretches)
+
+    @property
+    def needed(self) -> float:
+        """The least duration that the motion needs, in seconds."""
+        return self.duration * self.scale
+
+    @kept_property
+    def scale(self) -> float:
+        """The least scale of the time at which a law keeps the limits, or the law that is given does; 0 without any."""
+        if self.space is not None:
+            return self._least.duration
+        return max((least_scale(limit, self.given) for limit in self.limits if self.given is not None), default=0.0)
+
+    @property
+    def law(self) -> MotionLaw | None:
+        """The law that has the least scale; None where nothing limits it."""
+        return self.given if self.space is None else self._least.law
+
+    @kept_property
+    def _least(self) -> LeastTime:
+        try:
+            return least_time(self)
+        except SolverFailure as error:
+            raise SolverFailure(
+                f"{self.where}: no least time was found: widen its limits a little, or give it another degree",
+                problem=self.space,
+            ) from error
+
+    @kept_property
+    def limit(self) -> float | None:
+        """The scale that no law of any degree is faster than, or that of a given law; None where it is not known."""
+        if self.space is None:
+            return self.scale
+        if self.space.boundary is not None:
+            return None
+        most: dict[Functional, float] = {}
+        for constant, rate in (limit.term(1.0) for limit in self.rates):
+            most[constant] = min(rate, most.get(constant, inf))
+        up, down = (most.get(side, most.get(C)) for side in (C_plus, C_minus))
+        return time_of_any_law(1.0, MoveLimits(most.get(B), up, down, most.get(J), most.get(snap)), self.space.order)
+
+    @property
+    def binding(self) -> tuple[SpanLimit, ...]:
+        """The limits that the law takes to the full."""
+        law, least = self.law, self.scale * (1.0 - BINDING_LIMIT)
+        return () if law is None else tuple(limit for limit in self.limits if least_scale(limit, law) >= least)
+
+    @kept_property
+    def proof(self) -> Certificate | None:
+        """Proof that no law satisfies the limits in `FASTER` less time; None for a given law, or if no proof is known.
+
+        It is a contradiction or, of the power of an inertia, a bound of the least power that is above its limit.
+        """
+        if self.space is None or self._least.proofs:
+            return self._least.proofs[-1].certificate if self.space else None
+        faster = self.scale * (1.0 - FASTER)
+        allowed = min((limit.bound for limit in self.limits_in(faster) if limit.constant == D), default=None)
+        if allowed is None:
+            return None
+        others = replace(self, limits=tuple(limit for limit in self.limits if limit.term(1.0)[0] != D))
+        try:
+            with meant():
+                solution = synthesize(replace(others.within(faster), minimise="D"), bound="tight")
+        except InfeasibleProblem as error:
+            proof = error.proof
+            return proof if isinstance(proof, Certificate) and proof.proves_infeasible else None
+        except SolverFailure:
+            return None
+        bound = solution.power_certificate
+        return bound if bound is not None and bound.bound > allowed else None
+
+
+def least_scale(limit: SpanLimit, law: MotionLaw) -> float:
+    """The least scale from which on a law satisfies a limit; infinite if no scale does, 0 if all do."""
+    if limit.nu:
+        return float(max(limit.at(1.0).share(law), 0.0) ** (1.0 / limit.nu))
+    return falling_root(lambda scale: log(max(limit.at(scale).share(law), LEAST_SHARE)), 1.0, 2.0, SAME_TIME)
+
+
+def falling_root(excess: Callable[[float], float], begin: float, wider: float, met: float) -> float:
+    """The least time from which on an excess is not above 0, sought up and down from one; infinite or 0 without one."""
+    from scipy.optimize import brentq
+
+    high = begin
+    while excess(high) > 0.0:
+        high *= wider
+        if high > _SLOWEST * begin:
+            return inf
+    low = high / wider
+    while excess(low) <= 0.0:
+        low, high = low / wider, low
+        if low < begin / _SLOWEST:
+            return 0.0
+    return exp(float(brentq(lambda place: excess(exp(place)), log(low), log(high), xtol=met, rtol=met)))
+
+
+def slower(span: LawSpan, scale: float) -> LawSpan:
+    """The span slowed down by a factor: its times are longer, its velocities and accelerations smaller.
+
+    >>> from optlaws.cycles.specification.joints import State
+    >>> span = LawSpan((), (0.5,), 1.0, 0.0, 0.1, State(1.0, 8.0), State(0.0, 0.0), ((0.75, 0.05),))
+    >>> slower(span, 2.0).stop, slower(span, 2.0).first, slower(span, 2.0).via
+    (2.0, State(velocity=0.5, acceleration=2.0), ((1.5, 0.05),))
+    """
+    first, last, *states = (
+        state and state._replace(velocity=state.velocity / scale, acceleration=state.acceleration / scale**2)
+        for state in (span.first, span.last, *span.states)
+    )
+    assert first is not None  # noqa: S101 - both are known
+    assert last is not None  # noqa: S101
+    return replace(
+        span,
+        starts=tuple(start * scale for start in span.starts),
+        stop=span.stop * scale,
+        first=first,
+        last=last,
+        via=tuple((time * scale, position) for time, position in span.via),
+        states=tuple(states),
+    )
+
+
+def limits_of_span(
+    span: LawSpan, limits: Sequence[Sides], objective: CycleObjective, stroke: float, axis: str
+) -> list[SpanLimit]:
+    """The limits of a span, from the limits of each of its segments.
+
+    Raises
+    ------
+    InputError
+        If segments that are one law have several limits of a drive, or there is no drive.
+    InfeasibleProblem
+        If the static force is beyond a limit, so that no speed keeps it.
+    """
+    parts = list(_parts(span, limits))
+    rows: list[SpanLimit] = []
+    for key in dict.fromkeys(key for _, of_part in parts for key in of_part):
+        if key.kind is Kind.VELOCITY_ALONG:
+            continue  # of the laws that are looked for, at every speed
+        limited = [(ends, of_part[key]) for ends, of_part in parts if key in of_part]
+        first, everywhere = limited[0][1], len(limited) == len(parts)
+        alike = everywhere and all(most == first for _, most in limited)
+        if key.kind.is_driven:
+            if not alike:
+                raise InputError(f"{span.where} are one law: give the force or power of all of them the same limit")
+            if objective.drive is None:
+                raise InputError("force, torque and power are of a drive: give one, such as drive={'mass': '2 kg'}")
+            rows += _of_drive(key, first, span, objective.drive, stroke, axis)
+            continue
+        known = limited_by(span, objective, stroke, key)
+        of_law = [] if alike else [(_of_part(key, stroke, span, ends), most) for ends, most in limited]
+        if everywhere:
+            # beside those of parts it says nothing new, but bounds laws as wholes, without which nothing is proven
+            of_law.append((known.constants[0], max(most for _, most in limited)))
+        nu = key.kind.order
+        rows += [derivative_limit(name_of(key, axis), most, of, nu, most / known.unit, key) for of, most in of_law]
+    return rows
+
+
+def _parts(span: LawSpan, limits: Sequence[Sides]) -> Iterator[tuple[tuple[float, float], Sides]]:
+    """Each part of a span that has limits of its own, from where to where."""
+    times = (*span.starts, span.stop)
+    begun = 0
+    for i in range(1, len(limits) + 1):
+        if i == len(limits) or limits[i] != limits[begun]:
+            yield (times[begun], times[i]), limits[begun]
+            begun = i
+
+
+def _of_part(key: Side, stroke: float, span: LawSpan, ends: tuple[float, float]) -> Functional:
+    nu, (start, stop) = key.kind.order, (place(span, end) for end in ends)
+    if not 1 <= nu <= 3:
+        raise AssertionError  # those of the snap and of forces are of whole spans
+    if not key.sign:
+        return peak("abcj"[nu], start=start, stop=stop)
+    return peak("abcj"[nu], side="high" if key.sign * stroke > 0.0 else "low", start=start, stop=stop)
+
+
+def _of_drive(key: Side, most: float, span: LawSpan, drive: Drive, stroke: float, axis: str) -> list[SpanLimit]:
+    """A drive limit along a span, as one limit for each constant that it involves."""
+    if key.kind in {Kind.FORCE, Kind.CURVE}:
+        position, force = static_force(span, drive)
+        allowed_at_rest = most * (torque_at_rest(drive) if key.kind is Kind.CURVE else 1.0)
+        if force > allowed_at_rest * (1.0 + AGREEMENT):
+            taken, allowed = (in_units(Side(Kind.FORCE), value, axis) for value in (force, allowed_at_rest))
+            raise InfeasibleProblem(
+                sentence(
+                    "{}: at {} the static load needs {}, so that no speed keeps {}: allow more, or change the drive's "
+                    "spring, preload, gravity or friction",
+                    span.where, in_small_units(position, axis), taken, allowed,
+                )
+            )  # fmt: skip
+
+    def driven(scale: float) -> Driven:
+        moved = slower(span, scale)
+        return (
+            driven_curve(moved, drive, stroke)
+            if key.kind is Kind.CURVE
+            else driven_peak(moved, drive, stroke, key.kind)
+        )
+
+    def term(part: int, scale: float) -> tuple[Functional, float]:
+        known = driven(scale)
+        return known.constants[part], most / known.unit
+
+    known = driven(1.0)
+    scales = _scales(key.kind, span, drive, known)
+    return [
+        SpanLimit(name_of(key, axis), most, partial(term, part), 0, scales, key) for part in range(len(known.constants))
+    ]
+
+
+def _scales(kind: Kind, span: LawSpan, drive: Drive, driven: Driven) -> bool:
+    """Whether the limit is the original one, so that a law which keeps it keeps it at every lower speed."""
+    resting = not any((span.first.velocity, span.last.velocity))
+    force = drive.linear
+    if force is None or kind is Kind.CURVE:
+        # a torque that keeps its limit keeps it at every lower speed where the static one does, which is one
+        mechanism = drive.mechanism
+        if not driven.exact or kind is Kind.POWER or not isinstance(mechanism.load_formula, Number):
+            return False
+        frictionless = kind is Kind.FORCE and not mechanism.viscous and not drive.train.viscous
+        return frictionless or (resting and isinstance(mechanism.inertia_formula, Number))
+    plain = resting and force.stiffness == 0.0
+    if kind is Kind.FORCE:
+        return force.viscous == 0.0 or plain
+    static = force.dry + (force.constant if span.displacement > 0.0 else -force.constant)
+    if force.stiffness == force.constant == force.dry == 0.0:
+        return force.viscous == 0.0 or plain
+    # dry friction is of laws that never turn back
+    return plain and force.dry > 0.0 and (force.viscous == 0.0 or static >= 0.0)
+
+
+def static_force(span: LawSpan, drive: Drive) -> tuple[float, float]:
+    """The position of the greatest static force of a motion, and this force: spring, weight and dry friction."""
+    direction = -1.0 if span.displacement < 0.0 else 1.0
+    ends = [span.offset, *(position for _, position in span.via), span.offset + span.displacement]
+    if drive.linear is None:
+        ends = [span.offset + span.displacement * i / (_PLACES - 1) for i in range(_PLACES)]
+    torques = ((drive.torque(place, 0.0, 0.0, direction=direction, time=span.start), place) for place in ends)
+    force, position = max((abs(float(torque)), place) for torque, place in torques)
+    return position, force
