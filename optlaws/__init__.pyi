@@ -45,14 +45,12 @@ from .cycles.advising.advice import Advice as Advice
 from .cycles.advising.advised_law import AdvisedLaw as AdvisedLaw
 from .cycles.advising.advised_motion import advise as advise
 from .cycles.advising.recommendation import Recommendation as Recommendation
+from .cycles.axes.interlock import After as After, Clearance as Clearance
+from .cycles.axes.interlock import Forbidden as Forbidden, Synchronous as Synchronous
+from .cycles.axes.machine_axes import Axes as Axes
 from .cycles.cycle import Cycle as Cycle
 from .cycles.fastest_cycle import FastestCycle as FastestCycle, LeastDuration as LeastDuration, LimitGain as LimitGain
-from .cycles.interlocks.after import After as After
-from .cycles.interlocks.clearance import Clearance as Clearance
-from .cycles.interlocks.forbidden_region import Forbidden as Forbidden
-from .cycles.interlocks.synchronous import Synchronous as Synchronous
 from .cycles.law_comparison import Comparison as Comparison, compare_laws as compare_laws
-from .cycles.machine_axes import Axes as Axes
 from .cycles.moves.fastest_move import FastestMove as FastestMove
 from .cycles.moves.front_over_time import time_front as time_front
 from .cycles.moves.time_front import TimeFront as TimeFront

@@ -19,11 +19,11 @@ from .cams.least_sizes import (
     LeastPrimeCircle as LeastPrimeCircle,
 )
 from .cycles.advising.advised_law import LawKind as LawKind, LawMeasure as LawMeasure, ProvenLeast as ProvenLeast
+from .cycles.axes.enclosed_axis import Way as Way
+from .cycles.axes.interlock import Interlock as Interlock, LeastClearance as LeastClearance
+from .cycles.axes.machine_axes import AxesPicture as AxesPicture, Overlap as Overlap
 from .cycles.interchange import PlotOver as PlotOver
-from .cycles.interlocks.enclosed_axis import Way as Way
-from .cycles.interlocks.interlock import Interlock as Interlock, LeastClearance as LeastClearance
 from .cycles.optimisation.motion_limits import LimitTaken as LimitTaken
-from .cycles.machine_axes import AxesPicture as AxesPicture, Overlap as Overlap
 from .cycles.moves.time_front import TimePoint as TimePoint
 from .cycles.moves.transition_cam import TransitionKind as TransitionKind
 from .cycles.old_tables.better_moves import MoveGain as MoveGain

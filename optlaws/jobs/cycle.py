@@ -36,8 +36,8 @@ from optlaws.results import Page, Results
 from optlaws.shown.report import ReportTable
 
 if TYPE_CHECKING:
+    from optlaws.cycles.axes.machine_axes import Axes, Overlap
     from optlaws.cycles.fastest_cycle import FastestCycle
-    from optlaws.cycles.machine_axes import Axes, Overlap
     from optlaws.cycles.moves.transition_cam import TransitionCam
     from optlaws.exports.export import Export
 
@@ -143,7 +143,7 @@ def at_greatest_speed(axes: Axes, fastest: Mapping[str, FastestCycle]) -> Axes:
     """All axes at the greatest speed that every axis allows; unchanged where no speed is sought."""
     if not fastest:
         return axes
-    from optlaws.cycles.machine_axes import Axes
+    from optlaws.cycles.axes.machine_axes import Axes
 
     period = max(each.period for each in fastest.values())
     cycles = {

@@ -9,9 +9,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from optlaws.cams import at_shaft  # noqa: F401 - by which the kind "cam" is known
+from optlaws.cycles.axes.interlock import INTERLOCKS, Interlock
 from optlaws.cycles.cycle import Cycle
-from optlaws.cycles.interlocks.interlock import Interlock
-from optlaws.cycles.interlocks.interlock_kinds import INTERLOCKS
 from optlaws.cycles.specification.frozen import frozen, thawed
 from optlaws.cycles.specification.load import ElasticFollower
 from optlaws.cycles.specification.programme import period_of
@@ -31,7 +30,7 @@ from optlaws.numbers import Quantity
 from optlaws.synthesis.status import Status
 
 if TYPE_CHECKING:
-    from optlaws.cycles.machine_axes import Axes, Overlap
+    from optlaws.cycles.axes.machine_axes import Axes, Overlap
 
 
 @declared
@@ -195,7 +194,7 @@ def read(data: Mapping[str, Any], file: Path) -> tuple[CycleProblemFile, Axes]:
 
 def read_given(data: Mapping[str, Any], file: Path) -> tuple[CycleProblemFile, Axes]:
     """The entries of a file, and its axes before any overlap; an error names the file, the axis and the segment."""
-    from optlaws.cycles.machine_axes import Axes
+    from optlaws.cycles.axes.machine_axes import Axes
 
     spec, cycles = CycleProblemFile.read(data, file), dict[str, Cycle]()
     with located(str(file)):

@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING, Any, get_args
 
 import numpy as np
 
-from optlaws.cycles.interlocks.after import After
-from optlaws.cycles.machine_axes import AxesPicture
+from optlaws.cycles.axes.interlock import After
+from optlaws.cycles.axes.machine_axes import AxesPicture
 from optlaws.cycles.specification.segments import Dwell
 from optlaws.errors import InputError
 from optlaws.files.reading import check_names
@@ -29,8 +29,8 @@ if TYPE_CHECKING:
     from matplotlib.artist import Artist
     from matplotlib.axes import Axes
 
-    from optlaws.cycles.axes_report import Arrow, AxesReport
-    from optlaws.cycles.interlocks.interlock import LeastClearance
+    from optlaws.cycles.axes.interlock import LeastClearance
+    from optlaws.cycles.axes.report import Arrow, AxesReport
     from optlaws.shown.report import Panel
 
 _HALF = 0.34  # of a bar's height; rows are 1 apart

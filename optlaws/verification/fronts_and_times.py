@@ -236,7 +236,7 @@ def _shown(value: Fraction | None) -> str:
 
 def overlap_of_axes(data: Mapping[str, Any]) -> Verification:
     """Check the objective, the interlocks and the bound of axes that overlap, all computed again from the machine."""
-    overlap = built(imported("optlaws.cycles.machine_axes").Overlap.stated, data, "the axes that overlap")
+    overlap = built(imported("optlaws.cycles.axes.machine_axes").Overlap.stated, data, "the axes that overlap")
     wrong = built(lambda stated: stated.contradiction(), overlap, "the axes that overlap")
     detail = wrong or f"{overlap.objective!r} stated, which its axes have within their limits, in doubles"
     claims = [Claim(f"the {overlap.goal}", proven=False, detail=detail, checked=bool(wrong))]

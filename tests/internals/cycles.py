@@ -1,6 +1,6 @@
 """Internals of `optlaws.cycles` that tests look at by themselves."""
 
-from optlaws.cycles.interlocks.polygon import SimplePolygon
+from optlaws.cycles.axes.regions import SimplePolygon
 from optlaws.cycles.old_tables.better_moves import law_of_move, nothing_to_better
 from optlaws.cycles.old_tables.reading import read_points
 from optlaws.cycles.optimisation.objectives import OBJECTIVES

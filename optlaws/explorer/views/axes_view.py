@@ -8,12 +8,10 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Any, cast
 
-from optlaws.cycles.axes_report import AxesReport, Plane
+from optlaws.cycles.axes.interlock import After, Forbidden, Synchronous
+from optlaws.cycles.axes.machine_axes import Axes
+from optlaws.cycles.axes.report import AxesReport, Plane
 from optlaws.cycles.cycle import Cycle
-from optlaws.cycles.interlocks.after import After
-from optlaws.cycles.interlocks.forbidden_region import Forbidden
-from optlaws.cycles.interlocks.synchronous import Synchronous
-from optlaws.cycles.machine_axes import Axes
 from optlaws.cycles.specification.programme import is_optimal
 from optlaws.cycles.specification.segments import Dwell
 from optlaws.errors import InputError

@@ -12,7 +12,7 @@ from typing import Annotated, Any, TypeAlias
 import msgspec
 
 from optlaws import Cycle
-from optlaws.cycles.interlocks.interlock import Interlock
+from optlaws.cycles.axes.interlock import Interlock
 from optlaws.cycles.optimisation.motion_limits import LIMITS
 from optlaws.cycles.optimisation.motor_limits import MOTOR
 from optlaws.cycles.optimisation.objectives import OBJECTIVES

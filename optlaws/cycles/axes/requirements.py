@@ -8,12 +8,9 @@ from typing import Any
 
 import numpy as np
 
-from optlaws.cycles.interlocks.after import After
-from optlaws.cycles.interlocks.axis_plan import AxisPlan
-from optlaws.cycles.interlocks.clearance import Clearance, bound_of
-from optlaws.cycles.interlocks.forbidden_region import Forbidden, polygon_of
-from optlaws.cycles.interlocks.interlock import Interlock
-from optlaws.cycles.interlocks.polygon import SimplePolygon
+from optlaws.cycles.axes.axis_plan import AxisPlan
+from optlaws.cycles.axes.interlock import After, Clearance, Forbidden, Interlock
+from optlaws.cycles.axes.regions import SimplePolygon
 from optlaws.errors import InputError
 from optlaws.numbers import Array
 
@@ -104,18 +101,17 @@ def requirements(
     known: list[Requirement] = []
     for rule in rules:
         first, second = (plans[name] for name in rule.axes)
-        kinds = [cycles[name].axis for name in rule.axes]
         if isinstance(rule, After):
             known += _of_passes(rule, first, second, cycles)
         elif isinstance(rule, Clearance):
-            bound = bound_of(rule, *kinds)
+            bound = rule.in_si(cycles)
             side = LevelSide(rule.sign, _plain(bound), getattr(bound, "places", ()))
             known += [
                 Requirement(rule, second, i, first, (side,), (segment.start, segment.stop))
                 for i, segment in enumerate(second.segments)
             ]
         elif isinstance(rule, Forbidden):
-            known += _of_region(rule, first, second, polygon_of(rule, *kinds))
+            known += _of_region(rule, first, second, rule.in_si(cycles))
         else:
             raise InputError(f"interlock {rule.label}: only After, Clearance and Forbidden are put together anew")
     return known

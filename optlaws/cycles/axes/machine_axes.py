@@ -6,10 +6,9 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import KW_ONLY, replace
 from typing import Any, Literal, TypeAlias, Unpack
 
+from optlaws.cycles.axes.interlock import INTERLOCKS, Interlock, LeastClearance
 from optlaws.cycles.cycle import Cycle
 from optlaws.cycles.interchange import problem_file
-from optlaws.cycles.interlocks.interlock import Interlock, LeastClearance
-from optlaws.cycles.interlocks.interlock_kinds import INTERLOCKS
 from optlaws.cycles.specification.programme import is_optimal, period_of
 from optlaws.cycles.specification.segments import CycleSegment, Dwell
 from optlaws.echo import shortened
@@ -210,7 +209,7 @@ class Axes(Declared, Mapping[str, Cycle], title="stored axes"):
         return self._overlap("acceleration", of or tuple(self))
 
     def _overlap(self, goal: str, longer: Sequence[str]) -> Overlap:
-        from optlaws.cycles.interlocks.overlapping import best_instants
+        from optlaws.cycles.axes.overlapping import best_instants
 
         best = best_instants(self, self.rules, goal, longer)
         cycles = {
@@ -389,7 +388,7 @@ class Axes(Declared, Mapping[str, Cycle], title="stored axes"):
 
     @kept_property
     def _report(self) -> Any:
-        from optlaws.cycles.axes_report import AxesReport
+        from optlaws.cycles.axes.report import AxesReport
 
         return AxesReport(self._cycles, self.rules)
 
@@ -568,7 +567,7 @@ class Overlap(Declared, title="axes that overlap"):
 
     def bound_by(self, share: float = 1.0) -> tuple[str, ...]:
         """What leaves no room at the instants of the axes, to a share of what counts as none."""
-        from optlaws.cycles.interlocks.overlapping import TIGHT_INSTANT, binding_of
+        from optlaws.cycles.axes.overlapping import TIGHT_INSTANT, binding_of
 
         times = {
             name: [0.0 if i is None else cycle.durations[i] for _, i in _kept_segments(self.given[name], cycle)]

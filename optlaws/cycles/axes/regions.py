@@ -1,4 +1,4 @@
-"""Simple polygons: the distance of a point outside, as a function that enclosures can evaluate."""
+"""Regions of the plane of two positions: beyond a bound, outside a polygon, as functions that enclosures evaluate."""
 
 from __future__ import annotations
 
@@ -12,8 +12,13 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from optlaws.errors import InputError
+from optlaws.formulas.arithmetic import NUMPY, evaluate
+from optlaws.formulas.tree import Formula
+from optlaws.numbers import Array
+from optlaws.numerics.interval import Interval
 from optlaws.numerics.taylor import Jet
-from optlaws.tolerances import INTERLOCK
+from optlaws.synthesis.limits.formula_jets import formula_jet
+from optlaws.tolerances import INTERLOCK, ROUNDOFF
 
 _SECTION_WIDTH = 1e-12  # of a polygon: sides that are narrower are upright
 
@@ -24,8 +29,53 @@ Depth: TypeAlias = Callable[[Any, Any], Any]
 
 
 @dataclass(frozen=True)
+class TableBound:
+    """Straight lines between places, constant beyond them."""
+
+    places: tuple[float, ...]
+    values: tuple[float, ...]
+
+    def __call__(self, x: Array) -> Array:
+        """Values of the bound at places."""
+        return np.interp(x, self.places, self.values)
+
+    def jet(self, x: Jet) -> Jet:
+        """The bound where x is a jet of intervals: a sum of ramps, each with its kinks."""
+        total = x * 0.0 + self.values[0]
+        for (low, high), (start, stop) in zip(pairwise(self.places), pairwise(self.values), strict=True):
+            slope = (stop - start) / (high - low)
+            ramp = x.clipped(low, high) + (-low)
+            total = total + ramp * Interval(np.array(slope), np.array(4.0 * ROUNDOFF * abs(slope)))
+        return total
+
+
+@dataclass(frozen=True)
+class FormulaBound:
+    """A formula of x with units: `size` is the unit of x and `scale` that of its value, both in SI."""
+
+    formula: Formula
+    size: float
+    scale: float
+
+    def __call__(self, x: Array) -> Array:
+        """Values of the bound at places."""
+        return np.asarray(evaluate(self.formula, {"x": np.asarray(x) / self.size}, NUMPY)) * self.scale + 0.0 * x
+
+    def jet(self, x: Jet) -> Jet:
+        """The bound where x is a jet of intervals."""
+        share = 1.0 / self.size
+        value = formula_jet(self.formula, "x", x * Interval(np.array(share), np.array(2.0 * ROUNDOFF * share)))
+        return value * Interval(np.array(self.scale), np.array(ROUNDOFF * self.scale))
+
+
+PositionBound: TypeAlias = TableBound | FormulaBound
+
+
+@dataclass(frozen=True)
 class SimplePolygon:
     """A simple polygon by its corners, counterclockwise; closed by the side from the last to the first.
+
+    `given` are its corners as they were given, in either order.
 
     >>> notched = SimplePolygon.through([(0, 0), (4, 0), (4, 4), (2, 1), (0, 4)])
     >>> [bool(notched.outside(*point) > 0.0) for point in [(2.0, 2.0), (3.5, 2.0), (2.0, 0.5), (5.0, 2.0)]]
@@ -33,6 +83,7 @@ class SimplePolygon:
     """
 
     corners: tuple[Corner, ...]
+    given: tuple[Corner, ...] = ()
 
     @classmethod
     def through(cls, corners: Sequence[Corner]) -> SimplePolygon:
@@ -47,7 +98,7 @@ class SimplePolygon:
         size = max(hypot(x - corners[0][0], y - corners[0][1]) for x, y in corners)
         if not abs(area) > INTERLOCK * size * size:
             raise InputError("its corners lie on a line: a region has three or more that do not")
-        return cls(tuple(points if area > 0.0 else points[::-1]))
+        return cls(tuple(points if area > 0.0 else points[::-1]), tuple(corners))
 
     @property
     def sides(self) -> list[tuple[Corner, Corner]]:

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any, Literal, Protocol, TypeAlias
+from typing import Literal, TypeAlias
 
 import numpy as np
 
-from optlaws.cycles.specification.programme import Programme
+from optlaws.cycles.cycle import Cycle
 from optlaws.kept import kept_property
-from optlaws.motion.piece import Piece
 from optlaws.motion.smooth_stretches import EnclosedStretch, jet_of_parts, smooth_parts
 from optlaws.numbers import Array
 from optlaws.numerics.branch_and_bound import Extremes, extremes
@@ -23,29 +22,6 @@ Way: TypeAlias = Literal["up", "down"]
 _ROUNDS = 60
 
 
-class ClockedMotion(Protocol):
-    """Protocol of a cycle with a clock: laws in their places over its duration, in SI units."""
-
-    @property
-    def axis(self) -> str:
-        """Whether positions are a "length" or an "angle"."""
-
-    @property
-    def duration(self) -> float:
-        """Duration of the cycle, in seconds."""
-
-    @property
-    def programme(self) -> Programme:
-        """The programme of the cycle as numbers in SI units."""
-
-    @property
-    def pieces(self) -> tuple[Piece, ...]:
-        """The laws in their places."""
-
-    def __call__(self, time: Any, nu: int = 0) -> Any:
-        """The position at a time, or a derivative."""
-
-
 @dataclass(frozen=True, eq=False)
 class EnclosedAxis:
     """The position of an axis over the time of a cycle, in SI units, with enclosures of it and its derivatives.
@@ -56,7 +32,7 @@ class EnclosedAxis:
     [0.05, 0.2]
     """
 
-    cycle: ClockedMotion
+    cycle: Cycle
 
     @property
     def duration(self) -> float:

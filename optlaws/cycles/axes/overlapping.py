@@ -18,9 +18,9 @@ from typing import Any
 
 import numpy as np
 
-from optlaws.cycles.interlocks.axis_plan import AxisPlan, OwnLaws
-from optlaws.cycles.interlocks.interlock import Interlock
-from optlaws.cycles.interlocks.requirements import Requirement, WaitOption, requirements
+from optlaws.cycles.axes.axis_plan import AxisPlan, OwnLaws
+from optlaws.cycles.axes.interlock import Interlock
+from optlaws.cycles.axes.requirements import Requirement, WaitOption, requirements
 from optlaws.errors import InfeasibleProblem, SolverFailure
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw

@@ -9,12 +9,16 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from optlaws.cycles.axes.interlock import (
+    SMALL_UNITS,
+    After,
+    Clearance,
+    Forbidden,
+    Interlock,
+    LeastClearance,
+    Synchronous,
+)
 from optlaws.cycles.cycle import Cycle
-from optlaws.cycles.interlocks.after import After
-from optlaws.cycles.interlocks.clearance import Clearance, bound_of
-from optlaws.cycles.interlocks.forbidden_region import Forbidden, corners_of
-from optlaws.cycles.interlocks.interlock import SMALL_UNITS, Interlock, LeastClearance
-from optlaws.cycles.interlocks.synchronous import Synchronous
 from optlaws.cycles.summary import objective_unit
 from optlaws.kept import kept_property
 from optlaws.motion.display_units import UNITS
@@ -174,7 +178,7 @@ class AxesReport:
         return Plane(pair, (across, up), regions)
 
     def _corners(self, rule: Forbidden, pair: tuple[str, str]) -> Array:
-        corners = np.array(corners_of(rule, *(self.cycles[name].axis for name in rule.axes)))
+        corners = np.array(rule.in_si(self.cycles).given)
         ordered = corners if rule.axes == pair else corners[:, ::-1]
         return np.asarray(ordered * [self._size(name) for name in pair])
 
@@ -189,7 +193,7 @@ class AxesReport:
             wall[:, along] = level * sizes[along], ranges[along][0 if rule.sign > 0.0 else 1]
             return wall
         assert isinstance(rule, Clearance)  # noqa: S101 - as the others have no side
-        bound = bound_of(rule, *(self.cycles[name].axis for name in rule.axes))
+        bound = rule.in_si(self.cycles)
 
         def edge(places: Array) -> Array:
             return np.asarray(bound(places / sizes[along]) * sizes[across])

@@ -1,1 +1,0 @@
-"""Axes of one clock that must not collide: the conditions on their positions, and their proofs."""
