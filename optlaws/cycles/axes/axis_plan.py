@@ -1,19 +1,20 @@
-"""An axis whose segments may take other durations: instants and passes as sums of them, for linear programs."""
+"""Axes whose segments may take other durations: instants and passes as sums of them, for linear programs."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from math import inf
+from math import inf, sqrt
 from typing import Any, Literal
 
 import numpy as np
+from numpy.typing import NDArray
 
+from optlaws.cycles.cycle import Cycle
 from optlaws.cycles.greatest_speed.fastest_search import FastestSearch
 from optlaws.cycles.greatest_speed.timed_spans import slower
 from optlaws.cycles.optimisation.motion_limits import word_of
 from optlaws.cycles.optimisation.optimal import solve
-from optlaws.cycles.specification.joints import LawSpan
 from optlaws.cycles.specification.programme import TimedSegment, is_optimal
 from optlaws.cycles.specification.segments import Dwell, Move
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure, located
@@ -22,7 +23,8 @@ from optlaws.laws import MotionLaw
 from optlaws.motion.piece import named_law
 from optlaws.motion.quantities import either
 from optlaws.numbers import Array
-from optlaws.tolerances import INTERLOCK, PASS_WIDTH
+from optlaws.numerics.roots import bracketed_roots
+from optlaws.tolerances import INTERLOCK
 
 #: a time as seconds and a share of the period
 Spell = tuple[float, float]
@@ -32,44 +34,38 @@ Way = Literal["fastest", "gentlest", "kept"]
 
 @dataclass(frozen=True)
 class PlannedSegment:
-    """A segment with its law and between which durations it may be; positions in SI units."""
+    """A segment with its law and between which durations it may be; positions in SI units.
 
+    `limit` is what binds its least duration, and `effort` is that at the pace 1, 0 where it does not change with it.
+    """
+
+    axis: str
     name: str
     start: float
     stop: float
     law: MotionLaw | None
     least: Spell
-    most: Spell | None
-    limit: str
+    most: Spell | None = None
+    limit: str = ""
+    effort: float = 0.0
 
-    @property
-    def moves(self) -> bool:
-        """Whether the segment moves its axis."""
-        return self.law is not None
+    def shares(self, positions: Array) -> Array:
+        """After which shares of its duration it is at positions; 0 or 1 where they are beyond its ends."""
+        heights = np.clip((positions - self.start) / (self.stop - self.start), 0.0, 1.0)
+        inside = (heights > 0.0) & (heights < 1.0)
+        shares, of = heights.copy(), heights[inside]
+        if self.law is not None and of.size:
+            law, ends = self.law, (np.zeros(of.size), np.ones(of.size))
+            shares[inside] = bracketed_roots(lambda k: law.a(k) - of, ends, (-of, 1.0 - of))
+        return shares
 
-    @property
-    def acceleration(self) -> float:
-        """The greatest acceleration times the square of the duration."""
-        return 0.0 if self.law is None else float(self.law.peak(2).value) * abs(self.stop - self.start)
-
-    def share(self, position: float) -> float:
-        """After which share of its duration the segment is at a position; 0 or 1 where that is beyond its ends."""
-        from scipy.optimize import brentq
-
-        assert self.law is not None  # noqa: S101 - of moves alone
-        law, height = self.law, (position - self.start) / (self.stop - self.start)
-        if not 0.0 < height < 1.0:
-            return 0.0 if height <= 0.0 else 1.0
-        return float(brentq(lambda k: float(law.a(k)) - height, 0.0, 1.0, xtol=PASS_WIDTH))
-
-    def position(self, share: float) -> float:
-        """The position after a share of its duration."""
-        if self.law is None:
-            return self.start
-        return self.start + (self.stop - self.start) * float(self.law.a(share))
+    def positions(self, shares: Array) -> Array:
+        """The positions after shares of its duration."""
+        way = 0.0 if self.law is None else (self.stop - self.start) * self.law.a(shares)
+        return np.full(shares.shape, self.start) + way
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class AxisPlan:
     """The segments of an axis, and the indices of their durations among the unknowns of a program.
 
@@ -77,179 +73,146 @@ class AxisPlan:
     """
 
     name: str
-    segments: tuple[PlannedSegment, ...]
+    segments: Sequence[PlannedSegment]
     first: int
     count: int
-
-    @kept_property
-    def stroke(self) -> float:
-        """Between the least and the greatest position at joints."""
-        return max(self.positions) - min(self.positions)
 
     @kept_property
     def positions(self) -> list[float]:
         """Positions at the joints, both ends included."""
         return [*(segment.start for segment in self.segments), self.segments[-1].stop]
 
-    def instant(self, joint: int) -> Array:
-        """The time of a joint as a row over the unknowns."""
-        row = np.zeros(self.count)
-        row[self.first : self.first + joint] = 1.0
-        return row
+    def events(self, segment: int, shares: Array) -> Array:
+        """The times after shares of a segment as rows over the unknowns."""
+        rows = np.zeros((len(shares), self.count))
+        rows[:, self.first : self.first + segment] = 1.0
+        rows[:, self.first + segment] = shares
+        return rows
 
-    def event(self, segment: int, share: float) -> Array:
-        """The time after a share of a segment as a row over the unknowns."""
-        row = self.instant(segment)
-        row[self.first + segment] = share
-        return row
+    def beyond(self, joint: int, levels: Array, sign: float) -> NDArray[np.bool_]:
+        """Whether a joint is above levels, or below them where the sign is -1; what touches them is."""
+        slack = INTERLOCK * (max(self.positions) - min(self.positions))
+        return np.asarray(sign * (self.positions[joint] - levels) >= -slack)
 
-    def beyond(self, joint: int, level: float, sign: float) -> bool:
-        """Whether a joint is above a level, or below it where the sign is -1; what touches it is."""
-        return sign * (self.positions[joint] - level) >= -INTERLOCK * self.stroke
-
-    def window(self, joint: int, level: float, sign: float) -> tuple[Array | None, Array | None]:
-        """Times around a joint between which the axis stays beyond a level; None for an end up to which it does."""
-        return self._edge(joint, level, sign, -1), self._edge(joint, level, sign, 1)
-
-    def _edge(self, joint: int, level: float, sign: float, way: int) -> Array | None:
-        ends = range(joint - 1, -1, -1) if way < 0 else range(joint, len(self.segments))
-        for i in ends:
-            if not self.beyond(i if way < 0 else i + 1, level, sign):
-                return self.event(i, self.segments[i].share(level))
-        return None
+    def leaves(self, joint: int, levels: Array, sign: float, way: int) -> Array:
+        """When the axis leaves levels, before or after a joint at which it is beyond them; NaN where it does not."""
+        rows, left = np.full((len(levels), self.count), np.nan), np.ones(len(levels), dtype=bool)
+        for i in range(joint - 1, -1, -1) if way < 0 else range(joint, len(self.segments)):
+            here = left & ~self.beyond(i if way < 0 else i + 1, levels, sign)
+            if here.any():
+                rows[here] = self.events(i, self.segments[i].shares(levels[here]))
+                left &= ~here
+        return rows
 
 
-@dataclass(frozen=True)
-class OwnLaws:
-    """An axis whose moves have laws of their own, each from rest to rest.
+def planned(name: str, cycle: Cycle, way: Way, times: Sequence[float] | None) -> list[PlannedSegment]:
+    """The segments of an axis, whose moves have laws of their own, each from rest to rest.
 
-    Attributes
+    Parameters
     ----------
-    cycle, name
-        A cycle and the name of its axis.
+    name, cycle
+        The axis.
     way
         "fastest": moves with limits take the least time that these allow, others keep theirs. "gentlest": moves have
         the least acceleration, and take at least that time. "kept": they are as in the cycle.
+    times
+        Durations of all segments, in which laws are gentlest; without, they are the fastest.
+
+    Raises
+    ------
+    InputError
+        If a segment is no move from rest to rest and no dwell, or a limit is of the whole cycle.
+    InfeasibleProblem
+        If a law that is given keeps a limit in no time.
     """
-
-    cycle: Any
-    name: str
-    way: Way
-
-    @property
-    def follows_times(self) -> bool:
-        """Whether a law is another one in another time, as limits let it."""
-        return self.way == "gentlest" and any(self.cycle.limits_of_segments)
-
-    def plan(self, first: int, count: int, times: Sequence[float] | None) -> AxisPlan:
-        """The plan of the axis.
-
-        Parameters
-        ----------
-        first, count
-            Where its durations begin among how many unknowns.
-        times
-            Durations of all segments, in which laws are gentlest; without, they are the fastest.
-
-        Raises
-        ------
-        InputError
-            If a segment is no move from rest to rest and no dwell, or a limit is of the whole cycle.
-        InfeasibleProblem
-            If a law that is given keeps a limit in no time.
-        """
-        if self.way == "fastest" and (self._search.objective.shares or self._search.objective.loaded):
-            raise InputError(
-                f"axis {self.name}: a limit of its whole cycle cannot be kept while the period is sought: leave out "
-                "that of the energy, of a root mean square or of a load, and look at what the result has"
-            )
-        position, segments = self.cycle.programme.start, []
-        for i, stretch in enumerate(self._stretches):
-            if not isinstance(stretch.given, Move | Dwell):
-                raise self._refused(stretch)
-            stop, label = position + stretch.displacement, stretch.given.name or f"segment {stretch.number}"
-            if isinstance(stretch.given, Dwell) or stretch.displacement == 0.0:
-                least, most = _spell_of_dwell(stretch, f"axis {self.name}: {stretch.where}")
-                segments.append(PlannedSegment(label, position, stop, None, least, most, ""))
-                continue
-            with located(f"axis {self.name}"):
-                law, shortest, limit = self._of_move(i, stretch, times)
-            if max(abs(law.b(0.0)), abs(law.b(1.0))) > INTERLOCK:
-                raise self._refused(stretch)
-            least, most = self._durations(i, stretch, shortest)
-            segments.append(PlannedSegment(label, position, stop, law, least, most, limit))
-            position = stop
-        return AxisPlan(self.name, tuple(segments), first, count)
-
-    @property
-    def _stretches(self) -> tuple[TimedSegment, ...]:
-        return self.cycle.programme.stretches  # type: ignore[no-any-return]
-
-    @kept_property
-    def _search(self) -> FastestSearch:
-        objective = self.cycle._cycle_objective  # noqa: SLF001 - the cycle's own room
-        if self.way == "gentlest":
+    with located(f"axis {name}"):
+        objective = cycle._cycle_objective  # noqa: SLF001 - the cycle's own room
+        if way == "gentlest":
             objective = replace(objective, minimise="acceleration")
-        return FastestSearch(self.cycle.programme, objective, {})
+        if way == "fastest" and (objective.shares or objective.loaded):
+            raise InputError(
+                "a limit of its whole cycle cannot be kept while the period is sought: leave out that of the energy, "
+                "of a root mean square or of a load, and look at what the result has"
+            )
+        search, position, segments = FastestSearch(cycle.programme, objective, {}), cycle.programme.start, []
+        for i, stretch in enumerate(cycle.programme.stretches):
+            given, stop = stretch.given, position + stretch.displacement
+            if not isinstance(given, Move | Dwell):
+                raise _refused(stretch)
+            segment = PlannedSegment(name, given.name or f"segment {stretch.number}", position, stop, None, (0.0, 0.0))
+            if isinstance(given, Dwell) or stretch.displacement == 0.0:
+                segments.append(replace(segment, least=_least_of_dwell(stretch)))
+                continue
+            segment = _of_move(segment, i, cycle, way, search, times)
+            law: Any = segment.law
+            if max(abs(law.b(0.0)), abs(law.b(1.0))) > INTERLOCK:
+                raise _refused(stretch)
+            if way == "gentlest":
+                # limits bind the laws in the times that are sought
+                share = law.peak(2).value * abs(stretch.displacement) / cycle.unchecked().peak(2)
+                segment = replace(segment, effort=sqrt(share))
+            segments.append(segment)
+            position = stop
+        return segments
 
-    def _of_move(
-        self, i: int, stretch: TimedSegment, times: Sequence[float] | None
-    ) -> tuple[MotionLaw, float | None, str]:
-        """The law of a move, its least time unless it keeps the one it has, and the limit that binds there."""
-        if self.way == "kept":
-            return self._as_it_is(i, stretch), None, ""
-        search, span, law = self._search, self._search.alone(i), None
-        if isinstance(stretch.given, Move) and not is_optimal(stretch.given):
-            law = named_law(stretch.given.law, stretch.where)
-        elif search.objective.of_load:
-            raise self._refused(stretch)
-        elif self.way == "gentlest" and times is not None:
-            law = self._gentlest(slower(span, times[i] / span.duration))
-        least = search.fastest(span) if law is None else search.of_law(span, law)
-        if not least.limits:
-            law = law or solve(span, search.objective, self.cycle.axis)[0].law
-            return law, 0.0 if self.way == "gentlest" else None, ""
-        limit = word_of(least.binding[0].key, self.cycle.axis)
-        if least.law is None or not least.scale < inf:
-            raise InfeasibleProblem(f"{stretch.where}: its law has no finite {limit}, and so keeps no limit of it")
-        return least.law, least.needed, f"{limit} of axis {self.name}: {stretch.where}"
 
-    def _as_it_is(self, i: int, stretch: TimedSegment) -> MotionLaw:
-        """The law that a move has in the cycle."""
-        start, duration = self.cycle.peaks[i].start, self.cycle.peaks[i].duration
-        piece = next((piece for piece in self.cycle.pieces if piece.start == start), None)
-        if piece is None or abs(piece.duration - duration) > INTERLOCK * duration:
-            raise self._refused(stretch)
-        return piece.law  # type: ignore[no-any-return]
-
-    def _gentlest(self, span: LawSpan) -> MotionLaw | None:
-        """The law of the least acceleration within the limits; None where its time is too short for these."""
+def _of_move(
+    segment: PlannedSegment, i: int, cycle: Cycle, way: Way, search: FastestSearch, times: Sequence[float] | None
+) -> PlannedSegment:
+    """A move with its law, between which durations it may be, and the limit that binds where it is shortest."""
+    stretch, law = cycle.programme.stretches[i], None
+    if way == "kept":
+        fixed = _given(cycle, i)
+        return replace(segment, law=_as_it_is(cycle, i), least=fixed, most=fixed)
+    span = search.alone(i)
+    if isinstance(stretch.given, Move) and not is_optimal(stretch.given):
+        law = named_law(stretch.given.law, stretch.where)
+    elif search.objective.of_load:
+        raise _refused(stretch)
+    elif way == "gentlest" and times is not None:
         try:
-            return solve(span, self._search.objective, self.cycle.axis)[0].law
+            law = solve(slower(span, times[i] / span.duration), search.objective, cycle.axis)[0].law
         except (InfeasibleProblem, SolverFailure):
-            return None
-
-    def _durations(self, i: int, stretch: TimedSegment, shortest: float | None) -> tuple[Spell, Spell | None]:
-        if shortest is not None:
-            return (shortest, 0.0), None if self.way == "gentlest" else (shortest, 0.0)
-        text = stretch.given.duration
-        fixed = _spell(text, stretch.where) if isinstance(text, str) else (float(self.cycle.durations[i]), 0.0)
-        return fixed, fixed
-
-    def _refused(self, stretch: TimedSegment) -> InputError:
-        return InputError(
-            f"axis {self.name}: {stretch.where}: only moves from rest to rest and dwells are put together anew"
-        )
+            law = None  # the time is too short for the limits
+    known = search.fastest(span) if law is None else search.of_law(span, law)
+    if not known.limits:
+        law = law or solve(span, search.objective, cycle.axis)[0].law
+        fixed = (0.0, 0.0) if way == "gentlest" else _given(cycle, i)
+        return replace(segment, law=law, least=fixed, most=None if way == "gentlest" else fixed)
+    limit = word_of(known.binding[0].key, cycle.axis)
+    if known.law is None or not known.scale < inf:
+        raise InfeasibleProblem(f"{stretch.where}: its law has no finite {limit}, and so keeps no limit of it")
+    least, limit = (known.needed, 0.0), f"{limit} of axis {segment.axis}: {stretch.where}"
+    return replace(segment, law=known.law, least=least, most=None if way == "gentlest" else least, limit=limit)
 
 
-def _spell_of_dwell(stretch: TimedSegment, where: str) -> tuple[Spell, Spell | None]:
-    """The least duration of a dwell: its given or least allowed value, 0 where the duration is omitted."""
-    given = stretch.given
-    assert isinstance(given, Dwell)  # noqa: S101 - or a move by nothing, which has a duration as well
-    text = given.duration if given.least is None else given.least
+def _given(cycle: Cycle, i: int) -> Spell:
+    """The duration that a move keeps: an angle of the master, or a time."""
+    stretch = cycle.programme.stretches[i]
+    text = stretch.given.duration
+    return _spell(text, stretch.where) if isinstance(text, str) else (float(cycle.durations[i]), 0.0)
+
+
+def _as_it_is(cycle: Cycle, i: int) -> MotionLaw:
+    """The law that a move has in the cycle."""
+    start, duration = cycle.peaks[i].start, cycle.peaks[i].duration
+    piece = next((piece for piece in cycle.pieces if piece.start == start), None)
+    if piece is None or abs(piece.duration - duration) > INTERLOCK * duration:
+        raise _refused(cycle.programme.stretches[i])
+    return piece.law
+
+
+def _refused(stretch: TimedSegment) -> InputError:
+    return InputError(f"{stretch.where}: only moves from rest to rest and dwells are put together anew")
+
+
+def _least_of_dwell(stretch: TimedSegment) -> Spell:
+    """The least duration of a dwell, or of a move by nothing: as given or allowed, 0 where none is given."""
+    least = getattr(stretch.given, "least", None)
+    text: Any = stretch.given.duration if least is None else least
     if isinstance(text, list | tuple):
         text = text[0]
-    return ((0.0, 0.0) if text is None else _spell(text, f"{where}: duration")), None
+    return (0.0, 0.0) if text is None else _spell(text, f"{stretch.where}: duration")
 
 
 def _spell(text: Any, where: str) -> Spell:

@@ -209,17 +209,25 @@ class Axes(Declared, Mapping[str, Cycle], title="stored axes"):
         return self._overlap("acceleration", of or tuple(self))
 
     def _overlap(self, goal: str, longer: Sequence[str]) -> Overlap:
-        from optlaws.cycles.axes.overlapping import best_instants
+        from optlaws.cycles.axes import overlapping
 
-        best = best_instants(self, self.rules, goal, longer)
+        period = goal == "period"
+        best = overlapping.shortest(self._program) if period else overlapping.gentlest(self, self.rules, longer)
         cycles = {
             name: _retimed(cycle, best.durations[name], best.laws[name], best.period) for name, cycle in self.items()
         }
-        value = best.period if goal == "period" else 1.0 / best.pace**2
+        value = best.period if period else 1.0 / best.pace**2
         axes = Axes(cycles, interlocks=self.rules)
         numbers: dict[str, Any] = {"goal": goal, "objective": value, "lower_bound": best.bound}
         overlap = Overlap(**numbers, of=tuple(longer), binding=(), axes=axes, given=self)
         return replace(overlap, binding=overlap.bound_by())
+
+    @kept_property
+    def _program(self) -> Any:
+        """The program of the instants of the fastest laws."""
+        from optlaws.cycles.axes.overlapping import program
+
+        return program(self, self.rules, "period", (), {})
 
     @property
     def clearances(self) -> tuple[LeastClearance, ...]:
@@ -567,14 +575,15 @@ class Overlap(Declared, title="axes that overlap"):
 
     def bound_by(self, share: float = 1.0) -> tuple[str, ...]:
         """What leaves no room at the instants of the axes, to a share of what counts as none."""
-        from optlaws.cycles.axes.overlapping import TIGHT_INSTANT, binding_of
+        from optlaws.cycles.axes.overlapping import program
 
         times = {
             name: [0.0 if i is None else cycle.durations[i] for _, i in _kept_segments(self.given[name], cycle)]
             for name, cycle in self.axes.items()
         }
-        tight = share * TIGHT_INSTANT
-        return binding_of(self.given, self.given.rules, self.goal, self.of, times, self.axes.duration, tight)
+        given, goal = self.given, self.goal
+        of_laws = given._program if goal == "period" else program(given, given.rules, goal, self.of, times)  # noqa: SLF001
+        return tuple(of_laws.binding(times, self.axes.duration, share))
 
     def again(self) -> Overlap:
         """The overlap of the given machine, sought once more."""

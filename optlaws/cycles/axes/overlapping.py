@@ -10,18 +10,18 @@ solution breaks them, until none does.
 from __future__ import annotations
 
 import heapq
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import count
-from math import sqrt
 from typing import Any
 
 import numpy as np
 
-from optlaws.cycles.axes.axis_plan import AxisPlan, OwnLaws
-from optlaws.cycles.axes.interlock import Interlock
-from optlaws.cycles.axes.requirements import Requirement, WaitOption, requirements
-from optlaws.errors import InfeasibleProblem, SolverFailure
+from optlaws.cycles.axes.axis_plan import AxisPlan, PlannedSegment, Way, planned
+from optlaws.cycles.axes.interlock import After, Clearance, Forbidden, Interlock
+from optlaws.cycles.axes.regions import SimplePolygon
+from optlaws.cycles.cycle import Cycle
+from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.numbers import Array
@@ -32,17 +32,184 @@ _LP_FEASIBILITY = 1e-10  # of a period: by so much the solver of programs of ins
 _BROKEN_PLACE = 3e-10  # of a period: the same between the places that programs know
 _INSTANT_MARGIN = 1e-9  # of a period: instants are so much apart from where they touch, which pays for the others
 _PLACE_WIDTH = 1e-9  # of a segment: how near a place comes to where instants are broken most
-TIGHT_INSTANT = 1e-7  # of a period: what leaves no more binds
+_TIGHT_INSTANT = 1e-7  # of a period: what leaves no more binds
 
 _NODES = 4000
 _CUTS = 40
+_PLACES = 65
 _LONGEST = 10.0
 #: in which laws of least acceleration follow the times that they leave
 _ROUNDS = 12
 
-Choices = Mapping[int, WaitOption]
+
+@dataclass(frozen=True, eq=False)
+class LevelSide:
+    """On which side of a level, a function of the position of the axis that passes, the other axis is to be.
+
+    `bends` are positions at which the function is not smooth.
+    """
+
+    sign: float
+    level: Callable[[Array], Array]
+    bends: tuple[float, ...] = ()
+
+
+#: a side, and a joint of the other axis around which it stays there
+Option = tuple[LevelSide, int]
+#: the options of requirements by their numbers
+Choices = Mapping[int, Option]
 #: durations of all segments by axes
 _Times = Mapping[str, Sequence[float]]
+
+
+@dataclass(frozen=True, eq=False)
+class Requirement:
+    """A condition: while a segment of an axis goes between two positions, the other axis is on one of several sides."""
+
+    rule: Interlock
+    axis: AxisPlan
+    segment: int
+    other: AxisPlan
+    sides: tuple[LevelSide, ...]
+    places: tuple[float, float]
+    _rows: dict[tuple[Option, int], Array] = field(default_factory=dict)
+
+    @property
+    def passing(self) -> PlannedSegment:
+        """The segment that passes."""
+        return self.axis.segments[self.segment]
+
+    @property
+    def extended(self) -> bool:
+        """Whether the requirement covers more than one position."""
+        return self.passing.law is not None and self.places[0] != self.places[1]
+
+    @kept_property
+    def cuts(self) -> list[float]:
+        """Shares of the segment at which programs know it: where it begins, ends, or a level bends, and those added."""
+        if self.passing.law is None:
+            return [0.0]
+        low, high = sorted(self.places)
+        inner = {place for side in self.sides for place in side.bends if low < place < high}
+        return [float(share) for share in np.sort(self.passing.shares(np.array([*{low, high, *inner}])))]
+
+    @kept_property
+    def shares(self) -> Array:
+        """Shares of the segment at which it is at positions where the requirement holds: many, with all bends."""
+        bends = self.cuts
+        return np.union1d(np.linspace(bends[0], bends[-1], _PLACES), bends) if self.extended else np.array(bends[:1])
+
+    @kept_property
+    def options(self) -> list[Option]:
+        """Joints of the other axis that are on a side wherever the segment passes."""
+        positions, options = self.passing.positions(self.shares), list[Option]()
+        for side in self.sides:
+            levels = side.level(positions)
+            for joint in range(len(self.other.positions)):
+                repeated = joint > 0 and self.other.segments[joint - 1].law is None
+                if not repeated and self.other.beyond(joint, levels, side.sign).all():
+                    options.append((side, joint))
+        return options
+
+    def rows(self, option: Option, shares: Array) -> Array:
+        """Rows over the unknowns that are not negative where the requirement holds after shares of the segment.
+
+        Those of the first rest before the pass, then those of its end after it; NaN where there is no such end.
+        """
+        side, joint = option
+        levels = side.level(self.passing.positions(shares))
+        early, late = self.axis.events(self.segment, shares), self.axis.events(self.segment, shares)
+        if self.passing.law is None:
+            late = self.axis.events(self.segment, np.ones(len(shares)))
+        before, after = (self.other.leaves(joint, levels, side.sign, way) for way in (-1, 1))
+        return np.concatenate([early - before, after - late])
+
+    def known_rows(self, option: Option) -> Array:
+        """The rows of an option at the cuts."""
+        place = option, len(self.cuts)
+        if place not in self._rows:
+            rows = self.rows(option, np.array(self.cuts))
+            self._rows[place] = rows[~np.isnan(rows[:, 0])]
+        return self._rows[place]
+
+    def broken_by(self, option: Option, unknowns: Array) -> float:
+        """The time by which an option is violated at the cuts."""
+        return float(-(self.known_rows(option) @ unknowns).min(initial=0.0))
+
+    def room(self, option: Option, unknowns: Array, shares: Array) -> Array:
+        """The time that an option leaves after shares of the segment."""
+        values = self.rows(option, shares) @ unknowns
+        return np.asarray(np.where(np.isnan(values), np.inf, values).reshape(2, -1).min(axis=0))
+
+    def least_near(self, option: Option, unknowns: Array, place: int) -> tuple[float, float]:
+        """The share around one of `shares` at which an option leaves the least time, and that time."""
+        places = self.shares[max(place - 1, 0) : place + 2]
+        while True:
+            rooms = self.room(option, unknowns, places)
+            at = int(np.argmin(rooms))
+            low, high = float(places[max(at - 1, 0)]), float(places[min(at + 1, len(places) - 1)])
+            if high - low <= _PLACE_WIDTH:
+                return float(places[at]), float(rooms[at])
+            places = np.unique([*np.linspace(low, high, _PLACES), places[at]])
+
+    def worst(self, option: Option, unknowns: Array) -> list[float]:
+        """The shares of the segment at which an option is broken more than nearby."""
+        most, worst = _BROKEN_PLACE * float(unknowns[-2]), []
+        values = -self.room(option, unknowns, self.shares)
+        for place, value in enumerate(values):
+            beside = values[max(place - 1, 0) : place + 2]
+            # between two places it may be broken by no more than what it changes from one to the next
+            if -np.inf < value == beside.max() and value > most - 2.0 * (value - beside.min()):
+                at, room = self.least_near(option, unknowns, place)
+                worst += [at] if -room > most else []
+        return worst
+
+    def least_room(self, option: Option, unknowns: Array) -> float:
+        """The least time that an option leaves anywhere in the segment."""
+        return self.least_near(option, unknowns, int(np.argmin(self.room(option, unknowns, self.shares))))[1]
+
+
+def requirements(
+    rules: Sequence[Interlock], plans: Mapping[str, AxisPlan], cycles: Mapping[str, Cycle]
+) -> list[Requirement]:
+    """All conditions of interlocks on the instants of planned axes."""
+    known: list[Requirement] = []
+    for rule in rules:
+        first, second = (plans[name] for name in rule.axes)
+        given: Any = rule.in_si(cycles)
+        if isinstance(rule, After):
+            known += _of_passes(rule, first, second, *given)
+        elif isinstance(rule, Clearance):
+            side = LevelSide(rule.sign, given, getattr(given, "places", ()))
+            known += [
+                Requirement(rule, second, i, first, (side,), (segment.start, segment.stop))
+                for i, segment in enumerate(second.segments)
+            ]
+        elif isinstance(rule, Forbidden):
+            bends = tuple(x for x, _ in given.corners)
+            sides = tuple(LevelSide(sign, _edge(given, end), bends) for sign, end in ((1.0, 1), (-1.0, 0)))
+            for i, segment in enumerate(first.segments):
+                low, high = sorted((segment.start, segment.stop))
+                places = max(min(bends), low), min(max(bends), high)
+                if places[0] <= places[1]:
+                    known.append(Requirement(rule, first, i, second, sides, places))
+        else:
+            raise InputError(f"interlock {rule.label}: only After, Clearance and Forbidden are put together anew")
+    return known
+
+
+def _edge(polygon: SimplePolygon, end: int) -> Callable[[Array], Array]:
+    return lambda places: np.array([polygon.section(x)[end] for x in places])
+
+
+def _of_passes(rule: After, first: AxisPlan, second: AxisPlan, position: float, level: float) -> list[Requirement]:
+    side = LevelSide(rule.sign, lambda places: np.full(places.shape, level))
+    return [
+        Requirement(rule, first, i, second, (side,), (position, position))
+        for i, segment in enumerate(first.segments)
+        if (segment.start - position) * (segment.stop - position) < 0.0
+        and rule.way in {None, "up" if segment.stop > segment.start else "down"}
+    ]
 
 
 @dataclass(frozen=True)
@@ -63,17 +230,14 @@ class BestInstants:
     period: float
     pace: float
     bound: float
-    nodes: int
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Overlapping:
     """The problem: plans of axes, what interlocks demand, and which of period (least) and pace (greatest) is sought.
 
     Attributes
     ----------
-    efforts
-        Of each unknown duration the least at the pace 1; 0 of those that do not change with it.
     period
         The period that is given, None where the least is sought.
     longest
@@ -82,123 +246,102 @@ class Overlapping:
         Of the unknown times, in seconds: programs are solved in shares of it.
     """
 
-    plans: tuple[AxisPlan, ...]
-    requirements: tuple[Requirement, ...]
-    efforts: Array
+    plans: Sequence[AxisPlan]
+    requirements: Sequence[Requirement]
     period: float | None
     longest: float
     unit: float
-    cuts: dict[int, list[float]] = field(default_factory=dict)
-    met: dict[tuple[int, WaitOption, float], list[Array]] = field(default_factory=dict)
-
-    @property
-    def size(self) -> int:
-        """How many unknowns there are: durations, the period and the pace."""
-        return len(self.efforts) + 2
 
     @kept_property
-    def options(self) -> list[list[WaitOption]]:
-        """The choices that each requirement leaves."""
-        return [requirement.options() for requirement in self.requirements]
+    def efforts(self) -> Array:
+        """Of each unknown duration the least at the pace 1; 0 of those that do not change with it."""
+        return np.array([segment.effort for plan in self.plans for segment in plan.segments])
 
     @kept_property
-    def base(self) -> tuple[list[Array], list[float], list[str]]:
+    def base(self) -> tuple[Array, Array, list[str]]:
         """Rows, right sides and names of the conditions without choices: row @ unknowns >= right side."""
-        rows: list[Array] = []
-        sides: list[float] = []
-        names: list[str] = []
-
-        def add(row: Array, side: float, name: str) -> None:
-            rows.append(row)
-            sides.append(side)
-            names.append(name)
-
+        known = list[tuple[Array, float, str]]()
         for plan in self.plans:
-            for i, segment in enumerate(plan.segments):
-                here = plan.first + i
-                (least, share), kind = segment.least, "move" if segment.moves else "dwell"
+            for here, segment in enumerate(plan.segments, plan.first):
+                (least, share), kind = segment.least, "dwell" if segment.law is None else "move"
                 free = segment.most is None and least + share > 0.0
                 # of a time that cannot change there is nothing to say
                 name = segment.limit or (f"{kind} {segment.name} of {plan.name}" if free else "")
-                add(self._row({here: 1.0, -2: -share}), least / self.unit, name)
-                if self.efforts[here] > 0.0:
-                    add(self._row({here: 1.0, -1: -float(self.efforts[here]) / self.unit}), 0.0, "")
+                known.append((self._row({here: 1.0, -2: -share}), least / self.unit, name))
+                if segment.effort > 0.0:
+                    known.append((self._row({here: 1.0, -1: -segment.effort / self.unit}), 0.0, ""))
                 if segment.most is not None:
-                    add(self._row({here: -1.0, -2: segment.most[1]}), -segment.most[0] / self.unit, name)
-            whole = plan.instant(len(plan.segments))
-            for sign in (1.0, -1.0):
-                add(sign * (self._row({-2: 1.0}) - whole), 0.0, "")
-        return rows, sides, names
+                    known.append((self._row({here: -1.0, -2: segment.most[1]}), -segment.most[0] / self.unit, name))
+            whole = self._row({-2: 1.0} | {plan.first + i: -1.0 for i in range(len(plan.segments))})
+            known += [(whole, 0.0, ""), (-whole, 0.0, "")]
+        rows, sides, names = zip(*known, strict=True)
+        return np.array(rows), np.array(sides), list(names)
 
     def best(self) -> BestInstants:
         """The best instants over all choices, with a bound that no other instants pass."""
-        missing = [i for i, options in enumerate(self.options) if not options]
-        if missing:
-            needed = self.requirements[missing[0]]
-            raise InfeasibleProblem(
-                f"interlock {needed.rule.label}: while {needed.axis.name} passes, {needed.other.name} would have to be "
-                "where it never rests: change a position, or the strokes"
-            )
-        for i, requirement in enumerate(self.requirements):
-            self.cuts[i] = requirement.bends()
-        forced: dict[int, WaitOption] = {i: options[0] for i, options in enumerate(self.options) if len(options) == 1}
+        forced: dict[int, Option] = {}
+        for i, needed in enumerate(self.requirements):
+            if not needed.options:
+                raise InfeasibleProblem(
+                    f"interlock {needed.rule.label}: while {needed.axis.name} passes, {needed.other.name} would have to"
+                    " be where it never rests: change a position, or the strokes"
+                )
+            if len(needed.options) == 1:
+                forced[i] = needed.options[0]
         for _ in range(_CUTS):
-            optimum, choices, nodes, bound = self._searched(forced)
-            if not self._added(optimum.unknowns, choices):
-                return self._result(optimum, choices, nodes, bound)
+            optimum, choices, bound = self._searched(forced)
+            added = False
+            for i, option in choices.items():
+                if self.requirements[i].extended:
+                    worst = self.requirements[i].worst(option, optimum.unknowns)
+                    self.requirements[i].cuts.extend(worst)
+                    added = added or bool(worst)
+            if not added:
+                return self._result((self._solved(choices, _INSTANT_MARGIN) or optimum).unknowns, bound)
         raise SolverFailure("instants that keep a region clear were not found: give its bound fewer bends")
 
-    def _searched(self, forced: Choices) -> tuple[Optimum, Choices, int, float]:
+    def _searched(self, forced: Choices) -> tuple[Optimum, Choices, float]:
         """Branch and bound over the choices: the node of the least bound first."""
         number, root = count(), self._solved(forced)
-        if root is None:
-            raise InfeasibleProblem(self._contradiction(forced))
-        heap: list[tuple[float, int, Optimum, Choices]] = [(root.bound, next(number), root, dict(forced))]
-        nodes = 1
+        heap: list[tuple[float, int, Optimum, Choices]] = []
+        if root is not None:
+            heap.append((root.bound, next(number), root, forced))
         while heap:
             bound, _, optimum, choices = heapq.heappop(heap)
-            broken = self._most_broken(optimum.unknowns, choices)
-            if broken is None:
-                return optimum, self._completed(optimum.unknowns, choices), nodes, bound
-            if nodes > _NODES:
-                heapq.heappush(heap, (bound, next(number), optimum, choices))
-                break
-            for option in self.options[broken]:
-                nodes += 1
-                further = {**choices, broken: option}
-                solved = self._solved(further)
+            broken, worst, further = _BROKEN_INSTANT * float(optimum.unknowns[-2]), None, dict(choices)
+            for i in [i for i in range(len(self.requirements)) if i not in choices]:
+                options = self.requirements[i].options
+                off = [self.requirements[i].broken_by(option, optimum.unknowns) for option in options]
+                further[i] = options[int(np.argmin(off))]
+                if min(off) > broken:
+                    broken, worst = min(off), i
+            if worst is None:
+                return optimum, further, bound
+            for option in self.requirements[worst].options:
+                way, node = {**choices, worst: option}, next(number)
+                solved = self._solved(way)
                 if solved is not None:
-                    heapq.heappush(heap, (max(bound, solved.bound), next(number), solved, further))
-        if nodes > _NODES:
-            optimum, instants = self._dived([(node[2], node[3]) for node in sorted(heap)])
-            return optimum, dict(instants), nodes, bound
+                    heapq.heappush(heap, (max(bound, solved.bound), node, solved, way))
+                if node > _NODES:
+                    raise SolverFailure(
+                        f"who waits for whom has more than {_NODES} ways: give fewer moves or interlocks"
+                    )
         raise InfeasibleProblem(self._contradiction(forced))
 
-    def _dived(self, open_nodes: Sequence[tuple[Optimum, Choices]]) -> tuple[Optimum, Choices]:
-        """Instants that keep all interlocks, from the first open node that leads to such by its least choices."""
-        for optimum, choices in open_nodes:
-            here: tuple[Optimum, Choices] | None = (optimum, choices)
-            while here is not None:
-                broken = self._most_broken(here[0].unknowns, here[1])
-                if broken is None:
-                    return here[0], self._completed(here[0].unknowns, here[1])
-                ways = [{**here[1], broken: option} for option in self.options[broken]]
-                solved = [(best, way) for best, way in zip(map(self._solved, ways), ways, strict=True) if best]
-                here = min(solved, key=lambda pair: pair[0].value, default=None)
-        raise SolverFailure(f"who waits for whom has more than {_NODES} ways: give fewer moves or interlocks")
-
-    def _solved(self, choices: Choices, rules: Sequence[Any] | None = None, margin: float = 0.0) -> Optimum | None:
+    def _solved(self, choices: Choices, margin: float = 0.0) -> Optimum | None:
         """The program with the rows of a choice; None where it has no solution."""
         from scipy.optimize import linprog
 
-        rows, sides, _ = self._rows(choices, rules, margin)
-        goal, most = self._row({-2: 1.0} if self.period is None else {-1: -1.0}), self._most()
-        low = np.zeros(self.size)
+        matrix, right, _ = self.base
+        for i, option in choices.items():
+            rows = self.requirements[i].known_rows(option)
+            matrix = np.vstack([matrix, rows])
+            right = np.append(right, np.full(len(rows), margin if self.requirements[i].extended else 0.0))
+        goal, low = self._row({-2: 1.0} if self.period is None else {-1: -1.0}), np.zeros(matrix.shape[1])
+        most, paced = np.full(len(low), self.longest / self.unit), self.efforts[self.efforts > 0.0]
+        low[-2:], most[-1] = (0.0, 1.0), 1.0
         if self.period is not None:
-            low[-2] = self.period / self.unit
-        else:
-            low[-1] = 1.0
-        matrix, right = np.array(rows), np.array(sides)
+            low[-2:], most[-1] = (self.period / self.unit, 0.0), self.longest / min(paced, default=self.longest)
         solve: Any = linprog
         answer = solve(
             goal,
@@ -216,219 +359,108 @@ class Overlapping:
         bound = float(prices @ right + np.minimum(rest * low, rest * most).sum())
         return Optimum(np.asarray(answer.x), float(goal @ answer.x), bound)
 
-    def _rows_of(self, i: int, option: WaitOption, share: float) -> list[Array]:
-        if (i, option, share) not in self.met:
-            self.met[i, option, share] = self.requirements[i].rows(option, share)
-        return self.met[i, option, share]
-
-    def _rows(
-        self, choices: Choices, rules: Sequence[Any] | None = None, margin: float = 0.0
-    ) -> tuple[list[Array], list[float], list[str]]:
-        rows, sides, names = list(self.base[0]), list(self.base[1]), list(self.base[2])
-        for i, option in choices.items():
-            requirement = self.requirements[i]
-            if rules is None or requirement.rule in rules:
-                for share in self.cuts[i]:
-                    for row in self._rows_of(i, option, share):
-                        rows.append(row)
-                        sides.append(margin if requirement.extended else 0.0)
-                        names.append(requirement.rule.label)
-        return rows, sides, names
-
-    def _most(self) -> Array:
-        """Upper bounds of the unknowns."""
-        most = np.full(self.size, self.longest / self.unit)
-        active = self.efforts[self.efforts > 0.0]
-        most[-1] = self.longest / float(active.min()) if self.period is not None and active.size else 1.0
-        return most
-
-    def _broken_by(self, i: int, option: WaitOption, unknowns: Array) -> float:
-        """The time by which an option is violated at the sampled places."""
-        rows = [row for share in self.cuts[i] for row in self._rows_of(i, option, share)]
-        return max((-float(row @ unknowns) for row in rows), default=0.0)
-
-    def _most_broken(self, unknowns: Array, choices: Choices) -> int | None:
-        """The requirement without alternatives whose best option is violated most; None without such a requirement."""
-        worst, which = _BROKEN_INSTANT * float(unknowns[-2]), None
-        for i, options in enumerate(self.options):
-            if i not in choices:
-                off = min(self._broken_by(i, option, unknowns) for option in options)
-                if off > worst:
-                    worst, which = off, i
-        return which
-
-    def _completed(self, unknowns: Array, choices: Choices) -> dict[int, WaitOption]:
-        """The choices, completed by the choices that the solution itself implies."""
-        others = {
-            i: min(options, key=lambda option: self._broken_by(i, option, unknowns))
-            for i, options in enumerate(self.options)
-            if i not in choices
-        }
-        return {**choices, **others}
-
-    def _added(self, unknowns: Array, choices: Choices) -> bool:
-        """Whether places of violations of a choice were added to the sampled places."""
-        added = False
-        for i, option in choices.items():
-            if self.requirements[i].extended:
-                for share in self._worst(i, option, unknowns):
-                    self.cuts[i].append(share)
-                    added = True
-        return added
-
-    def _worst(self, i: int, option: WaitOption, unknowns: Array) -> list[float]:
-        """The shares of a segment at which a choice is broken more than nearby."""
-        requirement, most = self.requirements[i], _BROKEN_PLACE * float(unknowns[-2])
-        shares = requirement.shares()
-        values = [max((-float(row @ unknowns) for row in self._rows_of(i, option, share)), default=-np.inf)
-                  for share in shares]  # fmt: skip
-        met = []
-        for place, value in enumerate(values):
-            beside = values[max(place - 1, 0) : place + 2]
-            # between two places it may be broken by no more than what it changes from one to the next
-            if value < max(beside) or value <= most - 2.0 * (value - min(beside)):
-                continue
-            at, room = _least_near(requirement, option, unknowns, shares, place)
-            if -room > most:
-                met.append(at)
-        return met
-
-    def _result(self, optimum: Optimum, choices: Choices, nodes: int, bound: float) -> BestInstants:
-        solved = self._solved(choices, margin=_INSTANT_MARGIN) or optimum
-        x = solved.unknowns
-        durations = {
-            plan.name: [self.unit * float(value) for value in x[plan.first : plan.first + len(plan.segments)]]
-            for plan in self.plans
-        }
+    def _result(self, x: Array, bound: float) -> BestInstants:
+        times = {plan.name: x[plan.first : plan.first + len(plan.segments)] for plan in self.plans}
         return BestInstants(
-            durations,
+            {name: [self.unit * float(value) for value in values] for name, values in times.items()},
             {plan.name: [segment.law for segment in plan.segments] for plan in self.plans},
             self.unit * float(x[-2]),
             float(x[-1]),
             bound * (self.unit if self.period is None else 1.0),
-            nodes,
         )
 
-    def binding(self, unknowns: Array, tight: float = TIGHT_INSTANT) -> tuple[str, ...]:
-        """What leaves no more than a share of a period: limits of moves, dwells and interlocks, by their names.
+    def binding(self, durations: _Times, period: float, share: float) -> tuple[str, ...]:
+        """What leaves no room, to a share of what counts as none: limits of moves, dwells and interlocks, by their names.
 
         It is a matter of the instants alone: an interlock leaves what its most favourable option does, at the place of
         the segment where that is least.
         """
+        times = [value for plan in self.plans for value in durations[plan.name]]
+        unknowns, room = np.array([*times, period, self.unit]) / self.unit, share * _TIGHT_INSTANT * period / self.unit
         rows, sides, names = self.base
-        room = tight * float(unknowns[-2])
-        near = [
-            name for row, side, name in zip(rows, sides, names, strict=True) if name and row @ unknowns - side <= room
-        ]
+        near = [name for name, left in zip(names, rows @ unknowns - sides, strict=True) if name and left <= room]
         near += [
             requirement.rule.label
             for requirement in self.requirements
-            if all(_least_room(requirement, option, unknowns) <= room for option in requirement.options())
+            if all(requirement.least_room(option, unknowns) <= room for option in requirement.options)
         ]
         return tuple(dict.fromkeys(near))
 
-    def unknowns_of(self, durations: Mapping[str, Sequence[float]], period: float) -> Array:
-        """The unknowns of durations of all segments by axes, in seconds; the pace, of which no name depends, is 1."""
-        times = [value for plan in self.plans for value in durations[plan.name]]
-        return np.array([*(value / self.unit for value in times), period / self.unit, 1.0])
-
     def _contradiction(self, forced: Choices) -> str:
         """The interlocks without any of which there are instants."""
-        rules = list(dict.fromkeys(requirement.rule for requirement in self.requirements))
-        alone = self._solved(forced, rules=())
-        if alone is None:
+        if self._solved({}) is None:
             return "the moves and dwells alone take longer than the period: give a longer one, or less of a dwell"
-        named = [rule.label for rule in rules if self._solved(forced, [each for each in rules if each is not rule])]
-        listed = "; ".join(named or [rule.label for rule in rules])
+        of = {i: self.requirements[i].rule for i in range(len(self.requirements))}
+        rules = list(dict.fromkeys(of.values()))
+        alone = [self._solved({i: forced[i] for i in forced if of[i] is not rule}) for rule in rules]
+        named = [rule.label for rule, solved in zip(rules, alone, strict=True) if solved]
         return (
-            f"no instants of these laws keep all interlocks: {listed}: change a position of one of them, or give a "
-            "longer period"
+            f"no instants of these laws keep all interlocks: {'; '.join(named or [rule.label for rule in rules])}: "
+            "change a position of one of them, or give a longer period"
         )
 
     def _row(self, entries: Mapping[int, float]) -> Array:
-        row = np.zeros(self.size)
+        row = np.zeros(len(self.efforts) + 2)
         for place, value in entries.items():
             row[place] += value
         return row
 
 
-def _room(requirement: Requirement, option: WaitOption, unknowns: Array, share: float) -> float:
-    """The time that an option leaves after a share of its segment."""
-    return min((float(row @ unknowns) for row in requirement.rows(option, share)), default=np.inf)
+def program(
+    cycles: Mapping[str, Cycle], rules: Sequence[Interlock], goal: str, longer: Sequence[str], times: _Times
+) -> Overlapping:
+    """The program of the instants of laws that are gentlest in some times, or of the fastest laws."""
+    first, plans, size = 0, dict[str, AxisPlan](), sum(len(cycle.programme.stretches) for cycle in cycles.values()) + 2
+    for name, cycle in cycles.items():
+        way: Way = "fastest" if goal == "period" else "gentlest" if name in longer else "kept"
+        plans[name] = AxisPlan(name, planned(name, cycle, way, times.get(name)), first, size)
+        first += len(plans[name].segments)
+    duration = next(iter(cycles.values())).duration
+    demands = requirements(rules, plans, cycles)
+    if goal != "period":
+        return Overlapping(list(plans.values()), demands, duration, duration, duration)
+    least = sum(segment.least[0] for plan in plans.values() for segment in plan.segments)
+    # the answer may be far shorter than what was given, and programs are as exact as their unit
+    unit = max(map(_least_period, plans.values())) or duration
+    return Overlapping(list(plans.values()), demands, None, _LONGEST * (duration + least), unit)
 
 
-def _least_near(
-    requirement: Requirement, option: WaitOption, unknowns: Array, shares: Array, place: int
-) -> tuple[float, float]:
-    """The share around one of some shares at which an option leaves the least time, and that time."""
-    from scipy.optimize import minimize_scalar
-
-    solve: Any = minimize_scalar
-    at, known = float(shares[place]), _room(requirement, option, unknowns, float(shares[place]))
-    ends = shares[max(place - 1, 0)], shares[min(place + 1, len(shares) - 1)]
-    if ends[0] == ends[1]:
-        return at, known
-    lowest = solve(
-        lambda share: _room(requirement, option, unknowns, share),
-        bounds=ends,
-        method="bounded",
-        options={"xatol": _PLACE_WIDTH},
-    )
-    return (float(lowest.x), float(lowest.fun)) if lowest.fun < known else (at, known)
+def shortest(given: Overlapping) -> BestInstants:
+    """The instants of least period, longer by what programs are solved to, so that all limits are met."""
+    best, longer_by = given.best(), 1.0 + _OVERLAP_GAP
+    durations = {name: [longer_by * value for value in values] for name, values in best.durations.items()}
+    return replace(best, durations=durations, period=longer_by * best.period)
 
 
-def _least_room(requirement: Requirement, option: WaitOption, unknowns: Array) -> float:
-    """The least time that an option leaves anywhere in its segment."""
-    shares = requirement.shares()
-    place = int(np.argmin([_room(requirement, option, unknowns, float(share)) for share in shares]))
-    return _least_near(requirement, option, unknowns, shares, place)[1]
+def gentlest(cycles: Mapping[str, Cycle], rules: Sequence[Interlock], longer: Sequence[str]) -> BestInstants:
+    """The instants of the least acceleration of some axes in the period that they have.
 
-
-def binding_of(
-    cycles: Mapping[str, Any],
-    rules: Sequence[Interlock],
-    goal: str,
-    longer: Sequence[str],
-    durations: _Times,
-    period: float,
-    tight: float = TIGHT_INSTANT,
-) -> tuple[str, ...]:
-    """What leaves no room at given instants, however these were found; see `Overlapping.binding`."""
-    problem = _problem(_own_laws(cycles, goal, longer), rules, {} if goal == "period" else durations)
-    return problem.binding(problem.unknowns_of(durations, period), tight)
-
-
-def _own_laws(cycles: Mapping[str, Any], goal: str, longer: Sequence[str]) -> list[OwnLaws]:
-    if goal == "period":
-        return [OwnLaws(cycle, name, "fastest") for name, cycle in cycles.items()]
-    return [OwnLaws(cycle, name, "gentlest" if name in longer else "kept") for name, cycle in cycles.items()]
-
-
-def best_instants(
-    cycles: Mapping[str, Any], rules: Sequence[Interlock], goal: str, longer: Sequence[str]
-) -> BestInstants:
-    """The instants of least period, or of the least acceleration of some axes in the period that they have.
-
-    Where the period is least the answer is longer by what programs are solved to, so that all limits are met. Laws of
-    least acceleration are those for the times that they had before, in rounds, while the acceleration falls.
+    Laws of least acceleration are those for the times that they had before, in rounds, while the acceleration falls.
     """
-    axes = _own_laws(cycles, goal, longer)
-    if goal == "period":
-        return _instants(axes, rules, {})
+
+    def instants(times: _Times) -> BestInstants:
+        best = program(cycles, rules, "acceleration", longer, times).best()
+        if not best.bound < 0.0:
+            labels = "; ".join(rule.label for rule in rules)
+            raise InfeasibleProblem(
+                f"no instants of these laws keep all interlocks: {labels}: moves would have to take no time"
+            )
+        return replace(best, bound=1.0 / best.bound**2)
+
     times: _Times = {name: cycle.durations for name, cycle in cycles.items()}
     try:
-        best = _instants(axes, rules, times)
+        best = instants(times)
     except InfeasibleProblem:
         # the fastest laws leave the most room
-        best, times = _instants(axes, rules, {}), {}
+        best, times = instants({}), {}
     step = 1.0
-    for _ in range(_ROUNDS if any(axis.follows_times for axis in axes) else 0):
+    for _ in range(_ROUNDS if any(any(cycles[name].limits_of_segments) for name in longer) else 0):
         further = {
             name: [before + step * (after - before) for before, after in zip(times.get(name, now), now, strict=True)]
             for name, now in best.durations.items()
         }
         try:
-            rearranged = _instants(axes, rules, further)
+            rearranged = instants(further)
         except InfeasibleProblem:
             step *= 0.5
             continue
@@ -439,47 +471,6 @@ def best_instants(
         else:
             step *= 0.5
     return best
-
-
-def _problem(axes: Sequence[OwnLaws], rules: Sequence[Interlock], times: _Times) -> Overlapping:
-    """The program of the instants of laws in some times, or of the fastest laws."""
-    cycles = {axis.name: axis.cycle for axis in axes}
-    count_of_unknowns = sum(len(cycle.programme.stretches) for cycle in cycles.values()) + 2
-    first, plans = 0, dict[str, AxisPlan]()
-    efforts = np.zeros(count_of_unknowns - 2)
-    for axis in axes:
-        plan = axis.plan(first, count_of_unknowns, times.get(axis.name))
-        if axis.way == "gentlest":
-            now = axis.cycle.unchecked().peak(2)  # limits bind the laws in the times that are sought
-            for i, segment in enumerate(plan.segments):
-                efforts[first + i] = sqrt(segment.acceleration / now) if segment.moves else 0.0
-        plans[axis.name], first = plan, first + len(plan.segments)
-    duration, shortest = next(iter(cycles.values())).duration, axes[0].way == "fastest"
-    least = sum(segment.least[0] for plan in plans.values() for segment in plan.segments)
-    return Overlapping(
-        tuple(plans.values()),
-        tuple(requirements(rules, plans, cycles)),
-        efforts,
-        None if shortest else duration,
-        _LONGEST * (duration + least) if shortest else duration,
-        # the answer may be far shorter than what was given, and programs are as exact as their unit
-        max(map(_least_period, plans.values())) or duration if shortest else duration,
-    )
-
-
-def _instants(axes: Sequence[OwnLaws], rules: Sequence[Interlock], times: _Times) -> BestInstants:
-    """The best instants of laws in some times, or of the fastest laws."""
-    best = _problem(axes, rules, times).best()
-    if axes[0].way != "fastest":
-        if not best.bound < 0.0:
-            labels = "; ".join(rule.label for rule in rules)
-            raise InfeasibleProblem(
-                f"no instants of these laws keep all interlocks: {labels}: moves would have to take no time"
-            )
-        return replace(best, bound=1.0 / best.bound**2)
-    longer_by = 1.0 + _OVERLAP_GAP
-    durations = {name: [longer_by * value for value in values] for name, values in best.durations.items()}
-    return replace(best, durations=durations, period=longer_by * best.period)
 
 
 def _least_period(plan: AxisPlan) -> float:
