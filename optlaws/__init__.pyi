@@ -48,7 +48,7 @@ from .cycles.advising.recommendation import Recommendation as Recommendation
 from .cycles.axes.interlock import After as After, Clearance as Clearance
 from .cycles.axes.interlock import Forbidden as Forbidden, Synchronous as Synchronous
 from .cycles.axes.machine_axes import Axes as Axes
-from .cycles.cycle import Cycle as Cycle
+from .cycles.cycle import Cycle as Cycle, Plan as Plan
 from .cycles.fastest_cycle import FastestCycle as FastestCycle, LeastDuration as LeastDuration, LimitGain as LimitGain
 from .cycles.law_comparison import Comparison as Comparison, compare_laws as compare_laws
 from .cycles.moves.fastest_move import FastestMove as FastestMove

@@ -22,7 +22,7 @@ from .cycles.advising.advised_law import LawKind as LawKind, LawMeasure as LawMe
 from .cycles.axes.enclosed_axis import Way as Way
 from .cycles.axes.interlock import Interlock as Interlock, LeastClearance as LeastClearance
 from .cycles.axes.machine_axes import AxesPicture as AxesPicture, Overlap as Overlap
-from .cycles.interchange import PlotOver as PlotOver
+from .cycles.cycle import PlotOver as PlotOver
 from .cycles.optimisation.motion_limits import LimitTaken as LimitTaken
 from .cycles.moves.time_front import TimePoint as TimePoint
 from .cycles.moves.transition_cam import TransitionKind as TransitionKind

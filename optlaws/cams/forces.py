@@ -14,7 +14,7 @@ from optlaws.cams.curves.extremes import UNDERCUT
 from optlaws.cams.curves.motion_by_angle import CamMotion
 from optlaws.cams.disc import DiscCam
 from optlaws.cams.followers.contact import Friction, Transmission
-from optlaws.cycles.cycle import Cycle
+from optlaws.cycles.cycle import Cycle, Plan
 from optlaws.cycles.specification.drive import read_linear_drive
 from optlaws.cycles.specification.process import FORCES, ProcessEntries
 from optlaws.entries.declared import Declared, ValueOf, declared, documented_by, entry
@@ -182,7 +182,7 @@ class CamForces:
         """The cam's angular velocity, rad/s."""
         if self.speed is not None:
             return positive_quantity(self.speed, "angular velocity", "speed")
-        if not isinstance(self.cam.motion, Cycle):
+        if not isinstance(self.cam.motion, Cycle | Plan):
             raise InputError("forces need the cam's speed: give one, such as speed='300 rpm'")
         return TURN / self.cam.motion.duration
 
@@ -190,7 +190,7 @@ class CamForces:
     def load(self) -> LinearForce:
         """The inertia, spring and friction that the follower moves, in SI units."""
         motion = self.cam.motion
-        given = motion.drive if self.drive is None and isinstance(motion, Cycle) else self.drive
+        given = motion.drive if self.drive is None and isinstance(motion, Cycle | Plan) else self.drive
         if given is None:
             raise InputError("forces need what the follower moves: give a drive, such as drive={'mass': '2 kg'}")
         return read_linear_drive(given, self.cam.displacement.axis)[1]

@@ -16,7 +16,7 @@ from optlaws.cams.curves.plane_curve import CurveByAngle
 from optlaws.cams.followers.follower import positive
 from optlaws.cams.forces import CamForces
 from optlaws.cams.least_sizes import CamLimits
-from optlaws.cycles.cycle import Cycle
+from optlaws.cycles.cycle import Cycle, Plan
 from optlaws.kept import kept_property
 from optlaws.motion.display_units import DEGREES, MILLI, TURN_DEG, UNITS
 from optlaws.motion.quantities import TURN
@@ -68,7 +68,7 @@ class CamReport:
             Row("radius of the base circle", MILLI * cam.base_radius, "mm"),
             *self.extremes,
         ]
-        if isinstance(cam.motion, Cycle) and cam.motion.drive is not None:
+        if isinstance(cam.motion, Cycle | Plan) and cam.motion.drive is not None:
             for name, extremes, unit, factor in named_forces(CamForces(cam)):
                 rows.append(Row(f"{name}, least", factor * extremes.least, unit, degrees(extremes.least_at)))
                 rows.append(Row(f"{name}, greatest", factor * extremes.most, unit, degrees(extremes.most_at)))

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from optlaws.cams.disc import DiscCam
 from optlaws.cams.forces import CamForces, read_process_by_angle
-from optlaws.cycles.cycle import Cycle
+from optlaws.cycles.cycle import Cycle, Plan
 from optlaws.echo import shortened
 from optlaws.entries.declared import Declared, declared, documented_by, entry
 from optlaws.entries.value_types import Choice, Measured, Together
@@ -475,7 +475,7 @@ def energy_fluctuation(machine: CamForces | Cycle | Mechanism, speed: Quantity |
         if not motion.closed:
             raise InputError("the cam moves over a part of the turn: take a Cycle for the whole of it")
         return _of_torque(lambda angle: np.asarray(machine.shaft_torque(angle)), machine.edges, machine.rate)
-    if isinstance(machine, Cycle):
+    if isinstance(machine, Cycle | Plan):
         rate = TURN / machine.duration
         edges = machine.smooth_times * rate
         return _of_torque(lambda angle: np.asarray(machine.power(angle / rate)) / rate, edges, rate)

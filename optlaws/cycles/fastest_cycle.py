@@ -9,14 +9,13 @@ from typing import Any
 
 from optlaws.cycles.greatest_speed.fastest_search import FastestSearch
 from optlaws.cycles.greatest_speed.timed_spans import TimedSpan
-from optlaws.cycles.kinematics import TimedCycle
 from optlaws.cycles.moves.fastest_move import limit_row
 from optlaws.cycles.optimisation.motion_limits import amount, word_of
 from optlaws.cycles.optimisation.motor_limits import MOTOR
-from optlaws.cycles.optimisation.objectives import CycleObjective
+from optlaws.cycles.retiming import retimed_segments
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
-from optlaws.motion.quantities import TURN
+from optlaws.motion.quantities import TURN, Exact
 from optlaws.motion.quantity_kinds import Kind
 from optlaws.sentences import Amount, joined, sentence
 from optlaws.shown.summary import Row, Summary
@@ -225,8 +224,9 @@ def _margin(each: LeastDuration) -> str:
     return f"{100.0 * (each.duration / each.least - 1.0):.3g} % to spare, then {limits}"
 
 
-def fastest_cycle(cycle: Any, objective: CycleObjective) -> FastestCycle:
-    """The greatest speed of a cycle with such an objective and limits."""
+def fastest_cycle(cycle: Any) -> FastestCycle:
+    """The greatest speed of a cycle."""
+    objective = cycle.in_si
     if objective.of_load:
         raise InputError(
             "the greatest speed is not computed with a load that is minimised or limited, whose vibration follows its "
@@ -244,8 +244,8 @@ def fastest_cycle(cycle: Any, objective: CycleObjective) -> FastestCycle:
         )
     search = FastestSearch(cycle.programme, objective, {})
     laws = search.laws()
-    timed = TimedCycle(replace(search.programme, period=search.period), laws.starts, laws.pieces)
-    limited = replace(cycle, segments=timed.at_speed(1.0), speed=None, period=f"{search.period!r} s")
+    known = retimed_segments(replace(search.programme, period=search.period), laws.starts, laws.pieces, 1.0)
+    limited = replace(cycle, segments=known, speed=None, period=Exact(search.period, "s"))
     segments = tuple(_least_duration(search, span) for span in search.spans)
     raised = {name: partial(_raised_period, search, name) for name in search.binding_limits}
     binding = _binding(search, segments)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from itertools import accumulate, pairwise
+from itertools import pairwise
 from math import inf, isfinite
 from typing import Any, NamedTuple, TypeAlias
 
@@ -20,9 +20,6 @@ from optlaws.cycles.optimisation.motion_limits import (
     read_limits,
 )
 from optlaws.cycles.optimisation.motor_limits import MOTOR
-from optlaws.cycles.optimisation.objectives import read_load_limits
-from optlaws.cycles.specification.load import read_load
-from optlaws.cycles.specification.process import is_process
 from optlaws.cycles.specification.programme import TimedSegment, is_optimal
 from optlaws.cycles.specification.segments import Dwell, Free, Move
 from optlaws.errors import InfeasibleProblem
@@ -36,8 +33,9 @@ from optlaws.sentences import Amount, joined, sentence
 from optlaws.shown.summary import Row
 from optlaws.tolerances import AGREEMENT
 
-#: a `Cycle`, which knows this module
-AnyCycle: TypeAlias = Any
+#: a `Cycle`, and its `Plan`, which know this module
+Cycle: TypeAlias = Any
+Plan: TypeAlias = Any
 
 _JERK = 3
 _OF_MOTOR = {"speed": "rad/s", "torque-speed curve": ""}
@@ -63,8 +61,8 @@ class _InPlace(NamedTuple):
     jump: float | None  #: the time at which its acceleration jumps where it begins or ends
 
 
-def limits_taken(cycle: AnyCycle, limited: AnyCycle | None = None) -> tuple[LimitTaken, ...]:
-    """The use of every limit of a cycle, or of another cycle with the same segments, by all its laws.
+def limits_taken(plan: Plan, limited: Cycle | None = None) -> tuple[LimitTaken, ...]:
+    """The use of every limit of a plan's cycle, or of another cycle with the same segments, by all its laws.
 
     Of each limit the segment that takes most of it counts. A motor's limits are those of the sheet.
 
@@ -76,29 +74,30 @@ def limits_taken(cycle: AnyCycle, limited: AnyCycle | None = None) -> tuple[Limi
     >>> print(taken, round(taken.share, 4), taken.is_kept)
     segment 1 (Rise): velocity, 700 mm/s of 616 mm/s 1.1364 False
     """
-    given = cycle if limited is None else limited
-    of_cycle = read_limits(given.limits, cycle.axis, "limits")
-    segments = _of_segments(_in_place(cycle), given.programme.stretches, of_cycle, cycle.axis)
-    return (*(taken.taken for taken in _most(segments)), *_of_whole(cycle, given))
+    given = plan.specification if limited is None else limited
+    of_cycle = read_limits(given.limits, plan.axis, "limits")
+    segments = _of_segments(_in_place(plan.specification, plan.pieces), given.programme.stretches, of_cycle, plan.axis)
+    return (*(taken.taken for taken in _most(segments)), *_of_whole(plan, given))
 
 
-def refuse_beyond(cycle: AnyCycle, of_cycle: Mapping[Kind, tuple[float, float]]) -> None:
+def refuse_beyond(cycle: Cycle) -> None:
     """Refuse given laws that break a limit of the cycle or of their segments.
 
-    The cycle has its given laws alone; where no law is optimised, the limits of the whole are looked at as well.
+    Where no law is optimised, the limits of the whole are looked at as well.
 
     Raises
     ------
     InfeasibleProblem
         If a limit is broken: by how much, and what helps; its `proof` is every `LimitTaken` that is.
     """
-    placed = [each for each in _in_place(cycle) if not is_optimal(each.stretch.given)]
-    taken = list(_of_segments(placed, cycle.programme.stretches, of_cycle, cycle.axis))
+    placed = [each for each in _in_place(cycle, cycle.layout.pieces) if not is_optimal(each.stretch.given)]
+    taken = list(_of_segments(placed, cycle.programme.stretches, cycle.in_si.limits, cycle.axis))
     broken = [each for each in taken if not each.taken.is_kept]
     if not any(is_optimal(segment) for segment in cycle.segments):
         # limits of the motor but its rating are among those of the segments
         known = {f"motor's {name}" for name in ("peak torque", "torque-speed curve", "speed")}
-        of_whole = [each for each in _of_whole(cycle, cycle) if not each.is_kept and each.name not in known]
+        whole = _of_whole(cycle.unchecked(), cycle)
+        of_whole = [each for each in whole if not each.is_kept and each.name not in known]
     else:
         of_whole = []
     proof = (*(each.taken for each in broken), *of_whole)
@@ -108,7 +107,7 @@ def refuse_beyond(cycle: AnyCycle, of_cycle: Mapping[Kind, tuple[float, float]])
         raise InfeasibleProblem(sentence("{}{}", reason, others), proof=proof)
 
 
-def _reason(broken: _Taken, cycle: AnyCycle) -> str:
+def _reason(broken: _Taken, cycle: Cycle) -> str:
     """The limit that a given law breaks, and what helps."""
     key, taken, time, stretch = broken
     nu = key.kind.order
@@ -141,7 +140,7 @@ def _reason_of_whole(broken: LimitTaken) -> str:
     )  # fmt: skip
 
 
-def limit_rows(cycle: AnyCycle) -> list[Row]:
+def limit_rows(plan: Plan) -> list[Row]:
     """Rows of limits: the value in the segment that uses most of the limit, with its time and the limit.
 
     Examples
@@ -149,16 +148,16 @@ def limit_rows(cycle: AnyCycle) -> list[Row]:
     >>> from optlaws import Cycle, Return, Rise
     >>> limits = {"deceleration": "14 m/s^2", "acceleration": "25 m/s^2"}
     >>> cycle = Cycle([Rise("35 mm", "0.1 s"), Return()], period="0.25 s", limits=limits, minimise="jerk")
-    >>> [(row.name, round(row.value, 6), row.note) for row in limit_rows(cycle)][0]
+    >>> [(row.name, round(row.value, 6), row.note) for row in limit_rows(cycle.solve())][0]
     ('deceleration', 14.0, 'limit 14 m/s^2 of segment 1 (Rise)')
     """
-    limits = read_limits(cycle.limits, cycle.axis, "limits")
-    taken_of = _of_segments(_in_place(cycle), cycle.programme.stretches, limits, cycle.axis, keys=_is_unshown)
+    limits, placed = read_limits(plan.limits, plan.axis, "limits"), _in_place(plan.specification, plan.pieces)
+    taken_of = _of_segments(placed, plan.programme.stretches, limits, plan.axis, keys=_is_unshown)
     return [
         Row(
             taken.name,
             taken.value,
-            unit_of(cycle.axis, key.kind.order),
+            unit_of(plan.axis, key.kind.order),
             time,
             f"limit {taken.text} of {taken.where}",
         )
@@ -171,17 +170,15 @@ def _is_unshown(key: Side) -> bool:
     return bool(key.sign) or key.kind is Kind.SNAP
 
 
-def _in_place(cycle: AnyCycle) -> list[_InPlace]:
+def _in_place(cycle: Cycle, pieces: Sequence[Piece]) -> list[_InPlace]:
     """The segments whose laws are in their places."""
-    drive = cycle._drive  # noqa: SLF001 - its numbers
-    times = list(accumulate(cycle.durations, initial=0.0))
     placed = []
-    for stretch, (start, stop) in zip(cycle.programme.stretches, pairwise(times), strict=True):
-        before = [piece for piece in cycle.pieces if piece.start <= start < piece.stop]
+    for stretch, (start, stop) in zip(cycle.programme.stretches, pairwise(cycle.layout.starts), strict=True):
+        before = [piece for piece in pieces if piece.start <= start < piece.stop]
         given = isinstance(stretch.given, Move | Free) and not is_optimal(stretch.given)
         for piece in before[-1:]:
-            jump = jump_beside(piece, cycle.pieces, cycle.duration) if given else None
-            placed.append(_InPlace(stretch, piece, start, stop, drive, jump))
+            jump = jump_beside(piece, pieces, cycle.duration) if given else None
+            placed.append(_InPlace(stretch, piece, start, stop, cycle.in_si.drive, jump))
     return placed
 
 
@@ -248,20 +245,19 @@ def _greatest_of_drive(placed: _InPlace, kind: Kind) -> tuple[float, float | Non
     return along.parts.greatest(lambda times: share_used(np.abs(along.force(times)), motor.peak_at(along.speed(times))))
 
 
-def _of_whole(cycle: AnyCycle, limited: AnyCycle) -> Iterator[LimitTaken]:
+def _of_whole(plan: Plan, limited: Cycle) -> Iterator[LimitTaken]:
     """The use of limits of the whole: of means and sums, of the motor, of the load."""
-    of_cycle = read_limits(limited.limits, cycle.axis, "limits")
-    force, unit = FORCES[cycle.axis], "N" if cycle.axis == "length" else "N m"
+    of_cycle = read_limits(limited.limits, plan.axis, "limits")
+    force, unit = FORCES[plan.axis], "N" if plan.axis == "length" else "N m"
     if Kind.RMS_FORCE in of_cycle:
-        yield _of_cycle(f"rms {force}", cycle.effort.rms_force, of_cycle[Kind.RMS_FORCE][1], unit)
+        yield _of_cycle(f"rms {force}", plan.effort.rms_force, of_cycle[Kind.RMS_FORCE][1], unit)
     if Kind.ENERGY in of_cycle:
-        yield _of_cycle("energy", cycle.effort.energy, of_cycle[Kind.ENERGY][1], "J")
-    for margin in cycle.sheet.margins if limited.limits.get(MOTOR) else ():
+        yield _of_cycle("energy", plan.effort.energy, of_cycle[Kind.ENERGY][1], "J")
+    for margin in plan.sheet.margins if limited.limits.get(MOTOR) else ():
         unit = _OF_MOTOR.get(margin.name, "N m")
         yield _of_cycle(f"motor's {margin.name}", margin.needed, margin.limit, unit)
-    load = None if limited.load is None or is_process(limited.load) else read_load(limited.load, cycle.axis)
-    for (output, rms), limit in read_load_limits(limited.limits, load).items():
-        value = cycle.load_motion.rms(output) if rms else cycle.load_motion.peak(output).value
+    for (output, rms), limit in limited.in_si.loaded.items():
+        value = plan.load_motion.rms(output) if rms else plan.load_motion.peak(output).value
         yield _of_cycle(f"{'rms ' * rms}load {output}", value, limit, "")
 
 

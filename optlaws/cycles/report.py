@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 import numpy as np
 
-from optlaws.cycles.kinematics import Place
+from optlaws.cycles.cycle import Answers, Place
 from optlaws.cycles.limit_rows import limit_rows
 from optlaws.cycles.optimisation.motion_limits import LimitTaken
 from optlaws.cycles.specification.process import is_process
@@ -29,7 +29,7 @@ from optlaws.shown.summary import Row, Summary
 from optlaws.tolerances import CYCLE_ROUNDING, INSIDE_PIECE
 
 if TYPE_CHECKING:
-    from optlaws.cycles.cycle import Cycle
+    from optlaws.cycles.cycle import Plan
     from optlaws.cycles.moves.transition_cam import TransitionCam
 
 _EACH = 60  # samples of a piece, to which those are added that its curve needs
@@ -49,15 +49,15 @@ class LeastEffort(NamedTuple):
 class CycleReport:
     """The report of a cycle, whose parts are computed when they are needed."""
 
-    def __init__(self, cycle: Cycle) -> None:
-        self.cycle = cycle
-        self.units = UNITS[cycle.axis]
+    def __init__(self, motion: Answers) -> None:
+        self.plan = motion.solve()
+        self.units = UNITS[self.plan.axis]
 
     @kept_property
     def facts(self) -> Summary:
         """The proof of the cycle, its peaks, its limits, its drive and its joints, with places as times in seconds."""
         parts = (proof_rows, peak_rows, jerk_rows, limit_rows, drive_rows, joint_rows)
-        return Summary([row for rows in parts for row in rows(self.cycle)], at="s")
+        return Summary([row for rows in parts for row in rows(self.plan)], at="s")
 
     @kept_property
     def tables(self) -> tuple[ReportTable, ...]:
@@ -66,16 +66,16 @@ class CycleReport:
         sized = [f"peak {DERIVATIVES[nu]}, {self.unit(nu)[0]}" for nu in self.orders[1:]]
         headings = ["segment", "from, ms", "takes, ms", "takes, deg", f"ends at, {self.units[0][0]}", *sized]
         whole = map(max, zip(*(row[-len(sized) :] for row in rows), strict=True))
-        last = ["whole cycle", 0.0, MILLI * self.cycle.duration, TURN_DEG, None, *whole]
+        last = ["whole cycle", 0.0, MILLI * self.plan.duration, TURN_DEG, None, *whole]
         return (ReportTable(headings, [*rows, last]),)
 
     def _segment_rows(self) -> list[list[Any]]:
-        cycle, factor = self.cycle, self.units[0][1]
-        position, rows = cycle.programme.start, []
-        for stretch, peaks in zip(cycle.programme.stretches, cycle.peaks, strict=True):
+        plan, factor = self.plan, self.units[0][1]
+        position, rows = plan.programme.start, []
+        for stretch, peaks in zip(plan.programme.stretches, plan.peaks, strict=True):
             position += stretch.displacement
-            size = factor * max(abs(position), abs(cycle.peak(0)))
-            times = [MILLI * peaks.start, MILLI * peaks.duration, TURN_DEG * peaks.duration / cycle.duration]
+            size = factor * max(abs(position), abs(plan.peak(0)))
+            times = [MILLI * peaks.start, MILLI * peaks.duration, TURN_DEG * peaks.duration / plan.duration]
             rows.append([peaks.name, *times, chop(factor * position, size, CYCLE_ROUNDING)])
         for nu in self.orders[1:]:
             for row, ends in zip(rows, self.extremes(nu), strict=True):
@@ -87,24 +87,24 @@ class CycleReport:
 
         With a drive force (or torque) and power, with a motor its speed too.
         """
-        return motion_table(self.cycle, self.cycle, (0.0, TURN_DEG), count, self._of_drive)
+        return motion_table(self.plan, self.plan, (0.0, TURN_DEG), count, self._of_drive)
 
     def _of_drive(self, times: Array) -> dict[str, Array]:
-        cycle = self.cycle
-        if cycle.drive is None:
+        plan = self.plan
+        if plan.drive is None:
             return {}
         known = {
-            f"{force_name(cycle)}, {force_unit(cycle)}": np.asarray(cycle.force(times)),
-            "power, W": np.asarray(cycle.power(times)),
+            f"{force_name(plan)}, {force_unit(plan)}": np.asarray(plan.force(times)),
+            "power, W": np.asarray(plan.power(times)),
         }
-        if isinstance(cycle.drive, Drive):
-            known["motor speed, rpm"] = RPM * cycle.drive.ratio * np.asarray(cycle(times, 1))
+        if isinstance(plan.drive, Drive):
+            known["motor speed, rpm"] = RPM * plan.drive.ratio * np.asarray(plan(times, 1))
         return known
 
     @kept_property
     def segments(self) -> tuple[ReportSegment, ...]:
         """The segments with their times."""
-        return tuple(ReportSegment(each.name, each.start, each.start + each.duration) for each in self.cycle.peaks)
+        return tuple(ReportSegment(each.name, each.start, each.start + each.duration) for each in self.plan.peaks)
 
     @property
     def panels(self) -> tuple[Panel, ...]:
@@ -114,67 +114,67 @@ class CycleReport:
     @kept_property
     def driven(self) -> tuple[Panel, ...]:
         """The force (or torque) and the power of the drive; none without a drive."""
-        cycle = self.cycle
-        if cycle.drive is None:
+        plan = self.plan
+        if plan.drive is None:
             return ()
-        at = cycle.effort.peak_force_at
-        peak = float(cycle.force(at))
-        force = Panel(force_name(cycle), force_unit(cycle), (self._driven(cycle.force),), peaks=((at, peak),))
-        ends = -cycle.effort.braking_power, cycle.effort.motoring_power
-        return force, Panel("power", "W", (self._driven(cycle.power),), ends=ends)
+        at = plan.effort.peak_force_at
+        peak = float(plan.force(at))
+        force = Panel(force_name(plan), force_unit(plan), (self._driven(plan.force),), peaks=((at, peak),))
+        ends = -plan.effort.braking_power, plan.effort.motoring_power
+        return force, Panel("power", "W", (self._driven(plan.power),), ends=ends)
 
     @property
     def of_input(self) -> tuple[Panel, ...]:
         """Force (or torque) and power of the drive, the speed of its motor or its input, and the input's position."""
         speed, unit = "velocity of the input", self.unit(1)
-        if isinstance(self.cycle.drive, Drive):
-            speed, unit = "speed of the motor", ("rpm", RPM * self.cycle.drive.ratio)
+        if isinstance(self.plan.drive, Drive):
+            speed, unit = "speed of the motor", ("rpm", RPM * self.plan.drive.ratio)
         motion = {speed: self.panel(1, unit), "position of the input": self.panel(0)}
         return (*self.driven, *(replace(each, name=name, limits=(), peaks=()) for name, each in motion.items()))
 
     def over_speed(self, count: int) -> tuple[Array, Array]:
         """Speeds of the motor, rad/s, and torques, N m, at points in each piece and at its breaks."""
-        speeds, ratio = samples(self.cycle.pieces, 1, count)[1], self.cycle.geared_motor.ratio
-        return ratio * speeds, self._samples_of_drive(self.cycle.force, count)[1]
+        speeds, ratio = samples(self.plan.pieces, 1, count)[1], self.plan.geared_motor.ratio
+        return ratio * speeds, self._samples_of_drive(self.plan.force, count)[1]
 
     def least_efforts(self) -> list[LeastEffort]:
         """Of each move from rest to rest on a mechanism what it takes of the drive, and what no law takes less.
 
         Empty of a process, which acts on the whole cycle: no move has a limit of its own.
         """
-        cycle, efforts = self.cycle, []
-        if is_process(cycle.load) or not isinstance(cycle.drive, Mechanism | Drive):
+        plan, efforts = self.plan, []
+        if is_process(plan.load) or not isinstance(plan.drive, Mechanism | Drive):
             return []
-        moves = zip(self.segments, self._inside(), cycle.efforts, cycle.programme.stretches, strict=True)
+        moves = zip(self.segments, self._inside(), plan.efforts, plan.programme.stretches, strict=True)
         for segment, piece, effort, stretch in moves:
             ends = np.abs(piece.values(np.array(segment[1:]), 1)).max()
-            if stretch.displacement and ends <= CYCLE_ROUNDING * cycle.peak(1):
-                move = float(cycle(segment.start)), stretch.displacement, segment.stop - segment.start
-                peak, rms = (_infimum(cycle.drive, name, move) for name in ("peak torque", "rms torque"))
+            if stretch.displacement and ends <= CYCLE_ROUNDING * plan.peak(1):
+                move = float(plan(segment.start)), stretch.displacement, segment.stop - segment.start
+                peak, rms = (_infimum(plan.drive, name, move) for name in ("peak torque", "rms torque"))
                 efforts.append(LeastEffort(segment, (effort.peak_force, peak), (effort.rms_force, rms)))
         return efforts
 
     @property
     def duration(self) -> float:
         """The duration of the cycle, s."""
-        return self.cycle.duration
+        return self.plan.duration
 
     @property
     def demands(self) -> list[Row]:
         """The peaks of the motion, and what it takes of its drive."""
-        return [*peak_rows(self.cycle), *drive_rows(self.cycle)]
+        return [*peak_rows(self.plan), *drive_rows(self.plan)]
 
     @property
     def limits_taken(self) -> tuple[LimitTaken, ...]:
         """The use of each limit of the cycle, in SI units."""
-        return self.cycle.limits_taken
+        return self.plan.limits_taken
 
     def shares(self, times: Array) -> dict[str, Array]:
         """The share of the limits of derivatives in each segment that is taken at each time."""
         taken: dict[str, Array] = {}
         for nu in self.orders[1:]:
-            share, values = np.zeros(len(times)), np.asarray(self.cycle(times, nu))
-            for (_, start, stop), limits in zip(self.segments, self.cycle.limits_of_segments, strict=True):
+            share, values = np.zeros(len(times)), np.asarray(self.plan(times, nu))
+            for (_, start, stop), limits in zip(self.segments, self.plan.limits_of_segments, strict=True):
                 low, high = limits.get(nu, (-inf, inf))
                 inside = (times >= start) & (times <= stop)
                 uses = [values / side for side in (low, high) if side]
@@ -186,75 +186,75 @@ class CycleReport:
     @property
     def orders(self) -> range:
         """The orders of the derivatives that are shown: up to the jerk, or to the one of highest order with a limit."""
-        limited = (nu + 1 for limits in self.cycle.limits_of_segments for nu in limits)
+        limited = (nu + 1 for limits in self.plan.limits_of_segments for nu in limits)
         return range(max(len(QUANTITIES), *limited, 0))
 
     def unit(self, nu: int) -> tuple[str, float]:
         """The unit of a derivative, and how many of it are one of SI."""
-        return display_unit(self.cycle.axis, nu)
+        return display_unit(self.plan.axis, nu)
 
     def extremes(self, nu: int) -> list[tuple[Place, Place]]:
         """The least and the greatest value of a derivative in each segment, with their times."""
         if nu < len(QUANTITIES):
-            return [peaks.extremes[nu] for peaks in self.cycle.peaks]
+            return [peaks.extremes[nu] for peaks in self.plan.peaks]
         return [piece.extremes(nu, *times) for piece, (_, *times) in zip(self._inside(), self.segments, strict=True)]
 
     def _inside(self) -> list[Piece]:
         """The piece in which each segment is."""
-        pieces = self.cycle.pieces[::-1]
+        pieces = self.plan.pieces[::-1]
         return [next(piece for piece in pieces if piece.start <= start) for _, start, _ in self.segments]
 
     def panel(self, nu: int, unit: tuple[str, float] | None = None) -> Panel:
         """A derivative of the motion, through its extremes, with the limits of the segments."""
         limits = [
             PanelLimit(segment.start, segment.stop, *limited[nu])
-            for segment, limited in zip(self.segments, self.cycle.limits_of_segments, strict=True)
+            for segment, limited in zip(self.segments, self.plan.limits_of_segments, strict=True)
             if nu in limited
         ]
         extremes = [place for ends in self.extremes(nu) for place in ends]
-        return motion_panel(self.cycle.pieces, nu, unit or self.unit(nu), extremes, limits)
+        return motion_panel(self.plan.pieces, nu, unit or self.unit(nu), extremes, limits)
 
     def _driven(self, function: Callable[[Array], Array]) -> Series:
         """Force or power through the peak of the force, and its kinks."""
-        cycle = self.cycle
+        plan = self.plan
         times, values = self._samples_of_drive(function, _EACH)
-        marks = np.array([cycle.effort.peak_force_at])
+        marks = np.array([plan.effort.peak_force_at])
         times, (values,) = refined(times, [values], [lambda inside: np.asarray(function(inside))], marks)
         return Series(times, values)
 
     def _samples_of_drive(self, function: Callable[[Array], Array], count: int) -> tuple[Array, Array]:
         """Times and values of the drive's force or power, in the same form as for a derivative."""
-        pieces = self.cycle.pieces
+        pieces = self.plan.pieces
         times = [times_in(piece, count) for piece in pieces]
         # the end of a piece has its values, not those of the next
-        ends = [piece.stop - INSIDE_PIECE * self.cycle.duration for piece in pieces]
+        ends = [piece.stop - INSIDE_PIECE * self.plan.duration for piece in pieces]
         values = [function(np.minimum(inside, end)) for inside, end in zip(times, ends, strict=True)]
         return np.concatenate(times), np.concatenate(values)
 
     @kept_property
     def data(self) -> dict[str, Any]:
         """The cycle for programs, in SI units."""
-        cycle = self.cycle
-        drive: dict[str, Any] = {} if cycle.drive is None else {"effort": cycle.effort.to_dict()}
-        if isinstance(cycle.drive, Drive):
-            drive["motor"] = cycle.sheet.to_dict()
-        if cycle.load is not None and not is_process(cycle.load):
-            drive["load"] = {name: cycle.load_motion.peak(name).value for name in cycle.load_motion.machine.outputs}
+        plan = self.plan
+        drive: dict[str, Any] = {} if plan.drive is None else {"effort": plan.effort.to_dict()}
+        if isinstance(plan.drive, Drive):
+            drive["motor"] = plan.sheet.to_dict()
+        if plan.load is not None and not is_process(plan.load):
+            drive["load"] = {name: plan.load_motion.peak(name).value for name in plan.load_motion.machine.outputs}
         return {
-            "period": cycle.duration,
-            "status": cycle.status.value,
-            "minimise": cycle.minimise,
-            "objective": cycle.objective if cycle.solutions else None,
-            "lower_bound": cycle.lower_bound if cycle.solutions else None,
-            "search_space": cycle.search_space,
-            "remarks": list(cycle.remarks),
-            "modified_sine_jerk": cycle.modified_sine_jerk,
+            "period": plan.duration,
+            "status": plan.status.value,
+            "minimise": plan.minimise,
+            "objective": plan.objective if plan.solutions else None,
+            "lower_bound": plan.lower_bound if plan.solutions else None,
+            "search_space": plan.search_space,
+            "remarks": list(plan.remarks),
+            "modified_sine_jerk": plan.specification.modified_sine_jerk,
             "segments": [
                 {"name": peak.name, "start": peak.start, "duration": peak.duration}
                 | {name: peak.peak(nu) for nu, name in enumerate(QUANTITIES) if nu}
-                for peak in cycle.peaks
+                for peak in plan.peaks
             ],
-            "joints": list(cycle.joints),
+            "joints": list(plan.joints),
             **drive,
         }
 
@@ -269,7 +269,7 @@ def _infimum(drive: Mechanism | Drive, name: Literal["peak torque", "rms torque"
 
 def motion_table(
     values: Callable[[Array, int], Any],
-    motion: Cycle | TransitionCam,
+    motion: Plan | TransitionCam,
     master: tuple[float, float],
     count: int,
     more: Callable[[Array], dict[str, Array]] = lambda _: {},

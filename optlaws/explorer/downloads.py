@@ -19,7 +19,7 @@ import optlaws
 from optlaws import MotionLaw, Solution
 from optlaws.cams.curves import cam_files
 from optlaws.cams.curves.cam_files import Cutting
-from optlaws.cycles.cycle import Cycle
+from optlaws.cycles.cycle import Answers
 from optlaws.cycles.report import CycleReport
 from optlaws.errors import InputError
 from optlaws.explorer.views import advice_view, axes_view, cam_view, cycle_view, fastest_view, old_cam_view
@@ -173,12 +173,12 @@ def _cycle_table(request: CycleRequest) -> File:
     return _motion_table(_stem(axis.name), about, cycle_view.cycle(request))
 
 
-def _motion_table(name: str, about: str, cycle: Cycle) -> File:
+def _motion_table(name: str, about: str, cycle: Answers) -> File:
     text = to_csv(*CycleReport(cycle).motion(_ROWS), about=f"{about}; SI units but for mm and deg")
     return f"{name}.csv", text
 
 
-def _proofs(*cycles: Cycle) -> File:
+def _proofs(*cycles: Answers) -> File:
     return _json("motion", solutions=[solution.to_dict() for cycle in cycles for solution in cycle.solutions])
 
 
@@ -270,7 +270,7 @@ def exported(question: FileRequest) -> dict[str, Any]:
     (_, result_of_view), request = _read(question)
     result = result_of_view(request)
     result = result.law if isinstance(result, Solution) else result
-    if not isinstance(result, Cycle | MotionLaw):
+    if not isinstance(result, Answers | MotionLaw):
         raise InputError(f"the view {question.view} has no motion for a controller")
     given: dict[str, Any] = {"points": question.points, "counts": question.counts}
     if isinstance(result, MotionLaw):

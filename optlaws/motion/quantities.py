@@ -6,7 +6,7 @@ import re
 from collections.abc import Mapping
 from functools import cache, lru_cache
 from math import isfinite, pi
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, Self
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError
@@ -127,6 +127,27 @@ _LONGEST = 60
 _SIGNS = str.maketrans({"−": "-", "μ": "µ", "⋅": "·", "²": "^2", "³": "^3", "⁴": "^4", "⁻": "^-", "¹": "1"})
 _POWERS = re.compile(r"\^-\^?(?=[1-4])")
 _SEPARATED = re.compile(r"\s*[+-]?[\d.]*\d[,_'’]\d[\d.,_'’]*")
+
+
+class Exact(str):
+    """A number of a unit as a quantity, which is known and not read again; as text it is any other one.
+
+    >>> time = Exact(0.1, "s")
+    >>> time, quantity(time, "time", "period"), time.number
+    ('0.1 s', 0.1, 0.1)
+    """
+
+    __slots__ = ("number", "unit")
+    number: float
+    unit: str
+
+    def __new__(cls, number: float, unit: str) -> Self:
+        text = super().__new__(cls, f"{number!r} {unit}")
+        text.number, text.unit = number, unit
+        return text
+
+    def __getnewargs__(self) -> tuple[float, str]:  # type: ignore[override] # a text has itself alone
+        return self.number, self.unit
 
 
 def quantity(value: Any, dimension: str, name: str) -> float:
@@ -373,6 +394,8 @@ def given_quantity(value: Any, dimensions: tuple[str, ...], name: str) -> Given:
 
 def _parts(value: Any, dimensions: tuple[str, ...], name: str) -> tuple[float, str]:
     """The number of a quantity, and the text of its unit, which is known."""
+    if isinstance(value, Exact):
+        return value.number, value.unit
     asks = _asks(dimensions, name)
     match = _NUMBER.fullmatch(_plain(value)) if isinstance(value, str) and len(value) <= _LONGEST else None
     if real(value) is not None or (match is not None and not match[3].strip()):

@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-from optlaws.cycles.cycle import Cycle
 from optlaws.cycles.report import CycleReport
 from optlaws.errors import InputError
 from optlaws.motion.quantities import QUANTITIES
@@ -19,34 +18,36 @@ if TYPE_CHECKING:
     from matplotlib.artist import Artist
     from matplotlib.axes import Axes
 
+    from optlaws.cycles.cycle import Answers, Plan
+
 
 _ABOVE: Any = {"loc": "lower left", "bbox_to_anchor": (0.0, 1.0), "ncols": 2, "frameon": False, "fontsize": 8.0}
 _MOTION = len(QUANTITIES)
 _WITH_DRIVE = 6
 
 
-def draw_cycle(cycle: Cycle, axes: Any = None, **style: Any) -> list[Artist]:
+def draw_cycle(plan: Plan, axes: Any = None, **style: Any) -> list[Artist]:
     """Draw position, velocity, acceleration and jerk into four axes, and return the artists.
 
     Into six axes force (or torque) and power as well. New axes unless given: six where the cycle has a drive.
     """
     if hasattr(axes, "plot"):
-        return _draw_together(cycle, axes, style)
+        return _draw_together(plan, axes, style)
     from optlaws.plots.law import four
 
-    report = CycleReport(cycle)
-    count = _MOTION if cycle.drive is None else _WITH_DRIVE
-    several = one_below_the_other(axes, count, 8.2 if cycle.drive is None else 11.6)
-    driven = len(several) == _WITH_DRIVE and cycle.drive is not None
+    report = CycleReport(plan)
+    count = _MOTION if plan.drive is None else _WITH_DRIVE
+    several = one_below_the_other(axes, count, 8.2 if plan.drive is None else 11.6)
+    driven = len(several) == _WITH_DRIVE and plan.drive is not None
     into = several if driven else four(several)
     for axis in into[_MOTION:]:
         axis.axhline(0.0, color=GREY, linewidth=0.7)
     return draw_panels(report.panels[: len(into)], report.segments, into, **style)
 
 
-def _draw_together(cycle: Cycle, axes: Axes, style: dict[str, Any]) -> list[Artist]:
+def _draw_together(plan: Plan, axes: Axes, style: dict[str, Any]) -> list[Artist]:
     """All four derivatives, each divided by its peak, with the nearby limits."""
-    report, artists = CycleReport(cycle), list["Artist"]()
+    report, artists = CycleReport(plan), list["Artist"]()
     motion = report.panels[:_MOTION]
     for panel, colour in zip(motion, (GREY, GREEN, BLUES[3], WARM), strict=True):
         artists += draw_share(panel, axes, panel.name, **{"color": colour} | style)
@@ -62,7 +63,7 @@ _HEIGHT = 1.6
 
 
 def draw_axes(
-    cycles: Mapping[str, Cycle],
+    cycles: Mapping[str, Answers],
     axes: Any = None,
     *,
     nu: int = 0,

@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    from optlaws.cycles.cycle import Cycle
+    from optlaws.cycles.cycle import Plan
     from optlaws.mechanisms.drives.effort import PieceEffort
     from optlaws.mechanisms.drives.motor import Motor
     from optlaws.mechanisms.drives.sheet import BestRatio
@@ -174,10 +174,10 @@ def draw_move(along: PieceEffort, axes: Axes | None = None, **style: Any) -> lis
     return draw_torque_over_speed(course, along.drive.motor, axes, **{"label": "move", **style})
 
 
-def draw_motor_of_cycle(cycle: Cycle, axes: Axes | None = None, **style: Any) -> list[Artist]:
+def draw_motor_of_cycle(plan: Plan, axes: Axes | None = None, **style: Any) -> list[Artist]:
     """Draw torque over speed at the motor during a cycle, within the motor's curves."""
-    course = CycleReport(cycle).over_speed(_SAMPLES)
-    return draw_torque_over_speed(course, cycle.geared_motor.motor, axes, **{"label": "cycle", **style})
+    course = CycleReport(plan).over_speed(_SAMPLES)
+    return draw_torque_over_speed(course, plan.geared_motor.motor, axes, **{"label": "cycle", **style})
 
 
 def draw_torque_over_speed(

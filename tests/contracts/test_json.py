@@ -158,6 +158,7 @@ def values(jumping: Solution) -> dict[str, Any]:
             drive=optlaws.Drive(optlaws.rack("20 mm", "5 kg"), optlaws.Motor(0.0)),
         ).sheet,
         "Cycle": slide,
+        "Plan": replace(slide, segments=[optlaws.Rise("35 mm"), optlaws.Return(law="cycloidal")]).solve(),
         "Cycle with a mechanism": crank,
         "Axes": optlaws.Axes({"slide": slide}),
         "Axes with a mechanism and a motor": optlaws.Axes(

@@ -114,7 +114,7 @@ def test_an_energy_of_a_cycle_is_kept() -> None:
         ({"drive": TABLE, "minimise": "energy"}, InputError, "give a limit of the acceleration"),
         ({"drive": TABLE, "minimise": "heat"}, InputError, "motor constant"),
         ({"drive": Drive(TABLE, Motor(3e-4)), "minimise": "heat"}, InputError, "motor constant"),
-        ({"minimise": "energy", "limits": C}, InputError, "no drive: give one"),
+        ({"minimise": "energy", "limits": C}, InputError, "of a drive: give one"),
         ({"drive": TABLE, "limits": {"energy": "3 J", "rms torque": "1 N m"}}, InputError, "give one of them"),
         (
             {"drive": {"inertia": "0.8 kg m^2", "regeneration": 1.5}},

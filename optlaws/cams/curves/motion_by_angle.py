@@ -8,7 +8,7 @@ from typing import Any, Literal, Self
 
 import numpy as np
 
-from optlaws.cycles.cycle import Cycle
+from optlaws.cycles.cycle import Cycle, Plan
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.files.reading import check_names
@@ -63,7 +63,7 @@ class CamMotion:
         return f"CamMotion({some} over {np.degrees(last - first):.6g} deg, axis={self.axis!r})"
 
     @classmethod
-    def of_cycle(cls, cycle: Cycle) -> Self:
+    def of_cycle(cls, cycle: Cycle | Plan) -> Self:
         """The motion of a whole cycle, which is one turn of the cam.
 
         Raises
@@ -236,7 +236,7 @@ class CamMotion:
 
 def as_motion(given: Any, axis: str) -> CamMotion:
     """A cycle or a motion by angle as a `CamMotion`, which must be a length or an angle as the follower requires."""
-    if isinstance(given, Cycle):
+    if isinstance(given, Cycle | Plan):
         motion = CamMotion.of_cycle(given)
     elif isinstance(given, CamMotion):
         motion = given

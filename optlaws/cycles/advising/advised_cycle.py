@@ -10,7 +10,7 @@ from typing import Any
 
 from optlaws.cycles.advising.advised_law import AdvisedLaw, LawMeasure, ProvenLeast
 from optlaws.cycles.advising.further_bounds import least_near, with_most
-from optlaws.cycles.cycle import Cycle
+from optlaws.cycles.cycle import Cycle, Plan
 from optlaws.cycles.limit_rows import limits_taken
 from optlaws.cycles.optimisation.motion_limits import (
     DECELERATION,
@@ -150,7 +150,7 @@ class AdvisedCycle:
         for other, value in most.items():
             if other != RESIDUAL:
                 limits |= self._tighter(limits, other, value)
-        cycle = replace(self.cycle, segments=self._segments(_optimal), minimise=of_cycle, limits=limits)
+        cycle = replace(self.cycle, segments=self._segments(_optimal), minimise=of_cycle, limits=limits).solve()
         if self.follower is not None:
             residual = min(self.most, most.get(RESIDUAL, inf))
             if minimise == RESIDUAL or self._residual(cycle) > residual:
@@ -168,8 +168,9 @@ class AdvisedCycle:
         if self.follower is None and kind_of(self.minimise)[0].order and self.minimise in LIMITS:
             # what is near is a limit of the cycle, so that the law is one of a cycle too
             most = self._tighter(best.motion.limits, self.minimise, (1.0 + share) * best.values[self.minimise])
-            cycle = replace(best.motion, minimise=minimise, limits={**best.motion.limits, **most})
-            return self._optimal(name, minimise, cycle)
+            limits = {**best.motion.limits, **most}
+            cycle = replace(best.motion.specification, minimise=minimise, limits=limits)
+            return self._optimal(name, minimise, cycle.solve())
         solutions = [
             synthesize(least_near(solution, self._constant_of(minimise, piece), share))
             if minimise != RESIDUAL or _rests(piece)
@@ -189,26 +190,24 @@ class AdvisedCycle:
     def _segments(self, changed: Any) -> list[CycleSegment]:
         return [changed(each) if i in self._compared else each for i, each in enumerate(self.cycle.segments)]
 
-    def _known(self, segments: Sequence[CycleSegment]) -> Cycle:
+    def _known(self, segments: Sequence[CycleSegment]) -> Plan:
         """A cycle of known laws, without limits and without an objective of the load."""
         minimise = "acceleration" if kind_of(self.cycle.minimise)[0] is Kind.LOAD else self.cycle.minimise
-        cycle = replace(self.cycle, segments=segments, minimise=minimise, limits={}).unchecked()
-        _ = cycle.peaks  # what does not fit is refused here
-        return cycle
+        return replace(self.cycle, segments=segments, minimise=minimise, limits={}).unchecked()
 
     @kept_property
-    def _standing(self) -> Cycle:
+    def _standing(self) -> Plan:
         return self.cycle.unchecked() if self.usual is None else self._known(self.cycle.segments)
 
-    def _advised(self, name: str, kind: Any, cycle: Cycle, proof: ProvenLeast | None = None) -> AdvisedLaw:
+    def _advised(self, name: str, kind: Any, cycle: Plan, proof: ProvenLeast | None = None) -> AdvisedLaw:
         values = {measure.name: self._value(cycle, measure.name) for measure in self.measures}
         limits = list(limits_taken(cycle, self.cycle))
         if self.most < inf:
             text = f"{self.most:.6g} {_ASCII[unit_of(cycle.axis, 2)]}"
             limits.append(LimitTaken(RESIDUAL, "", values[RESIDUAL], self.most, text))
-        return AdvisedLaw(name, kind, cycle, values, tuple(limits), cycle.solutions if proof else (), proof)
+        return AdvisedLaw(name, kind, cycle, values, tuple(limits), tuple(cycle.solutions) if proof else (), proof)
 
-    def _value(self, cycle: Cycle, name: str) -> float:
+    def _value(self, cycle: Plan, name: str) -> float:
         if name == RESIDUAL:
             return self._residual(cycle)
         if name.startswith(LOAD) and cycle.load is not None:
@@ -217,7 +216,7 @@ class AdvisedCycle:
             return inf  # the peaks of segments are those inside
         return cycle.value(name)
 
-    def _residual(self, cycle: Cycle) -> float:
+    def _residual(self, cycle: Plan) -> float:
         """The greatest residual acceleration that a move from rest to rest leaves, each by itself."""
         moves = [piece for piece in cycle.pieces if _rests(piece)]
         if not moves:
@@ -234,7 +233,7 @@ class AdvisedCycle:
     def _constant_of(self, minimise: str, piece: Piece) -> Functional:
         return self._constant(piece) if minimise == RESIDUAL else FUNCTIONALS[CONSTANT_OF[minimise]]
 
-    def _calmer(self, cycle: Cycle, minimise: str, residual: float) -> list[Solution]:
+    def _calmer(self, cycle: Plan, minimise: str, residual: float) -> list[Solution]:
         """Solutions whose moves from rest to rest leave no more vibrating than is allowed, or the least."""
         calmer = []
         for piece, solution in _solved(cycle):
@@ -248,10 +247,10 @@ class AdvisedCycle:
             calmer.append(solution if problem == solution.problem else synthesize(problem))
         return calmer
 
-    def _optimal(self, name: str, minimise: str, cycle: Cycle) -> AdvisedLaw:
+    def _optimal(self, name: str, minimise: str, cycle: Plan) -> AdvisedLaw:
         return self._advised(name, "optimal", cycle, self._proof(cycle, minimise))
 
-    def _proof(self, cycle: Cycle, minimise: str) -> ProvenLeast:
+    def _proof(self, cycle: Plan, minimise: str) -> ProvenLeast:
         """The proof that belongs to the objective of its solutions."""
         space, solutions = cycle.search_space or "", cycle.solutions
         if minimise == cycle.minimise:
@@ -318,13 +317,13 @@ def _is_at_rest(law: MotionLaw) -> bool:
     return max(abs(float(law.b(end))) for end in (0.0, 1.0)) <= JUMP * law.peak(1).value
 
 
-def _solved(cycle: Cycle) -> list[tuple[Piece, Solution]]:
+def _solved(cycle: Plan) -> list[tuple[Piece, Solution]]:
     """The solutions with their pieces."""
     pieces = {id(piece.law): piece for piece in cycle.pieces}
     return [(pieces[id(solution.law)], solution) for solution in cycle.solutions]
 
 
-def _of_any_degree(cycle: Cycle) -> float | None:
+def _of_any_degree(cycle: Plan) -> float | None:
     """The least value for laws of any degree, where it is known of a peak of the motion."""
     kind, mean = kind_of(cycle.minimise)
     nu = kind.order

@@ -15,7 +15,7 @@ from optlaws.synthesis.solution import Solution
 from optlaws.synthesis.status import Status
 
 if TYPE_CHECKING:
-    from optlaws.cycles.cycle import Cycle
+    from optlaws.cycles.cycle import Plan
 
 #: a law of the catalogue, the laws that a cycle has, or one that was looked for
 LawKind = Literal["standard", "given", "optimal"]
@@ -74,7 +74,7 @@ class AdvisedLaw:
     kind
         "standard", "given" or "optimal".
     motion
-        The cycle with this law in its moves.
+        The plan with this law in its moves; its `specification` is the cycle.
     values
         What it takes of every measure by its name, recomputed from the law; in SI units.
     limits
@@ -95,7 +95,7 @@ class AdvisedLaw:
 
     name: str
     kind: LawKind
-    motion: Cycle = field(repr=False)
+    motion: Plan = field(repr=False)
     values: Mapping[str, float]
     limits: tuple[LimitTaken, ...] = field(default=(), repr=False)
     solutions: tuple[Solution, ...] = field(default=(), repr=False)

@@ -126,7 +126,7 @@ def planned(name: str, cycle: Cycle, way: Way, times: Sequence[float] | None) ->
         If a law that is given keeps a limit in no time.
     """
     with located(f"axis {name}"):
-        objective = cycle._cycle_objective  # noqa: SLF001 - the cycle's own room
+        objective = cycle.specification.in_si
         if way == "gentlest":
             objective = replace(objective, minimise="acceleration")
         if way == "fastest" and (objective.shares or objective.loaded):
@@ -149,7 +149,7 @@ def planned(name: str, cycle: Cycle, way: Way, times: Sequence[float] | None) ->
                 raise _refused(stretch)
             if way == "gentlest":
                 # limits bind the laws in the times that are sought
-                share = law.peak(2).value * abs(stretch.displacement) / cycle.unchecked().peak(2)
+                share = law.peak(2).value * abs(stretch.displacement) / cycle.specification.unchecked().peak(2)
                 segment = replace(segment, effort=sqrt(share))
             segments.append(segment)
             position = stop

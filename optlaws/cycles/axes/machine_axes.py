@@ -7,10 +7,10 @@ from dataclasses import KW_ONLY, replace
 from typing import Any, Literal, TypeAlias, Unpack
 
 from optlaws.cycles.axes.interlock import INTERLOCKS, Interlock, LeastClearance
-from optlaws.cycles.cycle import Cycle
-from optlaws.cycles.interchange import problem_file
+from optlaws.cycles.cycle import Cycle, Plan
 from optlaws.cycles.specification.programme import is_optimal, period_of
 from optlaws.cycles.specification.segments import CycleSegment, Dwell
+from optlaws.cycles.specified import problem_file
 from optlaws.echo import shortened
 from optlaws.entries.declared import Declared, declared, entry, same
 from optlaws.entries.value_types import Choice, Listed, Number, ReadBy, Text
@@ -20,6 +20,7 @@ from optlaws.files.reading import check_names
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.laws.exporting import AxesExportOptions
+from optlaws.motion.quantities import Exact
 from optlaws.numbers import Quantity
 from optlaws.shown.report import Report
 from optlaws.shown.summary import Row, Summary
@@ -43,7 +44,7 @@ def _named(given: Any) -> dict[str, Any]:
 
 
 def _plain_cycles(cycles: Mapping[str, Cycle]) -> dict[str, Any]:
-    return {name: cycle.to_dict() for name, cycle in cycles.items()}
+    return {name: cycle.specification.to_dict() for name, cycle in cycles.items()}
 
 
 @declared
@@ -70,10 +71,11 @@ class Axes(Declared, Mapping[str, Cycle], title="stored axes"):
 
     __eq__, __hash__ = Mapping.__eq__, Mapping.__hash__
 
-    axes: Mapping[str, Sequence[CycleSegment] | Mapping[str, Any] | Cycle] = entry(
+    axes: Mapping[str, Sequence[CycleSegment] | Mapping[str, Any] | Cycle | Plan] = entry(
         ReadBy(_named, "a table by the names of the axes", _plain_cycles, {"type": "object", "minProperties": 1}),
         'What each axis does: a list of segments, a table of what `Cycle` takes (`{"segments": [...], "limits": '
-        "{...}}`), or a `Cycle` of the same duration; where all are cycles neither speed nor period is needed.",
+        "{...}}`), or a `Cycle` of the same duration or the `Plan` of one; where all are such neither speed nor period "
+        "is needed.",
     )
     _: KW_ONLY
     speed: Quantity | None = same(Cycle, "speed", default=None)
@@ -214,7 +216,8 @@ class Axes(Declared, Mapping[str, Cycle], title="stored axes"):
         period = goal == "period"
         best = overlapping.shortest(self._program) if period else overlapping.gentlest(self, self.rules, longer)
         cycles = {
-            name: _retimed(cycle, best.durations[name], best.laws[name], best.period) for name, cycle in self.items()
+            name: _retimed(cycle.specification, best.durations[name], best.laws[name], best.period)
+            for name, cycle in self.items()
         }
         value = best.period if period else 1.0 / best.pace**2
         axes = Axes(cycles, interlocks=self.rules)
@@ -418,16 +421,20 @@ class Axes(Declared, Mapping[str, Cycle], title="stored axes"):
     @kept_property
     def _cycles(self) -> dict[str, Cycle]:
         clock = self._clock()
-        cycles: dict[str, Cycle] = {}
+        cycles: dict[str, Any] = {}  # a plan has what is looked at of a cycle
         for name, given in self.axes.items():
             with located(f"axis {name}"):
-                cycles[name] = given if isinstance(given, Cycle) else Cycle(**_entries(given), **clock)
+                cycles[name] = given if isinstance(given, Cycle | Plan) else Cycle(**_entries(given), **clock)
         _check_durations(cycles, period_of(**clock) if clock else next(iter(cycles.values())).duration)
         return cycles
 
     def _clock(self) -> dict[str, Any]:
         """The speed or period for every cycle; nothing where each has its own."""
-        if self.speed is None and self.period is None and all(isinstance(axis, Cycle) for axis in self.axes.values()):
+        if (
+            self.speed is None
+            and self.period is None
+            and all(isinstance(axis, Cycle | Plan) for axis in self.axes.values())
+        ):
             return {}
         period_of(self.speed, self.period)
         return {"speed": self.speed, "period": self.period}
@@ -554,7 +561,7 @@ class Overlap(Declared, title="axes that overlap"):
         if tuple(self.axes) != tuple(self.given) or self.axes.rules != self.given.rules:
             return "its axes and interlocks are not those of the given machine"
         for name, cycle in self.axes.items():
-            if _in_times_of(self.given[name], cycle).to_dict() != cycle.to_dict():
+            if _in_times_of(self.given[name].specification, cycle).to_dict() != cycle.to_dict():
                 return f"axis {name} makes other moves than the given one"
         try:
             known = self._reached()
@@ -571,7 +578,7 @@ class Overlap(Declared, title="axes that overlap"):
         now = {name: cycle.peak(2) for name, cycle in self.axes.items()}
         if self.goal == "period":
             return self.axes.duration
-        return max(now[name] / self.given[name].unchecked().peak(2) for name in self.of)
+        return max(now[name] / self.given[name].specification.unchecked().peak(2) for name in self.of)
 
     def bound_by(self, share: float = 1.0) -> tuple[str, ...]:
         """What leaves no room at the instants of the axes, to a share of what counts as none."""
@@ -602,9 +609,9 @@ def _retimed(cycle: Cycle, durations: Sequence[float], laws: Sequence[MotionLaw 
         if isinstance(segment, Dwell) and duration <= CLOSURE * period:
             continue
         sought: dict[str, Any] = {"law": law} if law is not None and is_optimal(segment) else {}
-        segments.append(replace(segment, duration=f"{duration!r} s", **sought))  # type: ignore[type-var]
+        segments.append(replace(segment, duration=Exact(duration, "s"), **sought))  # type: ignore[type-var]
     minimise = "acceleration" if cycle.load is not None else cycle.minimise
-    return replace(cycle, segments=segments, speed=None, period=f"{period!r} s", minimise=minimise)
+    return replace(cycle, segments=segments, speed=None, period=Exact(period, "s"), minimise=minimise)
 
 
 def _in_times_of(cycle: Cycle, other: Cycle) -> Cycle:

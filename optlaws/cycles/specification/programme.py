@@ -60,6 +60,11 @@ class Programme:
     stretches: tuple[TimedSegment, ...]
     start: float
 
+    @property
+    def advance(self) -> float:
+        """How far a cycle is beyond the one before."""
+        return sum(stretch.displacement for stretch in self.stretches)
+
 
 def period_of(speed: Any, period: Any) -> float:
     """Duration of a cycle in seconds, from the master's speed or given."""

@@ -59,7 +59,7 @@ def _question(request: CycleRequest) -> bytes:
 def _standard(question: bytes) -> Candidates:
     request = msgspec.json.decode(question, type=CycleRequest)
     cycle = cycle_view.stored(*cycle_view.read(request))
-    return standard_candidates(cycle, minimise=request.minimise or None, follower=request.follower)
+    return standard_candidates(cycle.specification, minimise=request.minimise or None, follower=request.follower)
 
 
 @lru_cache(maxsize=16)

@@ -139,7 +139,7 @@ def _trust(axes: Axes, report: AxesReport) -> dict[str, Any]:
     limits = [
         sentence("{}: {}", name, broken["advice"])
         for name, cycle in axes.items()
-        if (broken := cycle_view.broken_limits(cycle))
+        if (broken := cycle_view.broken_limits(cycle.solve()))
     ]
     if limits:
         status, word = "refused", "beyond a limit" if worst == "clear" else f"{word}, beyond a limit"

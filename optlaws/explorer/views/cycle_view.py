@@ -11,7 +11,7 @@ from typing import Annotated, Any, TypeAlias
 
 import msgspec
 
-from optlaws import Cycle
+from optlaws import Cycle, Plan
 from optlaws.cycles.axes.interlock import Interlock
 from optlaws.cycles.optimisation.motion_limits import LIMITS
 from optlaws.cycles.optimisation.motor_limits import MOTOR
@@ -119,18 +119,18 @@ def read(request: CycleRequest) -> tuple[CycleProblemFile, AxisEntries]:
     return spec, spec.axis[min(request.axis, len(spec.axis) - 1)]
 
 
-def cycle(request: CycleRequest) -> Cycle:
+def cycle(request: CycleRequest) -> Plan:
     """The cycle of the axis that is shown."""
     return stored(*read(request))
 
 
-def stored(spec: CycleProblemFile, axis: AxisEntries) -> Cycle:
+def stored(spec: CycleProblemFile, axis: AxisEntries) -> Plan:
     """The cycle of an axis, which is computed once."""
     return _solved(axis, spec.speed, spec.period)
 
 
 @lru_cache(maxsize=128)
-def _solved(axis: AxisEntries, speed: Quantity | None, period: Quantity | None) -> Cycle:
+def _solved(axis: AxisEntries, speed: Quantity | None, period: Quantity | None) -> Plan:
     motor, drive = (axis.drive or {}).get("motor"), axis.drive or {}
     if isinstance(motor, Mapping) and LIMITING & motor.keys() and not axis.limits.get("motor"):
         # the laws stay while a limit of the motor is dragged
@@ -139,16 +139,14 @@ def _solved(axis: AxisEntries, speed: Quantity | None, period: Quantity | None) 
         with located("drive"), located("motor"):
             limited = Motor.from_dict(motor)
         return _solved(same, speed, period).with_motor(limited)
-    cycle_of_axis = cycle_of(axis, speed, period).unchecked()
-    _ = cycle_of_axis.peaks  # what cannot be found is told here
-    return cycle_of_axis
+    return cycle_of(axis, speed, period).unchecked()
 
 
 def _segments(report: CycleReport) -> Iterator[dict[str, Any]]:
     """The names and the ends of segments in degrees, and which of their derivatives are beyond a limit."""
     extremes = [report.extremes(nu) for nu in report.orders]
-    scale = TURN_DEG / report.cycle.duration
-    for i, (segment, limits) in enumerate(zip(report.segments, report.cycle.limits_of_segments, strict=True)):
+    scale = TURN_DEG / report.plan.duration
+    for i, (segment, limits) in enumerate(zip(report.segments, report.plan.limits_of_segments, strict=True)):
         beyond = [_beyond(extremes[nu][i], limits.get(nu, (-inf, inf))) for nu in report.orders[1:]]
         ends = [round(scale * segment.start, 4), round(scale * segment.stop, 4)]
         yield {"name": segment.name, "at": ends, "peaks": [{"beyond": each} for each in beyond]}
@@ -160,7 +158,7 @@ def _beyond(extremes: tuple[tuple[float, float], tuple[float, float]], limits: t
     return least < limits[0] - rounding or most > limits[1] + rounding
 
 
-def trust(shown: Cycle) -> dict[str, Any] | None:
+def trust(shown: Plan) -> dict[str, Any] | None:
     """The status of the laws and what is proven of them, and which limits they do not keep; None of laws as given."""
     broken = broken_limits(shown)
     if not shown.solutions:
@@ -171,7 +169,7 @@ def trust(shown: Cycle) -> dict[str, Any] | None:
     return verdict(shown.status, gap, facts, optimal) | broken
 
 
-def broken_limits(shown: Cycle) -> dict[str, str]:
+def broken_limits(shown: Plan) -> dict[str, str]:
     """A verdict on the limits that the given laws exceed; nothing where all limits are satisfied."""
     broken = [str(taken) for taken in shown.limits_taken if not taken.is_kept]
     if isinstance(shown.drive, Drive) and not shown.limits.get(MOTOR):

@@ -12,7 +12,7 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from optlaws import Cycle, FastestCycle, FastestMove, Problem, Solution, Status, fastest
+from optlaws import FastestCycle, FastestMove, Plan, Problem, Solution, Status, fastest
 from optlaws.cycles.moves.report import MoveReport
 from optlaws.cycles.moves.time_front import TimeFront
 from optlaws.cycles.report import CycleReport
@@ -174,14 +174,14 @@ def _of_move(move: MoveEntries, entries: str) -> _Search:
 @lru_cache(maxsize=32)
 def _of_cycle(spec: CycleProblemFile, axis: AxisEntries) -> _Search:
     """The least period of a whole cycle."""
-    least = cycle_view.stored(spec, axis).fastest()
+    least = cycle_view.stored(spec, axis).specification.fastest()
 
-    def slower(time: float) -> Cycle:
+    def slower(time: float) -> Plan:
         return cycle_view.stored(replace(spec, speed=None, period=f"{time!r} s"), axis)
 
     def motion(time: float | None) -> _Motion:
-        cycle = least.cycle if time is None or time <= least.period * (1.0 + AGREEMENT) else slower(time)
-        trust = None if cycle is least.cycle else cycle_view.trust(cycle)
+        cycle = least.cycle.solve() if time is None or time <= least.period * (1.0 + AGREEMENT) else slower(time)
+        trust = None if cycle is least.cycle.solve() else cycle_view.trust(cycle)
         if trust is None:
             words = "No law of this order and degree lets the cycle run faster."
             trust = verdict(least.status, "", [], words, proof=bool(least.proofs))

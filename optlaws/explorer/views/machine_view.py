@@ -9,7 +9,7 @@ from typing import Any, cast
 import msgspec
 import numpy as np
 
-from optlaws import Cycle, Drive, Mechanism, Move, Status
+from optlaws import Cycle, Drive, Mechanism, Move, Plan, Status
 from optlaws.cams.at_shaft import CamAtShaft
 from optlaws.cycles.report import CycleReport
 from optlaws.cycles.specification.programme import is_optimal
@@ -59,7 +59,7 @@ def answer(request: CycleRequest) -> dict[str, Any]:
     }
     if isinstance(shown, OptlawsError):
         return known | {"refused": refusal(shown)}
-    cycles = {i: law for i, law in enumerate(laws) if isinstance(law, Cycle)}
+    cycles = {i: law for i, law in enumerate(laws) if isinstance(law, Plan)}
     inputs = {i: CycleReport(law).of_input for i, law in cycles.items()}
     panels = beside_each_other(inputs[place], list(inputs.items()))
     of = f"; torque and power at the {'motor' if isinstance(shown.drive, Drive) else 'input'}"
@@ -75,7 +75,7 @@ def answer(request: CycleRequest) -> dict[str, Any]:
     }
 
 
-def _optima(beside: Sequence[AxisEntries], laws: Sequence[Cycle | OptlawsError]) -> list[list[dict[str, Any]]] | None:
+def _optima(beside: Sequence[AxisEntries], laws: Sequence[Plan | OptlawsError]) -> list[list[dict[str, Any]]] | None:
     """The laws of optimised moves, with which another machine can be evaluated; None where it cannot."""
     optima = []
     for axis, law in zip(beside, laws, strict=True):
@@ -85,12 +85,12 @@ def _optima(beside: Sequence[AxisEntries], laws: Sequence[Cycle | OptlawsError])
     return optima if any(optima) else None
 
 
-def _moves_of(law: Cycle) -> list[int]:
+def _moves_of(law: Cycle | Plan) -> list[int]:
     """The places of the moves whose law is optimised, if each has a law of its own."""
     return [i for i, segment in enumerate(law.segments) if isinstance(segment, Move) and is_optimal(segment)]
 
 
-def _trust(shown: Cycle, others: Sequence[str], *, earlier: bool) -> dict[str, Any] | None:
+def _trust(shown: Plan, others: Sequence[str], *, earlier: bool) -> dict[str, Any] | None:
     """How far the law can be trusted; an earlier law is neither optimal nor proven, as those of `others`."""
     trust = cycle_view.trust(shown)
     if earlier:
@@ -113,7 +113,7 @@ def _read(request: CycleRequest) -> tuple[CycleProblemFile, list[AxisEntries], i
     return spec, beside, next(i for i, other in enumerate(beside) if other is axis)
 
 
-def _law(spec: CycleProblemFile, axis: AxisEntries, given: Sequence[dict[str, Any]] = ()) -> Cycle | OptlawsError:
+def _law(spec: CycleProblemFile, axis: AxisEntries, given: Sequence[dict[str, Any]] = ()) -> Plan | OptlawsError:
     """The cycle of an axis, by optimal laws or by those that are given for its optimised moves."""
     try:
         cycle = _evaluated(spec, axis, given) if given else cycle_view.stored(spec, axis)
@@ -123,7 +123,7 @@ def _law(spec: CycleProblemFile, axis: AxisEntries, given: Sequence[dict[str, An
     return cycle
 
 
-def _evaluated(spec: CycleProblemFile, axis: AxisEntries, given: Sequence[dict[str, Any]]) -> Cycle:
+def _evaluated(spec: CycleProblemFile, axis: AxisEntries, given: Sequence[dict[str, Any]]) -> Plan:
     cycle = cycle_of(axis, spec.speed, spec.period)
     segments, moves = list(cycle.segments), _moves_of(cycle)
     if len(given) != len(moves):
@@ -133,11 +133,11 @@ def _evaluated(spec: CycleProblemFile, axis: AxisEntries, given: Sequence[dict[s
     return replace(cycle, segments=segments).unchecked()
 
 
-def _rows(laws: Sequence[Cycle | OptlawsError]) -> list[dict[str, Any]]:
+def _rows(laws: Sequence[Plan | OptlawsError]) -> list[dict[str, Any]]:
     """The load of each law on the drive, in the words of the library's summary."""
     known: dict[str, list[Row | None]] = {}
     for i, law in enumerate(laws):
-        for row in drive_rows(law) if isinstance(law, Cycle) else ():
+        for row in drive_rows(law) if isinstance(law, Plan) else ():
             known.setdefault(row.name, [None] * len(laws))[i] = row
     return [
         {
@@ -150,7 +150,7 @@ def _rows(laws: Sequence[Cycle | OptlawsError]) -> list[dict[str, Any]]:
     ]
 
 
-def _over_speed(shown: Cycle, cycles: Mapping[int, Cycle]) -> dict[str, Any] | None:
+def _over_speed(shown: Plan, cycles: Mapping[int, Plan]) -> dict[str, Any] | None:
     """Torque over speed at the motor, in rpm and N m, with the motor's curves and limits; None without a motor."""
     if not isinstance(shown.drive, Drive):
         return None
@@ -186,7 +186,7 @@ def ratios(request: CycleRequest) -> dict[str, Any]:
         return {"ratios": [], "laws": [], "bound": [], "words": "no gear: give the machine a motor"}
     places = np.geomspace(request.low, request.high, _RATIOS).tolist()
     tried = [[_law(spec, replace(other, drive={**drive, "ratio": ratio})) for ratio in places] for other in beside]
-    laws = [[law if isinstance(law, Cycle) else None for law in course] for course in tried]
+    laws = [[law if isinstance(law, Plan) else None for law in course] for course in tried]
     cycles = [cycle for cycle in laws[place] if cycle is not None]
     searched = [cycle for cycle in cycles if cycle.solutions and cycle.minimise in _BOUNDED]
     words = "torque at the motor over the ratio of the gear, of laws as they are given"
@@ -207,7 +207,7 @@ def ratios(request: CycleRequest) -> dict[str, Any]:
     }
 
 
-def _of(course: Sequence[Cycle | None], attribute: str) -> list[float | None]:
+def _of(course: Sequence[Plan | None], attribute: str) -> list[float | None]:
     return [None if cycle is None else bounded(getattr(cycle.effort, attribute)) for cycle in course]
 
 
@@ -227,7 +227,7 @@ def limits(request: CycleRequest) -> dict[str, Any]:
 # --- the mechanism to scale ---
 
 
-def _pictures(cycle: Cycle, entries: Mapping[str, Any], used: tuple[float, float]) -> dict[str, Any]:
+def _pictures(cycle: Plan, entries: Mapping[str, Any], used: tuple[float, float]) -> dict[str, Any]:
     """The mechanism at equal steps of time over a cycle, in mm and deg, and its inertia and load over the input."""
     mechanism = cycle.drive.mechanism if isinstance(cycle.drive, Drive) else cycle.drive
     assert isinstance(mechanism, Mechanism)  # noqa: S101 - as the axis has one
