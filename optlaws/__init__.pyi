@@ -41,9 +41,8 @@ from .cams.springs_and_flywheels import (
     energy_fluctuation as energy_fluctuation,
     least_spring as least_spring,
 )
-from .cycles.advising.advice import Advice as Advice
-from .cycles.advising.advised_law import AdvisedLaw as AdvisedLaw
-from .cycles.advising.advised_motion import advise as advise
+from .cycles.advising.advice import Advice as Advice, advise as advise
+from .cycles.advising.candidates import AdvisedLaw as AdvisedLaw
 from .cycles.advising.recommendation import Recommendation as Recommendation
 from .cycles.axes.interlock import After as After, Clearance as Clearance
 from .cycles.axes.interlock import Forbidden as Forbidden, Synchronous as Synchronous

@@ -18,7 +18,7 @@ from .cams.least_sizes import (
     GreatestRoller as GreatestRoller,
     LeastPrimeCircle as LeastPrimeCircle,
 )
-from .cycles.advising.advised_law import LawKind as LawKind, LawMeasure as LawMeasure, ProvenLeast as ProvenLeast
+from .cycles.advising.candidates import LawKind as LawKind, LawMeasure as LawMeasure, ProvenLeast as ProvenLeast
 from .cycles.axes.enclosed_axis import Way as Way
 from .cycles.axes.interlock import Interlock as Interlock, LeastClearance as LeastClearance
 from .cycles.axes.machine_axes import AxesPicture as AxesPicture, Overlap as Overlap

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from math import isfinite
-from typing import Any, Self
+from typing import Any
 
 from optlaws.echo import shortened
 from optlaws.entries.declared import Declared, ValueOf, declared, entry
@@ -22,10 +22,8 @@ from optlaws.numbers import Quantity, bounded, positive
 from optlaws.tolerances import AGREEMENT
 
 #: what is more than so many times as great is far above
-FAR = 1.5
-CONSTANTS = ("B", "C", "D", "J", "rms_c")
+_FAR = 1.5
 _MACHINE = {1: "velocity, {}/s", 2: "acceleration, {}/s²", 3: "jerk, {}/s³"}
-_PEAKS = {"D": "power", "J": "jerk"}
 
 
 @declared
@@ -56,6 +54,9 @@ class Comparison(Declared, title="a comparison"):
     )
     damping: float = entry(Number(), "Its damping ratio.", default=0.0)
 
+    def _check(self) -> None:
+        _ = self.rows  # what is wrong is refused at once
+
     @kept_property
     def rows(self) -> list[dict[str, float | str]]:
         """A row for each law, by the names of the columns."""
@@ -64,12 +65,11 @@ class Comparison(Declared, title="a comparison"):
     @property
     def remarks(self) -> tuple[str, ...]:
         """The costs of laws of smaller C than the first, where they are more than half as much again."""
-        names = list(self.laws)
-        reference = self.laws[names[0]]
+        (first, reference), *others = self.laws.items()
         return tuple(
             f"{name}: {cost}"
-            for name in names[1:]
-            for cost in costs(self.laws[name], reference, names[0], frequency=self.frequency, damping=self.damping)
+            for name, law in others
+            for cost in costs(law, reference, first, frequency=self.frequency, damping=self.damping)
         )
 
     def to_dict(self) -> dict[str, Any]:
@@ -79,19 +79,6 @@ class Comparison(Declared, title="a comparison"):
             for row in self.rows
         ]
         return {"rows": rows, "remarks": list(self.remarks), **super().to_dict()}
-
-    @classmethod
-    def from_dict(cls, data: Mapping[str, Any]) -> Self:
-        """The comparison that `to_dict` described; rows and remarks are computed, not read.
-
-        Raises
-        ------
-        InputError
-            If an entry is missing or wrong.
-        """
-        comparison = super().from_dict(data)
-        comparison.rows  # noqa: B018 - what is wrong is refused at once
-        return comparison
 
     def to_pandas(self) -> Any:
         """The rows as a data frame with the laws' names as index; needs the extra `optlaws[studies]`."""
@@ -114,7 +101,7 @@ class Comparison(Declared, title="a comparison"):
 
     def _row(self, law: MotionLaw) -> dict[str, float]:
         constants = law.constants
-        row = {name: float(getattr(constants, name).value) for name in CONSTANTS[:-1]} | {"rms_c": constants.rms_c}
+        row = {name: float(getattr(constants, name).value) for name in "BCDJ"} | {"rms_c": constants.rms_c}
         if self.stroke is not None and self.duration is not None:
             row |= {
                 text.format(self.unit): factor(self.stroke, self.duration, nu) * law.peak(nu).value
@@ -170,14 +157,12 @@ def compare_laws(
             given = shortened(stroke)
             raise InputError(f"stroke must be above 0, got {given}: give how far the machine moves as '35 mm'")
         check_scale(height, unit_of(kind), "stroke", stroke)
-    if frequency is not None:
-        residual_vibration(frequency=frequency, damping=damping)
     named: dict[str, MotionLaw] = {}
-    for place, given_law in enumerate(laws, 1):
-        name, law = _named(given_law, place)
+    for place, law in enumerate(laws, 1):
+        name = law if isinstance(law, str) else getattr(law, "name", f"law {place}")
         if name in named:
             raise InputError(f"{name} is given twice")
-        named[name] = law
+        named[name] = read_law(law) if isinstance(law, str) else motion_law(law)
     return Comparison(named, height, seconds, unit_of(kind), frequency, damping)
 
 
@@ -193,24 +178,18 @@ def costs(
     if not law.constants.C.value < reference.constants.C.value:
         return []
     values = {
-        f"{letter} = ": (getattr(law.constants, letter).value, getattr(reference.constants, letter).value)
-        for letter in _PEAKS
+        "D = ": (law.constants.D.value, reference.constants.D.value),
+        "J = ": (law.constants.J.value, reference.constants.J.value),
     }
     if frequency is not None:
         of = residual_vibration(frequency=frequency, damping=damping)
         values["a residual acceleration of "] = of.value(law), of.value(reference)
-    return [_cost(what, value, other, name) for what, (value, other) in values.items() if value > FAR * other]
+    return [f"{what}{_cost(*each, name)}" for what, each in values.items() if each[0] > _FAR * each[1]]
 
 
-def _cost(what: str, value: float, other: float, name: str) -> str:
+def _cost(value: float, other: float, name: str) -> str:
     if not isfinite(value):
-        return f"{what}inf, without bound; that of {name} is {other:.4g}"
+        return f"inf, without bound; that of {name} is {other:.4g}"
     if other <= AGREEMENT * value:
-        return f"{what}{value:.4g}; {name} has none"
-    return f"{what}{value:.4g}, {value / other:.3g} times that of {name}"
-
-
-def _named(given: Any, place: int) -> tuple[str, MotionLaw]:
-    if isinstance(given, str):
-        return given, read_law(given)
-    return getattr(given, "name", f"law {place}"), motion_law(given)
+        return f"{value:.4g}; {name} has none"
+    return f"{value:.4g}, {value / other:.3g} times that of {name}"

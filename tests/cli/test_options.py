@@ -73,7 +73,7 @@ def test_a_function_says_what_its_options_are() -> None:
         ("optlaws.cycles.moves.timed_moves:fastest", fastest),
         ("optlaws.motion.motion:motion_of_law", motion_of_law),
         ("optlaws.cycles.law_comparison:compare_laws", compare_laws),
-        ("optlaws.cycles.advising.advised_motion:advise", advise),
+        ("optlaws.cycles.advising.advice:advise", advise),
         ("optlaws.laws.catalogue.reading:read_law", read_law),
         ("optlaws.cycles.old_tables.table:read_cycle_table", read_cycle_table),
         ("optlaws.synthesis.pareto:pareto_front", pareto_front),

@@ -28,7 +28,7 @@ _FOLLOWER: dict[str, Any] = {
     "Draw what is minimised over what decides, with the front, into this file, PNG or SVG; of one axis.",
     move=options("optlaws.motion.motion:motion_of_law", "stroke", "duration", group="A single move in place of a file"),
     wishes=options(
-        "optlaws.cycles.advising.advised_motion:advise",
+        "optlaws.cycles.advising.advice:advise",
         *("minimise", "degree", "points"),
         limits=LIMITS,
         laws={"name": "--law", "type": list[str], "default": None},

@@ -6,10 +6,9 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from math import isfinite
 
-from optlaws.cycles.advising.advised_law import AdvisedLaw
-from optlaws.cycles.advising.candidates import Candidates, exceeded
+from optlaws.cycles.advising.candidates import AdvisedLaw, Candidates, exceeded
 from optlaws.errors import InfeasibleProblem
-from optlaws.sentences import Amount, joined, sentence
+from optlaws.sentences import Amount, Sentence, joined, sentence
 from optlaws.synthesis.status import Status
 from optlaws.tolerances import AGREEMENT, EQUALLY_GOOD
 
@@ -91,28 +90,34 @@ class _Words:
     front: Sequence[AdvisedLaw]
 
     @property
-    def rule(self) -> str:
-        """The rule by which the law is chosen."""
-        minimise, second, usual = self.candidates.minimise, self.candidates.second, self.candidates.usual
-        no_worse = f"take no more {_listed(self.most, 'or')} than {usual.name}" if usual and self.most else ""
-        limited = any(law.limits for law in self.candidates.laws.values())
-        which = " and ".join(part for part in ("keep every limit" if limited else "", no_worse) if part)
-        of_which = f"of the laws that {which}, " if which else ""
-        good = f"those within 1 % of the least {minimise} are equally good"
-        return f"{of_which}{good}; of these the one of least {second}"
+    def no_more(self) -> str:
+        """What the usual law guards, as in "no more jerk than modified sine"; nothing where it guards nothing."""
+        usual = self.candidates.usual
+        return f"no more {_listed(self.most, 'or')} than {usual.name}" if usual is not None and self.most else ""
 
     @property
-    def gain(self) -> str:
+    def rule(self) -> str:
+        """The rule by which the law is chosen."""
+        limited = any(law.limits for law in self.candidates.laws.values())
+        parts = ("keep every limit" if limited else "", f"take {self.no_more}" if self.no_more else "")
+        which = " and ".join(part for part in parts if part)
+        of_which = f"of the laws that {which}, " if which else ""
+        good = f"those within 1 % of the least {self.candidates.minimise} are equally good"
+        return f"{of_which}{good}; of these the one of least {self.candidates.second}"
+
+    @property
+    def gain(self) -> Sentence:
         """The law to take, and its gain."""
         minimise, usual, law = self.candidates.minimise, self.candidates.usual, self.law
-        value = self._with_unit(minimise, law.values[minimise])
-        limits = ", and it keeps every limit" if law.limits else ""
-        full = [taken for taken in law.limits if taken.text and taken.share >= 1.0 - _TELLING]
-        if full:
-            taken_to_full = _listed([sentence("{} {}", taken.name, taken.text) for taken in full])
-            limits = sentence("{} ({} to the full)", limits, taken_to_full)
+        full = [
+            sentence("{} {}", taken.name, taken.text)
+            for taken in law.limits
+            if taken.text and taken.share >= 1.0 - _TELLING
+        ]
+        to_full = sentence(" ({} to the full)", _listed(full)) if full else ""
+        limits = sentence("{}{}", ", and it keeps every limit" if law.limits else "", to_full)
         name = f'"{law.name}"' if law.kind == "optimal" else law.name
-        start = sentence("Take {}: its {} is {}", name, minimise, value)
+        start = sentence("Take {}: its {} is {}", name, minimise, self._with_unit(minimise, law))
         if usual is None:
             return sentence("{}{}.", start, limits)
         if not usual.keeps_limits:
@@ -128,53 +133,41 @@ class _Words:
     @property
     def _beyond(self) -> str:
         """The gain and the cost of the least law, where nothing else is guarded."""
-        minimise, second, law = self.candidates.minimise, self.second, self.law
-        best = self.candidates.laws[f"least {minimise}"]
-        gain, times = 1.0 - best.values[minimise] / law.values[minimise], best.values[second] / law.values[second]
+        minimise, second = self.candidates.minimise, self.candidates.second
+        best, values = self.candidates.laws[f"least {minimise}"].values, self.law.values
+        gain, times = 1.0 - best[minimise] / values[minimise], best[second] / values[second]
         return f"; {_percent(gain)} less takes {times:.3g} times the {second}" if gain > EQUALLY_GOOD else ""
 
     @property
-    def second(self) -> str:
-        """The measure that decides between laws that are equally good."""
-        return self.candidates.second
-
-    @property
-    def proof(self) -> str:
+    def proof(self) -> Sentence | str:
         """The distance of its value from the proven bound."""
-        known, minimise, usual = self.candidates.proven, self.candidates.minimise, self.candidates.usual
-        if known is None or known.proof is None or not known.proof.lower_bound or known.proof.lower_bound <= 0.0:
+        candidates, minimise, usual = self.candidates, self.candidates.minimise, self.candidates.usual
+        proof = None if candidates.proven is None else candidates.proven.proof
+        bound = None if proof is None else proof.lower_bound
+        if proof is None or not bound or bound <= 0.0:
             return f"How much less {minimise} another law could have is not proven"
-        infeasible = isinstance(self.candidates.errors.get(self._bettered), InfeasibleProblem)
-        if usual is not None and infeasible and self.candidates.guarding:
-            space = known.proof.space
-            return f"That none of the {space} takes no more {_listed(self.most, 'or')} than {usual.name} is proven"
-        bound, value = known.proof.lower_bound, self.law.values[minimise]
-        as_much = f" with no more {_listed(self.most, 'or')} than {usual.name}" if usual and self.most else ""
-        above = value / bound - 1.0
+        bettered = "" if usual is None else f"least {minimise}, no worse than {usual.name}"
+        if candidates.guarding and isinstance(candidates.errors.get(bettered), InfeasibleProblem):
+            return f"That none of the {proof.space} takes {self.no_more} is proven"
+        above = self.law.values[minimise] / bound - 1.0
         near = f" ({_percent(above / (1.0 + above))} less)" if above > _TELLING * EQUALLY_GOOD else ""
         least = sentence("{}{}", self._with_unit(minimise, bound), near)
-        proven = sentence("None of the {}{} has less than {}", known.proof.space, as_much, least)
-        if known.proof.status is not Status.OPTIMAL:
+        if proof.status is Status.OPTIMAL:
+            with_no_more = f" with {self.no_more}" if self.no_more else ""
+            proven = sentence("None of the {}{} has less than {}", proof.space, with_no_more, least)
+        else:
             proven = sentence("That none has less than {}, is proven", least)
-        if known.proof.limit:
-            limit = self._with_unit(minimise, known.proof.limit)
-            proven = sentence("{}, and none of any degree less than {}", proven, limit)
+        if proof.limit:
+            proven = sentence("{}, and none of any degree less than {}", proven, self._with_unit(minimise, proof.limit))
         return proven
 
     @property
-    def _bettered(self) -> str:
-        """The name of the law that would better the usual one."""
-        usual = self.candidates.usual
-        return "" if usual is None else f"least {self.candidates.minimise}, no worse than {usual.name}"
-
-    @property
-    def costs(self) -> str:
+    def costs(self) -> Sentence | str:
         """The measures of which it takes more and less than the usual law."""
-        usual = self.candidates.usual
+        usual, second = self.candidates.usual, self.candidates.second
         if usual is None or usual is self.law or not self.candidates.guarding:
-            value = self._with_unit(self.second, self.law.values[self.second])
-            return sentence("its {} is {}{}", self.second, value, self._exchange)
-        changes = [*self._changes("more", 1.0), *self._changes("less", -1.0)]
+            return sentence("its {} is {}{}", second, self._with_unit(second, self.law), self._exchange)
+        changes = [*self._changes(usual, "more", 1.0), *self._changes(usual, "less", -1.0)]
         if not changes:
             return f"nothing else differs by 1 % from {usual.name}"
         return f"compared with {usual.name}, the law to take needs {_listed(changes)}"
@@ -182,18 +175,16 @@ class _Words:
     @property
     def _exchange(self) -> str:
         """The cost of half of the second measure, by the front."""
-        minimise, half = self.candidates.minimise, 0.5 * self.law.values[self.second]
-        fewer = [law for law in self.front if law.values[self.second] <= half and law.keeps_limits]
+        minimise, second, taken = self.candidates.minimise, self.candidates.second, self.law.values
+        fewer = [law.values for law in self.front if law.values[second] <= 0.5 * taken[second] and law.keeps_limits]
         if not fewer or self.candidates.usual is self.law:
             return ""
-        law = min(fewer, key=lambda each: each.values[minimise])
-        more = law.values[minimise] / self.law.values[minimise] - 1.0
-        share = law.values[self.second] / self.law.values[self.second]
+        least = min(fewer, key=lambda values: values[minimise])
+        more, share = least[minimise] / taken[minimise] - 1.0, least[second] / taken[second]
         return f", and {_percent(share)} of it takes {_percent(more)} more {minimise}"
 
-    def _changes(self, word: str, sign: float) -> Iterator[str]:
-        assert self.candidates.usual is not None  # noqa: S101 - as it is asked of one
-        for name, other in self.candidates.usual.values.items():
+    def _changes(self, usual: AdvisedLaw, word: str, sign: float) -> Iterator[str]:
+        for name, other in usual.values.items():
             value = self.law.values[name]
             if name == self.candidates.minimise or not other > 0.0 or not isfinite(value) or not isfinite(other):
                 continue
@@ -201,9 +192,9 @@ class _Words:
             if sign * change >= EQUALLY_GOOD:
                 yield f"{_percent(abs(change))} {word} {name}"
 
-    def _with_unit(self, name: str, value: float) -> str:
-        unit = next((measure.unit for measure in self.candidates.motion.measures if measure.name == name), "")
-        return Amount(value, unit, 5) if isfinite(value) else "without bound"
+    def _with_unit(self, name: str, of: AdvisedLaw | float) -> str:
+        value = of.values[name] if isinstance(of, AdvisedLaw) else of
+        return Amount(value, dict(self.candidates.measures)[name], 5) if isfinite(value) else "without bound"
 
 
 def _why_not(law: AdvisedLaw) -> str:

@@ -11,9 +11,13 @@ from typing import Any
 import msgspec
 
 from optlaws import Advice, AdvisedLaw
-from optlaws.cycles.advising.advice import front_panels, limits_in_words, proof_in_words
-from optlaws.cycles.advising.advised_cycle import AdvisedCycle
-from optlaws.cycles.advising.advised_motion import advice_from, standard_candidates
+from optlaws.cycles.advising.advice import (
+    advice_from,
+    front_panels,
+    limits_in_words,
+    proof_in_words,
+    standard_candidates,
+)
 from optlaws.cycles.advising.candidates import Candidates
 from optlaws.cycles.specification.segments import OPTIMAL, Move
 from optlaws.explorer.views import cycle_view
@@ -76,7 +80,7 @@ def _copy(candidates: Candidates) -> Candidates:
 def _side_by_side(
     candidates: Candidates, drawn_laws: Sequence[AdvisedLaw | None], front: Sequence[AdvisedLaw]
 ) -> dict[str, Any]:
-    measures = {measure.name: measure for measure in candidates.motion.measures}
+    measures = {measure.name: measure for measure in candidates.measures}
     x, y = measures[candidates.second], measures[candidates.minimise]
     curves = [panel_data(panel, 1.0) for panel in front_panels(front, x, y, candidates.most(), candidates.usual)]
     return {
@@ -88,7 +92,7 @@ def _side_by_side(
                 "values": [bounded(law.values[name]) for name in measures],
                 "limits": limits_in_words(law),
                 "proof": proof_in_words(law),
-                "take": _entries(candidates.motion, law),
+                "take": _entries(candidates, law),
             }
             for law in candidates.laws.values()
         ],
@@ -97,7 +101,7 @@ def _side_by_side(
     }
 
 
-def _entries(advised: AdvisedCycle, law: AdvisedLaw) -> dict[str, Any] | None:
+def _entries(advised: Candidates, law: AdvisedLaw) -> dict[str, Any] | None:
     """The entries of the cycle with a law: by its name, by what is least within limits, or as it stands.
 
     Laws that were sought for a follower are given as they stand: a cycle's entries know none.
