@@ -26,8 +26,7 @@ from .cycles.cycle import PlotOver as PlotOver
 from .cycles.optimisation.motion_limits import LimitTaken as LimitTaken
 from .cycles.moves.time_front import TimePoint as TimePoint
 from .cycles.moves.transition_cam import TransitionKind as TransitionKind
-from .cycles.old_tables.better_moves import MoveGain as MoveGain
-from .cycles.old_tables.stretches import Stretch as Stretch
+from .cycles.old_tables.stretches import MoveGain as MoveGain, Stretch as Stretch
 from .cycles.specification.segments import CycleSegment as CycleSegment
 from .exports.front_export import FrontExport as FrontExport
 from .exports.front_table import MoveStatus as MoveStatus, RunTimeMove as RunTimeMove

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
+from contextlib import AbstractContextManager
 from dataclasses import dataclass, field
 from itertools import pairwise
 from math import isfinite
@@ -13,10 +14,9 @@ from xml.etree import ElementTree as ET
 
 import numpy as np
 
-from optlaws.cycles.old_tables.curve_pieces import CurvePiece, of_profile, powers
-from optlaws.cycles.old_tables.layouts import LAYOUTS, FieldLayout
+from optlaws.cycles.old_tables.layouts import LAYOUTS, CurvePiece, FieldLayout, of_profile, powers
 from optlaws.echo import shortened
-from optlaws.errors import InputError
+from optlaws.errors import InputError, located
 
 #: comments of IEC 61131-3, C and YAML
 _COMMENT = re.compile(r"\(\*.*?\*\)|/\*.*?\*/|//[^\n]*|(?m:^\s*#[^\n]*)", re.DOTALL)
@@ -40,17 +40,7 @@ _KINDS_OF_CAM = ("CAM", "CAM_EXTENDED", "CAM_PROFILE")
 
 @dataclass(frozen=True)
 class Decoded:
-    """Content of a controller's file: points, or pieces between them.
-
-    Parameters
-    ----------
-    layout
-        The name of the layout.
-    places, heights
-        Points; the texts of these where pieces are none.
-    pieces
-        The kind of motion between; empty where the file does not state it.
-    """
+    """Content of a controller's file: texts of points, or pieces between them where the file states their kind."""
 
     layout: str
     places: list[str] = field(default_factory=list)
@@ -79,14 +69,7 @@ _Record = dict[str, _Value]
 
 
 def decoded(content: str, cam: str | None = None) -> Decoded | None:
-    """Content of a program or a project; None for other files, such as columns of numbers.
-
-    Parameters
-    ----------
-    content
-        The text of the file.
-    cam
-        Which tag or variable of a file with several cams.
+    """Content of a program or a project, of one `cam` of several; None for other files, such as columns of numbers.
 
     Raises
     ------
@@ -241,7 +224,7 @@ def _of_records(layout: FieldLayout, records: Sequence[_Record]) -> Decoded:
     for i, (first, last) in enumerate(pairwise(points)):
         profile = _profile(layout, records[i])
         known = min(len(first), len(last)) - 1
-        with _at(records[i]):
+        with _in_line(records[i]):
             pieces.append(of_profile(profile, (first[0], last[0]), first[1 : known + 1], last[1 : known + 1]))
     return Decoded(layout.name, places, heights, pieces)
 
@@ -264,18 +247,9 @@ def _profile(layout: FieldLayout, record: _Record) -> str | None:
     return (layout.profiles or {}).get(text, re.sub(r"^(?:.*\.)?(?:MOTIONFUNCTYPE_)?", "", text)) or None
 
 
-class _at:  # noqa: N801 - as contextlib's
+def _in_line(record: _Record) -> AbstractContextManager[None]:
     """A context that adds an element's line to errors in it."""
-
-    def __init__(self, record: _Record) -> None:
-        self.line = next(iter(record.values())).line
-
-    def __enter__(self) -> None:
-        pass
-
-    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, _: object) -> None:
-        if isinstance(error, InputError):
-            raise InputError(f"line {self.line}: {error}") from None
+    return located(f"line {next(iter(record.values())).line}")
 
 
 def _pieces(layout: FieldLayout, records: Sequence[_Record]) -> Iterator[CurvePiece]:
@@ -283,7 +257,7 @@ def _pieces(layout: FieldLayout, records: Sequence[_Record]) -> Iterator[CurvePi
     for record in records:
         numbers = {role: value.number() for role, value in record.items() if role != "type"}
         start, stop = numbers.get("x0", begin), numbers["x1"]
-        with _at(record):
+        with _in_line(record):
             if "c0" in numbers:
                 yield powers(start, stop, [numbers[f"c{n}"] for n in range(8) if f"c{n}" in numbers])
             else:
@@ -392,7 +366,7 @@ def _of_cam_profile(rows: Sequence[Sequence[_Value]]) -> Decoded:
     places, heights = ([repr(numbers[i]) for numbers in values] for i in (0, 1))
     pieces = []
     for row, (x, y, *constants), (stop, *_) in zip(rows, values, values[1:], strict=False):
-        with _at({"x": row[0]}):
+        with _in_line({"x": row[0]}):
             pieces.append(powers(x, stop, [y + constants[0], *constants[1:]]))
     # the points are the cam, and the spline through them the controller's
     return Decoded("Rockwell CAM_PROFILE", places, heights, [] if len(values) >= FEWEST_POINTS else pieces)
@@ -424,7 +398,7 @@ def _of_source(text: str, named: dict[str, tuple[str, int, str]]) -> Decoded:
     rows = [flat[i : i + width] for i in range(0, len(flat), width)]
     pieces = []
     for low, high, row, cell in zip(breaks, breaks[1:], rows, cells["breaks"], strict=False):
-        with _at({"x": cell}):
+        with _in_line({"x": cell}):
             pieces.append(powers(low, high, row))
     return Decoded("breaks and coefficients", pieces=pieces)
 

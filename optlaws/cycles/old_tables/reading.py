@@ -11,11 +11,10 @@ from typing import NamedTuple
 import numpy as np
 
 from optlaws.cycles.old_tables.controller_files import Decoded, decoded
-from optlaws.cycles.old_tables.curve_pieces import CurvePiece, hermite
+from optlaws.cycles.old_tables.layouts import CurvePiece, hermite
 from optlaws.echo import shortened
-from optlaws.errors import InputError
-from optlaws.files import reading
-from optlaws.laws.catalogue.reading import LARGEST_TABLE, TablePoints, points_of, resolution_of
+from optlaws.errors import InputError, located
+from optlaws.laws.catalogue.reading import TablePoints, points_of, resolution_of
 from optlaws.motion.quantities import either
 from optlaws.numbers import Array
 
@@ -57,54 +56,13 @@ class TableUnits(NamedTuple):
 
 @dataclass(frozen=True)
 class CamPoints:
-    """Points of a cam with units.
-
-    Parameters
-    ----------
-    places, heights
-        The master and the positions, arrays of shape (n,).
-    digit
-        The unit of the last digit of the positions.
-    layout
-        The name of the file's layout.
-    units
-        Of both; the speed of the master by the second where the file says it.
-    """
+    """Points of a cam with units: the master and the positions, arrays of shape (n,)."""
 
     places: Array
     heights: Array
-    digit: float
+    digit: float  #: the unit of the last digit of the positions
     layout: str
     units: TableUnits
-
-
-def read_points(
-    path: Path,
-    columns: Sequence[int | str] | None = None,
-    *,
-    unit: str | None = None,
-    master: str | None = None,
-    cam: str | None = None,
-) -> CamPoints:
-    """The points of a table in any layout that is known.
-
-    Parameters
-    ----------
-    path
-        The file.
-    columns
-        Which columns are meant, and those of derivatives behind them.
-    unit, master
-        The units, with how many of them a number is ("0.01 mm"); what the file says unless given.
-    cam
-        Which cam of a file with several.
-
-    Raises
-    ------
-    InputError
-        If the file cannot be read, holds no table, or is damaged; the error names the line.
-    """
-    return points_in(reading.text(path, LARGEST_TABLE, legacy=True), path, columns, unit=unit, master=master, cam=cam)
 
 
 def points_in(
@@ -116,19 +74,15 @@ def points_in(
     master: str | None = None,
     cam: str | None = None,
 ) -> CamPoints:
-    """The points in the text of a table, like `read_points`; errors call the text `path`."""
-    try:
+    """The points in the text of a table in any layout, as `read_cycle_table` takes it; errors call it `path`."""
+    with located(str(path)):
         known = decoded(content, cam) if columns is None else None
-    except InputError as error:
-        raise InputError(f"{path}: {error}") from None
     if known is None and cam is not None:
         raise InputError(f"{path} has columns of numbers, and no cam {shortened(cam)}")
     if known is None:
         return _of_columns(path, content, columns, unit, master)
-    try:
+    with located(str(path)):
         return _of_layout(known, content, unit, master)
-    except InputError as error:
-        raise InputError(f"{path}: {error}") from None
 
 
 def _of_layout(known: Decoded, content: str, unit: str | None, master: str | None) -> CamPoints:
@@ -150,7 +104,7 @@ def _of_columns(
     path: Path, content: str, columns: Sequence[int | str] | None, unit: str | None, master: str | None
 ) -> CamPoints:
     points = points_of(path, columns, most=5, content=content)
-    try:
+    with located(str(path)):
         layout, scale = _columns_layout(content, points)
         places, heights = scale * np.array(points.places), scale * np.array(points.heights)
         if scale != 1.0:
@@ -161,8 +115,6 @@ def _of_columns(
         units = _units(points.headings, content, unit, master, float(np.ptp(places)))
         if points.derivatives:
             places, heights = _through(places, heights, points.derivatives, points.lines)
-    except InputError as error:
-        raise InputError(f"{path}: {error}") from None
     return _in_units(CamPoints(places, heights, scale * points.digit, layout, units))
 
 
@@ -202,7 +154,7 @@ def sampled(pieces: Sequence[CurvePiece]) -> tuple[Array, Array]:
 
     Examples
     --------
-    >>> from optlaws.cycles.old_tables.curve_pieces import powers
+    >>> from optlaws.cycles.old_tables.layouts import powers
     >>> x, y = sampled([powers(0.0, 1.0, [0.0, 1.0]), powers(1.0, 3.0, [1.0, -0.5])])
     >>> len(x), float(y[-1])
     (721, 0.0)
@@ -318,8 +270,6 @@ def _unit_in(heading: str, dimensions: tuple[str, ...]) -> str | None:
 def _in_units(points: CamPoints) -> CamPoints:
     """The points in whole units."""
     units = points.units
-    slave, master = units.slave_size, units.master_size
-    return CamPoints(
-        master * points.places, slave * points.heights, slave * points.digit, points.layout,
-        TableUnits(units.slave, units.master, rate=units.rate),
-    )  # fmt: skip
+    slave, size = units.slave_size, units.master_size
+    whole = TableUnits(units.slave, units.master, rate=units.rate)
+    return CamPoints(size * points.places, slave * points.heights, slave * points.digit, points.layout, whole)

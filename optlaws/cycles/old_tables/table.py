@@ -2,25 +2,42 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import lru_cache
+from math import isfinite, nan
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from optlaws.cycles.cycle import Cycle
-from optlaws.cycles.old_tables.better_moves import MoveGain, better, gain, law_of_move
 from optlaws.cycles.old_tables.controller_files import FEWEST_POINTS
-from optlaws.cycles.old_tables.reading import CamPoints, read_points
-from optlaws.cycles.old_tables.stretches import Stretch, of_standard_laws, seam_of, stretches_of
+from optlaws.cycles.old_tables.reading import CamPoints, points_in
+from optlaws.cycles.old_tables.stretches import (
+    MoveGain,
+    Stretch,
+    better,
+    gain,
+    law_of_move,
+    nothing_to_better,
+    of_standard_laws,
+    seam_of,
+    stretches_of,
+)
 from optlaws.cycles.specification.segments import CycleSegment, Dwell, Return, Rise
-from optlaws.errors import InputError
-from optlaws.laws import MotionLaw
+from optlaws.errors import InputError, located
+from optlaws.files import reading
+from optlaws.kept import kept_property
+from optlaws.laws.catalogue.reading import LARGEST_TABLE
 from optlaws.laws.making.through_points import noise
-from optlaws.numbers import Array, Quantity, not_negative, numbers, positive
+from optlaws.laws.report import law_panels
+from optlaws.motion.quantities import QUANTITIES
+from optlaws.numbers import Array, Quantity, bounded, not_negative, numbers, positive
 from optlaws.sentences import Amount, sentence
-from optlaws.tolerances import AGREEMENT
+from optlaws.shown.report import Panel, ReportSegment, ReportTable, Series
+from optlaws.shown.summary import Row, Summary
+from optlaws.tolerances import AGREEMENT, NO_MARK
 
 _NOISE_ROOM = 4.0  # of the standard deviation of a table's noise: points that are farther from a law speak against it
 _STANDARD_LAW_ROOM = 1e-7  # of the stroke of a table with all digits: by how much a standard law may be off its points
@@ -78,7 +95,24 @@ class OldTable:
         InputError
             If both are given, or neither where the master is an angle whose speed the file does not say.
         """
-        return self._cycle([part.law for part in self.stretches], speed, period)
+        segments: list[CycleSegment] = []
+        for part in self.stretches:
+            duration = f"{part.stop - part.start!r} {self.master}"
+            if part.law is None:
+                segments.append(Dwell(duration))
+            else:
+                move = Rise if part.stroke > 0.0 else Return
+                segments.append(move(f"{abs(part.stroke)!r} {self.unit}", duration, law=part.law))
+        first, last = self.stretches[0], self.stretches[-1]
+        if speed is None and period is None:
+            if self.master in {"s", "ms"}:
+                period = f"{last.stop - first.start!r} {self.master}"
+            elif self.rate is None:
+                raise InputError('speed: give the speed of the master, such as "200 rpm": the file has none')
+            else:
+                speed = f"{self.rate!r} {self.master}/s"
+        advance = f"{last.high - first.low!r} {self.unit}" if last.high != first.low else None
+        return Cycle(segments, speed=speed, period=period, start=f"{first.low!r} {self.unit}", advance=advance)
 
     def modernised(
         self,
@@ -91,14 +125,7 @@ class OldTable:
     ) -> Cycle:
         """The cycle with the laws of least acceleration that stay within a tolerance of the old laws everywhere.
 
-        Parameters
-        ----------
-        tolerance
-            In units of the table, above 0.
-        speed, period
-            As of `cycle`.
-        order, degree
-            Of the new laws; their jerk is at most a fifth above the old one where that has a greatest value.
+        The parameters are those of `bettered` and of `cycle`.
         """
         return self.bettered(tolerance, order=order, degree=degree).cycle(speed=speed, period=period)
 
@@ -149,10 +176,10 @@ class OldTable:
         >>> [round(number, 9) for number in old.gains(old)[0].old]  # mm/deg, mm/deg², mm/deg³
         [0.5, 0.01308997, 0.000685389]
         """
-        pairs = list(zip(self.moves, old.moves, strict=False))
-        if len(self.moves) != len(old.moves) or any(a != b for a, b in _places(pairs)):
+        places = [[(part.start, part.stop, part.low, part.high) for part in each.moves] for each in (self, old)]
+        if places[0] != places[1]:
             raise InputError("gains need two tables with the same moves, one computed from the other")
-        return tuple(gain(new, was) for new, was in pairs)
+        return tuple(map(gain, self.moves, old.moves))
 
     def plot(self, ax: Any = None, *, new: OldTable | None = None, **style: Any) -> list[Any]:
         """Draw the points and the laws over the master: positions, velocity, acceleration, jerk; return the artists.
@@ -218,27 +245,6 @@ class OldTable:
         """The rises and returns of the table."""
         return tuple(part for part in self.stretches if part.law is not None)
 
-    def _cycle(self, laws: Sequence[str | MotionLaw | None], speed: Quantity | None, period: Quantity | None) -> Cycle:
-        segments: list[CycleSegment] = []
-        for part, law in zip(self.stretches, laws, strict=True):
-            duration = f"{part.stop - part.start!r} {self.master}"
-            if law is None:
-                segments.append(Dwell(duration))
-            else:
-                move = Rise if part.stroke > 0.0 else Return
-                segments.append(move(f"{abs(part.stroke)!r} {self.unit}", duration, law=law))
-        start = f"{self.stretches[0].low!r} {self.unit}"
-        ahead = self.stretches[-1].high - self.stretches[0].low
-        from_file = speed is None and period is None
-        if from_file and self.rate is not None and self.master not in {"s", "ms"}:
-            speed = f"{self.rate!r} {self.master}/s"
-        elif from_file and self.master in {"s", "ms"}:
-            period = f"{self.stretches[-1].stop - self.stretches[0].start!r} {self.master}"
-        elif from_file:
-            raise InputError('speed: give the speed of the master, such as "200 rpm": the file has none')
-        advance = f"{ahead!r} {self.unit}" if ahead else None
-        return Cycle(segments, speed=speed, period=period, start=start, advance=advance)
-
     def __str__(self) -> str:
         lines = [
             f"{part.kind:<7}{part.start:g} to {part.stop:g} {self.master}"
@@ -266,10 +272,6 @@ class OldTable:
             return sentence("{} (within {})", part.law, Amount(part.distance, self.unit, 2))
         distance = Amount(part.distance, self.unit, 2)
         return sentence("a law of its own; the nearest standard law is {}, {} off", part.nearest, distance)
-
-
-def _places(pairs: Sequence[tuple[Stretch, Stretch]]) -> list[tuple[tuple[float, ...], tuple[float, ...]]]:
-    return [((a.start, a.stop, a.low, a.high), (b.start, b.stop, b.low, b.high)) for a, b in pairs]
 
 
 def read_cycle_table(
@@ -321,23 +323,23 @@ def read_cycle_table(
     ('3-4-5 polynomial', 45.0)
     """
     path = Path(file)
-    return table_of(read_points(path, columns, unit=unit, master=master, cam=cam), path, tolerance)
+    content = reading.text(path, LARGEST_TABLE, legacy=True)
+    return table_of(points_in(content, path, columns, unit=unit, master=master, cam=cam), path, tolerance)
 
 
 def table_of(points: CamPoints, path: Path, tolerance: float | None = None) -> OldTable:
     """The table of points with units, divided as by `read_cycle_table`; errors call the table `path`."""
-    try:
+    units = points.units
+    with located(str(path)):
         table = split_table(
             points.places,
             points.heights,
             tolerance=tolerance,
-            unit=points.units.slave,
-            master=points.units.master,
+            unit=units.slave,
+            master=units.master,
             digit=points.digit,
         )
-    except InputError as error:
-        raise InputError(f"{path}: {error}") from None
-    return replace(table, layout=points.layout, rate=points.units.rate)
+    return replace(table, layout=points.layout, rate=units.rate)
 
 
 def split_table(
@@ -402,3 +404,121 @@ def split_table(
             return OldTable(split, least, 0.0, seam_of(heights, least), unit, master, places, heights)
     stretches = tuple(stretches_of(places, heights, room))
     return OldTable(stretches, room, scatter, seam_of(heights, room), unit, master, places, heights)
+
+
+_OLD, _NEW, _POINTS = 0, 1, 2  # colours
+
+
+@dataclass(frozen=True)
+class OldTableReport:
+    """The report of a table, with the laws that better it where there are such; places are those of its master."""
+
+    table: OldTable
+    new: OldTable | None = None
+
+    @property
+    def facts(self) -> Summary:
+        """What the file is, how near the laws are to its points, and which moves keep their laws."""
+        read = Row(f"{self.table.layout}, {len(self.table.places)} points")
+        return Summary([read, *map(Row, self.table.remarks), *map(Row, self.unchanged)])
+
+    @property
+    def unchanged(self) -> Iterator[str]:
+        """Moves that keep their laws, and why."""
+        for part, was in self._pairs:
+            if part.law is was.law:
+                what = nothing_to_better(law_of_move(part))
+                why = f"it is {what}" if what else "none of degree 15 so near has less acceleration"
+                yield f"the {part.kind} from {part.start:g} keeps its law: {why}"
+
+    @property
+    def _pairs(self) -> list[tuple[Stretch, Stretch]]:
+        return [] if self.new is None else list(zip(self.new.moves, self.table.moves, strict=True))
+
+    @kept_property
+    def tables(self) -> tuple[ReportTable, ...]:
+        """The stretches with their laws; the peaks of moves with other laws than before, beside those they had."""
+        old, new = self.table, self._gains()
+        ends = [f"from, {old.master}", f"to, {old.master}"]
+        rows = [
+            [part.kind, part.start, part.stop, part.stroke or None, old.law_in_words(part) if part.law else ""]
+            for part in old.stretches
+        ]
+        stretches = ReportTable(["what", *ends, f"by, {old.unit}", "law"], rows)
+        gains = ["what", *ends, "peak", "old", "new", "unit", "change, %", f"off by, {old.unit}"]
+        return (stretches, ReportTable(gains, new)) if new else (stretches,)
+
+    def _gains(self) -> list[list[Any]]:
+        rows = []
+        for each in (gain(part, was) for part, was in self._pairs if part.law is not was.law):
+            for nu in (1, 2, 3):
+                peaks = [each.old[nu - 1], each.new[nu - 1], self.table.unit_of(nu)]
+                change = bounded(100.0 * each.share(nu))
+                first = [each.kind, each.start, each.stop] if nu == 1 else ["", None, None]
+                rows.append([*first, QUANTITIES[nu], *peaks, change, each.deviation if nu == 1 else None])
+        return rows
+
+    @property
+    def segments(self) -> tuple[ReportSegment, ...]:
+        """The dwells and moves with their ends."""
+        return tuple(ReportSegment(part.kind, part.start, part.stop) for part in self.table.stretches)
+
+    @kept_property
+    def panels(self) -> tuple[Panel, ...]:
+        """Position with the points, how far points and new laws are off the old ones, and derivatives by the master."""
+        position, *derivatives = (self._panel(nu) for nu in range(len(QUANTITIES)))
+        old, points = self.table, Series(self.table.places, self.table.heights, _POINTS, "points", dots=True)
+        curves = [curve for curve in position.series if curve.law == _NEW]
+        off = [curve._replace(values=curve.values - old.at(curve.at)) for curve in (points, *curves)]
+        position = Panel(position.name, position.unit, (*position.series, points))
+        return (position, Panel("off the old law", old.unit, tuple(off)), *derivatives)
+
+    def _panel(self, nu: int) -> Panel:
+        """A derivative by the master, with the greatest magnitude of every move."""
+        series, peaks = [], list[tuple[float, float]]()
+        old = (_OLD, "old law", self.table.stretches)
+        for law, name, stretches in [old] if self.new is None else [old, (_NEW, "new law", self.new.stretches)]:
+            panels = [_of_part(part)[nu] for part in stretches]
+            at, values = (np.concatenate([panel.series[0][i] for panel in panels]) for i in (0, 1))
+            series.append(Series(at, values, law, name))
+            peaks += [peak for panel in panels for peak in panel.peaks]
+        return Panel(QUANTITIES[nu], self.table.unit_of(nu), tuple(series), peaks=tuple(dict.fromkeys(peaks)))
+
+    @property
+    def data(self) -> dict[str, Any]:
+        """The table for programs, with the gains of better laws."""
+        old, new = self.table, self.new
+        stretches = [
+            {
+                **{name: getattr(part, name) for name in ("kind", "start", "stop", "low", "high")},
+                "law": part.law if part.law is None or isinstance(part.law, str) else part.law.to_dict(),
+                "nearest": part.nearest or None,
+                "distance": part.distance if part.nearest else None,
+            }
+            for part in (new or old).stretches
+        ]
+        known = {name: getattr(old, name) for name in ("unit", "master", "room", "scatter", "seam")}
+        facts = {"layout": old.layout, "points": len(old.places), **known, "stretches": stretches}
+        if new is None:
+            return facts
+        peaks = ({"old": list(map(bounded, each.old)), "new": list(map(bounded, each.new))} for each in new.gains(old))
+        return facts | {"gains": [each._asdict() | ends for each, ends in zip(new.gains(old), peaks, strict=True)]}
+
+
+@lru_cache(maxsize=256)
+def _of_part(part: Stretch) -> tuple[Panel, ...]:
+    """Position and its derivatives by the master in a stretch, through the extremes of its law."""
+    length = part.stop - part.start
+    if part.law is None:
+        at = np.array([part.start, part.stop])
+        return tuple(Panel("", "", (Series(at, np.full(2, 0.0 if nu else part.low)),)) for nu in range(len(QUANTITIES)))
+    panels = []
+    for nu, panel in enumerate(law_panels(law_of_move(part), "abcj")):
+        size, base, (curve,) = part.stroke / length**nu, 0.0 if nu else part.low, panel.series
+        peaks = [(part.start + length * k, size * value) for k, value in panel.peaks if nu and isfinite(value)]
+        greatest = max(peaks, key=lambda peak: abs(peak[1]), default=(nan, 0.0))
+        marked = (greatest,) if abs(greatest[1]) > NO_MARK else ()
+        panels.append(
+            Panel("", "", (Series(part.start + length * curve.at, base + size * curve.values),), peaks=marked)
+        )
+    return tuple(panels)
