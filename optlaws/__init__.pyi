@@ -54,7 +54,7 @@ from .cycles.moves.fastest_move import FastestMove as FastestMove
 from .cycles.moves.front_over_time import time_front as time_front
 from .cycles.moves.time_front import TimeFront as TimeFront
 from .cycles.moves.timed_moves import fastest as fastest, fastest_moves as fastest_moves
-from .cycles.moves.transition_cam import TransitionCam as TransitionCam
+from .cycles.transitions import TransitionCam as TransitionCam
 from .cycles.old_tables.table import (
     OldTable as OldTable,
     read_cycle_table as read_cycle_table,

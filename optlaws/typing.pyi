@@ -25,7 +25,7 @@ from .cycles.axes.machine_axes import AxesPicture as AxesPicture, Overlap as Ove
 from .cycles.cycle import PlotOver as PlotOver
 from .cycles.optimisation.motion_limits import LimitTaken as LimitTaken
 from .cycles.moves.time_front import TimePoint as TimePoint
-from .cycles.moves.transition_cam import TransitionKind as TransitionKind
+from .cycles.transitions import TransitionKind as TransitionKind
 from .cycles.old_tables.stretches import MoveGain as MoveGain, Stretch as Stretch
 from .cycles.specification.segments import CycleSegment as CycleSegment
 from .exports.front_export import FrontExport as FrontExport

@@ -55,7 +55,7 @@ from optlaws.tolerances import CYCLE_OPTIMALITY, JUMP
 
 if TYPE_CHECKING:
     from optlaws.cycles.fastest_cycle import FastestCycle
-    from optlaws.cycles.moves.transition_cam import TransitionCam, TransitionKind
+    from optlaws.cycles.transitions import TransitionCam, TransitionKind
     from optlaws.mechanisms.drives.sheet import CycleSheet
 
 #: what a picture of a cycle is over
@@ -499,7 +499,7 @@ class Answers(Exportable):
         return self._transition("run-out", Transition(at, rest, over, order))
 
     def _transition(self, kind: TransitionKind, given: Transition) -> TransitionCam:
-        from optlaws.cycles.moves.transitions import transition_cam
+        from optlaws.cycles.transitions import transition_cam
 
         cycle = self.solve().specification
         return transition_cam(kind, cycle.programme, self.pieces, cycle.in_si, given)

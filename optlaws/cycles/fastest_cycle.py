@@ -7,6 +7,7 @@ from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import Any
 
+from optlaws.cycles.exportable import Exportable
 from optlaws.cycles.greatest_speed.fastest_search import FastestSearch
 from optlaws.cycles.greatest_speed.timed_spans import TimedSpan
 from optlaws.cycles.moves.fastest_move import limit_row
@@ -15,9 +16,12 @@ from optlaws.cycles.optimisation.motor_limits import MOTOR
 from optlaws.cycles.retiming import retimed_segments
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
+from optlaws.motion.motion import Motion
 from optlaws.motion.quantities import TURN, Exact
 from optlaws.motion.quantity_kinds import Kind
+from optlaws.numbers import Quantity
 from optlaws.sentences import Amount, joined, sentence
+from optlaws.shown.report import Report
 from optlaws.shown.summary import Row, Summary
 from optlaws.synthesis.proof.certificate import VIOLATION, Certificate
 from optlaws.synthesis.status import Status
@@ -56,6 +60,14 @@ class LeastDuration:
     limits: tuple[str, ...]
     binding: bool
 
+    @property
+    def row(self) -> Row:
+        """What it needs, beside what it has."""
+        limits = ", ".join(self.limits)
+        spare = f"{100.0 * (self.duration / self.least - 1.0):.3g} % to spare, then {limits}"
+        margin = f"no time left, by {limits}" if self.binding else spare
+        return Row(f"{self.name} needs", self.least, "s", note=f"has {self.duration:.9g} s: {margin}")
+
 
 @dataclass(frozen=True)
 class LimitGain:
@@ -85,8 +97,8 @@ class LimitGain:
 
 
 @dataclass(frozen=True, repr=False)
-class FastestCycle:
-    """The greatest speed of the master at which a cycle keeps its limits, as `Cycle.fastest` finds it.
+class FastestCycle(Exportable):
+    """The greatest speed of the master at which a cycle keeps its limits, as `Cycle.fastest` finds it, and its motion.
 
     Attributes
     ----------
@@ -160,7 +172,15 @@ class FastestCycle:
         periods = {name: period() for name, period in self._raised.items()}
         return tuple(LimitGain(name, TURN / period, self.period / period) for name, period in periods.items())
 
-    def summary(self) -> Summary:
+    def motion(self, master: Quantity | None = "360 deg", unit: str | None = None) -> Motion:
+        """The exact motion at the greatest speed, as `Cycle.motion`."""
+        return self.cycle.motion(master, unit)  # type: ignore[no-any-return]
+
+    def plot(self, ax: Any = None, **style: Any) -> list[Any]:
+        """Draw the motion at the greatest speed, as `Cycle.plot`; return the artists."""
+        return list(self.cycle.plot(ax, **style))
+
+    def report(self) -> Report:
         """The speed and the period, the active limit, the gain from a limit raised by a tenth, and the motions' times.
 
         Examples
@@ -170,13 +190,9 @@ class FastestCycle:
         >>> [row.name for row in slide.fastest().summary()][:4]
         ['status', 'greatest speed', 'least period', 'proven: none below']
         """
-        rows = [Row("status", self.status.value), *self.proof_rows()]
-        rows += [Row("would give", str(gain)) for gain in self.gains]
-        rows += [
-            Row(f"{each.name} needs", each.least, "s", note=f"has {each.duration:.9g} s: {_margin(each)}")
-            for each in self.segments
-        ]
-        return Summary(rows)
+        from optlaws.cycles.report import FastestReport
+
+        return FastestReport(self)
 
     def proof_rows(self) -> Summary:
         """The speed and the period, with what is proven of them, and what binds."""
@@ -198,30 +214,11 @@ class FastestCycle:
             for name, proof in self.proofs.items()
         }
 
-    def plot(self, ax: Any = None, **style: Any) -> list[Any]:
-        """Draw the motion at the greatest speed over time, with the limits of each segment; return the artists.
-
-        `ax` and `style` are as of `Cycle.plot`.
-        """
-        return list(self.cycle.plot(ax, **style))
-
     def __repr__(self) -> str:
         return (
             f"FastestCycle({self.rpm:.6g} rpm, period={self.period:.6g} s, status={self.status.value!r}, "
             f"binding={self.binding!r})"
         )
-
-    def _repr_html_(self) -> str:
-        from optlaws.shown.showing import page
-
-        return page("Fastest cycle", self.summary()._repr_html_())
-
-
-def _margin(each: LeastDuration) -> str:
-    limits = ", ".join(each.limits)
-    if each.binding:
-        return f"no time left, by {limits}"
-    return f"{100.0 * (each.duration / each.least - 1.0):.3g} % to spare, then {limits}"
 
 
 def fastest_cycle(cycle: Any) -> FastestCycle:

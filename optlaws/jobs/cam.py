@@ -37,8 +37,8 @@ from optlaws.cams.springs_and_flywheels import (
     least_spring,
 )
 from optlaws.cycles.cycle import Cycle
+from optlaws.cycles.report import objective_unit
 from optlaws.cycles.specification.process import ProcessEntries
-from optlaws.cycles.summary import objective_unit
 from optlaws.entries.declared import ValueOf, declared, entries_of, entry, same
 from optlaws.entries.value_types import Choice, Listed, Measured, Number, Switch, Whole
 from optlaws.errors import InfeasibleProblem, InputError, located

@@ -9,8 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 from optlaws.cycles.cycle import Cycle
-from optlaws.cycles.report import CycleReport, motion_table
-from optlaws.cycles.summary import force_name, force_unit, objective_unit
+from optlaws.cycles.report import CycleReport, force_name, force_unit, motion_table, objective_unit
 from optlaws.errors import InfeasibleProblem, InputError, located
 from optlaws.exports.format import FORMATS, format_of
 from optlaws.exports.text import variable_names
@@ -29,7 +28,6 @@ from optlaws.jobs.job_entries import plain_name
 from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.mechanisms.linkages.mechanism import Mechanism
 from optlaws.motion.display_units import RPM
-from optlaws.motion.quantities import QUANTITIES
 from optlaws.plots.style import figure_of, plot_style
 from optlaws.plots.sweep import sweep_figure
 from optlaws.results import Page, Results
@@ -38,7 +36,7 @@ from optlaws.shown.report import ReportTable
 if TYPE_CHECKING:
     from optlaws.cycles.axes.machine_axes import Axes, Overlap
     from optlaws.cycles.fastest_cycle import FastestCycle
-    from optlaws.cycles.moves.transition_cam import TransitionCam
+    from optlaws.cycles.transitions import TransitionCam
     from optlaws.exports.export import Export
 
 #: the exports of each axis by the names of their files
@@ -102,7 +100,7 @@ def answer(entries: Mapping[str, Any], file: Path) -> dict[str, Any]:
     """The data of the cycles of a file for programs, in SI units, by the names of the axes."""
     spec, given = read_given(entries, file)
     if spec.fastest:
-        return {name: fastest_facts(fastest) for name, fastest in fastest_of(given, file).items()}
+        return {name: fastest.report().data for name, fastest in fastest_of(given, file).items()}
     overlap = spec.overlap_of(given, file)
     axes = given if overlap is None else overlap.axes
     data = {name: cycle.report().data for name, cycle in axes.items()}
@@ -126,7 +124,7 @@ def _beside(axes: Axes, overlap: Overlap | None, transitions: Sequence[AxisTrans
         facts = {name: getattr(overlap, name) for name in ("goal", "objective", "lower_bound", "gain")}
         known["overlap"] = {"status": overlap.status.value, **facts, "binding": list(overlap.binding)}
     if transitions:
-        known["transitions"] = {name: _transition_facts(cam) for name, _, cam in transitions}
+        known["transitions"] = {name: cam.report().data for name, _, cam in transitions}
     return known
 
 
@@ -151,16 +149,6 @@ def at_greatest_speed(axes: Axes, fastest: Mapping[str, FastestCycle]) -> Axes:
         for name, each in fastest.items()
     }
     return Axes(cycles, interlocks=axes.interlocks)
-
-
-def fastest_facts(fastest: FastestCycle) -> dict[str, Any]:
-    """The greatest speed of an axis for programs."""
-    return {
-        "status": fastest.status.value,
-        **{name: getattr(fastest, name) for name in ("speed", "rpm", "period", "lower_bound", "limit")},
-        "gains": [vars(gain) for gain in fastest.gains],
-        "segments": [{**vars(each), "limits": list(each.limits)} for each in fastest.segments],
-    }
 
 
 def slowest(fastest: Mapping[str, FastestCycle]) -> list[str]:
@@ -232,20 +220,6 @@ def _add_transition(page: Page, results: Results, transition: AxisTransition, cy
     figure = figure_of(cam.plot(cycle=cycle), f"{results.title}: {cam.kind}")
     page.heading(title).picture(name, f"{results.title}: {title}", figure)
     page.text(_ABOUT.format(first, last)).facts(cam.summary(), places="s")
-
-
-def _transition_facts(cam: TransitionCam) -> dict[str, Any]:
-    """A run-in or run-out for programs, in SI units."""
-    return {
-        "kind": cam.kind,
-        "master": list(cam.master),
-        "duration": cam.duration,
-        "rest": cam.rest,
-        "status": cam.status.value,
-        "none_below": None if cam.least is None else cam.least.none_below,
-        **{name: cam.peak(nu) for nu, name in enumerate(QUANTITIES) if nu},
-        "jumps": cam.jumps,
-    }
 
 
 def _exports(

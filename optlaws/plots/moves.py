@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from optlaws.cycles.cycle import Cycle
     from optlaws.cycles.moves.fastest_move import FastestMove
     from optlaws.cycles.moves.time_front import TimeFront
-    from optlaws.cycles.moves.transition_cam import TransitionCam
+    from optlaws.cycles.transitions import TransitionCam
     from optlaws.exports.export import Export
 
 _ROOM = 1.08

@@ -116,7 +116,7 @@ def _greatest_speed(file: Path, out: Path | None) -> Answer:
         lambda: (
             [part for name, each in speeds.items() for part in (f"axis {name}", each.summary())] + job.slowest(speeds)
         ),
-        lambda: {name: job.fastest_facts(speed) for name, speed in speeds.items()},
+        lambda: {name: speed.report().data for name, speed in speeds.items()},
         lambda: figure_of(draw_axes(at_best) if len(at_best) > 1 else draw_cycle(*at_best.values()), spec.title),
         NotProven(f"axis {', '.join(unproven)}: that no law is faster is not proven") if unproven else None,
     )

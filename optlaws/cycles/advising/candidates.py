@@ -13,11 +13,11 @@ from optlaws.cycles.limit_rows import limits_taken
 from optlaws.cycles.optimisation.motion_limits import DECELERATION, FORCES, LIMITS, LimitTaken, Side, amount
 from optlaws.cycles.optimisation.motor_limits import MOTOR
 from optlaws.cycles.optimisation.objectives import OBJECTIVES, kind_of
+from optlaws.cycles.report import objective_unit
 from optlaws.cycles.specification.load import LOAD
 from optlaws.cycles.specification.process import is_process
 from optlaws.cycles.specification.programme import AXES, is_optimal
 from optlaws.cycles.specification.segments import OPTIMAL, CycleSegment, Free, Move
-from optlaws.cycles.summary import objective_unit
 from optlaws.errors import InputError, OptlawsError
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw

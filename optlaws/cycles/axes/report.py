@@ -19,7 +19,7 @@ from optlaws.cycles.axes.interlock import (
     Synchronous,
 )
 from optlaws.cycles.cycle import Cycle
-from optlaws.cycles.summary import objective_unit
+from optlaws.cycles.report import objective_unit
 from optlaws.kept import kept_property
 from optlaws.motion.display_units import UNITS
 from optlaws.numbers import Array

@@ -16,10 +16,9 @@ from optlaws.cycles.axes.interlock import Interlock
 from optlaws.cycles.optimisation.motion_limits import LIMITS
 from optlaws.cycles.optimisation.motor_limits import MOTOR
 from optlaws.cycles.optimisation.objectives import OBJECTIVES
-from optlaws.cycles.report import CycleReport
+from optlaws.cycles.report import CycleReport, drive_rows, joint_rows, objective_unit, proof_rows
 from optlaws.cycles.specification.limit_entries import LIMITS_OF_CYCLE
 from optlaws.cycles.specification.segments import CycleSegment
-from optlaws.cycles.summary import drive_rows, joint_rows, objective_unit, proof_rows
 from optlaws.entries.declared import entries_of
 from optlaws.errors import InfeasibleProblem, SolverFailure, located
 from optlaws.explorer.views.law_view import digits, gap_text, refusing, verdict

@@ -15,8 +15,7 @@ import numpy as np
 from optlaws import FastestCycle, FastestMove, Plan, Problem, Solution, Status, fastest
 from optlaws.cycles.moves.report import MoveReport
 from optlaws.cycles.moves.time_front import TimeFront
-from optlaws.cycles.report import CycleReport
-from optlaws.cycles.summary import objective_unit
+from optlaws.cycles.report import CycleReport, objective_unit
 from optlaws.errors import InputError, OptlawsError
 from optlaws.explorer.views import cycle_view
 from optlaws.explorer.views.cycle_view import CycleRequest, packaged_study

@@ -11,9 +11,8 @@ import numpy as np
 
 from optlaws import Cycle, Drive, Mechanism, Move, Plan, Status
 from optlaws.cams.at_shaft import CamAtShaft
-from optlaws.cycles.report import CycleReport
+from optlaws.cycles.report import CycleReport, drive_rows
 from optlaws.cycles.specification.programme import is_optimal
-from optlaws.cycles.summary import drive_rows
 from optlaws.entries.declared import entries_of
 from optlaws.errors import InputError, OptlawsError
 from optlaws.explorer.views import cycle_view

@@ -1,34 +1,54 @@
-"""A cam that brings an axis from rest into its cycle, or from its cycle to rest, while the master turns."""
+"""Cams that bring an axis from rest into its cycle, or from its cycle to rest, while the master turns."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from math import sqrt
-from typing import Any, Literal, Unpack, get_args
+from functools import partial
+from math import inf, sqrt
+from typing import Any, Literal, get_args
 
+import numpy as np
+
+from optlaws.cycles.exportable import Exportable
 from optlaws.cycles.moves.fastest_move import AXES, FastestMove, limit_row
+from optlaws.cycles.optimisation.motion_limits import Side, along_motion, greatest, of_segments
+from optlaws.cycles.optimisation.objectives import CycleObjective, kind_of, limits_of_stretch
+from optlaws.cycles.optimisation.optimal import scale, solved, span_problem
+from optlaws.cycles.specification.joints import LawSpan, State
+from optlaws.cycles.specification.programme import Programme, TimedSegment, time_of
+from optlaws.cycles.specification.segments import Move, Transition
 from optlaws.echo import shortened
 from optlaws.entries.declared import Declared, ValueOf, declared, entry
 from optlaws.entries.value_types import Choice, Number, ReadBy, Together
 from optlaws.errors import InputError
 from optlaws.files.reading import check_names
 from optlaws.kept import kept_property
-from optlaws.laws.exporting import ExportOptions
 from optlaws.laws.making.transform import mirrored_law
+from optlaws.motion.derivative_panel import display_unit, motion_panel
 from optlaws.motion.motion import MASTERS, Motion, motion_of_pieces
-from optlaws.motion.piece import Piece, unit_of
-from optlaws.motion.quantities import QUANTITIES, given_quantity
+from optlaws.motion.piece import Piece, factor, unit_of, values_of_pieces
+from optlaws.motion.quantities import QUANTITIES, Exact, given_quantity, quantity
+from optlaws.motion.quantity_kinds import Kind
 from optlaws.numbers import Quantity, derivative, number_or_array, real_times
+from optlaws.shown.report import PlainReport, Report, ReportSegment
 from optlaws.shown.summary import Row, Summary
-from optlaws.suggest import keywords_of
+from optlaws.synthesis.least_time.move_limits import MoveLimits
+from optlaws.synthesis.least_time.time_search import least_time
+from optlaws.synthesis.least_time.timed_move import TimedMove
+from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.solution import Solution
+from optlaws.synthesis.spaces.bases import Chebyshev
+from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
 from optlaws.synthesis.status import Status
-from optlaws.tolerances import JUMP, STORED_VALUE
+from optlaws.tolerances import CLOSURE, INSIDE_PIECE, JUMP, STORED_VALUE
 
 TransitionKind = Literal["run-in", "run-out"]
 _POSITIVE, _NUMBER = Number(above=0.0), Number()
 _UNITS = {axis: unit for unit, axis in AXES.items()}
+_REST = State(0.0, 0.0)
+_DEGREE = 15  # of Z at least, as of the motions of cycles whose ends move
+_NAMES = {Kind.VELOCITY: "velocity", Kind.JERK: "jerk", Kind.SNAP: "snap"}
 
 
 def _axis(value: Any) -> str:
@@ -37,7 +57,7 @@ def _axis(value: Any) -> str:
 
 
 @declared
-class TransitionCam(Declared, title="a transition cam"):
+class TransitionCam(Exportable, Declared, title="a transition cam"):
     """A cam beside a cycle's cam: it starts the axis from rest, or stops it, while the master keeps turning.
 
     Where it meets the cycle position, velocity and acceleration are those of the cycle, from order 4 on the jerk too.
@@ -133,48 +153,19 @@ class TransitionCam(Declared, title="a transition cam"):
         return max(self.peak(nu), abs(self.state[nu]))
 
     def motion(self, master: Quantity | None = "360 deg", unit: str | None = None) -> Motion:
-        """The exact motion in machine units, which does not repeat; its master begins at 0 with the cam.
+        """The exact motion in machine units, as `Cycle.motion`, which does not repeat; its master begins at 0.
 
-        Parameters
-        ----------
-        master
-            How far the master goes in a cycle, as of `Cycle.motion`: less in the cam as it takes less time; None for a
-            master that is time in seconds.
-        unit
-            Of positions; "mm" for lengths and "deg" for angles unless given.
+        The `master` is how far that of the cycle goes in a turn: it goes less in the cam as this takes less time.
         """
-        first = self.master[0]
         span = master
         if master is not None:
             turn = given_quantity(master, MASTERS, "master")
-            span = f"{turn.number * self.duration / self.period!r} {turn.unit}"
-        about = f"{self.kind}: its master at 0 is that of the cycle at {first:.9g} deg"
+            span = Exact(turn.number * self.duration / self.period, turn.unit)
+        about = f"{self.kind}: its master at 0 is that of the cycle at {self.master[0]:.9g} deg"
         return replace(
             motion_of_pieces((self.piece,), self.duration, self.axis, master=span, unit=unit, proof=(about,)),
             repeats=False,
         )
-
-    @keywords_of(ExportOptions)
-    def export(
-        self, to: str, *, master: Quantity | None = "360 deg", unit: str | None = None, **options: Unpack[ExportOptions]
-    ) -> Any:
-        """The cam in the format of a controller, as `Cycle.export`; its master begins at 0.
-
-        Raises
-        ------
-        InputError
-            As `Cycle.export`.
-
-        Examples
-        --------
-        >>> from optlaws import Cycle, Return, Rise
-        >>> cycle = Cycle([Rise("35 mm", "180 deg", law="cycloidal"), Return(law="cycloidal")], speed="60 rpm")
-        >>> cycle.run_in("90 deg", over="120 deg").export("csv", points=3).text.splitlines()[-1].split(",")[:2]
-        ['120', '17.5']
-        """
-        from optlaws.exports.export import export_cycle
-
-        return export_cycle(self, to, {"master": master, "unit": unit}, **options)
 
     def plot(self, ax: Any = None, *, cycle: Any = None, **style: Any) -> list[Any]:
         """Draw position, velocity, acceleration and jerk over the master; return the artists.
@@ -194,16 +185,25 @@ class TransitionCam(Declared, title="a transition cam"):
 
         return draw_transition(self, ax, cycle=cycle, **style)
 
-    def summary(self) -> Summary:
-        """Rows with the place, the duration, the peaks and the jumps of the cam, in SI units.
+    def report(self) -> Report:
+        """The place, the duration, the peaks and the jumps of the cam, and its motion over time.
 
         Examples
         --------
         >>> from optlaws import Cycle, Return, Rise
         >>> cycle = Cycle([Rise("35 mm", "180 deg", law="cycloidal"), Return(law="cycloidal")], speed="60 rpm")
-        >>> [f"{row.name} {row.text(5)} {row.unit}" for row in cycle.run_in("90 deg", over="120 deg").summary()[:3]]
+        >>> facts = cycle.run_in("90 deg", over="120 deg").report().facts
+        >>> [f"{row.name} {row.text(5)} {row.unit}" for row in facts[:3]]
         ['master -30 to 90 deg', 'time 0.33333 s', 'status optimal ']
         """
+        ends = [self.piece.extremes(nu, 0.0, self.duration) for nu in range(len(QUANTITIES))]
+        panels = [
+            motion_panel((self.piece,), nu, display_unit(self.axis, nu), places) for nu, places in enumerate(ends)
+        ]
+        segments = (ReportSegment(self.kind, 0.0, self.duration),)
+        return PlainReport(self._facts(), (), panels, self._data, segments)
+
+    def _facts(self) -> Summary:
         rows = [Row("master", self.master, "deg"), Row("time", self.duration, "s"), Row("status", self.status.value)]
         if self.least is not None:
             binding = ", ".join(self.least.binding)
@@ -220,6 +220,18 @@ class TransitionCam(Declared, title="a transition cam"):
         for nu, (name, jump) in enumerate(self.jumps.items()):
             rows.append(Row(f"jump of {name} where they meet", jump, unit_of(self.axis, nu)))
         return Summary(rows, "s")
+
+    def _data(self) -> dict[str, Any]:
+        return {
+            "kind": self.kind,
+            "master": list(self.master),
+            "duration": self.duration,
+            "rest": self.rest,
+            "status": self.status.value,
+            "none_below": None if self.least is None else self.least.none_below,
+            **{name: self.peak(nu) for nu, name in enumerate(QUANTITIES) if nu},
+            "jumps": self.jumps,
+        }
 
     def to_dict(self) -> dict[str, Any]:
         """Plain JSON-able dict in SI units, with the law and its proof."""
@@ -264,12 +276,10 @@ class TransitionCam(Declared, title="a transition cam"):
 
     def _check_law(self) -> None:
         """Refuse a law that does not meet the cycle, or a least time of another move."""
-        order = self.solution.problem.order
         side = 1 if self.kind == "run-in" else 0
-        for nu, jump in enumerate(list(self.jumps.values())[:order]):
-            size = self._size(nu)
+        for nu, jump in enumerate(list(self.jumps.values())[: self.solution.problem.order]):
             still = abs(self.piece.end(nu, 1 - side) - (self.rest if nu == 0 else 0.0))
-            if max(abs(jump), still) > sqrt(STORED_VALUE) * size:
+            if max(abs(jump), still) > sqrt(STORED_VALUE) * self._size(nu):
                 raise InputError(f"the law of {self.named} does not meet its state or its rest")
         if self.least is not None and self.least.duration != self.duration:
             raise InputError(f"{self.named} takes {self.duration!r} s, but its least time is another")
@@ -281,7 +291,107 @@ class TransitionCam(Declared, title="a transition cam"):
             f"status={self.status.value!r})"
         )
 
-    def _repr_html_(self) -> str:
-        from optlaws.shown.showing import page
 
-        return page(f"A {self.kind}", self.summary()._repr_html_())
+def transition_cam(
+    kind: TransitionKind, programme: Programme, pieces: Sequence[Piece], objective: CycleObjective, given: Transition
+) -> TransitionCam:
+    """The cam from rest into a cycle, or out of it to rest, in a given time or the least within its limits."""
+    period, axis = programme.period, programme.axis
+    at = time_of(given.at, period, "at")
+    if not 0.0 <= at <= period:
+        raise InputError(f"at must be within the cycle, from 0 to 360 deg, got {given.at!r}")
+    state = _state(kind, programme, pieces, at)
+    rest = programme.start if given.rest is None else quantity(given.rest, axis, "rest")
+    way = max(abs(stretch.displacement) for stretch in programme.stretches)
+    if abs(state[0] - rest) <= CLOSURE * way:
+        rest = state[0]
+    moved, (velocity, acceleration, jerk), shown = state[0] - rest, state[1:], f"{360.0 * at / period:.6g} deg"
+    if kind == "run-out":
+        velocity, jerk = -velocity, -jerk  # its law is reversed in time
+    of_motion = replace(
+        objective,
+        minimise=objective.minimise if kind_of(objective.minimise)[0].order else "acceleration",
+        order=given.order or objective.order,
+        limits=of_segments(objective.limits),
+        load=None,
+        loaded={},
+    )
+    # as a segment it has the name that errors give it; a run-out moves the other way than its law
+    stretch = partial(TimedSegment, 1, Move(name=kind), displacement=moved if kind == "run-in" else -moved)
+    cam = partial(TransitionCam, kind, axis, period, at, rest, state)
+    if given.over is not None:
+        duration = time_of(given.over, period, "over")
+        if moved == 0.0 and velocity == 0.0:
+            raise InputError(f"the cycle is in the place of rest at {shown}, and rests: it needs no {kind}")
+        last, timed = State(velocity, acceleration), stretch(duration, duration)
+        span = LawSpan((timed,), (0.0,), duration, rest, moved, _REST, last, ())
+        stroke, count = scale(span), of_motion.order - 1
+        rates = [rate / factor(stroke, duration, nu) for nu, rate in enumerate((velocity, acceleration, jerk), start=1)]
+        ends = (*rates, *(0.0,) * count)[:count]
+        problem = replace(
+            span_problem(span, of_motion, axis, stroke),
+            basis=Chebyshev(max(of_motion.degree, _DEGREE)),
+            symmetric=False,
+            boundary=BoundaryConditions((0.0, *(0.0,) * count), (moved / stroke, *ends)),
+        )
+        return cam(duration, solved(problem, span))
+    if moved == 0.0:
+        raise InputError(
+            f"the place of rest is that of the cycle at {shown}: its least time is not sought; "
+            "give `over`, or another place"
+        )
+    limits = limits_of_stretch(stretch(period, period), of_motion, axis)
+    sign = 1.0 if moved > 0.0 else -1.0
+    problem = Problem(
+        order=of_motion.order,
+        basis=Chebyshev(max(of_motion.degree, _DEGREE)),
+        symmetric=False,
+        monotone=along_motion(limits),
+    )
+    move = TimedMove(
+        problem,
+        abs(moved),
+        _move_limits(limits, sign),
+        end_velocity=sign * velocity,
+        end_acceleration=sign * acceleration if of_motion.order > 2 else 0.0,
+        end_jerk=sign * jerk if of_motion.order > 3 else 0.0,
+    )
+    least = least_time(move)
+    return cam(least.duration, least.solution, FastestMove(least, _UNITS[axis]))
+
+
+def _state(
+    kind: TransitionKind, programme: Programme, pieces: Sequence[Piece], time: float
+) -> tuple[float, float, float, float]:
+    """The state of the cycle at a time: after a joint for a run-in, before it for a run-out."""
+    period = programme.period
+    # what jumps at a joint has the value of the side that the cam joins
+    inside, side = (time % period, 1.0) if kind == "run-in" else (time or period, -1.0)
+    near = inside + side * INSIDE_PIECE * period
+    position, *rates = (
+        float(values_of_pieces(pieces, np.array([at]), nu)[0]) for nu, at in enumerate((inside, inside, near, near))
+    )
+    sizes = [
+        max(piece.law.peak(nu).value * abs(factor(piece.stroke, piece.duration, nu)) for piece in pieces)
+        for nu in (1, 2, 3)
+    ]
+    velocity, acceleration, jerk = (
+        0.0 if abs(rate) <= CLOSURE * size else rate for rate, size in zip(rates, sizes, strict=True)
+    )
+    return position + programme.advance * round((time - inside) / period), velocity, acceleration, jerk
+
+
+def _move_limits(limits: Mapping[Side, float], sign: float) -> MoveLimits:
+    """The limits of a move whose stroke has a sign."""
+    for key, most in limits.items():
+        if not key.kind.order:
+            raise InputError("the least time is sought within limits of the motion, not of a drive: give `over`")
+        one_sided = key.sign and key.kind not in {Kind.ACCELERATION, Kind.VELOCITY_ALONG}
+        if one_sided and greatest(limits, key.kind, -key.sign) != most:
+            raise InputError(f"limits: the {_NAMES[key.kind]} has two sides: the least time takes one limit of both")
+    if not limits:
+        raise InputError("nothing limits the least time: give the cycle limits, or say the time or angle as `over`")
+    both = {name: greatest(limits, kind, 1.0) for kind, name in _NAMES.items()}
+    names = (("acceleration", sign), ("deceleration", -sign))
+    sides = {name: greatest(limits, Kind.ACCELERATION, side) for name, side in names}
+    return MoveLimits(**{name: most for name, most in (both | sides).items() if most < inf})
