@@ -113,6 +113,8 @@ def parts_of(text: object) -> Any:
     """
     if isinstance(text, Amount):
         return text.to_dict()
+    if isinstance(text, str) and not isinstance(text, Sentence):
+        return str(text)  # a quantity that is known, which a page has as text
     if not isinstance(text, Sentence):
         raise TypeError(f"{type(text).__name__} is no sentence")
     parts = [part.to_dict() if isinstance(part, Amount) else part for part in text.parts]
