@@ -80,6 +80,16 @@ def limits_taken(plan: Plan, limited: Cycle | None = None) -> tuple[LimitTaken, 
     return (*(taken.taken for taken in _most(segments)), *_of_whole(plan, given))
 
 
+def broken_limits(plan: Plan) -> Sequence[str]:
+    """What its laws take beyond its limits, and beyond those of its motor."""
+    broken = [sentence("{}", taken) for taken in plan.limits_taken if not taken.is_kept]
+    if isinstance(plan.specification.drive, Drive) and not plan.specification.limits.get(MOTOR):
+        weak = (margin for margin in plan.sheet.margins if not margin.is_kept)
+        uses = ((each.name, f"{100.0 * each.use:.4g}".replace("inf", "∞")) for each in weak)
+        broken += [sentence("the motor's {}, {} % of it", *use) for use in uses]
+    return broken
+
+
 def refuse_beyond(cycle: Cycle) -> None:
     """Refuse given laws that break a limit of the cycle or of their segments.
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import KW_ONLY, replace
 from typing import Any, Literal, TypeAlias, Unpack
 
@@ -18,7 +18,6 @@ from optlaws.errors import InfeasibleProblem, InputError, located
 from optlaws.extras import needed
 from optlaws.files.reading import check_names
 from optlaws.kept import kept_property
-from optlaws.laws import MotionLaw
 from optlaws.laws.exporting import AxesExportOptions
 from optlaws.motion.quantities import Exact
 from optlaws.numbers import Quantity
@@ -215,10 +214,14 @@ class Axes(Declared, Mapping[str, Cycle], title="stored axes"):
 
         period = goal == "period"
         best = overlapping.shortest(self._program) if period else overlapping.gentlest(self, self.rules, longer)
-        cycles = {
-            name: _retimed(cycle.specification, best.durations[name], best.laws[name], best.period)
-            for name, cycle in self.items()
-        }
+        least, cycles = CLOSURE * best.period, dict[str, Cycle]()
+        for name, cycle in self.items():
+            known = zip(cycle.segments, best.durations[name], best.laws[name], strict=True)
+            timed = (
+                None if isinstance(segment, Dwell) and time <= least else (Exact(time, "s"), law)
+                for segment, time, law in known
+            )
+            cycles[name] = _retimed(cycle.specification, timed, Exact(best.period, "s"))
         value = best.period if period else 1.0 / best.pace**2
         axes = Axes(cycles, interlocks=self.rules)
         numbers: dict[str, Any] = {"goal": goal, "objective": value, "lower_bound": best.bound}
@@ -246,8 +249,7 @@ class Axes(Declared, Mapping[str, Cycle], title="stored axes"):
         >>> [(least.status, least.text) for least in machine.clearances]
         [('broken', '-0.060178 deg at 66.1074 deg, -4.79101 ms early')]
         """
-        clearances: tuple[LeastClearance, ...] = self._report.clearances
-        return clearances
+        return self._report.clearances  # type: ignore[no-any-return]
 
     @property
     def broken(self) -> tuple[LeastClearance, ...]:
@@ -393,9 +395,8 @@ class Axes(Declared, Mapping[str, Cycle], title="stored axes"):
         return draw_interlocked(self._report, ax, what, interlock, style)
 
     def report(self) -> Report:
-        """The proven clearances, and the position of every axis and every clearance over the master."""
-        report: Report = self._report
-        return report
+        """The proven clearances, limits that axes break, and every position and clearance over the master."""
+        return self._report  # type: ignore[no-any-return] # an `AxesReport`, which is imported where it is needed
 
     @kept_property
     def _report(self) -> Any:
@@ -454,7 +455,16 @@ def _stored(axes: Axes) -> dict[str, Any]:
 
 @declared
 class Overlap(Declared, title="axes that overlap"):
-    """Axes with the best overlap of the search, and the bound that no other overlap passes."""
+    """Axes with the best overlap of the search, and the bound that no other overlap passes.
+
+    Examples
+    --------
+    >>> from optlaws import Dwell, Return, Rise
+    >>> moves = [Rise("0.1 m", "0.2 s", law="cycloidal"), Dwell("0.4 s", least="0 s"), Return("0.1 m", "0.2 s")]
+    >>> best = Axes({"slide": [*moves, Dwell()]}, period="1 s").fastest()
+    >>> Overlap.from_json(best.to_json()).objective == best.objective, round(best.objective, 6)
+    (True, 0.4)
+    """
 
     writes_defaults = True
     __eq__, __hash__ = object.__eq__, object.__hash__
@@ -518,19 +528,6 @@ class Overlap(Declared, title="axes that overlap"):
         ]
         return Summary([*rows, *(Row("bound by", name) for name in self.binding)])
 
-    def to_dict(self) -> dict[str, Any]:
-        """Both machines with what was sought and found, plain and JSON-able, which `optlaws verify` checks.
-
-        Examples
-        --------
-        >>> from optlaws import Dwell, Return, Rise
-        >>> moves = [Rise("0.1 m", "0.2 s", law="cycloidal"), Dwell("0.4 s", least="0 s"), Return("0.1 m", "0.2 s")]
-        >>> best = Axes({"slide": [*moves, Dwell()]}, period="1 s").fastest()
-        >>> Overlap.from_json(best.to_json()).objective == best.objective, round(best.objective, 6)
-        (True, 0.4)
-        """
-        return super().to_dict()
-
     @classmethod
     def from_dict(cls, data: Any) -> Overlap:
         """The overlap that `to_dict` wrote; its objective is computed again from its axes.
@@ -547,13 +544,7 @@ class Overlap(Declared, title="axes that overlap"):
 
     @classmethod
     def stated(cls, data: Any) -> Overlap:
-        """The overlap as its data states it.
-
-        Raises
-        ------
-        InputError
-            If an entry is missing, unknown or wrong.
-        """
+        """The overlap as its data states it."""
         return super().from_dict(data)
 
     def contradiction(self) -> str:
@@ -561,7 +552,9 @@ class Overlap(Declared, title="axes that overlap"):
         if tuple(self.axes) != tuple(self.given) or self.axes.rules != self.given.rules:
             return "its axes and interlocks are not those of the given machine"
         for name, cycle in self.axes.items():
-            if _in_times_of(self.given[name].specification, cycle).to_dict() != cycle.to_dict():
+            moves = _timed(self.given[name], cycle)
+            timed = (None if each is None else (each.duration, getattr(each, "law", None)) for each in moves)
+            if _retimed(self.given[name].specification, timed, cycle.period).to_dict() != cycle.to_dict():
                 return f"axis {name} makes other moves than the given one"
         try:
             known = self._reached()
@@ -584,10 +577,10 @@ class Overlap(Declared, title="axes that overlap"):
         """What leaves no room at the instants of the axes, to a share of what counts as none."""
         from optlaws.cycles.axes.overlapping import program
 
-        times = {
-            name: [0.0 if i is None else cycle.durations[i] for _, i in _kept_segments(self.given[name], cycle)]
-            for name, cycle in self.axes.items()
-        }
+        times = {}
+        for name, cycle in self.axes.items():
+            durations = iter(cycle.durations)
+            times[name] = [0.0 if timed is None else next(durations) for timed in _timed(self.given[name], cycle)]
         given, goal = self.given, self.goal
         of_laws = given._program if goal == "period" else program(given, given.rules, goal, self.of, times)  # noqa: SLF001
         return tuple(of_laws.binding(times, self.axes.duration, share))
@@ -601,42 +594,23 @@ class Overlap(Declared, title="axes that overlap"):
         return f"Overlap({what}, {self.gain:.4g} times better, status={self.status.value!r}, bound by {self.binding})"
 
 
-def _retimed(cycle: Cycle, durations: Sequence[float], laws: Sequence[MotionLaw | None], period: float) -> Cycle:
-    """The cycle with laws of its moves in other times; dwells of no time are left out."""
+def _retimed(cycle: Cycle, timed: Iterable[tuple[Any, Any] | None], period: Any) -> Cycle:
+    """The cycle with other durations and laws of its moves; dwells of no time are None, and left out."""
     segments = list[CycleSegment]()
-    for stretch, law, duration in zip(cycle.programme.stretches, laws, durations, strict=True):
-        segment = stretch.given
-        if isinstance(segment, Dwell) and duration <= CLOSURE * period:
-            continue
-        sought: dict[str, Any] = {"law": law} if law is not None and is_optimal(segment) else {}
-        segments.append(replace(segment, duration=Exact(duration, "s"), **sought))  # type: ignore[type-var]
+    for segment, (duration, law) in ((each, known) for each, known in zip(cycle.segments, timed, strict=True) if known):
+        sought: dict[str, Any] = {} if law is None or not is_optimal(segment) else {"law": law}
+        segments.append(replace(segment, duration=duration, **sought))  # type: ignore[type-var]
     minimise = "acceleration" if cycle.load is not None else cycle.minimise
-    return replace(cycle, segments=segments, speed=None, period=Exact(period, "s"), minimise=minimise)
+    return replace(cycle, segments=segments, speed=None, period=period, minimise=minimise)
 
 
-def _in_times_of(cycle: Cycle, other: Cycle) -> Cycle:
-    """A cycle with the durations of another one of the same moves, whose dwells of no time are left out."""
-    segments = list[CycleSegment]()
-    for segment, i in _kept_segments(cycle, other):
-        if i is not None:
-            timed = other.segments[i]
-            sought: dict[str, Any] = {"law": getattr(timed, "law", None)} if is_optimal(segment) else {}
-            segments.append(replace(segment, duration=timed.duration, **sought))  # type: ignore[type-var]
-    minimise = "acceleration" if cycle.load is not None else cycle.minimise
-    return replace(cycle, segments=segments, speed=None, period=other.period, minimise=minimise)
-
-
-def _kept_segments(cycle: Cycle, other: Cycle) -> Iterator[tuple[CycleSegment, int | None]]:
-    """The segments of a cycle, each with its place in one without dwells of no time; None for what is left out."""
-    place = 0
+def _timed(cycle: Cycle, other: Cycle) -> Iterator[CycleSegment | None]:
+    """The segments of another cycle of the same moves, without dwells of no time; None for what is left out."""
+    others = [*other.segments, None][::-1]
     for segment in cycle.segments:
-        timed = other.segments[place] if place < len(other.segments) else None
-        dwell = isinstance(segment, Dwell)
-        if timed is None or (dwell and replace(segment, duration=timed.duration) != timed):  # type: ignore[type-var]
-            yield segment, None
-        else:
-            yield segment, place
-            place += 1
+        timed = others[-1]
+        left_out = timed is None or (isinstance(segment, Dwell) and replace(segment, duration=timed.duration) != timed)
+        yield None if left_out else others.pop()
 
 
 def _entries(given: Any) -> dict[str, Any]:

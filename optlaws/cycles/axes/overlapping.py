@@ -370,7 +370,7 @@ class Overlapping:
         )
 
     def binding(self, durations: _Times, period: float, share: float) -> tuple[str, ...]:
-        """What leaves no room, to a share of what counts as none: limits of moves, dwells and interlocks, by their names.
+        """What leaves no room, to a share of what counts as none: limits of moves, dwells and interlocks, by names.
 
         It is a matter of the instants alone: an interlock leaves what its most favourable option does, at the place of
         the segment where that is least.

@@ -19,10 +19,12 @@ from optlaws.cycles.axes.interlock import (
     Synchronous,
 )
 from optlaws.cycles.cycle import Cycle
+from optlaws.cycles.limit_rows import broken_limits
 from optlaws.cycles.report import objective_unit
 from optlaws.kept import kept_property
 from optlaws.motion.display_units import UNITS
 from optlaws.numbers import Array
+from optlaws.sentences import joined
 from optlaws.shown.curve_points import refined
 from optlaws.shown.report import Panel, PanelLimit, ReportSegment, ReportTable, Series
 from optlaws.shown.summary import Row, Summary
@@ -71,7 +73,7 @@ class AxesReport:
 
     @property
     def facts(self) -> Summary:
-        """The least clearance of every interlock with its proof, and what the laws of each axis minimise."""
+        """The least clearance of every interlock with its proof, limits that are broken, and what laws minimise."""
         clearances = (
             Row(name, value, unit, angle, status if margin is None else f"{status}, {margin:.6g} ms early")
             for name, status, value, _, unit, angle, margin in (least.cells for least in self.clearances)
@@ -81,7 +83,14 @@ class AxesReport:
                 note=cycle.status.value)
             for name, cycle in self.cycles.items() if cycle.solutions
         )  # fmt: skip
-        return Summary([*clearances, *laws], at="deg")
+        beyond = (Row(f"{name}: beyond what is allowed", text) for name, text in self.beyond)
+        return Summary([*clearances, *beyond, *laws], at="deg")
+
+    @kept_property
+    def beyond(self) -> list[tuple[str, str]]:
+        """Each axis that breaks limits, and which; such as one whose cycle is `unchecked`."""
+        broken = {name: broken_limits(cycle) for name, cycle in self.cycles.items()}
+        return [(name, joined("; ", texts)) for name, texts in broken.items() if texts]
 
     @property
     def tables(self) -> tuple[ReportTable, ...]:

@@ -136,11 +136,7 @@ def _trust(axes: Axes, report: AxesReport) -> dict[str, Any]:
     named = "; ".join(each.interlock.label for each in axes.broken if each.status == worst)
     if not axes.rules:
         status, word, advice = "given", "no interlocks", "Nothing is asked of two axes at a time."
-    limits = [
-        sentence("{}: {}", name, broken["advice"])
-        for name, cycle in axes.items()
-        if (broken := cycle_view.broken_limits(cycle.solve()))
-    ]
+    limits = [sentence("{}: beyond what is allowed: {}.", *each) for each in report.beyond]
     if limits:
         status, word = "refused", "beyond a limit" if worst == "clear" else f"{word}, beyond a limit"
     text = joined(" ", [f"{advice}{named}{'.' if named else ''}", *limits])

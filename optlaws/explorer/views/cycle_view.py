@@ -13,8 +13,8 @@ import msgspec
 
 from optlaws import Cycle, Plan
 from optlaws.cycles.axes.interlock import Interlock
+from optlaws.cycles.limit_rows import broken_limits
 from optlaws.cycles.optimisation.motion_limits import LIMITS
-from optlaws.cycles.optimisation.motor_limits import MOTOR
 from optlaws.cycles.optimisation.objectives import OBJECTIVES
 from optlaws.cycles.report import CycleReport, drive_rows, joint_rows, objective_unit, proof_rows
 from optlaws.cycles.specification.limit_entries import LIMITS_OF_CYCLE
@@ -27,7 +27,6 @@ from optlaws.explorer.views.requests import MOST_LAWS, check_size, without_files
 from optlaws.files import reading
 from optlaws.files.packaged import packaged
 from optlaws.jobs.cycle_entries import AxisEntries, CycleProblemFile, cycle_of
-from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.mechanisms.drives.motor import OF_TORQUE, Motor
 from optlaws.motion.display_units import MILLI, TURN_DEG, UNITS
 from optlaws.numbers import Quantity
@@ -159,25 +158,16 @@ def _beyond(extremes: tuple[tuple[float, float], tuple[float, float]], limits: t
 
 def trust(shown: Plan) -> dict[str, Any] | None:
     """The status of the laws and what is proven of them, and which limits they do not keep; None of laws as given."""
-    broken = broken_limits(shown)
+    beyond, broken = broken_limits(shown), dict[str, str]()
+    if beyond:
+        advice = sentence("Beyond what is allowed: {}.", joined("; ", beyond))
+        broken = {"status": "refused", "word": "beyond a limit", "advice": advice}
     if not shown.solutions:
         return {"facts": []} | broken if broken else None
     facts = fact_sentences(row for row in proof_rows(shown) if row.name != "status")
     gap = "" if shown.lower_bound is None else gap_text(1.0 - shown.lower_bound / shown.objective)
     optimal = f"The lower bound meets the objective: none is better of {shown.search_space}."
     return verdict(shown.status, gap, facts, optimal) | broken
-
-
-def broken_limits(shown: Plan) -> dict[str, str]:
-    """A verdict on the limits that the given laws exceed; nothing where all limits are satisfied."""
-    broken = [str(taken) for taken in shown.limits_taken if not taken.is_kept]
-    if isinstance(shown.drive, Drive) and not shown.limits.get(MOTOR):
-        weak = (margin for margin in shown.sheet.margins if not margin.is_kept)
-        broken += [sentence("the motor's {}, {} % of it", each.name, digits(100.0 * each.use, 4)) for each in weak]
-    if not broken:
-        return {}
-    advice = sentence("Beyond what is allowed: {}.", joined("; ", broken))
-    return {"status": "refused", "word": "beyond a limit", "advice": advice}
 
 
 #: segments of what is shown at first, as a cycle and as a cam

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
-from optlaws import After, Axes, Clearance, Dwell, Forbidden, InputError, Return, Rise, Synchronous
+from optlaws import After, Axes, Clearance, Cycle, Dwell, Forbidden, InputError, Return, Rise, Synchronous
 from optlaws.results import Results
 from tests.documents import ROOT
 from tests.internals.files import reading
@@ -117,3 +117,12 @@ def test_a_page_names_the_pictures_that_are_drawn(tmp_path: Path, without: list[
     results.write(tmp_path)
     page = (tmp_path / "cycle.md").read_text("utf-8")
     assert set(re.findall(r"\]\((.*?)\)", page)) == {file.name for file in tmp_path.glob("*.svg")}
+
+
+def test_the_report_of_axes_says_which_limits_they_break() -> None:
+    slow = Cycle(X, period="1.2 s", limits={"velocity": "1 m/s", "acceleration": "90 m/s^2"})
+    machine = Axes({"x": slow.unchecked(), "z": Cycle(Z, period="1.2 s")}, interlocks=RULES[2:4])
+    (row,) = (row for row in machine.report().facts if "beyond" in row.name)
+    (broken,) = (taken for taken in machine["x"].limits_taken if not taken.is_kept)
+    assert (row.name, row.value) == ("x: beyond what is allowed", str(broken))
+    assert not any("beyond" in row.name for row in PAIR.report().facts)
