@@ -37,12 +37,13 @@ from .laws.law import Jumps as Jumps
 from .laws.making.input_shaping import Shaper as Shaper
 from .laws.making.multiplier import Multiplier as Multiplier
 from .laws.segments.segment import Segment as Segment
-from .mechanisms.drives.effort import Effort as Effort, SegmentEffort as SegmentEffort
-from .mechanisms.drives.sheet import (
+from .mechanisms.drives.effort import (
     BestRatio as BestRatio,
     CycleSheet as CycleSheet,
     DriveSheet as DriveSheet,
+    Effort as Effort,
     Margin as Margin,
+    SegmentEffort as SegmentEffort,
 )
 from .mechanisms.linkages.bodies import DrivenLink as DrivenLink, LoadPlace as LoadPlace
 from .mechanisms.linkages.dimensionless import StrokeTorque as StrokeTorque, Train as Train

@@ -39,7 +39,7 @@ from optlaws.extras import needed
 from optlaws.files.reading import check_names
 from optlaws.kept import kept_property
 from optlaws.mechanisms.drives.drive_train import Drive
-from optlaws.mechanisms.drives.effort import Effort, PieceEffort, SegmentEffort, effort
+from optlaws.mechanisms.drives.effort import CycleSheet, Effort, PieceEffort, SegmentEffort
 from optlaws.mechanisms.drives.motor import OF_TORQUE, Motor
 from optlaws.mechanisms.linkages.mechanism import Mechanism
 from optlaws.mechanisms.machine.over_time import RepeatedMotion
@@ -56,7 +56,6 @@ from optlaws.tolerances import CYCLE_OPTIMALITY, JUMP
 if TYPE_CHECKING:
     from optlaws.cycles.fastest_cycle import FastestCycle
     from optlaws.cycles.transitions import TransitionCam, TransitionKind
-    from optlaws.mechanisms.drives.sheet import CycleSheet
 
 #: what a picture of a cycle is over
 PlotOver = Literal["time", "speed"]
@@ -303,7 +302,7 @@ class Answers(Exportable):
         """Force or torque and power that the drive takes."""
         if self.solve().drive is None:
             raise InputError("the cycle has no drive: give one, such as drive={'mass': '2 kg', 'gravity': '20 N'}")
-        return effort(self.along, self.solve().duration)
+        return Effort.of(self.along, self.solve().duration)
 
     @answer
     def geared_motor(self) -> Drive:
@@ -328,20 +327,18 @@ class Answers(Exportable):
         InputError
             If the drive is no `Drive` with a motor.
         """
-        from optlaws.mechanisms.drives.sheet import sheet_of
-
         self.geared_motor  # noqa: B018 - a drive without one has no sheet
-        return sheet_of(self.along, self.solve().duration)
+        return CycleSheet.of(self.along, self.solve().duration)
 
     @answer
     def efforts(self) -> tuple[SegmentEffort, ...]:
         """Peaks of force and power, the RMS force and the energies of every segment, in SI units."""
-        drive, pieces = known_drive(self.solve().specification.in_si.drive), self.pieces
-        spans = [(next(p for p in reversed(pieces) if p.start <= each.start), each) for each in self.peaks]
-        return tuple(
-            PieceEffort(drive, piece, (each.start, each.start + each.duration)).of_segment(each.name)
-            for piece, each in spans
-        )
+        drive, pieces, efforts = known_drive(self.solve().specification.in_si.drive), self.pieces, []
+        for each in self.peaks:
+            piece = next(piece for piece in reversed(pieces) if piece.start <= each.start)
+            start, stop = each.start, each.start + each.duration
+            efforts.append(SegmentEffort.of([PieceEffort(drive, piece, (start, stop))], stop - start, name=each.name))
+        return tuple(efforts)
 
     def force(self, time: Any) -> Any:
         """Force or torque of the drive at a time in seconds: at the follower or table, the input or the motor."""

@@ -7,8 +7,6 @@ from itertools import pairwise
 from math import inf, isfinite
 from typing import Any, NamedTuple, TypeAlias
 
-import numpy as np
-
 from optlaws.cycles.optimisation.drive_formulas import known_drive
 from optlaws.cycles.optimisation.motion_limits import (
     FORCES,
@@ -25,7 +23,6 @@ from optlaws.cycles.specification.segments import Dwell, Free, Move
 from optlaws.errors import InfeasibleProblem
 from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.mechanisms.drives.effort import PieceEffort
-from optlaws.mechanisms.drives.sheet import share_used
 from optlaws.motion.piece import Piece, jump_beside, unit_of
 from optlaws.motion.quantity_kinds import Kind
 from optlaws.numerics.peaks import is_kept
@@ -245,14 +242,12 @@ def _greatest(placed: _InPlace, key: Side) -> tuple[float, float | None]:
 
 def _greatest_of_drive(placed: _InPlace, kind: Kind) -> tuple[float, float | None]:
     """The greatest force or power in a segment, or share of the motor's curve of torque over speed."""
-    drive = known_drive(placed.drive)
-    along = PieceEffort(drive, placed.piece, (placed.start, placed.stop))
+    along = PieceEffort(known_drive(placed.drive), placed.piece, (placed.start, placed.stop))
     if kind is Kind.POWER:
         return max(along.powers), None
     if kind is Kind.FORCE:
         return along.peak_force
-    motor = drive.motor
-    return along.parts.greatest(lambda times: share_used(np.abs(along.force(times)), motor.peak_at(along.speed(times))))
+    return along.parts.greatest(along.use)
 
 
 def _of_whole(plan: Plan, limited: Cycle) -> Iterator[LimitTaken]:

@@ -32,9 +32,8 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from optlaws.cycles.cycle import Plan
-    from optlaws.mechanisms.drives.effort import PieceEffort
+    from optlaws.mechanisms.drives.effort import BestRatio, PieceEffort
     from optlaws.mechanisms.drives.motor import Motor
-    from optlaws.mechanisms.drives.sheet import BestRatio
     from optlaws.mechanisms.linkages.mechanism import Mechanism
     from optlaws.mechanisms.machine.over_time import OutputCurve
     from optlaws.mechanisms.machine.parameters import MachineSpectrum

@@ -151,6 +151,9 @@ def values(jumping: Solution) -> dict[str, Any]:
             advance="1 rad",
             drive={"inertia": "1 kg m^2"},
         ).effort,
+        "SegmentEffort": optlaws.Cycle(
+            [optlaws.Rise("1 rad", "1 s", law="0050")], period="1 s", advance="1 rad", drive={"inertia": "1 kg m^2"}
+        ).efforts[0],
         "CycleSheet": optlaws.Cycle(
             [optlaws.Rise("1 rad", "1 s", law="0050")],
             period="1 s",

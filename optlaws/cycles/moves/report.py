@@ -12,8 +12,7 @@ from optlaws.cycles.moves.fastest_move import AXES, FastestMove
 from optlaws.cycles.optimisation.motion_limits import LimitTaken
 from optlaws.kept import kept_property
 from optlaws.mechanisms.drives.drive_train import Drive
-from optlaws.mechanisms.drives.effort import PieceEffort
-from optlaws.mechanisms.drives.sheet import DriveSheet, share_used
+from optlaws.mechanisms.drives.effort import DriveSheet, PieceEffort
 from optlaws.motion.derivative_panel import DERIVATIVES, display_unit, motion_panel
 from optlaws.motion.piece import Piece, unit_of
 from optlaws.motion.quantities import QUANTITIES
@@ -118,7 +117,7 @@ class MoveReport:
             if torque.peak is not None:
                 taken["torque"] = torques / torque.peak
             if torque.curve:
-                taken[CURVE_LIMIT] = share_used(torques, self.drive.motor.peak_at(self._along.speed(times)))
+                taken[CURVE_LIMIT] = self._along.use(times)
         return taken
 
     @property

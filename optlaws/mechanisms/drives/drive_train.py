@@ -15,9 +15,8 @@ from optlaws.formulas.tree import Formula
 from optlaws.formulas.tree import Number as Constant
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw, smoothstep
-from optlaws.mechanisms.drives.effort import PieceEffort
+from optlaws.mechanisms.drives.effort import BestRatio, DriveSheet, PieceEffort, TorqueByRatio
 from optlaws.mechanisms.drives.motor import NO_MOTOR, Motor
-from optlaws.mechanisms.drives.sheet import BestRatio, DriveSheet, TorqueByRatio, best_ratio, sheet_of
 from optlaws.mechanisms.linkages.dimensionless import StrokeTorque, Train
 from optlaws.mechanisms.linkages.linear_force import LinearForce
 from optlaws.mechanisms.linkages.mechanism import DIMENSIONS, Mechanism, duration_of
@@ -338,12 +337,12 @@ class Drive(Declared, title="a drive"):
         RMS torque, used                  72.92589084  %
         """
         piece, time = self._move(law, start, stroke, duration, period)
-        sheet = sheet_of([PieceEffort(self, each) for each in _with_rest(piece, time)], time)
-        places = {
-            name: float(piece.places(np.array(getattr(sheet, name)))) for name in ("peak_torque_at", "curve_use_at")
-        }
+        rest = Piece(piece.stop, time - piece.duration, piece.offset + piece.stroke, 0.0, smoothstep(1))
+        pieces = [piece, rest] if rest.duration > CLOSURE * time else [piece]
+        sheet = DriveSheet.of([PieceEffort(self, each) for each in pieces], time)
+        peak_at, use_at = piece.places(np.array([sheet.peak_torque_at, sheet.curve_use_at])).tolist()
         holding = float(np.sign(piece.stroke)) * self._load_after(piece) / self.ratio
-        return DriveSheet(**{**vars(sheet), **places, "holding_torque": holding})
+        return replace(sheet, peak_torque_at=peak_at, curve_use_at=use_at, holding_torque=holding)
 
     def best_ratio(
         self,
@@ -380,7 +379,7 @@ class Drive(Declared, title="a drive"):
         x, v, w = (piece.values(times, nu) for nu in range(3))
         turning, dry, load = self._torques((x, v, w), piece.direction(times))
         holding = (1.0 - piece.duration / time) * self._load_after(piece) ** 2
-        return best_ratio(TorqueByRatio(turning, dry, load, v, weights / time, holding), self.motor)
+        return TorqueByRatio(turning, dry, load, v, weights / time, holding).best(self.motor)
 
     def plot(
         self,
@@ -425,14 +424,6 @@ class Drive(Declared, title="a drive"):
             raise InputError(f"period must be at least the duration of the move, {moved.duration:g} s, got {time:g} s")
         piece = Piece(0.0, moved.duration, moved.start, moved.stroke, named_law(law, "drive"))
         return piece, max(time, moved.duration)
-
-
-def _with_rest(piece: Piece, period: float) -> list[Piece]:
-    """A move and the rest after it until the next one."""
-    rest = period - piece.duration
-    if rest <= CLOSURE * period:
-        return [piece]
-    return [piece, Piece(piece.stop, rest, piece.offset + piece.stroke, 0.0, smoothstep(1))]
 
 
 def phase_move_of(move: LimitedMove) -> PhaseMove:
