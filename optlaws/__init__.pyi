@@ -97,17 +97,19 @@ from .mechanisms.cam_constants import cam_constant as cam_constant
 from .mechanisms.drives.drive_train import Drive as Drive
 from .mechanisms.drives.motor import Motor as Motor, read_motors as read_motors
 from .mechanisms.linkages.bodies import Body as Body, Loads as Loads
-from .mechanisms.linkages.four_bar import four_bar as four_bar
 from .mechanisms.linkages.mechanism import Mechanism as Mechanism
-from .mechanisms.linkages.motions import (
+from .mechanisms.linkages.mechanism_kinds import (
     belt as belt,
     mechanism_of_motion as mechanism_of_motion,
     rack as rack,
     screw as screw,
 )
 from .mechanisms.linkages.move_limit import MoveLimit as MoveLimit
-from .mechanisms.linkages.slider_crank import slider_crank as slider_crank
-from .mechanisms.linkages.toggle import toggle as toggle
+from .mechanisms.linkages.plane_linkages import (
+    four_bar as four_bar,
+    slider_crank as slider_crank,
+    toggle as toggle,
+)
 from .mechanisms.machine.flat_output import driving_law as driving_law, flat_output as flat_output
 from .mechanisms.machine.follower import Deviation as Deviation, Follower as Follower, off_design as off_design
 from .mechanisms.machine.machine import Machine as Machine

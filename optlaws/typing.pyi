@@ -48,7 +48,7 @@ from .mechanisms.drives.effort import (
 from .mechanisms.linkages.bodies import DrivenLink as DrivenLink, LoadPlace as LoadPlace
 from .mechanisms.linkages.dimensionless import StrokeTorque as StrokeTorque, Train as Train
 from .mechanisms.linkages.entries import TableKind as TableKind
-from .mechanisms.linkages.four_bar import FourBarBranch as FourBarBranch
+from .mechanisms.linkages.plane_linkages import FourBarBranch as FourBarBranch
 from .mechanisms.linkages.linear_force import LinearForce as LinearForce
 from .mechanisms.linkages.mechanism import InputAxis as InputAxis, LinkGeometry as LinkGeometry
 from .mechanisms.linkages.move_limit import LimitedMove as LimitedMove

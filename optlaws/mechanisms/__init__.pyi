@@ -1,12 +1,15 @@
 from .drives.drive_train import Drive as Drive
 from .drives.motor import Motor as Motor, read_motors as read_motors
 from .linkages.bodies import Body as Body, Loads as Loads
-from .linkages.four_bar import four_bar as four_bar
 from .linkages.mechanism import Mechanism as Mechanism
-from .linkages.motions import belt as belt, mechanism_of_motion as mechanism_of_motion, rack as rack, screw as screw
+from .linkages.mechanism_kinds import (
+    belt as belt,
+    mechanism_of_motion as mechanism_of_motion,
+    rack as rack,
+    screw as screw,
+)
 from .linkages.move_limit import MoveLimit as MoveLimit
-from .linkages.slider_crank import slider_crank as slider_crank
-from .linkages.toggle import toggle as toggle
+from .linkages.plane_linkages import four_bar as four_bar, slider_crank as slider_crank, toggle as toggle
 from .machine.follower import Deviation as Deviation, Follower as Follower, off_design as off_design
 from .machine.machine import Machine as Machine
 from .machine.masses import Link as Link

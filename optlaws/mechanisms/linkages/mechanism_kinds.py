@@ -1,30 +1,31 @@
-"""Mechanisms by their kinds: each declares its entries, from which its function, files, forms and errors are made."""
+"""Mechanisms by their kinds, from whose entries functions, files, forms and errors are made; slides, and motions."""
 
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import KW_ONLY
-from functools import cache, wraps
+from functools import wraps
 from importlib import import_module
 from inspect import signature
-from pathlib import Path
-from pkgutil import iter_modules
 from typing import Any, ClassVar, ParamSpec, Self, TypeAlias
 
+from optlaws.echo import shortened
 from optlaws.entries.declared import Kinded, ValueOf, declared, entry
 from optlaws.entries.value_types import InSI, Kept, ReadBy, SINumber, Span
-from optlaws.formulas.slopes import added
-from optlaws.formulas.tree import Formula
-from optlaws.mechanisms.linkages.bodies import NO_LOADS, Body, DrivenLink, Link, Loads, Slide, formula_from
+from optlaws.errors import InputError
+from optlaws.files.reading import check_names
+from optlaws.formulas.slopes import added, derivative, multiplied
+from optlaws.formulas.tracing import traced
+from optlaws.formulas.tree import Formula, Name, number
+from optlaws.mechanisms.linkages.bodies import NO_LOADS, DrivenLink, Loads, reduced_inertia
 from optlaws.mechanisms.linkages.mechanism import LinkGeometry, Mechanism, MechanismEntries
-from optlaws.numbers import NumberOrQuantity
+from optlaws.motion.quantities import TURN, either
+from optlaws.numbers import NumberOrQuantity, not_negative
 
 P = ParamSpec("P")
-Ends: TypeAlias = Kept[tuple[float, float], "tuple[NumberOrQuantity, NumberOrQuantity]"]
 OptionalEnds: TypeAlias = Kept["tuple[float, float] | None", "tuple[NumberOrQuantity, NumberOrQuantity] | None"]
-BodiesByLink: TypeAlias = Kept[dict[str, Body], "Mapping[str, Any]"]
-LENGTH = InSI("length", above=0.0)
+LENGTH, MASS = InSI("length", above=0.0), InSI("mass", above=0.0)
 
 
 @declared
@@ -50,8 +51,8 @@ class MechanismKind(Kinded, ABC, title="a mechanism"):
 
     @classmethod
     def kinds(cls) -> dict[str, type[Self]]:
-        """The kinds of mechanisms by their names in problem files, those of this folder among them."""
-        _load()
+        """The kinds of mechanisms by their names in problem files, those of linkages among them."""
+        import_module(f"{__package__}.plane_linkages")
         return dict(sorted(super().kinds().items()))
 
     @classmethod
@@ -88,37 +89,6 @@ class MechanismKind(Kinded, ABC, title="a mechanism"):
 
 
 @declared
-class LinkageKind(MechanismKind):
-    """A linkage in a plane, which a crank drives."""
-
-    _: KW_ONLY
-    loads: Loads = entry(
-        ValueOf(Loads), "What acts on the driven link, and the direction of gravity.", default=NO_LOADS
-    )
-    over: Ends = entry(Span(InSI("angle")), "The range of x, the crank's angle.", default=("0 deg", "360 deg"))
-
-    @property
-    def ends(self) -> tuple[float, float]:
-        """The ends of the range of x, rad."""
-        return self.over
-
-    def _linkage(
-        self,
-        links: Mapping[str, Link | Slide],
-        bodies: Mapping[str, Body],
-        driven: DrivenLink,
-        chains: Sequence[Sequence[tuple[Any, Any]]],
-    ) -> Mechanism:
-        """The mechanism of links with bodies, one of which does the work, and of points that a picture joins."""
-        moved = [link.moved(bodies[name], self.loads.weight) for name, link in links.items()]
-        inertia, load = ([term for terms in side for term in terms] for side in zip(*moved, strict=True))
-        positions = () if driven.position is None else ((driven.name, driven.position),)
-        points = tuple(tuple((formula_from(x), formula_from(y)) for x, y in chain) for chain in chains)
-        acting = self.loads.on(driven, "angle")
-        return self._mechanism(inertia, [*load, *acting], self.ends, LinkGeometry(positions, points))
-
-
-@declared
 class MechanismTable(MechanismEntries, MechanismKind, kind="table"):
     """A mechanism by its inertia and load over the position of its input."""
 
@@ -148,8 +118,158 @@ def function_of(kind: Callable[P, MechanismKind]) -> Callable[P, Mechanism]:
     return make
 
 
-@cache
-def _load() -> None:
-    """Import the modules of the folder, by which their kinds are known."""
-    for module in iter_modules([str(Path(__file__).parent)]):
-        import_module(f"{__package__}.{module.name}")
+def mechanism_of_motion(
+    function: Callable[[Any], Any],
+    masses: Mapping[str, NumberOrQuantity],
+    *,
+    loads: Mapping[str, Loads] | None = None,
+    over: tuple[NumberOrQuantity, NumberOrQuantity],
+    name: str = "mechanism",
+) -> Mechanism:
+    """The mechanism whose driven links move by a Python function; the function is traced for exact derivatives.
+
+    Parameters
+    ----------
+    function
+        Of the input's position in rad or m: the positions of driven links in m or rad by their names, or one number
+        alone, which is called "q1". It is called once, with a symbol: arithmetic and functions of numpy such as
+        `np.sin`, `np.sqrt` and `np.arctan`; no branches on values.
+    masses
+        Of the links, by the same names: "5 kg" for one that slides, "0.1 kg m^2" for one that turns.
+    loads
+        What acts on the links, by their names.
+    over
+        The range of x.
+    name
+        What pictures and texts call it.
+
+    Raises
+    ------
+    InputError
+        If the function does what formulas cannot say, or a link has no mass of its name.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> press = mechanism_of_motion(
+    ...     lambda x: {"ram": 0.1 * np.cos(x) + np.sqrt(0.16 - (0.1 * np.sin(x)) ** 2)},
+    ...     {"ram": "5 kg"},
+    ...     over=("0 deg", "180 deg"),
+    ... )
+    >>> round(press.inertia("90 deg"), 9), round(press.inertia("90 deg", nu=1), 9)
+    (0.05, -0.025819889)
+    """
+    acting = loads or {}
+    positions = traced(function)
+    check_names((*masses, *acting), positions, "driven link")
+    axis = Mechanism(over=over).axis
+    inertia, load = [], []
+    for key, position in positions.items():
+        if key not in masses:
+            raise InputError(f"masses: what moves as {key!r} needs a mass, such as '5 kg', or '0 kg' if it has none")
+        kind, weight = _weight(masses[key], key)
+        link = DrivenLink(key, position, derivative(position, "x"), kind)
+        inertia.append(reduced_inertia(weight, link.velocity))
+        load += acting.get(key, NO_LOADS).on(link, axis)
+        if acting.get(key, NO_LOADS).gravity is not None:
+            raise InputError(
+                f"loads: {key}: a function has no plane for gravity: give weight as a force, such as '-49 N'"
+            )
+    return Mechanism(added(inertia), added(load), over=over, name=name, linkage=LinkGeometry(tuple(positions.items())))
+
+
+def _weight(value: Any, name: str) -> tuple[str, float]:
+    """Whether a link slides or turns, and its mass or moment of inertia."""
+    if not isinstance(value, str) and not hasattr(value, "units"):
+        raise InputError(
+            f"masses: {name} must be a mass such as '5 kg' for a link that slides, or a moment of inertia such as "
+            f"'0.1 kg m^2' for one that turns, got {shortened(value)}"
+        )
+    dimension, weight = either(value, ("mass", "moment of inertia"), f"masses: {name}")
+    return ("length" if dimension == "mass" else "angle"), not_negative(weight, f"masses: {name}")
+
+
+@declared
+class SlideKind(MechanismKind):
+    """A slide that moves in proportion to the angle of the input."""
+
+    _: KW_ONLY
+    inertia: SINumber = entry(
+        InSI("moment of inertia", least=0.0), "Of what turns with the input.", default=0.0, example="1e-4 kg m^2"
+    )
+    loads: Loads = entry(
+        ValueOf(Loads),
+        "What acts on the slide; gravity's direction is from the slide's way, \"180 deg\" for one that goes straight "
+        "up.",
+        default=NO_LOADS,
+    )
+    over: OptionalEnds = entry(
+        Span(InSI("angle")), "The range of x; without bound unless given.", default=None, example=["0 turn", "9 turn"]
+    )
+
+    def _slide(self, ratio: float, mass: float) -> Mechanism:
+        """The mechanism whose slide is at the ratio times the input's angle."""
+        position: Formula = multiplied([number(ratio), Name("x")])
+        slide = DrivenLink("slide", position, number(ratio), "length")
+        load = [number(-mass * self.loads.weight[0] * ratio), *self.loads.on(slide, "angle")]
+        inertia = number(self.inertia + mass * ratio**2)
+        return self._mechanism([inertia], load, self.over, LinkGeometry((("slide", position),)))
+
+
+@declared
+class Rack(SlideKind, kind="rack"):
+    """The mechanism of a pinion that drives a rack; x is the pinion's angle, and the slide is at s = radius x.
+
+    Examples
+    --------
+    >>> rack("20 mm", "12 kg", inertia="1e-4 kg m^2").inertia(0.0)
+    0.0049
+    """
+
+    radius: SINumber = entry(LENGTH, "Of the pitch circle of the pinion that drives.", example="20 mm")
+    mass: SINumber = entry(MASS, "Of the slide and what it carries.", example="12 kg")
+
+    @property
+    def mechanism(self) -> Mechanism:
+        return self._slide(self.radius, self.mass)
+
+
+@declared
+class Belt(SlideKind, kind="belt"):
+    """The mechanism of a pulley that drives a carriage by a belt; x is the pulley's angle, s = radius x.
+
+    Examples
+    --------
+    >>> lift = belt("30 mm", "8 kg", loads=Loads(gravity="180 deg"))
+    >>> round(lift.load(0.0), 6)
+    2.353596
+    """
+
+    radius: SINumber = entry(LENGTH, "Of the driven pulley.", example="30 mm")
+    mass: SINumber = entry(MASS, "Of the carriage and the belt.", example="8 kg")
+
+    @property
+    def mechanism(self) -> Mechanism:
+        return self._slide(self.radius, self.mass)
+
+
+@declared
+class Screw(SlideKind, kind="screw"):
+    """The mechanism of a screw that drives a nut; x is the screw's angle, s = lead x/(2 pi).
+
+    Examples
+    --------
+    >>> axis = screw("10 mm", "80 kg", inertia="3e-4 kg m^2", loads=Loads(force="-500 N"))
+    >>> round(axis.load(0.0), 6), round(axis.driven_position("slide", "1 turn"), 6)
+    (0.795775, 0.01)
+    """
+
+    lead: SINumber = entry(LENGTH, "The way of the nut with a turn of the screw.", example="10 mm")
+    mass: SINumber = entry(MASS, "Of the nut and what it carries.", example="80 kg")
+
+    @property
+    def mechanism(self) -> Mechanism:
+        return self._slide(self.lead / TURN, self.mass)
+
+
+rack, belt, screw = function_of(Rack), function_of(Belt), function_of(Screw)
