@@ -51,8 +51,7 @@ from .cycles.cycle import Cycle as Cycle, Plan as Plan
 from .cycles.fastest_cycle import FastestCycle as FastestCycle, LeastDuration as LeastDuration, LimitGain as LimitGain
 from .cycles.law_comparison import Comparison as Comparison, compare_laws as compare_laws
 from .cycles.moves.fastest_move import FastestMove as FastestMove
-from .cycles.moves.front_over_time import time_front as time_front
-from .cycles.moves.time_front import TimeFront as TimeFront
+from .cycles.moves.time_front import TimeFront as TimeFront, time_front as time_front
 from .cycles.moves.timed_moves import fastest as fastest, fastest_moves as fastest_moves
 from .cycles.transitions import TransitionCam as TransitionCam
 from .cycles.old_tables.table import (

@@ -9,10 +9,8 @@ from pathlib import Path
 from typing import Any
 
 from optlaws.cycles.moves.fastest_move import AXES, FastestMove
-from optlaws.cycles.moves.front_over_time import FrontOverTime, time_front
-from optlaws.cycles.moves.time_front import TimeFront
-from optlaws.cycles.moves.timed_moves import fastest, fastest_moves
-from optlaws.cycles.moves.vibration_limits import VibratingFollower
+from optlaws.cycles.moves.time_front import FrontOverTime, TimeFront, time_front
+from optlaws.cycles.moves.timed_moves import VibratingFollower, fastest, fastest_moves
 from optlaws.cycles.specification.frozen import FrozenTable
 from optlaws.cycles.specification.limit_entries import LIMITS_OF_MOVE
 from optlaws.cycles.specification.segments import Move

@@ -12,7 +12,7 @@ import numpy as np
 from optlaws.cycles.advising.candidates import AdvisedLaw, Candidates, LawMeasure
 from optlaws.cycles.advising.recommendation import Recommendation, recommended
 from optlaws.cycles.cycle import Cycle
-from optlaws.cycles.moves.vibration_limits import read_follower
+from optlaws.cycles.moves.timed_moves import read_follower
 from optlaws.cycles.specification.programme import AXES, axis_of
 from optlaws.cycles.specification.segments import Move, Return
 from optlaws.echo import shortened

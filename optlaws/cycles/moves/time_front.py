@@ -1,34 +1,46 @@
-"""Fronts over the time of a move: the least objective at each time, with a law and a proof at every point."""
+"""Fronts over the time of a move: the least of a quantity in each time, with a law and a proof at every point."""
 
 from __future__ import annotations
 
 from bisect import bisect_right
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from math import inf
 from typing import Any, NamedTuple
 
+import numpy as np
+
 from optlaws.cycles.moves.fastest_move import AXES, FastestMove
+from optlaws.cycles.moves.timed_moves import motor_torque, read_follower
 from optlaws.echo import shortened
-from optlaws.errors import InputError
+from optlaws.entries.declared import Declared, declared, documented_by, entry
+from optlaws.entries.value_types import Listed, Measured, Text, Whole
+from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.files.reading import JsonText, entries_of
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
+from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.motion.piece import unit_of
 from optlaws.motion.quantities import positive_quantity
-from optlaws.numbers import Quantity, bounded, listed, positive, real
+from optlaws.motion.quantity_kinds import Kind
+from optlaws.numbers import NumberOrQuantity, Quantity, bounded, listed, positive, real
+from optlaws.suggest import unknown_key
 from optlaws.synthesis.least_time.follower_residual import RESIDUAL
 from optlaws.synthesis.least_time.move_limits import power
-from optlaws.synthesis.least_time.move_objective import AT_MOTOR, MoveObjective
+from optlaws.synthesis.least_time.move_objective import AT_MOTOR, OBJECTIVES, MoveObjective
+from optlaws.synthesis.least_time.timed_move import TimedMove
 from optlaws.synthesis.problem.constants import meant
 from optlaws.synthesis.solution import Solution
+from optlaws.synthesis.solve import synthesize
 from optlaws.synthesis.status import Status, measure
-from optlaws.tolerances import STORED_VALUE
+from optlaws.tolerances import LEAST_TIME_GAP, STORED_VALUE
 
 _KEYS = ("fastest", "minimise", "points")
 _POINT_KEYS = ("duration", "value", "lower_bound", "solution")
-MOST_POINTS = 1000
+_MOST = 1000
+_LONGEST = 2.0
+_POINTS = Whole(2, _MOST)
 
 
 class TimePoint(NamedTuple):
@@ -176,19 +188,18 @@ class TimeFront(JsonText):
     @kept_property
     def points(self) -> tuple[TimePoint, ...]:
         """The points, their values recomputed from the laws."""
+        known, unit = zip(self.durations, self.solutions, strict=True), self.objective.in_time
         return tuple(
-            self._point(duration, solution.law, solution.lower_bound, dimensionless=True)
-            for duration, solution in zip(self.durations, self.solutions, strict=True)
+            self._point(time, each.law, each.lower_bound / unit(time, self.fastest.stroke).bound)
+            for time, each in known
         )
 
-    def _point(self, duration: float, law: MotionLaw, bound: float, *, dimensionless: bool = False) -> TimePoint:
-        """The point of a law, with its bound in SI units or as a bound of the law's constant."""
+    def _point(self, duration: float, law: MotionLaw, bound: float) -> TimePoint:
+        """The point of a law, with its bound in SI units."""
         least = self.objective.in_time(duration, self.fastest.stroke)
-        value, lower_bound = float(least.constant.value(law)) / least.bound, bound
-        if dimensionless:
-            lower_bound /= least.bound
-        gap = (value - lower_bound) / measure(value, least.constant.scale / least.bound)
-        return TimePoint(duration, law, value, lower_bound, gap)
+        value = least.share(law)
+        gap = (value - bound) / measure(value, least.constant.scale / least.bound)
+        return TimePoint(duration, law, value, bound, gap)
 
     def __getitem__(self, place: int) -> TimePoint:
         return self.points[place]
@@ -257,7 +268,7 @@ class TimeFront(JsonText):
         entries = entries_of(data, _KEYS, cls._json_name, alone=True)
         rows = [
             entries_of(row, _POINT_KEYS, f"points[{i}]", alone=True)
-            for i, row in enumerate(listed(entries["points"], "points", MOST_POINTS))
+            for i, row in enumerate(listed(entries["points"], "points", _MOST))
         ]
         with meant():
             solutions = tuple(Solution.from_dict(row["solution"]) for row in rows)
@@ -290,3 +301,140 @@ class TimeFront(JsonText):
             f"TimeFront({self.minimise}, {len(self)} points from {first.duration:.6g} s with {first.value:.6g} "
             f"{self.unit} to {last.duration:.6g} s with {last.value:.6g} {self.unit}, status={self.status.value!r})"
         )
+
+
+@declared
+class FrontOverTime(Declared, title="a front"):
+    """Fronts over the time: what is least, how long the longest time is, and how many points there are."""
+
+    minimise: tuple[str, ...] = entry(
+        Listed(Text(), least=1, most=6), "What is least, each with a front.", example=["rms acceleration"]
+    )
+    longest: Quantity | None = entry(
+        Measured("time", above=0.0), "The longest time; twice the least unless given.", default=None, example="0.3 s"
+    )
+    points: int = entry(_POINTS, "How many there are, each the same share longer than the last.", default=17)
+
+    def _check(self) -> None:
+        if len(set(self.minimise)) < len(self.minimise):
+            raise InputError(f"minimise names one of them twice: {', '.join(self.minimise)}")
+
+
+@documented_by(FrontOverTime)
+def time_front(
+    move: FastestMove,
+    minimise: str,
+    *,
+    longest: Quantity | None = None,
+    points: int = 17,
+    drive: Drive | None = None,
+    start: NumberOrQuantity = 0.0,
+    follower: Mapping[str, Any] | None = None,
+) -> TimeFront:
+    """The least objective of a move over its time within limits, with a law and a proof at each point.
+
+    Parameters
+    ----------
+    move
+        The least time of the move with its limits, from which the front goes on.
+    minimise
+        "velocity", "acceleration", "jerk", "snap" or the "rms acceleration", "rms jerk", "rms snap"; with a drive the
+        "torque", "rms torque" or "energy" at its motor; with a follower the "residual acceleration".
+    drive, start
+        The motor, and the position of its mechanism where the move begins, as `fastest` takes them. Unless given they
+        are those of the move, whose laws then never turn back; an energy needs them.
+    follower
+        What vibrates, as `fastest` takes it; that of the move unless given.
+
+    Returns
+    -------
+    TimeFront
+        Its points, which are `optimal` where the objective is convex in the law. The energy, cranks and loads over the
+        position are not: their points are `local`, with a bound.
+
+    Raises
+    ------
+    InputError
+        If the name is unknown, what it needs is missing, or the longest time is not above the least.
+    SolverFailure
+        If the search fails in a time; the error names it.
+
+    Examples
+    --------
+    >>> import optlaws
+    >>> motor = optlaws.Motor("3e-4 kg m^2", peak_torque="4 N m", greatest_speed="900 rpm")
+    >>> table = optlaws.Drive(optlaws.Mechanism("0.8 kg m^2", "20 N m"), motor, ratio=20)
+    >>> turn = optlaws.fastest(optlaws.Problem(order=3), stroke="45 deg", limits={}, drive=table)
+    >>> time_front(turn, "rms torque", points=3)
+    TimeFront(rms torque, 3 points from 0.23167 s with 2.73454 N m to 0.46334 s with 1.16182 N m, status='optimal')
+    """
+    if not isinstance(move, FastestMove):
+        raise InputError(f"a front over the time is that of a FastestMove, got {type(move).__name__}")
+    objective = _objective(minimise, move, drive, start, follower)
+    least = move.duration * (1.0 + LEAST_TIME_GAP)
+    last = _LONGEST * move.duration if longest is None else positive_quantity(longest, "time", "longest")
+    if not last > least * (1.0 + LEAST_TIME_GAP):
+        raise InputError(f"longest must be above the least time, {move.duration:.9g} s, got {shortened(longest)}")
+    durations = tuple(np.geomspace(least, last, _POINTS.read(points, "points")).tolist())
+    return TimeFront(move, objective, durations, tuple(_least_in(move, objective, time) for time in durations))
+
+
+def _least_in(move: FastestMove, objective: MoveObjective, duration: float) -> Solution:
+    """The law of the least objective in a time."""
+    try:
+        with meant():
+            return synthesize(objective.problem(move.least.move, duration))
+    except (InfeasibleProblem, SolverFailure) as error:
+        raise SolverFailure(
+            f"no law of the least {objective.name} was found in {duration:.9g} s: {error.args[0]}",
+            problem=move.least.move.problem,
+        ) from None
+
+
+def _objective(
+    name: str, move: FastestMove, drive: Drive | None, start: NumberOrQuantity, follower: Mapping[str, Any] | None
+) -> MoveObjective:
+    """The objective of a move; drive and follower default to the move's own."""
+    if name not in OBJECTIVES:
+        raise InputError(f"minimise: {unknown_key(name, OBJECTIVES, 'objective of a move')}")
+    if drive is not None and name not in AT_MOTOR:
+        raise InputError(f"drive: the {name} is of no motor: leave it out")
+    if follower is not None and name != RESIDUAL:
+        raise InputError(f"follower: the {name} is of no follower: leave it out")
+    timed = move.least.move
+    if name in AT_MOTOR:
+        return _at_motor(name, timed, drive, start)
+    if name != RESIDUAL:
+        return MoveObjective(name)
+    if not timed.at_rest:
+        raise InputError("minimise: what is left vibrating is that of a move from rest to rest")
+    known = None if timed.residual is None else replace(timed.residual, most=1.0)
+    given = known if follower is None else read_follower(follower)
+    if given is None:
+        raise InputError(f"minimise: the {RESIDUAL} is that of a follower: give the follower")
+    if known not in {None, given}:
+        raise InputError("follower: it is another than that of the move")
+    return MoveObjective(name, residual=given)
+
+
+def _at_motor(name: str, move: TimedMove, drive: Drive | None, start: NumberOrQuantity) -> MoveObjective:
+    """The torque or the energy at the motor of a move."""
+    torque = move.torque if drive is None else motor_torque(drive, start, move.stroke, {Kind.RMS_FORCE: (-1.0, 1.0)})
+    if torque is None or (drive is None and name == "energy"):
+        raise InputError(f"minimise: the {name} is that of a motor: give its drive")
+    if name == "torque" and torque.gear is not None:
+        raise InputError(
+            "minimise: the least peak torque behind a gear that loses power is not known: minimise the rms torque or "
+            "the energy, or leave out the efficiency"
+        )
+    if not (move.at_rest and move.problem.monotone):
+        raise InputError(
+            f"minimise: the {name} at a motor is that of laws from rest to rest which never turn back: limit the "
+            'velocity from 0, as in {"velocity": ("0 rad/s", "1 rad/s")}, or give fastest the drive'
+        )
+    free = replace(torque, peak=None, rms=1.0)
+    if move.torque is not None and free != replace(move.torque, peak=None, rms=1.0):
+        raise InputError("drive: it is another than that of the move, or begins at another position")
+    if drive is None or name != "energy":
+        return MoveObjective(name, torque=free)
+    return MoveObjective(name, free, drive.ratio * move.stroke, drive.regeneration)

@@ -1,27 +1,28 @@
-"""The entry to least times of single moves: strokes and limits in machine units."""
+"""Least times of single moves in machine units: strokes, limits, motors and elastic followers."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from math import isfinite
-from typing import Any, NamedTuple
+from math import inf, isfinite, tau
+from typing import Any
 
 from optlaws.cycles.moves.fastest_move import AXES, FastestMove
-from optlaws.cycles.moves.torque_limits import motor_torque
-from optlaws.cycles.moves.vibration_limits import read_follower
 from optlaws.cycles.optimisation.motion_limits import DECELERATION, Limits, greatest, read_limits, sides, tightest
+from optlaws.cycles.optimisation.motor_limits import curve_lines
 from optlaws.cycles.specification.limit_entries import LIMITS_OF_MOVE
 from optlaws.cycles.specification.programme import AXES as SI
 from optlaws.echo import shortened
-from optlaws.entries.value_types import is_list
+from optlaws.entries.declared import Declared, ValueOf, declared, entry
+from optlaws.entries.value_types import Either, Listed, Measured, Number, is_list
 from optlaws.errors import InputError
 from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.motion.quantities import either, quantity
 from optlaws.motion.quantity_kinds import Kind
 from optlaws.numbers import NumberOrQuantity, Quantity, listed
-from optlaws.synthesis.least_time.follower_residual import RESIDUAL
+from optlaws.synthesis.least_time.follower_residual import RESIDUAL, FollowerResidual
 from optlaws.synthesis.least_time.least_time import LeastTime
+from optlaws.synthesis.least_time.motor_torque import LossyGear, MotorTorque
 from optlaws.synthesis.least_time.move_limits import MoveLimits
 from optlaws.synthesis.least_time.time_search import least_time
 from optlaws.synthesis.least_time.timed_move import TimedMove
@@ -98,7 +99,7 @@ def fastest(
     >>> round(move.duration, 6), round(move.limit, 6), move.binding
     (0.243994, 0.240161, ('acceleration', 'deceleration', 'jerk'))
     """
-    move, unit = _timed(problem, stroke, limits, _Machine((start_velocity, end_velocity), drive, start, follower))
+    move, unit = _timed(problem, stroke, limits, (start_velocity, end_velocity), drive, start, follower)
     return FastestMove(least_time(move), unit)
 
 
@@ -138,8 +139,8 @@ def fastest_moves(
     >>> [(round(move.duration, 6), move.binding) for move in moves]
     [(0.528054, ('velocity', 'jerk')), (0.178846, ('jerk',))]
     """
-    machine = _Machine((start_velocity, end_velocity), drive, start, follower)
-    moves = [_timed(problem, stroke, limits, machine) for stroke in listed(strokes, "strokes", _MOST)]
+    machine = (limits, (start_velocity, end_velocity), drive, start, follower)
+    moves = [_timed(problem, stroke, *machine) for stroke in listed(strokes, "strokes", _MOST)]
     answers: dict[int, FastestMove] = {}
     last: LeastTime | None = None
     for i in sorted(range(len(moves)), key=lambda place: moves[place][0].stroke):
@@ -149,16 +150,15 @@ def fastest_moves(
     return tuple(answers[i] for i in range(len(moves)))
 
 
-class _Machine(NamedTuple):
-    """Data shared by the moves of one machine: the velocities at their ends, the motor and the elastic follower."""
-
-    ends: tuple[Quantity | None, Quantity | None]
-    drive: Drive | None
-    start: NumberOrQuantity
-    follower: Mapping[str, Any] | None
-
-
-def _timed(problem: Any, stroke: Any, limits: Mapping[str, Any], machine: _Machine) -> tuple[TimedMove, str]:
+def _timed(
+    problem: Any,
+    stroke: Any,
+    limits: Mapping[str, Any],
+    ends: tuple[Quantity | None, Quantity | None],
+    drive: Drive | None,
+    start: NumberOrQuantity,
+    follower: Mapping[str, Any] | None,
+) -> tuple[TimedMove, str]:
     """The move whose time is sought within all its limits in SI units, and the unit of its stroke."""
     entries = LIMITS_OF_MOVE.read(limits, "limits")
     dimension, far = either(stroke, tuple(AXES.values()), "stroke")
@@ -166,29 +166,29 @@ def _timed(problem: Any, stroke: Any, limits: Mapping[str, Any], machine: _Machi
         remedy = "turn the axis and its limits round" if far else "give how far it moves, such as '100 mm'"
         raise InputError(f"stroke must be above 0, got {shortened(stroke)}: {remedy}")
     allowed, torque, residual = read_limits(entries, dimension, "limits"), None, None
-    if machine.follower is not None:
+    if follower is not None:
         if Kind.RESIDUAL not in allowed:
             raise InputError(f'a follower, as in {_EXAMPLE}, needs limits={{"{RESIDUAL}": "0.5 m/s^2"}}')
-        residual = replace(read_follower(machine.follower), most=allowed[Kind.RESIDUAL][1])
+        residual = replace(read_follower(follower), most=allowed[Kind.RESIDUAL][1])
     elif Kind.RESIDUAL in allowed:
         raise InputError(f"limits: {RESIDUAL} is that of a follower: give the follower")
-    if machine.drive is not None:
-        torque = motor_torque(machine.drive, machine.start, stroke, allowed)
-        most = machine.drive.motor.greatest_speed / machine.drive.ratio
+    if drive is not None:
+        torque = motor_torque(drive, start, stroke, allowed)
+        most = drive.motor.greatest_speed / drive.ratio
         allowed = tightest(allowed, {Kind.VELOCITY: (-most, most)})
     elif Kind.FORCE in allowed or Kind.RMS_FORCE in allowed:
         name = "torque" if Kind.FORCE in allowed else "rms torque"
         raise InputError(f"limits: {name} is at a motor: give its drive")
     if not isinstance(problem, Problem):
         raise InputError(f"a least time is sought of a Problem, got {type(problem).__name__}")
-    start, end = (
+    first, last = (
         0.0 if value is None else quantity(value, SI[dimension][1], name)
-        for name, value in zip(("start_velocity", "end_velocity"), machine.ends, strict=True)
+        for name, value in zip(("start_velocity", "end_velocity"), ends, strict=True)
     )
     forward = Kind.VELOCITY_ALONG in allowed or torque is not None
     space = replace(problem, monotone=True) if forward else problem
     unit = next(unit for unit, axis in AXES.items() if axis == dimension)
-    return TimedMove(space, far, _of_move(entries, allowed), start, end, torque, residual), unit
+    return TimedMove(space, far, _of_move(entries, allowed), first, last, torque, residual), unit
 
 
 def _of_move(entries: Mapping[str, Any], limits: Limits) -> MoveLimits:
@@ -203,3 +203,93 @@ def _of_move(entries: Mapping[str, Any], limits: Limits) -> MoveLimits:
             raise InputError(f"limits: {key.name}: its two values must be opposite{remedy}, got {pair}")
     least = {name: greatest(given, kind, side) for name, kind, side in _SIDES}
     return MoveLimits(**{name: most for name, most in least.items() if isfinite(most)})
+
+
+_FREQUENCY = Measured("frequency", above=0.0)
+
+
+@declared
+class VibratingFollower(Declared, title="a follower"):
+    """An elastic follower that a move leaves vibrating.
+
+    Examples
+    --------
+    >>> VibratingFollower(["27 Hz", "33 Hz"], damping=0.05).frequency
+    ('27 Hz', '33 Hz')
+    """
+
+    frequency: Quantity | Sequence[Quantity] = entry(
+        Either(_FREQUENCY, Listed(_FREQUENCY, least=2, most=2), which=is_list),
+        "Its natural frequency, or the least and the greatest.",
+        example=["27 Hz", "33 Hz"],
+    )
+    damping: float = entry(Number(least=0.0), "Its damping ratio.", default=0.0, example=0.05)
+
+
+def read_follower(follower: VibratingFollower | Mapping[str, Any]) -> FollowerResidual:
+    """The residual acceleration of a follower in SI units, its limit 1.
+
+    Raises
+    ------
+    InputError
+        If an entry is unknown, missing or wrong.
+
+    Examples
+    --------
+    >>> known = read_follower({"frequency": ("10 Hz", "12 Hz"), "damping": 0.05})
+    >>> round(known.lowest, 6), round(known.highest, 6), known.most
+    (62.831853, 75.398224, 1.0)
+    """
+    read = ValueOf(VibratingFollower).read(follower, "follower")
+    pair = read.frequency if isinstance(read.frequency, tuple) else (read.frequency, read.frequency)
+    low, high = (tau * quantity(each, "frequency", "follower: frequency") for each in pair)
+    return FollowerResidual(low, high, read.damping, 1.0)
+
+
+def motor_torque(
+    drive: Drive, start: NumberOrQuantity, stroke: NumberOrQuantity, limits: Mapping[Kind, tuple[float, float]]
+) -> MotorTorque:
+    """The torque at the motor over a stroke of the mechanism's input, and its limit.
+
+    Raises
+    ------
+    InputError
+        If the stroke leaves the range of the mechanism, the motor's curve is not concave, nothing limits the torque, or
+        the load alone is above the limit.
+
+    Examples
+    --------
+    >>> from optlaws import Mechanism, Motor
+    >>> drive = Drive(Mechanism("0.8 kg m^2"), Motor("3e-4 kg m^2", peak_torque="4 N m"), ratio=20)
+    >>> torque = motor_torque(drive, "0 deg", "45 deg", {Kind.RMS_FORCE: (-2.0, 2.0)})
+    >>> torque.inertia, torque.friction, torque.load, torque.peak, torque.rms
+    ('1.15', 0.0, '0.0', 4.0, 2.0)
+    """
+
+    def total(number: float, formula: str) -> str:
+        try:
+            return repr(number + float(formula))
+        except ValueError:
+            return f"{number!r} + {formula}" if number else formula
+
+    lines = curve_lines(drive.motor)
+    greatest = min(drive.motor.peak_torque, max((torque for _, torque in drive.motor.curve), default=inf))
+    within = tightest(limits, {Kind.FORCE: (-greatest, greatest)})
+    known = (("torque", Kind.FORCE), ("rms torque", Kind.RMS_FORCE))
+    most = {name: within[kind][1] for name, kind in known if kind in within and isfinite(within[kind][1])}
+    if not most:
+        raise InputError('nothing limits the torque: give limits={"torque": "3 N m"}, or a motor with a peak torque')
+    moved = drive.dimensionless(start, stroke, 1.0)
+    inertia, friction, coulomb = moved.of_motor
+    to_load, back = drive.efficiencies
+    gear = LossyGear(1.0 / to_load, back, inertia, friction, coulomb) if moved.train.loses else None
+    return MotorTorque(
+        moved.inertia if gear else total(inertia, moved.inertia),
+        float(moved.friction) + (0.0 if gear else friction),
+        moved.load if gear else total(coulomb, moved.load),
+        moved.unit,
+        most.get("torque"),
+        most.get("rms torque"),
+        gear,
+        tuple((torque, -slope * drive.ratio * abs(moved.stroke)) for torque, slope in lines if slope),
+    )
