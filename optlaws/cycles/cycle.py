@@ -42,7 +42,6 @@ from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.mechanisms.drives.effort import CycleSheet, Effort, PieceEffort, SegmentEffort
 from optlaws.mechanisms.drives.motor import OF_TORQUE, Motor
 from optlaws.mechanisms.linkages.mechanism import Mechanism
-from optlaws.mechanisms.machine.over_time import RepeatedMotion
 from optlaws.motion.motion import Motion, motion_of_pieces
 from optlaws.motion.piece import Piece, by_pieces, unit_of, values_of_pieces
 from optlaws.motion.quantities import QUANTITIES, TURN, Exact, quantity
@@ -56,6 +55,7 @@ from optlaws.tolerances import CYCLE_OPTIMALITY, JUMP
 if TYPE_CHECKING:
     from optlaws.cycles.fastest_cycle import FastestCycle
     from optlaws.cycles.transitions import TransitionCam, TransitionKind
+    from optlaws.mechanisms.machine.over_time import RepeatedMotion
 
 #: what a picture of a cycle is over
 PlotOver = Literal["time", "speed"]

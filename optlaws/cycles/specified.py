@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import KW_ONLY, replace
-from typing import Any, Self
+from typing import TYPE_CHECKING, Any, Self
 
 from optlaws.cycles.jerk_comparison import usual_jerk
 from optlaws.cycles.optimisation.durations import durations
@@ -33,10 +33,11 @@ from optlaws.errors import InputError
 from optlaws.files.tables import to_toml
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
-from optlaws.mechanisms.drives.drive_train import Drive
-from optlaws.mechanisms.linkages.mechanism import Mechanism
-from optlaws.mechanisms.machine.machine import Machine
 from optlaws.numbers import MOST_DEGREE, Quantity
+
+if TYPE_CHECKING:
+    from optlaws.mechanisms.drives.drive_train import Drive
+    from optlaws.mechanisms.linkages.mechanism import Mechanism
 
 FORMAT = "optlaws cycle 1"
 CLOCK = ("speed", "period")
@@ -52,16 +53,20 @@ class Objective(Text):
 
 
 def _read_drive(value: Any) -> Any:
-    stored = isinstance(value, Mapping)
-    if stored and "mechanism" in value:
-        return Drive.from_dict(value)
-    return Mechanism.from_dict(value) if stored and "axis" in value else frozen(value)
+    if not isinstance(value, Mapping) or not {"mechanism", "axis"} & value.keys():
+        return frozen(value)
+    from optlaws.mechanisms.drives.drive_train import Drive
+    from optlaws.mechanisms.linkages.mechanism import Mechanism
+
+    return (Drive if "mechanism" in value else Mechanism).from_dict(value)
 
 
 class DriveTable(ReadBy):
     """Constants of a drive, which stay a table, or a `Mechanism` or `Drive`."""
 
     def schema(self) -> dict[str, Any]:
+        from optlaws.mechanisms.drives.drive_train import Drive
+
         mechanism = {"type": "object", "required": ["axis", "inertia"]}
         return {"anyOf": [*(table.schema() for table in CONSTANTS.values()), mechanism, Drive.json_schema()]}
 
@@ -70,8 +75,11 @@ class LoadTable(ValueOf):
     """An elastic load or a process force, which stays a table, or a `Machine`."""
 
     def read(self, value: Any, name: str) -> Any:
-        if isinstance(value, Machine) or (isinstance(value, Mapping) and "A" in value):
-            return value if isinstance(value, Machine) else Machine.from_dict(value)
+        if not isinstance(value, Mapping) or "A" in value:
+            from optlaws.mechanisms.machine.machine import Machine
+
+            if isinstance(value, Machine | Mapping):
+                return value if isinstance(value, Machine) else Machine.from_dict(value)
         if not is_process(value):
             super().read(value, name)
         return frozen(value)
@@ -82,9 +90,7 @@ class LoadTable(ValueOf):
 
 def _plain(value: Any) -> Any:
     """A drive or a load as plain data."""
-    if isinstance(value, Machine | Mechanism | Drive):
-        return value.to_dict()
-    return thawed(value)
+    return thawed(value) if isinstance(value, Mapping) else value.to_dict()
 
 
 @declared
@@ -328,10 +334,9 @@ def _axis_entries(axis: str, cycle: Specification) -> dict[str, Any]:
 
 def _drive_tables(drive: Any) -> dict[str, Any]:
     """A mechanism, and the motor before it, as the tables of an axis; nothing of a drive of constants."""
-    if isinstance(drive, Mechanism):
-        entries = {name: value for name, value in drive.to_dict().items() if name != "format"}
-        return {"drive": None, "mechanism": {"kind": "table", **entries}}
-    if isinstance(drive, Drive):
-        entries = {name: value for name, value in drive.to_dict().items() if name != "mechanism"}
+    if drive is None or isinstance(drive, Mapping):
+        return {}
+    entries = {name: value for name, value in drive.to_dict().items() if name not in {"format", "mechanism"}}
+    if hasattr(drive, "mechanism"):
         return {**_drive_tables(drive.mechanism), "drive": entries}
-    return {}
+    return {"drive": None, "mechanism": {"kind": "table", **entries}}

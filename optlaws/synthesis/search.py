@@ -134,12 +134,12 @@ class LawSearch:
             return None
         from optlaws.synthesis.method import starts
 
-        limit = _limit_beside(self.problem)
+        limit = limit_beside(self.problem)
         return None if limit is None else self._try(None, starts.in_phase_plane(self.model, limit), near=True)
 
     def _near_limit(self, law: Candidate) -> bool:
         """Whether the limit of a drive leaves a law little slack."""
-        limit = _limit_beside(self.problem)
+        limit = limit_beside(self.problem)
         return limit is not None and law.objective <= limit.value * (1.0 + _NEAR_LIMIT)
 
     def _try(self, warm: ActiveSet | None, point: Array | None, *, near: bool = False) -> Candidate | None:
@@ -235,7 +235,7 @@ class LawSearch:
         """The best law with its proof: an optimum without lower bounds of constants bounds the objective."""
         problem, limit = self.problem, known_limit(self.problem)
         proof = certify(self.model, bounding, best.objective, limit)
-        drive = None if problem.convex else _limit_beside(problem)
+        drive = None if problem.convex else limit_beside(problem)
         searched = [tight.bound for tight in (self.power, self.peaks) if tight is not None]
         searched += [] if drive is None else [drive.value]
         bound = max([lower_bound(proof, limit), *searched])
@@ -259,11 +259,11 @@ class LawSearch:
         )
 
 
-def _limit_beside(problem: Problem) -> DriveLimit | None:
+def limit_beside(problem: Problem) -> DriveLimit | None:
     """The limit of a drive; what finds it is imported for problems that are not convex."""
-    from optlaws.synthesis.limits.drive_limits import limit_beside
+    from optlaws.synthesis.limits import drive_limits
 
-    return limit_beside(problem)
+    return drive_limits.limit_beside(problem)
 
 
 def best_available(search: LawSearch) -> Solution | None:

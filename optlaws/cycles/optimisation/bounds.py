@@ -24,11 +24,11 @@ from optlaws.mechanisms.linkages.linear_force import LinearForce
 from optlaws.motion.piece import Piece, factor
 from optlaws.motion.quantity_kinds import Kind
 from optlaws.synthesis.functionals.makers import peak, rms
-from optlaws.synthesis.limits.drive_limits import limit_beside
 from optlaws.synthesis.problem.constants import Functional
 from optlaws.synthesis.problem.expression import maximum
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.problem.ranges import Range
+from optlaws.synthesis.search import limit_beside
 from optlaws.synthesis.solution import Solution
 from optlaws.synthesis.solve import synthesize
 

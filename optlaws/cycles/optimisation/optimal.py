@@ -36,11 +36,11 @@ from optlaws.motion.quantities import in_small_units
 from optlaws.motion.quantity_kinds import Kind
 from optlaws.sentences import sentence
 from optlaws.synthesis.functionals.makers import integral, peak
-from optlaws.synthesis.limits.drive_limits import limit_beside
 from optlaws.synthesis.problem.constants import FUNCTIONALS, Functional
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.problem.ranges import Range
 from optlaws.synthesis.problem.windows import Window
+from optlaws.synthesis.search import limit_beside
 from optlaws.synthesis.solution import Solution
 from optlaws.synthesis.solve import synthesize
 from optlaws.synthesis.spaces.bases import Chebyshev, Pieces

@@ -23,8 +23,8 @@ from optlaws.motion.piece import Piece, factor
 from optlaws.motion.quantity_kinds import Kind
 from optlaws.motion.smooth_parts import SmoothParts
 from optlaws.synthesis.functionals.makers import integral
-from optlaws.synthesis.limits.drive_limits import limit_beside
 from optlaws.synthesis.problem.problem import Problem
+from optlaws.synthesis.search import limit_beside
 from optlaws.synthesis.solution import Solution
 
 NO_HEAT = (

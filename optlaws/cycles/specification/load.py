@@ -5,21 +5,21 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from math import pi
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from optlaws.cycles.specification.programme import AXES
 from optlaws.echo import shortened
 from optlaws.entries.declared import Declared, declared, entry
 from optlaws.entries.value_types import Measured, Number
 from optlaws.errors import InputError, located
-from optlaws.mechanisms.machine import drives
-from optlaws.mechanisms.machine.machine import Machine
-from optlaws.mechanisms.machine.over_time import RepeatedMotion, jumps
-from optlaws.mechanisms.machine.state_space import FASTEST
 from optlaws.motion.piece import Piece, factor
 from optlaws.motion.quantities import positive_quantity, quantity
 from optlaws.numbers import Quantity, positive
 from optlaws.synthesis.problem.constants import Functional
+
+if TYPE_CHECKING:
+    from optlaws.mechanisms.machine.machine import Machine
+    from optlaws.mechanisms.machine.over_time import RepeatedMotion
 
 LOAD = "load "
 
@@ -82,6 +82,9 @@ class Load:
 
     def motion(self, pieces: Sequence[Piece]) -> RepeatedMotion:
         """The steady outputs of the load under pieces that form a cycle, over time in seconds."""
+        from optlaws.mechanisms.machine import drives
+        from optlaws.mechanisms.machine.over_time import RepeatedMotion, jumps
+
         drives_of_pieces, at_breaks = [], list[tuple[float, float]]()
         for piece in pieces:
             drives_of_pieces += drives.of_law(piece.law, piece.start, piece.duration, piece.offset, piece.stroke)
@@ -97,6 +100,9 @@ class Load:
 
 def read_load(given: Any, axis: str) -> Load:
     """A load from its entries, or a machine in seconds and SI units."""
+    from optlaws.mechanisms.machine.machine import Machine
+    from optlaws.mechanisms.machine.state_space import FASTEST
+
     if isinstance(given, Machine):
         return Load(given, {})
     with located("load"):
@@ -128,6 +134,8 @@ def _mass_on_a_spring(given: ElasticLoad, axis: str, frequency: float) -> Load:
         force = {"length": "force", "angle": "torque"}[axis]
         names[force] = force
     load = [[0.0, 0.0], [-2.0 * n, -1.0]]
+    from optlaws.mechanisms.machine.machine import Machine
+
     machine = Machine([[0.0, 1.0], motion], load, rows, direct, inputs="bc", outputs=list(names))
     return Load(machine, names)
 
