@@ -4,124 +4,83 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from functools import cache, lru_cache
+from fractions import Fraction
+from functools import lru_cache
 from math import isfinite, pi
-from typing import TYPE_CHECKING, Any, NamedTuple, Self
+from typing import Any, NamedTuple, Self
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.numbers import finite, real
 from optlaws.sentences import Amount
 
-if TYPE_CHECKING:
-    from pint import UnitRegistry
-
 # an angle has a dimension of its own here, so that 45 deg is no bare number and 200 rpm no frequency in Hz
-_DEFINITIONS = """
-nano- = 1e-9 = n-
-micro- = 1e-6 = µ- = u-
-milli- = 1e-3 = m-
-centi- = 1e-2 = c-
-kilo- = 1e3 = k-
-mega- = 1e6 = M-
-giga- = 1e9 = G-
-meter = [length] = m = metre
-gram = [mass] = g
-second = [time] = s = sec
-radian = [angle] = rad
-minute = 60 * second = min
-hour = 60 * minute = h
-inch = 0.0254 * meter = in = inches
-foot = 0.3048 * meter = ft = feet
-thou = 0.001 * inch = mil
-degree = 3.141592653589793 / 180 * radian = deg = °
-revolution = 360 * degree = rev = turn = r = U
-revolutions_per_minute = revolution / minute = rpm
-revolutions_per_second = revolution / second = rps
-cycles_per_minute = 1 / minute = cpm
-newton = kilogram * meter / second ** 2 = N
-newton_meter = newton * meter = Nm
-pascal = newton / meter ** 2 = Pa
-joule = newton * meter = J
-watt = joule / second = W
-hertz = 1 / second = Hz
-standard_gravity = 9.80665 * meter / second ** 2 = g_n = g_0 = g0 = gn
-"""
-
-#: by dimension: the SI unit of computations, and an example for errors
-DIMENSIONS = {
-    "length": ("meter", "35 mm"),
-    "angle": ("radian", "45 deg"),
-    "time": ("second", "0.3 s"),
-    "frequency": ("1 / second", "16.7 Hz"),
-    "velocity": ("meter / second", "616 mm/s"),
-    "angular velocity": ("radian / second", "200 rpm"),
-    "acceleration": ("meter / second ** 2", "12 m/s^2"),
-    "angular acceleration": ("radian / second ** 2", "900 rad/s^2"),
-    "jerk": ("meter / second ** 3", "900 m/s^3"),
-    "angular jerk": ("radian / second ** 3", "9000 rad/s^3"),
-    "snap": ("meter / second ** 4", "50000 m/s^4"),
-    "angular snap": ("radian / second ** 4", "500000 rad/s^4"),
-    "mass": ("kilogram", "2.5 kg"),
-    "moment of inertia": ("kilogram * meter ** 2", "0.02 kg m^2"),
-    "force": ("newton", "120 N"),
-    "torque": ("newton * meter", "0.4 N m"),
-    "power": ("watt", "500 W"),
-    "energy": ("joule", "12 J"),
-    "pressure": ("newton / meter ** 2", "210 GPa"),
-    "stiffness": ("newton / meter", "3 N/mm"),
-    "torsional stiffness": ("newton * meter / radian", "0.4 N m/deg"),
-    "viscous friction": ("newton * second / meter", "5 N s/m"),
-    "rotary viscous friction": ("newton * meter * second / radian", "0.01 N m s/rad"),
+_BASES = {"angle": "rad radian", "length": "m meter metre", "mass": "g gram", "time": "s sec second"}
+#: other units by their names, each a number of others
+_DERIVED: dict[str, tuple[int | str | Fraction, str]] = {
+    "min minute": (60, "s"),
+    "h hour": (60, "min"),
+    "in inch inches": ("0.0254", "m"),
+    "ft foot feet": ("0.3048", "m"),
+    "mil thou": ("0.001", "in"),
+    "deg degree °": (Fraction(pi) / 180, "rad"),
+    "rev revolution turn r U": (360, "deg"),
+    "rpm revolutions_per_minute": (1, "rev/min"),
+    "rps revolutions_per_second": (1, "rev/s"),
+    "cpm cycles_per_minute": (1, "1/min"),
+    "N newton": (1, "kg m/s^2"),
+    "Nm newton_meter": (1, "N m"),
+    "Pa pascal": (1, "N/m^2"),
+    "J joule": (1, "N m"),
+    "W watt": (1, "J/s"),
+    "Hz hertz": (1, "1/s"),
+    "g0 g_0 gn g_n standard_gravity": ("9.80665", "m/s^2"),
 }
+_NAMES = {name: names for names in (*_BASES.values(), *_DERIVED) for name in names.split()}
+_PREFIXES = {"nano": -9, "micro": -6, "milli": -3, "centi": -2, "kilo": 3, "mega": 6, "giga": 9}
+_PREFIXES |= {"n": -9, "µ": -6, "u": -6, "m": -3, "c": -2, "k": 3, "M": 6, "G": 9}
+
+#: by dimension: units that errors name, and an example
+DIMENSIONS = {
+    "length": ("m, cm, mm, um, in, ft or thou", "35 mm"),
+    "angle": ("rad, deg, turn or rev", "45 deg"),
+    "time": ("s, ms or min", "0.3 s"),
+    "frequency": ("Hz, 1/s, 1/min or cpm", "16.7 Hz"),
+    "velocity": ("m/s, mm/s, m/min, in/s or ft/min", "616 mm/s"),
+    "angular velocity": ("rad/s, deg/s, rpm, rev/s, 1/min or cpm", "200 rpm"),
+    "acceleration": ("m/s^2, mm/s^2, in/s^2 or g", "12 m/s^2"),
+    "angular acceleration": ("rad/s^2 or deg/s^2", "900 rad/s^2"),
+    "jerk": ("m/s^3, mm/s^3, in/s^3 or g/s", "900 m/s^3"),
+    "angular jerk": ("rad/s^3", "9000 rad/s^3"),
+    "snap": ("m/s^4", "50000 m/s^4"),
+    "angular snap": ("rad/s^4", "500000 rad/s^4"),
+    "mass": ("kg or g", "2.5 kg"),
+    "moment of inertia": ("kg m^2", "0.02 kg m^2"),
+    "force": ("N or kN", "120 N"),
+    "torque": ("N m or Nm", "0.4 N m"),
+    "power": ("W or kW", "500 W"),
+    "energy": ("J", "12 J"),
+    "pressure": ("MPa or GPa", "210 GPa"),
+    "stiffness": ("N/m or N/mm", "3 N/mm"),
+    "torsional stiffness": ("N m/rad", "0.4 N m/deg"),
+    "viscous friction": ("N s/m", "5 N s/m"),
+    "rotary viscous friction": ("N m s/rad", "0.01 N m s/rad"),
+}
+#: dimensions in which g is not a gram but the acceleration of gravity
+_OF_GRAVITY = {"acceleration", "jerk", "snap"}
 
 TURN = 2.0 * pi
 MOST_SCALE = 1e30
 #: the displacement of a motion and its derivatives, as tables and pictures call them
 QUANTITIES = ("position", "velocity", "acceleration", "jerk")
 
-#: usual units by what they measure, and how many of SI they are: they are read without pint, which takes long to load
-_USUAL: dict[str, dict[str, float]] = {
-    "length": {"m": 1.0, "cm": 0.01, "mm": 0.001, "um": 1e-6, "µm": 1e-6, "in": 0.0254},
-    "angle": {"rad": 1.0, "deg": pi / 180, "°": pi / 180, "turn": TURN, "rev": TURN},
-    "time": {"s": 1.0, "ms": 0.001, "min": 60.0},
-    "frequency": {"Hz": 1.0, "1/s": 1.0},
-    "velocity": {"m/s": 1.0, "mm/s": 0.001},
-    "angular velocity": {"rad/s": 1.0, "deg/s": pi / 180, "rpm": TURN / 60, "rev/s": TURN},
-    "acceleration": {"m/s^2": 1.0, "mm/s^2": 0.001},
-    "angular acceleration": {"rad/s^2": 1.0, "deg/s^2": pi / 180},
-    "jerk": {"m/s^3": 1.0, "mm/s^3": 0.001},
-    "angular jerk": {"rad/s^3": 1.0},
-    "mass": {"kg": 1.0, "g": 0.001},
-    "moment of inertia": {"kg m^2": 1.0},
-    "force": {"N": 1.0, "kN": 1000.0},
-    "torque": {"N m": 1.0, "Nm": 1.0},
-    "power": {"W": 1.0, "kW": 1000.0},
-    "pressure": {"MPa": 1e6, "GPa": 1e9},
-    "stiffness": {"N/m": 1.0, "N/mm": 1000.0},
-    "torsional stiffness": {"N m/rad": 1.0},
-    "viscous friction": {"N s/m": 1.0},
-    "rotary viscous friction": {"N m s/rad": 1.0},
-}
-#: further units that errors name
-_FURTHER = {
-    "length": ("ft", "thou"),
-    "frequency": ("1/min", "cpm"),
-    "velocity": ("m/min", "in/s", "ft/min"),
-    "angular velocity": ("1/min", "cpm"),
-    "acceleration": ("in/s^2", "g"),
-    "jerk": ("in/s^3", "g/s"),
-}
-#: dimensions in which g is not a gram but the acceleration of gravity
-_OF_GRAVITY = {"acceleration", "jerk", "snap"}
-USUAL_UNITS = {unit: (dimension, factor) for dimension, units in _USUAL.items() for unit, factor in units.items()}
-#: the dimensions of one unit, between which nothing but what is meant decides
-_WORK = {"torque", "energy"}
-
 _NUMBER = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,3})?)(?:/([1-9]\d{0,8})(?!\d))?\s*(.*)")
-_UNIT = re.compile(r"(?:g0|[A-Za-zµ°_]+)(?:\s*(?:\^|\*\*)\s*-?[1-4]|[2-4])?")
-#: a power without its sign, as in mm/s2; and g as a unit of its own
-_BARE_POWER, _G = re.compile(r"(?<=[A-Za-zµ°])(?=[2-4])"), re.compile(r"(?<![A-Za-zµ_])g(?![A-Za-z_0])")
+_POWER = r"(g0|[A-Za-zµ°_]+)(?:\s*(?:\^|\*\*)\s*(-?[1-4])|([2-4]))?"
+_FACTORS = re.compile(rf"([*/]?)\s*{_POWER}")
+_UNIT = re.compile(rf"(?:1\s*/\s*)?{_POWER}(?:\s*[*/]\s*{_POWER})*")
+_PRODUCT = re.compile(r"(?<=[\w°])[\s·](?=[A-Za-zµ°])")
+#: g as a unit of its own
+_G = re.compile(r"(?<![A-Za-zµ_])g(?![A-Za-z_0])")
 _LONGEST = 60
 #: signs of other keyboards and of print, as the others write them
 _SIGNS = str.maketrans({"−": "-", "μ": "µ", "⋅": "·", "²": "^2", "³": "^3", "⁴": "^4", "⁻": "^-", "¹": "1"})
@@ -178,33 +137,12 @@ def quantity(value: Any, dimension: str, name: str) -> float:
     Traceback (most recent call last):
     optlaws.errors.InputError: limit must be a velocity such as '616 mm/s', but '35 mm' is a length
     """
-    value = written(value)
-    number, unit = _parts(value, (dimension,), name)
-    factor = _si_factor(unit, dimension)
-    if factor is None:
-        raise InputError(
-            f"{_asks((dimension,), name)}, but {shortened(value)} is {_kind(unit)}{_remedy(unit, dimension)}"
-        )
-    return _measurable(finite(number * factor, name), dimension, name, value)
-
-
-def _measurable(number: float, dimension: str, name: str, value: Any) -> float:
-    """A number; a time is refused whose powers, by which derivatives are divided, would be beyond double precision."""
-    if dimension == "time":
-        check_scale(number, "s", name, value)
-    return number
+    return _read(value, (dimension,), name)[1]
 
 
 def check_scale(number: float, unit: str, name: str, value: Any) -> None:
     """Refuse a time or a stroke that is nearer to 0, or greater, than any of a machine; 0 is left to what reads it.
 
-    Raises
-    ------
-    InputError
-        If it is below 1e-30 or above 1e30 of its unit.
-
-    Examples
-    --------
     >>> check_scale(1e-300, "s", "period", "1e-300 s")
     Traceback (most recent call last):
     optlaws.errors.InputError: period must be from 1e-30 to 1e+30 s, got '1e-300 s'
@@ -217,13 +155,6 @@ def check_scale(number: float, unit: str, name: str, value: Any) -> None:
 def positive_quantity(value: Any, dimension: str, name: str) -> float:
     """A quantity above 0 as a float in SI units, as `quantity` reads it.
 
-    Raises
-    ------
-    InputError
-        If it is no such quantity, or not above 0.
-
-    Examples
-    --------
     >>> positive_quantity("0 mm", "length", "width")
     Traceback (most recent call last):
     optlaws.errors.InputError: width must be above 0, got '0 mm'
@@ -247,32 +178,12 @@ def either(value: Any, dimensions: tuple[str, ...], name: str) -> tuple[str, flo
     >>> either("0.1 s", ("angle", "time"), "duration")
     ('time', 0.1)
     """
-    value = written(value)
-    number, unit = _parts(value, dimensions, name)
-    for dimension in dimensions:
-        factor = _si_factor(unit, dimension)
-        if factor is not None:
-            return dimension, _measurable(finite(number * factor, name), dimension, name, value)
-    raise InputError(f"{_asks(dimensions, name)}, but {shortened(value)} is {_kind(unit)}")
+    return _read(value, dimensions, name)[:2]
 
 
 def read_stroke(value: Any, back: str = "") -> tuple[str, float]:
-    """A stroke above 0: its dimension, and its size in SI units.
+    """A stroke above 0, a length or an angle: its dimension, and its size in SI units; `back` is the remedy below 0.
 
-    Parameters
-    ----------
-    value
-        A length or an angle.
-    back
-        The remedy for a stroke below 0.
-
-    Raises
-    ------
-    InputError
-        If it is no length or angle, 0, or below 0.
-
-    Examples
-    --------
     >>> read_stroke("0 mm")
     Traceback (most recent call last):
     optlaws.errors.InputError: stroke must be above 0, got '0 mm'; nothing moves: leave it out, or take a Dwell
@@ -287,13 +198,6 @@ def read_stroke(value: Any, back: str = "") -> tuple[str, float]:
 def si_number(value: Any, dimensions: tuple[str, ...], name: str) -> Any:
     """A quantity with one of several dimensions as a float in SI units; bare numbers are not changed.
 
-    Raises
-    ------
-    InputError
-        If it is a text or a quantity of pint and of none of them.
-
-    Examples
-    --------
     >>> si_number("60 deg", ("angle",), "swing"), si_number(1.5, ("angle",), "swing")
     (1.047198, 1.5)
     """
@@ -303,13 +207,6 @@ def si_number(value: Any, dimensions: tuple[str, ...], name: str) -> Any:
 def table(entries: Any, name: str, example: str) -> Mapping[str, Any]:
     """Entries by name, as limits and drives are given.
 
-    Raises
-    ------
-    InputError
-        If they are no table.
-
-    Examples
-    --------
     >>> table(["velocity"], "limits", "{'velocity': '2 m/s'}")
     Traceback (most recent call last):
     optlaws.errors.InputError: limits must be a table such as {'velocity': '2 m/s'}, got ['velocity']
@@ -322,8 +219,6 @@ def table(entries: Any, name: str, example: str) -> Mapping[str, Any]:
 def written(value: Any) -> Any:
     """A quantity of pint as equivalent text, in SI units where its own are unknown here; other values unchanged.
 
-    Examples
-    --------
     >>> from pint import Quantity
     >>> written(Quantity(35, "mm/s")), written("35 mm")
     ('35.0 mm/s', '35 mm')
@@ -375,21 +270,27 @@ class Given(NamedTuple):
 def given_quantity(value: Any, dimensions: tuple[str, ...], name: str) -> Given:
     """A quantity with one of several dimensions, in its written unit, as tables of machines have it.
 
-    Raises
-    ------
-    InputError
-        If it is of none of them.
-
-    Examples
-    --------
     >>> given_quantity("35 mm", ("length", "angle"), "stroke")
     Given(dimension='length', number=35.0, unit='mm')
     """
-    dimension, _ = either(value, dimensions, name)
-    match = _NUMBER.fullmatch(_plain(written(value)))
-    if match is None:
-        raise AssertionError  # it has been read above
-    return Given(dimension, _number(match), match[3].strip())
+    dimension, _, number, unit = _read(value, dimensions, name)
+    return Given(dimension, number, unit)
+
+
+def _read(value: Any, dimensions: tuple[str, ...], name: str) -> tuple[str, float, float, str]:
+    """The dimension of a quantity, its size in SI units, and its number and unit as they were given."""
+    value = written(value)
+    number, unit = _parts(value, dimensions, name)
+    for dimension in dimensions:
+        factor = _si_factor(unit, dimension)
+        if factor is not None:
+            size = finite(number * factor, name)
+            if dimension == "time":  # derivatives are divided by its powers
+                check_scale(size, "s", name, value)
+            return dimension, size, number, unit
+    turns_or_radians = dimensions == ("angular velocity",) and _si_factor(unit, "frequency") is not None
+    remedy = ": write rev/s or rad/s" if turns_or_radians else ""
+    raise InputError(f"{_asks(dimensions, name)}, but {shortened(value)} is {_kind(unit)}{remedy}")
 
 
 def _parts(value: Any, dimensions: tuple[str, ...], name: str) -> tuple[float, str]:
@@ -408,20 +309,13 @@ def _parts(value: Any, dimensions: tuple[str, ...], name: str) -> tuple[float, s
         raise InputError(f"{asks}, got {shortened(value)}: {_with_a_point(value, parted.group())}")
     if match is None:
         raise InputError(f"{asks}, got {shortened(value)}")
-    number, unit = _number(match), match[3].strip()
+    number, unit = float(match[1]) / int(match[2] or 1), match[3].strip()  # or a share such as 1/12
     if not isfinite(number):
         raise InputError(f"{name} must be finite, got {shortened(value)}")
-    if unit not in USUAL_UNITS and _known_unit(unit) is None:
-        known = " or ".join(f"{_article(each)} in {_units_of(each)}" for each in dimensions)
+    if _known_unit(unit) is None:
+        known = " or ".join(f"{_article(each)} in {DIMENSIONS[each][0]}" for each in dimensions)
         raise InputError(f"{asks}, but the unit of {shortened(value)} is not known: write {known}")
     return number, unit
-
-
-def _units_of(dimension: str) -> str:
-    """The usual units of a dimension, in words."""
-    units = [*_USUAL.get(dimension, ()), *_FURTHER.get(dimension, ())]
-    units = [unit for unit in units if unit not in {"°", "µm"}] or [DIMENSIONS[dimension][1].partition(" ")[2]]
-    return units[0] if len(units) == 1 else f"{', '.join(units[:-1])} or {units[-1]}"
 
 
 def _plain(text: str) -> str:
@@ -437,45 +331,69 @@ def _with_a_point(text: str, number: str) -> str:
     return f"decimals are behind a point, not a comma: write {text.replace(number, f'{whole}.{rest}').strip()!r}"
 
 
-def _number(match: re.Match[str]) -> float:
-    """A number, or a share such as 1/12."""
-    return float(match[1]) / int(match[2] or 1)
+class _Unit(NamedTuple):
+    """A unit: how many of SI it is, and the powers of `_BASES` in it."""
+
+    size: Fraction
+    powers: tuple[int, ...]
+
+    def times(self, other: _Unit, power: int = 1) -> _Unit:
+        powers = zip(self.powers, other.powers, strict=True)
+        return _Unit(self.size * other.size**power, tuple(a + power * b for a, b in powers))
+
+
+_BARE = _Unit(Fraction(1), (0,) * len(_BASES))
+
+
+@lru_cache(maxsize=256)
+def _known_unit(text: str) -> _Unit | None:
+    """The unit that a text means: names, their powers, products and quotients; None where one is not known."""
+    words = _PRODUCT.sub("*", f"1{text}" if text.startswith("/") else text)
+    if _UNIT.fullmatch(words) is None:
+        return None
+    product = _BARE
+    for sign, name, power, bare_power in _FACTORS.findall(words):
+        unit = _of_name(name)
+        if unit is None:
+            return None
+        product = product.times(unit, int(power or bare_power or 1) * (-1 if sign == "/" else 1))
+    return product
+
+
+def _of_name(name: str) -> _Unit | None:
+    """The unit of a name, which may have a prefix, and an s of several behind more than one letter."""
+    for singular in (name, *([name[:-1]] if name.endswith("s") else [])):
+        for prefix, power in (("", 0), *_PREFIXES.items()):
+            rest = singular.removeprefix(prefix)
+            if singular.startswith(prefix) and rest in _NAMES and (singular == name or len(rest) > 1):
+                return _defined(_NAMES[rest]).times(_Unit(Fraction(10) ** power, _BARE.powers))
+    return None
+
+
+def _defined(names: str) -> _Unit:
+    if names in _DERIVED:
+        number, other = _DERIVED[names]
+        unit = _known_unit(other)
+        assert unit is not None  # noqa: S101 - the table is closed
+        return unit._replace(size=Fraction(number) * unit.size)
+    size = Fraction(1, 1000) if names == _BASES["mass"] else Fraction(1)
+    return _Unit(size, tuple(int(names == base) for base in _BASES.values()))
 
 
 @lru_cache(maxsize=256)
 def _si_factor(unit: str, dimension: str) -> float | None:
     """How many units of SI a known unit is, None where it is of another dimension; 1/min of a speed counts turns."""
-    if unit in USUAL_UNITS and (dimension not in _OF_GRAVITY or not _G.search(unit)):
-        of, factor = USUAL_UNITS[unit]
-        return factor if of == dimension or {of, dimension} == _WORK else None
-    si, meant = _registry().parse_units(DIMENSIONS[dimension][0]), _known_unit(unit)
-    if dimension == "angular velocity" and str(meant) in {"1 / minute", "cycles_per_minute"}:
-        meant *= _registry().parse_units("turn")
-    if meant.dimensionality != si.dimensionality and dimension in _OF_GRAVITY:
+    meant, powers = _known_unit(unit), _powers(dimension)
+    if dimension == "angular velocity" and meant == _known_unit("cpm"):
+        meant = _known_unit("rpm")
+    if dimension in _OF_GRAVITY and meant is not None and meant.powers != powers:
         meant = _known_unit(_G.sub("g_n", unit))
-    if meant.dimensionality != si.dimensionality:
-        return None
-    return float(_registry().Quantity(1.0, meant).to(si).magnitude)
+    return float(meant.size) if meant is not None and meant.powers == powers else None
 
 
-@lru_cache(maxsize=256)
-def _known_unit(text: str) -> Any:
-    """The unit that a text means; only names, their powers, products and quotients are read, so nothing runs away."""
-    from pint.errors import PintError
-
-    words = re.sub(r"(?<=[\w°])[\s·](?=[A-Za-zµ°])", "*", f"1{text}" if text.startswith("/") else text)
-    if re.fullmatch(rf"(?:1\s*/\s*)?{_UNIT.pattern}(?:\s*[*/]\s*{_UNIT.pattern})*", words) is not None:
-        try:
-            return _registry().parse_units(_BARE_POWER.sub("**", words.replace("^", "**")))
-        except (PintError, ValueError, TypeError):
-            pass
-    return None
-
-
-def _remedy(unit: str, dimension: str) -> str:
-    """The remedy for a frequency that may count turns or radians."""
-    frequency = _si_factor(unit, "frequency") is not None
-    return ": write rev/s or rad/s" if dimension == "angular velocity" and frequency else ""
+def _powers(dimension: str) -> tuple[int, ...]:
+    unit = _known_unit(re.split(", | or ", DIMENSIONS[dimension][0])[0])
+    return unit.powers if unit else ()
 
 
 def _asks(dimensions: tuple[str, ...], name: str) -> str:
@@ -488,18 +406,17 @@ def _article(dimension: str) -> str:
 
 
 def _kind(unit: str) -> str:
-    """The kind of quantity that a unit measures, in words."""
-    known = _known_unit(unit)
-    for dimension, (si, _) in DIMENSIONS.items():
-        if _registry().parse_units(si).dimensionality == known.dimensionality:
+    """The kind of quantity that a known unit measures, in words."""
+    powers = (_known_unit(unit) or _BARE).powers
+    for dimension in DIMENSIONS:
+        if _powers(dimension) == powers:
             return _article(dimension)
-    return f"of dimension {known.dimensionality}"
-
-
-@cache
-def _registry() -> UnitRegistry[Any]:
-    from pint import UnitRegistry
-
-    registry: UnitRegistry[Any] = UnitRegistry(None, cache_folder=None)
-    registry.load_definitions(_DEFINITIONS.strip().splitlines())
-    return registry
+    above, below = (
+        [
+            f"[{base}]{f' ** {n * sign}' if n * sign > 1 else ''}"
+            for base, n in zip(_BASES, powers, strict=True)
+            if n * sign > 0
+        ]
+        for sign in (1, -1)
+    )
+    return f"of dimension {' / '.join([' * '.join(above) or ('1' if below else 'dimensionless'), *below])}"

@@ -7,7 +7,9 @@ from math import pi
 from pathlib import Path
 from typing import Any
 
+import hypothesis
 import pytest
+from hypothesis import strategies as st
 from pint import UnitRegistry
 
 from optlaws import (
@@ -32,7 +34,9 @@ from optlaws import (
 )
 from tests.internals.files import reading
 from tests.internals.jobs import read_of_cycle_entries as read
-from tests.internals.motion import DIMENSIONS, USUAL_UNITS, either, quantity
+from tests.internals.motion import DIMENSIONS, either, quantity
+
+PINT: UnitRegistry[Any] = UnitRegistry()
 
 
 @pytest.mark.parametrize(
@@ -78,19 +82,50 @@ def test_quantities_in_si_units(text: str, dimension: str, value: float) -> None
     assert quantity(text, dimension, "it") == pytest.approx(value, rel=1e-14)
 
 
-@pytest.mark.parametrize("unit", sorted(USUAL_UNITS))
-def test_usual_units_are_what_pint_says(unit: str) -> None:
-    """The units that are read without pint are of the same dimensions and size as it has them, to the last digit."""
+PREFIXES = ["", "n", "u", "µ", "m", "c", "k", "M", "G", "milli", "kilo"]
+#: names of units, prefixed ones before others, and the names of pint where it has others
+UNITS = {
+    "L": (["m", "meter", "metre"], ["in", "inches", "ft", "foot", "feet", "thou"]),
+    "M": (["g", "gram"], []),
+    "T": (["s", "sec", "second"], ["min", "minute", "h", "hour"]),
+    "A": (["rad", "radian"], ["deg", "°", "degrees", "turn", "rev", "U"]),
+    "F": (["N", "newton"], []),
+}
+OF_PINT = {"rev": "turn", "U": "turn", "µ": "u"}
+SHAPES = {
+    "length": "L",
+    "velocity": "L/T",
+    "jerk": "L/T^3",
+    "angular acceleration": "A/T^2",
+    "moment of inertia": "M L^2",
+    "pressure": "F/L^2",
+    "power": "F*L/T",
+    "force": "M L/T^2",
+    "rotary viscous friction": "F L T/A",
+}
 
-    def read_as(text: str, dimension: str) -> float | None:
-        try:
-            return quantity(text, dimension, "it")
-        except InputError:
-            return None
 
-    # with a second over a second beside it no unit is a usual one
-    for dimension in DIMENSIONS:
-        assert read_as(f"1 {unit}", dimension) == read_as(f"1 {unit} * s / s", dimension)
+@hypothesis.given(st.data())
+def test_units_are_what_pint_says(data: st.DataObject) -> None:
+    """Products of powers of units with prefixes, read by the library's table and by another's."""
+    dimension = data.draw(st.sampled_from(sorted(SHAPES)))
+    ours, theirs = SHAPES[dimension], SHAPES[dimension].replace(" ", "*").replace("^", "**")
+    for letter, (prefixed, others) in UNITS.items():
+        prefix, name = data.draw(st.one_of(
+            st.tuples(st.sampled_from(PREFIXES), st.sampled_from(prefixed)),
+            *([st.tuples(st.just(""), st.sampled_from(others))] if others else []),
+        ))  # fmt: skip
+        ours = re.sub(rf"\b{letter}\b", f"{prefix}{name}", ours)
+        theirs = re.sub(rf"\b{letter}\b", OF_PINT.get(prefix, prefix) + OF_PINT.get(name, name), theirs)
+    expected = PINT.Quantity(1.0, theirs).to_base_units()
+    assert quantity(f"1 {ours}", dimension, "it") == pytest.approx(float(expected.magnitude), rel=1e-13)
+
+
+def test_a_unit_of_a_table_is_rounded_once() -> None:
+    for text, dimension, size in (("1 rpm", "angular velocity", 2 * pi / 60), ("1 mm/s^2", "acceleration", 0.001),
+                                  ("1 °", "angle", pi / 180), ("1 N/mm", "stiffness", 1000.0),
+                                  ("1 nm", "length", 1e-9), ("1 um", "length", 1e-6)):  # fmt: skip
+        assert quantity(text, dimension, "it") == size
 
 
 @pytest.mark.parametrize("dimension", DIMENSIONS)
