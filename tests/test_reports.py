@@ -82,6 +82,11 @@ def test_every_output_renders_the_same_report(kind: str) -> None:
         assert panel.title == each.get_ylabel() == ", ".join(filter(None, (data["name"], data["unit"])))
         drawn = np.array(data["series"][0]["values"], dtype=float)
         assert drawn == pytest.approx(np.asarray(each.lines[0].get_ydata()), rel=1e-6, abs=1e-6, nan_ok=True)
+        # over what the panel says, on the page as in the picture
+        across = np.asarray(each.lines[0].get_xdata())
+        assert across == pytest.approx(panel.per * panel.series[0].at)
+        assert data["series"][0]["at"] == pytest.approx(across, rel=1e-3, abs=1e-4)
+    assert axes[-1].get_xlabel() == report.panels[0].across
 
 
 def test_limits_of_a_problem_are_those_of_its_curves_and_not_of_its_formulas() -> None:

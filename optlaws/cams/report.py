@@ -218,9 +218,8 @@ class CamReport:
         at = np.concatenate(parts)
         at, (curve,) = refined(at, [np.asarray(values(at))], [values], np.array([place for place, _ in peaks]))
         sizes = [value for _, value in peaks]
-        return Panel(
-            name, unit, (Series(at, curve),), peaks=peaks, ends=(min(sizes, default=0.0), max(sizes, default=0.0))
-        )
+        ends_of = min(sizes, default=0.0), max(sizes, default=0.0)
+        return Panel(name, unit, (Series(at, curve),), (), peaks, ends_of, across="cam, deg", per=DEGREES)
 
 
 #: what is known of the cusps of a flank by the status of its undercut

@@ -31,7 +31,6 @@ from optlaws.files.tables import to_csv, to_toml
 from optlaws.files.writing import MARK
 from optlaws.jobs.cycle_entries import cycle_of
 from optlaws.laws.values import table_of_values
-from optlaws.motion.display_units import DEGREES, MILLI
 
 _ROWS = 361
 _WIDTH = 116
@@ -64,9 +63,7 @@ def answer(question: FileRequest) -> dict[str, str]:
         from optlaws.plots.report import printable_page  # matplotlib costs a start that other questions do without
 
         of = titled(request.law) if isinstance(request, LawsRequest) else request.study.get("title", "A motion")
-        shown = axes_view.axes_of(request.study) if question.view == "axes" else result(request)
-        per = DEGREES if question.view == "cam" else MILLI
-        name, text = "report.html", printable_page(of, shown.report(), per)
+        name, text = "report.html", printable_page(of, result(request).report())
     else:
         name, text = kinds[question.kind](request)
     return {"name": name, "type": guess_type(name)[0] or "text/plain", "text": text}
@@ -253,7 +250,7 @@ VIEWS: dict[str, ViewFiles] = {
             "python": _axes_python,
             "proof": lambda request: _proofs(*axes_view.axes_of(request.study).values()),
         },
-        cycle_view.cycle,
+        lambda request: axes_view.axes_of(request.study),
     ),
     "cam": (
         {"problem": _study("cam.toml"), **{form: partial(_cut, form) for form in cam_files.FORMATS}},
@@ -263,19 +260,23 @@ VIEWS: dict[str, ViewFiles] = {
     "fastest": (_FASTEST, fastest_view.fastest_of),
     "old": (_OLD, old_cam_view.cycle),
 }
+#: by the name of a view what a controller may run: of axes the one on display
+MOTIONS: dict[str, Callable[[Any], Any]] = {
+    "laws": lambda request: law_of(request.law),
+    **dict.fromkeys(("cycle", "machine", "axes"), cycle_view.cycle),
+    "old": old_cam_view.cycle,
+}
 
 
 def exported(question: FileRequest) -> dict[str, Any]:
     """The file, and the peaks of the motion as the controller interpolates it beside the law's peaks."""
-    (_, result_of_view), request = _read(question)
-    result = result_of_view(request)
-    result = result.law if isinstance(result, Solution) else result
-    if not isinstance(result, Answers | MotionLaw):
+    _, request = _read(question)
+    if question.view not in MOTIONS:
         raise InputError(f"the view {question.view} has no motion for a controller")
     given: dict[str, Any] = {"points": question.points, "counts": question.counts}
-    if isinstance(result, MotionLaw):
+    if isinstance(request, LawsRequest):
         given |= {"stroke": question.stroke, "duration": question.time, "master": question.master or None}
-    export = result.export(question.kind, **given)
+    export = MOTIONS[question.view](request).export(question.kind, **given)
     written = export.written
     return {
         "name": f"Cam{export.format.extension}",

@@ -48,7 +48,7 @@ def _panel(letter: str, extremes: tuple[Peak, Peak], values: Array, k: Array) ->
     marked = (extreme for extreme in extremes if letter != "a" and chop(extreme.value, size, NO_MARK))
     peaks = tuple(dict.fromkeys((extreme.k, extreme.value) for extreme in marked))
     least, most = (extreme.value for extreme in extremes)
-    return Panel(f"{_NAMES[letter]} {letter}", "", (Series(k, values),), peaks=peaks, ends=(least, most))
+    return Panel(f"{_NAMES[letter]} {letter}", "", (Series(k, values),), (), peaks, (least, most), "k", 1.0)
 
 
 def _places(curve: Curve, jumps: Array, count: int) -> Array:

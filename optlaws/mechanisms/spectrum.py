@@ -203,7 +203,7 @@ class ResponseSpectrum:
         values = {"residual acceleration": self.residual_acceleration, "peak acceleration": self.peak_acceleration}
         across = "frequency, radians of the free vibration in the rise"
         curves = {name: (Series(self.frequency, each),) for name, each in values.items()}
-        panels = [Panel(name, "in units of a″", curve, across=across) for name, curve in curves.items()]
+        panels = [Panel(name, "in units of a″", curve, across=across, per=1.0) for name, curve in curves.items()]
         columns = {"frequency": self.frequency.tolist(), **{name: each.tolist() for name, each in values.items()}}
         facts = [Row("damping ratio", self.damping), Row("frequency", (self.frequency.min(), self.frequency.max()))]
         data = {"damping": self.damping, "law": self.law.to_dict(), **columns}

@@ -67,7 +67,7 @@ def forces_figure(forces: CamForces, title: str) -> Figure:
 
 def _draw(report: CamReport, panels: Sequence[Panel], axes: Sequence[Axes], **style: Any) -> list[Artist]:
     """Panels over the angle of a cam."""
-    artists = draw_panels(panels, report.segments, axes, per=DEGREES, **style)
+    artists = draw_panels(panels, report.segments, axes, **style)
     axes[-1].set_xticks(np.arange(0.0, DEGREES * report.cam.displacement.breaks[-1] + 1.0, 60.0))
     return artists
 

@@ -51,7 +51,7 @@ def _draw_together(plan: Plan, axes: Axes, style: dict[str, Any]) -> list[Artist
     motion = report.panels[:_MOTION]
     for panel, colour in zip(motion, (GREY, GREEN, BLUES[3], WARM), strict=True):
         artists += draw_share(panel, axes, panel.name, **{"color": colour} | style)
-    mark_segments(report.segments, axes)
+    mark_segments(report.segments, axes, motion[0])
     set_range(axes, motion)
     axes.set(ylabel="share of the peak")
     axes.legend(**_ABOVE)

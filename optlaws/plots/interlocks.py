@@ -153,7 +153,7 @@ def _clearances(report: AxesReport, axes: Any, style: dict[str, Any]) -> list[Ar
     for number, (each, least) in enumerate(zip(several, clearances, strict=True)):
         panel = report.clearance(number, least)
         (curve,) = panel.series
-        artists += draw_panel(panel, each, per=scale, **style)
+        artists += draw_panel(panel, each, **style)
         if isinstance(least.interlock, After):
             passes = [0.5 * (limit.start + limit.stop) for limit in panel.limits]
             look: Any = {"color": GREY, "markersize": 4.5}

@@ -66,7 +66,7 @@ def draw_curve(curve: Curve, axes: Axes | Panels | None = None, **style: Any) ->
         return [
             artist
             for panel, name, colour in shares
-            for artist in draw_share(panel, axes, name, per=1.0, **{"color": colour} | style)
+            for artist in draw_share(panel, axes, name, **{"color": colour} | style)
         ]
     return _draw_each(curve, drawn, four(panels() if axes is None else axes), style)
 
@@ -99,7 +99,7 @@ def four(axes: Any) -> list[Axes]:
 
 def _with_peaks(panel: Panel, axes: Axes, style: Mapping[str, Any]) -> list[Artist]:
     """Draw a curve with its limits, small rings on both sides of every break, and dots at its peaks."""
-    artists = draw_panel(panel, axes, per=1.0, **style)
+    artists = draw_panel(panel, axes, **style)
     k, values, *_ = panel.series[0]
     look: Any = {"color": axes.lines[-len(artists)].get_color(), "linestyle": ""}
     gaps = np.flatnonzero(np.isnan(values[1:-1])) + 1

@@ -9,7 +9,7 @@ import numpy as np
 
 from optlaws.cycles.report import CycleReport
 from optlaws.errors import InputError
-from optlaws.mechanisms.linkages.report import INPUTS, MechanismReport
+from optlaws.mechanisms.linkages.report import MechanismReport
 from optlaws.motion.display_units import RPM
 from optlaws.plots.report import draw_panel
 from optlaws.plots.style import (
@@ -130,9 +130,9 @@ def _curves(mechanism: Mechanism, panels: list[Axes], style: dict[str, Any]) -> 
     artists: list[Artist] = []
     report = MechanismReport(mechanism)
     for panel, axes, colour in zip(report.panels, panels, (BLUES[3], GREEN, WARM), strict=True):
-        artists += draw_panel(panel, axes, per=1.0, **{"color": colour, **style})
+        artists += draw_panel(panel, axes, **{"color": colour, **style})
         axes.axhline(0.0, color=GREY, linewidth=0.8)
-    panels[-1].set(xlabel=f"input, {INPUTS[mechanism.axis][0]}")
+    panels[-1].set(xlabel=report.panels[-1].across)
     return artists
 
 

@@ -36,8 +36,8 @@ def draw_old_table(table: OldTable, axes: Any = None, new: OldTable | None = Non
         for curve in panel.series:
             look = {"label": curve.name} | _LOOKS[curve.name] | ({} if curve.dots else style)
             artists += each.plot(curve.at, curve.values, **look)
-        mark_segments(report.segments, each, per=1.0)
+        mark_segments(report.segments, each, panel)
         each.set_ylabel(f"{panel.name},\n{panel.unit}")
     panels[0].legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=3, frameon=False, fontsize=8.0)
-    panels[-1].set(xlabel=f"master, {table.master}", xlim=(table.places[0], table.places[-1]))
+    panels[-1].set(xlabel=shown[0].across, xlim=(table.places[0], table.places[-1]))
     return artists

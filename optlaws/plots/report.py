@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
-from optlaws.motion.display_units import MILLI
 from optlaws.plots.style import BLUES, GREY, WARM, one_below_the_other, rendered
 from optlaws.shown.showing import cell, table
 
@@ -35,24 +34,23 @@ def draw_panels(
     panels: Sequence[Panel],
     segments: Sequence[ReportSegment],
     axes: Sequence[Axes],
-    *,
-    per: float = MILLI,
     **style: Any,
 ) -> list[Artist]:
     """Draw panels into as many axes, one below the other, under the names of the segments; return the artists."""
     artists: list[Artist] = []
-    per = 1.0 if any(panel.across for panel in panels) else per
     for panel, each in zip(panels, axes, strict=True):
-        artists += draw_panel(panel, each, per=per, **style)
-        mark_segments(segments, each, per)
-    name_segments(segments, axes[0], per)
-    set_range(axes[-1], panels, per)
+        artists += draw_panel(panel, each, **style)
+        mark_segments(segments, each, panel)
+    above: Any = {"xycoords": ("data", "axes fraction"), "ha": "center", "va": "bottom", "fontsize": 8.0}
+    for name, start, stop in segments:
+        axes[0].annotate(name, (panels[0].per * 0.5 * (start + stop), 1.02), color=GREY, **above)
+    set_range(axes[-1], panels)
     return artists
 
 
-def draw_panel(panel: Panel, axes: Axes, *, per: float = MILLI, share: float = 1.0, **style: Any) -> list[Artist]:
+def draw_panel(panel: Panel, axes: Axes, *, share: float = 1.0, **style: Any) -> list[Artist]:
     """Draw the curves of a panel, multiplied by a share, and its limits where these are within sight."""
-    artists: list[Artist] = []
+    artists, per = list["Artist"](), panel.per
     for curve in panel.series:
         artists += axes.plot(per * curve.at, share * curve.values, **{"color": BLUES[3]} | style)
     for start, stop, low, high, name in panel.limits:
@@ -73,41 +71,33 @@ def draw_share(panel: Panel, axes: Axes, name: str, **style: Any) -> list[Artist
     return draw_panel(panel, axes, share=1.0 / size, **{"label": label} | style)
 
 
-def name_segments(segments: Sequence[ReportSegment], axes: Axes, per: float = MILLI) -> None:
-    """Write each segment's name above the axes."""
-    above: Any = {"xycoords": ("data", "axes fraction"), "ha": "center", "va": "bottom", "fontsize": 8.0}
-    for name, start, stop in segments:
-        axes.annotate(name, (per * 0.5 * (start + stop), 1.02), color=GREY, **above)
-
-
-def mark_segments(segments: Sequence[ReportSegment], axes: Axes, per: float = MILLI) -> None:
+def mark_segments(segments: Sequence[ReportSegment], axes: Axes, panel: Panel) -> None:
     """A line at every joint."""
     for _, after in pairwise(segments):
-        axes.axvline(per * after.start, color=GREY, linewidth=0.7, linestyle=":")
+        axes.axvline(panel.per * after.start, color=GREY, linewidth=0.7, linestyle=":")
 
 
-def set_range(axes: Axes, panels: Sequence[Panel], per: float = MILLI) -> None:
-    """The whole of the longest curve, over time in milliseconds, an angle in degrees, or what the panels name."""
+def set_range(axes: Axes, panels: Sequence[Panel]) -> None:
+    """The whole of the longest curve; of times and angles from 0 on."""
+    per = panels[0].per
     longest = max(float(curve.at[-1]) for panel in panels for curve in panel.series)
-    least = min(0.0 if not panel.across else float(panel.series[0].at[0]) for panel in panels)
-    label = panels[0].across or ("time, ms" if per == MILLI else "cam, deg")
-    axes.set(xlabel=label, xlim=(per * least, per * longest))
+    least = min(float(panel.series[0].at[0]) if per == 1.0 else 0.0 for panel in panels)
+    axes.set(xlabel=panels[0].across, xlim=(per * least, per * longest))
 
 
-def printable_page(title: object, report: Report, per: float = MILLI) -> str:
+def printable_page(title: object, report: Report) -> str:
     """A report as a file of HTML by itself, to be read anywhere and printed: facts, tables, pictures of its panels."""
     tables = [table(*each) for each in report.tables]
-    pictures = [
-        _picture(list(panels), report.segments, per) for _, panels in groupby(report.panels, lambda each: each.across)
-    ]
+    grouped = groupby(report.panels, lambda panel: panel.across)
+    pictures = [_picture(list(panels), report.segments) for _, panels in grouped]
     head = f'<meta charset="utf-8"><title>{cell(title)}</title><style>{_PRINTED}</style>'
     body = "".join([f"<h1>{cell(title)}</h1>", report.facts._repr_html_(), *tables, *pictures])
     return f'<!doctype html>\n<html lang="en"><head>{head}</head><body>{body}</body></html>\n'
 
 
-def _picture(panels: Sequence[Panel], segments: Sequence[ReportSegment], per: float) -> str:
+def _picture(panels: Sequence[Panel], segments: Sequence[ReportSegment]) -> str:
     """Panels over one abscissa as an image that the page contains."""
     axes = one_below_the_other(None, len(panels), _INCHES * len(panels) + 0.4)
-    draw_panels(panels, segments, axes, per=per)
+    draw_panels(panels, segments, axes)
     text = b64encode(rendered(cast("Figure", axes[0].get_figure(root=True)), "svg")).decode()
     return f'<img alt="{cell(", ".join(panel.title for panel in panels))}" src="data:image/svg+xml;base64,{text}">'

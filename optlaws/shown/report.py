@@ -109,7 +109,7 @@ class Panel:
     Attributes
     ----------
     name, unit
-        The quantity, and the unit of all values; times are in seconds.
+        The quantity, and the unit of all values.
     series
         The curves.
     limits
@@ -118,8 +118,9 @@ class Panel:
         Times and values that are marked, from the law and not from the curve.
     ends
         The least and the greatest value, from the law as well.
-    across
-        What the values are over, where that is not the time.
+    across, per
+        What the values are over, and how many of its unit are 1 of the places of curves, limits and peaks; times are
+        in seconds, and shown in milliseconds.
     """
 
     name: str
@@ -128,7 +129,8 @@ class Panel:
     limits: tuple[PanelLimit, ...] = ()
     peaks: tuple[tuple[float, float], ...] = ()
     ends: tuple[float, float] = (0.0, 0.0)
-    across: str = ""
+    across: str = "time, ms"
+    per: float = 1e3
 
     @property
     def title(self) -> str:
@@ -196,5 +198,6 @@ def report_page(title: object, report: Report) -> str:
 def panel_drawing(panel: Panel) -> str:
     """A small drawing of the first curve of a panel, as HTML; of what is not over the time, above its least value."""
     at, values, *_ = panel.series[0]
-    name, base = (f"{panel.title} over {panel.across}", panel.ends[0]) if panel.across else (panel.title, 0.0)
-    return drawing(name, at.tolist(), (values - base).tolist())
+    if panel.across == Panel.across:
+        return drawing(panel.title, at.tolist(), values.tolist())
+    return drawing(f"{panel.title} over {panel.across}", at.tolist(), (values - max(panel.ends[0], 0.0)).tolist())

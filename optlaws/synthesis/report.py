@@ -86,5 +86,5 @@ def front_report(
     """The report of a front: its points with their bounds and, of two constants, curves of the last over the first."""
     series = tuple(Series(at, values, i, name) for i, (name, at, values) in enumerate(curves))
     ends = (float(series[0].values.min()), float(series[0].values.max())) if series else (0.0, 0.0)
-    panels = [Panel(axis_label(over[-1]), "", series, ends=ends, across=axis_label(over[0]))] if series else []
-    return PlainReport(Summary(facts), [table], panels, plain)
+    panel = Panel(axis_label(over[-1]), "", series, ends=ends, across=axis_label(over[0]), per=1.0)
+    return PlainReport(Summary(facts), [table], [panel] if series else [], plain)

@@ -256,7 +256,7 @@ def front_panels(
     no_more = f", with no more {', '.join(others)} than {usual.name}" if usual is not None and others else ""
     below = Series(ends, np.repeat(least[1:], 2), "limit", f"none below{no_more}")
     curves = Series(at, values, 0, "front"), Series(ends, np.repeat(values[:-1], 2), 0, "reached"), below
-    return [Panel(y.name, y.unit, curves, across=x.heading)]
+    return [Panel(y.name, y.unit, curves, across=x.heading, per=1.0)]
 
 
 def limits_in_words(law: AdvisedLaw) -> str:

@@ -22,7 +22,7 @@ from optlaws.cycles.cycle import Cycle
 from optlaws.cycles.limit_rows import broken_limits
 from optlaws.cycles.report import objective_unit
 from optlaws.kept import kept_property
-from optlaws.motion.display_units import UNITS
+from optlaws.motion.display_units import TURN_DEG, UNITS
 from optlaws.numbers import Array
 from optlaws.sentences import joined
 from optlaws.shown.curve_points import refined
@@ -65,6 +65,8 @@ class AxesReport:
     def __init__(self, cycles: Mapping[str, Cycle], rules: Sequence[Interlock]) -> None:
         self.cycles, self.rules = cycles, rules
         self.duration = next(iter(cycles.values())).duration
+        #: of its panels, which are over the master
+        self.over: dict[str, Any] = {"across": "master, deg", "per": TURN_DEG / self.duration}
 
     @kept_property
     def clearances(self) -> tuple[LeastClearance, ...]:
@@ -118,10 +120,9 @@ class AxesReport:
         times, values = refined(times, [curve(times) for curve in curves], curves, np.empty(0))
         shown = zip(self.cycles.items(), values, strict=True)
         return tuple(
-            Panel(
-                name, UNITS[cycle.axis][0][0], (Series(times, places),), ends=(float(places.min()), float(places.max()))
-            )
+            Panel(name, UNITS[cycle.axis][0][0], (Series(times, places),), ends=ends, **self.over)
             for (name, cycle), places in shown
+            for ends in [(float(places.min()), float(places.max()))]
         )
 
     def position(self, name: str, times: Array | float) -> Array:
@@ -150,7 +151,7 @@ class AxesReport:
             spans = [(max(0.0, at - apart), min(duration, at + apart)) for at, _, _ in rule.events(self.cycles)]
         limits = tuple(PanelLimit(*span, 0.0, inf) for span in spans)
         peaks = () if least is None else ((least.time, size * least.clearance),)
-        return Panel(f"clearance of {rule.label}", unit, (Series(times, values),), limits, peaks)
+        return Panel(f"clearance of {rule.label}", unit, (Series(times, values),), limits, peaks, **self.over)
 
     @property
     def arrows(self) -> Iterator[Arrow]:

@@ -470,8 +470,8 @@ class OldTableReport:
         old, points = self.table, Series(self.table.places, self.table.heights, _POINTS, "points", dots=True)
         curves = [curve for curve in position.series if curve.law == _NEW]
         off = [curve._replace(values=curve.values - old.at(curve.at)) for curve in (points, *curves)]
-        position = Panel(position.name, position.unit, (*position.series, points))
-        return (position, Panel("off the old law", old.unit, tuple(off)), *derivatives)
+        position = replace(position, series=(*position.series, points), peaks=())
+        return (position, replace(position, name="off the old law", series=tuple(off)), *derivatives)
 
     def _panel(self, nu: int) -> Panel:
         """A derivative by the master, with the greatest magnitude of every move."""
@@ -482,7 +482,8 @@ class OldTableReport:
             at, values = (np.concatenate([panel.series[0][i] for panel in panels]) for i in (0, 1))
             series.append(Series(at, values, law, name))
             peaks += [peak for panel in panels for peak in panel.peaks]
-        return Panel(QUANTITIES[nu], self.table.unit_of(nu), tuple(series), peaks=tuple(dict.fromkeys(peaks)))
+        marked, across = tuple(dict.fromkeys(peaks)), f"master, {self.table.master}"
+        return Panel(QUANTITIES[nu], self.table.unit_of(nu), tuple(series), (), marked, across=across, per=1.0)
 
     @property
     def data(self) -> dict[str, Any]:

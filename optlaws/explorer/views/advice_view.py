@@ -82,7 +82,7 @@ def _side_by_side(
 ) -> dict[str, Any]:
     measures = {measure.name: measure for measure in candidates.measures}
     x, y = measures[candidates.second], measures[candidates.minimise]
-    curves = [panel_data(panel, 1.0) for panel in front_panels(front, x, y, candidates.most(), candidates.usual)]
+    curves = [panel_data(panel) for panel in front_panels(front, x, y, candidates.most(), candidates.usual)]
     return {
         "measures": [measure._asdict() for measure in measures.values()],
         "rows": [

@@ -44,7 +44,7 @@ def answer(request: CycleRequest) -> dict[str, Any]:
         "rows": list(map(_row, axes.values(), report.positions)),
         "arrows": list(_arrows(axes, report)),
         "planes": [_plane(axes, plane) for plane in report.planes],
-        "panels": [panel_data(panel, scale) for panel in clearances],
+        "panels": list(map(panel_data, clearances)),
     }
 
 
@@ -117,9 +117,9 @@ def _plane(axes: Axes, plane: Plane) -> dict[str, Any]:
 def clearances(request: CycleRequest) -> dict[str, Any]:
     """The proven clearances of the interlocks over the whole cycle, and the use of the limits of each axis."""
     axes = axes_of(request.study)
-    report, scale = cast("AxesReport", axes.report()), TURN_DEG / axes.duration
+    report = cast("AxesReport", axes.report())
     panels = [
-        panel_data(report.clearance(number, least), scale) | {"beyond": least.status == "broken"}
+        panel_data(report.clearance(number, least)) | {"beyond": least.status == "broken"}
         for number, least in enumerate(report.clearances)
     ]
     rows = [

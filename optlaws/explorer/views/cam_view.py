@@ -22,7 +22,7 @@ from optlaws.explorer.views.law_view import refusing
 from optlaws.explorer.views.panel_data import drawn, fact_sentences, panel_data
 from optlaws.explorer.views.requests import check_size, without_files
 from optlaws.jobs.cam import CamProblemFile, CamResult
-from optlaws.motion.display_units import DEGREES, MILLI
+from optlaws.motion.display_units import MILLI
 from optlaws.motion.quantities import quantity
 from optlaws.sentences import Sentence, capital, joined, sentence
 
@@ -37,7 +37,7 @@ def answer(request: CycleRequest) -> dict[str, Any]:
     """The view of a cam, or the reason why there is none."""
     result = result_of(request)
     spec, cam, report = result.spec, result.cam, result.report
-    displacement, pressure, _, radius = (panel_data(panel, DEGREES) for panel in report.panels)
+    displacement, pressure, _, radius = (panel_data(panel) for panel in report.panels)
     pressure["beyond"] = PRESSURE in spec.limits.broken(cam.extremes)
     return drawing(cam, spec.cutter_radius) | {
         "dimensions": _dimensions(spec, cam),
@@ -152,7 +152,7 @@ def loads(request: CycleRequest) -> dict[str, Any]:
         if result.spec.motion.drive is None:
             return {"panels": [], "facts": []}
         forces = result.forces or result.forces_of(Surfaces())
-        panels, section = [panel_data(panel, DEGREES) for panel in result.report.loads(forces)], forces_section(forces)
+        panels, section = [panel_data(panel) for panel in result.report.loads(forces)], forces_section(forces)
         for pressed in panels[2:]:
             pressed["peaks"] = pressed["peaks"][-1:]
         return {"panels": panels, "facts": [*fact_sentences(section.facts, section.digits), *_spring(result)]}

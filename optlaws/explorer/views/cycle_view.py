@@ -71,7 +71,7 @@ def answer(request: CycleRequest) -> dict[str, Any]:
         "across": f"master, deg ({digits(MILLI * shown.duration)} ms a turn)",
         "turn": MILLI * shown.duration,
         "symbol": "master",
-        "panels": [panel_data(report.panel(nu), TURN_DEG / shown.duration) for nu in report.orders],
+        "panels": [panel_data(replace(report.panel(nu), per=TURN_DEG / shown.duration)) for nu in report.orders],
         "segments": list(_segments(report)),
         "table": table_data(report.tables[0]),
         "trust": trust(shown),

@@ -81,7 +81,7 @@ def front(problem: Problem, x: str, y: str) -> dict[str, Any]:
         )
     at = "at each B" if x == "B" else f"for each bound of {x}"
     words = f"least {objective_title(problem)} {at}: {quality.note}"
-    return {"series": panel_data(report.panels[0], 1.0)["series"], "words": words, "proven": proven}
+    return {"series": panel_data(report.panels[0])["series"], "words": words, "proven": proven}
 
 
 def _span(problem: Problem, x: str) -> tuple[float, float] | None:

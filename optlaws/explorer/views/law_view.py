@@ -127,7 +127,7 @@ def shown(result: MotionLaw | Solution) -> dict[str, Any]:
         }
         for row in result.constants.summary()
     ]
-    panels = [panel_data(panel, 1.0) | {"symbol": panel.name[-1]} for panel in result.report().panels]
+    panels = [panel_data(panel) | {"symbol": panel.name[-1]} for panel in result.report().panels]
     return {"constants": constants, "panels": panels}
 
 
@@ -257,7 +257,7 @@ def residuals(request: LawsRequest) -> dict[str, Any]:
     shown = {i: {"text": digits(left[i], 6), "band": _greatest(law, constant)} for i, law in laws.items()}
     return {
         "range": [_LOW, request.most],
-        "panels": [panel_data(panel, 1.0) for panel in (beside_each_other(curves[0][1], curves) if curves else ())],
+        "panels": [panel_data(panel) for panel in (beside_each_other(curves[0][1], curves) if curves else ())],
         "laws": [shown.get(i) for i in range(len(request.laws))],
         "at": request.frequency,
         "weight": [] if weight is None else [list(pair) for pair in weight],

@@ -66,7 +66,7 @@ def answer(request: CycleRequest) -> dict[str, Any]:
     return {
         **known,
         **over_time(list(map(panel_data, panels)), max(law.duration for law in cycles.values()), of),
-        "segments": segments_data(CycleReport(shown).segments),
+        "segments": segments_data(CycleReport(shown).segments, panels[0]),
         **_pictures(shown, axis.mechanism or {}, inputs[place][-1].ends),
         "over_speed": _over_speed(shown, cycles),
         "rows": _rows(laws),
@@ -233,7 +233,7 @@ def _pictures(cycle: Plan, entries: Mapping[str, Any], used: tuple[float, float]
     unit, factor, _ = INPUTS[mechanism.axis]
     report = MechanismReport(mechanism, (used[0] / factor, used[1] / factor))
     x = np.asarray(cycle(np.linspace(0.0, cycle.duration, _FRAMES)))
-    panels = [panel_data(panel, 1.0) for panel in report.panels]
+    panels = [panel_data(panel) for panel in report.panels]
     return {
         "drawing": {
             "name": mechanism.name,

@@ -70,7 +70,7 @@ def answer(request: CycleRequest) -> dict[str, Any]:
     within = _within(old, entries)
     ends = float(old.places[0]), float(old.places[-1])
     stride = max(1, len(old.places) // _MOST_DRAWN)
-    panels = [panel_data(_thinned(panel, stride), 1.0) for panel in report.panels]
+    panels = [panel_data(_thinned(panel, stride)) for panel in report.panels]
     panels[1]["limits"] = [{"from": ends[0], "to": ends[1], "value": within}]
     return {
         "across": f"master, {old.master}",
@@ -81,7 +81,7 @@ def answer(request: CycleRequest) -> dict[str, Any]:
         "unit": old.unit,
         "drawn": "" if stride == 1 else f"every {stride}th point is drawn",
         "panels": panels,
-        "segments": segments_data(report.segments, 1.0),
+        "segments": segments_data(report.segments, report.panels[0]),
         "tables": list(map(table_data, report.tables)),
         "moves": [f"{part.kind} from {part.start:g}" for part in old.moves],
         "trust": _trust(old),

@@ -46,8 +46,9 @@ def fact_sentences(facts: Iterable[Row], digits: int = 7) -> list[Sentence]:
     return sentences
 
 
-def panel_data(panel: Panel, per: float = MILLI) -> dict[str, Any]:
-    """A panel as JSON, over so many units of time a second: its peaks or, where none are marked, its ends in words."""
+def panel_data(panel: Panel) -> dict[str, Any]:
+    """A panel as JSON: its peaks or, where none are marked, its ends in words."""
+    per = panel.per
     places = _decimals([per * curve.at for curve in panel.series], _DRAWN if per == 1.0 else _PLACES)
     digits = _decimals([curve.values for curve in panel.series], _DRAWN)
     shown: dict[str, Any] = {
@@ -75,9 +76,9 @@ def panel_data(panel: Panel, per: float = MILLI) -> dict[str, Any]:
     )
 
 
-def segments_data(segments: Iterable[ReportSegment], per: float = MILLI) -> list[dict[str, Any]]:
-    """Segments as JSON, over so many units of time a second."""
-    return [{"name": name, "at": [round(per * start, 9), round(per * stop, 9)]} for name, start, stop in segments]
+def segments_data(segments: Iterable[ReportSegment], panel: Panel) -> list[dict[str, Any]]:
+    """Segments as JSON, over what a panel is over."""
+    return [{"name": name, "at": [round(panel.per * end, 9) for end in ends]} for name, *ends in segments]
 
 
 def table_data(table: ReportTable) -> dict[str, Any]:

@@ -38,13 +38,12 @@ class MechanismReport:
     @property
     def panels(self) -> tuple[Panel, ...]:
         """The inertia J, its slope J' and the load T over the input, which is in degrees or millimetres."""
-        x, (_, factor, units) = self.positions, INPUTS[self.mechanism.axis]
+        x, (of_input, factor, units) = self.positions, INPUTS[self.mechanism.axis]
         values = self.mechanism.inertia(x), self.mechanism.inertia(x, 1), self.mechanism.load(x)
         return tuple(
-            Panel(
-                name, unit, (Series(factor * x, np.asarray(curve)),), ends=(float(np.min(curve)), float(np.max(curve)))
-            )
+            Panel(name, unit, (Series(factor * x, np.asarray(curve)),), (), (), ends, f"input, {of_input}", 1.0)
             for name, unit, curve in zip(("J", "J'", "T"), units, values, strict=True)
+            for ends in [(float(np.min(curve)), float(np.max(curve)))]
         )
 
     def chains(self, x: Array) -> list[Array]:
