@@ -24,10 +24,10 @@ from optlaws.mechanisms.linkages.mechanism_kinds import MECHANISM
 from optlaws.mechanisms.linkages.move_limit import (
     MOVED,
     LimitedMove,
-    MoveBounds,
     MovedKind,
     MoveLimit,
     PhaseMove,
+    limits_of_input,
     move_limit,
 )
 from optlaws.motion.piece import Piece, named_law
@@ -288,7 +288,7 @@ class Drive(Declared, title="a drive"):
         """
         way = self.mechanism.dimensionless(start, stroke, duration_of(minimise, duration))
         dimensions = DIMENSIONS[self.mechanism.axis]
-        bounds = MoveBounds.read(limits, dimensions).plain(dimensions["load"])
+        bounds = limits_of_input(limits, dimensions)
         time = None if duration is None else way.duration
         return move_limit(LimitedMove(self, minimise, way.start, way.stroke, time, bounds, heat=heat))
 
@@ -434,11 +434,9 @@ def phase_move_of(move: LimitedMove) -> PhaseMove:
         drive = Drive.of_input(move.driven, move.recovered)
     moved = drive.dimensionless(move.start, move.stroke, duration_of(move.minimise, move.duration))
     dimensions = DIMENSIONS[drive.mechanism.axis]
-    unit = "N m" if dimensions["load"] == "torque" else "N"
     lines = [] if move.minimise == "peak torque" else drive.motor.peak_lines
-    bounds = MoveBounds.read(dict(move.limits), dimensions).over(moved.start, moved.stroke)
-    bounds = bounds.within(drive.motor.greatest_speed / drive.ratio, [(top, fall * drive.ratio) for top, fall in lines])
-    return PhaseMove(moved, bounds, move.heat, unit)
+    speed, torques = drive.motor.greatest_speed / drive.ratio, [(top, fall * drive.ratio) for top, fall in lines]
+    return PhaseMove.within(moved, move, dimensions, speed, torques)
 
 
 MOVED["mechanism"] = MovedKind(Mechanism, phase_move_of)

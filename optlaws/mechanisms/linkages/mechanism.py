@@ -27,7 +27,7 @@ from optlaws.kept import kept_property
 from optlaws.mechanisms.linkages.dimensionless import InputFriction, StrokeTorque, dimensionless, rescaled
 from optlaws.mechanisms.linkages.entries import FORMULA, OverPlace, formula_of
 from optlaws.mechanisms.linkages.linear_force import LinearForce, line_of
-from optlaws.mechanisms.linkages.move_limit import LimitedMove, MoveBounds, MoveLimit, move_limit
+from optlaws.mechanisms.linkages.move_limit import LimitedMove, MoveLimit, limits_of_input, move_limit
 from optlaws.motion.quantities import check_scale, either, in_small_units, si_number
 from optlaws.numbers import Array, NumberOrQuantity, derivative, finite, not_negative, positive, real_times
 from optlaws.numerics.branch_and_bound import extremes
@@ -441,7 +441,7 @@ class Mechanism(JsonText):
         time at least 0.2269 s
         """
         moved = self.dimensionless(start, stroke, duration_of(minimise, duration))
-        bounds = MoveBounds.read(limits, DIMENSIONS[self.axis]).plain(DIMENSIONS[self.axis]["load"])
+        bounds = limits_of_input(limits, DIMENSIONS[self.axis])
         time = None if duration is None else moved.duration
         return move_limit(LimitedMove(self, minimise, moved.start, moved.stroke, time, bounds, recovered, heat))
 

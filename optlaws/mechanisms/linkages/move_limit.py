@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from itertools import pairwise
 from math import fsum, inf, nextafter
-from typing import Any, NamedTuple, Protocol, Self, TypeAlias, cast, get_args
+from typing import Any, NamedTuple, TypeAlias, get_args
 
 from optlaws.echo import shortened
 from optlaws.entries.declared import Declared, TableOf, ValueOf, declared, entry
@@ -49,21 +49,10 @@ _DIGITS = 6
 _PART = 3
 
 
-class MovedSource(Protocol):
-    """A mechanism or a drive."""
-
-    def to_dict(self) -> dict[str, Any]:
-        """Its numbers as plain data."""
-
-    @classmethod
-    def from_dict(cls, data: Any) -> Self:
-        """That which `to_dict` described."""
-
-
-def _source(value: Any) -> MovedSource:
+def _source(value: Any) -> Any:
     if not isinstance(value, tuple(kind.source for kind in MOVED.values())):
         raise InputError(f"it must be a mechanism or a drive, got {shortened(value)}")
-    return cast("MovedSource", value)
+    return value
 
 
 MoveTable: TypeAlias = Kept["tuple[tuple[str, Any], ...]", "Mapping[str, Any]"]
@@ -82,7 +71,7 @@ class LimitedMove(Declared, title="a move with its limits"):
 
     writes_defaults = True
 
-    driven: MovedSource = entry(ReadBy(_source, "a mechanism or a drive", lambda moved: moved.to_dict()), "What moves.")
+    driven: Any = entry(ReadBy(_source, "a mechanism or a drive", lambda moved: moved.to_dict()), "What moves.")
     minimise: DriveObjective = entry(Choice(*get_args(DriveObjective)), "Of what a limit is computed.")
     start: float = entry(Number(), "Where the input begins.")
     stroke: float = entry(Number(), "How far it moves.")
@@ -253,95 +242,28 @@ class MoveLimit(Declared, title="the limit of a move"):
         return same_unit and same_kind and self.drive_limit.plane in planes_of_proof(of_move, self.drive_limit)
 
 
-def _bound(axis: str, dimension: str) -> Any:
-    """The entry of a bound of a move, or of bounds over parts of its way."""
-    position, bound = InSI(axis), InSI(dimension, above=0.0)
-    parts = Listed(Together(position, position, bound, names=("from", "to", "bound")))
-    return entry(Either(bound, parts, which=is_list), "The greatest.", default=None, example=bound.example)
+def limits_of_input(limits: Mapping[str, Any] | None, dimensions: Mapping[str, str]) -> dict[str, Any]:
+    """The limits that a table names in SI units: velocity, acceleration and torque, or force where the input slides.
 
+    Each is one bound, or a list of bounds over parts of the way: two positions and the bound.
 
-class MoveBounds(NamedTuple):
-    """Bounds of a move, in SI units.
-
-    Attributes
-    ----------
-    velocity, acceleration
-        The greatest ones of the mechanism's input.
-    torques
-        Pairs of a torque at rest and by how much less it is with the velocity of the input.
-    windows
-        Bounds over parts of the way: what is bounded, two positions of the input, and the bound.
+    Raises
+    ------
+    InputError
+        If a name is unknown, or a bound is of another dimension or not above 0.
     """
+    axis, load = ("angle", "torque") if dimensions["load"] == "torque" else ("length", "force")
 
-    velocity: float = inf
-    acceleration: float = inf
-    torques: tuple[tuple[float, float], ...] = ()
-    windows: tuple[tuple[str, float, float, float], ...] = ()
+    def bound(dimension: str) -> Any:
+        position, most = InSI(axis), InSI(dimension, above=0.0)
+        parts = Listed(Together(position, position, most, names=("from", "to", "bound")))
+        return entry(Either(most, parts, which=is_list), "The greatest.", default=None, example=most.example)
 
-    @classmethod
-    def read(cls, limits: Mapping[str, Any] | None, dimensions: Mapping[str, str]) -> MoveBounds:
-        """The bounds that a table names: velocity, acceleration and torque, or force where the input slides.
-
-        Each is one bound, or a list of bounds over parts of the way: two positions and the bound.
-
-        Raises
-        ------
-        InputError
-            If a name is unknown, or a bound is of another dimension or not above 0.
-        """
-        axis, load = ("angle", "torque") if dimensions["load"] == "torque" else ("length", "force")
-        known = {"velocity": "velocity", "acceleration": "acceleration", load: "load"}
-        table = TableOf("limit of a move", {name: _bound(axis, dimensions[kind]) for name, kind in known.items()})
-        given, windows = dict[str, float](), list[tuple[str, float, float, float]]()
-        for name, value in table.read(limits or {}, "limits").items():
-            if isinstance(value, tuple):
-                windows += [(known[name], *sorted((first, last)), bound) for first, last, bound in value]
-            else:
-                given[name] = value
-        torques = ((given[load], 0.0),) if load in given else ()
-        return cls(given.get("velocity", inf), given.get("acceleration", inf), torques, tuple(windows))
-
-    def plain(self, load: str) -> dict[str, Any]:
-        """The bounds as the table that `read` takes, in SI units, for a load that is a torque or a force."""
-        given = {"velocity": self.velocity, "acceleration": self.acceleration}
-        plain: dict[str, Any] = {name: bound for name, bound in given.items() if bound < inf}
-        if self.torques:
-            plain[load] = self.torques[0][0]
-        for name, low, high, bound in self.windows:
-            plain.setdefault(load if name == "load" else name, []).append([low, high, bound])
-        return plain
-
-    def over(self, start: float, stroke: float) -> MoveBounds:
-        """The bounds with windows over a, from 0 to 1, in place of positions of the input.
-
-        Raises
-        ------
-        InputError
-            If a window is not within the stroke.
-        """
-        windows = []
-        for name, *positions, bound in self.windows:
-            low, high = sorted((position - start) / stroke for position in positions)
-            slack = CLOSURE if -CLOSURE <= low < high <= 1.0 + CLOSURE else 0.0
-            if not slack:
-                raise InputError(f"a part of the way must be within the stroke and have a length, got {positions!r}")
-            low, high = (0.0 if low < CLOSURE else low), (1.0 if high > 1.0 - CLOSURE else high)
-            windows.append((name, low, high, bound))
-        return self._replace(windows=tuple(windows))
-
-    def least_share(self, mean: float) -> float:
-        """The least time for the whole way within the bounds of velocities, by the time at a mean velocity."""
-        limits = [(low, high, bound) for name, low, high, bound in self.windows if name == "velocity"]
-        places = sorted({0.0, 1.0, *(end for limit in limits for end in limit[:2])})
-        shares = []
-        for low, high in pairwise(places):
-            most = min([self.velocity, *(bound for start, stop, bound in limits if start <= low and high <= stop)])
-            shares.append((high - low) * mean / most)
-        return fsum(shares)
-
-    def within(self, velocity: float, torques: Sequence[tuple[float, float]]) -> MoveBounds:
-        """The bounds, with the motor's bounds added."""
-        return self._replace(velocity=min(self.velocity, velocity), torques=(*self.torques, *torques))
+    known = {"velocity": "velocity", "acceleration": "acceleration", load: "load"}
+    table = TableOf("limit of a move", {name: bound(dimensions[kind]) for name, kind in known.items()})
+    given = table.read(limits or {}, "limits")
+    parts = {name: [[*sorted(part[:2]), part[2]] for part in of] for name, of in given.items() if isinstance(of, tuple)}
+    return {name: given[name] for name in known if name in given and name not in parts} | parts
 
 
 class PhaseMove(NamedTuple):
@@ -351,8 +273,12 @@ class PhaseMove(NamedTuple):
     ----------
     over
         The torque over the stroke, with the units of its numbers; for the least time its duration is a unit alone.
-    bounds
-        In SI units.
+    most
+        The greatest velocity and acceleration of the mechanism's input, in SI units.
+    torques
+        Pairs of a torque at rest and by how much less it is with the velocity of the input.
+    windows
+        Bounds over parts of the way: what is bounded, from where to where as shares of the stroke, and the bound.
     heat
         Copper heat that counts with an energy, in W a squared N m, or N, of the torque.
     dimension
@@ -360,9 +286,37 @@ class PhaseMove(NamedTuple):
     """
 
     over: StrokeTorque
-    bounds: MoveBounds
+    most: Mapping[str, float]
+    torques: Sequence[tuple[float, float]]
+    windows: Sequence[tuple[str, float, float, float]]
     heat: float
     dimension: str
+
+    @classmethod
+    def within(
+        cls,
+        over: StrokeTorque,
+        move: LimitedMove,
+        dimensions: Mapping[str, str],
+        speed: float,
+        lines: Sequence[tuple[float, float]],
+    ) -> PhaseMove:
+        """A move within its limits, and within the speed and the lines of torque over speed of its motor.
+
+        Raises
+        ------
+        InputError
+            If a limit is wrong, or the part of the way of one is not within the stroke.
+        """
+        most, torques, windows = {"velocity": speed, "acceleration": inf}, [*lines], []
+        for name, of in limits_of_input(dict(move.limits), dimensions).items():
+            if isinstance(of, list):
+                windows += [(name, *_of_stroke(part[:2], over), part[2]) for part in of]
+            elif name in most:
+                most[name] = min(of, most[name])
+            else:
+                torques.insert(0, (of, 0.0))
+        return cls(over, most, torques, windows, move.heat, "N m" if dimensions["load"] == "torque" else "N")
 
     def scale(self, minimise: DriveObjective) -> tuple[float, str]:
         """The scale of what is minimised, and its unit."""
@@ -374,6 +328,16 @@ class PhaseMove(NamedTuple):
         """The mean velocity of the input."""
         return abs(self.over.stroke) / self.over.duration
 
+    def least_share(self) -> float:
+        """The least time for the whole way within the bounds of velocities, by the time at the mean velocity."""
+        limits = [(low, high, bound) for name, low, high, bound in self.windows if name == "velocity"]
+        places = sorted({0.0, 1.0, *(end for limit in limits for end in limit[:2])})
+        shares = []
+        for low, high in pairwise(places):
+            bounds = (bound for start, stop, bound in limits if start <= low and high <= stop)
+            shares.append((high - low) * self.velocity / min([self.most["velocity"], *bounds]))
+        return fsum(shares)
+
     def plane(self, minimise: DriveObjective) -> tuple[PhasePlane, AnyTorque]:
         """The phase plane of the move, its torques divided by the size of the torque, which is given too."""
         form = phase_torque(self.over.torque)
@@ -383,10 +347,18 @@ class PhaseMove(NamedTuple):
         return plane, form
 
 
+def _of_stroke(positions: Sequence[float], over: StrokeTorque) -> tuple[float, float]:
+    """Two positions of the input as shares of the stroke."""
+    low, high = sorted((position - over.start) / over.stroke for position in positions)
+    if not -CLOSURE <= low < high <= 1.0 + CLOSURE:
+        raise InputError(f"a part of the way must be within the stroke and have a length, got {positions!r}")
+    return (0.0 if low < CLOSURE else low), (1.0 if high > 1.0 - CLOSURE else high)
+
+
 class MovedKind(NamedTuple):
     """What a move moves: a class of it, and the move of such a one without dimensions."""
 
-    source: type[MovedSource]
+    source: Any
     phase_move: Callable[[LimitedMove], PhaseMove]
 
 
@@ -406,11 +378,11 @@ def move_limit(move: LimitedMove) -> MoveLimit:
     """
     minimise = move.minimise
     parts = _phase_move(move)
-    bounds, time = parts.bounds, parts.over.duration
-    if minimise != "time" and (least := bounds.least_share(parts.velocity)) >= 1.0:
+    time, most = parts.over.duration, parts.most["velocity"]
+    if minimise != "time" and (least := parts.least_share()) >= 1.0:
         takes, given = f"{least * time:.{_DIGITS}g} s", f"{time:.{_DIGITS}g} s"
         unit_of_velocity = "rad/s" if parts.dimension == "N m" else "m/s"
-        speed = f" of {bounds.velocity:.{_DIGITS}g} {unit_of_velocity}" if bounds.velocity < inf else ""
+        speed = f" of {most:.{_DIGITS}g} {unit_of_velocity}" if most < inf else ""
         shown = f"at the greatest velocity{speed} alone the stroke takes {takes}"
         raise InfeasibleProblem(f"{shown}, and {given} are given: take more time, or a greater velocity", proof=shown)
     plane, form = parts.plane(minimise)
@@ -435,16 +407,16 @@ def move_limit(move: LimitedMove) -> MoveLimit:
 
 def _plane(form: AnyTorque, minimise: DriveObjective, move: PhaseMove) -> PhasePlane:
     """The phase plane of a move, its torques divided by their size."""
-    unit, over, bounds, velocity = form.size, move.over, move.bounds, move.velocity
+    unit, over, velocity = form.size, move.over, move.velocity
     form = form.scaled(1.0 / unit)
     torque = unit * over.unit
-    limits = tuple(TorqueLimit(form, most / torque, fall * velocity / torque) for most, fall in bounds.torques)
-    unit_of = {"velocity": velocity, "acceleration": velocity / over.duration, "load": torque}
-    B, C = bounds.velocity / unit_of["velocity"], bounds.acceleration / unit_of["acceleration"]
-    windows = [(name, low, high, bound / unit_of[name]) for name, low, high, bound in bounds.windows]
+    limits = tuple(TorqueLimit(form, most / torque, fall * velocity / torque) for most, fall in move.torques)
+    unit_of = {"velocity": velocity, "acceleration": velocity / over.duration}
+    B, C = (move.most[name] / of for name, of in unit_of.items())
+    windows = [(name, low, high, bound / unit_of.get(name, torque)) for name, low, high, bound in move.windows]
     velocities = [VelocityLimit(low, high, most) for name, low, high, most in windows if name == "velocity"]
     limits += tuple(
-        TorqueLimit(form if name == "load" else ACCELERATION, most, start=low, stop=high)
+        TorqueLimit(ACCELERATION if name == "acceleration" else form, most, start=low, stop=high)
         for name, low, high, most in windows
         if name != "velocity"
     )
