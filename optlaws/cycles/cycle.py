@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import KW_ONLY, field, replace
 from functools import partial
-from itertools import pairwise
 from math import sqrt
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeVar, get_args
+from typing import TYPE_CHECKING, Any, Literal, TypeVar, get_args
 
 import numpy as np
 
@@ -27,10 +26,11 @@ from optlaws.cycles.optimisation.optimal import scale
 from optlaws.cycles.optimisation.search_spaces import remark_on_degrees, search_space
 from optlaws.cycles.optimisation.shared_limits import best_of
 from optlaws.cycles.optimisation.sums import total
+from optlaws.cycles.placed import SegmentPeaks, retimed_segments, segments_in_place, segments_of_cam
 from optlaws.cycles.specification.joints import LawSpan
 from optlaws.cycles.specification.load import LOAD
-from optlaws.cycles.specification.programme import Programme, TimedSegment, period_of
-from optlaws.cycles.specification.segments import CycleSegment, Free, Move, Transition
+from optlaws.cycles.specification.programme import Programme, period_of
+from optlaws.cycles.specification.segments import CycleSegment, Transition
 from optlaws.cycles.specified import Specification
 from optlaws.entries.declared import Declared, ValueOf, declared, documented_by, entry
 from optlaws.entries.value_types import Listed, Switch, Text
@@ -59,7 +59,6 @@ if TYPE_CHECKING:
 
 #: what a picture of a cycle is over
 PlotOver = Literal["time", "speed"]
-Place = tuple[float, float]
 T = TypeVar("T")
 _STRICTER = (
     "the gear loses power and a load acts: where the motor brakes, its torque is counted as that of power that flows "
@@ -74,19 +73,6 @@ class answer(kept_property[T]):  # noqa: N801 - as the one of functools
 
         def __get__(self, instance: Answers | None, owner: type | None = None) -> Any:
             return super().__get__(None if instance is None else instance.solve(), owner)
-
-
-class SegmentPeaks(NamedTuple):
-    """Least and greatest position, velocity, acceleration and jerk in a segment, each with its time; SI units."""
-
-    name: str
-    start: float
-    duration: float
-    extremes: tuple[tuple[Place, Place], ...]
-
-    def peak(self, nu: int) -> float:
-        """The greatest magnitude of the derivative of order nu."""
-        return max(abs(value) for value, _ in self.extremes[nu])
 
 
 class Answers(Exportable):
@@ -227,21 +213,9 @@ class Answers(Exportable):
 
     @answer
     def peaks(self) -> tuple[SegmentPeaks, ...]:
-        """Least and greatest values in every segment."""
+        """Every segment in its place, with its least and greatest values."""
         cycle = self.solve().specification
-        return tuple(
-            SegmentPeaks(stretch.given.label, start, stop - start, self._extremes(stretch, start, stop))
-            for stretch, (start, stop) in zip(cycle.programme.stretches, pairwise(cycle.layout.starts), strict=True)
-        )
-
-    def _extremes(self, stretch: TimedSegment, start: float, stop: float) -> tuple[tuple[Place, Place], ...]:
-        piece = next(piece for piece in reversed(self.pieces) if piece.start <= start)
-        if isinstance(stretch.given, Move | Free):
-            return tuple(piece.extremes(nu, start, stop) for nu in range(4))
-        # straight: what its law has beside is rounding
-        low, high = sorted((float(piece.values(np.array([time]), 0)[0]), time) for time in (start, stop))
-        speed = (stretch.displacement / (stop - start), start)
-        return (low, high), (speed, speed), ((0.0, start),) * 2, ((0.0, start),) * 2
+        return segments_in_place(cycle.programme, cycle.layout.starts, self.pieces)
 
     def peak(self, nu: int) -> float:
         """The greatest magnitude of the derivative of order nu, up to the jerk, in SI units."""
@@ -333,12 +307,11 @@ class Answers(Exportable):
     @answer
     def efforts(self) -> tuple[SegmentEffort, ...]:
         """Peaks of force and power, the RMS force and the energies of every segment, in SI units."""
-        drive, pieces, efforts = known_drive(self.solve().specification.in_si.drive), self.pieces, []
-        for each in self.peaks:
-            piece = next(piece for piece in reversed(pieces) if piece.start <= each.start)
-            start, stop = each.start, each.start + each.duration
-            efforts.append(SegmentEffort.of([PieceEffort(drive, piece, (start, stop))], stop - start, name=each.name))
-        return tuple(efforts)
+        drive = known_drive(self.solve().specification.in_si.drive)
+        return tuple(
+            SegmentEffort.of([PieceEffort(drive, each.piece, (each.start, each.stop))], each.duration, name=each.name)
+            for each in self.peaks
+        )
 
     def force(self, time: Any) -> Any:
         """Force or torque of the drive at a time in seconds: at the follower or table, the input or the motor."""
@@ -384,11 +357,8 @@ class Answers(Exportable):
         >>> fast.duration, round(fast.peak(2) / cycle.peak(2), 9)
         (0.15, 4.0)
         """
-        from optlaws.cycles.retiming import retimed_segments
-
         plan, period = self.solve(), period_of(speed, None)
-        layout = plan.specification.layout
-        segments = retimed_segments(plan.programme, layout.starts, self.pieces, period / plan.duration)
+        segments = retimed_segments(self.peaks, plan.axis, period / plan.duration)
         # laws that are known leave nothing of a load to look for
         minimise = "acceleration" if kind_of(plan.minimise)[0] is Kind.LOAD else plan.minimise
         known: dict[str, Any] = {"segments": segments, "minimise": minimise, "limits": {}}
@@ -419,8 +389,6 @@ class Answers(Exportable):
         >>> round(Cycle(moves, speed="300 rpm").cam("20 ms", damping=0.05).peak(2), 6)
         39.380514
         """
-        from optlaws.cycles.retiming import segments_of_cam
-
         cycle = self.solve().specification
         segments = segments_of_cam(cycle.programme, self.pieces, period, damping)
         return replace(cycle, segments=segments, speed=None, period=Exact(cycle.duration, "s"))

@@ -13,7 +13,7 @@ from optlaws.cycles.greatest_speed.timed_spans import TimedSpan
 from optlaws.cycles.moves.fastest_move import limit_row
 from optlaws.cycles.optimisation.motion_limits import amount, word_of
 from optlaws.cycles.optimisation.motor_limits import MOTOR
-from optlaws.cycles.retiming import retimed_segments
+from optlaws.cycles.placed import retimed_segments, segments_in_place
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.motion.motion import Motion
@@ -241,7 +241,7 @@ def fastest_cycle(cycle: Any) -> FastestCycle:
         )
     search = FastestSearch(cycle.programme, objective, {})
     laws = search.laws()
-    known = retimed_segments(replace(search.programme, period=search.period), laws.starts, laws.pieces, 1.0)
+    known = retimed_segments(segments_in_place(search.programme, laws.starts, laws.pieces), cycle.axis, 1.0)
     limited = replace(cycle, segments=known, speed=None, period=Exact(search.period, "s"))
     segments = tuple(_least_duration(search, span) for span in search.spans)
     raised = {name: partial(_raised_period, search, name) for name in search.binding_limits}

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from itertools import pairwise
 from math import inf, isfinite
 from typing import Any, NamedTuple, TypeAlias
 
@@ -18,8 +17,9 @@ from optlaws.cycles.optimisation.motion_limits import (
     read_limits,
 )
 from optlaws.cycles.optimisation.motor_limits import MOTOR
+from optlaws.cycles.placed import SegmentPeaks, segments_in_place
 from optlaws.cycles.specification.programme import TimedSegment, is_optimal
-from optlaws.cycles.specification.segments import Dwell, Free, Move
+from optlaws.cycles.specification.segments import Dwell, Move
 from optlaws.errors import InfeasibleProblem
 from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.mechanisms.drives.effort import PieceEffort
@@ -47,17 +47,6 @@ class _Taken(NamedTuple):
     stretch: TimedSegment
 
 
-class _InPlace(NamedTuple):
-    """A segment with its law in its place, its times, and the drive of its motion."""
-
-    stretch: TimedSegment
-    piece: Piece
-    start: float
-    stop: float
-    drive: Drive | None
-    jump: float | None  #: the time at which its acceleration jumps where it begins or ends
-
-
 def limits_taken(plan: Plan, limited: Cycle | None = None) -> tuple[LimitTaken, ...]:
     """The use of every limit of a plan's cycle, or of another cycle with the same segments, by all its laws.
 
@@ -73,7 +62,7 @@ def limits_taken(plan: Plan, limited: Cycle | None = None) -> tuple[LimitTaken, 
     """
     given = plan.specification if limited is None else limited
     of_cycle = read_limits(given.limits, plan.axis, "limits")
-    segments = _of_segments(_in_place(plan.specification, plan.pieces), given.programme.stretches, of_cycle, plan.axis)
+    segments = _of_segments(plan.peaks, plan.specification, of_cycle, given.programme.stretches)
     return (*(taken.taken for taken in _most(segments)), *_of_whole(plan, given))
 
 
@@ -97,8 +86,8 @@ def refuse_beyond(cycle: Cycle) -> None:
     InfeasibleProblem
         If a limit is broken: by how much, and what helps; its `proof` is every `LimitTaken` that is.
     """
-    placed = [each for each in _in_place(cycle, cycle.layout.pieces) if not is_optimal(each.stretch.given)]
-    taken = list(_of_segments(placed, cycle.programme.stretches, cycle.in_si.limits, cycle.axis))
+    placed = segments_in_place(cycle.programme, cycle.layout.starts, cycle.layout.pieces)
+    taken = list(_of_segments(placed, cycle, cycle.in_si.limits, cycle.programme.stretches))
     broken = [each for each in taken if not each.taken.is_kept]
     if not any(is_optimal(segment) for segment in cycle.segments):
         # limits of the motor but its rating are among those of the segments
@@ -158,16 +147,10 @@ def limit_rows(plan: Plan) -> list[Row]:
     >>> [(row.name, round(row.value, 6), row.note) for row in limit_rows(cycle.solve())][0]
     ('deceleration', 14.0, 'limit 14 m/s^2 of segment 1 (Rise)')
     """
-    limits, placed = read_limits(plan.limits, plan.axis, "limits"), _in_place(plan.specification, plan.pieces)
-    taken_of = _of_segments(placed, plan.programme.stretches, limits, plan.axis, keys=_is_unshown)
+    limits = read_limits(plan.limits, plan.axis, "limits")
+    taken_of = _of_segments(plan.peaks, plan.specification, limits, plan.programme.stretches, keys=_is_unshown)
     return [
-        Row(
-            taken.name,
-            taken.value,
-            unit_of(plan.axis, key.kind.order),
-            time,
-            f"limit {taken.text} of {taken.where}",
-        )
+        Row(taken.name, taken.value, unit_of(plan.axis, key.kind.order), time, f"limit {taken.text} of {taken.where}")
         for key, taken, time, _ in _most(taken_of)
     ]
 
@@ -175,18 +158,6 @@ def limit_rows(plan: Plan) -> list[Row]:
 def _is_unshown(key: Side) -> bool:
     """Whether the peaks of a cycle do not show what is limited."""
     return bool(key.sign) or key.kind is Kind.SNAP
-
-
-def _in_place(cycle: Cycle, pieces: Sequence[Piece]) -> list[_InPlace]:
-    """The segments whose laws are in their places."""
-    placed = []
-    for stretch, (start, stop) in zip(cycle.programme.stretches, pairwise(cycle.layout.starts), strict=True):
-        before = [piece for piece in pieces if piece.start <= start < piece.stop]
-        given = isinstance(stretch.given, Move | Free) and not is_optimal(stretch.given)
-        for piece in before[-1:]:
-            jump = jump_beside(piece, pieces, cycle.duration) if given else None
-            placed.append(_InPlace(stretch, piece, start, stop, cycle.in_si.drive, jump))
-    return placed
 
 
 def _most(taken: Iterable[_Taken]) -> list[_Taken]:
@@ -199,39 +170,39 @@ def _most(taken: Iterable[_Taken]) -> list[_Taken]:
 
 
 def _of_segments(
-    placed: Iterable[_InPlace],
-    limited: Sequence[TimedSegment],
+    placed: Sequence[SegmentPeaks],
+    cycle: Cycle,
     of_cycle: Mapping[Kind, tuple[float, float]],
-    axis: str,
+    limited: Sequence[TimedSegment],
     *,
     keys: Callable[[Side], bool] = lambda _: True,
 ) -> Iterator[_Taken]:
     """The use of limits by segments, whose own are those of `limited`; rests take of those of a drive alone."""
+    axis, pieces = cycle.axis, [each.piece for each in placed]
     for each in placed:
         limits = limits_of_segment(limited[each.stretch.number - 1], of_cycle, axis)
         for key, limit in limits.items():
             if keys(key) and (key.kind.is_driven or not isinstance(each.stretch.given, Dwell)):
-                value, time = _greatest(each, key)
+                if key.kind.is_driven:
+                    value, time = _greatest_of_drive(each, key.kind, cycle.in_si.drive)
+                else:
+                    value, time = _greatest(each, key, pieces, cycle.duration)
                 texts = (amount(key, size, axis) for size in (limit, value))
-                taken = LimitTaken(name_of(key, axis), each.stretch.where, value, limit, *texts)
-                yield _Taken(key, taken, time, each.stretch)
+                yield _Taken(
+                    key, LimitTaken(name_of(key, axis), each.stretch.where, value, limit, *texts), time, each.stretch
+                )
 
 
-def _greatest(placed: _InPlace, key: Side) -> tuple[float, float | None]:
+def _greatest(placed: SegmentPeaks, key: Side, pieces: Sequence[Piece], period: float) -> tuple[float, float | None]:
     """The greatest magnitude in a segment on the side that a limit bounds, and its time where it has one."""
-    stretch, piece, start, stop, _, jump = placed
-    if key.kind.is_driven:
-        return _greatest_of_drive(placed, key.kind)
-    nu = key.kind.order
-    if not isinstance(stretch.given, Move | Free):
-        # straight: what its law has beside is rounding
-        speed = stretch.displacement / (stop - start) if nu == 1 else 0.0
-        return max(key.sign * speed, 0.0) if key.sign else abs(speed), start
-    if not is_optimal(stretch.given) and not isfinite(piece.law.peak(nu).value):
-        return inf, piece.start + piece.law.peak(nu).k * piece.duration
-    if nu >= _JERK and jump is not None:
-        return inf, jump
-    (low, first), (high, last) = piece.extremes(nu, start, stop)
+    piece, nu = placed.piece, key.kind.order
+    if placed.moves and not is_optimal(placed.stretch.given):
+        if not isfinite(piece.law.peak(nu).value):
+            return inf, piece.start + piece.law.peak(nu).k * piece.duration
+        jump = jump_beside(piece, pieces, period) if nu >= _JERK else None
+        if jump is not None:
+            return inf, jump
+    (low, first), (high, last) = placed.ends(nu)
     if key.sign:
         value, time = (high, last) if key.sign > 0.0 else (-low, first)
         still = key.kind is Kind.VELOCITY_ALONG and value <= AGREEMENT * max(high, -low)
@@ -240,9 +211,9 @@ def _greatest(placed: _InPlace, key: Side) -> tuple[float, float | None]:
     return (before if is_kept(after[1], before[1]) else after)[::-1]
 
 
-def _greatest_of_drive(placed: _InPlace, kind: Kind) -> tuple[float, float | None]:
+def _greatest_of_drive(placed: SegmentPeaks, kind: Kind, drive: Drive | None) -> tuple[float, float | None]:
     """The greatest force or power in a segment, or share of the motor's curve of torque over speed."""
-    along = PieceEffort(known_drive(placed.drive), placed.piece, (placed.start, placed.stop))
+    along = PieceEffort(known_drive(drive), placed.piece, (placed.start, placed.stop))
     if kind is Kind.POWER:
         return max(along.powers), None
     if kind is Kind.FORCE:

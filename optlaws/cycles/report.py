@@ -9,10 +9,11 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 import numpy as np
 
-from optlaws.cycles.cycle import Answers, Place
+from optlaws.cycles.cycle import Answers
 from optlaws.cycles.limit_rows import limit_rows
 from optlaws.cycles.optimisation.motion_limits import LimitTaken
 from optlaws.cycles.optimisation.objectives import SUMS, kind_of
+from optlaws.cycles.placed import Place
 from optlaws.cycles.specification.load import LOAD, read_load
 from optlaws.cycles.specification.process import is_process
 from optlaws.errors import InfeasibleProblem, OptlawsError, SolverFailure
@@ -21,7 +22,7 @@ from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.mechanisms.linkages.mechanism import Mechanism
 from optlaws.motion.derivative_panel import DERIVATIVES, display_unit, motion_panel, samples, times_in
 from optlaws.motion.display_units import MILLI, RPM, TURN_DEG, UNITS
-from optlaws.motion.piece import Piece, unit_of
+from optlaws.motion.piece import unit_of
 from optlaws.motion.quantities import QUANTITIES
 from optlaws.motion.quantity_kinds import Kind
 from optlaws.numbers import Array, chop
@@ -116,7 +117,7 @@ class CycleReport:
     @kept_property
     def segments(self) -> tuple[ReportSegment, ...]:
         """The segments with their times."""
-        return tuple(ReportSegment(each.name, each.start, each.start + each.duration) for each in self.plan.peaks)
+        return tuple(ReportSegment(each.name, each.start, each.stop) for each in self.plan.peaks)
 
     @property
     def panels(self) -> tuple[Panel, ...]:
@@ -157,11 +158,10 @@ class CycleReport:
         plan, efforts = self.plan, []
         if is_process(plan.load) or not isinstance(plan.drive, Mechanism | Drive):
             return []
-        moves = zip(self.segments, self._inside(), plan.efforts, plan.programme.stretches, strict=True)
-        for segment, piece, effort, stretch in moves:
-            ends = np.abs(piece.values(np.array(segment[1:]), 1)).max()
-            if stretch.displacement and ends <= CYCLE_ROUNDING * plan.peak(1):
-                move = float(plan(segment.start)), stretch.displacement, segment.stop - segment.start
+        for segment, each, effort in zip(self.segments, plan.peaks, plan.efforts, strict=True):
+            moved, ends = each.stretch.displacement, np.abs(each.piece.values(np.array(segment[1:]), 1)).max()
+            if moved and ends <= CYCLE_ROUNDING * plan.peak(1):
+                move = float(plan(each.start)), moved, each.duration
                 peak, rms = (_infimum(plan.drive, name, move) for name in ("peak torque", "rms torque"))
                 efforts.append(LeastEffort(segment, (effort.peak_force, peak), (effort.rms_force, rms)))
         return efforts
@@ -207,14 +207,7 @@ class CycleReport:
 
     def extremes(self, nu: int) -> list[tuple[Place, Place]]:
         """The least and the greatest value of a derivative in each segment, with their times."""
-        if nu < len(QUANTITIES):
-            return [peaks.extremes[nu] for peaks in self.plan.peaks]
-        return [piece.extremes(nu, *times) for piece, (_, *times) in zip(self._inside(), self.segments, strict=True)]
-
-    def _inside(self) -> list[Piece]:
-        """The piece in which each segment is."""
-        pieces = self.plan.pieces[::-1]
-        return [next(piece for piece in pieces if piece.start <= start) for _, start, _ in self.segments]
+        return [peaks.extremes[nu] if nu < len(QUANTITIES) else peaks.ends(nu) for peaks in self.plan.peaks]
 
     def panel(self, nu: int, unit: tuple[str, float] | None = None) -> Panel:
         """A derivative of the motion, through its extremes, with the limits of the segments."""
