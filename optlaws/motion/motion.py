@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from math import inf
+from operator import itemgetter
 from typing import Any
 
 import numpy as np
@@ -13,10 +14,10 @@ import numpy as np
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
-from optlaws.motion.piece import Piece, factor, values_of_pieces
-from optlaws.motion.quantities import Given, check_scale, either, given_quantity, positive_quantity, quantity
+from optlaws.motion.piece import Piece, factor, of_stroke_one, values_of_pieces
+from optlaws.motion.quantities import Given, check_scale, given_quantity, positive_quantity, quantity
 from optlaws.numbers import Quantity, derivative, number_or_array, real_times
-from optlaws.tolerances import CLOSURE, JUMP
+from optlaws.tolerances import JUMP
 
 Place = tuple[float, float]
 
@@ -71,22 +72,18 @@ class Motion:
 
     @property
     def start(self) -> float:
-        """The first x of the master."""
         return self.pieces[0].start
 
     @property
     def stop(self) -> float:
-        """The last x of the master."""
         return self.pieces[-1].stop
 
     @property
     def length(self) -> float:
-        """The distance that the master covers."""
         return self.stop - self.start
 
     @kept_property
     def joints(self) -> tuple[float, ...]:
-        """The places where pieces meet, both ends included."""
         return (*(piece.start for piece in self.pieces), self.stop)
 
     @kept_property
@@ -102,7 +99,6 @@ class Motion:
 
     @kept_property
     def stroke(self) -> float:
-        """Between the least and the greatest position."""
         (low, _), (high, _) = self.extrema(0)
         return high - low
 
@@ -137,9 +133,8 @@ class Motion:
     def extrema(self, nu: int) -> tuple[Place, Place]:
         """Least and greatest value of the derivative of order nu, each with its x, over the whole motion."""
         if nu not in self._extrema:
-            known = [piece.extremes(nu, piece.start, piece.stop) for piece in self.pieces]
-            lowest, highest = min((low for low, _ in known), key=_value), max((high for _, high in known), key=_value)
-            self._extrema[nu] = (lowest, highest)
+            lows, highs = zip(*(piece.extremes(nu, piece.start, piece.stop) for piece in self.pieces), strict=True)
+            self._extrema[nu] = min(lows, key=itemgetter(0)), max(highs, key=itemgetter(0))
         return self._extrema[nu]
 
     def peak(self, nu: int) -> float:
@@ -150,7 +145,7 @@ class Motion:
     def jump(self, nu: int) -> Place:
         """The greatest jump of the derivative of order nu inside, and its x; what is rounding beside its peak is 0."""
         jumps = ((abs(after - before), x) for x, before, after in self.sides(nu))
-        worst = max(jumps, default=(0.0, self.start), key=_value)
+        worst = max(jumps, default=(0.0, self.start), key=itemgetter(0))
         return worst if worst[0] > JUMP * self._size(nu) else (0.0, self.start)
 
     def rms(self, nu: int) -> float:
@@ -159,13 +154,7 @@ class Motion:
         return float(np.sqrt(squares / self.length))
 
     def over_time(self) -> Motion:
-        """The same motion as a function of time in seconds.
-
-        Raises
-        ------
-        InputError
-            If it is not known how fast the master goes.
-        """
+        """The same motion as a function of time in seconds; it must be known how fast the master goes."""
         if self.units.rate is None:
             raise InputError("how fast the master goes is not known: say how long the motion takes, duration='0.1 s'")
         if self.units.master == "s":
@@ -190,23 +179,11 @@ def motion_of_law(
     master: Quantity | None = None,
     start: Quantity | None = None,
 ) -> Motion:
-    """The motion of a law, a single stroke from rest to rest.
+    """The motion of a law with the stroke 1, a single stroke from rest to rest.
 
-    Parameters
-    ----------
-    law
-        A law with the stroke 1.
-    stroke
-        How far the slave moves, such as "35 mm", "-20 deg": positions are in its unit.
-    duration
-        How long it takes, such as "0.1 s".
-    master
-        How far the master goes meanwhile, such as "120 deg"; without it the master is time in seconds.
-    start
-        Position of the slave at the start; 0 unless given.
+    The slave moves by `stroke`, such as "35 mm", "-20 deg", in whose unit positions are, from `start`, 0 unless given.
+    The master goes so far meanwhile, such as "120 deg"; without it, it is time in seconds.
 
-    Examples
-    --------
     >>> from optlaws import smoothstep
     >>> motion_of_law(smoothstep(3), stroke="90 deg", duration="400 ms").peak(1)
     421.875
@@ -223,7 +200,7 @@ def motion_of_law(
     span = _span(master, seconds)
     rate = None if seconds is None else span.number / seconds
     offset = 0.0 if start is None else moved.same_unit(start, "start")
-    piece = Piece(0.0, span.number, offset, moved.number, _of_stroke_one(law))
+    piece = Piece(0.0, span.number, offset, moved.number, of_stroke_one(law, "the law", "stroke"))
     return Motion((piece,), Units(span.unit, moved.unit, rate), repeats=False)
 
 
@@ -250,7 +227,8 @@ def motion_of_pieces(
     chosen = {"length": "mm", "angle": "deg"}[axis] if unit is None else unit
     size = 1.0 / quantity(f"1 {chosen}", axis, "unit")
     share = span.number / duration
-    starts = [*(_without_conversion_rounding(share * piece.start) for piece in pieces), span.number]
+    # without the roundings of the way to seconds and back: 120 in place of 119.99...
+    starts = [*(float(f"{share * piece.start:.13g}") for piece in pieces), span.number]
     scaled = tuple(
         replace(piece, start=low, duration=high - low, offset=size * piece.offset, stroke=size * piece.stroke)
         for piece, (low, high) in zip(pieces, pairwise(starts), strict=True)
@@ -258,29 +236,12 @@ def motion_of_pieces(
     return Motion(scaled, Units(span.unit, chosen, share), repeats=True, proof=proof)
 
 
-def _without_conversion_rounding(x: float) -> float:
-    """A place of the master without the roundings of the way to seconds and back: 120 in place of 119.99..."""
-    return float(f"{x:.13g}")
-
-
 def _span(master: Quantity | None, seconds: float | None) -> Given:
     """The distance that the master covers, in its unit."""
     if master is None:
         return Given("time", seconds or 0.0, "s")
-    either(master, MASTERS, "master")
     span = given_quantity(master, MASTERS, "master")
     if span.number <= 0.0:
         raise InputError(f"master must be above 0, got {master!r}")
     check_scale(span.number, span.unit, "master", master)
     return span
-
-
-def _of_stroke_one(law: MotionLaw) -> MotionLaw:
-    stroke = float(law.a(1.0)) - float(law.a(0.0))
-    if abs(stroke - 1.0) > CLOSURE:
-        raise InputError(f"the law must have the stroke 1, which `stroke` multiplies, but it has {stroke:g}")
-    return law
-
-
-def _value(place: Place) -> float:
-    return place[0]

@@ -37,17 +37,15 @@ def named_law(given: Any, where: str) -> MotionLaw:
         law = given if isinstance(given, MotionLaw) else _read(given)
     except InputError as error:
         raise InputError(f"{where}: law: {error}") from None
+    return of_stroke_one(law, f"{where}: its law", "by")
+
+
+def of_stroke_one(law: MotionLaw, name: str, multiplier: str) -> MotionLaw:
+    """The law, refused under a name where it has not the stroke 1, which an entry multiplies."""
     stroke = float(law.a(1.0)) - float(law.a(0.0))
     if abs(stroke - 1.0) > CLOSURE:
-        raise InputError(f"{where}: its law must have the stroke 1, which `by` multiplies, but it has {stroke:g}")
+        raise InputError(f"{name} must have the stroke 1, which `{multiplier}` multiplies, but it has {stroke:g}")
     return law
-
-
-@lru_cache(maxsize=64)
-def _of_name(name: str) -> MotionLaw:
-    from optlaws.laws.catalogue.reading import read_law
-
-    return read_law(name)
 
 
 def _read(given: Any) -> MotionLaw:
@@ -57,7 +55,14 @@ def _read(given: Any) -> MotionLaw:
         )
     from optlaws.laws.catalogue.reading import is_file, read_law
 
-    return read_law(given) if is_file(given) else _of_name(given)
+    return read_law(given) if is_file(given) else _law_of_name(given)
+
+
+@lru_cache(maxsize=64)
+def _law_of_name(name: str) -> MotionLaw:
+    from optlaws.laws.catalogue.reading import read_law
+
+    return read_law(name)
 
 
 _JUMPS = 2
@@ -85,7 +90,6 @@ class Piece:
 
     @property
     def stop(self) -> float:
-        """The time at which the piece ends."""
         return self.start + self.duration
 
     def places(self, times: Array) -> Array:
@@ -136,18 +140,15 @@ class Piece:
             # what jumps where a segment ends has the value of the segment, not of its neighbour
             inside = min(INSIDE_PIECE, 0.25 * (high - low))
             low, high = low + inside * (low > 0.0), high - inside * (high < 1.0)
-        extremes = self.law.extrema(nu, within=(low, high))
-        base = self._origin if nu == 0 else 0.0
+        base, size = self._origin if nu == 0 else 0.0, factor(self.stroke, self.duration, nu)
         sized = [
-            (base + factor(self.stroke, self.duration, nu) * extreme.value if self.stroke else base,
-             self.start + extreme.k * self.duration)
-            for extreme in extremes
-        ]  # fmt: skip
+            (base + size * extreme.value if self.stroke else base, self.start + extreme.k * self.duration)
+            for extreme in self.law.extrema(nu, within=(low, high))
+        ]
         return min(sized), max(sized)
 
     @kept_property
     def _origin(self) -> float:
-        """The position where the law's displacement is 0."""
         return self.offset - self.stroke * float(self.law.a(0.0))
 
     @kept_property
