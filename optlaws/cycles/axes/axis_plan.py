@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from optlaws.cycles.cycle import Cycle
 from optlaws.cycles.greatest_speed.fastest_search import FastestSearch
+from optlaws.cycles.greatest_speed.periods import Extent, extent
 from optlaws.cycles.greatest_speed.timed_spans import slower
 from optlaws.cycles.optimisation.motion_limits import word_of
 from optlaws.cycles.optimisation.optimal import solve
@@ -21,15 +22,13 @@ from optlaws.errors import InfeasibleProblem, InputError, SolverFailure, located
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.motion.piece import named_law
-from optlaws.motion.quantities import either
 from optlaws.numbers import Array
 from optlaws.numerics.roots import bracketed_roots
 from optlaws.tolerances import INTERLOCK
 
-#: a time as seconds and a share of the period
-Spell = tuple[float, float]
 #: how the moves of an axis find their laws and times
 Way = Literal["fastest", "gentlest", "kept"]
+_NOTHING = Extent(0.0, 0.0)
 
 
 @dataclass(frozen=True)
@@ -44,8 +43,8 @@ class PlannedSegment:
     start: float
     stop: float
     law: MotionLaw | None
-    least: Spell
-    most: Spell | None = None
+    least: Extent
+    most: Extent | None = None
     limit: str = ""
     effort: float = 0.0
 
@@ -139,9 +138,9 @@ def planned(name: str, cycle: Cycle, way: Way, times: Sequence[float] | None) ->
             given, stop = stretch.given, position + stretch.displacement
             if not isinstance(given, Move | Dwell):
                 raise _refused(stretch)
-            segment = PlannedSegment(name, given.name or f"segment {stretch.number}", position, stop, None, (0.0, 0.0))
+            segment = PlannedSegment(name, given.name or f"segment {stretch.number}", position, stop, None, _NOTHING)
             if isinstance(given, Dwell) or stretch.displacement == 0.0:
-                segments.append(replace(segment, least=_least_of_dwell(stretch)))
+                segments.append(replace(segment, least=_least_of_dwell(given)))
                 continue
             segment = _of_move(segment, i, cycle, way, search, times)
             law: Any = segment.law
@@ -177,20 +176,19 @@ def _of_move(
     known = search.fastest(span) if law is None else search.of_law(span, law)
     if not known.limits:
         law = law or solve(span, search.objective, cycle.axis)[0].law
-        fixed = (0.0, 0.0) if way == "gentlest" else _given(cycle, i)
+        fixed = _NOTHING if way == "gentlest" else _given(cycle, i)
         return replace(segment, law=law, least=fixed, most=None if way == "gentlest" else fixed)
     limit = word_of(known.binding[0].key, cycle.axis)
     if known.law is None or not known.scale < inf:
         raise InfeasibleProblem(f"{stretch.where}: its law has no finite {limit}, and so keeps no limit of it")
-    least, limit = (known.needed, 0.0), f"{limit} of axis {segment.axis}: {stretch.where}"
+    least, limit = Extent(0.0, known.needed), f"{limit} of axis {segment.axis}: {stretch.where}"
     return replace(segment, law=known.law, least=least, most=None if way == "gentlest" else least, limit=limit)
 
 
-def _given(cycle: Cycle, i: int) -> Spell:
+def _given(cycle: Cycle, i: int) -> Extent:
     """The duration that a move keeps: an angle of the master, or a time."""
-    stretch = cycle.programme.stretches[i]
-    text = stretch.given.duration
-    return _spell(text, stretch.where) if isinstance(text, str) else (float(cycle.durations[i]), 0.0)
+    text = cycle.segments[i].duration
+    return extent(text) if isinstance(text, str) else Extent(0.0, float(cycle.durations[i]))
 
 
 def _as_it_is(cycle: Cycle, i: int) -> MotionLaw:
@@ -206,15 +204,9 @@ def _refused(stretch: TimedSegment) -> InputError:
     return InputError(f"{stretch.where}: only moves from rest to rest and dwells are put together anew")
 
 
-def _least_of_dwell(stretch: TimedSegment) -> Spell:
+def _least_of_dwell(given: Dwell | Move) -> Extent:
     """The least duration of a dwell, or of a move by nothing: as given or allowed, 0 where none is given."""
-    least = getattr(stretch.given, "least", None)
-    text: Any = stretch.given.duration if least is None else least
-    if isinstance(text, list | tuple):
-        text = text[0]
-    return (0.0, 0.0) if text is None else _spell(text, f"{stretch.where}: duration")
-
-
-def _spell(text: Any, where: str) -> Spell:
-    kind, value = either(text, ("angle", "time"), where)
-    return (0.0, value / (2.0 * np.pi)) if kind == "angle" else (value, 0.0)
+    least: Any = given.duration if getattr(given, "least", None) is None else given.least  # type: ignore[union-attr]
+    if isinstance(least, list | tuple):
+        least = least[0]
+    return _NOTHING if least is None else extent(least)

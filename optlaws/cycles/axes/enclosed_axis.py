@@ -50,20 +50,10 @@ class EnclosedAxis:
         return (*(stretch.start for stretch in self.stretches), self.stretches[-1].stop)
 
     @kept_property
-    def range(self) -> tuple[float, float]:
-        """The least and the greatest position."""
-        lows, highs = zip(*(stretch.extremes(0) for stretch in self.stretches), strict=True)
-        return min(lows), max(highs)
-
-    @property
     def stroke(self) -> float:
         """Between the least and the greatest position."""
-        return self.range[1] - self.range[0]
-
-    @property
-    def rests(self) -> tuple[float, ...]:
-        """Positions at which it dwells."""
-        return tuple(stretch.offset for stretch in self.stretches if stretch.stroke == 0.0)
+        lows, highs = zip(*(stretch.extremes(0) for stretch in self.stretches), strict=True)
+        return float(max(highs) - min(lows))
 
     def jet(self, at: Interval, order: int) -> Jet:
         """The position with its Taylor terms in intervals of time, each within two neighbouring breaks."""
@@ -81,10 +71,6 @@ class EnclosedAxis:
                 highs.append(float(value.high[0]))
         return min(lows), max(highs)
 
-    def velocity(self, time: float) -> float:
-        """The velocity at a time, in SI units per second."""
-        return float(self.cycle(time, 1))
-
     def passes(self, position: float, way: Way | None = None) -> list[tuple[float, float]]:
         """When it passes a position at which it does not rest, on its way up, down, or any: enclosures of the times.
 
@@ -95,32 +81,24 @@ class EnclosedAxis:
             if (high - low <= PASS_WIDTH * self.duration).all():
                 break
             low, high = self._narrowed(low, high, position)
-        joined: list[tuple[float, float]] = []
+        joined = list[tuple[float, float]]()
         for start, stop in sorted(zip(low.tolist(), high.tolist(), strict=True)):
             if joined and start <= joined[-1][1] + PASS_WIDTH * self.duration:
                 joined[-1] = joined[-1][0], max(stop, joined[-1][1])
             else:
                 joined.append((start, stop))
         sign = {"up": 1.0, "down": -1.0, None: 0.0}[way]
-        return [(start, stop) for start, stop in joined if sign * self.velocity(0.5 * (start + stop)) >= 0.0]
+        return [(start, stop) for start, stop in joined if sign * self.cycle(0.5 * (start + stop), 1) >= 0.0]
 
     def entries(self, position: float, way: Way) -> list[float]:
         """When it passes a position on its way up or down, or comes to rest at it from there."""
-        if not self.rests_at(position):
+        near = INTERLOCK * self.stroke
+        still = [each.stroke == 0.0 and abs(each.offset - position) <= near for each in self.stretches]
+        if not any(still):
             return [0.5 * (low + high) for low, high in self.passes(position, way)]
-        sign, pairs = (1.0 if way == "up" else -1.0), zip(self.stretches, self.stretches[1:], strict=False)
-        return [
-            after.start
-            for before, after in pairs
-            if after.stroke == 0.0 and self._near(after.offset, position) and sign * before.stroke > 0.0
-        ]
-
-    def rests_at(self, position: float) -> bool:
-        """Whether the axis dwells at a position."""
-        return any(self._near(rest, position) for rest in self.rests)
-
-    def _near(self, first: float, second: float) -> bool:
-        return abs(first - second) <= INTERLOCK * self.stroke
+        sign = 1.0 if way == "up" else -1.0
+        pairs = zip(self.stretches, self.stretches[1:], still[1:], strict=False)
+        return [after.start for before, after, rests in pairs if rests and sign * before.stroke > 0.0]
 
     def _narrowed(self, low: Array, high: Array, position: float) -> tuple[Array, Array]:
         """Cells in which it may be at a position: by Newton's method where the velocity has one sign, else halved."""

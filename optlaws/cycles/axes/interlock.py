@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import accumulate, pairwise
 from math import hypot, sqrt
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -100,10 +100,9 @@ class LeastClearance:
     @property
     def text(self) -> str:
         """The condition as text, in millimetres or degrees."""
-        unit, small = SMALL_UNITS.get(self.unit, (self.unit, 1.0))
-        early = "" if self.margin is None else f", {1e3 * self.margin:.6g} ms early"
-        clearance = Amount(round(small * self.clearance, 6) + 0.0, unit)
-        return sentence("{} at {}{}", clearance, Amount(self.angle, "deg"), early)
+        _, _, clearance, _, unit, _, margin = self.cells
+        early = "" if margin is None else f", {margin:.6g} ms early"
+        return sentence("{} at {}{}", Amount(round(clearance, 6) + 0.0, unit), Amount(self.angle, "deg"), early)
 
 
 class AxisName(Text):
@@ -123,12 +122,14 @@ _CALLED = "What reports call it; the condition in words unless given."
 class Interlock(Kinded, ABC, title="an interlock"):
     """A condition on the positions of two axes of one clock; subclasses define the condition."""
 
+    axis: str
     name: str
+    _other: ClassVar[str]  #: the entry that names its other axis
 
     @property
-    @abstractmethod
     def axes(self) -> tuple[str, str]:
         """The names of the two axes that it is of."""
+        return self.axis, getattr(self, self._other)
 
     @property
     @abstractmethod
@@ -203,6 +204,8 @@ class After(Interlock, kind="after", title="an interlock after"):
     'die passes 31 mm on its way down after table is above 10 deg'
     """
 
+    _other = "of"
+
     axis: str = entry(_AXIS, "What waits.", example="table")
     position: Quantity = entry(
         _POSITION, "A position that it passes, not one at which it rests.", example="5 deg", label="passes"
@@ -221,11 +224,6 @@ class After(Interlock, kind="after", title="an interlock after"):
     def _check(self) -> None:
         if (self.above is None) == (self.below is None):
             raise InputError("after: say what the other axis is by then: above='31 mm', or below='31 mm', one of them")
-
-    @property
-    def axes(self) -> tuple[str, str]:
-        """The axis that waits, and the axis for which it waits."""
-        return self.axis, self.of
 
     @property
     def words(self) -> str:
@@ -334,6 +332,8 @@ class Clearance(Interlock, kind="clearance"):
     'head is at least 20 + 40*x/45 of table (deg, mm)'
     """
 
+    _other = "over"
+
     axis: str = entry(_AXIS, "The axis whose position is bounded.", example="head")
     over: str = entry(_AXIS, "The axis on whose position the bound depends.", kw_only=True, example="table")
     least: Any = entry(
@@ -374,11 +374,6 @@ class Clearance(Interlock, kind="clearance"):
     def sign(self) -> float:
         """1 where the bound is the least position, -1 where the greatest."""
         return -1.0 if self.least is None else 1.0
-
-    @property
-    def axes(self) -> tuple[str, str]:
-        """The axis that is bounded, and the axis on which the bound depends."""
-        return self.axis, self.over
 
     @property
     def words(self) -> str:
@@ -446,6 +441,8 @@ class Forbidden(Interlock, kind="forbidden", title="a forbidden region"):
     'x and z stay out of a polygon of 4 corners'
     """
 
+    _other = "across"
+
     axis: str = entry(_AXIS, "An axis of the plane.", example="x")
     across: str = entry(_AXIS, "The other one.", example="z")
     corners: Sequence[tuple[Any, Any]] = entry(
@@ -455,11 +452,6 @@ class Forbidden(Interlock, kind="forbidden", title="a forbidden region"):
         example=[["100 mm", "0 mm"], ["140 mm", "0 mm"], ["140 mm", "60 mm"]],
     )
     name: str = entry(Text(empty=True), _CALLED, default="", kw_only=True)
-
-    @property
-    def axes(self) -> tuple[str, str]:
-        """The axes of the plane."""
-        return self.axis, self.across
 
     @property
     def words(self) -> str:
@@ -524,6 +516,8 @@ class Synchronous(Interlock, kind="synchronous", title="a synchronous motion"):
     'shear runs with belt from 60 deg to 120 deg within 1 mm/s'
     """
 
+    _other = "to"
+
     axis: str = entry(_AXIS, "The axis that follows.", example="shear")
     to: str = entry(_AXIS, "The axis with which it runs.", example="belt")
     during: tuple[Quantity, Quantity] = entry(
@@ -540,11 +534,6 @@ class Synchronous(Interlock, kind="synchronous", title="a synchronous motion"):
     )
     ratio: float = entry(Number(), "Of the velocity of `axis` to that of `to`.", default=1.0, kw_only=True)
     name: str = entry(Text(empty=True), _CALLED, default="", kw_only=True)
-
-    @property
-    def axes(self) -> tuple[str, str]:
-        """The two axes whose velocities are compared."""
-        return self.axis, self.to
 
     @property
     def words(self) -> str:

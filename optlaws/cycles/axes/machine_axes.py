@@ -214,14 +214,10 @@ class Axes(Declared, Mapping[str, Cycle], title="stored axes"):
 
         period = goal == "period"
         best = overlapping.shortest(self._program) if period else overlapping.gentlest(self, self.rules, longer)
-        least, cycles = CLOSURE * best.period, dict[str, Cycle]()
-        for name, cycle in self.items():
-            known = zip(cycle.segments, best.durations[name], best.laws[name], strict=True)
-            timed = (
-                None if isinstance(segment, Dwell) and time <= least else (Exact(time, "s"), law)
-                for segment, time, law in known
-            )
-            cycles[name] = _retimed(cycle.specification, timed, Exact(best.period, "s"))
+        cycles = {
+            name: _retimed(cycle, zip(best.durations[name], best.laws[name], strict=True), best.period)
+            for name, cycle in self.items()
+        }
         value = best.period if period else 1.0 / best.pace**2
         axes = Axes(cycles, interlocks=self.rules)
         numbers: dict[str, Any] = {"goal": goal, "objective": value, "lower_bound": best.bound}
@@ -421,24 +417,23 @@ class Axes(Declared, Mapping[str, Cycle], title="stored axes"):
 
     @kept_property
     def _cycles(self) -> dict[str, Cycle]:
-        clock = self._clock()
-        cycles: dict[str, Any] = {}  # a plan has what is looked at of a cycle
+        """Its cycles, or plans, which have what is looked at of a cycle."""
+        clock: dict[str, Any] = {"speed": self.speed, "period": self.period}
+        cycles = dict[str, Any]()
+        if self.speed is None and self.period is None and all(isinstance(a, Cycle | Plan) for a in self.axes.values()):
+            clock = {}
+        duration = period_of(**clock) if clock else 0.0
         for name, given in self.axes.items():
             with located(f"axis {name}"):
-                cycles[name] = given if isinstance(given, Cycle | Plan) else Cycle(**_entries(given), **clock)
-        _check_durations(cycles, period_of(**clock) if clock else next(iter(cycles.values())).duration)
+                cycle = given if isinstance(given, Cycle | Plan) else Cycle(**_entries(given), **clock)
+                duration = duration or cycle.duration
+                if abs(cycle.duration - duration) > CLOSURE * duration:
+                    raise InputError(
+                        f"its cycle takes {cycle.duration:.9g} s, the machine's {duration:.9g} s: give both the same "
+                        "speed or period, or take cycle.at(speed)"
+                    )
+                cycles[name] = cycle
         return cycles
-
-    def _clock(self) -> dict[str, Any]:
-        """The speed or period for every cycle; nothing where each has its own."""
-        if (
-            self.speed is None
-            and self.period is None
-            and all(isinstance(axis, Cycle | Plan) for axis in self.axes.values())
-        ):
-            return {}
-        period_of(self.speed, self.period)
-        return {"speed": self.speed, "period": self.period}
 
 
 def _axes(value: Any) -> Axes:
@@ -552,9 +547,7 @@ class Overlap(Declared, title="axes that overlap"):
         if tuple(self.axes) != tuple(self.given) or self.axes.rules != self.given.rules:
             return "its axes and interlocks are not those of the given machine"
         for name, cycle in self.axes.items():
-            moves = _timed(self.given[name], cycle)
-            timed = (None if each is None else (each.duration, getattr(each, "law", None)) for each in moves)
-            if _retimed(self.given[name].specification, timed, cycle.period).to_dict() != cycle.to_dict():
+            if _retimed(self.given[name], self._moves(name), cycle.duration).to_dict() != cycle.to_dict():
                 return f"axis {name} makes other moves than the given one"
         try:
             known = self._reached()
@@ -577,13 +570,21 @@ class Overlap(Declared, title="axes that overlap"):
         """What leaves no room at the instants of the axes, to a share of what counts as none."""
         from optlaws.cycles.axes.overlapping import program
 
-        times = {}
-        for name, cycle in self.axes.items():
-            durations = iter(cycle.durations)
-            times[name] = [0.0 if timed is None else next(durations) for timed in _timed(self.given[name], cycle)]
+        times = {name: [time for time, _ in self._moves(name)] for name in self.axes}
         given, goal = self.given, self.goal
         of_laws = given._program if goal == "period" else program(given, given.rules, goal, self.of, times)  # noqa: SLF001
         return tuple(of_laws.binding(times, self.axes.duration, share))
+
+    def _moves(self, name: str) -> list[tuple[float, Any]]:
+        """Of each given segment of an axis its duration now and its law; no time of dwells that are left out."""
+        cycle, moves = self.axes[name], []
+        now = [*zip(cycle.segments, cycle.durations, strict=True), (None, 0.0)][::-1]
+        for segment in self.given[name].segments:
+            timed, _ = now[-1]
+            gone = isinstance(segment, Dwell) and timed and replace(segment, duration=timed.duration) != timed
+            timed, time = (None, 0.0) if gone or timed is None else now.pop()
+            moves.append((time, getattr(timed, "law", None)))
+        return moves
 
     def again(self) -> Overlap:
         """The overlap of the given machine, sought once more."""
@@ -594,23 +595,16 @@ class Overlap(Declared, title="axes that overlap"):
         return f"Overlap({what}, {self.gain:.4g} times better, status={self.status.value!r}, bound by {self.binding})"
 
 
-def _retimed(cycle: Cycle, timed: Iterable[tuple[Any, Any] | None], period: Any) -> Cycle:
-    """The cycle with other durations and laws of its moves; dwells of no time are None, and left out."""
+def _retimed(cycle: Cycle, moves: Iterable[tuple[float, Any]], period: float) -> Cycle:
+    """The cycle with other durations and laws of its moves; dwells of no time are left out."""
     segments = list[CycleSegment]()
-    for segment, (duration, law) in ((each, known) for each, known in zip(cycle.segments, timed, strict=True) if known):
-        sought: dict[str, Any] = {} if law is None or not is_optimal(segment) else {"law": law}
-        segments.append(replace(segment, duration=duration, **sought))  # type: ignore[type-var]
+    for segment, (time, law) in zip(cycle.segments, moves, strict=True):
+        if time > CLOSURE * period or not isinstance(segment, Dwell):
+            sought: dict[str, Any] = {} if law is None or not is_optimal(segment) else {"law": law}
+            segments.append(replace(segment, duration=Exact(time, "s"), **sought))  # type: ignore[type-var]
     minimise = "acceleration" if cycle.load is not None else cycle.minimise
-    return replace(cycle, segments=segments, speed=None, period=period, minimise=minimise)
-
-
-def _timed(cycle: Cycle, other: Cycle) -> Iterator[CycleSegment | None]:
-    """The segments of another cycle of the same moves, without dwells of no time; None for what is left out."""
-    others = [*other.segments, None][::-1]
-    for segment in cycle.segments:
-        timed = others[-1]
-        left_out = timed is None or (isinstance(segment, Dwell) and replace(segment, duration=timed.duration) != timed)
-        yield None if left_out else others.pop()
+    known: dict[str, Any] = {"segments": segments, "speed": None, "period": Exact(period, "s"), "minimise": minimise}
+    return replace(cycle.specification, **known)
 
 
 def _entries(given: Any) -> dict[str, Any]:
@@ -626,12 +620,3 @@ def _entries(given: Any) -> dict[str, Any]:
     if "segments" not in given:
         raise InputError("it has no segments: give them, such as {'segments': [Rise('45 deg', '0.4 s'), Dwell()]}")
     return dict(given)
-
-
-def _check_durations(cycles: Mapping[str, Cycle], duration: float) -> None:
-    for name, cycle in cycles.items():
-        if abs(cycle.duration - duration) > CLOSURE * duration:
-            raise InputError(
-                f"axis {name}: its cycle takes {cycle.duration:.9g} s, the machine's {duration:.9g} s: give both the "
-                "same speed or period, or take cycle.at(speed)"
-            )

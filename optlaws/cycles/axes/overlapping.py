@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import heapq
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from itertools import count
 from typing import Any
 
@@ -152,17 +152,17 @@ class Requirement:
                 return float(places[at]), float(rooms[at])
             places = np.unique([*np.linspace(low, high, _PLACES), places[at]])
 
-    def worst(self, option: Option, unknowns: Array) -> list[float]:
-        """The shares of the segment at which an option is broken more than nearby."""
-        most, worst = _BROKEN_PLACE * float(unknowns[-2]), []
-        values = -self.room(option, unknowns, self.shares)
+    def cut(self, option: Option, unknowns: Array) -> bool:
+        """Put shares at which an option is broken more than nearby among the cuts; whether there are any."""
+        most, known = _BROKEN_PLACE * float(unknowns[-2]), len(self.cuts)
+        values = -self.room(option, unknowns, self.shares if self.extended else np.empty(0))
         for place, value in enumerate(values):
             beside = values[max(place - 1, 0) : place + 2]
             # between two places it may be broken by no more than what it changes from one to the next
             if -np.inf < value == beside.max() and value > most - 2.0 * (value - beside.min()):
                 at, room = self.least_near(option, unknowns, place)
-                worst += [at] if -room > most else []
-        return worst
+                self.cuts.extend([at] if -room > most else [])
+        return len(self.cuts) > known
 
     def least_room(self, option: Option, unknowns: Array) -> float:
         """The least time that an option leaves anywhere in the segment."""
@@ -212,24 +212,8 @@ def _of_passes(rule: After, first: AxisPlan, second: AxisPlan, position: float, 
     ]
 
 
-@dataclass(frozen=True)
-class Optimum:
-    """A solution of a program: unknowns, its value, and a bound below it."""
-
-    unknowns: Array
-    value: float
-    bound: float
-
-
-@dataclass(frozen=True)
-class BestInstants:
-    """Durations and laws of all segments, the period, the pace, and the proven bound of the objective."""
-
-    durations: dict[str, list[float]]
-    laws: dict[str, list[MotionLaw | None]]
-    period: float
-    pace: float
-    bound: float
+#: the unknowns of a program, and a bound below its value
+Optimum = tuple[Array, float]
 
 
 @dataclass(frozen=True, eq=False)
@@ -263,21 +247,23 @@ class Overlapping:
         known = list[tuple[Array, float, str]]()
         for plan in self.plans:
             for here, segment in enumerate(plan.segments, plan.first):
-                (least, share), kind = segment.least, "dwell" if segment.law is None else "move"
-                free = segment.most is None and least + share > 0.0
+                least, kind = segment.least, "dwell" if segment.law is None else "move"
+                free = segment.most is None and segment.least != (0.0, 0.0)
                 # of a time that cannot change there is nothing to say
                 name = segment.limit or (f"{kind} {segment.name} of {plan.name}" if free else "")
-                known.append((self._row({here: 1.0, -2: -share}), least / self.unit, name))
+                known.append((self._row({here: 1.0, -2: -least.share}), least.time / self.unit, name))
                 if segment.effort > 0.0:
                     known.append((self._row({here: 1.0, -1: -segment.effort / self.unit}), 0.0, ""))
                 if segment.most is not None:
-                    known.append((self._row({here: -1.0, -2: segment.most[1]}), -segment.most[0] / self.unit, name))
+                    known.append(
+                        (self._row({here: -1.0, -2: segment.most.share}), -segment.most.time / self.unit, name)
+                    )
             whole = self._row({-2: 1.0} | {plan.first + i: -1.0 for i in range(len(plan.segments))})
             known += [(whole, 0.0, ""), (-whole, 0.0, "")]
         rows, sides, names = zip(*known, strict=True)
         return np.array(rows), np.array(sides), list(names)
 
-    def best(self) -> BestInstants:
+    def best(self) -> Optimum:
         """The best instants over all choices, with a bound that no other instants pass."""
         forced: dict[int, Option] = {}
         for i, needed in enumerate(self.requirements):
@@ -289,43 +275,35 @@ class Overlapping:
             if len(needed.options) == 1:
                 forced[i] = needed.options[0]
         for _ in range(_CUTS):
-            optimum, choices, bound = self._searched(forced)
-            added = False
-            for i, option in choices.items():
-                if self.requirements[i].extended:
-                    worst = self.requirements[i].worst(option, optimum.unknowns)
-                    self.requirements[i].cuts.extend(worst)
-                    added = added or bool(worst)
-            if not added:
-                return self._result((self._solved(choices, _INSTANT_MARGIN) or optimum).unknowns, bound)
+            (unknowns, bound), choices = self._searched(forced)
+            added = [self.requirements[i].cut(option, unknowns) for i, option in choices.items()]
+            if not any(added):
+                return (self._solved(choices, _INSTANT_MARGIN) or (unknowns, bound))[0], bound
         raise SolverFailure("instants that keep a region clear were not found: give its bound fewer bends")
 
-    def _searched(self, forced: Choices) -> tuple[Optimum, Choices, float]:
+    def _searched(self, forced: Choices) -> tuple[Optimum, Choices]:
         """Branch and bound over the choices: the node of the least bound first."""
         number, root = count(), self._solved(forced)
-        heap: list[tuple[float, int, Optimum, Choices]] = []
+        heap: list[tuple[float, int, Array, Choices]] = []
         if root is not None:
-            heap.append((root.bound, next(number), root, forced))
+            heap.append((root[1], next(number), root[0], forced))
         while heap:
-            bound, _, optimum, choices = heapq.heappop(heap)
-            broken, worst, further = _BROKEN_INSTANT * float(optimum.unknowns[-2]), None, dict(choices)
-            for i in [i for i in range(len(self.requirements)) if i not in choices]:
-                options = self.requirements[i].options
-                off = [self.requirements[i].broken_by(option, optimum.unknowns) for option in options]
-                further[i] = options[int(np.argmin(off))]
-                if min(off) > broken:
-                    broken, worst = min(off), i
+            bound, node, unknowns, choices = heapq.heappop(heap)
+            broken, worst, further = _BROKEN_INSTANT * float(unknowns[-2]), None, dict(choices)
+            for i, requirement in enumerate(self.requirements):
+                if i not in choices:
+                    off = [requirement.broken_by(option, unknowns) for option in requirement.options]
+                    further[i] = requirement.options[int(np.argmin(off))]
+                    broken, worst = (min(off), i) if min(off) > broken else (broken, worst)
             if worst is None:
-                return optimum, further, bound
+                return (unknowns, bound), further
+            if node > _NODES:
+                raise SolverFailure(f"who waits for whom has more than {_NODES} ways: give fewer moves or interlocks")
             for option in self.requirements[worst].options:
-                way, node = {**choices, worst: option}, next(number)
-                solved = self._solved(way)
+                solved = self._solved({**choices, worst: option})
                 if solved is not None:
-                    heapq.heappush(heap, (max(bound, solved.bound), node, solved, way))
-                if node > _NODES:
-                    raise SolverFailure(
-                        f"who waits for whom has more than {_NODES} ways: give fewer moves or interlocks"
-                    )
+                    way = {**choices, worst: option}
+                    heapq.heappush(heap, (max(bound, solved[1]), next(number), solved[0], way))
         raise InfeasibleProblem(self._contradiction(forced))
 
     def _solved(self, choices: Choices, margin: float = 0.0) -> Optimum | None:
@@ -356,18 +334,7 @@ class Overlapping:
         prices = np.maximum(-answer.ineqlin.marginals, 0.0)
         rest = goal - prices @ matrix
         # weak duality, whatever the prices are worth
-        bound = float(prices @ right + np.minimum(rest * low, rest * most).sum())
-        return Optimum(np.asarray(answer.x), float(goal @ answer.x), bound)
-
-    def _result(self, x: Array, bound: float) -> BestInstants:
-        times = {plan.name: x[plan.first : plan.first + len(plan.segments)] for plan in self.plans}
-        return BestInstants(
-            {name: [self.unit * float(value) for value in values] for name, values in times.items()},
-            {plan.name: [segment.law for segment in plan.segments] for plan in self.plans},
-            self.unit * float(x[-2]),
-            float(x[-1]),
-            bound * (self.unit if self.period is None else 1.0),
-        )
+        return np.asarray(answer.x), float(prices @ right + np.minimum(rest * low, rest * most).sum())
 
     def binding(self, durations: _Times, period: float, share: float) -> tuple[str, ...]:
         """What leaves no room, to a share of what counts as none: limits of moves, dwells and interlocks, by names.
@@ -406,6 +373,26 @@ class Overlapping:
         return row
 
 
+@dataclass(frozen=True)
+class BestInstants:
+    """Durations and laws of all segments, the period, the pace, and the proven bound of the objective."""
+
+    durations: dict[str, list[float]]
+    laws: dict[str, list[MotionLaw | None]]
+    period: float
+    pace: float
+    bound: float
+
+
+def _instants(given: Overlapping, unknowns: Array, bound: float) -> BestInstants:
+    durations, laws = dict[str, list[float]](), dict[str, list[MotionLaw | None]]()
+    for plan in given.plans:
+        times = unknowns[plan.first : plan.first + len(plan.segments)]
+        durations[plan.name] = [given.unit * float(time) for time in times]
+        laws[plan.name] = [segment.law for segment in plan.segments]
+    return BestInstants(durations, laws, given.unit * float(unknowns[-2]), float(unknowns[-1]), bound)
+
+
 def program(
     cycles: Mapping[str, Cycle], rules: Sequence[Interlock], goal: str, longer: Sequence[str], times: _Times
 ) -> Overlapping:
@@ -419,7 +406,7 @@ def program(
     demands = requirements(rules, plans, cycles)
     if goal != "period":
         return Overlapping(list(plans.values()), demands, duration, duration, duration)
-    least = sum(segment.least[0] for plan in plans.values() for segment in plan.segments)
+    least = sum(segment.least.time for plan in plans.values() for segment in plan.segments)
     # the answer may be far shorter than what was given, and programs are as exact as their unit
     unit = max(map(_least_period, plans.values())) or duration
     return Overlapping(list(plans.values()), demands, None, _LONGEST * (duration + least), unit)
@@ -427,9 +414,8 @@ def program(
 
 def shortest(given: Overlapping) -> BestInstants:
     """The instants of least period, longer by what programs are solved to, so that all limits are met."""
-    best, longer_by = given.best(), 1.0 + _OVERLAP_GAP
-    durations = {name: [longer_by * value for value in values] for name, values in best.durations.items()}
-    return replace(best, durations=durations, period=longer_by * best.period)
+    unknowns, bound = given.best()
+    return _instants(given, unknowns * (1.0 + _OVERLAP_GAP), bound * given.unit)
 
 
 def gentlest(cycles: Mapping[str, Cycle], rules: Sequence[Interlock], longer: Sequence[str]) -> BestInstants:
@@ -439,13 +425,14 @@ def gentlest(cycles: Mapping[str, Cycle], rules: Sequence[Interlock], longer: Se
     """
 
     def instants(times: _Times) -> BestInstants:
-        best = program(cycles, rules, "acceleration", longer, times).best()
-        if not best.bound < 0.0:
+        of_laws = program(cycles, rules, "acceleration", longer, times)
+        unknowns, bound = of_laws.best()
+        if not bound < 0.0:
             labels = "; ".join(rule.label for rule in rules)
             raise InfeasibleProblem(
                 f"no instants of these laws keep all interlocks: {labels}: moves would have to take no time"
             )
-        return replace(best, bound=1.0 / best.bound**2)
+        return _instants(of_laws, unknowns, 1.0 / bound**2)
 
     times: _Times = {name: cycle.durations for name, cycle in cycles.items()}
     try:
@@ -475,5 +462,5 @@ def gentlest(cycles: Mapping[str, Cycle], rules: Sequence[Interlock], longer: Se
 
 def _least_period(plan: AxisPlan) -> float:
     """The period that an axis takes by itself; 0 where that is not known."""
-    seconds, shares = (sum(segment.least[i] for segment in plan.segments) for i in (0, 1))
+    shares, seconds = (sum(each) for each in zip(*(segment.least for segment in plan.segments), strict=True))
     return seconds / (1.0 - shares) if shares < 1.0 else 0.0

@@ -100,11 +100,6 @@ class SimplePolygon:
             raise InputError("its corners lie on a line: a region has three or more that do not")
         return cls(tuple(points if area > 0.0 else points[::-1]), tuple(corners))
 
-    @property
-    def sides(self) -> list[tuple[Corner, Corner]]:
-        """Its sides, each from corner to corner."""
-        return _sides(self.corners)
-
     def scaled(self, x: float, y: float) -> SimplePolygon:
         """The polygon with positions divided."""
         return SimplePolygon(tuple((across / x, up / y) for across, up in self.corners))
@@ -118,7 +113,7 @@ class SimplePolygon:
         near = _SECTION_WIDTH * (max(across) - min(across))
         x = min(max(x, min(across)), max(across))
         met: list[float] = []
-        for (start, first), (stop, last) in self.sides:
+        for (start, first), (stop, last) in _sides(self.corners):
             low, high = max(min(start, stop), x - near), min(max(start, stop), x + near)
             if low <= high:
                 shares = [(place - start) / (stop - start) for place in (low, high)] if start != stop else [0.0, 1.0]
@@ -138,7 +133,7 @@ class SimplePolygon:
 
     def square(self, x: Any, y: Any) -> Any:
         """The square of the distance of a point from the edge."""
-        return reduce(_lesser, [_square(start, stop, x, y) for start, stop in self.sides])
+        return reduce(_lesser, [_square(start, stop, x, y) for start, stop in _sides(self.corners)])
 
 
 def _chain(points: Sequence[Corner], *, meets: bool) -> Depth:

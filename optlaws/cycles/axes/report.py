@@ -176,23 +176,22 @@ class AxesReport:
 
     def _plane(self, pair: tuple[str, str]) -> Plane:
         rules = {number: rule for number, rule in enumerate(self.rules) if set(rule.axes) == set(pair)}
-        corners = {number: self._corners(rule, pair) for number, rule in rules.items() if isinstance(rule, Forbidden)}
-        paths = {panel.name: panel.series[0].values for panel in self.positions}
-        across, up = (
-            _wider([paths[name], *(region[:, i] for region in corners.values())]) for i, name in enumerate(pair)
-        )
-        regions = {
-            number: corners[number] if number in corners else self._region(rule, pair, (across, up))
-            for number, rule in rules.items() if not isinstance(rule, Synchronous)
-        }  # fmt: skip
-        return Plane(pair, (across, up), regions)
+        paths, regions, ranges = {panel.name: panel.series[0].values for panel in self.positions}, {}, []
+        for number, rule in rules.items():
+            if isinstance(rule, Forbidden):
+                corners = np.array(rule.in_si(self.cycles).given)[:, :: 1 if rule.axes == pair else -1]
+                regions[number] = corners * [self._size(name) for name in pair]
+        for i, name in enumerate(pair):
+            places = np.concatenate([paths[name], *(region[:, i] for region in regions.values())])
+            low, high = float(places.min()), float(places.max())
+            margin = _MARGIN * ((high - low) or 1.0)
+            ranges.append((low - margin, high + margin))
+        for number, rule in rules.items():
+            if isinstance(rule, After | Clearance):
+                regions[number] = self._region(rule, pair, ranges)
+        return Plane(pair, (ranges[0], ranges[1]), dict(sorted(regions.items())))
 
-    def _corners(self, rule: Forbidden, pair: tuple[str, str]) -> Array:
-        corners = np.array(rule.in_si(self.cycles).given)
-        ordered = corners if rule.axes == pair else corners[:, ::-1]
-        return np.asarray(ordered * [self._size(name) for name in pair])
-
-    def _region(self, rule: Interlock, pair: tuple[str, str], ranges: Sequence[tuple[float, float]]) -> Array:
+    def _region(self, rule: After | Clearance, pair: tuple[str, str], ranges: Sequence[tuple[float, float]]) -> Array:
         """The forbidden side of a bound, or the wall that is not passed, up to the ends of the ranges."""
         along, across = (0, 1) if rule.axes[0] != pair[0] else (1, 0)
         sizes = [self._size(name) for name in pair]
@@ -202,7 +201,6 @@ class AxesReport:
             wall[:, across] = passed * sizes[across]
             wall[:, along] = level * sizes[along], ranges[along][0 if rule.sign > 0.0 else 1]
             return wall
-        assert isinstance(rule, Clearance)  # noqa: S101 - as the others have no side
         bound = rule.in_si(self.cycles)
 
         def edge(places: Array) -> Array:
@@ -215,10 +213,3 @@ class AxesReport:
         region[:, along] = [*places, places[-1], places[0]]
         region[:, across] = [*values, side, side]
         return region
-
-
-def _wider(values: Sequence[Array]) -> tuple[float, float]:
-    """The range of positions with a margin on both sides."""
-    low, high = min(float(each.min()) for each in values), max(float(each.max()) for each in values)
-    margin = _MARGIN * ((high - low) or 1.0)
-    return low - margin, high + margin

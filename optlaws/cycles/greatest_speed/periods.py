@@ -60,11 +60,12 @@ def _range(duration: Any) -> DurationRange:
     if duration is None:
         return DurationRange(Extent(0.0, 0.0), Extent(inf, 0.0))
     ends = duration if isinstance(duration, list | tuple) else (duration, duration)
-    least, most = (_extent(end) for end in ends)
+    least, most = (extent(end) for end in ends)
     return DurationRange(least, most)
 
 
-def _extent(value: Any) -> Extent:
+def extent(value: Any) -> Extent:
+    """A duration, or a bound of one, as a person gives it."""
     kind, number = either(value, ("angle", "time"), "duration")
     return Extent(number / TURN, 0.0) if kind == "angle" else Extent(0.0, number)
 
