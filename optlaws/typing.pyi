@@ -46,10 +46,13 @@ from .mechanisms.drives.effort import (
     SegmentEffort as SegmentEffort,
 )
 from .mechanisms.linkages.bodies import DrivenLink as DrivenLink, LoadPlace as LoadPlace
-from .mechanisms.linkages.dimensionless import StrokeTorque as StrokeTorque, Train as Train
+from .mechanisms.linkages.dimensionless import (
+    LinearForce as LinearForce,
+    StrokeTorque as StrokeTorque,
+    Train as Train,
+)
 from .mechanisms.linkages.entries import TableKind as TableKind
 from .mechanisms.linkages.plane_linkages import FourBarBranch as FourBarBranch
-from .mechanisms.linkages.linear_force import LinearForce as LinearForce
 from .mechanisms.linkages.mechanism import InputAxis as InputAxis, LinkGeometry as LinkGeometry
 from .mechanisms.linkages.move_limit import LimitedMove as LimitedMove
 from .mechanisms.machine.follower import Change as Change

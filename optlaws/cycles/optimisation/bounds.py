@@ -20,7 +20,7 @@ from optlaws.cycles.optimisation.sums import span_sum, total
 from optlaws.cycles.specification.joints import LawSpan, Layout
 from optlaws.errors import InfeasibleProblem, SolverFailure
 from optlaws.mechanisms.drives.effort import size_of
-from optlaws.mechanisms.linkages.linear_force import LinearForce
+from optlaws.mechanisms.linkages.dimensionless import LinearForce
 from optlaws.motion.piece import Piece, factor
 from optlaws.motion.quantity_kinds import Kind
 from optlaws.synthesis.functionals.makers import peak, rms

@@ -16,8 +16,7 @@ from optlaws.cycles.specification.joints import LawSpan
 from optlaws.cycles.specification.segments import Dwell
 from optlaws.errors import InputError
 from optlaws.mechanisms.drives.drive_train import Drive
-from optlaws.mechanisms.linkages.dimensionless import StrokeTorque
-from optlaws.mechanisms.linkages.linear_force import LinearForce
+from optlaws.mechanisms.linkages.dimensionless import LinearForce, StrokeTorque
 from optlaws.motion.piece import factor
 from optlaws.motion.quantity_kinds import Kind
 from optlaws.synthesis.functionals.makers import peak, rms

@@ -13,7 +13,7 @@ from optlaws.errors import InputError
 from optlaws.formulas.slopes import added, multiplied
 from optlaws.formulas.tree import Name, number
 from optlaws.mechanisms.drives.drive_train import Drive
-from optlaws.mechanisms.linkages.linear_force import LinearForce
+from optlaws.mechanisms.linkages.dimensionless import LinearForce
 from optlaws.mechanisms.linkages.mechanism import Mechanism
 
 REGENERATION = "regeneration"

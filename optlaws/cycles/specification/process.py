@@ -10,8 +10,7 @@ from optlaws.entries.value_types import Choice, Text
 from optlaws.errors import InputError, located
 from optlaws.formulas.slopes import derivative, multiplied
 from optlaws.formulas.tree import Formula, Name, Table, number, substituted
-from optlaws.mechanisms.linkages.dimensionless import rescaled
-from optlaws.mechanisms.linkages.entries import JOINED, OverPlace, TableKind, formula_of
+from optlaws.mechanisms.linkages.entries import JOINED, OverPlace, TableKind, formula_of, rescaled
 from optlaws.mechanisms.linkages.mechanism import DIMENSIONS, Mechanism, loaded
 from optlaws.motion.quantities import TURN
 from optlaws.suggest import unknown_key

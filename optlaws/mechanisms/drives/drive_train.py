@@ -17,8 +17,7 @@ from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw, smoothstep
 from optlaws.mechanisms.drives.effort import BestRatio, DriveSheet, PieceEffort, TorqueByRatio
 from optlaws.mechanisms.drives.motor import NO_MOTOR, Motor
-from optlaws.mechanisms.linkages.dimensionless import StrokeTorque, Train
-from optlaws.mechanisms.linkages.linear_force import LinearForce
+from optlaws.mechanisms.linkages.dimensionless import LinearForce, StrokeTorque, Train
 from optlaws.mechanisms.linkages.mechanism import DIMENSIONS, Mechanism, duration_of
 from optlaws.mechanisms.linkages.mechanism_kinds import MECHANISM
 from optlaws.mechanisms.linkages.move_limit import (

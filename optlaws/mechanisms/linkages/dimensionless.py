@@ -1,4 +1,4 @@
-"""A drive over one stroke without dimensions: what formulas of a law need, and the units of their numbers."""
+"""A drive along a motion: forces that are affine in it, and over one stroke the formulas of a law with their units."""
 
 from __future__ import annotations
 
@@ -10,12 +10,48 @@ import numpy as np
 
 from optlaws.errors import InputError
 from optlaws.formulas.arithmetic import NUMPY, evaluate
-from optlaws.formulas.slopes import added, multiplied, opposite, scaled
-from optlaws.formulas.tree import Formula, Name, Negative, Number, Product, Sum, Table, number, rebuilt
+from optlaws.formulas.slopes import added
+from optlaws.formulas.tree import Formula, number
+from optlaws.mechanisms.linkages.entries import rescaled, times
+from optlaws.motion.piece import factor
 from optlaws.synthesis.functionals.makers import drive_torque
 from optlaws.tolerances import TINY
 
 _LOOKS = 721
+
+
+class LinearForce(NamedTuple):
+    """The force of a motion x: inertia x'' + viscous x' + stiffness x + constant + dry sign(x'), in SI units."""
+
+    inertia: float
+    viscous: float
+    stiffness: float
+    constant: float
+    dry: float
+
+    def formula(self, stroke: float, duration: float, offset: float, direction: float, unit: float) -> str:
+        """The force in a unit, as a formula of a law that moves forwards (direction 1), backwards (-1) or rests (0).
+
+        >>> LinearForce(2.0, 0.0, 10.0, 3.0, 0.5).formula(0.1, 1.0, 0.2, -1.0, 1.0)
+        '(1.0)*a + (0.2)*c + (4.5)'
+        """
+        still = self.constant + self.stiffness * offset + self.dry * direction
+        factors = [size / unit for size in self._factors(stroke, duration)]
+        terms = [f"({value!r})*{name}" for value, name in zip(factors, "abc", strict=True) if value]
+        return " + ".join([*terms, f"({still / unit!r})"])
+
+    def size(self, stroke: float, duration: float, offset: float) -> float:
+        """The order of magnitude of the force along a motion, as its unit."""
+        spring, damper, inertia = (abs(size) for size in self._factors(stroke, duration))
+        return 4.0 * inertia + 2.0 * damper + spring + abs(self.constant + self.stiffness * offset) + self.dry
+
+    def _factors(self, stroke: float, duration: float) -> tuple[float, float, float]:
+        """The factors of a, b and c of a law in the force."""
+        return (
+            self.stiffness * stroke,
+            self.viscous * factor(stroke, duration, 1),
+            self.inertia * factor(stroke, duration, 2),
+        )
 
 
 class Train(NamedTuple):
@@ -177,79 +213,27 @@ def recovering(powers: Sequence[str], share: float) -> str:
     return _greatest([*powers, *([f"{share!r}*{power}" for power in powers] if share else ["0"])])
 
 
-class InputFriction(NamedTuple):
-    """Friction at the input of a mechanism, in SI units."""
-
-    coulomb: float
-    viscous: float
-
-
 def dimensionless(
-    inertia: Formula, load: Formula, friction: InputFriction, stroke: tuple[float, float, float]
+    inertia: Formula, load: Formula, friction: tuple[float, float], stroke: tuple[float, float, float]
 ) -> StrokeTorque:
-    """A mechanism over a stroke, known by its start, its length and its duration: see `Mechanism.dimensionless`."""
-    start, way, time = stroke
+    """A mechanism with Coulomb and viscous friction over a stroke, known by its start, its length and its duration."""
+    (coulomb, viscous), (start, way, time) = friction, stroke
     x = start + way * np.linspace(0.0, 1.0, _LOOKS)
     accelerating, direction = abs(way) / time**2, float(np.sign(way))
-    moved = friction.viscous * abs(way) / time
+    moved = viscous * abs(way) / time
     places = {"x": x, "k": np.linspace(0.0, 1.0, _LOOKS)}
     greatest = (float(np.max(np.abs(evaluate(formula, places, NUMPY)))) for formula in (inertia, load))
-    unit = max(next(greatest) * accelerating, next(greatest), moved, friction.coulomb)
+    unit = max(next(greatest) * accelerating, next(greatest), moved, coulomb)
     if unit < TINY:
         raise InputError("the mechanism has neither inertia nor load nor friction on this stroke: nothing drives it")
-    resisting = _times(rescaled(load, "x", "a", (start, way)), direction / unit)
+    resisting = times(rescaled(load, "x", "a", (start, way)), direction / unit)
     return StrokeTorque(
-        str(_times(rescaled(inertia, "x", "a", (start, way)), accelerating / unit)),
+        str(times(rescaled(inertia, "x", "a", (start, way)), accelerating / unit)),
         str(number(moved / unit)),
-        str(added([number(friction.coulomb / unit), resisting])),
+        str(added([number(coulomb / unit), resisting])),
         unit,
         start,
         way,
         time,
         str(resisting),
     )
-
-
-def rescaled(formula: Formula, name: str, other: str, line: tuple[float, float]) -> Formula:
-    """The formula with first + slope times another name for one; tables over it become tables over the other.
-
-    >>> from optlaws.formulas.reading import read
-    >>> rescaled(read("3*t"), "t", "m", (0.0, 0.5))
-    3*0.5*m
-    """
-    first, slope = line
-    if isinstance(formula, Name):
-        way = multiplied([number(slope), Name(other)])
-        return added([number(first), way]) if formula.name == name else formula
-    if isinstance(formula, Table) and formula.of == Name(name):
-        pairs = sorted(
-            ((place - first) / slope, value) for place, value in zip(formula.places, formula.values, strict=True)
-        )
-        places, values = zip(*pairs, strict=True)
-        table = Table(Name(other), places, values, formula.kind, formula.order)
-        return _times(table, slope**-formula.order)
-    return rebuilt(formula, [rescaled(part, name, other, line) for part in formula.parts])
-
-
-def _times(formula: Formula, factor: float) -> Formula:
-    """A factor of either sign times a formula, taken into sums, products and tables."""
-    if factor < 0.0:
-        return _times(_opposite(formula), -factor)
-    if isinstance(formula, Number | Negative | Product | Sum):
-        return _scaled(formula, factor)
-    if isinstance(formula, Table):
-        values = tuple(value * factor for value in formula.values)
-        return Table(formula.of, formula.places, values, formula.kind, formula.order)
-    return scaled(formula, factor)
-
-
-def _scaled(formula: Formula, factor: float) -> Formula:
-    if isinstance(formula, Negative):
-        return opposite(_times(formula.of, factor))
-    if isinstance(formula, Sum):
-        return added([_times(term, factor) for term in formula.terms])
-    return multiplied([number(factor), *(formula.factors if isinstance(formula, Product) else (formula,))])
-
-
-def _opposite(formula: Formula) -> Formula:
-    return added([opposite(term) for term in formula.terms]) if isinstance(formula, Sum) else opposite(formula)

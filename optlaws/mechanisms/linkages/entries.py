@@ -14,12 +14,14 @@ import numpy as np
 from optlaws.echo import shortened
 from optlaws.entries.value_types import ReadBy, ValueType
 from optlaws.errors import InputError
+from optlaws.formulas.affine import affine
 from optlaws.formulas.arithmetic import horner, pieces
 from optlaws.formulas.reading import read
-from optlaws.formulas.tree import Formula, Name, Table, TableJoin, number
+from optlaws.formulas.slopes import added, constant, multiplied, opposite, scaled
+from optlaws.formulas.tree import Formula, Name, Negative, Sum, Table, TableJoin, number, rebuilt
 from optlaws.motion.quantities import quantity, si_number, written
 from optlaws.numbers import finite, real
-from optlaws.tolerances import VALUE_ROUNDING
+from optlaws.tolerances import OPERATIONS_ROUNDING, VALUE_ROUNDING
 
 TableKind = Literal["spline", "lines"]
 #: how tables of values are joined: a spline of values keeps their shape
@@ -101,10 +103,13 @@ def formula_of(
     """
     if isinstance(given, Formula):
         return given
-    if isinstance(given, Mapping):
-        return _table(list(given.items()), dimensions, name, variable, interpolation)
-    if isinstance(given, list | tuple):
-        return _table(list(given), dimensions, name, variable, interpolation)
+    if isinstance(given, Mapping | list | tuple):
+        numbers = table_numbers(list(given.items() if isinstance(given, Mapping) else given), dimensions, name)
+        for (place, _), (following, _) in pairwise(numbers):
+            if place >= following:
+                raise InputError(f"{name}: the places of a table must ascend, got {place:g} before {following:g}")
+        places, values = zip(*numbers, strict=True)
+        return Table(Name(variable), places, values, JOINED[interpolation])
     if isinstance(given, str) and _WITH_UNIT.match(given) is None:
         formula = read(given, (variable,))
         for part in formula.walk():
@@ -112,17 +117,6 @@ def formula_of(
                 _check_shape(part, name)
         return formula
     return number(finite(si_number(given, (dimensions[1],), name), name))
-
-
-def _table(
-    pairs: list[Any], dimensions: tuple[str, str], name: str, variable: str, interpolation: TableKind
-) -> Formula:
-    numbers = table_numbers(pairs, dimensions, name)
-    for (place, _), (following, _) in pairwise(numbers):
-        if place >= following:
-            raise InputError(f"{name}: the places of a table must ascend, got {place:g} before {following:g}")
-    places, values = zip(*numbers, strict=True)
-    return Table(Name(variable), places, values, JOINED[interpolation])
 
 
 def _check_shape(table: Table, name: str) -> None:
@@ -153,15 +147,78 @@ def table_numbers(pairs: list[Any], dimensions: tuple[str, str], name: str) -> l
         raise InputError(
             f"{name}: a table needs {_FEWEST} pairs of a place and a value at least, got {shortened(pairs)}"
         )
+
+    def in_si(value: Any, dimension: str, what: str) -> float:
+        plain = real(value)
+        return quantity(value, dimension, what) if plain is None else finite(plain, what)
+
     return [
-        (
-            _number(place, dimensions[0], f"{name}: place {n}"),
-            _number(value, dimensions[1], f"{name}: value {n}"),
-        )
+        (in_si(place, dimensions[0], f"{name}: place {n}"), in_si(value, dimensions[1], f"{name}: value {n}"))
         for n, (place, value) in enumerate(pairs, 1)
     ]
 
 
-def _number(value: Any, dimension: str, name: str) -> float:
-    plain = real(value)
-    return quantity(value, dimension, name) if plain is None else finite(plain, name)
+def line_of(formula: Formula) -> tuple[float, float] | None:
+    """The slope of a formula of x and its value at x = 0, where it is a straight line; None where it is none.
+
+    >>> from optlaws.formulas.reading import read
+    >>> line_of(read("2*(x + 1) - pi", ("x",))), line_of(read("table(x, 0:1, 1:3, 2:5)", ("x",)))
+    ((2.0, -1.1415926535897931), (2.0, 1.0))
+    >>> line_of(read("sin(x)", ("x",))) is None
+    True
+    """
+    form = affine(_with_lines(formula), ("x",))
+    if form is None:
+        return None
+    slope, rest = (constant(part) for part in (dict(form.factors).get("x", number(0.0)), form.rest))
+    return None if slope is None or rest is None else (slope, rest)
+
+
+def _with_lines(formula: Formula) -> Formula:
+    """The formula with lines in place of tables whose values are on one."""
+    parts = [_with_lines(part) for part in formula.parts]
+    whole = rebuilt(formula, parts) if parts else formula
+    if not isinstance(whole, Table) or whole.order:
+        return whole
+    places, values = np.array(whole.places), np.array(whole.values)
+    slope = float((values[-1] - values[0]) / (places[-1] - places[0]))
+    first = float(values[0] - slope * places[0])
+    size = np.abs(values).max() + abs(slope) * np.abs(places).max()
+    if np.abs(first + slope * places - values).max() > OPERATIONS_ROUNDING * size:
+        return whole
+    return added([multiplied([number(slope), whole.of]), number(first)])
+
+
+def rescaled(formula: Formula, name: str, other: str, line: tuple[float, float]) -> Formula:
+    """The formula with first + slope times another name for one; tables over it become tables over the other.
+
+    >>> from optlaws.formulas.reading import read
+    >>> rescaled(read("3*t"), "t", "m", (0.0, 0.5))
+    3*0.5*m
+    """
+    first, slope = line
+    if isinstance(formula, Name):
+        way = multiplied([number(slope), Name(other)])
+        return added([number(first), way]) if formula.name == name else formula
+    if isinstance(formula, Table) and formula.of == Name(name):
+        pairs = sorted(
+            ((place - first) / slope, value) for place, value in zip(formula.places, formula.values, strict=True)
+        )
+        places, values = zip(*pairs, strict=True)
+        table = Table(Name(other), places, values, formula.kind, formula.order)
+        return times(table, slope**-formula.order)
+    return rebuilt(formula, [rescaled(part, name, other, line) for part in formula.parts])
+
+
+def times(formula: Formula, factor: float) -> Formula:
+    """A factor of either sign times a formula, taken into sums, products and tables."""
+    if factor < 0.0:
+        terms = formula.terms if isinstance(formula, Sum) else (formula,)
+        return times(added([opposite(term) for term in terms]), -factor)
+    if isinstance(formula, Negative):
+        return opposite(times(formula.of, factor))
+    if isinstance(formula, Sum):
+        return added([times(term, factor) for term in formula.terms])
+    if isinstance(formula, Table):
+        return replace(formula, values=tuple(value * factor for value in formula.values))
+    return scaled(formula, factor)

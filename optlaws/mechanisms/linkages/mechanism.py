@@ -24,9 +24,8 @@ from optlaws.formulas.slopes import added
 from optlaws.formulas.slopes import derivative as slope
 from optlaws.formulas.tree import Formula, Name, Table, table_places
 from optlaws.kept import kept_property
-from optlaws.mechanisms.linkages.dimensionless import InputFriction, StrokeTorque, dimensionless, rescaled
-from optlaws.mechanisms.linkages.entries import FORMULA, OverPlace, formula_of
-from optlaws.mechanisms.linkages.linear_force import LinearForce, line_of
+from optlaws.mechanisms.linkages.dimensionless import LinearForce, StrokeTorque, dimensionless
+from optlaws.mechanisms.linkages.entries import FORMULA, OverPlace, formula_of, line_of, rescaled
 from optlaws.mechanisms.linkages.move_limit import LimitedMove, MoveLimit, limits_of_input, move_limit
 from optlaws.motion.quantities import check_scale, either, in_small_units, si_number
 from optlaws.numbers import Array, NumberOrQuantity, derivative, finite, not_negative, positive, real_times
@@ -395,10 +394,9 @@ class Mechanism(JsonText):
             )
         check_scale(way, "rad" if self.axis == "angle" else "m", "stroke", stroke)
         self.position(np.array([first, first + way]))
-        friction = InputFriction(self.coulomb, self.viscous)
         load = rescaled(self.load_formula, "t", "k", (begins, time)) if self.varies else self.load_formula
         load = load if process is None else added([load, process])
-        return dimensionless(self.inertia_formula, load, friction, (first, way, time))
+        return dimensionless(self.inertia_formula, load, (self.coulomb, self.viscous), (first, way, time))
 
     def limit(
         self,
