@@ -20,7 +20,7 @@ from optlaws.errors import InfeasibleProblem, OptlawsError, SolverFailure
 from optlaws.kept import kept_property
 from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.mechanisms.linkages.mechanism import Mechanism
-from optlaws.motion.derivative_panel import DERIVATIVES, display_unit, motion_panel, samples, times_in
+from optlaws.motion.derivative_panel import DERIVATIVES, display_unit, motion_panel, times_in
 from optlaws.motion.display_units import MILLI, RPM, TURN_DEG, UNITS
 from optlaws.motion.piece import unit_of
 from optlaws.motion.quantities import QUANTITIES
@@ -144,11 +144,6 @@ class CycleReport:
             speed, unit = "speed of the motor", ("rpm", RPM * self.plan.drive.ratio)
         motion = {speed: self.panel(1, unit), "position of the input": self.panel(0)}
         return (*self.driven, *(replace(each, name=name, limits=(), peaks=()) for name, each in motion.items()))
-
-    def over_speed(self, count: int) -> tuple[Array, Array]:
-        """Speeds of the motor, rad/s, and torques, N m, at points in each piece and at its breaks."""
-        speeds, ratio = samples(self.plan.pieces, 1, count)[1], self.plan.geared_motor.ratio
-        return ratio * speeds, self._samples_of_drive(self.plan.force, count)[1]
 
     def least_efforts(self) -> list[LeastEffort]:
         """Of each move from rest to rest on a mechanism what it takes of the drive, and what no law takes less.

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from optlaws.cycles.report import CycleReport
 from optlaws.errors import InputError
+from optlaws.mechanisms.drives.effort import over_speed
 from optlaws.mechanisms.linkages.report import MechanismReport
 from optlaws.motion.display_units import RPM
 from optlaws.plots.report import draw_panel
@@ -33,12 +33,10 @@ if TYPE_CHECKING:
 
     from optlaws.cycles.cycle import Plan
     from optlaws.mechanisms.drives.effort import BestRatio, PieceEffort
-    from optlaws.mechanisms.drives.motor import Motor
     from optlaws.mechanisms.linkages.mechanism import Mechanism
     from optlaws.mechanisms.machine.over_time import OutputCurve
     from optlaws.mechanisms.machine.parameters import MachineSpectrum
     from optlaws.mechanisms.spectrum import ResponseSpectrum
-    from optlaws.numbers import Array
     from optlaws.shown.report import Panel, Series
 
 
@@ -165,34 +163,27 @@ def _linkage(mechanism: Mechanism, axes: Axes) -> list[Artist]:
 _SAMPLES = 801
 
 
-def draw_move(along: PieceEffort, axes: Axes | None = None, **style: Any) -> list[Artist]:
-    """Draw torque over speed at the motor during a move, within the motor's curves of peak and continuous torque."""
-    times = np.linspace(along.piece.start, along.piece.stop, _SAMPLES)
-    way = np.sign(along.piece.stroke)
-    course = way * along.speed(times), way * along.force(times)
-    return draw_torque_over_speed(course, along.drive.motor, axes, **{"label": "move", **style})
-
-
 def draw_motor_of_cycle(plan: Plan, axes: Axes | None = None, **style: Any) -> list[Artist]:
     """Draw torque over speed at the motor during a cycle, within the motor's curves."""
-    course = CycleReport(plan).over_speed(_SAMPLES)
-    return draw_torque_over_speed(course, plan.geared_motor.motor, axes, **{"label": "cycle", **style})
+    plan.geared_motor  # noqa: B018 - a drive without one has no curves
+    return draw_torque_over_speed(plan.along, axes, **{"label": "cycle", **style})
 
 
 def draw_torque_over_speed(
-    course: tuple[Array, Array], motor: Motor, axes: Axes | None = None, **style: Any
+    along: Sequence[PieceEffort], axes: Axes | None = None, *, way: float = 1.0, **style: Any
 ) -> list[Artist]:
-    """Draw torques over speeds within the motor's curves of peak and continuous torque, on either side of rest."""
+    """Draw torques over speeds of a motion, or of one that goes back (way -1), within the curves of the motor."""
     axes = axes or new_axes()
     artists: list[Artist] = []
+    course = [way * values for values in over_speed(along, _SAMPLES)]
     goes_back = course[0].min() < -VALUE_ROUNDING * np.abs(course[0]).max()
-    speeds, limits = motor.limits_up_to(1.5 * float(np.abs(course[0]).max()), _SAMPLES)
+    speeds, limits = along[0].drive.motor.limits_up_to(1.5 * float(np.abs(course[0]).max()), _SAMPLES)
     for name, values in limits.items():
         look: dict[str, Any] = {"color": GREY, "linestyle": "-" if name == "peak torque" else "--", "linewidth": 1.1}
         for side, label in ((1.0, name), (-1.0, None)):
-            for way in (1.0, -1.0) if goes_back else (1.0,):
-                shown = label if way > 0.0 else None
-                artists += axes.plot(way * RPM * speeds, side * values, **look, label=shown)
+            for end in (1.0, -1.0) if goes_back else (1.0,):
+                shown = label if end > 0.0 else None
+                artists += axes.plot(end * RPM * speeds, side * values, **look, label=shown)
     artists += axes.plot(RPM * course[0], course[1], **{"color": BLUES[3], **style})
     axes.axhline(0.0, color=GREY, linewidth=0.8)
     axes.set(xlabel="speed of the motor, rpm", ylabel="torque at the motor, N m")

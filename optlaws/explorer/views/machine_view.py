@@ -22,6 +22,7 @@ from optlaws.explorer.views.law_view import refusal, refusing
 from optlaws.explorer.views.panel_data import beside_each_other, drawn, over_time, panel_data, segments_data
 from optlaws.explorer.views.requests import MOST_LAWS, stored_law
 from optlaws.jobs.cycle_entries import AxisEntries, CycleProblemFile, cycle_of
+from optlaws.mechanisms.drives.effort import over_speed
 from optlaws.mechanisms.linkages.mechanism_kinds import MechanismKind
 from optlaws.mechanisms.linkages.report import INPUTS, MechanismReport
 from optlaws.motion.display_units import MILLI, RPM
@@ -155,7 +156,7 @@ def _over_speed(shown: Plan, cycles: Mapping[int, Plan]) -> dict[str, Any] | Non
         return None
     courses: list[dict[str, Any]] = []
     for law, cycle in cycles.items():
-        speeds, torques = CycleReport(cycle).over_speed(_EACH)
+        speeds, torques = over_speed(cycle.along, _EACH)
         courses.append({"law": law, "speeds": drawn(RPM * speeds, 3), "torques": drawn(torques, 5)})
     motor, fastest = shown.drive.motor, max(cycle.sheet.peak_speed for cycle in cycles.values())
     speeds, limits = motor.limits_up_to(_FAR * fastest, 41)

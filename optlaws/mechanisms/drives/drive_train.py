@@ -215,15 +215,7 @@ class Drive(Declared, title="a drive"):
     ) -> StrokeTorque:
         """The drive over a stroke of the mechanism's input: formulas of a law for `peak`, `rms` and `integral`.
 
-        Parameters
-        ----------
-        start, stroke, duration, process, begins
-            As `Mechanism.dimensionless` takes them.
-
-        Raises
-        ------
-        InputError
-            If the stroke leaves the range of the mechanism, or is 0.
+        It takes what `Mechanism.dimensionless` takes, and raises what that raises.
 
         Examples
         --------
@@ -286,8 +278,7 @@ class Drive(Declared, title="a drive"):
         rms torque at least 2.02548 N m
         """
         way = self.mechanism.dimensionless(start, stroke, duration_of(minimise, duration))
-        dimensions = DIMENSIONS[self.mechanism.axis]
-        bounds = limits_of_input(limits, dimensions)
+        bounds = limits_of_input(limits, DIMENSIONS[self.mechanism.axis])
         time = None if duration is None else way.duration
         return move_limit(LimitedMove(self, minimise, way.start, way.stroke, time, bounds, heat=heat))
 
@@ -356,14 +347,11 @@ class Drive(Declared, title="a drive"):
 
         The mean square is J² i² mean(x''²) + mean(Y²)/i² and a constant, Y the torque through the gear: convex in i².
 
-        Parameters
-        ----------
-        law, start, stroke, duration, period
-            As `sheet` takes them.
+        The move is as `sheet` takes it.
 
         Raises
         ------
-        InputError
+        InfeasibleProblem
             If the limits of the motor leave no ratio; the error names them.
 
         Examples
@@ -391,19 +379,14 @@ class Drive(Declared, title="a drive"):
     ) -> list[Any]:
         """Draw torque over speed at the motor during a move, with the motor's curves; return the artists of matplotlib.
 
-        Parameters
-        ----------
-        law, start, stroke, duration
-            As `sheet` takes them.
-        ax
-            Axes of matplotlib; a new figure unless given.
-        style
-            What `Axes.plot` takes, for the move.
+        The move is as `sheet` takes it; `ax` are axes of matplotlib, a new figure unless given, and `style` is what
+        `Axes.plot` takes, for the move.
         """
-        from optlaws.plots.machine import draw_move
+        from optlaws.plots.machine import draw_torque_over_speed
 
         piece, _ = self._move(law, start, stroke, duration, None)
-        return draw_move(PieceEffort(self, piece), ax, **style)
+        shown = {"way": np.sign(piece.stroke), "label": "move", **style}
+        return draw_torque_over_speed([PieceEffort(self, piece)], ax, **shown)
 
     def _load_after(self, piece: Piece) -> float:
         return float(self.mechanism.load(np.clip(piece.offset + piece.stroke, *self.mechanism.over)))
@@ -416,7 +399,6 @@ class Drive(Declared, title="a drive"):
         duration: NumberOrQuantity,
         period: NumberOrQuantity | None,
     ) -> tuple[Piece, float]:
-        """The move, and the period."""
         moved = self.mechanism.dimensionless(start, stroke, duration)
         time = moved.duration if period is None else positive(si_number(period, ("time",), "period"), "period")
         if time < moved.duration * (1.0 - CLOSURE):

@@ -16,6 +16,7 @@ from optlaws.formulas.tree import Formula, table_places
 from optlaws.kept import kept_property
 from optlaws.laws.storage import PlainNumbers
 from optlaws.mechanisms.drives.motor import Motor
+from optlaws.motion.derivative_panel import times_in
 from optlaws.motion.display_units import RPM
 from optlaws.motion.piece import Piece, factor
 from optlaws.motion.quantity_kinds import Kind
@@ -190,6 +191,13 @@ class PieceEffort:
     def square(self) -> float:
         """The integral of the square of the force."""
         return self.parts.integral(lambda times: self.force(times) ** 2)
+
+
+def over_speed(along: Sequence[PieceEffort], count: int) -> tuple[Array, Array]:
+    """Speeds of the motor, rad/s, and torques, N m, at points in each piece and at its breaks."""
+    times = [times_in(each.piece, count) for each in along]
+    values = [(each.speed(inside), each.force(inside)) for each, inside in zip(along, times, strict=True)]
+    return np.concatenate([speeds for speeds, _ in values]), np.concatenate([torques for _, torques in values])
 
 
 def size_of(piece: Piece, kind: Kind, drive: AnyDrive | None, *, mean: bool = False) -> float:

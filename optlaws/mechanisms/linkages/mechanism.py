@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import KW_ONLY, dataclass
+from dataclasses import KW_ONLY, dataclass, fields
 from functools import lru_cache
 from math import factorial
 from typing import TYPE_CHECKING, Any, Literal, Self, TypeAlias, get_args
@@ -238,7 +238,6 @@ class Mechanism(JsonText):
 
     @kept_property
     def _of_torque(self) -> Together:
-        """The inertia, its derivative and the load, which have much in common."""
         return Together((self.inertia_formula, _derived(self.inertia_formula, 1), self.load_formula))
 
     def _values(self, formula: Formula, x: Any) -> Array:
@@ -453,17 +452,9 @@ class Mechanism(JsonText):
         return self._changed(inertia=added([more, self.inertia_formula]))
 
     def _changed(self, **fields: Any) -> Self:
-        known = {
-            "inertia": self.inertia_formula,
-            "load": self.load_formula,
-            "coulomb": self.coulomb,
-            "viscous": self.viscous,
-            "over": self.over if self.has_end else None,
-            "axis": self.axis,
-            "name": self.name,
-            "linkage": self.linkage,
-        }
-        return type(self)(**{**known, **fields})
+        known = {name: value for name, value in vars(self).items() if name in entries_of(MechanismEntries)}
+        known |= {"inertia": self.inertia_formula, "load": self.load_formula}
+        return type(self)(**{**known, "over": self.over if self.has_end else None, **fields})
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Mechanism) and self.to_dict() == other.to_dict()
@@ -520,9 +511,8 @@ class Mechanism(JsonText):
 def loaded(mechanism: Mechanism, load: Formula) -> Mechanism:
     """The mechanism with a further load over x and the time t, of which tables may end within its range."""
     other = object.__new__(Mechanism)
-    known = {name: getattr(mechanism, name) for name in entries_of(MechanismEntries) if name not in {"inertia", "load"}}
-    known |= {"inertia_formula": mechanism.inertia_formula, "load_formula": added([mechanism.load_formula, load])}
-    vars(other).update(known)
+    known = {each.name: getattr(mechanism, each.name) for each in fields(mechanism)}
+    vars(other).update({**known, "load_formula": added([mechanism.load_formula, load])})
     return other
 
 
@@ -556,7 +546,11 @@ def _axis_and_ends(over: Any, axis: Any) -> tuple[InputAxis, tuple[float, float]
         return axis or "angle", None
     if not isinstance(over, list | tuple) or len(over) != 2:
         raise InputError(f"over must be two positions such as ('0 deg', '180 deg'), got {shortened(over)}")
-    read_ends = [_end(value, axis) for value in over]
+    known = (axis,) if axis else tuple(DIMENSIONS)
+    read_ends: list[tuple[Any, float]] = [
+        either(each, known, "over") if isinstance(each, str) or hasattr(each, "units") else (None, finite(each, "over"))
+        for each in over
+    ]
     kinds = {kind for kind, _ in read_ends if kind is not None} | ({axis} if axis else set())
     if len(kinds) > 1:
         raise InputError(f"over: an input that turns has angles, one that slides lengths, got {shortened(over)}")
@@ -566,20 +560,8 @@ def _axis_and_ends(over: Any, axis: Any) -> tuple[InputAxis, tuple[float, float]
     return (kinds.pop() if kinds else "angle"), (low, high)
 
 
-def _end(value: Any, axis: Any) -> tuple[Any, float]:
-    if isinstance(value, str) or hasattr(value, "units"):
-        return either(value, (axis,) if axis else ("angle", "length"), "over")
-    return None, finite(value, "over")
-
-
 def duration_of(minimise: str, duration: NumberOrQuantity | None) -> NumberOrQuantity:
-    """The duration of a move, or one second where the least time is sought.
-
-    Raises
-    ------
-    InputError
-        If it is missing, or there is one of the least time.
-    """
+    """The duration of a move, or one second where the least time is sought; errors name what is missing."""
     if (duration is None) != (minimise == "time"):
         raise InputError(
             "duration is missing, such as '0.25 s'" if duration is None else "leave out the duration: it is minimised"
