@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING, Any, Literal, TypeVar, get_args
 import numpy as np
 
 from optlaws.cycles.exportable import Exportable
-from optlaws.cycles.jerk_comparison import jerk_limit
 from optlaws.cycles.limit_rows import limits_taken, refuse_beyond
 from optlaws.cycles.optimisation.bounds import bound_of, is_exact
 from optlaws.cycles.optimisation.drive_formulas import known_drive
@@ -60,6 +59,7 @@ if TYPE_CHECKING:
 #: what a picture of a cycle is over
 PlotOver = Literal["time", "speed"]
 T = TypeVar("T")
+_DIGITS = 6  # of the jerk of modified sine as a limit
 _STRICTER = (
     "the gear loses power and a load acts: where the motor brakes, its torque is counted as that of power that flows "
     "back, which may be more than it is, so that nothing is proven of it"
@@ -89,13 +89,7 @@ class Answers(Exportable):
 
     @answer
     def pieces(self) -> tuple[Piece, ...]:
-        """The laws in their places, in order.
-
-        Raises
-        ------
-        InfeasibleProblem
-            If a given law breaks a limit, or no law keeps one.
-        """
+        """The laws in their places, in order."""
         plan = self.solve()
         pieces = [*plan.specification.layout.pieces, *(piece for _, piece, _ in plan.laws)]
         return tuple(sorted(pieces, key=lambda piece: piece.start))
@@ -247,11 +241,6 @@ class Answers(Exportable):
     def load_motion(self) -> RepeatedMotion:
         """The steady motion of the load over time in seconds: its outputs by their names, in SI units.
 
-        Raises
-        ------
-        InputError
-            If the cycle has no load, or it is in resonance with the cycle.
-
         Examples
         --------
         >>> from optlaws import Cycle, Dwell, Return, Rise
@@ -280,13 +269,7 @@ class Answers(Exportable):
 
     @answer
     def geared_motor(self) -> Drive:
-        """The drive, if it has a motor.
-
-        Raises
-        ------
-        InputError
-            If it has none.
-        """
+        """The drive with its motor; an `InputError` where it has none."""
         drive = self.solve().drive
         if not isinstance(drive, Drive):
             raise InputError("the cycle has no motor: give one, as drive=Drive(mechanism, Motor(...), ratio=20)")
@@ -294,13 +277,7 @@ class Answers(Exportable):
 
     @answer
     def sheet(self) -> CycleSheet:
-        """The motor sheet of the cycle: torques, speed, powers, energies, and margins to the motor's limits.
-
-        Raises
-        ------
-        InputError
-            If the drive is no `Drive` with a motor.
-        """
+        """The motor sheet of the cycle: torques, speed, powers, energies, and margins to the motor's limits."""
         self.geared_motor  # noqa: B018 - a drive without one has no sheet
         return CycleSheet.of(self.along, self.solve().duration)
 
@@ -678,8 +655,9 @@ class Cycle(Answers, Specification):
                 "modified sine's jerk is that of motions from rest to rest whose acceleration is minimised without a"
                 " limit of the jerk or the snap: give the cycle such motions, or limits={'jerk': ...} of your own"
             )
-        limit = jerk_limit(self.modified_sine_jerk, self.axis)
-        return replace(self, limits={**self.limits, "jerk": limit})
+        # rounded upward
+        most = f"{self.modified_sine_jerk * (1.0 + 10.0**-_DIGITS):.{_DIGITS + 1}g}"
+        return replace(self, limits={**self.limits, "jerk": f"{most} {unit_of(self.axis)}/s^3"})
 
 
 @declared

@@ -49,38 +49,23 @@ class Exportable:
         raise NotImplementedError
 
     def summary(self) -> Summary:
-        """The facts of the report: proofs, peaks and what is taken of drives and limits, as rows in SI units.
-
-        Examples
-        --------
-        >>> from optlaws import Cycle, Return, Rise
-        >>> cycle = Cycle([Rise("35 mm", "0.1 s", law="cycloidal"), Return(law="cycloidal")], period="0.3 s")
-        >>> [f"{row.name} {row.text(4)} {row.unit} at {row.place:g} s" for row in cycle.summary()[:2]]
-        ['peak velocity 0.7 m/s at 0.05 s', 'peak acceleration 21.99 m/s² at 0.075 s']
-        """
+        """The facts of the report: proofs, peaks and what is taken of drives and limits, as rows in SI units."""
         return self.report().facts
 
     @keywords_of(ExportOptions)
     def export(
         self, to: str, *, master: Quantity | None = "360 deg", unit: str | None = None, **options: Unpack[ExportOptions]
     ) -> Any:
-        """The motion in the format of a controller, with a report of the executed motion.
+        """The motion in the format of a controller, with a report of the executed motion: an `Export`.
 
         Parameters
         ----------
         to
             The format: `optlaws export --list` names them.
-        master
-            How far the master goes in a cycle; None for a master that is time in seconds. That of a transition begins
-            at 0.
-        unit
-            Of positions; "mm" for lengths and "deg" for angles unless given.
+        master, unit
+            As of `motion`; the master of a transition begins at 0.
         points, counts, digits, decimal, interpolation, task, name
             As `ExportOptions` has them: how many points, of which numbers, for which task of the drive.
-
-        Returns
-        -------
-        An `Export`: its `text`, its `report`, its `run`; `write(file)` writes it.
 
         Raises
         ------
@@ -123,13 +108,7 @@ class Exportable:
         return pieces_of_motion(self.motion(master, unit), tolerance)
 
     def _repr_html_(self) -> str:
-        """The report as HTML; where laws cannot be had, the error in its place.
-
-        >>> from optlaws import Cycle, Return, Rise
-        >>> shown = Cycle([Rise("35 mm", "120 deg"), Return()], speed="200 rpm")._repr_html_()
-        >>> shown.count("<svg"), "acceleration, m/s²" in shown
-        (4, True)
-        """
+        """The report as HTML; where laws cannot be had, the error in its place."""
         from optlaws.shown.report import report_page
         from optlaws.shown.showing import facts, page
 

@@ -51,14 +51,6 @@ def limits_taken(plan: Plan, limited: Cycle | None = None) -> tuple[LimitTaken, 
     """The use of every limit of a plan's cycle, or of another cycle with the same segments, by all its laws.
 
     Of each limit the segment that takes most of it counts. A motor's limits are those of the sheet.
-
-    Examples
-    --------
-    >>> from optlaws import Cycle, Return, Rise
-    >>> moves = [Rise("35 mm", "0.1 s", law="cycloidal"), Return(law="cycloidal")]
-    >>> (taken,) = Cycle(moves, period="0.25 s", limits={"velocity": "616 mm/s"}).unchecked().limits_taken
-    >>> print(taken, round(taken.share, 4), taken.is_kept)
-    segment 1 (Rise): velocity, 700 mm/s of 616 mm/s 1.1364 False
     """
     given = plan.specification if limited is None else limited
     of_cycle = read_limits(given.limits, plan.axis, "limits")
@@ -137,16 +129,7 @@ def _reason_of_whole(broken: LimitTaken) -> str:
 
 
 def limit_rows(plan: Plan) -> list[Row]:
-    """Rows of limits: the value in the segment that uses most of the limit, with its time and the limit.
-
-    Examples
-    --------
-    >>> from optlaws import Cycle, Return, Rise
-    >>> limits = {"deceleration": "14 m/s^2", "acceleration": "25 m/s^2"}
-    >>> cycle = Cycle([Rise("35 mm", "0.1 s"), Return()], period="0.25 s", limits=limits, minimise="jerk")
-    >>> [(row.name, round(row.value, 6), row.note) for row in limit_rows(cycle.solve())][0]
-    ('deceleration', 14.0, 'limit 14 m/s^2 of segment 1 (Rise)')
-    """
+    """Rows of limits: the value in the segment that uses most of the limit, with its time and the limit."""
     limits = read_limits(plan.limits, plan.axis, "limits")
     taken_of = _of_segments(plan.peaks, plan.specification, limits, plan.programme.stretches, keys=_is_unshown)
     return [

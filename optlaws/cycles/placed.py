@@ -59,10 +59,13 @@ class SegmentPeaks:
     @kept_property
     def extremes(self) -> tuple[tuple[Place, Place], ...]:
         """The least and the greatest value of the position and of its derivatives up to the jerk, with their times."""
-        return tuple(map(self.ends, range(len(QUANTITIES))))
+        return tuple(map(self._ends, range(len(QUANTITIES))))
 
     def ends(self, nu: int) -> tuple[Place, Place]:
         """The least and the greatest value of a derivative over the whole of it, each with its time."""
+        return self.extremes[nu] if nu < len(QUANTITIES) else self._ends(nu)
+
+    def _ends(self, nu: int) -> tuple[Place, Place]:
         if self.moves or nu == 0:
             return self.piece.extremes(nu, self.start, self.stop)
         # straight: what its law has beside is rounding
@@ -70,7 +73,7 @@ class SegmentPeaks:
 
     def peak(self, nu: int) -> float:
         """The greatest magnitude of the derivative of order nu."""
-        return max(abs(value) for value, _ in self.extremes[nu])
+        return max(abs(value) for value, _ in self.ends(nu))
 
 
 def segments_in_place(

@@ -75,25 +75,19 @@ class CycleReport:
     @kept_property
     def tables(self) -> tuple[ReportTable, ...]:
         """The segments with their ends and their peaks, and the whole cycle."""
-        rows = self._segment_rows()
-        sized = [f"peak {DERIVATIVES[nu]}, {self.unit(nu)[0]}" for nu in self.orders[1:]]
-        headings = ["segment", "from, ms", "takes, ms", "takes, deg", f"ends at, {self.units[0][0]}", *sized]
-        whole = map(max, zip(*(row[-len(sized) :] for row in rows), strict=True))
-        last = ["whole cycle", 0.0, MILLI * self.plan.duration, TURN_DEG, None, *whole]
-        return (ReportTable(headings, [*rows, last]),)
-
-    def _segment_rows(self) -> list[list[Any]]:
-        plan, factor = self.plan, self.units[0][1]
-        position, rows = plan.programme.start, []
-        for stretch, peaks in zip(plan.programme.stretches, plan.peaks, strict=True):
-            position += stretch.displacement
+        plan, (unit, factor), rows = self.plan, self.units[0], list[list[Any]]()
+        position = plan.programme.start
+        for each in plan.peaks:
+            position += each.stretch.displacement
             size = factor * max(abs(position), abs(plan.peak(0)))
-            times = [MILLI * peaks.start, MILLI * peaks.duration, TURN_DEG * peaks.duration / plan.duration]
-            rows.append([peaks.name, *times, chop(factor * position, size, CYCLE_ROUNDING)])
-        for nu in self.orders[1:]:
-            for row, ends in zip(rows, self.extremes(nu), strict=True):
-                row.append(max(abs(value) for value, _ in ends) * self.unit(nu)[1])
-        return rows
+            times = [MILLI * each.start, MILLI * each.duration, TURN_DEG * each.duration / plan.duration]
+            peaks = [each.peak(nu) * self.unit(nu)[1] for nu in self.orders[1:]]
+            rows.append([each.name, *times, chop(factor * position, size, CYCLE_ROUNDING), *peaks])
+        sized = [f"peak {DERIVATIVES[nu]}, {self.unit(nu)[0]}" for nu in self.orders[1:]]
+        headings = ["segment", "from, ms", "takes, ms", "takes, deg", f"ends at, {unit}", *sized]
+        whole = map(max, zip(*(row[-len(sized) :] for row in rows), strict=True))
+        last = ["whole cycle", 0.0, MILLI * plan.duration, TURN_DEG, None, *whole]
+        return (ReportTable(headings, [*rows, last]),)
 
     def motion(self, count: int) -> ReportTable:
         """Angle, time, position, velocity, acceleration and jerk at equal steps over the cycle.
@@ -202,7 +196,7 @@ class CycleReport:
 
     def extremes(self, nu: int) -> list[tuple[Place, Place]]:
         """The least and the greatest value of a derivative in each segment, with their times."""
-        return [peaks.extremes[nu] if nu < len(QUANTITIES) else peaks.ends(nu) for peaks in self.plan.peaks]
+        return [each.ends(nu) for each in self.plan.peaks]
 
     def panel(self, nu: int, unit: tuple[str, float] | None = None) -> Panel:
         """A derivative of the motion, through its extremes, with the limits of the segments."""
@@ -238,8 +232,8 @@ class CycleReport:
         drive: dict[str, Any] = {} if plan.drive is None else {"effort": plan.effort.to_dict()}
         if isinstance(plan.drive, Drive):
             drive["motor"] = plan.sheet.to_dict()
-        if plan.load is not None and not is_process(plan.load):
-            drive["load"] = {name: plan.load_motion.peak(name).value for name in plan.load_motion.machine.outputs}
+        if loaded := load_peaks(plan):
+            drive["load"] = loaded
         return {
             "period": plan.duration,
             "status": plan.status.value,
@@ -364,15 +358,6 @@ def jerk_rows(plan: Plan) -> list[Row]:
     """The jerk of a cycle of least acceleration over modified sine's, and the least acceleration with no more jerk.
 
     Nothing where the comparison says nothing: see `Cycle.modified_sine_jerk`.
-
-    Examples
-    --------
-    >>> from optlaws import Cycle, Return, Rise
-    >>> cycle = Cycle([Rise("35 mm", "0.1 s"), Return()], period="0.25 s")
-    >>> for row in jerk_rows(cycle.solve()):
-    ...     print(row.name, row.text(4), row.unit, row.note, sep="; ")
-    peak jerk over that of modified sine; 4.146; ; modified sine has 2431.32 m/s³ in these motions
-    least acceleration with no more jerk than modified sine; 17.2; m/s²; limits={"jerk": "2431.325 m/s^3"}
     """
     usual = plan.specification.modified_sine_jerk
     if usual is None or plan.peak(_JERK) <= usual:
@@ -411,22 +396,23 @@ def drive_rows(plan: Plan) -> list[Row]:
                 Row("energy of a cycle, motoring", effort.motoring_energy, "J"),
                 Row("energy of a cycle, braking", effort.braking_energy, "J"),
             ]
-    if plan.load is not None and not is_process(plan.load):
-        for name in plan.load_motion.machine.outputs:
-            peak = plan.load_motion.peak(name).value
-            rows.append(Row(f"peak of the load's {name}", peak, load_unit(plan, name)))
-    return rows
+    loaded = load_peaks(plan).items()
+    return rows + [Row(f"peak of the load's {name}", peak, load_unit(plan, name)) for name, peak in loaded]
+
+
+def load_peaks(plan: Plan) -> dict[str, float]:
+    """The peaks of the outputs of an elastic load, in SI units; nothing without one."""
+    if plan.specification.in_si.load is None:
+        return {}
+    return {name: plan.load_motion.peak(name).value for name in plan.load_motion.machine.outputs}
 
 
 def joint_rows(plan: Plan) -> list[Row]:
     """The greatest jumps of velocity and acceleration where segments meet."""
+    jumps = {name: max(abs(joint[name]) for joint in plan.joints) for name in QUANTITIES[1:3]}
     return [
-        Row(
-            f"greatest jump of the {name} at a joint",
-            max(abs(joint[name]) for joint in plan.joints),
-            unit_of(plan.axis, nu),
-        )
-        for nu, name in enumerate(QUANTITIES[1:3], 1)
+        Row(f"greatest jump of the {name} at a joint", jump, unit_of(plan.axis, nu))
+        for nu, (name, jump) in enumerate(jumps.items(), 1)
     ]
 
 

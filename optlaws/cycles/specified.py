@@ -6,7 +6,6 @@ from collections.abc import Mapping, Sequence
 from dataclasses import KW_ONLY, replace
 from typing import TYPE_CHECKING, Any, Self
 
-from optlaws.cycles.jerk_comparison import usual_jerk
 from optlaws.cycles.optimisation.durations import durations
 from optlaws.cycles.optimisation.joint_limits import check_limits_at_joints
 from optlaws.cycles.optimisation.motion_limits import both_sides, read_limits, tightest
@@ -20,7 +19,7 @@ from optlaws.cycles.optimisation.objectives import (
 )
 from optlaws.cycles.specification.drive import CONSTANTS, read_drive
 from optlaws.cycles.specification.frozen import FrozenTable, frozen, thawed
-from optlaws.cycles.specification.joints import Layout, layout
+from optlaws.cycles.specification.joints import Layout, State, layout
 from optlaws.cycles.specification.limit_entries import LIMITS_OF_CYCLE
 from optlaws.cycles.specification.load import ElasticLoad, Load, read_load
 from optlaws.cycles.specification.process import is_process, read_process
@@ -33,6 +32,7 @@ from optlaws.errors import InputError
 from optlaws.files.tables import to_toml
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
+from optlaws.laws.catalogue.catalogue import catalogue
 from optlaws.numbers import MOST_DEGREE, Quantity
 
 if TYPE_CHECKING:
@@ -42,6 +42,7 @@ if TYPE_CHECKING:
 FORMAT = "optlaws cycle 1"
 CLOCK = ("speed", "period")
 _JERK = 3
+_REST = State(0.0, 0.0)
 _SHOWN = 6  # segments in a line
 
 
@@ -263,7 +264,18 @@ class Specification(Declared, title="a stored cycle"):
         >>> round(cycle.modified_sine_jerk, 3), round(cycle.peak(3) / cycle.modified_sine_jerk, 6)
         (4201.325, 4.145892)
         """
-        return usual_jerk(self.layout.spans, self.in_si, self.axis)
+        if self.minimise != "acceleration":
+            return None
+        greatest = 0.0
+        for span in self.layout.spans:
+            bounded = any(
+                side.kind.order >= _JERK for side in limits_of_stretch(span.stretches[0], self.in_si, self.axis)
+            )
+            if bounded or span.via or len(span.stretches) > 1 or (span.first, span.last) != (_REST, _REST):
+                return None
+            jerk = catalogue["modified sine"].law.constants.J.value * abs(span.displacement) / span.duration**_JERK
+            greatest = max(greatest, jerk)
+        return greatest or None
 
     def to_dict(self) -> dict[str, Any]:
         """The entries of the cycle, plain and JSON-able; its laws are optimised again after reading.

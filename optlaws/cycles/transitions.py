@@ -238,16 +238,7 @@ class TransitionCam(Exportable, Declared, title="a transition cam"):
         return super().to_dict() | ({} if self.least is None else {"best": None})
 
     def claims(self) -> dict[str, Any]:
-        """The law and its proof as `optlaws verify` takes them; of a run-out it runs backwards in time.
-
-        Examples
-        --------
-        >>> from optlaws import Cycle, Return, Rise
-        >>> from optlaws.verification import verify_all
-        >>> cycle = Cycle([Rise("35 mm", "180 deg", law="cycloidal"), Return(law="cycloidal")], speed="60 rpm")
-        >>> [checked.proven for checked in verify_all(cycle.run_in("90 deg", over="120 deg").claims()).values()]
-        [True]
-        """
+        """The law and its proof as `optlaws verify` takes them; of a run-out it runs backwards in time."""
         value = self.solution if self.least is None else self.least
         return {"law": value.to_dict()}
 
