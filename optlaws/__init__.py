@@ -60,7 +60,7 @@ declare(
         "optlaws.exports.formats.twincat": "twincat-mc3 twincat-nc2 twincat-table",
     },
 )
-declare("what moves", {"optlaws.mechanisms.drives.drive_train": "mechanism drive"})
+declare("what moves", {"optlaws.mechanisms.drives.moved": "mechanism drive"})
 declare("plain constant", {"optlaws.balancing.loaders.constants": "B_loader C_loader D_loader"})
 declare(
     "constant",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
-from typing import Any, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
@@ -20,20 +20,14 @@ from optlaws.mechanisms.drives.motor import NO_MOTOR, Motor
 from optlaws.mechanisms.linkages.dimensionless import LinearForce, StrokeTorque, Train
 from optlaws.mechanisms.linkages.mechanism import DIMENSIONS, Mechanism, duration_of
 from optlaws.mechanisms.linkages.mechanism_kinds import MECHANISM
-from optlaws.mechanisms.linkages.move_limit import (
-    MOVED,
-    LimitedMove,
-    MovedKind,
-    MoveLimit,
-    PhaseMove,
-    limits_of_input,
-    move_limit,
-)
 from optlaws.motion.piece import Piece, named_law
 from optlaws.motion.quantities import check_scale, si_number
 from optlaws.numbers import Array, NumberOrQuantity, positive
-from optlaws.synthesis.limits.drive_limits import DriveObjective
 from optlaws.tolerances import CLOSURE
+
+if TYPE_CHECKING:
+    from optlaws.mechanisms.linkages.move_limit import MoveLimit
+    from optlaws.synthesis.limits.drive_limits import DriveObjective
 
 _SHARE = Number(above=0.0, most=1.0)
 Efficiency: TypeAlias = Kept[tuple[float, float], "float | tuple[float, float]"]
@@ -277,6 +271,8 @@ class Drive(Declared, title="a drive"):
         >>> print(drive.limit("rms torque", "0 deg", "45 deg", "0.25 s"))
         rms torque at least 2.02548 N m
         """
+        from optlaws.mechanisms.linkages.move_limit import LimitedMove, limits_of_input, move_limit
+
         way = self.mechanism.dimensionless(start, stroke, duration_of(minimise, duration))
         bounds = limits_of_input(limits, DIMENSIONS[self.mechanism.axis])
         time = None if duration is None else way.duration
@@ -405,20 +401,3 @@ class Drive(Declared, title="a drive"):
             raise InputError(f"period must be at least the duration of the move, {moved.duration:g} s, got {time:g} s")
         piece = Piece(0.0, moved.duration, moved.start, moved.stroke, named_law(law, "drive"))
         return piece, max(time, moved.duration)
-
-
-def phase_move_of(move: LimitedMove) -> PhaseMove:
-    """A move of a mechanism or a drive without dimensions, within what a motor allows."""
-    drive = move.driven if isinstance(move.driven, Drive) else None
-    if drive is None:
-        assert isinstance(move.driven, Mechanism)  # noqa: S101 - no other moves
-        drive = Drive.of_input(move.driven, move.recovered)
-    moved = drive.dimensionless(move.start, move.stroke, duration_of(move.minimise, move.duration))
-    dimensions = DIMENSIONS[drive.mechanism.axis]
-    lines = [] if move.minimise == "peak torque" else drive.motor.peak_lines
-    speed, torques = drive.motor.greatest_speed / drive.ratio, [(top, fall * drive.ratio) for top, fall in lines]
-    return PhaseMove.within(moved, move, dimensions, speed, torques)
-
-
-MOVED["mechanism"] = MovedKind(Mechanism, phase_move_of)
-MOVED["drive"] = MovedKind(Drive, phase_move_of)

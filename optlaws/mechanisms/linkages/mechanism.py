@@ -26,7 +26,6 @@ from optlaws.formulas.tree import Formula, Name, Table, table_places
 from optlaws.kept import kept_property
 from optlaws.mechanisms.linkages.dimensionless import LinearForce, StrokeTorque, dimensionless
 from optlaws.mechanisms.linkages.entries import FORMULA, OverPlace, formula_of, line_of, rescaled
-from optlaws.mechanisms.linkages.move_limit import LimitedMove, MoveLimit, limits_of_input, move_limit
 from optlaws.motion.quantities import check_scale, either, in_small_units, si_number
 from optlaws.numbers import Array, NumberOrQuantity, derivative, finite, not_negative, positive, real_times
 from optlaws.numerics.branch_and_bound import extremes
@@ -36,6 +35,7 @@ from optlaws.suggest import unknown_key
 from optlaws.tolerances import CLOSURE, OPERATIONS_ROUNDING, VALUE_ROUNDING
 
 if TYPE_CHECKING:
+    from optlaws.mechanisms.linkages.move_limit import MoveLimit
     from optlaws.synthesis.limits.drive_limits import DriveObjective
 
 InputAxis = Literal["angle", "length"]
@@ -437,6 +437,8 @@ class Mechanism(JsonText):
         >>> print(table.limit("time", "0 deg", "45 deg", limits={"torque": "50 N m", "velocity": "6 rad/s"}))
         time at least 0.2269 s
         """
+        from optlaws.mechanisms.linkages.move_limit import LimitedMove, limits_of_input, move_limit
+
         moved = self.dimensionless(start, stroke, duration_of(minimise, duration))
         bounds = limits_of_input(limits, DIMENSIONS[self.axis])
         time = None if duration is None else moved.duration
