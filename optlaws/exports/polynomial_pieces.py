@@ -15,7 +15,7 @@ import numpy as np
 from optlaws.errors import InputError
 from optlaws.exports.error_bounds import SINGLE, error_bounds
 from optlaws.exports.format import BEST, Request
-from optlaws.exports.text import Labels, iec_comment, program_heading, real, rounded_up
+from optlaws.exports.text import Labels, iec_comment, program_heading, rounded_up
 from optlaws.files.writing import MARK
 from optlaws.laws.law import MotionLaw
 from optlaws.laws.polynomial import PolynomialLaw
@@ -324,16 +324,6 @@ def labels_of(motion: Motion, notes: Sequence[str] = ()) -> Labels:
 def iec_heading(title: str, motion: Motion, run: PiecewiseMotion, notes: Sequence[str]) -> str:
     """The comment at the head of a program in a language of IEC 61131-3."""
     return iec_comment((title, *program_heading(run, labels_of(motion, notes), []), MARK))
-
-
-def fields(**values: object) -> str:
-    """Fields of a structure with their values, floats as literals.
-
-    >>> fields(PointIndex=1, MasterPos=0.5)
-    'PointIndex := 1, MasterPos := 0.5'
-    """
-    texts = ((name, real(value) if isinstance(value, float) else str(value)) for name, value in values.items())
-    return ", ".join(f"{name} := {text}" for name, text in texts)
 
 
 def jumps_of_single(run: PiecewiseMotion) -> tuple[float, ...]:

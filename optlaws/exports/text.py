@@ -305,3 +305,23 @@ def st_array(name: str, kind: str, values: Sequence[str]) -> list[str]:
     ['    breaks : ARRAY[0..1] OF LREAL := [', '        0.0, 1.0', '    ];']
     """
     return [f"    {name} : ARRAY[0..{len(values) - 1}] OF {kind} := [", *wrapped(values, "        "), "    ];"]
+
+
+def fields(**values: object) -> str:
+    """Fields of a structure with their values, floats as literals.
+
+    >>> fields(PointIndex=1, MasterPos=0.5)
+    'PointIndex := 1, MasterPos := 0.5'
+    """
+    texts = ((name, real(value) if isinstance(value, float) else str(value)) for name, value in values.items())
+    return ", ".join(f"{name} := {text}" for name, text in texts)
+
+
+def st_records(name: str, kind: str, records: Sequence[str], indent: str = "    ") -> list[str]:
+    r"""Lines of an array of structures, from 1, with the fields of each.
+
+    >>> st_records("cam", "POINT", ["x := 0.0", "x := 1.0"])
+    ['    cam : ARRAY[1..2] OF POINT := [', '        (x := 0.0),\n        (x := 1.0)', '    ];']
+    """
+    rows = ",\n".join(f"{indent}    ({record})" for record in records)
+    return [f"{indent}{name} : ARRAY[1..{len(records)}] OF {kind} := [", rows, f"{indent}];"]

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from optlaws.exports.format import Request, Written, file_format
 from optlaws.exports.point_tables import chosen_table
-from optlaws.exports.polynomial_pieces import fields, iec_heading, polynomials_for
-from optlaws.exports.text import iec_comment, iec_name, real, table_heading
+from optlaws.exports.polynomial_pieces import iec_heading, polynomials_for
+from optlaws.exports.text import fields, filled, iec_comment, iec_name, real, table_heading, template
 from optlaws.motion.motion import Motion
 
 MOST = 32_767  # nElements is an INT
@@ -25,7 +25,7 @@ def _xyva(motion: Motion, request: Request) -> Written:
     name = iec_name(request.name, "CODESYS")
     table = chosen_table(motion, request, "quintic", MOST)
     rows = [
-        f"        (dX := {real(x)}, dY := {real(y)}, dV := {real(v)}, dA := {real(a)})"
+        f"        ({fields(dX=x, dY=y, dV=v, dA=a)})"
         for x, (y, v, a) in zip(table.x.tolist(), table.values.T.tolist(), strict=True)
     ]
     count = len(rows)
@@ -110,33 +110,17 @@ def _cam_builder(motion: Motion, request: Request) -> Written:
         f"the library's parameter MAX_CAM_SEGMENT_COUNT must be at least {count}",
         "library SM3_CamBuilder, namespace SMCB, of SoftMotion 4.17 or later",
     )
-    segments = [
-        f"    camBuilder.Append(SMCB.Poly7_Coeffs({_coefficients(low, high, row)}));"
-        for low, high, row in zip(run.breaks, run.breaks[1:], run.coefficients, strict=False)
-    ]
-    text = "\n".join(
-        [
-            iec_heading(f"{name}: a cam for the CamBuilder of CODESYS SoftMotion", motion, run, notes)
-            + f"FUNCTION_BLOCK {name}",
-            "VAR_OUTPUT",
-            "    camRef : MC_CAM_REF;",
-            "END_VAR",
-            "VAR",
-            "    camBuilder : SMCB.CamBuilder;",
-            f"    segments : ARRAY[1..{count}] OF SMC_CAM_SEGMENT;",
-            "    built : BOOL := FALSE;",
-            "END_VAR",
-            "IF NOT built THEN",
-            "    camBuilder.Init();",
-            *segments,
-            "    SMCB.InitCamRef(camRef, ADR(segments), XSIZEOF(segments));",
-            "    camBuilder.Write(camRef);",
-            "    built := TRUE;",
-            "END_IF;",
-            "END_FUNCTION_BLOCK",
-            "",
-        ]
-    )
+    heading = iec_heading(f"{name}: a cam for the CamBuilder of CODESYS SoftMotion", motion, run, notes)
+    words = {
+        "HEADING": heading.splitlines()[1:-1],
+        "NAME": name,
+        "COUNT": count,
+        "SEGMENTS": [
+            f"camBuilder.Append(SMCB.Poly7_Coeffs({_coefficients(low, high, row)}));"
+            for low, high, row in zip(run.breaks, run.breaks[1:], run.coefficients, strict=False)
+        ],
+    }
+    text = filled(template("codesys.st"), words)
     return Written(text, run, "exact polynomials of degree 7", count, "segments", notes=notes)
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import struct
-from collections.abc import Sequence
 from functools import partial
 
 from optlaws.exports.format import MOST_POINTS, Request, Written, file_format
@@ -12,7 +11,7 @@ from optlaws.exports.text import iec_comment, iec_name, real, table_heading
 from optlaws.motion.motion import Motion
 from optlaws.motion.polynomials import PiecewiseMotion
 
-SEGMENT_TYPES = {"linear": 0, "cubic": 1}
+SEGMENT_TYPES = ("linear", "cubic")  # by their codes
 CALCULATED = 2  # Status of an element of CAM_PROFILE
 _CUBIC = "C2 cubic spline clamped to StartSlope and EndSlope"
 _logix = partial(
@@ -32,42 +31,37 @@ def profile_rows(run: PiecewiseMotion, *, cubic: bool = True) -> list[list[int]]
     Status, X, Y, segment type, C0, C1, C2, C3: y = Y + C1 d + C2 d² + C3 d³ with d = x - X. The last element is the
     last point alone.
     """
-    kind = SEGMENT_TYPES["cubic" if cubic else "linear"]
-    rows = []
-    for x, powers in zip(run.breaks, run.coefficients, strict=False):
-        y, *slopes = (*powers, 0.0, 0.0, 0.0)[:4]
-        rows.append(_row(x, y, kind, (0.0, *slopes)))
-    return [*rows, _row(run.stop, float(run.ends(0)[1][-1]), kind, (0.0,) * 4)]
+    rows = [*zip(run.breaks, run.coefficients, strict=False), (run.stop, (float(run.ends(0)[1][-1]),))]
+    return [
+        [CALCULATED, *_halves(x, y), int(cubic), *_halves(0.0, *(*slopes, 0.0, 0.0, 0.0)[:3])]
+        for x, (y, *slopes) in rows
+    ]
 
 
-def _row(x: float, y: float, kind: int, constants: Sequence[float]) -> list[int]:
-    return [CALCULATED, *_halves(x), *_halves(y), kind, *(half for constant in constants for half in _halves(constant))]
+def _halves(*values: float) -> list[int]:
+    return [half for value in values for half in _HALVES.unpack(_DOUBLE.pack(value + 0.0))]
 
 
-def _halves(value: float) -> tuple[int, ...]:
-    return _HALVES.unpack(_DOUBLE.pack(value + 0.0))
-
-
-def _table(motion: Motion, request: Request, *, single: bool) -> PointTable:
+def _table(motion: Motion, request: Request, *, single: bool) -> tuple[PointTable, bool]:
+    """The table, and whether it is of cubics."""
     interpolation = request.interpolation_among(SEGMENT_TYPES)
-    return chosen_table(motion, request, interpolation, MOST_POINTS, single=single)
+    return chosen_table(motion, request, interpolation, MOST_POINTS, single=single), interpolation == "cubic"
 
 
 def _array(motion: Motion, request: Request, *, single: bool) -> Written:
     name = iec_name(request.name, "Logix")
-    table = _table(motion, request, single=single)
-    kind = SEGMENT_TYPES[request.interpolation_among(SEGMENT_TYPES)]
-    slopes = end_slopes(motion, NumberFormat(single=single))
-    start, end = (real(float(slope), single=single) for slope in slopes)
+    table, cubic = _table(motion, request, single=single)
+    start, end = (real(slope, single=single) for slope in end_slopes(motion, NumberFormat(single=single)).tolist())
     rows = [
         f"{name}[{i}].Master := {real(x, single=single)}; {name}[{i}].Slave := {real(y, single=single)}; "
-        f"{name}[{i}].SegmentType := {kind};"
+        f"{name}[{i}].SegmentType := {int(cubic)};"
         for i, (x, y) in enumerate(zip(table.x.tolist(), table.values[0].tolist(), strict=True))
     ]
     structure = "CAM" if single else "CAM_EXTENDED"
-    notes = (f"tag {name} : {structure}[{len(rows)}]", f"MCCP: StartSlope = {start}, EndSlope = {end}")
-    text = iec_comment((*notes, *table_heading(motion, f"Rockwell Logix, {structure}"))) + "\n".join([*rows, ""])
-    return _written(text, table, request, notes[1:])
+    slopes = f"MCCP: StartSlope = {start}, EndSlope = {end}"
+    heading = table_heading(motion, f"Rockwell Logix, {structure}")
+    text = iec_comment((f"tag {name} : {structure}[{len(rows)}]", slopes, *heading)) + "\n".join([*rows, ""])
+    return table.written(text, _CUBIC if cubic else "straight lines", (slopes,))
 
 
 @_logix(
@@ -78,16 +72,10 @@ def _array(motion: Motion, request: Request, *, single: bool) -> Written:
 )
 def _profile(motion: Motion, request: Request) -> Written:
     name = iec_name(request.name, "Logix")
-    table = _table(motion, request, single=False)
-    rows = profile_rows(table.run, cubic=request.interpolation_among(SEGMENT_TYPES) == "cubic")
-    data = ",\n".join(f"  [{','.join(map(str, row))}]" for row in rows)
+    table, cubic = _table(motion, request, single=False)
+    data = ",\n".join(f"  [{','.join(map(str, row))}]" for row in profile_rows(table.run, cubic=cubic))
     text = iec_comment(table_heading(motion, "Rockwell Logix, elements of CAM_PROFILE")) + f"{name} := [\n{data}\n];\n"
-    return _written(text, table, request)
-
-
-def _written(text: str, table: PointTable, request: Request, notes: tuple[str, ...] = ()) -> Written:
-    cubic = request.interpolation_among(SEGMENT_TYPES) == "cubic"
-    return table.written(text, _CUBIC if cubic else "straight lines", notes)
+    return table.written(text, _CUBIC if cubic else "straight lines")
 
 
 _logix(

@@ -13,9 +13,9 @@ from optlaws.exports.format import MOST_POINTS, Request, Written, file_format
 from optlaws.exports.point_tables import DEGREES, NumberFormat, PointTable, chosen, hermite_table
 from optlaws.exports.text import table_heading
 from optlaws.files.writing import MARK
-from optlaws.motion.motion import Motion, Units
-from optlaws.motion.polynomials import PiecewiseMotion
-from optlaws.motion.quantities import quantity
+from optlaws.motion.motion import SLAVES, Motion, Units
+from optlaws.motion.piece import unit_of
+from optlaws.motion.quantities import either
 from optlaws.numbers import Array
 from optlaws.numerics.splines import hermite_powers
 
@@ -39,10 +39,12 @@ def joints(motions: Mapping[str, Motion], request: Request) -> dict[str, Written
         places = np.unique(np.concatenate([table.x for table in tables.values()]))
         tables = {name: _at(motion, places, orders) for name, motion in seconds.items()}
     text = _text(seconds, tables)
-    return {
-        name: Written(text, _back(table.run, motions[name]), DEGREES[orders], len(table.x))
-        for name, table in tables.items()
-    }
+    written = {}
+    for name, table in tables.items():
+        units = motions[name].units
+        run = table.run.in_units(units.rate or 1.0, 1.0 / either(f"1 {units.slave}", SLAVES, "slave")[1])
+        written[name] = Written(text, run, DEGREES[orders], len(table.x))
+    return written
 
 
 @file_format(
@@ -60,8 +62,14 @@ def _write(motion: Motion, request: Request) -> Written:
 
 
 def _table(motion: Motion, request: Request, orders: int) -> PointTable:
+    """The table with its times in whole nanoseconds, as messages hold them."""
+
     def make(count: int) -> PointTable:
-        return _timed(hermite_table(motion, count, NumberFormat(), orders))
+        table = hermite_table(motion, count, NumberFormat(), orders)
+        x = np.rint(table.x * _NANO) / _NANO
+        if (np.diff(x) <= 0.0).any():
+            raise InputError(f"{len(x)} points are closer than a nanosecond: take fewer")
+        return replace(table, x=x, powers=hermite_powers(x, table.values))
 
     return chosen(motion, request, make, least=2, most=MOST_POINTS)
 
@@ -77,32 +85,9 @@ def _at(motion: Motion, places: Array, orders: int) -> PointTable:
 
 def _in_si(motion: Motion) -> Motion:
     """The motion in m or rad, the units of ROS."""
-    dimension, unit = ("angle", "rad") if _is_angle(motion.units.slave) else ("length", "m")
-    size = quantity(f"1 {motion.units.slave}", dimension, "slave")
+    axis, size = either(f"1 {motion.units.slave}", SLAVES, "slave")
     pieces = tuple(replace(piece, offset=size * piece.offset, stroke=size * piece.stroke) for piece in motion.pieces)
-    return replace(motion, pieces=pieces, units=Units("s", unit, 1.0))
-
-
-def _is_angle(unit: str) -> bool:
-    try:
-        quantity(f"1 {unit}", "angle", "slave")
-    except InputError:
-        return False
-    return True
-
-
-def _timed(table: PointTable) -> PointTable:
-    """The table with its times in whole nanoseconds, as messages hold them."""
-    x = np.rint(table.x * _NANO) / _NANO
-    if (np.diff(x) <= 0.0).any():
-        raise InputError(f"{len(x)} points are closer than a nanosecond: take fewer")
-    return replace(table, x=x, powers=hermite_powers(x, table.values))
-
-
-def _back(run: PiecewiseMotion, motion: Motion) -> PiecewiseMotion:
-    """The run by the motion's own master and in its slave's unit."""
-    dimension = "angle" if _is_angle(motion.units.slave) else "length"
-    return run.in_units(motion.units.rate or 1.0, 1.0 / quantity(f"1 {motion.units.slave}", dimension, "slave"))
+    return replace(motion, pieces=pieces, units=Units("s", unit_of(axis), 1.0))
 
 
 def _text(motions: Mapping[str, Motion], tables: Mapping[str, PointTable]) -> str:
@@ -111,8 +96,7 @@ def _text(motions: Mapping[str, Motion], tables: Mapping[str, PointTable]) -> st
     x, values = next(iter(tables.values())).x, np.array([table.values for table in tables.values()])
     for time, rows in zip(x.tolist(), values.transpose(2, 1, 0).tolist(), strict=True):
         nanoseconds = round(time * _NANO)
-        number_format = (f"  {field}: {row!r}" for field, row in zip(FIELDS, rows, strict=False))
-        first, *others = (line[2:] for line in number_format)
-        lines += [f"- {first}", *(f"  {line}" for line in others)]
-        lines.append(f"  time_from_start: {{sec: {nanoseconds // _NANO}, nanosec: {nanoseconds % _NANO}}}")
+        entries = [f"{field}: {row!r}" for field, row in zip(FIELDS, rows, strict=False)]
+        entries.append(f"time_from_start: {{sec: {nanoseconds // _NANO}, nanosec: {nanoseconds % _NANO}}}")
+        lines += [f"- {entries[0]}", *(f"  {entry}" for entry in entries[1:])]
     return "\n".join([*lines, ""])

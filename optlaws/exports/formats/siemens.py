@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 
 import numpy as np
 
 from optlaws.exports.format import Request, Written, file_format
-from optlaws.exports.polynomial_pieces import Ends, Fitted, ends_of, fields, iec_heading, polynomials_for, refuse_jumps
-from optlaws.exports.text import iec_name
+from optlaws.exports.polynomial_pieces import Ends, Fitted, ends_of, iec_heading, polynomials_for, refuse_jumps
+from optlaws.exports.text import fields, iec_name, st_records
 from optlaws.motion.motion import Motion
 from optlaws.motion.polynomials import PiecewiseMotion
 from optlaws.numerics.splines import hermite_powers
@@ -21,67 +22,61 @@ DWELL, CONST_VELO, POLY_5, ADD_POLY = 2, 3, 5, 44
 START_JERK = 1  # LCAMHDL_POLY_MODE_BOUNDARY_VALUES_AND_START_JERK
 
 
-@file_format(
+_siemens = partial(file_format, extension=".st")
+
+
+def _elements(motion: Motion, request: Request, *, degree: int, kind: str, model: str) -> Written:
+    name = iec_name(request.name, "SIMATIC AX")
+    fit = polynomials_for(motion, request, degree, SEGMENTS)
+    ends = ends_of(motion, fit.run, 3 if degree == 5 else 4)
+    run = PiecewiseMotion(fit.run.breaks, [_quintic(end) if degree == 5 else _sixth(end) for end in ends])
+    rows = [
+        fields(**_bounds(end), **(_profile(row) if degree == 5 else _start_jerk(end)))
+        for end, row in zip(ends, fit.run.coefficients, strict=True)
+    ]
+    text, notes = _configuration(name, kind, rows, motion, (run, fit))
+    return Written(text, run, model, len(rows), "segments", notes=notes)
+
+
+_siemens(
     "siemens-elements",
     target="Siemens S7-1500T, LCamHdl_typeAdvancedElement of LCamHdl_CreateCamAdvanced",
     contents="leading and following values, geoVelo and geoAccel at both ends (LREAL), camProfileType",
     model="quintic polynomials, straight lines, dwells",
     limits=f"at most {SEGMENTS} segments in a TO_Cam; degree 5 (POLY_7 takes two segments of degree 6: not used)",
-    extension=".st",
-)
-def _write_elements(motion: Motion, request: Request) -> Written:
-    name = iec_name(request.name, "SIMATIC AX")
-    fit = polynomials_for(motion, request, 5, SEGMENTS)
-    ends = ends_of(motion, fit.run, 3)
-    rows = [
-        fields(**_bounds(end), camProfileType=_profile(row))
-        for end, row in zip(ends, fit.run.coefficients, strict=True)
-    ]
-    run = PiecewiseMotion(fit.run.breaks, [_quintic(end) for end in ends])
-    text, notes = _configuration(name, "LCamHdl_typeAdvancedElement", rows, motion, (run, fit))
-    return Written(text, run, "quintic polynomials by their ends", len(rows), "segments", notes=notes)
-
-
-@file_format(
+)(partial(_elements, degree=5, kind="LCamHdl_typeAdvancedElement", model="quintic polynomials by their ends"))
+_siemens(
     "siemens-polynomials",
     target="Siemens S7-1500T, LCamHdl_typePolynomialElement of LCamHdl_AddCamPolynomial",
     contents="leading and following values, geoVelo and geoAccel at both ends, geoJerkStart (LREAL), polynomialMode 1",
     model="exact polynomials of degree 6",
     limits=f"at most {SEGMENTS} segments in a TO_Cam, degree 6",
-    extension=".st",
-)
-def _write_polynomials(motion: Motion, request: Request) -> Written:
-    name = iec_name(request.name, "SIMATIC AX")
-    fit = polynomials_for(motion, request, 6, SEGMENTS)
-    ends = ends_of(motion, fit.run, 4)
-    rows = [
-        fields(**_bounds(end), geoJerkStart=end.first[3], camProfileType=ADD_POLY, polynomialMode=START_JERK)
-        for end in ends
-    ]
-    run = PiecewiseMotion(fit.run.breaks, [_sixth(end) for end in ends])
-    text, notes = _configuration(name, "LCamHdl_typePolynomialElement", rows, motion, (run, fit))
-    return Written(
-        text, run, "polynomials of degree 6 by their ends and start jerk", len(rows), "segments", notes=notes
+)(
+    partial(
+        _elements,
+        degree=6,
+        kind="LCamHdl_typePolynomialElement",
+        model="polynomials of degree 6 by their ends and start jerk",
     )
+)
 
 
 def _bounds(ends: Ends) -> dict[str, object]:
     """The fields that elements of all kinds have."""
+    names = ("leadingValue", "followingValue", "geoVelo", "geoAccel")
+    sides = zip(names, (ends.x[0], *ends.first), (ends.x[1], *ends.last), strict=False)
     return {
-        "leadingValueStart": ends.x[0],
-        "leadingValueEnd": ends.x[1],
-        "followingValueStart": ends.first[0],
-        "followingValueEnd": ends.last[0],
-        "geoVeloStart": ends.first[1],
-        "geoVeloEnd": ends.last[1],
-        "geoAccelStart": ends.first[2],
-        "geoAccelEnd": ends.last[2],
+        f"{name}{side}": value for name, *values in sides for side, value in zip(("Start", "End"), values, strict=True)
     }
 
 
-def _profile(row: Sequence[float]) -> int:
+def _profile(row: Sequence[float]) -> dict[str, object]:
     degree = max((n for n, c in enumerate(row) if c), default=0)
-    return POLY_5 if degree > 1 else (DWELL, CONST_VELO)[degree]
+    return {"camProfileType": POLY_5 if degree > 1 else (DWELL, CONST_VELO)[degree]}
+
+
+def _start_jerk(ends: Ends) -> dict[str, object]:
+    return {"geoJerkStart": ends.first[3], "camProfileType": ADD_POLY, "polynomialMode": START_JERK}
 
 
 def _quintic(ends: Ends) -> list[float]:
@@ -97,13 +92,12 @@ def _sixth(ends: Ends) -> list[float]:
     return [c + bump.get(n, 0.0) for n, c in enumerate([*quintic, 0.0])]
 
 
-@file_format(
+@_siemens(
     "siemens-points",
     target="Siemens S7-1500T, LCamHdl_typeBasicPoint of LCamHdl_CreateCamBasic",
     contents="leadingValue, followingValue, velocityRatio, accelerationRatio (LREAL)",
     model="quintic polynomials",
     limits=f"at most {POINTS} points, which make the {SEGMENTS} segments of a TO_Cam",
-    extension=".st",
 )
 def _write_points(motion: Motion, request: Request) -> Written:
     name = iec_name(request.name, "SIMATIC AX")
@@ -123,17 +117,14 @@ def _write_points(motion: Motion, request: Request) -> Written:
 def _configuration(
     name: str, kind: str, rows: Sequence[str], motion: Motion, run_and_fit: tuple[PiecewiseMotion, Fitted]
 ) -> tuple[str, tuple[str, ...]]:
-    """The text of a configuration, and its notes."""
     run, fit = run_and_fit
     notes = (fit.in_words(motion.units.slave), f"{fit.count} of the {SEGMENTS} segments of the TO")
+    heading = iec_heading(f"{name}: a cam for LCamHdl and a TO_Cam of the S7-1500T, {kind}", motion, run, notes)
     lines = [
-        iec_heading(f"{name}: a cam for LCamHdl and a TO_Cam of the S7-1500T, {kind}", motion, run, notes)
-        + "USING Simatic.Ax.LCamHdl;",
+        f"{heading}USING Simatic.Ax.LCamHdl;",
         f"CONFIGURATION {name}_configuration",
         "    VAR_GLOBAL",
-        f"        {name} : ARRAY[1..{len(rows)}] OF {kind} := [",
-        ",\n".join(f"            ({row})" for row in rows),
-        "        ];",
+        *st_records(name, kind, rows, "        "),
         "    END_VAR",
         "END_CONFIGURATION",
         "",

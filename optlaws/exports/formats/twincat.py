@@ -5,20 +5,11 @@ from __future__ import annotations
 from functools import partial
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.exports.format import MOST_POINTS, Request, Written, file_format
-from optlaws.exports.point_tables import PointTable, chosen_table, is_cyclic
-from optlaws.exports.polynomial_pieces import (
-    Fitted,
-    ends_of,
-    fields,
-    iec_heading,
-    jumping,
-    polynomials_for,
-    refuse_jumps,
-)
-from optlaws.exports.text import iec_comment, iec_name, real, table_heading
+from optlaws.exports.point_tables import chosen_table, is_cyclic
+from optlaws.exports.polynomial_pieces import Fitted, ends_of, iec_heading, jumping, polynomials_for, refuse_jumps
+from optlaws.exports.text import fields, iec_comment, iec_name, real, st_records, table_heading
 from optlaws.motion.motion import Motion
 from optlaws.motion.polynomials import PiecewiseMotion
 from optlaws.numerics.splines import hermite_powers
@@ -40,29 +31,22 @@ def _table(motion: Motion, request: Request) -> Written:
     interpolation = request.interpolation_among(INTERPOLATIONS, "spline")
     cyclic, kind = is_cyclic(motion), {"linear": "linear", "spline": "cubic"}[interpolation]
     table = chosen_table(motion, request, kind, MOST_POINTS, ends="periodic" if cyclic else "clamped")
-    text = _table_text(name, motion, table, INTERPOLATIONS[interpolation])
-    model = (
-        "straight lines" if interpolation == "linear" else f"C2 cubic spline, {'cyclic' if cyclic else 'tangential'}"
-    )
-    return table.written(text, model)
-
-
-def _table_text(name: str, motion: Motion, table: PointTable, interpolation: str) -> str:
-    count = len(table.x)
-    kind = f"TableType := MC_TABLETYPE_NONEQUIDISTANT, NoOfRows := {count}, NoOfColumns := 2"
+    count, spline = len(table.x), f"C2 cubic spline, {'cyclic' if cyclic else 'tangential'}"
+    entries = f"TableType := MC_TABLETYPE_NONEQUIDISTANT, NoOfRows := {count}, NoOfColumns := 2"
     rows = [f"        {real(x)}, {real(y)}" for x, y in zip(table.x, table.values[0], strict=True)]
-    return "\n".join(
+    text = "\n".join(
         [
             iec_comment(table_heading(motion, "TwinCAT, table of positions")) + "VAR_GLOBAL",
             f"    {name}_table : ARRAY[1..{count}, 1..2] OF LREAL := [",
             ",\n".join(rows) + "];",
-            f"    {name} : MC_CAM_REF := (ArraySize := SIZEOF({name}_table), {kind});",
+            f"    {name} : MC_CAM_REF := (ArraySize := SIZEOF({name}_table), {entries});",
             "END_VAR",
             f"(* in the program, before MC_CamTableSelect: {name}.pArray := ADR({name}_table);",
-            f"   for MC_CamIn: Options.InterpolationType := {interpolation}; its default is linear *)",
+            f"   for MC_CamIn: Options.InterpolationType := {INTERPOLATIONS[interpolation]}; its default is linear *)",
             "",
         ]
     )
+    return table.written(text, "straight lines" if interpolation == "linear" else spline)
 
 
 DEGREE = 7
@@ -80,23 +64,16 @@ def _motion_function(motion: Motion, request: Request, *, third: bool) -> Writte
     degrees = [5 if len(row) <= 6 or not any(row[6:]) else 7 for row in fit.run.coefficients]
     ends = ends_of(motion, fit.run, 4)
     values = np.array([*(end.first for end in ends), ends[-1].last]).T
-    run = _run(fit.run.breaks, values, degrees)
+    by_degree = {n: hermite_powers(np.array(fit.run.breaks), values[: (n + 1) // 2]).tolist() for n in FUNCTIONS}
+    run = PiecewiseMotion(fit.run.breaks, [by_degree[degree][i] for i, degree in enumerate(degrees)])
     rows = [
         _point(i + 1, (x, *values[:, i].tolist()), degree, third=third)
         for i, (x, degree) in enumerate(zip(fit.run.breaks, [*degrees, 0], strict=True))
     ]
     kind = "MotionFunctionPoint" if third else "MC_MotionFunctionPoint"
     notes = (fit.in_words(motion.units.slave),)
-    text = "\n".join(
-        [
-            iec_heading(f"{name}: a motion function for TwinCAT, {kind}", motion, run, notes) + "VAR_GLOBAL",
-            f"    {name} : ARRAY[1..{len(rows)}] OF {kind} := [",
-            ",\n".join(f"        ({row})" for row in rows),
-            "    ];",
-            "END_VAR",
-            "",
-        ]
-    )
+    heading = iec_heading(f"{name}: a motion function for TwinCAT, {kind}", motion, run, notes)
+    text = "\n".join([f"{heading}VAR_GLOBAL", *st_records(name, kind, rows), "END_VAR", ""])
     model = "Hermite polynomials of degree 5 and 7" if 7 in degrees else "Hermite polynomials of degree 5"
     return Written(text, run, model, len(rows), notes=notes)
 
@@ -108,13 +85,6 @@ def _shared(motion: Motion, request: Request) -> Fitted:
     if fit.run.degree > 5 and jumping(fit.run, 3) is not None:
         return polynomials_for(motion, request, 5, MOST_POINTS - 1, points=True)
     return fit
-
-
-def _run(breaks: tuple[float, ...], values: NDArray[np.float64], degrees: list[int]) -> PiecewiseMotion:
-    x = np.array(breaks)
-    five, seven = hermite_powers(x, values[:3]), hermite_powers(x, values)
-    rows = [five[i].tolist() if degree == 5 else seven[i].tolist() for i, degree in enumerate(degrees)]
-    return PiecewiseMotion(breaks, rows)
 
 
 def _point(place: int, numbers: tuple[float, ...], degree: int, *, third: bool) -> str:
