@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import KW_ONLY, field, replace
-from functools import partial
 from math import sqrt
 from typing import TYPE_CHECKING, Any, Literal, TypeVar, get_args
 
@@ -13,7 +12,7 @@ import numpy as np
 from optlaws.cycles.exportable import Exportable
 from optlaws.cycles.limit_rows import limits_taken, refuse_beyond
 from optlaws.cycles.optimisation.bounds import bound_of, is_exact
-from optlaws.cycles.optimisation.drive_formulas import known_drive
+from optlaws.cycles.optimisation.drive_formulas import along
 from optlaws.cycles.optimisation.motion_limits import LimitTaken
 from optlaws.cycles.optimisation.motor_limits import MOTOR
 from optlaws.cycles.optimisation.objectives import (
@@ -37,10 +36,6 @@ from optlaws.errors import InputError
 from optlaws.extras import needed
 from optlaws.files.reading import check_names
 from optlaws.kept import kept_property
-from optlaws.mechanisms.drives.drive_train import Drive
-from optlaws.mechanisms.drives.effort import CycleSheet, Effort, PieceEffort, SegmentEffort
-from optlaws.mechanisms.drives.motor import OF_TORQUE, Motor
-from optlaws.mechanisms.linkages.mechanism import Mechanism
 from optlaws.motion.motion import Motion, motion_of_pieces
 from optlaws.motion.piece import Piece, by_pieces, unit_of, values_of_pieces
 from optlaws.motion.quantities import QUANTITIES, TURN, Exact, quantity
@@ -54,6 +49,10 @@ from optlaws.tolerances import CYCLE_OPTIMALITY, JUMP
 if TYPE_CHECKING:
     from optlaws.cycles.fastest_cycle import FastestCycle
     from optlaws.cycles.transitions import TransitionCam, TransitionKind
+    from optlaws.mechanisms.drives.drive_train import Drive
+    from optlaws.mechanisms.drives.effort import CycleSheet, Effort, PieceEffort, SegmentEffort
+    from optlaws.mechanisms.drives.motor import Motor
+    from optlaws.mechanisms.linkages.mechanism import Mechanism
     from optlaws.mechanisms.machine.over_time import RepeatedMotion
 
 #: what a picture of a cycle is over
@@ -139,7 +138,7 @@ class Answers(Exportable):
         if kind is Kind.FORCE:
             return plan.effort.rms_force if mean else plan.effort.peak_force
         if kind in SUMS:
-            return total(plan.pieces, kind, known_drive(plan.specification.in_si.drive))
+            return total(plan.pieces, kind, plan.specification.in_si.drive)
         if not mean:
             return max(peak.peak(kind.order) for peak in plan.peaks)
         return sqrt(sum(piece.duration * piece.mean_square(kind.order) for piece in plan.pieces) / plan.duration)
@@ -257,12 +256,14 @@ class Answers(Exportable):
     @answer
     def along(self) -> tuple[PieceEffort, ...]:
         """The effort of the drive along each piece."""
-        drive = known_drive(self.solve().specification.in_si.drive)
-        return tuple(PieceEffort(drive, piece) for piece in self.pieces)
+        drive = self.solve().specification.in_si.drive
+        return tuple(along(drive, piece) for piece in self.pieces)
 
     @answer
     def effort(self) -> Effort:
         """Force or torque and power that the drive takes."""
+        from optlaws.mechanisms.drives.effort import Effort
+
         if self.solve().drive is None:
             raise InputError("the cycle has no drive: give one, such as drive={'mass': '2 kg', 'gravity': '20 N'}")
         return Effort.of(self.along, self.solve().duration)
@@ -270,6 +271,8 @@ class Answers(Exportable):
     @answer
     def geared_motor(self) -> Drive:
         """The drive with its motor; an `InputError` where it has none."""
+        from optlaws.mechanisms.drives.drive_train import Drive
+
         drive = self.solve().drive
         if not isinstance(drive, Drive):
             raise InputError("the cycle has no motor: give one, as drive=Drive(mechanism, Motor(...), ratio=20)")
@@ -278,34 +281,38 @@ class Answers(Exportable):
     @answer
     def sheet(self) -> CycleSheet:
         """The motor sheet of the cycle: torques, speed, powers, energies, and margins to the motor's limits."""
+        from optlaws.mechanisms.drives.effort import CycleSheet
+
         self.geared_motor  # noqa: B018 - a drive without one has no sheet
         return CycleSheet.of(self.along, self.solve().duration)
 
     @answer
     def efforts(self) -> tuple[SegmentEffort, ...]:
         """Peaks of force and power, the RMS force and the energies of every segment, in SI units."""
-        drive = known_drive(self.solve().specification.in_si.drive)
+        from optlaws.mechanisms.drives.effort import SegmentEffort
+
+        drive = self.solve().specification.in_si.drive
         return tuple(
-            SegmentEffort.of([PieceEffort(drive, each.piece, (each.start, each.stop))], each.duration, name=each.name)
+            SegmentEffort.of([along(drive, each.piece, (each.start, each.stop))], each.duration, name=each.name)
             for each in self.peaks
         )
 
     def force(self, time: Any) -> Any:
         """Force or torque of the drive at a time in seconds: at the follower or table, the input or the motor."""
-        return self._of_drive(time, PieceEffort.force)
+        return self._of_drive(time, "force")
 
     def power(self, time: Any) -> Any:
         """Power of the drive at a time in seconds, W: above 0 where it drives, below where it brakes."""
-        return self._of_drive(time, PieceEffort.power)
+        return self._of_drive(time, "power")
 
     @answer
     def smooth_times(self) -> Array:
         """Times between which force and power of the drive are smooth and of one sign, s."""
         return np.unique(np.concatenate([each.parts.edges for each in self.along]))
 
-    def _of_drive(self, time: Any, function: Any) -> Any:
+    def _of_drive(self, time: Any, name: str) -> Any:
         places = np.mod(real_times(time), self.solve().duration)
-        return number_or_array(by_pieces(self.pieces, [partial(function, each) for each in self.along], places))
+        return number_or_array(by_pieces(self.pieces, [getattr(each, name) for each in self.along], places))
 
     def __call__(self, time: Any, nu: int = 0) -> Any:
         """Position (nu 0), velocity, acceleration, jerk at a time in seconds, in SI units; the cycle repeats."""
@@ -389,6 +396,8 @@ class Answers(Exportable):
         >>> [round(each.sheet.margins[0].use, 6) for each in (cycle, weak)]
         [0.729259, 1.458518]
         """
+        from optlaws.mechanisms.drives.motor import OF_TORQUE
+
         plan, source = self.solve(), self.geared_motor
         if plan.limits.get(MOTOR):
             raise InputError("the laws keep the limits of the motor: make the cycle anew with the other motor")
@@ -694,7 +703,6 @@ class Plan(Answers, Declared, title="a plan"):
     segments = kept_property[Sequence[CycleSegment]](lambda plan: plan.specification.segments)
     minimise = kept_property[str](lambda plan: plan.specification.minimise)
     limits = kept_property[Mapping[str, Any]](lambda plan: plan.specification.limits)
-    drive = kept_property[Mapping[str, Any] | Mechanism | Drive | None](lambda plan: plan.specification.drive)
     load = kept_property[Any](lambda plan: plan.specification.load)
     programme = kept_property[Programme](lambda plan: plan.specification.programme)
     axis = kept_property[str](lambda plan: plan.specification.axis)
@@ -703,6 +711,11 @@ class Plan(Answers, Declared, title="a plan"):
     limits_of_segments = kept_property[tuple[dict[int, tuple[float, float]], ...]](
         lambda plan: plan.specification.limits_of_segments
     )
+
+    @property
+    def drive(self) -> Mapping[str, Any] | Mechanism | Drive | None:
+        """What the motion drives, as the cycle has it."""
+        return self.specification.drive
 
     def _check(self) -> None:
         spans = self.specification.layout.spans

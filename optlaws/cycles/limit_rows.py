@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from math import inf, isfinite
-from typing import Any, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
-from optlaws.cycles.optimisation.drive_formulas import known_drive
+from optlaws.cycles.optimisation.drive_formulas import along
 from optlaws.cycles.optimisation.motion_limits import (
     FORCES,
     LimitTaken,
@@ -21,14 +21,15 @@ from optlaws.cycles.placed import SegmentPeaks, segments_in_place
 from optlaws.cycles.specification.programme import TimedSegment, is_optimal
 from optlaws.cycles.specification.segments import Dwell, Move
 from optlaws.errors import InfeasibleProblem
-from optlaws.mechanisms.drives.drive_train import Drive
-from optlaws.mechanisms.drives.effort import PieceEffort
 from optlaws.motion.piece import Piece, jump_beside, unit_of
 from optlaws.motion.quantity_kinds import Kind
 from optlaws.numerics.peaks import is_kept
 from optlaws.sentences import Amount, joined, sentence
 from optlaws.shown.summary import Row
 from optlaws.tolerances import AGREEMENT
+
+if TYPE_CHECKING:
+    from optlaws.mechanisms.drives.drive_train import Drive
 
 #: a `Cycle`, and its `Plan`, which know this module
 Cycle: TypeAlias = Any
@@ -61,7 +62,7 @@ def limits_taken(plan: Plan, limited: Cycle | None = None) -> tuple[LimitTaken, 
 def broken_limits(plan: Plan) -> Sequence[str]:
     """What its laws take beyond its limits, and beyond those of its motor."""
     broken = [sentence("{}", taken) for taken in plan.limits_taken if not taken.is_kept]
-    if isinstance(plan.specification.drive, Drive) and not plan.specification.limits.get(MOTOR):
+    if hasattr(plan.specification.drive, "motor") and not plan.specification.limits.get(MOTOR):
         weak = (margin for margin in plan.sheet.margins if not margin.is_kept)
         uses = ((each.name, f"{100.0 * each.use:.4g}".replace("inf", "∞")) for each in weak)
         broken += [sentence("the motor's {}, {} % of it", *use) for use in uses]
@@ -196,12 +197,12 @@ def _greatest(placed: SegmentPeaks, key: Side, pieces: Sequence[Piece], period: 
 
 def _greatest_of_drive(placed: SegmentPeaks, kind: Kind, drive: Drive | None) -> tuple[float, float | None]:
     """The greatest force or power in a segment, or share of the motor's curve of torque over speed."""
-    along = PieceEffort(known_drive(drive), placed.piece, (placed.start, placed.stop))
+    taken = along(drive, placed.piece, (placed.start, placed.stop))
     if kind is Kind.POWER:
-        return max(along.powers), None
+        return max(taken.powers), None
     if kind is Kind.FORCE:
-        return along.peak_force
-    return along.parts.greatest(along.use)
+        return taken.peak_force
+    return taken.parts.greatest(taken.use)
 
 
 def _of_whole(plan: Plan, limited: Cycle) -> Iterator[LimitTaken]:

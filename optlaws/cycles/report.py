@@ -14,8 +14,7 @@ from optlaws.cycles.limit_rows import limit_rows
 from optlaws.cycles.optimisation.motion_limits import LimitTaken
 from optlaws.cycles.optimisation.objectives import SUMS, kind_of
 from optlaws.cycles.placed import Place
-from optlaws.cycles.specification.load import LOAD, read_load
-from optlaws.cycles.specification.process import is_process
+from optlaws.cycles.specification.load import LOAD, is_process, read_load
 from optlaws.errors import InfeasibleProblem, OptlawsError, SolverFailure
 from optlaws.kept import kept_property
 from optlaws.mechanisms.drives.drive_train import Drive

@@ -17,12 +17,10 @@ from optlaws.cycles.optimisation.objectives import (
     limits_of_stretch,
     read_load_limits,
 )
-from optlaws.cycles.specification.drive import CONSTANTS, read_drive
 from optlaws.cycles.specification.frozen import FrozenTable, frozen, thawed
 from optlaws.cycles.specification.joints import Layout, State, layout
 from optlaws.cycles.specification.limit_entries import LIMITS_OF_CYCLE
-from optlaws.cycles.specification.load import ElasticLoad, Load, read_load
-from optlaws.cycles.specification.process import is_process, read_process
+from optlaws.cycles.specification.load import ElasticLoad, Load, is_process, read_load
 from optlaws.cycles.specification.programme import Programme, is_optimal, period_of, programme
 from optlaws.cycles.specification.segments import SEGMENTS, CycleSegment, Dwell
 from optlaws.echo import shortened
@@ -66,6 +64,7 @@ class DriveTable(ReadBy):
     """Constants of a drive, which stay a table, or a `Mechanism` or `Drive`."""
 
     def schema(self) -> dict[str, Any]:
+        from optlaws.cycles.specification.drive import CONSTANTS
         from optlaws.mechanisms.drives.drive_train import Drive
 
         mechanism = {"type": "object", "required": ["axis", "inertia"]}
@@ -206,11 +205,7 @@ class Specification(Declared, title="a stored cycle"):
     @kept_property
     def in_si(self) -> CycleObjective:
         """The objective with the limits of the whole, the drive and the load in SI units, and the space of the laws."""
-        drive = None if self.drive is None else read_drive(self.drive, self.axis)
-        if is_process(self.load):
-            if drive is None:
-                raise InputError("load: a process force is of a drive: give one, such as drive={'mass': '2 kg'}")
-            drive = replace(drive, mechanism=read_process(self.load, drive.mechanism, self.duration))
+        drive = self._drive
         limits = read_limits(self.limits, self.axis, "limits")
         return CycleObjective(
             self.minimise,
@@ -221,6 +216,20 @@ class Specification(Declared, title="a stored cycle"):
             self._load,
             read_load_limits(self.limits, self._load),
         )
+
+    @property
+    def _drive(self) -> Drive | None:
+        if self.drive is None:
+            if is_process(self.load):
+                raise InputError("load: a process force is of a drive: give one, such as drive={'mass': '2 kg'}")
+            return None
+        from optlaws.cycles.specification.drive import read_drive
+        from optlaws.cycles.specification.process import read_process
+
+        drive = read_drive(self.drive, self.axis)
+        if not is_process(self.load):
+            return drive
+        return replace(drive, mechanism=read_process(self.load, drive.mechanism, self.duration))
 
     @kept_property
     def _load(self) -> Load | None:

@@ -14,8 +14,7 @@ from optlaws.cycles.optimisation.motion_limits import DECELERATION, FORCES, LIMI
 from optlaws.cycles.optimisation.motor_limits import MOTOR
 from optlaws.cycles.optimisation.objectives import OBJECTIVES, kind_of
 from optlaws.cycles.report import objective_unit
-from optlaws.cycles.specification.load import LOAD
-from optlaws.cycles.specification.process import is_process
+from optlaws.cycles.specification.load import LOAD, is_process
 from optlaws.cycles.specification.programme import AXES, is_optimal
 from optlaws.cycles.specification.segments import OPTIMAL, CycleSegment, Free, Move
 from optlaws.errors import InputError, OptlawsError

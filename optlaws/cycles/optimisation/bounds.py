@@ -12,15 +12,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import reduce
 from math import hypot, inf, sqrt
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from optlaws.cycles.optimisation.drive_formulas import Driven, driven_mean, driven_peak, known_drive, may_turn
 from optlaws.cycles.optimisation.objectives import SUMS, CycleObjective, kind_of, limits_of_stretch
-from optlaws.cycles.optimisation.sums import span_sum, total
+from optlaws.cycles.optimisation.sums import size_of, span_sum, total
 from optlaws.cycles.specification.joints import LawSpan, Layout
 from optlaws.errors import InfeasibleProblem, SolverFailure
-from optlaws.mechanisms.drives.effort import size_of
-from optlaws.mechanisms.linkages.dimensionless import LinearForce
 from optlaws.motion.piece import Piece, factor
 from optlaws.motion.quantity_kinds import Kind
 from optlaws.synthesis.functionals.makers import peak, rms
@@ -31,6 +29,9 @@ from optlaws.synthesis.problem.ranges import Range
 from optlaws.synthesis.search import limit_beside
 from optlaws.synthesis.solution import Solution
 from optlaws.synthesis.solve import synthesize
+
+if TYPE_CHECKING:
+    from optlaws.mechanisms.linkages.dimensionless import LinearForce
 
 _NEAR_END = 0.02  # share of a move next to its ends where energies are small and say nothing
 

@@ -11,17 +11,21 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from itertools import pairwise
+from typing import TYPE_CHECKING
 
 from optlaws.cycles.specification.joints import LawSpan
 from optlaws.cycles.specification.segments import Dwell
 from optlaws.errors import InputError
-from optlaws.mechanisms.drives.drive_train import Drive
-from optlaws.mechanisms.linkages.dimensionless import LinearForce, StrokeTorque
-from optlaws.motion.piece import factor
+from optlaws.motion.piece import Piece, factor
 from optlaws.motion.quantity_kinds import Kind
 from optlaws.synthesis.functionals.makers import peak, rms
 from optlaws.synthesis.problem.constants import FUNCTIONALS, Functional
 from optlaws.synthesis.problem.expression import Maximum, maximum
+
+if TYPE_CHECKING:
+    from optlaws.mechanisms.drives.drive_train import Drive
+    from optlaws.mechanisms.drives.effort import PieceEffort
+    from optlaws.mechanisms.linkages.dimensionless import LinearForce, StrokeTorque
 
 
 @dataclass(frozen=True)
@@ -129,6 +133,13 @@ def known_drive(drive: Drive | None) -> Drive:
     if drive is None:
         raise InputError("force, torque and power are of a drive: give one, such as drive={'mass': '2 kg'}")
     return drive
+
+
+def along(drive: Drive | None, piece: Piece, ends: tuple[float, float] | None = None) -> PieceEffort:
+    """Force and power of the drive of a cycle along a law in its place, or between two times in it."""
+    from optlaws.mechanisms.drives.effort import PieceEffort
+
+    return PieceEffort(known_drive(drive), piece, ends)
 
 
 def _formula(span: LawSpan, drive: Drive, stroke: float, unit: float) -> str:

@@ -5,20 +5,22 @@ from __future__ import annotations
 from collections.abc import Mapping
 from itertools import pairwise
 from math import inf, isfinite
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from optlaws.cycles.optimisation.drive_formulas import Driven, branches_of, known_drive, may_turn
 from optlaws.cycles.optimisation.motion_limits import Limits
 from optlaws.cycles.specification.joints import LawSpan
 from optlaws.cycles.specification.programme import Programme
 from optlaws.errors import InputError
-from optlaws.mechanisms.drives.drive_train import Drive
-from optlaws.mechanisms.drives.motor import Motor
 from optlaws.motion.piece import factor
 from optlaws.motion.quantity_kinds import Kind
 from optlaws.synthesis.functionals.makers import peak
 from optlaws.synthesis.problem.constants import Functional
 from optlaws.tolerances import AGREEMENT
+
+if TYPE_CHECKING:
+    from optlaws.mechanisms.drives.drive_train import Drive
+    from optlaws.mechanisms.drives.motor import Motor
 
 MOTOR = "motor"
 

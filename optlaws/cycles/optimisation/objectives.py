@@ -4,15 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from optlaws.cycles.optimisation.motion_limits import Sides, limits_of_segment
 from optlaws.cycles.specification.load import Load, load_output
 from optlaws.cycles.specification.programme import TimedSegment
 from optlaws.errors import InputError
-from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.motion.quantity_kinds import Kind
 from optlaws.suggest import unknown_key
+
+if TYPE_CHECKING:
+    from optlaws.mechanisms.drives.drive_train import Drive
 
 #: what is summed over the motions of a cycle as it is
 SUMS = (Kind.ENERGY, Kind.HEAT)

@@ -12,6 +12,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from math import exp, inf, log, sqrt
+from typing import TYPE_CHECKING
 
 from optlaws.cycles.optimisation.bounds import bound_of, is_exact, span_bound
 from optlaws.cycles.optimisation.joint_limits import ties_broken
@@ -25,17 +26,18 @@ from optlaws.cycles.optimisation.optimal import (
     with_least_limit,
     with_share,
 )
-from optlaws.cycles.optimisation.sums import SpanSum, span_sum, total
+from optlaws.cycles.optimisation.sums import SpanSum, size_of, span_sum, total
 from optlaws.cycles.specification.joints import LawSpan, Layout
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.kept import kept_property
-from optlaws.mechanisms.drives.drive_train import Drive
-from optlaws.mechanisms.drives.effort import size_of
 from optlaws.motion.piece import Piece
 from optlaws.motion.quantity_kinds import Kind
 from optlaws.synthesis.functionals.makers import integral
 from optlaws.synthesis.solution import Solution
 from optlaws.tolerances import FEASIBILITY
+
+if TYPE_CHECKING:
+    from optlaws.mechanisms.drives.drive_train import Drive
 
 _LEAST_PEAK_SLACK = 1e-6  # of a least peak, given to problems that are not convex
 _PEAK_BRACKET = 1e-11  # of a peak: where a limit is met

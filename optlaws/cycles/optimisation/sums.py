@@ -11,14 +11,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from math import inf
+from math import inf, sqrt
+from typing import TYPE_CHECKING
 
-from optlaws.cycles.optimisation.drive_formulas import driven_formula, driven_mean, known_drive, moved
+from optlaws.cycles.optimisation.drive_formulas import along, driven_formula, driven_mean, known_drive, moved
 from optlaws.cycles.specification.joints import LawSpan
 from optlaws.errors import InputError
-from optlaws.mechanisms.drives.drive_train import Drive
-from optlaws.mechanisms.drives.effort import PieceEffort
-from optlaws.mechanisms.linkages.dimensionless import recovering
 from optlaws.motion.piece import Piece, factor
 from optlaws.motion.quantity_kinds import Kind
 from optlaws.motion.smooth_parts import SmoothParts
@@ -26,6 +24,9 @@ from optlaws.synthesis.functionals.makers import integral
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.search import limit_beside
 from optlaws.synthesis.solution import Solution
+
+if TYPE_CHECKING:
+    from optlaws.mechanisms.drives.drive_train import Drive
 
 NO_HEAT = (
     "minimise: heat is that of a motor's winding and of its brake resistor: give drive=Drive(...) with a motor that "
@@ -74,6 +75,8 @@ def span_sum(span: LawSpan, kind: Kind, drive: Drive | None, stroke: float) -> S
             else driven.formula
         )
         return SpanSum(f"({force})^2", driven.unit**2 * span.duration, driven.friction * span.duration)
+    from optlaws.mechanisms.linkages.dimensionless import recovering
+
     known = known_drive(drive)
     # a span that may turn back is refused as it is for forces
     force, unit = driven_formula(span, known, stroke, Kind.FORCE)
@@ -93,10 +96,24 @@ def sum_of_piece(piece: Piece, kind: Kind, drive: Drive | None) -> float:
     """A piece's contribution to a sum, in SI units."""
     if kind.order:
         return piece.duration * piece.mean_square(kind.order)
-    along = PieceEffort(known_drive(drive), piece)
+    taken = along(drive, piece)
     if kind is Kind.FORCE:
-        return along.square
-    return along.energy if kind is Kind.ENERGY else along.heat
+        return taken.square
+    return taken.energy if kind is Kind.ENERGY else taken.heat
+
+
+def size_of(piece: Piece, kind: Kind, drive: Drive | None, *, mean: bool = False) -> float:
+    """The peak or RMS of a derivative, or of the force or power of a drive, in a piece, in SI units."""
+    nu = kind.order
+    if nu or drive is None:
+        if not piece.stroke:
+            return 0.0
+        constant = piece.law.rms(nu) if mean else piece.law.peak(nu).value
+        return constant * abs(factor(piece.stroke, piece.duration, nu))
+    taken = along(drive, piece)
+    if kind is Kind.POWER:
+        return max(taken.powers)
+    return sqrt(taken.square / piece.duration) if mean else taken.peak_force.value
 
 
 def total(pieces: Sequence[Piece], kind: Kind, drive: Drive | None) -> float:

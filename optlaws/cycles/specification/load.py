@@ -59,6 +59,11 @@ class ElasticLoad(ElasticFollower, title="a load"):
     )
 
 
+def is_process(given: Any) -> bool:
+    """Whether a load of a cycle is a process force, and nothing elastic."""
+    return isinstance(given, Mapping) and bool({"force", "torque"} & given.keys()) and "period" not in given
+
+
 @dataclass(frozen=True)
 class Load:
     """A machine in seconds and SI units that the motion drives, and the dimensions of its outputs where known."""

@@ -61,11 +61,6 @@ class MachineProcess(ProcessEntries):
     )
 
 
-def is_process(given: Any) -> bool:
-    """Whether a load of a cycle is a process force, and nothing elastic."""
-    return isinstance(given, Mapping) and bool(FORCES.keys() & given.keys()) and "period" not in given
-
-
 def read_process(given: Mapping[str, Any], mechanism: Mechanism, period: float) -> Mechanism:
     """The mechanism with the force of a process on it besides, from the entries of a `MachineProcess`.
 

@@ -18,8 +18,7 @@ from optlaws.laws.storage import PlainNumbers
 from optlaws.mechanisms.drives.motor import Motor
 from optlaws.motion.derivative_panel import times_in
 from optlaws.motion.display_units import RPM
-from optlaws.motion.piece import Piece, factor
-from optlaws.motion.quantity_kinds import Kind
+from optlaws.motion.piece import Piece
 from optlaws.motion.smooth_parts import Greatest, SmoothParts
 from optlaws.numbers import Array
 from optlaws.numerics.peaks import is_kept
@@ -198,20 +197,6 @@ def over_speed(along: Sequence[PieceEffort], count: int) -> tuple[Array, Array]:
     times = [times_in(each.piece, count) for each in along]
     values = [(each.speed(inside), each.force(inside)) for each, inside in zip(along, times, strict=True)]
     return np.concatenate([speeds for speeds, _ in values]), np.concatenate([torques for _, torques in values])
-
-
-def size_of(piece: Piece, kind: Kind, drive: AnyDrive | None, *, mean: bool = False) -> float:
-    """The peak or RMS of a derivative, or of the force or power of a drive, in a piece, in SI units."""
-    nu = kind.order
-    if nu or drive is None:
-        if not piece.stroke:
-            return 0.0
-        constant = piece.law.rms(nu) if mean else piece.law.peak(nu).value
-        return constant * abs(factor(piece.stroke, piece.duration, nu))
-    along = PieceEffort(drive, piece)
-    if kind is Kind.POWER:
-        return max(along.powers)
-    return sqrt(along.square / piece.duration) if mean else along.peak_force.value
 
 
 class Margin(NamedTuple):
