@@ -11,9 +11,7 @@ from optlaws.cycles.specification.segments import ConstantVelocity, CycleSegment
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
-from optlaws.laws.making.transform import section
 from optlaws.laws.segments.piecewise import PiecewiseLaw
-from optlaws.mechanisms.polydyne_cam import polydyne
 from optlaws.motion.piece import Piece, unit_of
 from optlaws.motion.quantities import QUANTITIES, TURN, Exact, positive_quantity
 from optlaws.numbers import Quantity
@@ -115,6 +113,8 @@ def _parts(placed: SegmentPeaks, same_time: float) -> list[tuple[float, float, M
         raise InputError(
             f"{placed.stretch.where} ends where it begins: give it to a Cycle of its own at the other speed"
         )
+    from optlaws.laws.making.transform import section
+
     first, last = (_break(law, piece, time) for time in times)
     ends = [first, last]
     if abs(moved) <= CLOSURE * abs(piece.stroke):
@@ -138,6 +138,8 @@ def segments_of_cam(
     programme: Programme, pieces: Sequence[Piece], period: Quantity, damping: float
 ) -> list[CycleSegment]:
     """The segments of the cam of an elastic follower: every move corrected by its frequency over its duration."""
+    from optlaws.mechanisms.polydyne_cam import polydyne
+
     natural = positive_quantity(period, "time", "follower: period")
     if len(pieces) != len(programme.stretches):
         raise InputError(

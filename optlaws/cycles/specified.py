@@ -27,7 +27,6 @@ from optlaws.echo import shortened
 from optlaws.entries.declared import Declared, ValueOf, declared, entries_of, entry
 from optlaws.entries.value_types import Measured, ReadBy, Text, Whole
 from optlaws.errors import InputError
-from optlaws.files.tables import to_toml
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.laws.catalogue.catalogue import catalogue
@@ -337,6 +336,8 @@ def problem_file(
     title: str, clock: Mapping[str, Any], cycles: Mapping[str, Specification], more: Mapping[str, Any] | None = None
 ) -> str:
     """A problem file of the job "cycle" with a clock, its speed or period, an axis for each cycle, and more entries."""
+    from optlaws.files.tables import to_toml
+
     axes = [_axis_entries(name, cycle) for name, cycle in cycles.items()]
     others = {name: value for name, value in (more or {}).items() if value}
     return to_toml({"job": "cycle", "title": title, **clock, "axis": axes, **others})
