@@ -35,17 +35,15 @@ _NOTHING = Extent(0.0, 0.0)
 class PlannedSegment:
     """A segment with its law and between which durations it may be; positions in SI units.
 
-    `limit` is what binds its least duration, and `effort` is that at the pace 1, 0 where it does not change with it.
+    `binds` names what its least duration is by, and `effort` is that at the pace 1, 0 where it does not change with it.
     """
 
-    axis: str
-    name: str
     start: float
     stop: float
-    law: MotionLaw | None
-    least: Extent
+    law: MotionLaw | None = None
+    least: Extent = _NOTHING
     most: Extent | None = None
-    limit: str = ""
+    binds: str = ""
     effort: float = 0.0
 
     def shares(self, positions: Array) -> Array:
@@ -138,11 +136,15 @@ def planned(name: str, cycle: Cycle, way: Way, times: Sequence[float] | None) ->
             given, stop = stretch.given, position + stretch.displacement
             if not isinstance(given, Move | Dwell):
                 raise _refused(stretch)
-            segment = PlannedSegment(name, given.name or f"segment {stretch.number}", position, stop, None, _NOTHING)
+            segment = PlannedSegment(position, stop)
             if isinstance(given, Dwell) or stretch.displacement == 0.0:
-                segments.append(replace(segment, least=_least_of_dwell(given)))
+                least = _least_of_dwell(given)
+                label = f"dwell {given.name or f'segment {stretch.number}'} of {name}"
+                segments.append(replace(segment, least=least, binds=label if least != _NOTHING else ""))
                 continue
             segment = _of_move(segment, i, cycle, way, search, times)
+            if segment.binds:
+                segment = replace(segment, binds=f"{segment.binds} of axis {name}: {stretch.where}")
             law: Any = segment.law
             if max(abs(law.b(0.0)), abs(law.b(1.0))) > INTERLOCK:
                 raise _refused(stretch)
@@ -181,8 +183,8 @@ def _of_move(
     limit = word_of(known.binding[0].key, cycle.axis)
     if known.law is None or not known.scale < inf:
         raise InfeasibleProblem(f"{stretch.where}: its law has no finite {limit}, and so keeps no limit of it")
-    least, limit = Extent(0.0, known.needed), f"{limit} of axis {segment.axis}: {stretch.where}"
-    return replace(segment, law=known.law, least=least, most=None if way == "gentlest" else least, limit=limit)
+    least = Extent(0.0, known.needed)
+    return replace(segment, law=known.law, least=least, most=None if way == "gentlest" else least, binds=limit)
 
 
 def _given(cycle: Cycle, i: int) -> Extent:

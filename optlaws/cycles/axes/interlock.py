@@ -22,8 +22,9 @@ from optlaws.entries.value_types import Choice, Either, Listed, Measured, Number
 from optlaws.errors import InputError, located
 from optlaws.formulas.reading import read
 from optlaws.formulas.tree import Formula, Table
+from optlaws.motion.display_units import UNITS
 from optlaws.motion.piece import unit_of
-from optlaws.motion.quantities import TURN, in_small_units, quantity
+from optlaws.motion.quantities import in_small_units, quantity
 from optlaws.numbers import Array, Quantity
 from optlaws.numerics.interval import Interval
 from optlaws.numerics.taylor import Jet, Pair
@@ -32,12 +33,7 @@ from optlaws.suggest import unknown_key
 from optlaws.tolerances import CLEARANCE_SHARE, CYCLE_ROUNDING, INTERLOCK, SAME_TIME
 
 #: small units by those of SI, and how many of them make one
-SMALL_UNITS = {
-    "m": ("mm", 1e3),
-    "rad": ("deg", 360.0 / TURN),
-    "m/s": ("mm/s", 1e3),
-    "rad/s": ("deg/s", 360.0 / TURN),
-}
+SMALL_UNITS = {unit_of(axis, nu): UNITS[axis][nu] for axis in UNITS for nu in (0, 1)}
 _SQUARED_CLEARANCE = 1e-12  # of the square of a distance what `CLEARANCE_SHARE` is of it
 
 

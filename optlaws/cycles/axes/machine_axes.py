@@ -212,15 +212,17 @@ class Axes(Declared, Mapping[str, Cycle], title="stored axes"):
     def _overlap(self, goal: str, longer: Sequence[str]) -> Overlap:
         from optlaws.cycles.axes import overlapping
 
-        period = goal == "period"
-        best = overlapping.shortest(self._program) if period else overlapping.gentlest(self, self.rules, longer)
-        cycles = {
-            name: _retimed(cycle, zip(best.durations[name], best.laws[name], strict=True), best.period)
-            for name, cycle in self.items()
-        }
-        value = best.period if period else 1.0 / best.pace**2
+        known = (
+            overlapping.shortest(self._program) if goal == "period" else overlapping.gentlest(self, self.rules, longer)
+        )
+        program, unknowns, bound = known
+        period, times, cycles = program.unit * float(unknowns[-2]), program.durations(unknowns), dict[str, Cycle]()
+        for plan in program.plans:
+            laws = (segment.law for segment in plan.segments)
+            cycles[plan.name] = _retimed(self[plan.name], zip(times[plan.name], laws, strict=True), period)
+        value = period if goal == "period" else 1.0 / float(unknowns[-1]) ** 2
         axes = Axes(cycles, interlocks=self.rules)
-        numbers: dict[str, Any] = {"goal": goal, "objective": value, "lower_bound": best.bound}
+        numbers: dict[str, Any] = {"goal": goal, "objective": value, "lower_bound": bound}
         overlap = Overlap(**numbers, of=tuple(longer), binding=(), axes=axes, given=self)
         return replace(overlap, binding=overlap.bound_by())
 

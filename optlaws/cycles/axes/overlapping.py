@@ -23,7 +23,6 @@ from optlaws.cycles.axes.regions import SimplePolygon
 from optlaws.cycles.cycle import Cycle
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.kept import kept_property
-from optlaws.laws import MotionLaw
 from optlaws.numbers import Array
 
 _BROKEN_INSTANT = 1e-11  # of a period: by so much an instant may come too early, as programs are solved
@@ -247,10 +246,7 @@ class Overlapping:
         known = list[tuple[Array, float, str]]()
         for plan in self.plans:
             for here, segment in enumerate(plan.segments, plan.first):
-                least, kind = segment.least, "dwell" if segment.law is None else "move"
-                free = segment.most is None and segment.least != (0.0, 0.0)
-                # of a time that cannot change there is nothing to say
-                name = segment.limit or (f"{kind} {segment.name} of {plan.name}" if free else "")
+                least, name = segment.least, segment.binds
                 known.append((self._row({here: 1.0, -2: -least.share}), least.time / self.unit, name))
                 if segment.effort > 0.0:
                     known.append((self._row({here: 1.0, -1: -segment.effort / self.unit}), 0.0, ""))
@@ -336,6 +332,11 @@ class Overlapping:
         # weak duality, whatever the prices are worth
         return np.asarray(answer.x), float(prices @ right + np.minimum(rest * low, rest * most).sum())
 
+    def durations(self, unknowns: Array) -> dict[str, list[float]]:
+        """The durations of the segments of each axis in seconds."""
+        ends = {plan.name: (plan.first, plan.first + len(plan.segments)) for plan in self.plans}
+        return {name: [self.unit * float(time) for time in unknowns[slice(*end)]] for name, end in ends.items()}
+
     def binding(self, durations: _Times, period: float, share: float) -> tuple[str, ...]:
         """What leaves no room, to a share of what counts as none: limits of moves, dwells and interlocks, by names.
 
@@ -373,26 +374,6 @@ class Overlapping:
         return row
 
 
-@dataclass(frozen=True)
-class BestInstants:
-    """Durations and laws of all segments, the period, the pace, and the proven bound of the objective."""
-
-    durations: dict[str, list[float]]
-    laws: dict[str, list[MotionLaw | None]]
-    period: float
-    pace: float
-    bound: float
-
-
-def _instants(given: Overlapping, unknowns: Array, bound: float) -> BestInstants:
-    durations, laws = dict[str, list[float]](), dict[str, list[MotionLaw | None]]()
-    for plan in given.plans:
-        times = unknowns[plan.first : plan.first + len(plan.segments)]
-        durations[plan.name] = [given.unit * float(time) for time in times]
-        laws[plan.name] = [segment.law for segment in plan.segments]
-    return BestInstants(durations, laws, given.unit * float(unknowns[-2]), float(unknowns[-1]), bound)
-
-
 def program(
     cycles: Mapping[str, Cycle], rules: Sequence[Interlock], goal: str, longer: Sequence[str], times: _Times
 ) -> Overlapping:
@@ -412,19 +393,24 @@ def program(
     return Overlapping(list(plans.values()), demands, None, _LONGEST * (duration + least), unit)
 
 
-def shortest(given: Overlapping) -> BestInstants:
-    """The instants of least period, longer by what programs are solved to, so that all limits are met."""
+def shortest(given: Overlapping) -> tuple[Overlapping, Array, float]:
+    """A program, and its instants of least period, longer by what programs are solved to; and the bound of the period.
+
+    All limits are so met.
+    """
     unknowns, bound = given.best()
-    return _instants(given, unknowns * (1.0 + _OVERLAP_GAP), bound * given.unit)
+    return given, unknowns * (1.0 + _OVERLAP_GAP), bound * given.unit
 
 
-def gentlest(cycles: Mapping[str, Cycle], rules: Sequence[Interlock], longer: Sequence[str]) -> BestInstants:
-    """The instants of the least acceleration of some axes in the period that they have.
+def gentlest(
+    cycles: Mapping[str, Cycle], rules: Sequence[Interlock], longer: Sequence[str]
+) -> tuple[Overlapping, Array, float]:
+    """The program, the instants and the bound of the least acceleration of some axes in the period that they have.
 
     Laws of least acceleration are those for the times that they had before, in rounds, while the acceleration falls.
     """
 
-    def instants(times: _Times) -> BestInstants:
+    def instants(times: _Times) -> tuple[Overlapping, Array, float]:
         of_laws = program(cycles, rules, "acceleration", longer, times)
         unknowns, bound = of_laws.best()
         if not bound < 0.0:
@@ -432,7 +418,7 @@ def gentlest(cycles: Mapping[str, Cycle], rules: Sequence[Interlock], longer: Se
             raise InfeasibleProblem(
                 f"no instants of these laws keep all interlocks: {labels}: moves would have to take no time"
             )
-        return _instants(of_laws, unknowns, 1.0 / bound**2)
+        return of_laws, unknowns, 1.0 / bound**2
 
     times: _Times = {name: cycle.durations for name, cycle in cycles.items()}
     try:
@@ -444,16 +430,17 @@ def gentlest(cycles: Mapping[str, Cycle], rules: Sequence[Interlock], longer: Se
     for _ in range(_ROUNDS if any(any(cycles[name].limits_of_segments) for name in longer) else 0):
         further = {
             name: [before + step * (after - before) for before, after in zip(times.get(name, now), now, strict=True)]
-            for name, now in best.durations.items()
+            for name, now in best[0].durations(best[1]).items()
         }
         try:
             rearranged = instants(further)
         except InfeasibleProblem:
             step *= 0.5
             continue
-        if abs(rearranged.pace - best.pace) <= _OVERLAP_GAP * best.pace:
+        faster = rearranged[1][-1] / best[1][-1] - 1.0
+        if abs(faster) <= _OVERLAP_GAP:
             break
-        if rearranged.pace > best.pace:
+        if faster > 0.0:
             best, times = rearranged, further
         else:
             step *= 0.5
