@@ -27,7 +27,6 @@ HANDED_UP = {
     "export": ("optlaws.exports.", "optlaws.synthesis.proven.fewest_laws"),
     "report": (
         "optlaws.cams.report.",
-        "optlaws.cycles.moves.report.",
         "optlaws.cycles.report.",
         "optlaws.laws.report.",
         "optlaws.synthesis.report.",

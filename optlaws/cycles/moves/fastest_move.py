@@ -4,21 +4,32 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from math import inf, isfinite
 from typing import Any, Unpack
 
+import numpy as np
+
+from optlaws.cycles.optimisation.motion_limits import LimitTaken
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.files.reading import JsonText, entries_of
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.laws.exporting import ExportOptions, LawExport
+from optlaws.mechanisms.drives.drive_train import Drive
+from optlaws.mechanisms.drives.effort import DriveSheet, PieceEffort
+from optlaws.motion.derivative_panel import DERIVATIVES, display_unit, motion_panel
 from optlaws.motion.display_units import DEGREES
-from optlaws.motion.quantities import positive_quantity
-from optlaws.numbers import Quantity, positive
-from optlaws.shown.report import Report
+from optlaws.motion.piece import Piece, unit_of
+from optlaws.motion.quantities import QUANTITIES, positive_quantity
+from optlaws.numbers import Array, Quantity, positive
+from optlaws.shown.curve_points import refined
+from optlaws.shown.report import Panel, PanelLimit, Report, ReportSegment, ReportTable, Series
 from optlaws.shown.summary import Row, Summary
 from optlaws.suggest import keywords_of
+from optlaws.synthesis.least_time.follower_residual import RESIDUAL
 from optlaws.synthesis.least_time.least_time import LeastTime
+from optlaws.synthesis.least_time.motor_torque import CURVE_LIMIT
 from optlaws.synthesis.least_time.time_search import least_time
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.status import Status
@@ -27,6 +38,7 @@ from optlaws.tolerances import SAME_TIME
 #: what the unit of a stroke measures
 AXES = {"m": "length", "rad": "angle"}
 _MORE = 0.1
+_STEPS = 241  # of a torque, to which those are added that its curve needs
 
 
 @dataclass(frozen=True, repr=False)
@@ -39,6 +51,23 @@ class FastestMove(LawExport, JsonText):
         The same in SI units, with the move and the proofs.
     unit
         That of the stroke, "m" or "rad".
+    duration, stroke, law
+        The least time in s, how far the move goes in m or rad, and the law that takes it.
+    limit
+        The time that no law of any degree is faster than, s; None where no closed form is known. Under limits of
+        velocity, acceleration and jerk it is that of the seven segments, whose ends have the move's velocities. A limit
+        of the snap adds a bound of its own from rest to rest: then laws need not come near, nor at order 2 with a limit
+        of the jerk where an end moves.
+    limit_breaks
+        Breaks of `Pieces(breaks, degree=3, continuity=2)` that reach the limit; empty where none are known.
+    price
+        The share by which laws of the problem's space are slower than all laws; None without a limit.
+    none_below, gap
+        The time up to which it is proven that no law of the space keeps the limits, s, and its relative difference.
+    status
+        `optimal` where the least time is proven, `local` where a torque is not convex in the law.
+    binding
+        The limits that the law reaches and that keep it from being faster.
 
     Examples
     --------
@@ -55,70 +84,16 @@ class FastestMove(LawExport, JsonText):
 
     _json_name = "a fastest move"
 
-    @property
-    def duration(self) -> float:
-        """The least time of the move, s."""
-        return self.least.duration
-
-    @property
-    def stroke(self) -> float:
-        """The stroke, in m or rad."""
-        return self.least.move.stroke
-
-    @property
-    def law(self) -> MotionLaw:
-        """The law that takes the least time."""
-        return self.least.law
-
-    @property
-    def limit(self) -> float | None:
-        """The time that no law of any degree is faster than, s; None where no closed form is known.
-
-        Under limits of velocity, acceleration and jerk it is that of the seven segments, whose ends have the move's
-        velocities. A limit of the snap adds a bound of its own from rest to rest: then laws need not come near, nor at
-        order 2 with a limit of the jerk where an end moves.
-        """
-        return self.least.limit
-
-    @property
-    def limit_breaks(self) -> tuple[float, ...]:
-        """Breaks of `Pieces(breaks, degree=3, continuity=2)` that reach the limit; empty where none are known.
-
-        Examples
-        --------
-        >>> import optlaws
-        >>> limits = {"velocity": "1 m/s", "jerk": "300 m/s^3"}
-        >>> move = optlaws.fastest(optlaws.Problem(order=3), stroke="100 mm", limits=limits)
-        >>> pieces = optlaws.Pieces(move.limit_breaks, degree=3, continuity=2)
-        >>> round(optlaws.fastest(optlaws.Problem(order=3, basis=pieces), stroke="100 mm", limits=limits).price, 9)
-        0.0
-        """
-        return self.least.limit_breaks
-
-    @property
-    def price(self) -> float | None:
-        """The share by which laws of the problem's space are slower than all laws; None without a limit."""
-        return self.least.price
-
-    @property
-    def none_below(self) -> float:
-        """The time up to which it is proven that no law of the space keeps the limits, s."""
-        return self.least.none_below
-
-    @property
-    def gap(self) -> float:
-        """The relative difference between the least time and the longest time that is proven to be too short."""
-        return self.least.gap
-
-    @property
-    def status(self) -> Status:
-        """`optimal` where the least time is proven, `local` where a torque is not convex in the law."""
-        return self.least.status
-
-    @property
-    def binding(self) -> tuple[str, ...]:
-        """The limits that the law reaches and that keep it from being faster."""
-        return self.least.binding
+    duration = kept_property[float](lambda move: move.least.duration)
+    stroke = kept_property[float](lambda move: move.least.move.stroke)
+    law = kept_property[MotionLaw](lambda move: move.least.law)
+    limit = kept_property[float | None](lambda move: move.least.limit)
+    limit_breaks = kept_property[tuple[float, ...]](lambda move: move.least.limit_breaks)
+    price = kept_property[float | None](lambda move: move.least.price)
+    none_below = kept_property[float](lambda move: move.least.none_below)
+    gap = kept_property[float](lambda move: move.least.gap)
+    status = kept_property[Status](lambda move: move.least.status)
+    binding = kept_property[tuple[str, ...]](lambda move: move.least.binding)
 
     def gains(self, more: float = _MORE) -> dict[str, float]:
         """The share of the time that a share more of each limit saves: the least time with it is computed again.
@@ -134,19 +109,16 @@ class FastestMove(LawExport, JsonText):
         """
         more = positive(more, "more")
         if more not in self._gains:
-            self._gains[more] = {name: self._gain(name, more) for name in self.least.slopes}
+            move, gains = self.least.move, dict.fromkeys(self.least.slopes, 0.0)
+            for name in gains.keys() & {*self.binding}:
+                raised = replace(move, limits=move.limits.scaled(name, 1.0 + more))
+                gains[name] = 1.0 - least_time(raised, self.least).duration / self.duration
+            self._gains[more] = gains
         return dict(self._gains[more])
 
     @kept_property
     def _gains(self) -> dict[float, dict[str, float]]:
         return {}
-
-    def _gain(self, name: str, more: float) -> float:
-        if name not in self.binding:
-            return 0.0
-        move = self.least.move
-        raised = replace(move, limits=move.limits.scaled(name, 1.0 + more))
-        return 1.0 - least_time(raised, self.least).duration / self.duration
 
     def within(self, duration: Quantity) -> Problem:
         """The problem of the laws that keep every limit in a longer time, such as "0.3 s", to minimise something else.
@@ -197,7 +169,7 @@ class FastestMove(LawExport, JsonText):
 
     def proof_rows(self) -> Summary:
         """The least time and the limit of all laws, with what is proven of them."""
-        rows = [Row("least time", self.duration, "s", note=f"{self._word}: {self._proven}")]
+        rows = [Row("least time", self.duration, "s", note=self._proven)]
         laws = "of any degree" if self.least.move.torque is None else "that never turns back"
         return Summary([*rows, limit_row(self.limit, self.duration, laws)])
 
@@ -218,13 +190,6 @@ class FastestMove(LawExport, JsonText):
         ------
         InputError
             As `MotionLaw.export`.
-
-        Examples
-        --------
-        >>> import optlaws
-        >>> move = optlaws.fastest(optlaws.Problem(order=3), stroke="100 mm", limits={"jerk": "300 m/s^3"})
-        >>> round(float(move.export("csv", points=3).text.splitlines()[-1].split(",")[1]), 9)
-        100.0
         """
         whole = f"{self.stroke * 1e3!r} mm" if self.unit == "m" else f"{self.stroke * DEGREES!r} deg"
         return super().export(
@@ -237,16 +202,15 @@ class FastestMove(LawExport, JsonText):
         )
 
     def _exported(self) -> tuple[MotionLaw, tuple[str, ...]]:
-        return self.law, (f"law: least time {self.duration:.9g} s within the limits, {self._word}: {self._proven}",)
-
-    @property
-    def _word(self) -> str:
-        return "proven" if self.status is Status.OPTIMAL else "the least that was found, and proven"
+        return self.law, (f"law: least time {self.duration:.9g} s within the limits, {self._proven}",)
 
     @property
     def _proven(self) -> str:
-        """The statement on all laws of the space that is proven."""
-        return f"none of {_space(self.least.move.problem)} takes {self.none_below:.9g} s or less"
+        """How far the least time is proven, and the statement on all laws of the space that is."""
+        word = "proven" if self.status is Status.OPTIMAL else "the least that was found, and proven"
+        space = self.least.move.problem
+        laws = f"the laws of order {space.order} in {space.basis!r}"
+        return f"{word}: none of {laws} takes {self.none_below:.9g} s or less"
 
     def to_dict(self) -> dict[str, Any]:
         """Plain JSON-able dict in SI units: law and proofs in one, which `optlaws verify` checks."""
@@ -275,8 +239,6 @@ class FastestMove(LawExport, JsonText):
         >>> [(panel.title, round(panel.peak, 6)) for panel in move.report().panels][3]
         ('jerk, m/s³', 300.0)
         """
-        from optlaws.cycles.moves.report import MoveReport
-
         return MoveReport(self, self.law, self.duration)
 
     def _repr_html_(self) -> str:
@@ -301,6 +263,133 @@ def limit_row(limit: float | None, least: float, laws: str = "of any degree") ->
     return Row("limit", limit, "s", note=f"that no law {laws} beats: the space costs {price:.2g} %")
 
 
-def _space(problem: Problem) -> str:
-    """The laws of a problem in words."""
-    return f"the laws of order {problem.order} in {problem.basis!r}"
+@dataclass(frozen=True)
+class MoveReport:
+    """The report of a least time, with its law or another one in a longer time.
+
+    Attributes
+    ----------
+    move
+        The least time.
+    law, duration
+        The law and its time, s.
+    drive, start
+        The motor whose torque is shown, if any, and the position of its mechanism's input where the move begins, rad.
+    """
+
+    move: FastestMove
+    law: MotionLaw
+    duration: float
+    drive: Drive | None = None
+    start: float = 0.0
+
+    tables: tuple[ReportTable, ...] = ()
+    segments: tuple[ReportSegment, ...] = ()
+
+    @property
+    def facts(self) -> Summary:
+        """The least time with its proof, and the use of each limit with the time that a higher one saves."""
+        rows = (Row(each.name, each.value, each.unit, note=self._note(each)) for each in self.limits_taken)
+        return Summary([*self.move.proof_rows(), *rows])
+
+    def _note(self, taken: LimitTaken) -> str:
+        if taken.name not in self.move.binding:
+            return f"{100.0 * taken.share:.3g} % of the limit"
+        gain = self.move.gains().get(taken.name)
+        return "binds" if gain is None else f"binds: 10 % more saves {100.0 * gain:.2g} % of the time"
+
+    @property
+    def data(self) -> dict[str, Any]:
+        """The move with its proofs."""
+        return self.move.to_dict()
+
+    @kept_property
+    def piece(self) -> Piece:
+        """The law in its place."""
+        return Piece(0.0, self.duration, self.start, self.move.stroke, self.law)
+
+    @kept_property
+    def limits(self) -> dict[int, tuple[float, float]]:
+        """The least and the greatest allowed value of each derivative with a limit, by its order, in SI units."""
+        known = self.move.least.move.limits
+        sides = {1: (known.velocity,) * 2, 2: (known.deceleration, known.acceleration), 3: (known.jerk,) * 2}
+        sides[4] = (known.snap,) * 2
+        return {
+            nu: (-inf if low is None else -low, inf if high is None else high)
+            for nu, (low, high) in sides.items()
+            if low is not None or high is not None
+        }
+
+    @kept_property
+    def limits_taken(self) -> tuple[LimitTaken, ...]:
+        """The use of each limit of the move, in SI units."""
+        axis, others = AXES[self.move.unit], {CURVE_LIMIT: "", RESIDUAL: unit_of(AXES[self.move.unit], 2)}
+        return tuple(
+            LimitTaken(
+                limit.name,
+                "",
+                limit.at(self.duration).share(self.law) * limit.most,
+                limit.most,
+                "",
+                unit=unit_of(axis, limit.nu) if limit.nu else others.get(limit.name, "N m"),
+            )
+            for limit in self.move.least.move.along
+        )
+
+    def shares(self, times: Array) -> dict[str, Array]:
+        """The share of each limit of the motion and of the motor that is taken at each time, 0 to 1."""
+        taken, torque = {}, self.move.least.move.torque
+        for nu, (low, high) in self.limits.items():
+            values, name = self.piece.values(times, nu), DERIVATIVES[nu]
+            if low == -high:
+                taken[name] = np.abs(values) / high
+            else:
+                sides = {name: high, "deceleration": low}
+                taken |= {side: np.maximum(values / end, 0.0) for side, end in sides.items() if isfinite(end)}
+        if self.drive is not None and self._along is not None and torque is not None:
+            torques = np.abs(self._along.force(times))
+            if torque.peak is not None:
+                taken["torque"] = torques / torque.peak
+            if torque.curve:
+                taken[CURVE_LIMIT] = self._along.use(times)
+        return taken
+
+    @property
+    def demands(self) -> list[Row]:
+        """What the move takes of its motor; nothing without one."""
+        return [] if self.sheet is None else list(self.sheet.summary())
+
+    @kept_property
+    def sheet(self) -> DriveSheet | None:
+        """What the move takes of its motor; None without one."""
+        if self.drive is None:
+            return None
+        return self.drive.sheet(self.law, self.start, self.move.stroke, self.duration)
+
+    @kept_property
+    def panels(self) -> tuple[Panel, ...]:
+        """Position, velocity, acceleration and jerk; the snap where it is limited, and the torque of a motor."""
+        piece, axis = replace(self.piece, offset=0.0), AXES[self.move.unit]
+        panels = []
+        for nu in range(1 + max((len(QUANTITIES) - 1, *self.limits))):
+            limits = [PanelLimit(0.0, self.duration, *self.limits[nu])] if nu in self.limits else ()
+            extremes = piece.extremes(nu, 0.0, self.duration)
+            panels.append(motion_panel([piece], nu, display_unit(axis, nu), extremes, limits))
+        return (*panels, *self._torque_panel())
+
+    @kept_property
+    def _along(self) -> PieceEffort | None:
+        return None if self.drive is None else PieceEffort(self.drive, self.piece)
+
+    def _torque_panel(self) -> tuple[Panel, ...]:
+        """The torque at the motor through its peak, and within its limit."""
+        if self._along is None or self.sheet is None:
+            return ()
+        torque, law, limited = self._along.force, self.law, self.move.least.move.torque
+        marks = self.duration * np.array([self.sheet.peak_torque_at, self.sheet.curve_use_at])
+        times = np.unique(self.duration * np.array([*np.linspace(0.0, 1.0, _STEPS), *law.breaks]))
+        times, (values,) = refined(times, [torque(times)], [torque], marks)
+        most = None if limited is None else limited.peak
+        limits = () if most is None else (PanelLimit(0.0, self.duration, -most, most),)
+        peaks = ((float(marks[0]), float(torque(marks[:1])[0])),)
+        return (Panel("torque", "N m", (Series(times, values),), limits, peaks),)

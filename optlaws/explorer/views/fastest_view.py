@@ -13,7 +13,7 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from optlaws import FastestCycle, FastestMove, Plan, Problem, Solution, Status, fastest
-from optlaws.cycles.moves.report import MoveReport
+from optlaws.cycles.moves.fastest_move import MoveReport
 from optlaws.cycles.moves.time_front import TimeFront
 from optlaws.cycles.report import CycleReport, objective_unit
 from optlaws.errors import InputError, OptlawsError
