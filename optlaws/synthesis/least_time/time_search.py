@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from math import copysign, exp, inf, log, sqrt
+from operator import itemgetter
 from typing import cast
 
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
@@ -240,9 +241,8 @@ def least_time(move: Timed, near: LeastTime | None = None) -> LeastTime:
         if not move.of_rates:
             return _by_secants(move, near)
         duration, solution, known = _from_either_side(move, near) if move.at_rest else _from_below(move)
-    return LeastTime(
-        cast("TimedMove", move), duration, solution, covering(move, known, duration * (1.0 - LEAST_TIME_GAP))
-    )
+    proofs = covering(move, known, duration * (1.0 - LEAST_TIME_GAP)) if known or not move.at_rest else ()
+    return LeastTime(cast("TimedMove", move), duration, solution, proofs)
 
 
 _Known = list[tuple[float, Multipliers]]
@@ -252,8 +252,15 @@ def _from_either_side(move: Timed, near: LeastTime | None) -> tuple[float, Solut
     """Steps from rest to rest: the multipliers of any time prove an interval from zero up to the next time."""
     duration, warm = _beside(move, near)
     known: _Known = []
+    tried: list[tuple[float, Solution]] = []
     for step in range(_STEPS):
-        solution = law_in_time(move, duration, warm)
+        try:
+            solution = law_in_time(move, duration, warm)
+        except SolverFailure:
+            if not tried:
+                raise
+            break
+        tried.append((duration, solution))
         warm, multipliers = solution.active_set, Multipliers.of(move, duration, solution)
         too_short, proven = multipliers.longest(duration), known[0][0] if known else 0.0
         # an inaccurate solution may prove less than one before, or by rounding more than its own law allows
@@ -267,7 +274,14 @@ def _from_either_side(move: Timed, near: LeastTime | None) -> tuple[float, Solut
             return duration, solution, known
         # where the multipliers say no more, the law says how long it takes
         duration = proven if proves_more and abs(gap) > LEAST_TIME_MET else duration * solution.objective
-    raise unsettled(move, duration)
+    if isinstance(move, TimedMove):
+        raise unsettled(move, duration)
+    # of a span of a cycle, which is not stored: the fastest of the laws, and no proof
+    needed = [
+        (time * max(limit.at(time).share(each.law) ** (1.0 / limit.nu) for limit in move.rates), each)
+        for time, each in tried
+    ]
+    return (*min(needed, key=itemgetter(0)), [])
 
 
 def _beside(move: Timed, near: LeastTime | None) -> tuple[float, ActiveSet | None]:

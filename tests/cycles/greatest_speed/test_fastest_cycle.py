@@ -24,6 +24,7 @@ from optlaws import (
     fastest,
 )
 from optlaws.verification import verify_all
+from tests.internals.synthesis import time_search
 
 LIMITS = {"velocity": "1 m/s", "acceleration": "20 m/s^2", "jerk": "2000 m/s^3"}
 TURNING = [Rise("35 mm", "120 deg"), Dwell("60 deg"), Return("35 mm", "100 deg"), Dwell()]
@@ -118,6 +119,30 @@ def test_joined_motions_with_limits_of_their_own_are_proven() -> None:
     # limits as one: 8 m/s² for both is slower, 20 m/s² for both is faster
     alone = replace(JOINED, segments=[Dwell("72 deg"), Free("30 mm", "144 deg"), Free("-30 mm")])
     assert alone.fastest().period < fastest.period
+
+
+@pytest.mark.parametrize("steps", [1, 2])
+def test_a_search_that_does_not_settle_gives_what_it_came_upon(steps: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Within the limits, no faster than the least, and said to be local; of a single move it is an error."""
+    given = cycle(segments=[Dwell("72 deg"), Free("30 mm", "144 deg"), Free("-30 mm")])
+    least = given.fastest()
+    assert least.status == "optimal"
+    monkeypatch.setattr(time_search, "_STEPS", steps)
+    local = replace(given).fastest()
+    assert (local.status, local.proofs) == ("local", {})
+    assert local.period > least.period
+    assert keeps(local, acceleration=20.0, jerk=2000.0, velocity=1.0)
+    with pytest.raises(SolverFailure, match="did not settle"):
+        fastest(Problem(order=3), stroke="100 mm", limits={"jerk": "300 m/s^3", "velocity": "0.6 m/s"})
+
+
+@pytest.mark.long
+def test_eight_free_motions_are_one_law_that_is_proven() -> None:
+    ways = (10, -4, 15, -12, 20, -9, -14, -6)
+    least = cycle(segments=[Dwell("40 deg"), *(Free(f"{way} mm", "40 deg") for way in ways)]).fastest()
+    assert least.status == "optimal"
+    assert least.period == pytest.approx(0.4482401, rel=1e-6)
+    assert keeps(least, acceleration=20.0, jerk=2000.0)
 
 
 def test_given_laws_have_closed_forms() -> None:
