@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from itertools import accumulate
 from math import inf, sqrt
 
+from optlaws.numerics.roots import bisect
 from optlaws.synthesis.least_time.move_limits import MoveLimits
 from optlaws.tolerances import OPERATIONS_ROUNDING, VALUE_ROUNDING
 
@@ -21,37 +22,16 @@ _SMOOTH_SNAP = 4
 _AT_REST = 2
 
 
-@dataclass(frozen=True)
-class Phase:
-    """The segments by which a velocity is gained: jerk, constant acceleration, jerk.
-
-    Attributes
-    ----------
-    times
-        Their three durations, s.
-    distance
-        What the motion covers meanwhile, beside that with its first velocity.
-    """
-
-    times: tuple[float, float, float]
-    distance: float
-
-    @property
-    def duration(self) -> float:
-        """Of all three, s."""
-        return sum(self.times)
+#: the times of the segments by which a velocity is gained, jerk, constant acceleration and jerk, and what they cover
+#: beside that with the first velocity
+Phase = tuple[tuple[float, float, float], float]
 
 
 @dataclass(frozen=True)
 class LimitSegments:
-    """The fastest motion of all laws from rest to rest: its seven segments.
+    """The times of the seven segments of the fastest motion, 0 of those that are not needed.
 
-    Attributes
-    ----------
-    times
-        Their durations, s; 0 where a segment is not needed.
-    are_reached
-        Whether laws come as near as one likes: not where a limit of the jerk is left out.
+    They `are_reached` where laws come as near as one likes: not where a limit of the jerk is left out.
     """
 
     times: tuple[float, ...]
@@ -59,15 +39,12 @@ class LimitSegments:
 
     @property
     def duration(self) -> float:
-        """The least time of the segments, s."""
         return sum(self.times)
 
     @property
     def breaks(self) -> tuple[float, ...]:
         """The times between segments as shares of the duration: breaks of pieces that reach the least time.
 
-        Examples
-        --------
         >>> segment_times(1.0, MoveLimits(jerk=1.0), 3).breaks
         (0.0, 0.25, 0.5, 0.75, 1.0)
         """
@@ -88,17 +65,8 @@ def segment_times(
     A limit of the snap is left out: with it, no law is as fast. At order 2 accelerations may jump at the ends, which
     is exact from rest to rest; where an end moves, the jerk is left out there.
 
-    Parameters
-    ----------
-    stroke, limits, order
-        Of the move; the order is 2 at least where an end moves.
-    ends
-        The velocities at the ends.
-    forward
-        Whether laws never turn back.
+    The order is 2 at least where the `ends` have velocities; laws that go `forward` never turn back.
 
-    Examples
-    --------
     >>> round(segment_times(1.0, MoveLimits(1.0, 1.0, 1.0, 1.0), 3).duration, 9)
     3.174802104
     >>> segment_times(1.0, MoveLimits(2.0, 1.0, 1.0), 3, (2.0, 0.0)).times  # it stops beyond its end, and turns back
@@ -116,9 +84,9 @@ def segment_times(
         jerk = inf
     if jerk == up == down == velocity == inf:
         return None
-    straight = _phase(abs(ends[1] - ends[0]), up if ends[1] > ends[0] else down, jerk, order)
-    slow = min(ends) * straight.duration
-    if slow + straight.distance - stroke > OPERATIONS_ROUNDING * (stroke + abs(slow) + straight.distance):
+    times, straight = _phase(abs(ends[1] - ends[0]), up if ends[1] > ends[0] else down, jerk, order)
+    slow = min(ends) * sum(times)
+    if slow + straight - stroke > OPERATIONS_ROUNDING * (stroke + abs(slow) + straight):
         # too fast at an end for so short a way, it is slower between, or goes back: its image is faster
         stroke, ends, up, down = -stroke, (-ends[0], -ends[1]), down, up
         velocity = 0.0 if forward else velocity
@@ -128,13 +96,13 @@ def segment_times(
         return _phase(first, up, jerk, order), _phase(last, down, jerk, order)
 
     def covered(above: float) -> float:
-        return sum(end * phase.duration + phase.distance for end, phase in zip(ends, phases(above), strict=True))
+        return sum(end * sum(times) + far for end, (times, far) in zip(ends, phases(above), strict=True))
 
     most = velocity - max(ends)
     above = most if jerk == up == down == inf or covered(most) <= stroke else _crossing(covered, stroke)
     cruise = 0.0 if above < most else (stroke - covered(most)) / velocity if velocity else inf
-    first, last = phases(above)
-    return LimitSegments((*first.times, cruise, *reversed(last.times)), not jumps)
+    (first, _), (last, _) = phases(above)
+    return LimitSegments((*first, cruise, *reversed(last)), not jumps)
 
 
 def time_of_any_law(stroke: float, limits: MoveLimits, order: int) -> float | None:
@@ -142,8 +110,6 @@ def time_of_any_law(stroke: float, limits: MoveLimits, order: int) -> float | No
 
     Without a limit of the snap laws come as near as one likes. With it, the greater of two bounds is taken.
 
-    Examples
-    --------
     >>> time_of_any_law(384.0, MoveLimits(snap=1.0), 4), time_of_any_law(2.0, MoveLimits(1.0, 1.0, 1.0, 1.0), 3)
     (19.595918, 4.0)
     """
@@ -163,24 +129,22 @@ def _crossing(covered: Callable[[float], float], stroke: float) -> float:
         low, high = high, 2.0 * high
     while low == 0.0 and covered(0.5 * high) > stroke:
         high *= 0.5
-    while low < (middle := 0.5 * (low + high)) < high:
-        low, high = (middle, high) if covered(middle) < stroke else (low, middle)
-    return high
+    return bisect(lambda above: covered(above) < stroke, low, high)[1]
 
 
 def _phase(gain: float, limit: float, jerk: float, order: int) -> Phase:
     """The fastest segments from a standstill to a velocity at which the acceleration is 0."""
     if jerk == inf:
-        return Phase((0.0, gain / limit, 0.0), 0.5 * gain * gain / limit)
+        return (0.0, gain / limit, 0.0), 0.5 * gain * gain / limit
     if order > _AT_REST:
         if gain < limit * (limit / jerk):
             ramp = sqrt(gain / jerk)
-            return Phase((ramp, 0.0, ramp), gain * ramp)
+            return (ramp, 0.0, ramp), gain * ramp
         ramp, total = limit / jerk, gain / limit + limit / jerk
-        return Phase((ramp, max(total - 2.0 * ramp, 0.0), ramp), 0.5 * gain * total)
+        return (ramp, max(total - 2.0 * ramp, 0.0), ramp), 0.5 * gain * total
     # the acceleration may begin with its greatest value
     if 2.0 * gain < limit * (limit / jerk):
         ramp = sqrt(2.0 * gain / jerk)
-        return Phase((0.0, 0.0, ramp), jerk * ramp * ramp * ramp / 3.0)
+        return (0.0, 0.0, ramp), jerk * ramp * ramp * ramp / 3.0
     ramp, steady = limit / jerk, gain / limit - 0.5 * limit / jerk
-    return Phase((0.0, steady, ramp), limit * (0.5 * steady * steady + steady * ramp + ramp * ramp / 3.0))
+    return (0.0, steady, ramp), limit * (0.5 * steady * steady + steady * ramp + ramp * ramp / 3.0)

@@ -18,6 +18,7 @@ from numpy.polynomial.polynomial import polyroots
 from optlaws.entries.declared import Declared, ValueOf, declared, entry
 from optlaws.entries.value_types import Number
 from optlaws.errors import InputError, SolverFailure
+from optlaws.numerics.roots import bisect
 from optlaws.synthesis.families import names
 from optlaws.synthesis.least_time.move_limits import power
 from optlaws.synthesis.least_time.timed_move import Timed, control_point, powers_of
@@ -77,16 +78,9 @@ class TimeProof(Declared, title="a proof of a least time"):
 
 @dataclass(frozen=True)
 class Multipliers:
-    """Bounds for all times by the multipliers of one optimum.
+    """Bounds for all times by the multipliers of one optimum: f(T) = constant + sum of ends T^nu - sum of weights T^nu.
 
-    Attributes
-    ----------
-    certificate
-        The optimum's.
-    weights
-        Of the limits in f(T) = constant + sum of ends T^nu - sum of weight T^nu, by the order nu.
-    constant, ends
-        Of what the ends leave, by the order nu.
+    The weights are those of the limits, constant and ends of what the ends leave, by the order nu.
     """
 
     certificate: Certificate
@@ -119,11 +113,12 @@ class Multipliers:
     @property
     def steepness(self) -> dict[int, float]:
         """The coefficients of f by the order nu, without the constant."""
-        orders = {nu for nu, _ in (*self.ends, *self.weights)}
-        return {
-            order: sum(end for nu, end in self.ends if nu == order) - sum(w for nu, w in self.weights if nu == order)
-            for order in sorted(orders)
-        }
+        steep = dict.fromkeys(sorted({nu for nu, _ in (*self.ends, *self.weights)}), 0.0)
+        for nu, end in self.ends:
+            steep[nu] += end
+        for nu, weight in self.weights:
+            steep[nu] -= weight
+        return steep
 
     def longest(self, duration: float) -> float:
         """The time up to which f stays positive, from a time at which it is, or back to a time at which it is not."""
@@ -131,18 +126,13 @@ class Multipliers:
             high = next(iter(self._roots(duration, 1.0)), inf)
             if high < inf:
                 return self._crossing(duration, high)
-        low = high = duration
-        if self.above(duration) > 0.0:
-            for _ in range(_DOUBLINGS):
-                low, high = high, 2.0 * high
-                if self.above(high) <= 0.0:
-                    break
-        else:
-            for _ in range(_DOUBLINGS):
-                low, high = 0.5 * low, low
-                if self.above(low) > 0.0:
-                    break
-        return self._crossing(low, high)
+        factor = 2.0 if self.above(duration) > 0.0 else 0.5
+        near = far = duration
+        for _ in range(_DOUBLINGS):
+            near, far = far, factor * far
+            if (self.above(far) > 0.0) == (factor < 1.0):
+                break
+        return self._crossing(min(near, far), max(near, far))
 
     def shortest(self, duration: float) -> float:
         """The time down to which f stays positive, from a time at which it is; 0 where it is positive throughout."""
@@ -162,9 +152,7 @@ class Multipliers:
 
     def _crossing(self, inside: float, outside: float) -> float:
         """The last time at which f is above 0, between a time where it is and one where it is not."""
-        while (middle := 0.5 * (inside + outside)) not in {inside, outside}:
-            inside, outside = (middle, outside) if self.above(middle) > 0.0 else (inside, middle)
-        return inside
+        return bisect(lambda time: self.above(time) > 0.0, inside, outside, _DOUBLINGS)[0]
 
     def above_between(self, shortest: float, longest: float) -> bool:
         """Whether the Bernstein coefficients of f between two times show that it is above 0 there."""
@@ -172,10 +160,6 @@ class Multipliers:
         degree = max(steep)
         points = (control_point(shortest, longest, i, degree) for i in range(degree + 1))
         return all(self.constant + sum(a * point[nu - 1] for nu, a in steep.items()) > 0.0 for point in points)
-
-    def proof(self, move: Timed, shortest: float, longest: float) -> TimeProof:
-        """The proof of an interval, by the multipliers of the limits alone."""
-        return proof_by(self.certificate, move, shortest, longest)
 
 
 def proof_by(certificate: Certificate, move: Timed, shortest: float, longest: float) -> TimeProof:
@@ -224,7 +208,7 @@ def _in_parts(multipliers: Multipliers, move: Timed, shortest: float, longest: f
     """The proofs of an interval, the longest times first: a single proof, or several for its parts."""
     middle = 0.5 * (shortest + longest)
     if move.concave or multipliers.above_between(shortest, longest) or not shortest < middle < longest:
-        return [multipliers.proof(move, shortest, longest)]
+        return [proof_by(multipliers.certificate, move, shortest, longest)]
     parts = ((middle, longest), (shortest, middle))
     return [proof for low, high in parts for proof in _in_parts(multipliers, move, low, high)]
 

@@ -25,7 +25,6 @@ from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
 
 _EXAMPLE = "{'velocity': 1.0, 'acceleration': 12.0}"
 _HIGHEST = 4
-_HALVINGS = 2000  # of a time: more than there are numbers between two to halve
 
 #: a time to the powers 1 to 4, or what stands for them in a Bernstein form
 Powers = tuple[float, ...]
@@ -360,7 +359,7 @@ class TimedMove(Timed):
         high: float = (factorial(nu) / rate) ** (1.0 / nu)
         while too_short(high):
             high = nextafter(high, inf)
-        return bisect(too_short, 0.0 if start else nextafter(high, 0.0), high, _HALVINGS)[1]
+        return bisect(too_short, 0.0 if start else nextafter(high, 0.0), high)[1]
 
 
 def _checked(problem: Any, *, even: bool) -> Problem:

@@ -121,6 +121,7 @@ def test_joined_motions_with_limits_of_their_own_are_proven() -> None:
     assert alone.fastest().period < fastest.period
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("steps", [1, 2])
 def test_a_search_that_does_not_settle_gives_what_it_came_upon(steps: int, monkeypatch: pytest.MonkeyPatch) -> None:
     """Within the limits, no faster than the least, and said to be local; of a single move it is an error."""
