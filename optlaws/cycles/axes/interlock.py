@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import accumulate, pairwise
 from math import hypot, sqrt
@@ -245,27 +245,34 @@ class After(Interlock, kind="after", title="an interlock after"):
         return _passed(self.position, first, self.axis), _passed(level, second, self.of, rest=True)
 
     def unit(self, kind: str, other: str) -> str:  # noqa: ARG002 - whatever waits
-        """The unit of the axis that is to be beyond a position."""
         return unit_of(other)
 
     def room(self, cycles: Mapping[str, Any], times: Array) -> Array:
-        """The signed distance of the other axis beyond its required position."""
         return np.asarray(self.sign * (cycles[self.of](times) - self.positions(cycles)[1]))
 
     def events(self, cycles: Mapping[str, Any]) -> list[tuple[float, float | None, bool]]:
         """Each pass: its time, when the other axis comes beyond its position, and whether that is by then."""
-        position, level = self.positions(cycles)
         first, second = (EnclosedAxis(cycles[name]) for name in self.axes)
-        entries = self._entries(second, level)
+        given = self.positions(cycles)
+        entries = self._entries(second, given[1])
         pairs: list[tuple[float, float | None, bool]] = []
-        for start, stop in first.passes(position, self.way):
-            time = 0.5 * (start + stop)
-            clear = self.sign * (float(second.cycle(time)) - level) >= -INTERLOCK * second.stroke
+        for _, clearance, time in self._passes(given, first, second):
+            clear = clearance >= -INTERLOCK * second.stroke
             later = time + SAME_TIME * second.duration if clear else time
             before, after = ([at for at in entries if (at <= later) == early] for early in (True, False))
             nearest = (before or entries)[-1:] if clear else (after or entries)[:1]
             pairs.append((time, nearest[0] if nearest else None, clear))
         return pairs
+
+    def _passes(
+        self, given: tuple[float, float], first: EnclosedAxis, second: EnclosedAxis
+    ) -> Iterator[tuple[float, float, float]]:
+        """Of each pass the bound of the clearance, the clearance, and the time."""
+        for start, stop in first.passes(given[0], self.way):
+            time, level = 0.5 * (start + stop), given[1]
+            low, high = second.between(start, stop)
+            bound = low - level if self.sign > 0.0 else level - high
+            yield bound, self.sign * (float(second.cycle(time)) - level), time
 
     def _entries(self, second: EnclosedAxis, level: float) -> list[float]:
         """When the other axis comes beyond its position."""
@@ -276,18 +283,12 @@ class After(Interlock, kind="after", title="an interlock after"):
 
         The margin is how long ago it passed that position, or how long it will take until it does, below 0.
         """
-        position, level = given
-        known = []
-        for start, stop in first.passes(position, self.way):
-            low, high = second.between(start, stop)
-            time = 0.5 * (start + stop)
-            bound = low - level if self.sign > 0.0 else level - high
-            known.append((bound, self.sign * (float(second.cycle(time)) - level), time))
+        known = list(self._passes(given, first, second))
         if not known:
             raise InputError(f"interlock {self.label}: {self.axis} never passes {self.position}{self._way}")
         bound, clearance, time = min(known)
         way = 1.0 if clearance >= 0.0 else -1.0
-        early = [way * ((way * (time - at)) % second.duration) for at in self._entries(second, level)]
+        early = [way * ((way * (time - at)) % second.duration) for at in self._entries(second, given[1])]
         return clearance, bound, time, second.stroke, *sorted(early, key=abs)[:1]
 
 
@@ -400,7 +401,6 @@ class Clearance(Interlock, kind="clearance"):
         return TableBound(places, values)
 
     def room(self, cycles: Mapping[str, Any], times: Array) -> Array:
-        """The signed distance of the axis from its bound."""
         first, second = (cycles[name](times) for name in self.axes)
         return np.asarray(self.sign * (first - self.in_si(cycles)(second)))
 
@@ -463,7 +463,6 @@ class Forbidden(Interlock, kind="forbidden", title="a forbidden region"):
         return unit_of(kind) if kind == other else "strokes"
 
     def room(self, cycles: Mapping[str, Any], times: Array) -> Array:
-        """The distance of the path from the polygon, below 0 within it."""
         axes = [EnclosedAxis(cycles[name]) for name in self.axes]
         sizes = _sizes(*axes)
         polygon = self.in_si(cycles).scaled(*sizes)
@@ -550,24 +549,19 @@ class Synchronous(Interlock, kind="synchronous", title="a synchronous motion"):
         return quantity(self.within, AXES[first.axis][1], "within")
 
     def check(self, cycles: Mapping[str, Any]) -> None:
-        """Refuse axes that are not there or of two kinds, and a window that is none."""
         super().check(cycles)
         self.window(cycles[self.axis].duration)
 
     def unit(self, kind: str, other: str) -> str:  # noqa: ARG002 - both are of one kind
-        """The unit of velocities."""
         return unit_of(kind, 1)
 
     def room(self, cycles: Mapping[str, Any], times: Array) -> Array:
-        """The tolerance minus the difference of the velocities, in the window."""
         first, second = (cycles[name] for name in self.axes)
         start, stop = self.window(first.duration)
         difference = np.abs(first(times, 1) - self.ratio * second(times, 1))
         return np.where((times >= start) & (times <= stop), self.in_si(cycles) - difference, np.nan)
 
     def _least(self, given: float, first: EnclosedAxis, second: EnclosedAxis) -> tuple[float, ...]:
-        """The tolerance less the greatest difference of the velocities."""
-
         def difference(at: Interval, order: int) -> Jet:
             return first.jet(at, order + 1).slope() - second.jet(at, order + 1).slope() * self.ratio
 

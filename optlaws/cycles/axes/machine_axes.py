@@ -135,10 +135,6 @@ class Axes(Declared, Mapping[str, Cycle], title="stored axes"):
         the master. Dwells last at least as long as they were given, or their `least`. The order of the segments of each
         axis stays, and all axes rest when the cycle begins.
 
-        Returns
-        -------
-        An `Overlap`: its axes, its period, and the bound that no other instants of these laws pass.
-
         Raises
         ------
         InputError
@@ -177,11 +173,6 @@ class Axes(Declared, Mapping[str, Cycle], title="stored axes"):
         of
             The axes whose moves may take longer, all unless given; moves of the others keep their times. Of several the
             greatest share of what each has now is least.
-
-        Returns
-        -------
-        An `Overlap`: its axes, its acceleration as a share of what it was, and the bound that no other instants of
-        these laws pass.
 
         Raises
         ------
