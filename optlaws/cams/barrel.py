@@ -25,7 +25,7 @@ from optlaws.cams.curves.motion_by_angle import CamMotion, as_motion
 from optlaws.cams.curves.plane_curve import CurveByAngle
 from optlaws.cams.disc import Turning, sense
 from optlaws.cams.followers.follower import positive, shown
-from optlaws.cycles.cycle import Cycle
+from optlaws.cycles.cycle import Cycle, Plan
 from optlaws.entries.declared import Declared, declared, documented_by, entry
 from optlaws.entries.value_types import Measured
 from optlaws.errors import InputError
@@ -93,7 +93,7 @@ class BarrelCam:
     (38.37193, (3,), 'free')
     """
 
-    motion: Cycle | CamMotion
+    motion: Cycle | Plan | CamMotion
     outer_radius: Quantity
     depth: Quantity
     roller_radius: Quantity

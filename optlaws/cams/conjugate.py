@@ -9,7 +9,7 @@ from optlaws.cams.followers.follower import CamFollower, positive, shown
 from optlaws.entries.declared import Declared, ValueOf, declared, documented_by, entries_of, entry
 from optlaws.entries.value_types import Measured
 from optlaws.errors import InputError
-from optlaws.motion.quantities import quantity
+from optlaws.motion.quantities import Exact, quantity
 from optlaws.numbers import Quantity
 
 #: what gives a pair by what its follower's way is
@@ -91,7 +91,7 @@ def _on_slide(cam: DiscCam, follower: CamFollower, distance: float) -> DiscCam:
     radius = follower.prime_radius(least)
     phase = quantity(cam.phase, "angle", "phase") + pi
     beneath = follower.from_beneath()
-    return DiscCam(motion.reversed(), f"{radius!r} m", beneath, turning=cam.turning, phase=f"{phase!r} rad")
+    return DiscCam(motion.reversed(), Exact(radius, "m"), beneath, turning=cam.turning, phase=Exact(phase, "rad"))
 
 
 def _on_pivot(cam: DiscCam, follower: CamFollower, angle: float) -> DiscCam:
@@ -107,5 +107,10 @@ def _on_pivot(cam: DiscCam, follower: CamFollower, angle: float) -> DiscCam:
     other = next(name for name, turning in TURNINGS.items() if turning == -cam.contact.turning)
     phase = quantity(cam.phase, "angle", "phase")
     return DiscCam(
-        motion.reversed(), f"{radius!r} m", follower, turning=other, phase=f"{-phase!r} rad", mirrored=not cam.mirrored
+        motion.reversed(),
+        Exact(radius, "m"),
+        follower,
+        turning=other,
+        phase=Exact(-phase, "rad"),
+        mirrored=not cam.mirrored,
     )

@@ -14,7 +14,7 @@ from optlaws.cams.curves.motion_by_angle import CamMotion, as_motion
 from optlaws.cams.curves.plane_curve import PlaneCurve
 from optlaws.cams.followers.contact import FollowerContact
 from optlaws.cams.followers.follower import CamFollower, Place, follower_names, positive
-from optlaws.cycles.cycle import Cycle
+from optlaws.cycles.cycle import Cycle, Plan
 from optlaws.echo import shortened
 from optlaws.entries.declared import documented_by
 from optlaws.errors import InputError
@@ -75,7 +75,7 @@ class DiscCam:
     (21.157747, (2,))
     """
 
-    motion: Cycle | CamMotion
+    motion: Cycle | Plan | CamMotion
     prime_radius: Quantity
     follower: CamFollower
     turning: Turning = field(default="counterclockwise", kw_only=True)

@@ -22,13 +22,13 @@ from optlaws.cams.disc import DiscCam, Turning, sense
 from optlaws.cams.followers.contact import CURVATURE, PRESSURE, FollowerContact
 from optlaws.cams.followers.follower import CamFollower, Place, positive, shown
 from optlaws.cams.followers.rollers import TranslatingRoller
-from optlaws.cycles.cycle import Cycle
+from optlaws.cycles.cycle import Cycle, Plan
 from optlaws.echo import shortened
 from optlaws.entries.declared import Declared, declared, documented_by, entry
 from optlaws.entries.value_types import Measured
 from optlaws.errors import InfeasibleProblem, InputError
 from optlaws.kept import kept_property
-from optlaws.motion.quantities import in_degrees, quantity
+from optlaws.motion.quantities import Exact, in_degrees, quantity
 from optlaws.numbers import Array, Quantity
 from optlaws.numerics.interval import Interval, between, exact
 from optlaws.numerics.peaks import is_kept
@@ -165,7 +165,7 @@ class LeastPrimeCircle:
 
 @documented_by(CamLimits)
 def least_prime_circle(
-    motion: Cycle | CamMotion,
+    motion: Cycle | Plan | CamMotion,
     follower: CamFollower,
     *,
     pressure_angle: Quantity | None = None,
@@ -210,7 +210,7 @@ def least_prime_circle(
         radius *= 1.0 + _SIZE_NUDGE
     else:
         raise InfeasibleProblem(f"no prime circle was found that keeps {limits}: give wider limits")
-    cam = DiscCam(motion, f"{radius!r} m", follower, turning=turning)
+    cam = DiscCam(motion, Exact(radius, "m"), follower, turning=turning)
     last = witnesses[-1] if witnesses else Witness("mechanism", 0.0, 1.0, before=False)
     below = radius * (1.0 - SIZE_BRACKET)
     proven = not witnesses or below <= start or sizes.breaks_between(start, below, witnesses[::-1])
@@ -446,7 +446,7 @@ class BestOffset:
 
 
 def best_offset(
-    motion: Cycle | CamMotion,
+    motion: Cycle | Plan | CamMotion,
     prime_radius: Quantity,
     follower: TranslatingRoller,
     *,
@@ -484,7 +484,7 @@ def best_offset(
     for _ in range(_OFFSET_STEPS):
         s, slope = (np.asarray(term) for term in course.jet(angles, 1).terms)
         offset = _balanced(offsets, s, slope)
-        cam = DiscCam(motion, prime_radius, replace(follower, offset=f"{offset!r} m"), turning=turning)
+        cam = DiscCam(motion, prime_radius, replace(follower, offset=Exact(offset, "m")), turning=turning)
         ends = cam.extremes.pressure_angles
         reached, greatest = float(np.abs(offsets.tangents(offset, s, slope)).max()), max(-ends[0].low, ends[1].high)
         if greatest <= atan(reached) * (1.0 + _OFFSET_SETTLED) or abs(offset - last) <= ROUNDOFF * radius:

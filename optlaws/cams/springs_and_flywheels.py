@@ -440,7 +440,9 @@ class EnergyFluctuation(PlainNumbers):
         return self.energy / (spread * self.speed**2)
 
 
-def energy_fluctuation(machine: CamForces | Cycle | Mechanism, speed: Quantity | None = None) -> EnergyFluctuation:
+def energy_fluctuation(
+    machine: CamForces | Cycle | Plan | Mechanism, speed: Quantity | None = None
+) -> EnergyFluctuation:
     """Mean power, mean torque and the work above the mean of a shaft that turns once a cycle at an even speed.
 
     The torque is integrated by Gauss's rule between the angles at which it has kinks or jumps, or crosses its mean.

@@ -46,7 +46,7 @@ from optlaws.jobs.cycle_entries import AxisEntries, cycle_of
 from optlaws.jobs.job_entries import ProblemFile
 from optlaws.kept import kept_property
 from optlaws.motion.display_units import MICRO, MILLI, TURN_DEG
-from optlaws.motion.quantities import TURN
+from optlaws.motion.quantities import TURN, Exact
 from optlaws.numbers import Quantity, chop
 from optlaws.plots.cam import animated, barrel_figure, cam_figure, forces_figure, pair_figure
 from optlaws.results import Results
@@ -292,7 +292,7 @@ class CamResult:
         """The cam's forces at the speed of its cycle."""
         cycle, beside = self.spec.cycle, dict[str, Any]()
         if self.cam.motion is not cycle:  # laws that were found for a cam are no cycle, but go as fast
-            beside = {"speed": f"{TURN / cycle.duration!r} rad/s", "drive": cycle.drive}
+            beside = {"speed": Exact(TURN / cycle.duration, "rad/s"), "drive": cycle.drive}
         options = {name: getattr(surfaces, name) for name in entries_of(Surfaces)}
         return CamForces(self.cam, process=self.spec.process, **options, **beside)
 

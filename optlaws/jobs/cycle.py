@@ -28,6 +28,7 @@ from optlaws.jobs.job_entries import plain_name
 from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.mechanisms.linkages.mechanism import Mechanism
 from optlaws.motion.display_units import RPM
+from optlaws.motion.quantities import Exact
 from optlaws.plots.style import figure_of, plot_style
 from optlaws.plots.sweep import sweep_figure
 from optlaws.results import Page, Results
@@ -145,7 +146,7 @@ def at_greatest_speed(axes: Axes, fastest: Mapping[str, FastestCycle]) -> Axes:
 
     period = max(each.period for each in fastest.values())
     cycles = {
-        name: each.cycle if each.period == period else replace(axes[name], speed=None, period=f"{period!r} s")
+        name: each.cycle if each.period == period else replace(axes[name], speed=None, period=Exact(period, "s"))
         for name, each in fastest.items()
     }
     return Axes(cycles, interlocks=axes.interlocks)

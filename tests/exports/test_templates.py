@@ -49,7 +49,9 @@ def test_a_c_compiler_takes_the_template_itself(file: str, rows: str, choice: st
 @pytest.mark.parametrize("choices", [set(some) for some in product(["ODD", ""], ["PIECES", ""])])
 @pytest.mark.parametrize("file", ["motion.st", "front.st", "codesys.st"])
 def test_the_grammar_of_the_standard_takes_the_template_itself(file: str, choices: set[str]) -> None:
-    [block] = parsed(filled(template(file), {"TABLES": ["    widened : LREAL := 1.0;"], "SEGMENTS": [], "COUNT": 1}, choices)).items
+    [block] = parsed(
+        filled(template(file), {"TABLES": ["    widened : LREAL := 1.0;"], "SEGMENTS": [], "COUNT": 1}, choices)
+    ).items
     assert block.name == "NAME"
 
 

@@ -18,7 +18,7 @@ from optlaws.entries.value_types import Number
 from optlaws.errors import InputError
 from optlaws.laws import MotionLaw
 from optlaws.motion.piece import Piece
-from optlaws.motion.quantities import positive_quantity, quantity
+from optlaws.motion.quantities import Exact, positive_quantity, quantity
 from optlaws.numbers import Quantity
 
 _DWELL = ("run-out", "reverse", "run-up")
@@ -90,11 +90,11 @@ class DwellMachine(Declared, title="a dwell machine"):
             If rise, return and dwells do not make a turn.
         """
         turn = self._turn()
-        swing = f"{turn.swing!r} rad"
-        rests = [[Dwell(f"{dwell!r} rad")] if dwell else [] for dwell in (turn.dwell, turn.lower_dwell)]
-        rise = Rise(swing, f"{turn.rise!r} rad", law=turn.law)
-        back = Return(swing, f"{turn.return_angle!r} rad", law=turn.return_law)
-        return Cycle([rise, *rests[0], back, *rests[1]], period=f"{tau / self.rate!r} s")
+        swing = Exact(turn.swing, "rad")
+        rests = [[Dwell(Exact(dwell, "rad"))] if dwell else [] for dwell in (turn.dwell, turn.lower_dwell)]
+        rise = Rise(swing, Exact(turn.rise, "rad"), law=turn.law)
+        back = Return(swing, Exact(turn.return_angle, "rad"), law=turn.return_law)
+        return Cycle([rise, *rests[0], back, *rests[1]], period=Exact(tau / self.rate, "s"))
 
     def loader_motion(self) -> CamMotion:
         """The loader's rocker over the turn, by the cam's angle, rad.
@@ -122,8 +122,8 @@ class DwellMachine(Declared, title="a dwell machine"):
         InputError
             If the cycle is no turn, or there is no such mechanism.
         """
-        follower = OscillatingRoller(roller, arm=f"{self.arm!r} m", pivot_distance=pivot_distance)
-        radius = f"{self.prime_radius!r} m"
+        follower = OscillatingRoller(roller, arm=Exact(self.arm, "m"), pivot_distance=pivot_distance)
+        radius = Exact(self.prime_radius, "m")
         return {
             "executive": DiscCam(self.executive_motion(), radius, follower),
             "loader": DiscCam(self.loader_motion(), radius, follower),

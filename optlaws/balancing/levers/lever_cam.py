@@ -15,7 +15,7 @@ from optlaws.entries.value_types import Measured
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.laws import PolynomialLaw
-from optlaws.motion.quantities import TURN, quantity
+from optlaws.motion.quantities import TURN, Exact, quantity
 from optlaws.numbers import Array, Quantity, positive
 from optlaws.numerics import chebyshev
 from optlaws.numerics.branch_and_bound import Extremes, extremes
@@ -114,11 +114,11 @@ class LeverCam(Declared, title="a torsion lever in a machine"):
         """The rocker's motion as a cycle for a cam: swing, dwell, swing back, dwell; both dwells are equally long."""
         exact, linkage = self.lever.exact, self.lever.linkage
         swing = float(linkage.rocker(exact.chi01) - linkage.rocker(exact.chi02))
-        turn, rest = f"{self.angle!r} rad", f"{0.5 * (TURN - 2.0 * self.angle)!r} rad"
+        turn, rest = Exact(self.angle, "rad"), Exact(0.5 * (TURN - 2.0 * self.angle), "rad")
         law = rocker_law(self.lever)
         rests = [Dwell(rest)] if self.angle < pi else []
-        back = Return(f"{swing!r} rad", turn, law=law)
-        return Cycle([Rise(f"{swing!r} rad", turn, law=law), *rests, back, *rests], speed=f"{self.rate!r} rad/s")
+        back = Return(Exact(swing, "rad"), turn, law=law)
+        return Cycle([Rise(Exact(swing, "rad"), turn, law=law), *rests, back, *rests], speed=Exact(self.rate, "rad/s"))
 
     def torque(self, speed_ratio: float = 1.0) -> Extremes:
         """The torque at the cam's shaft over the stroke, enclosed, N m; the speed is relative to the design speed.

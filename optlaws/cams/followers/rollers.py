@@ -29,7 +29,7 @@ from optlaws.entries.declared import declared, entry
 from optlaws.entries.value_types import Measured
 from optlaws.errors import InputError
 from optlaws.motion.piece import Piece
-from optlaws.motion.quantities import quantity
+from optlaws.motion.quantities import Exact, quantity
 from optlaws.numbers import Array, Quantity
 from optlaws.numerics.interval import Interval
 from optlaws.numerics.taylor import Jet, Pair, Term
@@ -180,7 +180,7 @@ class TranslatingRoller(CamFollower, kind="translating roller"):
 
     def from_beneath(self) -> TranslatingRoller:
         """The same follower with its offset on the other side."""
-        return replace(self, offset=f"{-quantity(self.offset, 'length', 'roller: offset')!r} m")
+        return replace(self, offset=Exact(-quantity(self.offset, "length", "roller: offset"), "m"))
 
 
 @dataclass(frozen=True)

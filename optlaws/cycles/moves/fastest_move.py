@@ -21,7 +21,7 @@ from optlaws.mechanisms.drives.effort import DriveSheet, PieceEffort
 from optlaws.motion.derivative_panel import DERIVATIVES, display_unit, motion_panel
 from optlaws.motion.display_units import DEGREES
 from optlaws.motion.piece import Piece, unit_of
-from optlaws.motion.quantities import QUANTITIES, positive_quantity
+from optlaws.motion.quantities import QUANTITIES, Exact, positive_quantity
 from optlaws.numbers import Array, Quantity, positive
 from optlaws.shown.curve_points import refined
 from optlaws.shown.report import Panel, PanelLimit, Report, ReportSegment, ReportTable, Series
@@ -191,11 +191,11 @@ class FastestMove(LawExport, JsonText):
         InputError
             As `MotionLaw.export`.
         """
-        whole = f"{self.stroke * 1e3!r} mm" if self.unit == "m" else f"{self.stroke * DEGREES!r} deg"
+        whole = Exact(self.stroke * 1e3, "mm") if self.unit == "m" else Exact(self.stroke * DEGREES, "deg")
         return super().export(
             to,
             stroke=whole if stroke is None else stroke,
-            duration=f"{self.duration!r} s" if duration is None else duration,
+            duration=Exact(self.duration, "s") if duration is None else duration,
             master=master,
             start=start,
             **options,

@@ -32,7 +32,7 @@ from optlaws.kept import kept_property
 from optlaws.laws.catalogue.reading import LARGEST_TABLE
 from optlaws.laws.making.through_points import noise
 from optlaws.laws.report import law_panels
-from optlaws.motion.quantities import QUANTITIES
+from optlaws.motion.quantities import QUANTITIES, Exact
 from optlaws.numbers import Array, Quantity, bounded, not_negative, numbers, positive
 from optlaws.sentences import Amount, sentence
 from optlaws.shown.report import Panel, ReportSegment, ReportTable, Series
@@ -97,7 +97,7 @@ class OldTable:
         """
         segments: list[CycleSegment] = []
         for part in self.stretches:
-            duration = f"{part.stop - part.start!r} {self.master}"
+            duration = Exact(part.stop - part.start, self.master)
             if part.law is None:
                 segments.append(Dwell(duration))
             else:
@@ -106,7 +106,7 @@ class OldTable:
         first, last = self.stretches[0], self.stretches[-1]
         if speed is None and period is None:
             if self.master in {"s", "ms"}:
-                period = f"{last.stop - first.start!r} {self.master}"
+                period = Exact(last.stop - first.start, self.master)
             elif self.rate is None:
                 raise InputError('speed: give the speed of the master, such as "200 rpm": the file has none')
             else:

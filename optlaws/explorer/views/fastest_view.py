@@ -25,7 +25,7 @@ from optlaws.explorer.views.requests import check_size, without_files
 from optlaws.jobs.cycle_entries import AxisEntries, CycleProblemFile
 from optlaws.jobs.fastest import FastestProblemFile, MoveEntries, arguments_of, front_of
 from optlaws.motion.display_units import MILLI
-from optlaws.motion.quantities import si_number
+from optlaws.motion.quantities import Exact, si_number
 from optlaws.numbers import Array, Quantity, bounded
 from optlaws.sentences import Amount
 from optlaws.shown.summary import Row
@@ -156,7 +156,7 @@ def _of_move(move: MoveEntries, entries: str) -> _Search:
             words = "No law of this order and degree is faster within the limits."
             trust = verdict(least.status, gap_text(least.gap), [*facts, *least.notes], words)
             return MoveReport(least, least.law, least.duration, drive, start), trust, []
-        front = line(f"{time!r} s", 2)
+        front = line(Exact(time, "s"), 2)
         solution, point = front.solutions[1], front[1]
         rows = [Row(f"least {minimise} in this time", point.value, front.unit)]
         if bounded(point.lower_bound) is not None:
@@ -176,7 +176,7 @@ def _of_cycle(spec: CycleProblemFile, axis: AxisEntries) -> _Search:
     least = cycle_view.stored(spec, axis).specification.fastest()
 
     def slower(time: float) -> Plan:
-        return cycle_view.stored(replace(spec, speed=None, period=f"{time!r} s"), axis)
+        return cycle_view.stored(replace(spec, speed=None, period=Exact(time, "s")), axis)
 
     def motion(time: float | None) -> _Motion:
         cycle = least.cycle.solve() if time is None or time <= least.period * (1.0 + AGREEMENT) else slower(time)
