@@ -7,6 +7,7 @@ from dataclasses import KW_ONLY, replace
 from typing import Any, Literal, TypeAlias, Unpack
 
 from optlaws.cycles.axes.interlock import INTERLOCKS, Interlock, LeastClearance
+from optlaws.cycles.axes.report import AxesReport
 from optlaws.cycles.cycle import Cycle, Plan
 from optlaws.cycles.specification.programme import is_optimal, period_of
 from optlaws.cycles.specification.segments import CycleSegment, Dwell
@@ -200,7 +201,7 @@ class Axes(Declared, Mapping[str, Cycle], title="stored axes"):
             self[name]
         return self._overlap("acceleration", of or tuple(self))
 
-    def _overlap(self, goal: str, longer: Sequence[str]) -> Overlap:
+    def _overlap(self, goal: Literal["period", "acceleration"], longer: Sequence[str]) -> Overlap:
         from optlaws.cycles.axes import overlapping
 
         known = (
@@ -213,8 +214,9 @@ class Axes(Declared, Mapping[str, Cycle], title="stored axes"):
             cycles[plan.name] = _retimed(self[plan.name], zip(times[plan.name], laws, strict=True), period)
         value = period if goal == "period" else 1.0 / float(unknowns[-1]) ** 2
         axes = Axes(cycles, interlocks=self.rules)
-        numbers: dict[str, Any] = {"goal": goal, "objective": value, "lower_bound": bound}
-        overlap = Overlap(**numbers, of=tuple(longer), binding=(), axes=axes, given=self)
+        overlap = Overlap(
+            goal=goal, objective=value, lower_bound=bound, of=tuple(longer), binding=(), axes=axes, given=self
+        )
         return replace(overlap, binding=overlap.bound_by())
 
     @kept_property
@@ -238,7 +240,7 @@ class Axes(Declared, Mapping[str, Cycle], title="stored axes"):
         >>> [(least.status, least.text) for least in machine.clearances]
         [('broken', '-0.060178 deg at 66.1074 deg, -4.79101 ms early')]
         """
-        return self._report.clearances  # type: ignore[no-any-return]
+        return self._report.clearances
 
     @property
     def broken(self) -> tuple[LeastClearance, ...]:
@@ -290,7 +292,7 @@ class Axes(Declared, Mapping[str, Cycle], title="stored axes"):
 
         if together:
             return export_together(self, to, {"master": master}, **options)
-        formats = dict(to) if isinstance(to, Mapping) else dict.fromkeys(self, to)
+        formats = to if isinstance(to, Mapping) else dict.fromkeys(self, to)
         return export_axes(self, formats, {"master": master}, **options)
 
     def to_dict(self) -> dict[str, Any]:
@@ -330,8 +332,7 @@ class Axes(Declared, Mapping[str, Cycle], title="stored axes"):
         Needs the extra `optlaws[studies]`.
         """
         pd = needed("pandas", "to_pandas")
-        frames = {name: cycle.to_pandas() for name, cycle in self.items()}
-        return pd.concat(frames, names=["axis", "segment number"])
+        return pd.concat({name: cycle.to_pandas() for name, cycle in self.items()}, names=["axis", "segment number"])
 
     def plot(
         self,
@@ -385,12 +386,10 @@ class Axes(Declared, Mapping[str, Cycle], title="stored axes"):
 
     def report(self) -> Report:
         """The proven clearances, limits that axes break, and every position and clearance over the master."""
-        return self._report  # type: ignore[no-any-return] # an `AxesReport`, which is imported where it is needed
+        return self._report
 
     @kept_property
-    def _report(self) -> Any:
-        from optlaws.cycles.axes.report import AxesReport
-
+    def _report(self) -> AxesReport:
         return AxesReport(self._cycles, self.rules)
 
     def __repr__(self) -> str:
@@ -505,16 +504,16 @@ class Overlap(Declared, title="axes that overlap"):
 
     def summary(self) -> Summary:
         """Status, objective and bound, the gain, and what leaves no room."""
-        what, unit = "greatest acceleration, as a share of the given one", ""
+        what, unit, better = "greatest acceleration, as a share of the given one", "", "times lower"
         if self.goal == "period":
-            what, unit = "least period", "s"
-        rows = [
-            Row("status", self.status.value),
-            Row(what, self.objective, unit),
-            Row("proven lower bound", self.lower_bound, unit),
-            Row("gain", self.gain, "times as fast" if unit else "times lower"),
-        ]
-        return Summary([*rows, *(Row("bound by", name) for name in self.binding)])
+            what, unit, better = "least period", "s", "times as fast"
+        values = {
+            what: (self.objective, unit),
+            "proven lower bound": (self.lower_bound, unit),
+            "gain": (self.gain, better),
+        }
+        rows = [Row(name, *value) for name, value in values.items()]
+        return Summary([Row("status", self.status.value), *rows, *(Row("bound by", name) for name in self.binding)])
 
     @classmethod
     def from_dict(cls, data: Any) -> Overlap:
