@@ -48,6 +48,7 @@ from optlaws.tolerances import CYCLE_OPTIMALITY, JUMP
 
 if TYPE_CHECKING:
     from optlaws.cycles.fastest_cycle import FastestCycle
+    from optlaws.cycles.moves.time_front import TimeFront
     from optlaws.cycles.transitions import TransitionCam, TransitionKind
     from optlaws.mechanisms.drives.drive_train import Drive
     from optlaws.mechanisms.drives.effort import CycleSheet, Effort, PieceEffort, SegmentEffort
@@ -642,6 +643,32 @@ class Cycle(Answers, Specification):
         from optlaws.cycles.fastest_cycle import fastest_cycle
 
         return fastest_cycle(self)
+
+    def front(
+        self, minimise: str, *, longest: Quantity | None = None, points: int = 17, follower: Any = None
+    ) -> TimeFront:
+        """The least of a quantity over the time of a cycle of one move, from its least time within the limits on.
+
+        The limits are those that `fastest` of a move takes, with a `Drive` those of its motor too; parameters, result
+        and errors are those of `time_front`.
+
+        Raises
+        ------
+        InputError
+            If there are several segments, a known law, or a limit that is of no single move.
+
+        Examples
+        --------
+        >>> from optlaws import Rise
+        >>> limits = {"velocity": "1 m/s", "jerk": "300 m/s^3"}
+        >>> move = Cycle([Rise("100 mm")], period="0.3 s", advance="100 mm", limits=limits)
+        >>> front = move.front("rms acceleration", points=3)
+        >>> round(front.fastest.duration, 6) == round(move.fastest().period, 6), round(front.values[0], 2)
+        (True, 8.92)
+        """
+        from optlaws.cycles.moves.time_front import front_of_cycle
+
+        return front_of_cycle(self, minimise, longest=longest, points=points, follower=follower)
 
     def with_modified_sine_jerk(self) -> Cycle:
         """The cycle of least acceleration among cycles whose jerk is at most modified sine's jerk.

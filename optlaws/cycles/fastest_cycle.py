@@ -12,7 +12,7 @@ from optlaws.cycles.greatest_speed.fastest_search import FastestSearch
 from optlaws.cycles.greatest_speed.timed_spans import TimedSpan
 from optlaws.cycles.moves.fastest_move import limit_row
 from optlaws.cycles.optimisation.motion_limits import amount, word_of
-from optlaws.cycles.optimisation.motor_limits import MOTOR
+from optlaws.cycles.optimisation.motor_limits import check_rating
 from optlaws.cycles.placed import retimed_segments, segments_in_place
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
@@ -225,11 +225,7 @@ def fastest_cycle(cycle: Any) -> FastestCycle:
             "the greatest speed is not computed with a limit of the energy of a cycle: limit the power or the force or "
             "torque, and look at effort.energy of the cycle at that speed"
         )
-    if cycle.limits.get(MOTOR) is True and objective.drive is not None and objective.drive.motor.continuous:
-        raise InputError(
-            "limits, motor: its continuous torque follows the speed, which is unknown: give a rated torque in place of "
-            'that curve, or limits={"rms torque": "2 N m"} beside a motor without it'
-        )
+    check_rating(cycle.limits, objective.drive)
     search = FastestSearch(cycle.programme, objective, {})
     laws = search.laws()
     known = retimed_segments(segments_in_place(search.programme, laws.starts, laws.pieces), cycle.axis, 1.0)

@@ -12,7 +12,10 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from optlaws.cycles.moves.fastest_move import AXES, FastestMove
-from optlaws.cycles.moves.timed_moves import motor_torque, read_follower
+from optlaws.cycles.moves.timed_moves import fastest, motor_torque, read_follower
+from optlaws.cycles.optimisation.motor_limits import MOTOR, check_rating
+from optlaws.cycles.specification.programme import is_optimal
+from optlaws.cycles.specification.segments import Move
 from optlaws.echo import shortened
 from optlaws.entries.declared import Declared, declared, documented_by, entry
 from optlaws.entries.value_types import Listed, Measured, Text, Whole
@@ -22,7 +25,7 @@ from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.motion.piece import unit_of
-from optlaws.motion.quantities import positive_quantity
+from optlaws.motion.quantities import Exact, positive_quantity
 from optlaws.motion.quantity_kinds import Kind
 from optlaws.numbers import NumberOrQuantity, Quantity, bounded, listed, positive, real
 from optlaws.suggest import unknown_key
@@ -31,8 +34,10 @@ from optlaws.synthesis.least_time.move_limits import power
 from optlaws.synthesis.least_time.move_objective import AT_MOTOR, OBJECTIVES, MoveObjective
 from optlaws.synthesis.least_time.timed_move import TimedMove
 from optlaws.synthesis.problem.constants import meant
+from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.solution import Solution
 from optlaws.synthesis.solve import synthesize
+from optlaws.synthesis.spaces.bases import Chebyshev
 from optlaws.synthesis.status import Status, measure
 from optlaws.tolerances import LEAST_TIME_GAP, STORED_VALUE
 
@@ -377,6 +382,33 @@ def time_front(
         raise InputError(f"longest must be above the least time, {move.duration:.9g} s, got {shortened(longest)}")
     durations = tuple(np.geomspace(least, last, _POINTS.read(points, "points")).tolist())
     return TimeFront(move, objective, durations, tuple(_least_in(move, objective, time) for time in durations))
+
+
+def front_of_cycle(cycle: Any, minimise: str, *, follower: Any, **options: Any) -> TimeFront:
+    """The front over the time of a cycle of one move, which a `Cycle` hands on; its limits are those of the move."""
+    given, axis = cycle.segments[0], cycle.axis
+    if len(cycle.segments) > 1 or not isinstance(given, Move) or not is_optimal(given):
+        raise InputError("a front over the time is that of a cycle of one move whose law is optimal")
+    check_rating(cycle.limits, cycle.in_si.drive)
+    if twice := cycle.limits.keys() & given.limits.keys():
+        raise InputError(f"limits: {min(twice)} is that of the cycle and of its move: give it once")
+    limits = {name: most for name, most in {**cycle.limits, **given.limits}.items() if name != MOTOR}
+    if cycle.limits.get(MOTOR) and cycle.in_si.mean_force is not None:
+        limits["rms torque"] = Exact(cycle.in_si.mean_force, "N m")
+    moved: dict[str, Any] = (
+        {"drive": cycle.drive, "start": cycle.start or 0.0} if isinstance(cycle.drive, Drive) else {}
+    )
+    least = fastest(
+        Problem(order=cycle.order, basis=Chebyshev(cycle.degree)),
+        stroke=Exact(cycle.programme.stretches[0].displacement, unit_of(axis)),
+        limits=limits,
+        start_velocity=given.start_velocity,
+        end_velocity=given.end_velocity,
+        follower=follower if RESIDUAL in limits else None,
+        **moved,
+    )
+    at_motor = moved if minimise in AT_MOTOR else {}
+    return time_front(least, minimise, follower=follower if minimise == RESIDUAL else None, **at_motor, **options)
 
 
 def _least_in(move: FastestMove, objective: MoveObjective, duration: float) -> Solution:

@@ -50,6 +50,15 @@ def motor_limits(entries: Mapping[str, Any], drive: Drive | None, programme: Pro
     return {kind: (-most, most) for kind, most in known.items() if isfinite(most)}
 
 
+def check_rating(entries: Mapping[str, Any], drive: Drive | None) -> None:
+    """Refuse a continuous torque over the speed where the time, and with it the mean speed, is looked for."""
+    if entries.get(MOTOR) is True and drive is not None and drive.motor.continuous:
+        raise InputError(
+            "limits, motor: its continuous torque follows the speed, which is unknown: give a rated torque in place of "
+            'that curve, or limits={"rms torque": "2 N m"} beside a motor without it'
+        )
+
+
 def curve_lines(motor: Motor) -> list[tuple[float, float]]:
     """The lines below which the curve of peak torque is: the torque at rest, and its slope over the speed."""
     curve = motor.curve

@@ -11,6 +11,7 @@ from scipy.optimize import linprog
 
 from optlaws import (
     Chebyshev,
+    Cycle,
     Drive,
     FastestMove,
     InputError,
@@ -18,6 +19,8 @@ from optlaws import (
     Mechanism,
     Motor,
     Problem,
+    Return,
+    Rise,
     TimeFront,
     belt,
     fastest,
@@ -279,3 +282,45 @@ def test_laws_that_may_turn_back_have_no_torque(turn: FastestMove) -> None:
         time_front(swing, "torque", drive=TABLE)
     with pytest.raises(InputError, match="another than that of the move"):
         time_front(turn, "torque", drive=TABLE.with_ratio(25.0))
+
+
+def a_move(minimise: str = "acceleration", period: str = "0.3 s", **entries: Any) -> Cycle:
+    return Cycle([Rise("100 mm")], period=period, advance="100 mm", minimise=minimise, limits=LIMITS, **entries)
+
+
+@pytest.mark.parametrize("minimise", ["jerk", "rms acceleration"])
+def test_the_front_of_a_cycle_of_one_move_has_the_objectives_of_cycles_in_its_times(minimise: str) -> None:
+    front = a_move().front(minimise, longest="0.35 s", points=3)
+    assert front.fastest.duration == pytest.approx(a_move().fastest().period, rel=1e-9)
+    assert front.fastest.limit == pytest.approx(a_move().fastest().limit, rel=1e-12)
+    for point in list(front)[1:]:
+        plan = a_move(minimise, f"{point.duration!r} s").solve()
+        assert point.value == pytest.approx(plan.objective, rel=1e-6)
+
+
+def test_the_front_of_a_cycle_with_a_motor_is_within_its_rating() -> None:
+    motor = Motor("3e-4 kg m^2", rated_torque="2 N m", peak_torque="4 N m", greatest_speed="900 rpm")
+    drive = Drive(Mechanism("0.8 kg m^2", "20 N m"), motor, ratio=20)
+    turn = Cycle([Rise("45 deg")], period="0.4 s", advance="45 deg", drive=drive, limits={"motor": True})
+    front = turn.front("rms torque", points=2)
+    assert front.fastest.duration == pytest.approx(turn.fastest().period, rel=1e-6)
+    assert front.values[0] <= 2.0 * (1.0 + 1e-9)
+
+
+@pytest.mark.parametrize(
+    ("cycle", "says"),
+    [
+        (Cycle([Rise("35 mm", "0.1 s"), Return()], period="0.3 s"), "a cycle of one move"),
+        (Cycle([Rise("35 mm", law="cycloidal")], period="0.1 s", advance="35 mm"), "whose law is optimal"),
+        (Cycle([Return("35 mm")], period="0.1 s", advance="-35 mm", limits={"jerk": "90 m/s^3"}), "turn the axis"),
+        (
+            Cycle(
+                [Rise("35 mm", limits={"jerk": "9 m/s^3"})], period="1 s", advance="35 mm", limits={"jerk": "99 m/s^3"}
+            ),
+            "jerk is that of the cycle and of its move",
+        ),
+    ],
+)
+def test_a_front_of_a_cycle_that_is_no_single_move_is_refused(cycle: Cycle, says: str) -> None:
+    with pytest.raises(InputError, match=says):
+        cycle.front("jerk")
