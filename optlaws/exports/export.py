@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, replace
-from math import isfinite
+from dataclasses import asdict, astuple, dataclass, replace
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any, cast
 
 from optlaws.errors import InputError, located
 from optlaws.exports.format import Format, Written, format_of
-from optlaws.exports.report import Report, TaskSampling, as_run, task_sampling
+from optlaws.exports.report import Report, TaskSampling, as_run, finite_or_none, task_sampling
 from optlaws.exports.text import variable_names
 from optlaws.files import writing
 from optlaws.laws import MotionLaw
@@ -21,13 +20,6 @@ from optlaws.numbers import Quantity
 from optlaws.shown.summary import Row, Summary
 
 Comparison = tuple[str, float | None, float | None, float | None]
-
-
-class _HasMotion(Protocol):
-    """A value whose motion in machine units can be exported, as a cycle is."""
-
-    def motion(self, master: Quantity | None = "360 deg", unit: str | None = None) -> Motion:
-        """The exact motion over its master, in units of both."""
 
 
 @dataclass(frozen=True)
@@ -122,12 +114,13 @@ class Export:
 
     def rows(self) -> list[Comparison]:
         """The report as rows: a quantity with its unit, its executed value, the law's value, and their ratio."""
-        run, law, units = self.report.run, self.report.law, self._units()
+        run, law, (master, slave, rate) = self.report.run, self.report.law, astuple(self.motion.units)
+        units = [slave, *(f"{slave}/{master if rate is None else 's'}{power}" for power in ("", "²", "³"))]
         means = run.mean_absolute_velocity, law.mean_absolute_velocity
         effective = run.effective_acceleration, law.effective_acceleration
         where = "where it repeats" if self.motion.repeats else "from and to rest"
         moving = list(enumerate(QUANTITIES))[1:]
-        rows: list[tuple[str, int, float | None, float | None, float | None]] = [
+        rows: list[tuple[Any, ...]] = [
             *((f"peak of {name}", nu, run.peak(nu), law.peak(nu), self.report.ratio(nu)) for nu, name in moving),
             ("effective acceleration", 2, *effective, _ratio(*effective)),
             ("mean absolute velocity", 1, *means, _ratio(*means)),
@@ -144,10 +137,8 @@ class Export:
             sampled = self.task.acceleration, law.peak(2)
             name = f"acceleration by positions every {1e3 * self.task.seconds:g} ms"
             rows.append((name, 2, *sampled, _ratio(*sampled)))
-        return [
-            (f"{name}, {units[nu]}", _finite(of_run), _finite(of_law), _finite(ratio))
-            for name, nu, of_run, of_law, ratio in rows
-        ]
+        finite = [(f"{name}, {units[nu]}", *map(finite_or_none, values)) for name, nu, *values in rows]
+        return cast("list[Comparison]", finite)
 
     def summary(self) -> Summary:
         """The executed motion as rows, with the law's values as notes.
@@ -170,11 +161,6 @@ class Export:
     def _repr_html_(self) -> str:
         return self.summary()._repr_html_()
 
-    def _units(self) -> list[str]:
-        units = self.motion.units
-        per = units.master if units.rate is None else "s"
-        return [units.slave, *(f"{units.slave}/{per}{power}" for power in ("", "²", "³"))]
-
     def __str__(self) -> str:
         written, rows = self.written, self.rows()
         head = f"{self.format.target}: {written.points} {written.counted}, {written.model}"
@@ -184,34 +170,32 @@ class Export:
         return "\n".join([head, *self.motion.proof, *written.notes, *lines])
 
 
-def _export(form: Format, motion: Motion, written: Written, task: Quantity | None) -> Export:
-    """An export with its reports; `task` is the time of a drive's task, such as "1 ms"."""
+def export_motion(
+    motion: Motion, to: Any, *, task: Quantity | None = None, written: Written | None = None, **options: Any
+) -> Export:
+    """A motion in a format, which checks its options, with its reports; `task` is the time of a drive's task."""
+    form = format_of(to)
+    written = form.write(motion, form.request(**options)) if written is None else written
     sampling = None if task is None else task_sampling(written.run, motion, task)
     return Export(form, motion, written, as_run(written.run, motion, written.bound, written.roundings), sampling)
-
-
-def export_motion(motion: Motion, to: Any, *, task: Quantity | None = None, **options: Any) -> Export:
-    """A motion in a format, which checks its options."""
-    form = format_of(to)
-    return _export(form, motion, form.write(motion, form.request(**options)), task)
 
 
 def export_law(
     law: MotionLaw, to: Any, placement: dict[str, Any], proof: tuple[str, ...] = (), **options: Any
 ) -> Export:
     """A law with its stroke, time and master, as `motion_of_law` takes them, in a format; `proof` heads it."""
-    form = format_of(to)
-    return export_motion(replace(motion_of_law(law, **placement), proof=proof), form.name, **options)
+    format_of(to)  # is checked before the motion is
+    return export_motion(replace(motion_of_law(law, **placement), proof=proof), to, **options)
 
 
-def export_cycle(cycle: _HasMotion, to: Any, placement: dict[str, Any], **options: Any) -> Export:
-    """A cycle with its master and unit, as `Cycle.motion` takes them, in a format, which is checked before laws are."""
-    form = format_of(to)
-    return export_motion(cycle.motion(**placement), form.name, **options)
+def export_cycle(cycle: Any, to: Any, placement: dict[str, Any], **options: Any) -> Export:
+    """A cycle, or what else has a motion, with its master and unit as `Cycle.motion` takes them, in a format."""
+    format_of(to)  # is checked before laws are
+    return export_motion(cycle.motion(**placement), to, **options)
 
 
 def export_axes(
-    axes: Mapping[str, _HasMotion], to: Mapping[str, Any], placement: dict[str, Any], **options: Any
+    axes: Mapping[str, Any], to: Mapping[str, Any], placement: dict[str, Any], **options: Any
 ) -> dict[str, Export]:
     """Axes in formats by their names, each under a name of its own."""
     names, exports = variable_names(axes), {}
@@ -222,7 +206,7 @@ def export_axes(
 
 
 def export_together(
-    axes: Mapping[str, _HasMotion], to: Any, placement: dict[str, Any], *, task: Quantity | None = None, **options: Any
+    axes: Mapping[str, Any], to: Any, placement: dict[str, Any], *, task: Quantity | None = None, **options: Any
 ) -> dict[str, Export]:
     """Axes in a single file, for formats that hold several: all exports share the text."""
     form = format_of(to)
@@ -233,11 +217,7 @@ def export_together(
     names = variable_names(axes)
     motions = {names[axis]: cycle.motion(**placement) for axis, cycle in axes.items()}
     written = form.write_joints(motions, form.request(**options))
-    return {axis: _export(form, motions[name], written[name], task) for axis, name in names.items()}
-
-
-def _finite(value: float | None) -> float | None:
-    return value if value is not None and isfinite(value) else None
+    return {axis: export_motion(motions[name], to, task=task, written=written[name]) for axis, name in names.items()}
 
 
 def _ratio(run: float, law: float) -> float | None:

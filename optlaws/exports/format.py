@@ -154,7 +154,7 @@ FORMATS: Registry[Format] = Registry("export format")
 
 
 def format_of(name: Any) -> Format:
-    """The format of a name."""
+    """The format of a name, which is refused if there is none."""
     if not isinstance(name, str) or name not in FORMATS:
         raise InputError(f"to: {unknown_key(name, sorted(FORMATS), 'format')}")
     return FORMATS[name]

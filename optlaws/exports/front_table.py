@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from optlaws.errors import InputError
-from optlaws.exports.polynomial_pieces import Stretch, stretches
+from optlaws.exports.polynomial_pieces import stretches
 from optlaws.laws import MotionLaw
 from optlaws.numbers import Array
 from optlaws.numerics import exact
@@ -91,31 +91,16 @@ class FrontTable:
 def front_table(
     velocities: Sequence[float], laws: Sequence[MotionLaw], gap: float, ends: tuple[bool, bool]
 ) -> FrontTable:
-    """The table of certified laws at ascending B.
+    """The table of certified laws at ascending B, which are polynomials between the same breaks, from rest to rest.
 
-    Parameters
-    ----------
-    velocities
-        B of each law as its problem has it.
-    laws
-        Polynomials, or polynomials between the same breaks, from rest to rest.
-    gap, ends
-        What is proven of them, as `FrontTable` has it.
-
-    Raises
-    ------
-    InputError
-        If the laws are no such polynomials or do not begin and end at rest.
-
-    Examples
-    --------
     >>> from optlaws import smoothstep
     >>> table = front_table((1.5, 1.875), (smoothstep(2), smoothstep(3)), 1.0, (False, False))
     >>> table.odd, table.degree, table.size, table.velocities, table.jerks
     (True, 5, 96, (1.5, 1.875), (60.0, 60.0))
     """
-    for law in laws:
-        _check_rest(law)
+    ends_of_laws = [value for law in laws for value in (law.a(0.0), law.a(1.0) - 1.0, law.b(0.0), law.b(1.0))]
+    if max(map(abs, ends_of_laws)) > JUMP:
+        raise InputError("functions at run time move from rest to rest: take a front of laws whose ends rest")
     breaks, series, exact_series = _series(laws)
     odd = len(breaks) == 2 and not any(value for law in exact_series for value in law[0][2::2])
     peaks = np.array([[law.constants.B.value, law.constants.C.value, law.constants.J.value] for law in laws])
@@ -129,36 +114,23 @@ def front_table(
     return FrontTable(b, c, j, stored, breaks, odd, gap, ends, errors, _slack(peaks, errors))
 
 
-def _check_rest(law: MotionLaw) -> None:
-    ends = [float(law.a(0.0)), float(law.a(1.0)) - 1.0, float(law.b(0.0)), float(law.b(1.0))]
-    if max(map(abs, ends)) > JUMP:
-        raise InputError("functions at run time move from rest to rest: take a front of laws whose ends rest")
-
-
 def _series(laws: Sequence[MotionLaw]) -> tuple[tuple[float, ...], Array, list[list[list[Fraction]]]]:
     """Breaks, and for each law and piece the series of its displacement: rounded, an array, and exact."""
     parts = [list(stretches(law)) for law in laws]
     if not all(parts):
         raise InputError("functions at run time take laws of polynomials: take a front of such laws")
-    breaks = _breaks(parts[0])
-    if any(_breaks(other) != breaks for other in parts):
+    breaks, *others = [(float(part[0][0]), *(float(high) for _, high, _ in part)) for part in parts]
+    if any(other != breaks for other in others):
         raise InputError("a table of laws needs laws with the same breaks")
-    rows = [[_chebyshev(stretch) for stretch in part] for part in parts]
+    rows = [
+        [exact.exact_chebyshev([c * (high - low) ** n for n, c in enumerate(powers)]) for low, high, powers in part]
+        for part in parts
+    ]
     terms = max(len(row) for law in rows for row in law)
     if terms > MOST_DEGREE + 1:
         raise InputError(f"laws at run time have degrees to {MOST_DEGREE}, got {terms - 1}: take a lower degree")
     every = [[row + [Fraction(0)] * (terms - len(row)) for row in law] for law in rows]
     return breaks, np.array([[exact.rounded(row) for row in law] for law in every]), every
-
-
-def _breaks(parts: Sequence[Stretch]) -> tuple[float, ...]:
-    return (float(parts[0][0]), *(float(last) for _, last, _ in parts))
-
-
-def _chebyshev(stretch: Stretch) -> list[Fraction]:
-    """The series in x, -1 where the stretch begins and 1 where it ends."""
-    low, high, powers = stretch
-    return exact.exact_chebyshev([value * (high - low) ** n for n, value in enumerate(powers)])
 
 
 def _errors(
@@ -202,15 +174,9 @@ def summation_bounds(magnitudes: Array, scale: float) -> tuple[tuple[float, ...]
     step is rounded at most four times, each by a unit roundoff of its terms; they are bounded by the derivatives at 1
     of the Chebyshev polynomials of the second kind. Fused operations round less.
 
-    Parameters
-    ----------
-    magnitudes
-        Of the coefficients, shape (n,); of several series that are mixed by weights from 0 to 1, the greatest each.
-    scale
-        dx/dk, by which each derivative is multiplied.
+    The magnitudes are those of the coefficients, shape (n,), of several series that are mixed by weights from 0 to 1
+    the greatest each; `scale` is dx/dk, by which each derivative is multiplied.
 
-    Examples
-    --------
     >>> errors, values = summation_bounds(np.array([0.5, 0.5]), 2.0)
     >>> [f"{error:.1e}" for error in errors], [round(value, 12) for value in values]
     (['2.8e-15', '3.1e-15', '1.0e-300', '1.0e-300'], [1.0, 1.0, 0.0, 0.0])

@@ -148,15 +148,17 @@ def hermite_table(
     Where the table has no derivatives the controller computes them, and they are taken as the law's.
     """
     exact = points if isinstance(points, np.ndarray) else places(motion, points, straight=True)
-    values = _without_rounding(np.array([motion(exact, nu) for nu in range(orders)]))
+    values = np.array([motion(exact, nu) for nu in range(orders)])
+    # what rounding has missed 0 by
+    values[np.abs(values) <= _TABLE_ROUNDING * np.abs(values).max(axis=1, keepdims=True)] = 0.0
     if not np.isfinite(values).all():
         raise InputError(
             "the law's acceleration or jerk is infinite at a point: export positions alone, or another law"
         )
     x = numbers.numbers(exact)
     derivatives = numbers.numbers(values[1:]) if with_derivatives else values[1:]
-    stored_values = np.vstack([numbers.positions(values[0], motion)[None], derivatives])
-    return PointTable(x, stored_values, hermite_powers(x, stored_values), numbers.resolution(motion))
+    values = np.vstack([numbers.positions(values[0], motion)[None], derivatives])
+    return PointTable(x, values, hermite_powers(x, values), numbers.resolution(motion))
 
 
 def chosen_table(
@@ -178,11 +180,6 @@ def chosen_table(
 def is_cyclic(motion: Motion) -> bool:
     """Whether a motion repeats itself where it began."""
     return motion.repeats and abs(motion.advance) <= CLOSURE * motion.stroke
-
-
-def _without_rounding(values: Array) -> Array:
-    """The values with 0 where rounding, beside the greatest of their row, has missed it."""
-    return np.where(np.abs(values) <= _TABLE_ROUNDING * np.abs(values).max(axis=1, keepdims=True), 0.0, values)
 
 
 def rounding_bound(motion: Motion, x: Array, y: Array, slopes: Array) -> float:
@@ -214,15 +211,11 @@ def places(motion: Motion, count: int, *, straight: bool = False) -> Array:
     breaks = np.array(motion.breaks)
     shares = _shares(np.diff(breaks), count - 1, _needs(motion) if straight else np.ones(len(breaks) - 1))
     digits = _DIGITS - int(np.ceil(np.log10(motion.length)))
-    parts = [_between(low, high, n, digits) for (low, high), n in zip(pairwise(breaks), shares, strict=True)]
+    parts = []
+    for (low, high), n in zip(pairwise(breaks), shares, strict=True):
+        # rounded far below the file's digits, so that a file contains 0.075 exactly
+        parts += [[low], np.round(np.linspace(low, high, n + 1)[1:-1], digits)]
     return np.concatenate([*parts, breaks[-1:]])
-
-
-def _between(low: float, high: float, steps: int, digits: int) -> Array:
-    """Equal steps without the end, rounded far below the file's digits, so that a file contains 0.075 exactly."""
-    inside = np.linspace(low, high, steps + 1)[:-1]
-    inside[1:] = np.round(inside[1:], digits)
-    return inside
 
 
 def chosen(motion: Motion, request: Request, make: Callable[[int], PointTable], least: int, most: int) -> PointTable:
@@ -246,12 +239,12 @@ def best(motion: Motion, make: Callable[[int], PointTable], least: int, most: in
     the law's own peak is no gain. Among numbers as good to a thousandth those count whose acceleration jumps
     least further than the law's, at points and at the ends, to a thousandth of the peak, and of these the least.
     """
-    rank_of, tried = _ranking(motion), dict[int, tuple[Rank, PointTable]]()
+    tried: dict[int, tuple[Rank, PointTable]] = {}
 
     def attempt(counts: set[int]) -> None:
         for count in sorted(counts - tried.keys()):
             table = make(count)
-            tried[count] = (rank_of(table), table)
+            tried[count] = (_rank(motion, table), table)
 
     rough = least * _RATIO ** np.arange(1 + int(np.log(most / least) / np.log(_RATIO)))
     attempt({*range(least, min(most, _EACH) + 1), *(int(guess) for guess in rough), most})
@@ -282,57 +275,35 @@ def _fewest(ranks: dict[int, Rank]) -> int:
     return min(count for count, jump in low.items() if jump <= smoothest)
 
 
-def _ranking(motion: Motion) -> Callable[[PointTable], Rank]:
-    """What ranks the runs of tables of a motion, by its peaks of velocity and acceleration and its jumps of that."""
-    fastest, highest, jumping, ending = (
-        motion.peak(1),
-        motion.peak(2),
-        motion.jump(2)[0],
-        _change(motion, *motion.ends(2)),
+def _rank(motion: Motion, table: PointTable) -> Rank:
+    """The rank of the run of a table beside the motion, by peaks of velocity and acceleration and jumps of that."""
+    powers, steps, highest = table.powers, np.diff(table.x), motion.peak(2)
+    after = _BETWEEN * steps  # where it is typically furthest off
+    run = (powers * after[:, None] ** np.arange(powers.shape[1])).sum(axis=1)
+    apart = float(np.abs(run - motion(np.clip(table.x[:-1] + after, motion.start, motion.stop))).max())
+    off = max(apart / max(_RUN_OFF * motion.stroke, table.resolution), 1.0)
+    nu = 1 if highest in {0.0, inf} or powers.shape[1] == 2 else 2
+    slopes = np.asarray(np.polynomial.polynomial.polyder(powers, nu, axis=1), dtype=np.float64)
+    sized = slopes * steps[:, None] ** np.arange(slopes.shape[1])
+    first, last = slopes[:, 0], sized.sum(axis=1)
+    jump, at_ends = (
+        float(np.abs(first[1:] - last[:-1]).max(initial=0.0)),
+        _change(motion, float(first[0]), float(last[-1])),
     )
-
-    def rank(table: PointTable) -> Rank:
-        powers, steps = table.powers, np.diff(table.x)
-        nu = 1 if highest in {0.0, inf} or powers.shape[1] == 2 else 2
-        first, last = _ends(powers, steps, nu)
-        jump = float(np.abs(first[1:] - last[:-1]).max(initial=0.0))
-        at_ends = _change(motion, float(first[0]), float(last[-1]))
-        off = _off(motion, table)
-        if nu == 1:
-            return Rank(off, 1.0 + max(jump, at_ends) / fastest, 0.0)
-        beyond = max(jump - jumping, 0.0) + max(at_ends - ending, 0.0)
-        return Rank(off, max(_peak(powers, steps, first, last) / highest, 1.0), beyond / highest)
-
-    return rank
+    if nu == 1:
+        return Rank(off, 1.0 + max(jump, at_ends) / motion.peak(1), 0.0)
+    beyond = max(jump - motion.jump(2)[0], 0.0) + max(at_ends - _change(motion, *motion.ends(2)), 0.0)
+    if powers.shape[1] <= 4:  # straight between points
+        peak = float(max(np.abs(first).max(), np.abs(last).max()))
+    else:
+        control = bernstein.from_powers(sized)
+        peak = bernstein.top(np.concatenate([control, -control])).value
+    return Rank(off, max(peak / highest, 1.0), beyond / highest)
 
 
 def _change(motion: Motion, first: float, last: float) -> float:
     """The jump from the last value to the first where a motion repeats, else from and to rest."""
     return abs(last - first) if motion.repeats else max(abs(first), abs(last))
-
-
-def _off(motion: Motion, table: PointTable) -> float:
-    """The deviation of the polynomials from the motion between points, where it is typically greatest."""
-    after = _BETWEEN * np.diff(table.x)
-    run = (table.powers * after[:, None] ** np.arange(table.powers.shape[1])).sum(axis=1)
-    at = np.clip(table.x[:-1] + after, motion.start, motion.stop)
-    apart = float(np.abs(run - motion(at)).max())
-    return max(apart / max(_RUN_OFF * motion.stroke, table.resolution), 1.0)
-
-
-def _ends(powers: Array, steps: Array, nu: int) -> tuple[Array, Array]:
-    """The derivative of order nu just after the start and just before the end of each piece."""
-    table = np.asarray(np.polynomial.polynomial.polyder(powers, nu, axis=1), dtype=np.float64)
-    return table[:, 0], (table * steps[:, None] ** np.arange(table.shape[1])).sum(axis=1)
-
-
-def _peak(powers: Array, steps: Array, first: Array, last: Array) -> float:
-    """The greatest magnitude of the acceleration: at points where it is straight between them."""
-    if powers.shape[1] <= 4:
-        return float(max(np.abs(first).max(), np.abs(last).max()))
-    table = np.polynomial.polynomial.polyder(powers, 2, axis=1)
-    control = bernstein.from_powers(table * steps[:, None] ** np.arange(table.shape[1]))
-    return bernstein.top(np.concatenate([control, -control])).value
 
 
 def _needs(motion: Motion) -> Array:

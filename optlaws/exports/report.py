@@ -60,15 +60,15 @@ class Characteristics:
 
     def results(self) -> dict[str, Any]:
         """The characteristics by TwinCAT's names, as plain data; what is infinite is null."""
-        data: dict[str, Any] = {"StartPoint": _point(self.start), "EndPoint": _point(self.end)}
+        data: dict[str, Any] = {"StartPoint": _end(self.start), "EndPoint": _end(self.end)}
         for side, extremes in (("Min", self.least), ("Max", self.greatest)):
             for name, extreme in zip(_NAMES, extremes, strict=True):
-                data[f"PointAt{side}Slave{name}"] = {"MasterPosition": extreme.x, f"Slave{name}": _known(extreme.value)}
+                data[f"PointAt{side}Slave{name}"] = _point(name, extreme)
         data["SlaveMeanAbsoluteVelocity"] = self.mean_absolute_velocity
-        data["SlaveEffectiveAcceleration"] = _known(self.effective_acceleration)
+        data["SlaveEffectiveAcceleration"] = finite_or_none(self.effective_acceleration)
         for name, extreme, end in zip(_NAMES[1:], self.jumps, self.jumps_at_ends, strict=True):
-            data[f"Jump{name}"] = {"MasterPosition": extreme.x, f"Slave{name}": _known(extreme.value)}
-            data[f"JumpAtEnds{name}"] = _known(end)
+            data[f"Jump{name}"] = _point(name, extreme)
+            data[f"JumpAtEnds{name}"] = finite_or_none(end)
         return data
 
 
@@ -117,11 +117,8 @@ class Report:
             "NominalMasterVelocity": self.rate,
             "run": self.run.results(),
             "law": self.law.results(),
-            "ratio": {name: _known(self.ratio(nu)) for nu, name in enumerate(_NAMES) if nu},
-            "deviation": {
-                name: {"MasterPosition": extreme.x, f"Slave{name}": _known(extreme.value)}
-                for name, extreme in zip(_NAMES, self.deviation, strict=False)
-            },
+            "ratio": {name: finite_or_none(self.ratio(nu)) for nu, name in enumerate(_NAMES) if nu},
+            "deviation": {name: _point(name, extreme) for name, extreme in zip(_NAMES, self.deviation, strict=False)},
             "rounding_bound_acceleration": self.bound,
         }
 
@@ -136,7 +133,17 @@ def as_run(run: PiecewiseMotion, motion: Motion, bound: float = 0.0, roundings: 
     height, step = run.peak(0).value, float(run.lengths.min())
     known = (0.0, *(roundings or (0.0,) * 3))
     floors = [max(ROUNDING[1] * height * (rate / step) ** nu, known[nu] * rate**nu) for nu in ORDERS]
-    deviation = tuple(_deviation(run, motion, nu, rate, has=isfinite(law.peak(nu))) for nu in ORDERS[:3])
+
+    def meant(x: Array, nu: int) -> Array:
+        # beyond its ends, which the master may pass by rounding, the motion continues
+        return np.asarray(motion(np.clip(x, motion.start, motion.stop), nu))
+
+    deviation = tuple(
+        _sized(run.deviation(meant, nu, motion.breaks), rate**nu)
+        if isfinite(law.peak(nu))
+        else Extreme(inf, motion.start)
+        for nu in ORDERS[:3]
+    )
     return Report(_characteristics(run, motion, rate, floors), law, deviation, rate, bound * rate**2)
 
 
@@ -145,23 +152,23 @@ def _characteristics(
 ) -> Characteristics:
     """The characteristics of the law, which is the motion, or of its run; jumps up to floors are rounding."""
     pairs = [side.extrema(nu) if isinstance(side, Motion) else side.extremes(nu) for nu in ORDERS]
-    extremes = [tuple(_sized(Extreme(*each), rate**nu) for each in pair) for nu, pair in enumerate(pairs)]
+    extremes = [tuple(_sized(each, rate**nu) for each in pair) for nu, pair in enumerate(pairs)]
     start, end = (tuple(rate**nu * float(np.ravel(side.ends(nu)[i])[-i]) for nu in ORDERS) for i in (0, 1))
     small = [
         max(ROUNDING[0] * max(abs(low.value), abs(high.value)), least)
         for (low, high), least in zip(extremes, floors, strict=True)
     ]
     if isinstance(side, Motion):
-        jumps = tuple(_sized(Extreme(*side.jump(nu)), rate**nu) for nu in ORDERS[1:])
-        travel, length = travel_of_law(side), side.length
+        jumps, travel = tuple(_sized(side.jump(nu), rate**nu) for nu in ORDERS[1:]), travel_of_law(side)
     else:
-        jumps = tuple(_jump(side, nu, rate, small[nu]) for nu in ORDERS[1:])
-        travel, length = travel_of_run(side), side.stop - side.start
+        jumps, travel = tuple(_jump(side, nu, rate, small[nu]) for nu in ORDERS[1:]), travel_of_run(side)
     low, high = (tuple(pair[i] for pair in extremes) for i in (0, 1))
     changes = (abs(b - a) if motion.repeats else max(abs(a), abs(b)) for a, b in zip(start, end, strict=True))
     _, *at_ends = (change if change > least else 0.0 for change, least in zip(changes, small, strict=True))
     effective = inf if jumps[0].value else rate**2 * side.rms(2)
-    return Characteristics(start, end, low, high, rate * travel / length, effective, jumps, tuple(at_ends))
+    return Characteristics(
+        start, end, low, high, rate * travel / (side.stop - side.start), effective, jumps, tuple(at_ends)
+    )
 
 
 def _jump(run: PiecewiseMotion, nu: int, rate: float, small: float) -> Extreme:
@@ -171,27 +178,21 @@ def _jump(run: PiecewiseMotion, nu: int, rate: float, small: float) -> Extreme:
     return Extreme(float(jumps.max()), run.breaks[1 + int(jumps.argmax())])
 
 
-def _deviation(run: PiecewiseMotion, motion: Motion, nu: int, rate: float, *, has: bool) -> Extreme:
-    """The greatest difference; beyond the motion's ends, which the master may pass by rounding, it continues."""
-
-    def law(x: Array, nu: int) -> Array:
-        return np.asarray(motion(np.clip(x, motion.start, motion.stop), nu))
-
-    if not has:
-        return Extreme(inf, motion.start)
-    return _sized(run.deviation(law, nu, motion.breaks), rate**nu)
+def _sized(extreme: tuple[float, float], factor: float) -> Extreme:
+    return Extreme(extreme[0] * factor, extreme[1])
 
 
-def _sized(extreme: Extreme, factor: float) -> Extreme:
-    return Extreme(extreme.value * factor, extreme.x)
+def finite_or_none(value: float | None) -> float | None:
+    """A number, which is null in plain data where it is infinite."""
+    return value if value is not None and isfinite(value) else None
 
 
-def _known(value: float) -> float | None:
-    return value if isfinite(value) else None
+def _point(name: str, extreme: Extreme) -> dict[str, float | None]:
+    return {"MasterPosition": extreme.x, f"Slave{name}": finite_or_none(extreme.value)}
 
 
-def _point(values: tuple[float, ...]) -> dict[str, Any]:
-    return {f"Slave{name}": _known(value) for name, value in zip(_NAMES, values, strict=True)}
+def _end(values: tuple[float, ...]) -> dict[str, float | None]:
+    return {f"Slave{name}": finite_or_none(value) for name, value in zip(_NAMES, values, strict=True)}
 
 
 _CUTS = 9  # in eight: the way is of second order in the length that is left

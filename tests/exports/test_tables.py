@@ -309,3 +309,16 @@ def test_a_velocity_that_rounding_left_at_an_end_is_written_as_none() -> None:
     true = law_from_z(BoundaryConditions(start=(0, 0.5, 0), end=(1, 1e-9, 0)))
     text = true.export("rockwell-cam", points=9, stroke="30 mm", master="60 deg", duration="0.1 s").text
     assert "StartSlope = 0.25, EndSlope = 5.0E-10" in text
+
+
+def test_septic_tables_say_where_one_value_of_a_jumping_jerk_makes_the_run_overshoot() -> None:
+    """Into a dwell of a modified trapezoidal rise by millimetres; not for a law whose jerk is continuous."""
+    trapezoidal = press("modified trapezoidal")
+    septic, quintic = (trapezoidal.export("csv", interpolation=kind, points=25) for kind in ("septic", "quintic"))
+    off = septic.report.deviation[0]
+    assert off.value > 2.0
+    assert any("jerk jumps at" in note and "interpolation='quintic'" in note for note in septic.written.notes)
+    assert quintic.report.deviation[0].value < 1e-3
+    assert (
+        quintic.written.notes == press("4-5-6-7 polynomial").export("csv", interpolation="septic").written.notes == ()
+    )

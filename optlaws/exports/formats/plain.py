@@ -73,7 +73,20 @@ def _columns_of_axes(motions: Mapping[str, Motion], request: Request) -> dict[st
         about = f"table of {', '.join(motions)} over one master in {first.units.master}"
     lines = [f"# {about}; {MARK}", separator.join(headings)]
     text = _lines([*lines, *_rows(columns, request, separator)])
-    return {name: table.written(text, MODELS[interpolation]) for name, table in tables.items()}
+    return {
+        name: table.written(text, MODELS[interpolation], _overshoot(motions[name]) if interpolation == "septic" else ())
+        for name, table in tables.items()
+    }
+
+
+def _overshoot(motion: Motion) -> tuple[str, ...]:
+    """What is to be said of polynomials of degree 7 where the jerk jumps, as into a dwell."""
+    jump, x = motion.jump(3)
+    joint = f"the jerk jumps at {x:.9g} {motion.units.master}, and a point holds one value of it"
+    remedy = "take interpolation='quintic', which leaves the jerk out"
+    return (
+        (f"{joint}: the run overshoots beside it, by the greatest deviation of the report; {remedy}",) if jump else ()
+    )
 
 
 @_plain_format(
