@@ -56,12 +56,10 @@ class FastestSearch:
 
     @kept_property
     def ranges(self) -> tuple[DurationRange, ...]:
-        """Ranges of the durations of the segments."""
         return duration_ranges([stretch.given for stretch in self.programme.stretches])
 
     @property
     def turning(self) -> bool:
-        """Whether every duration turns with the master."""
         return all(given.turns for given in self.ranges)
 
     @kept_property
@@ -80,7 +78,6 @@ class FastestSearch:
 
     @kept_property
     def period(self) -> float:
-        """The least period in seconds."""
         return self.unrated if self.rating is None else self.rating.period
 
     @kept_property

@@ -45,19 +45,16 @@ class ForceRating:
 
     @kept_property
     def drive(self) -> Drive:
-        """The drive of the motion."""
         if self.objective.drive is None:
             raise InputError("limits: an rms force or torque is of a drive: give one, such as drive={'mass': '2 kg'}")
         return self.objective.drive
 
     @property
     def name(self) -> str:
-        """The key of the limit."""
         return f"rms {FORCES[self.axis]}"
 
     @kept_property
     def period(self) -> float:
-        """The least period in seconds."""
         if self.least and self._over(self.least) <= 0.0:
             return self.least
         period = falling_root(self._over, self.least or self.given, 1.5, LEAST_SCALE_MET)

@@ -87,12 +87,10 @@ class TimedSpan(Timed):
 
     @property
     def where(self) -> str:
-        """The name that errors give it."""
         return self.span.where
 
     @property
     def places(self) -> tuple[int, ...]:
-        """Its segments among those of the cycle."""
         return tuple(stretch.number - 1 for stretch in self.span.stretches)
 
     @property

@@ -137,8 +137,6 @@ class LimitedMove(Declared, title="a move with its limits"):
 class MoveLimit(Declared, title="the limit of a move"):
     """A lower bound for motions over one stroke, from rest to rest, that never turn back; in SI units.
 
-    Examples
-    --------
     >>> from optlaws import Mechanism
     >>> limit = Mechanism("0.8 kg m^2").limit("peak torque", "0 deg", "45 deg", "0.25 s")
     >>> print(limit)

@@ -22,8 +22,6 @@ _POSITIVE = Number(above=0.0)
 class FollowerResidual(Declared, title="the residual vibration of a move"):
     """The residual acceleration of an elastic follower after a move, with its limit.
 
-    Examples
-    --------
     >>> FollowerResidual(95.0, 105.0, 0.05, most=0.4).limit_in(0.2, stroke=0.1)
     TimedLimit(name='residual acceleration', constant=residual(frequency=(19.0, 21.0), damping=0.05), bound=0.16)
     """
@@ -58,8 +56,6 @@ class FollowerResidual(Declared, title="the residual vibration of a move"):
         distance at most, which is bounded by the integrals of |k - 1/2| |b| and |k - 1/2| |c| in any such law:
         `velocity` and `acceleration`. The limit is infinite where these are.
 
-        Examples
-        --------
         >>> FollowerResidual(95.0, 105.0, 0.05, most=0.4).limit_over(0.199, 0.2, 0.1, 0.5, 2.0).constant
         residual(frequency=(19.000000000000004, 20.894999999999996), damping=0.05)
         >>> certain = FollowerResidual(100.0, 100.0, 0.0, most=0.4)

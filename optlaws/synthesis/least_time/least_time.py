@@ -42,8 +42,6 @@ class LeastTime(JsonText):
     proofs
         That no law keeps the limits in a time that is shorter by a millionth or more.
 
-    Examples
-    --------
     >>> from optlaws import Problem
     >>> from optlaws.synthesis.least_time.time_search import least_time
     >>> least = least_time(TimedMove(Problem(order=3), 1.0, MoveLimits(jerk=1.0)))

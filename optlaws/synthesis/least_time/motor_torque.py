@@ -91,8 +91,6 @@ class MotorTorque(Declared, title="the torque of a move"):
     InputError
         If a formula or a number is wrong, there is no limit, or the load alone is above it.
 
-    Examples
-    --------
     >>> MotorTorque("1 + 0.3*a", 0.0, "0.2", unit=2.0, peak=3.0).along()[0].at(0.5)
     TimedLimit(name='torque', constant=peak((1 + 0.3*a)*c + 0.15*b^2 + 0.25*0.2), bound=0.375)
     """

@@ -82,8 +82,6 @@ _LIMIT = Number(above=0.0)
 class MoveLimits(Declared, title="limits of a move"):
     """Limits of a move, in units of the stroke and seconds.
 
-    Examples
-    --------
     >>> MoveLimits(velocity=1.0, acceleration=12.0, deceleration=8.0).symmetric
     False
     """

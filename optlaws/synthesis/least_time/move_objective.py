@@ -43,8 +43,6 @@ class MoveObjective(Declared, title="what is least in a move"):
     InputError
         If the name is unknown, or there is not what it needs and nothing else.
 
-    Examples
-    --------
     >>> MoveObjective("acceleration").in_time(0.2, stroke=0.1)
     TimedLimit(name='acceleration', constant=C, bound=0.4)
     """

@@ -163,7 +163,6 @@ class Timed:
         return replace(self.problem, boundary=self._ends(powers), bounds=bounds)
 
     def _ends(self, powers: Powers) -> BoundaryConditions | None:  # noqa: ARG002 - of ends that move
-        """The motion at the ends as a law of a time with these powers has it."""
         return self.problem.boundary
 
 
@@ -270,22 +269,18 @@ class TimedMove(Timed):
 
     @property
     def begin(self) -> float:
-        """A time in which the search may begin: where it is known, one that is too short by little."""
         return max(self.limit or 0.0, self.least_conceivable()) or 1.0
 
     @property
     def at_rest(self) -> bool:
-        """Whether both ends are at rest: then limits that hold in a time hold in any longer time."""
         return self.start_velocity == self.end_velocity == 0.0 and self.concave
 
     @property
     def concave(self) -> bool:
-        """Whether multipliers give a concave function of the time: only velocities may be nonzero at the ends."""
         return self.end_acceleration == self.end_jerk == 0.0
 
     @property
     def stays_possible(self) -> bool:
-        """Whether a law that keeps all limits but the residual's keeps them in every longer time."""
         if self.torque is None:
             return self.at_rest
         greatest = inf if self.limits.velocity is None else self.limits.velocity / self.stroke
@@ -320,7 +315,6 @@ class TimedMove(Timed):
 
     @property
     def without_residual(self) -> TimedMove:
-        """The move without its residual limit; every law of the original move remains a law of this one."""
         return replace(self, residual=None)
 
     @property
@@ -328,7 +322,6 @@ class TimedMove(Timed):
         return min(self.rates, key=lambda limit: limit.nu)
 
     def _ends(self, powers: Powers) -> BoundaryConditions | None:
-        """The motion at the ends as a law of a time with these powers has it."""
         if self.at_rest:
             return None
         start, end = (
