@@ -15,6 +15,8 @@ from dataclasses import dataclass, replace
 from functools import partial
 from math import exp, inf, log
 
+import numpy as np
+
 from optlaws.cycles.optimisation.drive_formulas import Driven, driven_peak
 from optlaws.cycles.optimisation.motion_limits import Side, Sides, in_units, name_of
 from optlaws.cycles.optimisation.motor_limits import driven_curve, torque_at_rest
@@ -23,12 +25,14 @@ from optlaws.cycles.optimisation.optimal import limited_by
 from optlaws.cycles.optimisation.search_spaces import place
 from optlaws.cycles.specification.joints import LawSpan
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
-from optlaws.formulas.tree import Number
+from optlaws.formulas.tree import Number, table_places
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.motion.quantities import in_small_units
 from optlaws.motion.quantity_kinds import Kind
+from optlaws.motion.smooth_parts import SmoothParts
+from optlaws.numbers import Array
 from optlaws.sentences import sentence
 from optlaws.synthesis.functionals.makers import peak
 from optlaws.synthesis.least_time.least_time import LeastTime
@@ -43,7 +47,6 @@ from optlaws.synthesis.solve import synthesize
 from optlaws.tolerances import AGREEMENT, BINDING_LIMIT, FASTER, LEAST_SHARE, SAME_TIME
 
 _SLOWEST = 2.0**40
-_PLACES = 65  # at which the static torque of a mechanism is looked at
 #: about what constants of laws from rest to rest are, from which a first scale is taken
 _USUAL = {1: 1.6, 2: 5.0, 3: 40.0, 4: 600.0}
 
@@ -327,9 +330,12 @@ def _scales(kind: Kind, span: LawSpan, drive: Drive, driven: Driven) -> bool:
 def static_force(span: LawSpan, drive: Drive) -> tuple[float, float]:
     """The position of the greatest static force of a motion, and this force: spring, weight and dry friction."""
     direction = -1.0 if span.displacement < 0.0 else 1.0
-    ends = [span.offset, *(position for _, position in span.via), span.offset + span.displacement]
-    if drive.linear is None:
-        ends = [span.offset + span.displacement * i / (_PLACES - 1) for i in range(_PLACES)]
-    torques = ((drive.torque(place, 0.0, 0.0, direction=direction, time=span.start), place) for place in ends)
-    force, position = max((abs(float(torque)), place) for torque, place in torques)
-    return position, force
+
+    def force(x: Array) -> Array:
+        return np.asarray(np.abs(drive.torque(x, 0.0 * x, 0.0 * x, direction=direction, time=span.start)))
+
+    ends = np.array([span.offset, *(position for _, position in span.via), span.offset + span.displacement])
+    if drive.linear is not None:
+        return max(zip(ends.tolist(), force(ends).tolist(), strict=True), key=lambda place: place[1])
+    corners = [place for place in table_places(drive.mechanism.load_formula, "x") if ends.min() < place < ends.max()]
+    return SmoothParts.between(ends.min(), ends.max(), breaks=corners).greatest(force)[::-1]

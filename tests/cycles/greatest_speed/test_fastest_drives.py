@@ -186,6 +186,14 @@ def test_a_static_force_beyond_its_limit_is_named() -> None:
         cycle(segments=GIVEN, drive=sprung, limits={"force": "140 N"}).fastest()
 
 
+def test_a_static_torque_that_few_positions_take_is_found() -> None:
+    # a latch of half a degree
+    latch = {"0 deg": "0 N m", "40.1 deg": "0 N m", "40.3 deg": "12 N m", "40.6 deg": "0 N m", "120 deg": "0 N m"}
+    says = r"segment 1 \(Rise\): at 40\.3 deg the static load needs the torque 12 N m, so that no speed keeps"
+    with pytest.raises(InfeasibleProblem, match=says):
+        cycle(segments=TABLE, drive=Mechanism("0.02 kg m^2", latch), limits={"torque": "9 N m"}).fastest()
+
+
 MOTOR = {"inertia": "0.02 kg m^2", "dry": "0.3 N m"}
 TABLE = [
     Rise("90 deg", "72 deg"),
