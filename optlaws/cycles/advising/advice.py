@@ -351,9 +351,8 @@ def advise(
     ('optimal', 'modified sine', True)
     """
     count = whole(points, "points", least=0, most=_MOST_POINTS)
-    candidates = standard_candidates(
-        motion, minimise=minimise, limits=limits, follower=follower, drive=drive, laws=laws, degree=degree
-    )
+    entries = {"minimise": minimise, "drive": drive, "degree": degree}
+    candidates = standard_candidates(motion, limits=limits, follower=follower, laws=laws, **entries)
     candidates.add_optimal()
     return advice_from(candidates, count)
 
@@ -361,23 +360,20 @@ def advise(
 def standard_candidates(
     motion: Any,
     *,
-    minimise: str | None = None,
     limits: Mapping[str, Any] | None = None,
     follower: Mapping[str, Any] | None = None,
-    drive: Mapping[str, Any] | Mechanism | Drive | None = None,
     laws: Sequence[str] = STANDARD,
-    degree: int | None = None,
+    **entries: Any,
 ) -> Candidates:
     """The standard laws of a motion with their demands, to which optimal ones can be added, as `advise` takes them."""
-    entries = dict(table(limits or {}, "limits", '{"velocity": "616 mm/s"}'))
-    residual = entries.pop(RESIDUAL, None)
-    least = "acceleration" if minimise == RESIDUAL else minimise
-    changes: dict[str, Any] = {"minimise": least, "drive": drive, "degree": degree}
-    given = {name: value for name, value in changes.items() if value is not None}
+    most = dict(table(limits or {}, "limits", '{"velocity": "616 mm/s"}'))
+    residual, minimise = most.pop(RESIDUAL, None), entries.get("minimise")
+    given = {name: value for name, value in entries.items() if value is not None}
+    given |= {"minimise": "acceleration"} if minimise == RESIDUAL else {}
     if isinstance(motion, Cycle):
-        cycle = replace(motion, **given, limits={**motion.limits, **entries})
+        cycle = replace(motion, **given, limits={**motion.limits, **most})
     elif isinstance(motion, Move):
-        cycle = _of_move(motion, {"degree": _DEGREE, **given, "limits": entries})
+        cycle = _of_move(motion, {"degree": _DEGREE, **given, "limits": most})
     else:
         # what this names could be given in the version before
         instead = ": Rise('1 m', '1 s', limits=...) says the same with units" if isinstance(motion, Problem) else ""

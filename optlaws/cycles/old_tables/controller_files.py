@@ -97,7 +97,6 @@ def decoded(content: str, cam: str | None = None) -> Decoded | None:
 
 
 def _blank(match: re.Match[str]) -> str:
-    """The lines of a comment, as blank lines."""
     return "\n" * match[0].count("\n") or " "
 
 

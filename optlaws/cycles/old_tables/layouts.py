@@ -18,22 +18,15 @@ from optlaws.numbers import Array
 
 @dataclass(frozen=True)
 class FieldLayout:
-    """Fields of a controller's structure, by their contents.
+    """Fields of the structure of a controller, by their contents.
 
-    Parameters
-    ----------
-    name
-        The controller and the structure.
-    fields
-        What a field holds and its name: x, y, v, a, j of points; x0, y0, ... and x1, y1, ... of the ends of a piece;
-        c0, c1, ... of powers counted from where a piece begins; "type" of what runs after a point.
-    profiles
-        What numbers stand for in the field of the type.
+    `fields` says what a field holds and its name: x, y, v, a, j of points; x0, y0, ... and x1, y1, ... of the ends of a
+    piece; c0, c1, ... of powers counted from where a piece begins; "type" of what runs after a point.
     """
 
     name: str
     fields: str
-    profiles: Mapping[str, str] | None = None
+    profiles: Mapping[str, str] | None = None  #: what numbers stand for in the field of the type
 
     @cached_property
     def roles(self) -> dict[str, str]:
@@ -107,7 +100,7 @@ LAYOUTS = (
 
 
 _POLYNOMIAL = re.compile(r"POLY(?:NOM(?:IAL)?)?_?([1357])(?:_MM)?", re.IGNORECASE)
-_LINE = ("linear", "line")
+_DEGREES = {"linear": 1, "line": 1, "polyfive": 5}
 #: profiles after the last point, which run nowhere
 _NONE = ("notdef", "undefined", "nonextsegment")
 
@@ -145,34 +138,22 @@ def hermite(start: float, stop: float, first: Sequence[float], last: Sequence[fl
 def of_profile(
     profile: str | None, places: tuple[float, float], first: Sequence[float], last: Sequence[float]
 ) -> CurvePiece:
-    """The piece of a profile by its name, between positions with derivatives.
+    """The piece of a profile by its name, between two places with the position and its derivatives at each.
 
-    Parameters
-    ----------
-    profile
-        A polynomial ("POLYNOM5_MM", "Polynomial5", "Linear"), or a law of the catalogue between two rests; None for the
-        polynomial of all that is given.
-    places
-        Where it begins and ends.
-    first, last
-        The position and its derivatives at each end.
-
-    Raises
-    ------
-    InputError
-        If there is no such profile, too little is given for it, or a law from rest to rest has velocities at its ends.
+    It is a polynomial ("POLYNOM5_MM", "Polynomial5", "Linear"), or a law of the catalogue between two rests; None is
+    the polynomial of all that is given.
     """
-    start, stop = places
-    if profile is None or profile.lower() in _NONE:
+    (start, stop), known = places, (profile or "").lower()
+    if profile is None or known in _NONE:
         return hermite(start, stop, first, last)
     polynomial = _POLYNOMIAL.fullmatch(profile)
-    if polynomial or profile.lower() in _LINE or profile.lower() == "polyfive":
-        degree = int(polynomial[1]) if polynomial else (5 if profile.lower() == "polyfive" else 1)
+    if polynomial or known in _DEGREES:
+        degree = int(polynomial[1]) if polynomial else _DEGREES[known]
         orders = (degree + 1) // 2
         if min(len(first), len(last)) < orders:
             raise InputError(f"{profile} needs the position and {orders - 1} derivatives at both ends")
         return hermite(start, stop, first[:orders], last[:orders])
-    if profile.lower() == "dwell":
+    if known == "dwell":
         return hermite(start, stop, first[:1], last[:1])
     try:
         law = catalogue[profile].law

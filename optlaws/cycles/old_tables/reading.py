@@ -45,7 +45,7 @@ _TURNS = {360.0: "deg", 1.0: "turn", 2.0 * np.pi: "rad"}
 
 
 class TableUnits(NamedTuple):
-    """The units of positions and of the master, how many of these a number is, and the master's speed where known."""
+    """The units of positions and of the master, how many of these a number is, and the speed of the master if known."""
 
     slave: str
     master: str
@@ -145,15 +145,8 @@ def _compare(stated: int, count: int) -> None:
 
 
 def sampled(pieces: Sequence[CurvePiece]) -> tuple[Array, Array]:
-    """Places all over pieces that follow each other, and the positions there.
+    """Places all over pieces that follow each other without a jump, and the positions there.
 
-    Raises
-    ------
-    InputError
-        If a piece does not begin where the one before it ends, or the position jumps there.
-
-    Examples
-    --------
     >>> from optlaws.cycles.old_tables.layouts import powers
     >>> x, y = sampled([powers(0.0, 1.0, [0.0, 1.0]), powers(1.0, 3.0, [1.0, -0.5])])
     >>> len(x), float(y[-1])
@@ -201,13 +194,6 @@ def rate_of(places: Array, heights: Array, velocities: Array, lines: Sequence[in
     The integral of their magnitude by the trapezium rule, which is sharp between rests, is the way of the positions
     times the rate.
 
-    Raises
-    ------
-    InputError
-        If velocities are not those of the positions; the error names the line of the worst.
-
-    Examples
-    --------
     >>> x = np.linspace(0.0, 10.0, 101)
     >>> round(rate_of(x, np.sin(x), 5.0 * np.cos(x), range(101)), 2), rate_of(x, np.sin(x), np.cos(x), range(101))
     (5.0, 1.0)
