@@ -13,7 +13,7 @@ from optlaws.cycles.exportable import Exportable
 from optlaws.cycles.limit_rows import limits_taken, refuse_beyond
 from optlaws.cycles.optimisation.bounds import bound_of, is_exact
 from optlaws.cycles.optimisation.drive_formulas import along
-from optlaws.cycles.optimisation.motion_limits import LimitTaken
+from optlaws.cycles.optimisation.motion_limits import FORCE_UNITS, FORCES, LimitTaken
 from optlaws.cycles.optimisation.motor_limits import MOTOR
 from optlaws.cycles.optimisation.objectives import (
     SUMS,
@@ -457,8 +457,12 @@ class Answers(Exportable):
         return transition_cam(kind, cycle.programme, self.pieces, cycle.in_si, given)
 
     def motion(self, master: Quantity | None = "360 deg", unit: str | None = None) -> Motion:
-        plan = self.solve()
-        return motion_of_pieces(plan.pieces, plan.duration, plan.axis, master=master, unit=unit, proof=_proof(plan))
+        plan, proof = self.solve(), tuple[str, ...]()
+        if plan.solutions:
+            bound = "" if plan.lower_bound is None else f", none below {plan.lower_bound:.9g}"
+            least = f"least {plan.minimise} {plan.objective:.9g}{bound} (SI units) of {plan.search_space}"
+            proof = (f"laws looked for: {len(plan.solutions)}, status {plan.status.value}; {least}", *plan.remarks)
+        return motion_of_pieces(plan.pieces, plan.duration, plan.axis, master=master, unit=unit, proof=proof)
 
     def report(self) -> Report:
         from optlaws.cycles.report import CycleReport
@@ -504,19 +508,10 @@ class Answers(Exportable):
             row |= {f"peak {name}, {units[name]}": peaks.peak(nu) for nu, name in enumerate(QUANTITIES)}
             rows.append(row | {f"jump of {name}, {units[name]}": joint[name] for name in QUANTITIES[1:3]})
         for row, taken in zip(rows, plan.efforts if plan.drive is not None else (), strict=False):
-            name, unit = ("force", "N") if plan.axis == "length" else ("torque", "N m")
+            name, unit = FORCES[plan.axis], FORCE_UNITS[plan.axis]
             row |= {f"peak {name}, {unit}": taken.peak_force, f"RMS {name}, {unit}": taken.rms_force}
             row |= {"motoring power, W": taken.motoring_power, "braking power, W": taken.braking_power}
         return pd.DataFrame(rows)
-
-
-def _proof(plan: Plan) -> tuple[str, ...]:
-    """The proof of the optimised laws, as text for files."""
-    if not plan.solutions:
-        return ()
-    bound = "" if plan.lower_bound is None else f", none below {plan.lower_bound:.9g}"
-    least = f"least {plan.minimise} {plan.objective:.9g}{bound} (SI units) of {plan.search_space}"
-    return (f"laws looked for: {len(plan.solutions)}, status {plan.status.value}; {least}", *plan.remarks)
 
 
 @declared

@@ -11,7 +11,7 @@ from optlaws.cycles.exportable import Exportable
 from optlaws.cycles.greatest_speed.fastest_search import FastestSearch
 from optlaws.cycles.greatest_speed.timed_spans import TimedSpan
 from optlaws.cycles.moves.fastest_move import limit_row
-from optlaws.cycles.optimisation.motion_limits import amount, word_of
+from optlaws.cycles.optimisation.motion_limits import FORCE_UNITS, amount, word_of
 from optlaws.cycles.optimisation.motor_limits import check_rating
 from optlaws.cycles.placed import retimed_segments, segments_in_place
 from optlaws.errors import InputError
@@ -253,6 +253,6 @@ def _least_duration(search: FastestSearch, span: TimedSpan) -> LeastDuration:
 def _binding(search: FastestSearch, segments: Sequence[LeastDuration]) -> tuple[str, ...]:
     rating = search.rating
     if rating is not None and rating.binds:
-        unit = "N" if search.programme.axis == "length" else "N m"
-        return (sentence("the whole cycle: {} {}", rating.name, Amount(rating.most, unit)),)
+        most = Amount(rating.most, FORCE_UNITS[search.programme.axis])
+        return (sentence("the whole cycle: {} {}", rating.name, most),)
     return tuple(sentence("{}: {}", each.name, joined(", ", each.limits)) for each in segments if each.binding)

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 from optlaws.cycles.optimisation.drive_formulas import along
 from optlaws.cycles.optimisation.motion_limits import (
+    FORCE_UNITS,
     FORCES,
     LimitTaken,
     Side,
@@ -208,7 +209,7 @@ def _greatest_of_drive(placed: SegmentPeaks, kind: Kind, drive: Drive | None) ->
 def _of_whole(plan: Plan, limited: Cycle) -> Iterator[LimitTaken]:
     """The use of limits of the whole: of means and sums, of the motor, of the load."""
     of_cycle = read_limits(limited.limits, plan.axis, "limits")
-    force, unit = FORCES[plan.axis], "N" if plan.axis == "length" else "N m"
+    force, unit = FORCES[plan.axis], FORCE_UNITS[plan.axis]
     if Kind.RMS_FORCE in of_cycle:
         yield _of_cycle(f"rms {force}", plan.effort.rms_force, of_cycle[Kind.RMS_FORCE][1], unit)
     if Kind.ENERGY in of_cycle:

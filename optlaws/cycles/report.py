@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 from math import inf, pi
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
 from optlaws.cycles.cycle import Answers
 from optlaws.cycles.limit_rows import limit_rows
-from optlaws.cycles.optimisation.motion_limits import LimitTaken
+from optlaws.cycles.optimisation.motion_limits import FORCE_UNITS, FORCES, LimitTaken
 from optlaws.cycles.optimisation.objectives import SUMS, kind_of
 from optlaws.cycles.placed import Place
 from optlaws.cycles.specification.load import LOAD, is_process, read_load
@@ -45,17 +45,6 @@ _LOAD_UNITS = {
     "torque": "N m",
 }
 _EACH = 60  # samples of a piece, to which those are added that its curve needs
-
-
-class LeastEffort(NamedTuple):
-    """Peak and root mean square of the force (or torque) in a move, each with what no law that never turns back beats.
-
-    None is where that is not known, or the motor is too weak for any law.
-    """
-
-    segment: ReportSegment
-    peak: tuple[float, float | None]
-    rms: tuple[float, float | None]
 
 
 class CycleReport:
@@ -93,14 +82,14 @@ class CycleReport:
 
         With a drive force (or torque) and power, with a motor its speed too.
         """
-        return motion_table(self.plan, self.plan, (0.0, TURN_DEG), count, self._of_drive)
+        return motion_table(self.plan, (0.0, TURN_DEG), count, self._of_drive)
 
     def _of_drive(self, times: Array) -> dict[str, Array]:
         plan = self.plan
         if plan.drive is None:
             return {}
         known = {
-            f"{force_name(plan)}, {force_unit(plan)}": np.asarray(plan.force(times)),
+            f"{FORCES[plan.axis]}, {FORCE_UNITS[plan.axis]}": np.asarray(plan.force(times)),
             "power, W": np.asarray(plan.power(times)),
         }
         if isinstance(plan.drive, Drive):
@@ -125,7 +114,7 @@ class CycleReport:
             return ()
         at = plan.effort.peak_force_at
         peak = float(plan.force(at))
-        force = Panel(force_name(plan), force_unit(plan), (self._driven(plan.force),), peaks=((at, peak),))
+        force = Panel(FORCES[plan.axis], FORCE_UNITS[plan.axis], (self._driven(plan.force),), peaks=((at, peak),))
         ends = -plan.effort.braking_power, plan.effort.motoring_power
         return force, Panel("power", "W", (self._driven(plan.power),), ends=ends)
 
@@ -138,12 +127,12 @@ class CycleReport:
         motion = {speed: self.panel(1, unit), "position of the input": self.panel(0)}
         return (*self.driven, *(replace(each, name=name, limits=(), peaks=()) for name, each in motion.items()))
 
-    def least_efforts(self) -> list[LeastEffort]:
-        """Of each move from rest to rest on a mechanism what it takes of the drive, and what no law takes less.
+    def least_efforts(self) -> list[tuple[ReportSegment, tuple[float, float | None], tuple[float, float | None]]]:
+        """Peak and rms of the force in each move from rest to rest on a mechanism, each with its infimum where known.
 
-        Empty of a process, which acts on the whole cycle: no move has a limit of its own.
+        That is of laws that never turn back. Empty of a process, which acts on the whole cycle.
         """
-        plan, efforts = self.plan, []
+        plan, efforts = self.plan, list[Any]()
         if is_process(plan.load) or not isinstance(plan.drive, Mechanism | Drive):
             return []
         for segment, each, effort in zip(self.segments, plan.peaks, plan.efforts, strict=True):
@@ -151,22 +140,19 @@ class CycleReport:
             if moved and ends <= CYCLE_ROUNDING * plan.peak(1):
                 move = float(plan(each.start)), moved, each.duration
                 peak, rms = (_infimum(plan.drive, name, move) for name in ("peak torque", "rms torque"))
-                efforts.append(LeastEffort(segment, (effort.peak_force, peak), (effort.rms_force, rms)))
+                efforts.append((segment, (effort.peak_force, peak), (effort.rms_force, rms)))
         return efforts
 
     @property
     def duration(self) -> float:
-        """The duration of the cycle, s."""
         return self.plan.duration
 
     @property
     def demands(self) -> list[Row]:
-        """The peaks of the motion, and what it takes of its drive."""
         return [*peak_rows(self.plan), *drive_rows(self.plan)]
 
     @property
     def limits_taken(self) -> tuple[LimitTaken, ...]:
-        """The use of each limit of the cycle, in SI units."""
         return self.plan.limits_taken
 
     def shares(self, times: Array) -> dict[str, Array]:
@@ -288,7 +274,6 @@ def _infimum(drive: Mechanism | Drive, name: Literal["peak torque", "rms torque"
 
 
 def motion_table(
-    values: Callable[[Array, int], Any],
     motion: Plan | TransitionCam,
     master: tuple[float, float],
     count: int,
@@ -299,12 +284,12 @@ def motion_table(
     What is rounding beside the greatest value of its column is 0.
     """
     degrees = np.linspace(*master, count)
-    times = (degrees - master[0]) * (motion.duration / (master[1] - master[0]))
+    times = np.minimum((degrees - master[0]) * (motion.duration / (master[1] - master[0])), motion.duration)
     columns = {"master, deg": degrees.tolist(), "time, s": times.tolist()}
     for nu, (name, (unit, factor)) in enumerate(zip(QUANTITIES, UNITS[motion.axis], strict=True)):
         size = motion.peak(nu) * factor
         columns[f"{name}, {unit}"] = [
-            chop(value * factor, size, CYCLE_ROUNDING) for value in np.asarray(values(times, nu)).tolist()
+            chop(value * factor, size, CYCLE_ROUNDING) for value in np.asarray(motion(times, nu)).tolist()
         ]
     for name, driven in more(times).items():
         columns[name] = [chop(value, float(np.abs(driven).max()), CYCLE_ROUNDING) for value in driven.tolist()]
@@ -319,17 +304,7 @@ def objective_unit(cycle: Cycle | Plan, name: str = "") -> str:
         return load_unit(cycle, name.removeprefix("rms ").removeprefix(LOAD))
     if kind is Kind.POWER or kind in SUMS:
         return "W" if kind is Kind.POWER else "J"
-    return force_unit(cycle) if kind is Kind.FORCE else unit_of(cycle.axis, kind.order)
-
-
-def force_unit(cycle: Cycle | Plan) -> str:
-    """The unit of the force, or of the torque, of a cycle's drive."""
-    return "N" if cycle.axis == "length" else "N m"
-
-
-def force_name(cycle: Cycle | Plan) -> str:
-    """The name of the drive's load in a cycle: a force, or a torque."""
-    return "force" if cycle.axis == "length" else "torque"
+    return FORCE_UNITS[cycle.axis] if kind is Kind.FORCE else unit_of(cycle.axis, kind.order)
 
 
 def proof_rows(plan: Plan) -> list[Row]:
@@ -380,7 +355,7 @@ def drive_rows(plan: Plan) -> list[Row]:
     if isinstance(plan.drive, Drive):
         rows = list(plan.sheet.summary())
     elif plan.drive is not None:
-        effort, force, name = plan.effort, force_unit(plan), force_name(plan)
+        effort, force, name = plan.effort, FORCE_UNITS[plan.axis], FORCES[plan.axis]
         rows = [
             Row(f"peak of {name}", effort.peak_force, force),
             Row(f"RMS of {name}", effort.rms_force, force),

@@ -9,7 +9,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 from optlaws.cycles.cycle import Cycle
-from optlaws.cycles.report import CycleReport, force_name, force_unit, motion_table, objective_unit
+from optlaws.cycles.optimisation.motion_limits import FORCE_UNITS, FORCES
+from optlaws.cycles.report import CycleReport, motion_table, objective_unit
 from optlaws.errors import InfeasibleProblem, InputError, located
 from optlaws.exports.format import FORMATS, format_of
 from optlaws.exports.text import variable_names
@@ -217,7 +218,7 @@ def _add_transition(page: Page, results: Results, transition: AxisTransition, cy
     name, axis, cam = transition
     first, last = cam.master
     title = f"{axis}, {cam.kind} from {first:.6g} to {last:.6g} deg"
-    results.table(name, *motion_table(cam.piece.values, cam, cam.master, rows))
+    results.table(name, *motion_table(cam, cam.master, rows))
     figure = figure_of(cam.plot(cycle=cycle), f"{results.title}: {cam.kind}")
     page.heading(title).picture(name, f"{results.title}: {title}", figure)
     page.text(_ABOUT.format(first, last)).facts(cam.summary(), places="s")
@@ -288,7 +289,7 @@ def _columns(cycle: Cycle) -> dict[str, Callable[[Cycle], Cell]]:
         columns[f"least {cycle.minimise}, {objective_unit(cycle)}"] = lambda each: each.objective
         columns["proven lower bound"] = lambda each: each.lower_bound or None
     if cycle.drive is not None:
-        force, unit = force_name(cycle), force_unit(cycle)
+        force, unit = FORCES[cycle.axis], FORCE_UNITS[cycle.axis]
         minimised = cycle.minimise if cycle.solutions else None
         if minimised != force:
             columns[f"peak {force}, {unit}"] = lambda each: each.effort.peak_force

@@ -33,6 +33,7 @@ OF_WHOLE = {
     "residual acceleration": Kind.RESIDUAL,
 }
 FORCES = {"length": "force", "angle": "torque"}
+FORCE_UNITS = {"length": "N", "angle": "N m"}
 DECELERATION, SPEEDING_UP, BACKWARDS = "deceleration", "acceleration along the motion", "velocity backwards"
 _ALONG = (DECELERATION, SPEEDING_UP, BACKWARDS)
 _KINDS_ALONG = (Kind.VELOCITY_ALONG, Kind.ACCELERATION_ALONG)
@@ -316,5 +317,4 @@ def amount(key: Side, value: float, axis: str) -> Amount:
         return in_small_units(signed, axis, "/s")
     if key.kind in {Kind.POWER, Kind.CURVE}:
         return Amount(signed, "W" if key.kind is Kind.POWER else "")
-    force = "N" if axis == "length" else "N m"
-    return Amount(signed, f"{unit_of(axis)}/s^{key.kind.order}" if key.kind.order else force)
+    return Amount(signed, f"{unit_of(axis)}/s^{key.kind.order}" if key.kind.order else FORCE_UNITS[axis])
