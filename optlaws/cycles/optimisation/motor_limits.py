@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from itertools import pairwise
 from math import inf, isfinite
 from typing import TYPE_CHECKING, Any
 
@@ -61,20 +60,14 @@ def check_rating(entries: Mapping[str, Any], drive: Drive | None) -> None:
 
 def curve_lines(motor: Motor) -> list[tuple[float, float]]:
     """The lines below which the curve of peak torque is: the torque at rest, and its slope over the speed."""
-    curve = motor.curve
-    if not curve:
-        return []
-    slopes = [(after[1] - before[1]) / (after[0] - before[0]) for before, after in pairwise(curve)]
-    if curve[0][0] > 0.0:
-        slopes.insert(0, 0.0)
-        curve = ((0.0, curve[0][1]), *curve)
-    steepest = max(map(abs, slopes))
-    if any(before < after - AGREEMENT * steepest for before, after in pairwise(slopes)):
+    lines = motor.curve_lines
+    reached = AGREEMENT * max((torque for _, torque in motor.curve), default=0.0)
+    if any(torque < min(rest - fall * speed for rest, fall in lines) - reached for speed, torque in motor.curve):
         raise InputError(
             "limits, motor: its curve of torque over speed bends upwards, and what is below it is not convex: give a "
             "curve below it that does not, or limits of torque and velocity"
         )
-    return [(torque - slope * speed, slope) for (speed, torque), slope in zip(curve, slopes, strict=False)]
+    return [(rest, 0.0 - fall) for rest, fall in lines]
 
 
 def torque_at_rest(drive: Drive) -> float:

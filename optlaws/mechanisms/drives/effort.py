@@ -200,17 +200,7 @@ def over_speed(along: Sequence[PieceEffort], count: int) -> tuple[Array, Array]:
 
 
 class Margin(NamedTuple):
-    """A limit of the motor: the required value, the limit, and their ratio.
-
-    Attributes
-    ----------
-    name
-        Of the limit.
-    needed, limit
-        In SI units.
-    use
-        needed/limit: above 1 the motor is too weak.
-    """
+    """A limit of the motor: what is needed and what it has, in SI units, and their ratio, above 1 of one too weak."""
 
     name: str
     needed: float
@@ -411,26 +401,14 @@ def _share(torque: Array, limit: Array) -> Array:
 
 @dataclass(frozen=True, eq=False)
 class TorqueByRatio:
-    """The torque of a motion at any ratio i: i P + Q + Y/i, P of inertia and viscous friction, Q dry friction, Y load.
+    """The torque of a motion at a ratio i: i P + Q + Y/i, P of inertia and viscous friction, Q dry friction, Y load."""
 
-    Attributes
-    ----------
-    turning, dry, load
-        P, Q and Y at some places, N m.
-    speed
-        Of the mechanism's input there, rad/s.
-    weights
-        Of the places in a mean over the period.
-    holding
-        The share of the mean square of Y that is held between the moves.
-    """
-
-    turning: Array
+    turning: Array  #: P at some places, N m
     dry: Array
     load: Array
-    speed: Array
-    weights: Array
-    holding: float
+    speed: Array  #: of the mechanism's input there, rad/s
+    weights: Array  #: of the places in a mean over the period
+    holding: float  #: the share of the mean square of Y that is held between the moves
 
     def torques(self, ratio: Any) -> Array:
         """The torque at all places, a row for each ratio."""

@@ -125,18 +125,21 @@ class Motor(Declared, title="a motor"):
         >>> motor.peak_lines
         ((9.0, 0.0), (19.0, 0.05))
         """
-        lines = [(self.peak_torque, 0.0)] if self.peak_torque < inf else []
+        tops = (self.peak_torque, max((torque for _, torque in self.curve), default=inf))
+        flat = tuple((torque, 0.0) for torque in tops if torque < inf)
+        return (*flat, *((rest, fall) for rest, fall in self.curve_lines if fall > 0.0))
+
+    @property
+    def curve_lines(self) -> tuple[tuple[float, float], ...]:
+        """Lines of the concave hull of the curve, level before it: a torque at rest, and by how much it falls."""
+        before = [(0.0, torque) for speed, torque in self.curve[:1] if speed > 0.0]
         hull: list[tuple[float, float]] = []
-        for point in self.curve:
+        for point in (*before, *self.curve):
             while len(hull) > 1 and _slope(hull[-2], hull[-1]) <= _slope(hull[-1], point):
                 hull.pop()
             hull.append(point)
-        if hull:
-            lines.append((max(torque for _, torque in hull), 0.0))
-        for first, second in pairwise(hull):
-            if (fall := -_slope(first, second)) > 0.0:
-                lines.append((first[1] + fall * first[0], fall))
-        return tuple(lines)
+        falls = [(first, -_slope(first, second)) for first, second in pairwise(hull)]
+        return tuple((torque + fall * speed, fall) for (speed, torque), fall in falls)
 
     def _along(self, curve: tuple[tuple[float, float], ...], speed: Any) -> Array:
         size = np.abs(np.asarray(speed, dtype=np.float64))
