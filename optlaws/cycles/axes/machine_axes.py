@@ -228,18 +228,7 @@ class Axes(Declared, Mapping[str, Cycle], title="stored axes"):
 
     @property
     def clearances(self) -> tuple[LeastClearance, ...]:
-        """The least clearance of every interlock, its place and its margin, proven over the whole cycle.
-
-        Examples
-        --------
-        >>> from optlaws import After, Dwell, Return, Rise
-        >>> table = {"segments": [Rise("45 deg", "0.4 s", law="cycloidal"), Dwell()], "advance": "45 deg"}
-        >>> head = [Dwell("0.3 s"), Rise("250 mm", "0.2 s", law="cycloidal"), Dwell("1.2 s"), Return(law="cycloidal")]
-        >>> rule = After("head", "50 mm", of="table", above="44.9 deg", way="up")
-        >>> machine = Axes({"table": table, "head": head}, period="2 s", interlocks=[rule])
-        >>> [(least.status, least.text) for least in machine.clearances]
-        [('broken', '-0.060178 deg at 66.1074 deg, -4.79101 ms early')]
-        """
+        """The least clearance of every interlock, its place and its margin, proven over the whole cycle."""
         return self._report.clearances
 
     @property

@@ -12,7 +12,9 @@ from __future__ import annotations
 import heapq
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import partial
 from itertools import count
+from math import inf
 from typing import Any
 
 import numpy as np
@@ -172,43 +174,29 @@ def requirements(
     rules: Sequence[Interlock], plans: Mapping[str, AxisPlan], cycles: Mapping[str, Cycle]
 ) -> list[Requirement]:
     """All conditions of interlocks on the instants of planned axes."""
-    known: list[Requirement] = []
+    known, sides = list[Requirement](), tuple[LevelSide, ...]()
     for rule in rules:
-        first, second = (plans[name] for name in rule.axes)
-        given: Any = rule.in_si(cycles)
+        (axis, other), given, ends = (plans[name] for name in rule.axes), rule.in_si(cycles), (-inf, inf)
         if isinstance(rule, After):
-            known += _of_passes(rule, first, second, *given)
+            ends, sides = (given[0], given[0]), (LevelSide(rule.sign, partial(np.full_like, fill_value=given[1])),)
         elif isinstance(rule, Clearance):
-            side = LevelSide(rule.sign, given, getattr(given, "places", ()))
-            known += [
-                Requirement(rule, second, i, first, (side,), (segment.start, segment.stop))
-                for i, segment in enumerate(second.segments)
-            ]
+            axis, other, sides = other, axis, (LevelSide(rule.sign, given, getattr(given, "places", ())),)
         elif isinstance(rule, Forbidden):
             bends = tuple(x for x, _ in given.corners)
-            sides = tuple(LevelSide(sign, _edge(given, end), bends) for sign, end in ((1.0, 1), (-1.0, 0)))
-            for i, segment in enumerate(first.segments):
-                low, high = sorted((segment.start, segment.stop))
-                places = max(min(bends), low), min(max(bends), high)
-                if places[0] <= places[1]:
-                    known.append(Requirement(rule, first, i, second, sides, places))
+            ends = min(bends), max(bends)
+            sides = tuple(LevelSide(sign, partial(_edge, given, end), bends) for sign, end in ((1.0, 1), (-1.0, 0)))
         else:
             raise InputError(f"interlock {rule.label}: only After, Clearance and Forbidden are put together anew")
+        for i, segment in enumerate(axis.segments):
+            low, high = sorted((segment.start, segment.stop))
+            places, way = (max(ends[0], low), min(ends[1], high)), "up" if low == segment.start else "down"
+            if places[0] <= places[1] and getattr(rule, "way", None) in {None, way}:
+                known.append(Requirement(rule, axis, i, other, sides, places))
     return known
 
 
-def _edge(polygon: SimplePolygon, end: int) -> Callable[[Array], Array]:
-    return lambda places: np.array([polygon.section(x)[end] for x in places])
-
-
-def _of_passes(rule: After, first: AxisPlan, second: AxisPlan, position: float, level: float) -> list[Requirement]:
-    side = LevelSide(rule.sign, lambda places: np.full(places.shape, level))
-    return [
-        Requirement(rule, first, i, second, (side,), (position, position))
-        for i, segment in enumerate(first.segments)
-        if (segment.start - position) * (segment.stop - position) < 0.0
-        and rule.way in {None, "up" if segment.stop > segment.start else "down"}
-    ]
+def _edge(polygon: SimplePolygon, end: int, places: Array) -> Array:
+    return np.array([polygon.section(x)[end] for x in places])
 
 
 #: the unknowns of a program, and a bound below its value

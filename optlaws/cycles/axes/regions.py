@@ -174,7 +174,7 @@ def _square(start: Corner, stop: Corner, x: Any, y: Any) -> Any:
     east, north = x + (-start[0]), y + (-start[1])
     along = east * (across / size) + north * (up / size)
     over = _greater(_greater(along + (-size), -along), along * 0.0)
-    off = east * (up / size) + north * (-across / size)
+    off = _beyond(start, stop)(x, y)
     return off * off + over * over
 
 
