@@ -34,11 +34,6 @@ class EnclosedAxis:
 
     cycle: Cycle
 
-    @property
-    def duration(self) -> float:
-        """Duration of the cycle in seconds."""
-        return self.cycle.duration
-
     @kept_property
     def stretches(self) -> tuple[EnclosedStretch, ...]:
         """Smooth parts, one after the other."""
@@ -78,12 +73,12 @@ class EnclosedAxis:
         """
         low, high = np.array(self.breaks[:-1]), np.array(self.breaks[1:])
         for _ in range(_ROUNDS):
-            if (high - low <= PASS_WIDTH * self.duration).all():
+            if (high - low <= PASS_WIDTH * self.cycle.duration).all():
                 break
             low, high = self._narrowed(low, high, position)
         joined = list[tuple[float, float]]()
         for start, stop in sorted(zip(low.tolist(), high.tolist(), strict=True)):
-            if joined and start <= joined[-1][1] + PASS_WIDTH * self.duration:
+            if joined and start <= joined[-1][1] + PASS_WIDTH * self.cycle.duration:
                 joined[-1] = joined[-1][0], max(stop, joined[-1][1])
             else:
                 joined.append((start, stop))
@@ -111,7 +106,7 @@ class EnclosedAxis:
             last = np.where(np.isfinite(steps.radius), np.minimum(high, middle + steps.high), high)
         met &= first <= last
         first, last, low, high = first[met], last[met], low[met], high[met]
-        wide = (last - first > 0.5 * (high - low)) & (last - first > PASS_WIDTH * self.duration)
+        wide = (last - first > 0.5 * (high - low)) & (last - first > PASS_WIDTH * self.cycle.duration)
         cut = 0.5 * (first + last)
         lows = np.concatenate([first, cut[wide]])
         highs = np.concatenate([np.where(wide, cut, last), last[wide]])
@@ -125,6 +120,6 @@ def least(
     within: tuple[float, float] | None = None,
 ) -> Extremes:
     """Least and greatest value of a function of axis motions, proven over a cycle or a window of it."""
-    start, stop = within or (0.0, axes[0].duration)
+    start, stop = within or (0.0, axes[0].cycle.duration)
     breaks = sorted({place for axis in axes for place in axis.breaks if start < place < stop})
     return extremes(function, [start, *breaks, stop], share=share, parts=2)

@@ -163,7 +163,7 @@ class Interlock(Kinded, ABC, title="an interlock"):
         """The least clearance over the whole cycle that cycles by the names of their axes leave it."""
         first, second = (EnclosedAxis(cycles[name]) for name in self.axes)
         clearance, bound, time, size, *margin = self._least(self.in_si(cycles), first, second)
-        slack, period = INTERLOCK * size, first.duration
+        slack, period = INTERLOCK * size, first.cycle.duration
         clearance, bound = (0.0 if abs(value) <= CYCLE_ROUNDING * size else value for value in (clearance, bound))
         status = "clear" if bound >= -slack else "broken" if clearance < -slack else "open"
         early = next((0.0 if abs(each) <= SAME_TIME * period else each for each in margin), None)
@@ -258,7 +258,7 @@ class After(Interlock, kind="after", title="an interlock after"):
         pairs: list[tuple[float, float | None, bool]] = []
         for _, clearance, time in self._passes(given, first, second):
             clear = clearance >= -INTERLOCK * second.stroke
-            later = time + SAME_TIME * second.duration if clear else time
+            later = time + SAME_TIME * second.cycle.duration if clear else time
             before, after = ([at for at in entries if (at <= later) == early] for early in (True, False))
             nearest = (before or entries)[-1:] if clear else (after or entries)[:1]
             pairs.append((time, nearest[0] if nearest else None, clear))
@@ -288,7 +288,7 @@ class After(Interlock, kind="after", title="an interlock after"):
             raise InputError(f"interlock {self.label}: {self.axis} never passes {self.position}{self._way}")
         bound, clearance, time = min(known)
         way = 1.0 if clearance >= 0.0 else -1.0
-        early = [way * ((way * (time - at)) % second.duration) for at in self._entries(second, given[1])]
+        early = [way * ((way * (time - at)) % second.cycle.duration) for at in self._entries(second, given[1])]
         return clearance, bound, time, second.stroke, *sorted(early, key=abs)[:1]
 
 
@@ -565,7 +565,7 @@ class Synchronous(Interlock, kind="synchronous", title="a synchronous motion"):
         def difference(at: Interval, order: int) -> Jet:
             return first.jet(at, order + 1).slope() - second.jet(at, order + 1).slope() * self.ratio
 
-        known = least(difference, (first, second), CLEARANCE_SHARE, self.window(first.duration))
+        known = least(difference, (first, second), CLEARANCE_SHARE, self.window(first.cycle.duration))
         time = known.least_at if known.least < -known.most else known.most_at
         return given - known.peak, given - known.bound, time, given
 

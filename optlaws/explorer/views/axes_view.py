@@ -167,11 +167,12 @@ def _timed(study: dict[str, Any], axes: Axes) -> dict[str, Any]:
     size, unit = (1.0, "s") if clock == "period" else (TURN_DEG / axes.duration, "deg")
     changed = []
     for axis in study["axis"]:
-        segments = axes[axis["name"]].to_dict()["segments"]
-        for segment in segments:
+        cycle = axes[axis["name"]]
+        segments = cycle.to_dict()["segments"]
+        for segment, time in zip(segments, cycle.durations, strict=True):
             if isinstance(segment.get("law"), dict):
                 segment["law"] = json.dumps(segment["law"])
-            segment["duration"] = f"{size * float(segment['duration'].split()[0]):.{_FIGURES}g} {unit}"
+            segment["duration"] = f"{size * time:.{_FIGURES}g} {unit}"
         changed.append(axis | {"segment": segments})
     same = abs(axes.duration - axes_of(study).duration) == 0.0
     return study | ({} if same else {clock: turn}) | {"axis": changed}
