@@ -6,7 +6,7 @@ import inspect
 from collections.abc import Callable
 from dataclasses import replace
 from math import nan
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError
@@ -31,15 +31,10 @@ from optlaws.formulas.tree import (
 )
 from optlaws.locks import casadi_lock
 from optlaws.numbers import real
-from optlaws.synthesis.functionals.kinds import (
-    FormulaIntegral,
-    FormulaPeak,
-    FormulaRms,
-    FormulaValue,
-    OfFormula,
-    refusal,
-)
 from optlaws.synthesis.problem.constants import MAKERS, Functional
+
+if TYPE_CHECKING:
+    from optlaws.synthesis.functionals.kinds import OfFormula
 
 _MOST = 2000
 
@@ -144,6 +139,8 @@ def peak(formula: Any, *, side: PeakSide = "both", start: float = 0.0, stop: flo
     >>> peak("c + 3*b"), round(peak("c + 3*b").value(smoothstep(3)), 6)
     (peak(c + 3*b), 9.009603)
     """
+    from optlaws.synthesis.functionals.kinds import FormulaPeak
+
     check_names([side], _SIDES, "side")
     motion = _motion(formula, *_part(start, stop))
     name = _name("peak", motion, *([] if side == "both" else [f"side={side}"]))
@@ -166,6 +163,8 @@ def rms(formula: Any, *, start: float = 0.0, stop: float = 1.0) -> Functional:
     >>> round(rms("c").value(smoothstep(2)) ** 2, 9)
     12.0
     """
+    from optlaws.synthesis.functionals.kinds import FormulaRms
+
     motion = _motion(formula, *_part(start, stop, "rms"))
     name = _name("rms", motion)
     rms = FormulaRms(name, nan, convex=True, motion=motion)
@@ -189,6 +188,8 @@ def integral(formula: Any, *, start: float = 0.0, stop: float = 1.0) -> Function
     >>> round(energy.value(smoothstep(2)), 9), energy.convexity
     (13.8, 'convex: every term of c^2 + (1 + k)*b^2 is convex')
     """
+    from optlaws.synthesis.functionals.kinds import FormulaIntegral
+
     motion = _motion(formula, *_part(start, stop, "integral"))
     integral = FormulaIntegral(_name("integral", motion), nan, convex=motion.curvature.convex, motion=motion)
     return _checked(integral, formula)
@@ -210,6 +211,8 @@ def value(formula: Any, *, at: float) -> Functional:
     >>> value("c", at=0.25), value("c", at=0.25).value(smoothstep(2))
     (value(c, at=0.25), 3.0)
     """
+    from optlaws.synthesis.functionals.kinds import FormulaValue
+
     place = _place(at, "at")
     motion = _motion(formula, place, place)
     name = f"value({motion.formula}, at={plain(place)})"
@@ -309,6 +312,8 @@ def _motion(formula: Any, start: float, stop: float) -> MotionFormula:
 
 def _checked(constant: OfFormula, formula: Any) -> OfFormula:
     """The constant, if it can be minimised and bounded."""
+    from optlaws.synthesis.functionals.kinds import refusal
+
     why = refusal(constant)
     if why is not None:
         text = formula if isinstance(formula, str) else str(constant.motion.formula)

@@ -11,7 +11,6 @@ import numpy as np
 
 from optlaws.errors import InputError
 from optlaws.laws import MotionLaw
-from optlaws.synthesis.functionals.kinds import greatest_along
 from optlaws.synthesis.problem.constants import B, Functional
 from optlaws.synthesis.problem.expression import Expression, Maximum
 from optlaws.synthesis.problem.problem import Problem
@@ -60,6 +59,8 @@ def _window_excess(window: Window, law: MotionLaw) -> tuple[float, float]:
     if window.motion is None:
         lowest, highest = law.extrema(window.nu, within=(window.start, window.stop))
         return highest.value - window.high, window.low - lowest.value
+    from optlaws.synthesis.functionals.kinds import greatest_along
+
     bounds = ((1.0, window.high), (-1.0, -window.low))
     above, below = (
         greatest_along(window.motion, sign, law) - bound if isfinite(bound) else -inf for sign, bound in bounds

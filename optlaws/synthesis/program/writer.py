@@ -16,8 +16,6 @@ from optlaws.numbers import Array
 from optlaws.synthesis.families import names
 from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, Program
 from optlaws.synthesis.families.names import RowName, VariableName
-from optlaws.synthesis.functionals.affine_rows import columns as formula_columns
-from optlaws.synthesis.functionals.curved_rows import branch_rows, split
 from optlaws.synthesis.problem.combined import facing, floats
 from optlaws.synthesis.problem.constants import B, Functional, PowerConstant
 from optlaws.synthesis.problem.expression import Expression, Maximum, Term, leaves
@@ -322,6 +320,9 @@ class _Writer:
         return families if constant.normalised else tuple(family.scaled_down(scale) for family in families)
 
     def _formula_window(self, window: Window, motion: MotionFormula, halves: tuple[str, str]) -> None:
+        from optlaws.synthesis.functionals.affine_rows import columns as formula_columns
+        from optlaws.synthesis.functionals.curved_rows import branch_rows, split
+
         parts, unit = motion.halves() if self.problem.symmetric else (motion,), self.scale(window)
         for part, name in zip(parts, halves, strict=False):
             if window.value:
