@@ -245,17 +245,8 @@ class Drive(Declared, title="a drive"):
         It is the limit within the motor's greatest speed, peak torque and curve; for the peak torque within its speed.
         A curve that is not concave counts by its concave hull. What the gear loses is in it.
 
-        Parameters
-        ----------
-        minimise
-            "peak torque", "rms torque", "energy" (without what is fed back) or "time", all at the motor.
-        start, stroke, duration
-            Of the mechanism's input; the least time has no duration.
-        limits
-            Greatest "velocity" and "acceleration" of the mechanism's input, and "torque" of the motor, each a quantity,
-            or a list of parts of the way such as [("10 deg", "20 deg", "2 rad/s")].
-        heat
-            Copper heat, in W a squared N m, that is minimised together with the energy.
+        It takes what `Mechanism.limit` takes, of the mechanism's input, but what is minimised, a limit of the "torque"
+        and the heat are at the motor; of the energy what is fed back is left out.
 
         Raises
         ------
@@ -307,20 +298,11 @@ class Drive(Declared, title="a drive"):
         Examples
         --------
         >>> drive = Drive(Mechanism("0.8 kg m^2"), Motor("3e-4 kg m^2", rated_torque="2 N m"), ratio=20)
-        >>> drive.sheet("modified sine", "0 deg", "45 deg", "0.25 s", period="0.6 s").summary()
-                                          value        unit  at k
-        peak torque                       3.195452435  N m   0.125
-        RMS torque                        1.458517817  N m
-        holding torque                    0            N m
-        peak speed                        1055.762032  rpm
-        greatest power, motoring          198.2263673  W
-        greatest power, braking           198.2263673  W
-        energy of a move, motoring        14.05682231  J
-        energy of a move, braking         14.05682231  J
-        energy of a cycle                 14.05682231  J
-        mean power of the brake resistor  23.42803719  W
-        inertia of load by motor          6.666666667
-        RMS torque, used                  72.92589084  %
+        >>> sheet = drive.sheet("modified sine", "0 deg", "45 deg", "0.25 s", period="0.6 s")
+        >>> round(sheet.peak_torque, 9), sheet.peak_torque_at, round(sheet.braking_heat, 8)
+        (3.195452435, 0.125, 23.42803719)
+        >>> {margin.name: round(margin.use, 8) for margin in sheet.margins}
+        {'RMS torque': 0.72925891}
         """
         piece, time = self._move(law, start, stroke, duration, period)
         rest = Piece(piece.stop, time - piece.duration, piece.offset + piece.stroke, 0.0, smoothstep(1))

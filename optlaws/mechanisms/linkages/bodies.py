@@ -150,38 +150,23 @@ NO_LOADS = Loads()
 
 @dataclass(frozen=True)
 class DrivenLink:
-    """A link that does the work: its name, its position and velocity by the input, and whether it slides or turns.
-
-    The position of one that turns very far has no formula without a jump.
-    """
+    """A link that does the work: its name, its position and velocity by the input, and whether it slides or turns."""
 
     name: str
-    position: Formula | None
+    position: Formula | None  #: one that turns very far has none without a jump
     velocity: Formula
     axis: str
 
 
 @dataclass(frozen=True)
 class Link:
-    """A link that turns in the plane of a mechanism: where it lies, and how it moves with the input's position x.
+    """A link that turns in the plane of a mechanism: where it lies, and how it moves with the input's position x."""
 
-    Attributes
-    ----------
-    way
-        From its first joint to its second, which is `length` long.
-    turning
-        Its angular velocity by x.
-    carrier
-        The link on whose second joint its first one is; without one it turns about a pivot.
-    axis
-        The direction of the coordinates, rad from the first one of the mechanism's.
-    """
-
-    way: tuple[Any, Any]
-    turning: Any
+    way: tuple[Any, Any]  #: from its first joint to its second, which is `length` long
+    turning: Any  #: its angular velocity by x
     length: float
-    carrier: Link | None = None
-    axis: float = 0.0
+    carrier: Link | None = None  #: on whose second joint its first one is; without one it turns about a pivot
+    axis: float = 0.0  #: the direction of the coordinates, rad from the first one of the mechanism's
 
     def moved(self, body: Body, gravity: tuple[float, float]) -> tuple[list[Formula], list[Formula]]:
         """The terms of inertia and load at the input by a body on the link."""
@@ -209,9 +194,8 @@ class Slide:
     def moved(self, body: Body, gravity: tuple[float, float]) -> tuple[list[Formula], list[Formula]]:
         """The terms of inertia and load at the input by a body on the link."""
         along = gravity[0] * cos(self.axis) + gravity[1] * sin(self.axis)
-        return [reduced_inertia(body.mass, self.velocity)], [
-            multiplied([number(-body.mass * along), formula_from(self.velocity)])
-        ]
+        load = multiplied([number(-body.mass * along), formula_from(self.velocity)])
+        return [reduced_inertia(body.mass, self.velocity)], [load]
 
 
 def reduced_inertia(weight: float, velocity: Any) -> Formula:

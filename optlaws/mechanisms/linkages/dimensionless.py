@@ -55,30 +55,16 @@ class LinearForce(NamedTuple):
 
 
 class Train(NamedTuple):
-    """Motor and gear before a mechanism, in SI units; unless given, the mechanism is driven at its input.
+    """Motor and gear before a mechanism, in SI units; unless given, the mechanism is driven at its input."""
 
-    Attributes
-    ----------
-    inertia, viscous, coulomb
-        At the motor's shaft.
-    to_load, back
-        Efficiencies of the gear while power flows to the load and back.
-    ratio
-        Turns of the motor with a turn of the mechanism's input.
-    regeneration
-        The share of the braking energy that is fed back.
-    copper
-        The copper heat of the motor by its squared torque, W/(N m)²; 0 without a motor constant.
-    """
-
-    inertia: float = 0.0
+    inertia: float = 0.0  #: this and friction at the motor's shaft
     viscous: float = 0.0
     coulomb: float = 0.0
-    to_load: float = 1.0
+    to_load: float = 1.0  #: the gear's efficiency while power flows to the load
     back: float = 1.0
-    ratio: float = 1.0
-    regeneration: float = 0.0
-    copper: float = 0.0
+    ratio: float = 1.0  #: turns of the motor with a turn of the mechanism's input
+    regeneration: float = 0.0  #: the share of the braking energy that is fed back
+    copper: float = 0.0  #: the copper heat by the squared torque, W/(N m)²; 0 without a motor constant
 
     @property
     def loses(self) -> bool:

@@ -195,18 +195,16 @@ class Mechanism(JsonText):
             "inertia": formula_of(inertia, (kind, known["inertia"]), "inertia"),
             "load": formula_of(load, (kind, known["load"]), "load", interpolation="lines"),
         }
-        fields = {
-            "inertia_formula": formulas["inertia"],
-            "load_formula": formulas["load"],
-            "coulomb": not_negative(si_number(coulomb, (known["load"],), "coulomb"), "coulomb"),
-            "viscous": not_negative(si_number(viscous, (known["viscous"],), "viscous"), "viscous"),
-            "over": _range(formulas, ends, kind),
-            "axis": kind,
-            "name": str(name),
-            "linkage": linkage,
-        }
-        for field, value in fields.items():
-            object.__setattr__(self, field, value)
+        vars(self).update(
+            inertia_formula=formulas["inertia"],
+            load_formula=formulas["load"],
+            coulomb=not_negative(si_number(coulomb, (known["load"],), "coulomb"), "coulomb"),
+            viscous=not_negative(si_number(viscous, (known["viscous"],), "viscous"), "viscous"),
+            over=_range(formulas, ends, kind),
+            axis=kind,
+            name=str(name),
+            linkage=linkage,
+        )
         self._check()
 
     def _check(self) -> None:
@@ -575,20 +573,17 @@ def duration_of(minimise: str, duration: NumberOrQuantity | None) -> NumberOrQua
 def _greatest(formula: Formula, low: float, high: float) -> float:
     """The greatest value of a smooth formula of x between two places."""
 
+    def interval(ends: Endpoints, divisor: float, x: Interval) -> Interval:
+        low, high = (np.broadcast_to(end, x.middle.shape) / divisor for end in (ends.low, ends.high))
+        middle, radius = 0.5 * (low + high), 0.5 * (high - low)
+        return Interval(middle, radius + OPERATIONS_ROUNDING * (np.abs(middle) + radius))
+
     def value(x: Interval, order: int) -> Jet:
         at = {"x": Endpoints(x.low, x.high)}
-        terms = [enclosed(_derived(formula, nu), at) for nu in range(order + 1)]
-        return Jet([_as_interval(term, x.middle.shape, factorial(nu)) for nu, term in enumerate(terms)])
+        return Jet([interval(enclosed(_derived(formula, nu), at), factorial(nu), x) for nu in range(order + 1)])
 
     inner = [place for place in table_places(formula, "x") if low < place < high]
     return extremes(value, [low, *inner, high], parts=_PARTS).most
-
-
-def _as_interval(ends: Endpoints, shape: tuple[int, ...], divisor: float) -> Interval:
-    """What is between ends, divided by a number, as middles and radii."""
-    low, high = (np.broadcast_to(end, shape) / divisor for end in (ends.low, ends.high))
-    middle, radius = 0.5 * (low + high), 0.5 * (high - low)
-    return Interval(middle, radius + OPERATIONS_ROUNDING * (np.abs(middle) + radius))
 
 
 @lru_cache(maxsize=256)
