@@ -91,10 +91,7 @@ class Written:
     roundings: tuple[float, ...] = ()
 
 
-#: what makes the file of a motion and a request
 Writer = Callable[[Motion, Request], Written]
-#: what makes one file of several motions by their names
-JointWriter = Callable[[Mapping[str, Motion], Request], dict[str, Written]]
 
 
 @dataclass(frozen=True)
@@ -131,7 +128,7 @@ class Format:
     extension: str
     write: Writer = field(repr=False)
     takes: tuple[str, ...] = ("points",)
-    write_joints: JointWriter | None = field(default=None, repr=False)
+    write_joints: Callable[[Mapping[str, Motion], Request], dict[str, Written]] | None = field(default=None, repr=False)
 
     def request(self, **options: Any) -> Request:
         """The options that are not None, checked against the format's options.

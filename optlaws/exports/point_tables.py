@@ -53,7 +53,6 @@ class PointTable:
 
     @kept_property
     def run(self) -> PiecewiseMotion:
-        """The motion that the controller computes from the points."""
         return PiecewiseMotion(self.x, self.powers)
 
     def written(self, text: str, model: str, notes: tuple[str, ...] = ()) -> Written:

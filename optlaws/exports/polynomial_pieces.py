@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import astuple, dataclass
 from fractions import Fraction
 from heapq import heapify, heapreplace
 from itertools import pairwise
@@ -23,7 +23,7 @@ from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import PolynomialSegment
 from optlaws.motion.motion import Motion, motion_of_law
 from optlaws.motion.piece import Piece
-from optlaws.motion.polynomials import PiecewiseMotion, from_exact
+from optlaws.motion.polynomials import PiecewiseMotion
 from optlaws.numbers import Array, positive
 from optlaws.numerics import exact
 from optlaws.numerics.splines import hermite_powers
@@ -31,6 +31,14 @@ from optlaws.numerics.splines import hermite_powers
 _POSITION_ROUNDING = 2.0**-50  # of a stroke: positions whose differences make a higher derivative
 _PIECES_OF_MOTION = 1e-9  # of the greatest value: what polynomial pieces of a motion are off
 _ACCELERATION_HIGHER = 1e-3  # of the peak: how far a run's may be above the motion's
+
+_POLYNOMIAL_ROUNDING = 1e-9  # of a derivative: where polynomials of a controller meet
+_SOURCE_CODE_OFF = 1e-6  # of the acceleration's peak: how far polynomials of source code may be off
+
+#: of source code: the degree of polynomials for laws that are none, and of laws whose own polynomials are taken
+SOURCE_DEGREE, OWN_DEGREE = 9, 40
+SOURCE_PIECES = 1000
+SOURCE_MODEL = f"the law's own polynomials to degree {OWN_DEGREE}, else of degree {SOURCE_DEGREE}"
 
 #: how far the run's peak of the acceleration may be above the motion's, and its acceleration off it, as shares
 OFF = 1e-2
@@ -85,11 +93,6 @@ class _Section:
             )
         self.run = PiecewiseMotion(k, hermite_powers(k, values))
 
-    @property
-    def count(self) -> int:
-        """How many polynomials it has."""
-        return 0 if self.run is None else len(self.run.coefficients)
-
     def off(self, nu: int) -> float:
         """The deviation of the derivative of order nu from the motion's."""
         if self.run is None:
@@ -133,7 +136,8 @@ def _cut(section: _Section, count: int) -> Iterator[_Section]:
 
 def _joined(motion: Motion, sections: Sequence[_Section]) -> PiecewiseMotion:
     pairs = [pair for section in sections for pair in section.polynomials()]
-    return from_exact([*(low for low, _ in pairs), Fraction(motion.stop)], [row for _, row in pairs])
+    rows = [[float(c) for c in row] for _, row in pairs]  # every number is rounded once
+    return PiecewiseMotion([*(float(low) for low, _ in pairs), motion.stop], rows)
 
 
 def pieces_of_motion(motion: Motion, tolerance: float = _PIECES_OF_MOTION) -> PiecewiseMotion:
@@ -163,13 +167,11 @@ def _near(section: _Section, allowed: float) -> Iterator[_Section]:
         else:
             yield section
         return
-    count = 1
-    while count <= _MOST:
-        section.interpolate(count, _ORDERS)
+    for halvings in range(_MOST.bit_length()):
+        section.interpolate(2**halvings, _ORDERS)
         if section.off(0) <= allowed:
             yield section
             return
-        count *= 2
     raise InputError(
         f"{_MOST} polynomials do not come within {allowed / abs(section.piece.stroke):.3g} of the law near "
         f"k = {section.ends[0]:.6g}: take a greater tolerance, a law of polynomials, or a format of points"
@@ -190,7 +192,6 @@ class Fitted:
 
     @property
     def count(self) -> int:
-        """How many polynomials there are."""
         return len(self.run.coefficients)
 
     def in_words(self, unit: str) -> str:
@@ -232,7 +233,7 @@ def fitted(motion: Motion, degree: int, most: int, count: int | None = None, *, 
     def rank(place: int) -> tuple[float, int]:
         """A section's place behind its accuracy, below -1 where that is too little, with one polynomial more."""
         section = approximated[place]
-        section.interpolate(section.count + 1, (degree + 1) // 2)
+        section.interpolate(1 if section.run is None else len(section.run.coefficients) + 1, (degree + 1) // 2)
         assert section.run is not None  # noqa: S101 - it was laid
         height = abs(section.piece.stroke) / section.piece.duration**2 * section.run.peak(2).value
         return -max(height / ((1.0 + _ACCELERATION_HIGHER) * peak), section.off(2) / (near * peak)), place
@@ -275,15 +276,6 @@ def exactly(motion: Motion, degree: int) -> Fitted | None:
     return _fit(motion, parts)
 
 
-_POLYNOMIAL_ROUNDING = 1e-9  # of a derivative: where polynomials of a controller meet
-_SOURCE_CODE_OFF = 1e-6  # of the acceleration's peak: how far polynomials of source code may be off
-
-#: of source code: the degree of polynomials for laws that are none, and of laws whose own polynomials are taken
-SOURCE_DEGREE, OWN_DEGREE = 9, 40
-SOURCE_PIECES = 1000
-SOURCE_MODEL = f"the law's own polynomials to degree {OWN_DEGREE}, else of degree {SOURCE_DEGREE}"
-
-
 def polynomials_for(
     motion: Motion, request: Request, degree: int, most: int, *, points: bool = False, near: float = OFF
 ) -> Fitted:
@@ -314,11 +306,9 @@ def source_polynomials(motion: Motion, request: Request) -> tuple[Fitted, tuple[
 
 def labels_of(motion: Motion, notes: Sequence[str] = ()) -> Labels:
     """Units of a motion, and notes, for comments."""
-    rate = motion.units.rate
-    speed = (
-        [] if rate is None or motion.units.master == "s" else [f"the master goes {rate:.9g} {motion.units.master}/s"]
-    )
-    return Labels(motion.units.master, motion.units.slave, (*speed, *motion.proof, *notes))
+    master, slave, rate = astuple(motion.units)
+    speed = [] if rate is None or master == "s" else [f"the master goes {rate:.9g} {master}/s"]
+    return Labels(master, slave, (*speed, *motion.proof, *notes))
 
 
 def iec_heading(title: str, motion: Motion, run: PiecewiseMotion, notes: Sequence[str]) -> str:
@@ -371,11 +361,8 @@ def rounding(run: PiecewiseMotion, nu: int) -> float:
 
 def jumping(run: PiecewiseMotion, nu: int) -> float | None:
     """The first break where the derivative of order nu jumps by more than rounding; None without such a break."""
-    small = rounding(run, nu)
-    for x, jump in zip(run.breaks[1:], run.jumps(nu).tolist(), strict=False):
-        if abs(jump) > small:
-            return x
-    return None
+    jumps = np.flatnonzero(np.abs(run.jumps(nu)) > rounding(run, nu))
+    return run.breaks[1 + int(jumps[0])] if jumps.size else None
 
 
 def refuse_jumps(motion: Motion, run: PiecewiseMotion, holder: str, remedy: str) -> None:

@@ -306,13 +306,10 @@ class PiecewiseMotion:
         ]
         return np.stack(columns, axis=1)
 
-    def _control(self, nu: int) -> Array:
-        """Bernstein coefficients of the derivative of order nu, a row for each piece."""
-        table = self.powers(nu)
-        return bernstein.from_powers(table * self.lengths[:, None] ** np.arange(table.shape[1]))
-
     def _top(self, nu: int, sign: float) -> Extreme:
-        highest = bernstein.top(sign * self._control(nu))
+        table = self.powers(nu)
+        control = bernstein.from_powers(table * self.lengths[:, None] ** np.arange(table.shape[1]))
+        highest = bernstein.top(sign * control)
         low, length = self.breaks[highest.row], float(self.lengths[highest.row])
         if highest.u in {0.0, 1.0}:
             return Extreme(highest.value, self.breaks[highest.row + int(highest.u)])
@@ -329,11 +326,6 @@ class PiecewiseMotion:
                 break
             s -= step
         return s / length
-
-
-def from_exact(breaks: Sequence[Fraction], rows: Sequence[Sequence[Fraction]]) -> PiecewiseMotion:
-    """The piecewise motion nearest to an exact one: every number is rounded once."""
-    return PiecewiseMotion([float(place) for place in breaks], [[float(c) for c in row] for row in rows])
 
 
 def _horner(table: Array, x: Any) -> Any:

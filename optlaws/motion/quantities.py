@@ -297,30 +297,27 @@ def _parts(value: Any, dimensions: tuple[str, ...], name: str) -> tuple[float, s
     """The number of a quantity, and the text of its unit, which is known."""
     if isinstance(value, Exact):
         return value.number, value.unit
+    text = value if isinstance(value, str) and len(value) <= _LONGEST else ""
+    # with the signs of print as keyboards have them
+    match = _NUMBER.fullmatch(_POWERS.sub("^-", text.translate(_SIGNS)))
+    number, unit = (float(match[1]) / int(match[2] or 1), match[3].strip()) if match else (0.0, "")  # or a share: 1/12
+    if unit and isfinite(number) and _known_unit(unit) is not None:
+        return number, unit
     asks = _asks(dimensions, name)
-    match = _NUMBER.fullmatch(_plain(value)) if isinstance(value, str) and len(value) <= _LONGEST else None
-    if real(value) is not None or (match is not None and not match[3].strip()):
+    if real(value) is not None or (match is not None and not unit):
         example = DIMENSIONS[dimensions[0]][1]
         raise InputError(
             f"{asks}, got {shortened(value)} without a unit: write it as text with its unit, as in {example!r}"
         )
-    parted = _SEPARATED.match(value) if isinstance(value, str) and len(value) <= _LONGEST else None
+    parted = _SEPARATED.match(text)
     if parted is not None:
         raise InputError(f"{asks}, got {shortened(value)}: {_with_a_point(value, parted.group())}")
     if match is None:
         raise InputError(f"{asks}, got {shortened(value)}")
-    number, unit = float(match[1]) / int(match[2] or 1), match[3].strip()  # or a share such as 1/12
     if not isfinite(number):
         raise InputError(f"{name} must be finite, got {shortened(value)}")
-    if _known_unit(unit) is None:
-        known = " or ".join(f"{_article(each)} in {DIMENSIONS[each][0]}" for each in dimensions)
-        raise InputError(f"{asks}, but the unit of {shortened(value)} is not known: write {known}")
-    return number, unit
-
-
-def _plain(text: str) -> str:
-    """A text with the signs of print as keyboards have them."""
-    return _POWERS.sub("^-", text.translate(_SIGNS))
+    known = " or ".join(f"{_article(each)} in {DIMENSIONS[each][0]}" for each in dimensions)
+    raise InputError(f"{asks}, but the unit of {shortened(value)} is not known: write {known}")
 
 
 def _with_a_point(text: str, number: str) -> str:

@@ -55,7 +55,6 @@ class SmoothParts:
 
     @kept_property
     def places(self) -> tuple[Array, Array]:
-        """Places and weights of an integral."""
         return _places(self.edges[:-1], self.edges[1:])
 
     def integral(self, function: RealFunction) -> float:
@@ -110,7 +109,6 @@ def _places(low: Array, high: Array) -> tuple[Array, Array]:
 
 
 def _integrals(function: RealFunction, low: Array, high: Array) -> Array:
-    """The integral of a function between each pair of places."""
     places, weights = _places(low, high)
     return np.asarray((weights * function(places)).reshape(-1, _GAUSS).sum(axis=1))
 

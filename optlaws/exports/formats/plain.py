@@ -178,12 +178,10 @@ def _isg(motion: Motion, request: Request) -> Written:
     y_size = _unit_size(motion.units.slave, "deg" if motion.units.slave in {"deg", "rad", "°"} else "mm", "slave")
     most = min(ISG_LINES, 1 + int(np.floor(motion.length * x_size / ISG_LEAST * (1 + 1e-12))))
 
-    def make(count: int) -> PointTable:
-        return _integers(motion, count, _DECADIC_STEP / x_size, _DECADIC_STEP / y_size)
-
-    table = chosen(motion, request, make, least=2, most=most)
+    x_step, y_step = _DECADIC_STEP / x_size, _DECADIC_STEP / y_size
+    table = chosen(motion, request, partial(_integers, motion, x_step=x_step, y_step=y_step), least=2, most=most)
     name = "".join(letter if letter.isalnum() else "_" for letter in request.name)
-    rows = _whole(table, _DECADIC_STEP / x_size, _DECADIC_STEP / y_size)
+    rows = [(round(x / x_step), round(y / y_step)) for x, y in zip(*_x_and_y(table), strict=True)]
     if min(after[0] - before[0] for before, after in pairwise(rows)) < round(ISG_LEAST / _DECADIC_STEP):
         raise InputError(f"ISG wants points at least {ISG_LEAST} deg apart: take fewer points")
     head = [
@@ -206,33 +204,26 @@ def _isg(motion: Motion, request: Request) -> Written:
     takes=("points", "counts"),
 )
 def _technosoft(motion: Motion, request: Request) -> Written:
-    counts = request.counts or 65_536
-    step = motion.stroke / counts
-
-    def make(count: int) -> PointTable:
-        return _integers(motion, count, motion.length / (count - 1), step, even=True)
-
-    table = chosen(motion, request, make, least=2, most=TECHNOSOFT_POINTS)
-    spacing = TECHNOSOFT_STEPS
-    rows = [(i * spacing, round(y / step)) for i, y in enumerate(table.values[0].tolist())]
+    step = motion.stroke / (request.counts or 65_536)
+    table = chosen(
+        motion, request, partial(_integers, motion, x_step=None, y_step=step), least=2, most=TECHNOSOFT_POINTS
+    )
+    rows = [(i * TECHNOSOFT_STEPS, round(y / step)) for i, y in enumerate(table.values[0].tolist())]
     if max(abs(y) for _, y in rows) >= 2**31:
         raise InputError("counts: a position is beyond 32 bits; take fewer counts")
-    notes = (f"one count of the master is {motion.length / ((len(rows) - 1) * spacing):.12g} {motion.units.master}",)
+    notes = (f"one count of the master is {motion.length / rows[-1][0]:.12g} {motion.units.master}",)
     return table.written(_lines([f"{x} {y}" for x, y in rows]), "straight lines", notes)
 
 
-def _integers(motion: Motion, count: int, x_step: float, y_step: float, *, even: bool = False) -> PointTable:
-    """Points whose coordinates are whole multiples of steps, in machine units."""
-    exact = np.linspace(motion.start, motion.stop, count) if even else places(motion, count)
+def _integers(motion: Motion, count: int, x_step: float | None, y_step: float) -> PointTable:
+    """Points whose coordinates are whole multiples of steps, in machine units; of equal ones without that of x."""
+    exact = places(motion, count) if x_step else np.linspace(motion.start, motion.stop, count)
+    x_step = x_step or motion.length / (count - 1)
     x = np.rint(exact / x_step) * x_step
     if (np.diff(x) <= 0.0).any():
         raise InputError(f"{count} points of the master are closer than the target's step {x_step:g}: take fewer")
     y = np.rint(np.asarray(motion(exact)) / y_step) * y_step
     return PointTable(x, y[None], linear_powers(x, y), y_step)
-
-
-def _whole(table: PointTable, x_step: float, y_step: float) -> list[tuple[int, int]]:
-    return [(round(x / x_step), round(y / y_step)) for x, y in zip(*_x_and_y(table), strict=True)]
 
 
 def _unit_size(unit: str, target_unit: str, side: str) -> float:

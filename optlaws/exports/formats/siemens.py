@@ -62,7 +62,6 @@ _siemens(
 
 
 def _bounds(ends: Ends) -> dict[str, object]:
-    """The fields that elements of all kinds have."""
     names = ("leadingValue", "followingValue", "geoVelo", "geoAccel")
     sides = zip(names, (ends.x[0], *ends.first), (ends.x[1], *ends.last), strict=False)
     return {
