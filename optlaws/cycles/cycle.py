@@ -15,11 +15,7 @@ from optlaws.cycles.optimisation.bounds import bound_of, is_exact
 from optlaws.cycles.optimisation.drive_formulas import along
 from optlaws.cycles.optimisation.motion_limits import FORCE_UNITS, FORCES, LimitTaken
 from optlaws.cycles.optimisation.motor_limits import MOTOR
-from optlaws.cycles.optimisation.objectives import (
-    SUMS,
-    check_objective,
-    kind_of,
-)
+from optlaws.cycles.optimisation.objectives import SUMS, check_objective, kind_of
 from optlaws.cycles.optimisation.optimal import scale
 from optlaws.cycles.optimisation.search_spaces import remark_on_degrees, search_space
 from optlaws.cycles.optimisation.shared_limits import best_of
@@ -31,7 +27,7 @@ from optlaws.cycles.specification.programme import Programme, period_of
 from optlaws.cycles.specification.segments import CycleSegment, Transition
 from optlaws.cycles.specified import Specification
 from optlaws.entries.declared import Declared, ValueOf, declared, documented_by, entry
-from optlaws.entries.value_types import Listed, Switch, Text
+from optlaws.entries.value_types import Listed, Text
 from optlaws.errors import InputError
 from optlaws.extras import needed
 from optlaws.files.reading import check_names
@@ -98,7 +94,7 @@ class Answers(Exportable):
     def status(self) -> Status:
         """The worst status of the solutions; optimal where no motion is optimised.
 
-        Infeasible where a limit is broken, of a plan that is not checked: others are refused.
+        Infeasible where a limit is broken, as of other solutions than those that were sought, or `unchecked`.
         """
         if not self.solve().checked and not all(taken.is_kept for taken in self.limits_taken):
             return Status.INFEASIBLE
@@ -586,22 +582,12 @@ class Cycle(Answers, Specification):
     def _unchecked(self) -> Plan:
         best = best_of(self.layout, self.in_si, self.axis, self.duration)
         solutions = tuple(solution for _, solution in best.laws)
-        return Plan(self, solutions, chosen=best.remarks, bound=best.bound, checked=False)
+        return Plan(self, solutions, chosen=best.remarks, bound=best.bound)
 
     def with_solutions(self, solutions: Sequence[Solution]) -> Plan:
         """The plan with other solutions of its motions, such as solutions of problems with further bounds.
 
-        Objective, bound and status are recomputed from them.
-
-        Parameters
-        ----------
-        solutions
-            One in the place of each of `solutions`.
-
-        Raises
-        ------
-        InputError
-            If they are more or fewer.
+        Objective, bound and status are recomputed from them, which are as many as `solutions`.
 
         Examples
         --------
@@ -699,6 +685,8 @@ class Plan(Answers, Declared, title="a plan"):
     ----------
     bound
         The lower bound of laws of the search space; by the solutions unless given.
+    checked
+        Whether all laws are known to keep the limits; else the status says whether they do, as of a plan that is read.
 
     Examples
     --------
@@ -716,10 +704,8 @@ class Plan(Answers, Declared, title="a plan"):
     )
     _: KW_ONLY
     chosen: Sequence[str] = entry(Listed(Text()), "The selection among several optimal laws, in words.", default=())
-    checked: bool = entry(
-        Switch(), "Whether given laws are known to keep all limits; else the status says whether they do.", default=True
-    )
     bound: float | None = field(default=None, compare=False)
+    checked: bool = field(default=False, compare=False)
 
     # the cycle's own, under the same names
     segments = kept_property[Sequence[CycleSegment]](lambda plan: plan.specification.segments)

@@ -131,3 +131,13 @@ def test_fastest_cycles_and_transitions_leave_as_cycles_do() -> None:
         assert motion.export("csv", points=31).points == 31
         assert motion.polynomials(unit="m").breaks[0] == 0.0
         assert motion._repr_html_().count("<svg") == 4
+
+
+def test_a_plan_with_laws_beyond_a_limit_is_infeasible_wherever_they_come_from() -> None:
+    cycle = Cycle(MOVES, speed="90 rpm", limits={"jerk": "500 m/s^3"})
+    wild = replace(cycle, limits={}).solutions
+    assert cycle.with_solutions(cycle.solutions).status is cycle.status
+    assert cycle.with_solutions(wild).status is Status.INFEASIBLE
+    data = cycle.solve().to_dict()
+    data["solutions"] = [solution.to_dict() for solution in wild]
+    assert Plan.from_dict(data).status is Status.INFEASIBLE
