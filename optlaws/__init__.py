@@ -67,8 +67,7 @@ declare(
     {
         "optlaws.mechanisms.cam_constants": "B_cam C_cam C_minus_cam C_plus_cam D_cam J_cam",
         "optlaws.mechanisms.machine.output_constants": "output_peak output_rms",
-        "optlaws.mechanisms.machine.residual_boxes": "mode_residual",
-        "optlaws.mechanisms.residual": "residual",
+        "optlaws.mechanisms.machine.residual": "mode_residual residual",
         "optlaws.synthesis.functionals.makers": "integral peak rms value",
     },
 )

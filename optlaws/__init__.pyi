@@ -114,15 +114,12 @@ from .mechanisms.machine.follower import Deviation as Deviation, Follower as Fol
 from .mechanisms.machine.machine import Machine as Machine
 from .mechanisms.machine.masses import Link as Link
 from .mechanisms.machine.parameters import MachineSpectrum as MachineSpectrum, machine_spectrum as machine_spectrum
+from .mechanisms.machine.residual import residual_vibration as residual_vibration
 from .mechanisms.machine.response import CycleResponse as CycleResponse, Response as Response
 from .mechanisms.measured_spectrum import read_spectrum as read_spectrum
 from .mechanisms.polydyne_cam import mass_law as mass_law, polydyne as polydyne
-from .mechanisms.residual import (
-    residual_functional as residual_functional,
-    residual_phasor as residual_phasor,
-    residual_vibration as residual_vibration,
-)
 from .mechanisms.spectrum import ResponseSpectrum as ResponseSpectrum, response_spectrum as response_spectrum
+from .mechanisms.transforms import residual_functional as residual_functional, residual_phasor as residual_phasor
 from .motion.polynomials import PiecewiseMotion as PiecewiseMotion
 from .numbers import deg as deg
 from .numerics.peaks import Peak as Peak

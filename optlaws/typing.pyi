@@ -58,9 +58,12 @@ from .mechanisms.linkages.move_limit import LimitedMove as LimitedMove
 from .mechanisms.machine.follower import Change as Change
 from .mechanisms.machine.output_constants import OutputPeak as OutputPeak, OutputRms as OutputRms
 from .mechanisms.machine.over_time import MachineCycle as MachineCycle, MachineResponse as MachineResponse
-from .mechanisms.machine.residual_boxes import ModeResidual as ModeResidual
+from .mechanisms.machine.residual import (
+    BandResidual as BandResidual,
+    ModeResidual as ModeResidual,
+    Residual as Residual,
+)
 from .mechanisms.machine.state_space import Rows as Rows, StateSpace as StateSpace
-from .mechanisms.residual import Residual as Residual
 from .motion.motion import Motion as Motion
 from .motion.piece import Piece as Piece
 from .motion.polynomials import Derivatives as Derivatives, Extreme as Extreme

@@ -15,7 +15,7 @@ from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.laws.catalogue.reading import read_law
 from optlaws.laws.law import motion_law
-from optlaws.mechanisms.residual import residual_vibration
+from optlaws.mechanisms.machine.residual import residual_vibration
 from optlaws.motion.piece import factor, unit_of
 from optlaws.motion.quantities import check_scale, either, quantity
 from optlaws.numbers import Quantity, bounded, positive

@@ -15,5 +15,5 @@ from .machine.machine import Machine as Machine
 from .machine.masses import Link as Link
 from .machine.response import CycleResponse as CycleResponse, Response as Response
 from .polydyne_cam import mass_law as mass_law, polydyne as polydyne
-from .residual import residual_functional as residual_functional, residual_phasor as residual_phasor
 from .spectrum import ResponseSpectrum as ResponseSpectrum, response_spectrum as response_spectrum
+from .transforms import residual_functional as residual_functional, residual_phasor as residual_phasor

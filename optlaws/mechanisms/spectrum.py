@@ -12,8 +12,7 @@ from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.laws.law import motion_law
 from optlaws.mechanisms.forcing import Forcing, forcings
-from optlaws.mechanisms.residual import residual_phasor, roots
-from optlaws.mechanisms.transforms import legendre_from_chebyshev, moments
+from optlaws.mechanisms.transforms import legendre_from_chebyshev, moments, residual_phasor, roots
 from optlaws.numbers import Array, Complex
 from optlaws.numerics import chebyshev
 from optlaws.shown.report import Panel, PlainReport, Report, ReportTable, Series

@@ -1,4 +1,4 @@
-"""Exponential transforms of laws in closed form, by exponential moments of Legendre polynomials."""
+"""Exponential transforms of laws in closed form, and the vibration that they leave."""
 
 from __future__ import annotations
 
@@ -6,15 +6,26 @@ from collections.abc import Callable
 from functools import cache, lru_cache
 from itertools import pairwise
 from math import ceil
+from typing import Any
 
 import numpy as np
 
+from optlaws.echo import shortened
+from optlaws.errors import InputError
 from optlaws.laws import MotionLaw
 from optlaws.laws.law import motion_law
 from optlaws.mechanisms.forcing import Forcing, forcings
-from optlaws.numbers import Array, Complex
+from optlaws.numbers import Array, Complex, circular_frequency, not_negative, numbers, whole
 from optlaws.numerics import chebyshev
-from optlaws.tolerances import TINY
+from optlaws.synthesis.families.cone import stationary_places
+from optlaws.synthesis.functionals.curved_rows import columns_of
+from optlaws.synthesis.spaces.space import LawSpace
+from optlaws.tolerances import NEGLIGIBLE_TERM, TINY
+
+#: points of Gauss's rule beside those that the degree and the frequency need
+_GAUSS_SPARE = 40
+#: integrals of exp(w (1 - k)) b(k) for roots w, of one law or a column for each
+Transform = Callable[[Complex], Complex]
 
 
 def moments(sigma: Complex, count: int) -> Complex:
@@ -87,7 +98,7 @@ def velocity_transform(law: MotionLaw, w: Complex) -> Complex:
     return velocity_transform_of(law)(w)
 
 
-def velocity_transform_of(law: MotionLaw) -> Callable[[Complex], Complex]:
+def velocity_transform_of(law: MotionLaw) -> Transform:
     """The transform of a law's velocity as a function of w, for several w of one law."""
     pieces = forcings(motion_law(law))
     ends = np.array([0.0])
@@ -132,3 +143,149 @@ def _mean(z: Complex) -> Complex:
 def _polynomial(acceleration: Array, length: float, w: Complex) -> Complex:
     legendre = legendre_from_chebyshev(len(acceleration)) @ acceleration
     return length * (moments(0.5 * length * w, len(acceleration)) @ legendre)
+
+
+def residual_phasor(law: MotionLaw, frequency: Any, damping: float = 0.0) -> Complex:
+    """Complex amplitude Z of the free vibration after a law, the mass at rest at first; linear in the law.
+
+    For k >= 1 the mass moves by a_m = a(1) + Re(Z exp(w (k - 1))), w = -n + i lambda, lambda = nu sqrt(1 - zeta²). |Z|
+    is the residual displacement and nu² |Z| the residual acceleration. With wbar the conjugate of w,
+    Z = -i wbar/lambda times the integral of exp(w (1 - k)) b(k), in closed form for polynomials and sines.
+
+    Parameters
+    ----------
+    law
+        Motion of the cam.
+    frequency
+        Frequencies nu, above 0; a number or shape (m,).
+    damping
+        Ratio zeta, below 1.
+
+    Returns
+    -------
+    Complex array, shape (m,).
+
+    Raises
+    ------
+    InputError
+        If a number is out of range.
+
+    Examples
+    --------
+    >>> from optlaws import savin
+    >>> 18**2 * abs(residual_phasor(savin("III", 7.2), 18)).round(12)
+    array([7.204401])
+    """
+    _, w, damped = roots(frequency, damping)
+    return -1j * w.conj() / damped * velocity_transform(law, w)
+
+
+def residual_functional(count: int, frequency: Any, damping: float = 0.0) -> tuple[Complex, Complex]:
+    """The rows that turn a polynomial law's coefficients into the complex amplitude of its free vibration.
+
+    With ``rows, start = residual_functional(len(law.acceleration), frequency, damping)`` the residual acceleration is
+    ``abs(rows @ law.acceleration + start * law.b0)``: nu² times `residual_phasor`, affine in whatever the law is
+    affine in, so that a bound on it is a second-order cone for each frequency.
+
+    Parameters
+    ----------
+    count
+        Number of Chebyshev coefficients of c.
+    frequency
+        Frequencies nu, above 0; a number or shape (m,).
+    damping
+        Ratio zeta, below 1.
+
+    Returns
+    -------
+    Complex arrays of shape (m, count) and (m,).
+
+    Raises
+    ------
+    InputError
+        If a number is out of range.
+
+    Examples
+    --------
+    >>> from optlaws import smoothstep
+    >>> law = smoothstep(4)
+    >>> rows, start = residual_functional(len(law.acceleration), [20.0], 0.05)
+    >>> abs(rows @ law.acceleration + start * law.b0).round(6)
+    array([1.650151])
+    """
+    frequencies, w, damped = roots(frequency, damping)
+    terms = whole(count, "count", least=1)
+    scale = (-1j * frequencies**2 * w.conj() / (damped * w))[:, None]
+    n = np.arange(terms)
+    mean = np.where(n % 2 == 0, 1.0 / (1.0 - n * n + (n % 2)), 0.0)
+    rows = moments(0.5 * w, terms) @ legendre_from_chebyshev(terms) - mean
+    return scale * rows, scale[:, 0] * np.expm1(w)
+
+
+def roots(frequency: Any, damping: float) -> tuple[Array, Complex, Array]:
+    """Frequencies nu, roots w = -n + i lambda and lambda of followers below critical damping."""
+    frequencies = np.array(numbers(np.atleast_1d(np.asarray(frequency)).tolist(), "frequency"))
+    ratio = not_negative(damping, "damping")
+    if not (frequencies > 0.0).all():
+        raise InputError(f"frequency must be above 0, got {float(frequencies.min())!r}")
+    if frequencies.size:
+        circular_frequency(frequencies.max())
+    if ratio >= 1.0:
+        raise InputError(
+            f"damping must be below 1, got {shortened(damping)}: from the critical damping on nothing vibrates; "
+            "Follower.response shows how the mass comes to rest"
+        )
+    damped = frequencies * np.sqrt((1.0 - ratio) * (1.0 + ratio))
+    return frequencies, -ratio * frequencies + 1j * damped, damped
+
+
+@lru_cache(maxsize=256)
+def terms_of_exponential(half: float) -> int:
+    """The number of coefficients of exp(w t) that count, w over a line of twice that length, 0 <= t <= 1.
+
+    Where |exp(w t)| is at most 1 on the line the coefficient n is at most 2 (half / 2)^n / n!.
+
+    >>> terms_of_exponential(0.01), terms_of_exponential(10.0)
+    (7, 38)
+    """
+    n, size = 0, 2.0
+    while size > NEGLIGIBLE_TERM or n < half:
+        n += 1
+        size *= 0.5 * half / n
+    return n + 1
+
+
+def greatest_modulus(amplitude: Callable[[Array], Complex], nodes: Array) -> tuple[float, float]:
+    """The greatest magnitude of an analytic amplitude from -1 to 1, by nodes that resolve it, and its place.
+
+    >>> greatest_modulus(lambda u: 1.0 + 1j * u * u, np.ones(1))
+    (1.414214, 1.0)
+    """
+    places = nodes
+    if len(nodes) > 1:
+        places = np.concatenate([[-1.0, 1.0], stationary_places(chebyshev.from_values(amplitude(nodes)))])
+    sizes = np.abs(amplitude(places))
+    best = int(np.argmax(sizes))
+    return float(sizes[best]), float(places[best])
+
+
+def velocity_transforms(space: LawSpace, w: Complex, highest: float) -> Complex:
+    """Integrals of exp(w (1 - k)) b(k), a row for each root w, for the free functions and the base law of a space.
+
+    Roots have real parts of at most 0 and magnitudes of at most `highest`.
+    """
+    k, weights = _gauss_rule(space, highest)
+    # by parts: beside b what a fast vibration leaves would be lost in rounding
+    moved = np.exp(w[:, None] * (1.0 - k)) @ (weights[:, None] * columns_of(space, 2, k))
+    begun, ended = columns_of(space, 1, np.array([0.0, 1.0]))
+    return np.asarray((moved + np.exp(w)[:, None] * begun - ended) / w[:, None])
+
+
+def _gauss_rule(space: LawSpace, highest: float) -> tuple[Array, Array]:
+    """Gauss points on every piece of the law, enough for a vibration of the highest frequency, and weights."""
+    breaks = np.array(getattr(space, "breaks", (0.0, 1.0)))
+    degree = len(space.derivative(1, "b", np.zeros(space.terms)).series)
+    x, weights = np.polynomial.legendre.leggauss(degree + ceil(0.5 * highest) + _GAUSS_SPARE)
+    lengths = np.diff(breaks)
+    k = breaks[:-1, None] + lengths[:, None] * (1.0 + x) / 2.0
+    return k.ravel(), (lengths[:, None] * weights / 2.0).ravel()

@@ -30,7 +30,7 @@ from tests.contracts.kinds import kinds
 from tests.contracts.test_families import coordinates
 from tests.internals.balancing import LoaderPeak
 from tests.internals.formulas import ORDERS
-from tests.internals.mechanisms import CamPeak, CamPower, ModeResidual, OutputConstant, Residual
+from tests.internals.mechanisms import BandResidual, CamPeak, CamPower, ModeResidual, OutputConstant
 from tests.internals.synthesis import (
     ALIASES,
     MAKERS,
@@ -162,7 +162,7 @@ def sampled(constant: Functional, law: MotionLaw) -> tuple[float, float]:
         breaks = np.linspace(0.0, 1.0, 5)
         k = (breaks[:-1, None] + np.diff(breaks)[:, None] * (1.0 + X) / 2.0).ravel()
         return sqrt(float(np.resize(WEIGHTS / 8.0, len(k)) @ law(k, constant.nu) ** 2)), 0.0
-    if isinstance(constant, Residual):
+    if isinstance(constant, BandResidual):
         return vibration(constant, law)
     if isinstance(constant, LoaderPeak):
         return of_loader(constant, law)
@@ -190,7 +190,7 @@ def signal(constant: Functional, law: MotionLaw) -> Array:
     return np.asarray(law.b(GRID) * law.c(GRID))
 
 
-def vibration(constant: Residual, law: MotionLaw) -> tuple[float, float]:
+def vibration(constant: BandResidual, law: MotionLaw) -> tuple[float, float]:
     """nu² times the amplitude left at k = 1, by Simpson's rule, over frequencies."""
     weights = np.concatenate([[1.0], np.resize([4.0, 2.0], len(GRID) - 2), [1.0]]) / (3.0 * (len(GRID) - 1))
     b = np.asarray(law.b(GRID))

@@ -18,7 +18,7 @@ from scipy.sparse import csc_matrix
 
 from optlaws import Functional, Problem
 from optlaws.synthesis import Maximum, Term
-from tests.internals.mechanisms import CamPeak, Residual
+from tests.internals.mechanisms import BandResidual, CamPeak
 from tests.synthesis.judge import SQUARES, as_range, peak_in_the_middle
 from tests.synthesis.numpy_laws import Laws, Undecided, grid, laws_of
 
@@ -127,7 +127,7 @@ class Program:
         if isinstance(one, CamPeak):
             weights = (1.0, 2.0 * one.damping / one.frequency, 1.0 / one.frequency**2)
             self.families.append(Rows(self.laws, self.laws.combined(one.nu, weights), one.signs, place, bound))
-        elif isinstance(one, Residual):
+        elif isinstance(one, BandResidual):
             self.residuals.append(Residuals(self.laws, one, place, bound))
         elif one.name in SQUARES:
             self.means.append((self.laws.mean(SQUARES[one.name]), place, bound))
@@ -194,7 +194,7 @@ def _names(terms: Terms) -> Iterator[str]:
 class Residuals:
     """nu² times the amplitude that a follower's vibration is left with, below a variable or a number."""
 
-    def __init__(self, laws: Laws, one: Residual, variable: int | None, bound: float) -> None:
+    def __init__(self, laws: Laws, one: BandResidual, variable: int | None, bound: float) -> None:
         self.one, self.variable, self.bound = one, variable, bound
         design = one.design
         weights = (1.0,) if design is None else (1.0, 2.0 * one.design_damping / design, 1.0 / design**2)

@@ -16,7 +16,7 @@ from optlaws import Expression, Functional, MotionLaw, Problem, Range, Solution,
 from optlaws.synthesis import Maximum
 from tests.formulas.by_python import by_python
 from tests.internals.formulas import MotionFormula, Table
-from tests.internals.mechanisms import CamPeak, CamPower, ModeResidual, OutputConstant, Residual
+from tests.internals.mechanisms import BandResidual, CamPeak, CamPower, ModeResidual, OutputConstant
 from tests.internals.synthesis import FormulaIntegral, FormulaPeak, FormulaRms, FormulaValue, OfFormula, leaves
 from tests.mechanisms.machine.stepped import machine_value, residual_rounding
 from tests.synthesis.independent import DENSE
@@ -136,7 +136,7 @@ class Judged:
             _, b, c, *_ = self.cam(constant.frequency, constant.damping)
             pieces = zip(b.pieces, c.pieces, strict=True)
             return max(float(np.abs(_extremes(first, second)).max()) for first, second in pieces)
-        if isinstance(constant, Residual):
+        if isinstance(constant, BandResidual):
             return self.residual(constant)
         if isinstance(constant, OfFormula):
             return self.of_formula(constant)
@@ -159,7 +159,7 @@ class Judged:
             for i in range(4)
         ]
 
-    def residual(self, constant: Residual) -> float:
+    def residual(self, constant: BandResidual) -> float:
         """nu² times the amplitude that the follower's free vibration has at k = 1, greatest over the frequencies."""
         b = self.derivatives[1]
         if constant.design is not None:

@@ -26,8 +26,8 @@ from optlaws.explorer.views.requests import (
     solved,
     without,
 )
+from optlaws.mechanisms.machine.residual import BandResidual
 from optlaws.mechanisms.measured_spectrum import Spectrum, weight_of
-from optlaws.mechanisms.residual import Residual
 from optlaws.motion import display_units
 from optlaws.motion.piece import factor
 from optlaws.motion.quantities import either, positive_quantity
@@ -266,7 +266,7 @@ def residuals(request: LawsRequest) -> dict[str, Any]:
     }
 
 
-def _constant(request: LawsRequest, weight: Spectrum | None) -> Residual | None:
+def _constant(request: LawsRequest, weight: Spectrum | None) -> BandResidual | None:
     """The greatest residual in the band, weighed where there is a spectrum; None without either."""
     if weight is None and request.band is None:
         return None
@@ -279,7 +279,7 @@ def _constant(request: LawsRequest, weight: Spectrum | None) -> Residual | None:
     return residual_vibration(frequency=band, damping=request.damping, spectrum=weight)
 
 
-def _greatest(law: MotionLaw, constant: Residual | None) -> dict[str, Any] | None:
+def _greatest(law: MotionLaw, constant: BandResidual | None) -> dict[str, Any] | None:
     """The greatest residual of a law in the band, and where."""
     peak = None if constant is None else constant.peak(law)
     if peak is None or bounded(peak.value) is None:

@@ -24,7 +24,7 @@ from optlaws.numbers import NumberOrQuantity, not_negative, positive
 
 if TYPE_CHECKING:
     from optlaws.mechanisms.machine.output_constants import OutputPeak, OutputRms
-    from optlaws.mechanisms.machine.residual_boxes import ModeResidual
+    from optlaws.mechanisms.machine.residual import ModeResidual
     from optlaws.synthesis import Functional
     from optlaws.synthesis.functionals.makers import PeakSide
 
@@ -418,7 +418,7 @@ class Machine(StateSpace):
         >>> machine.residual().value(smoothstep(4)), machine.residual(spread=0.1).value(smoothstep(4))
         (1.650151, 4.516368)
         """
-        from optlaws.mechanisms.machine.residual_boxes import mode_residual
+        from optlaws.mechanisms.machine.residual import mode_residual
 
         return mode_residual(of=self, mode=mode, spread=spread, damping=damping, output=output)
 

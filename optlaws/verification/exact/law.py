@@ -17,8 +17,7 @@ from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import PolynomialSegment, Segment
 from optlaws.laws.segments.sine import HarmonicSegment, SineSegment
 from optlaws.mechanisms.machine.output_constants import OutputPeak, OutputRms
-from optlaws.mechanisms.machine.residual_boxes import ModeResidual
-from optlaws.mechanisms.residual import Residual
+from optlaws.mechanisms.machine.residual import Residual
 from optlaws.synthesis.functionals.curved_rows import split, squared
 from optlaws.synthesis.functionals.kinds import FormulaIntegral, FormulaPeak, FormulaRms, FormulaValue
 from optlaws.synthesis.problem.combined import CombinedPeak, CombinedPower
@@ -29,11 +28,11 @@ from optlaws.verification.enclosing.balls import Extremes, ball, enclosed, ratio
 from optlaws.verification.enclosing.pieces import ExactPiece, PolynomialPiece, PowerPiece, SinePiece, least_and_greatest
 from optlaws.verification.exact.motion_formulas import extremes_of, integral_of
 from optlaws.verification.machines.outputs import ExactOutput
-from optlaws.verification.machines.residuals import ExactModeResidual, ExactResidual
+from optlaws.verification.machines.residuals import exact_residual
 
 OfFormula = FormulaIntegral | FormulaPeak | FormulaRms | FormulaValue
 _OF_FORMULAS = {FormulaIntegral, FormulaPeak, FormulaRms, FormulaValue}
-OfMachine = Residual | ModeResidual | OutputPeak | OutputRms
+OfMachine = Residual | OutputPeak | OutputRms
 Known = PeakConstant | PowerConstant | RootMeanSquare | CombinedPeak | OfMachine | OfFormula
 
 _OF_CAMS = tuple(f"{name}_cam(" for name in ("B", "C", "C_plus", "C_minus", "D", "J"))
@@ -191,9 +190,7 @@ class ExactLaw:
         """A ball that contains a machine's constant: the residual of a follower or a mode, or an output's constant."""
         with ctx.workprec(2 * self.precision):
             if isinstance(constant, Residual):
-                return ExactResidual(constant).peak(self.polynomials)
-            if isinstance(constant, ModeResidual):
-                return ExactModeResidual(constant).peak(self.polynomials)
+                return exact_residual(constant).peak(self.polynomials)
             exact = ExactOutput(constant)
             if exact.impulsive and self._impulses(2):
                 return arb.pos_inf()

@@ -18,8 +18,7 @@ from optlaws.formulas.of_motion import MotionFormula
 from optlaws.formulas.tree import ORDERS
 from optlaws.kept import kept_property
 from optlaws.mechanisms.machine.output_constants import OutputPeak, OutputRms
-from optlaws.mechanisms.machine.residual_boxes import ModeResidual
-from optlaws.mechanisms.residual import Residual
+from optlaws.mechanisms.machine.residual import Residual
 from optlaws.synthesis.families import names
 from optlaws.synthesis.families.names import RowName, VariableName
 from optlaws.synthesis.functionals.affine_rows import sides as formula_sides
@@ -52,8 +51,7 @@ from optlaws.verification.machines.certificate_rows import (
     Maker,
     Names,
     UpperLimit,
-    mode_edges,
-    residual_parts,
+    residual_cones,
 )
 from optlaws.verification.machines.output_motion import of_space
 from optlaws.verification.machines.outputs import OutputRows
@@ -276,15 +274,11 @@ class ExactRows:
         return limit.row(sum(map(mul, weights, column), arb(0)) for column in columns)
 
     def _of_machine(self, constant: OfMachine, limit: UpperLimit) -> None:
-        if isinstance(constant, Residual):
-            makers, corners = residual_parts(constant, of_space(self.space), limit)
-            self.corners.update(corners)
-        elif isinstance(constant, ModeResidual):
-            makers, corners = mode_edges(constant, of_space(self.space), self._solved, limit)
-            self.corners.update(corners)
-        else:
+        if not isinstance(constant, Residual):
             self._output(constant, limit)
             return
+        makers, corners = residual_cones(constant, of_space(self.space), self._solved, limit)
+        self.corners.update(corners)
         for name, maker in makers.items():
             self.cones.add(name)
             self._add(name, maker)

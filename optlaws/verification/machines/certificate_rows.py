@@ -10,13 +10,12 @@ from math import hypot
 
 from flint import acb, arb
 
-from optlaws.mechanisms.machine.residual_boxes import ModeResidual
-from optlaws.mechanisms.residual import Residual
+from optlaws.mechanisms.machine.residual import Residual
 from optlaws.synthesis.proof.nodes import Contact
 from optlaws.synthesis.spaces.space import LawSpace
 from optlaws.verification.enclosing.balls import ball
 from optlaws.verification.machines.output_motion import DrivenStretch
-from optlaws.verification.machines.residuals import ExactModeResidual, ExactResidual
+from optlaws.verification.machines.residuals import exact_residual
 
 Names = Mapping[str, float | arb]
 
@@ -55,8 +54,6 @@ Maker = Callable[[Contact, Fraction], BallRow]
 
 #: the name of a cone, and a place of it
 Corner = tuple[str, float]
-#: corners of a box by edge and end, and where they stand first
-_FIRST = {(1, 0.0): (0, 1.0), (2, 1.0): (1, 1.0), (3, 0.0): (0, 0.0), (3, 1.0): (2, 0.0)}
 
 
 def cone(amplitudes: Callable[[Fraction], list[acb]], limit: UpperLimit, unit: arb) -> Maker:
@@ -75,41 +72,19 @@ def cone(amplitudes: Callable[[Fraction], list[acb]], limit: UpperLimit, unit: a
     return make
 
 
-def residual_parts(
-    constant: Residual, drives: Sequence[DrivenStretch], limit: UpperLimit
+def residual_cones(
+    constant: Residual, drives: Sequence[DrivenStretch], solved: LawSpace, limit: UpperLimit
 ) -> tuple[dict[str, Maker], dict[Corner, tuple[Corner, float]]]:
-    """A cone for each part of the frequencies by its name, and the start of a part at its predecessor's end."""
-    exact, names = ExactResidual(constant), constant.part_names
-    unit = arb(limit.high or constant.scale)
-    makers = {name: cone(partial(exact.rows, drives, i), limit, unit) for i, name in enumerate(names)}
-    corners: dict[Corner, tuple[Corner, float]] = {}
-    for i, (before, part) in enumerate(zip(exact.parts, exact.parts[1:], strict=False)):
-        if before[1] == part[0]:
-            corners[names[i + 1], 0.0] = ((names[i], 1.0), 1.0)
-    return makers, corners
-
-
-def mode_edges(
-    constant: ModeResidual, drives: Sequence[DrivenStretch], solved: LawSpace, limit: UpperLimit
-) -> tuple[dict[str, Maker], dict[Corner, tuple[Corner, float]]]:
-    """A cone for each edge of a box by its name, in the units of the certificate; and corners that two edges have.
+    """A cone for each edge of a residual by its name, in the units of the certificate; and corners that two edges have.
 
     Beside a corner stand the same one of an earlier edge, and the ratio of that edge's unit to this one's.
     """
-    exact = ExactModeResidual(constant)
-    count, sought = len(exact.edges), bool(limit.constants)
-    units = [constant.unit(solved, i, float(limit.high), sought=sought) for i in range(count)]
-    named = constant.part_names
-    makers = {
-        name: cone(partial(exact.rows, drives, i), limit, ball(unit))
-        for i, (name, unit) in enumerate(zip(named, units, strict=True))
-    }
-    corners = {
-        (named[i], end): ((named[j], other), units[j] / units[i])
-        for (i, end), (j, other) in _FIRST.items()
-        if count > 2
-    }
-    return makers, corners
+    exact, names, sought = exact_residual(constant), constant.part_names, bool(limit.constants)
+    units = [constant.unit(solved, i, float(limit.high), sought=sought) for i in range(len(names))]
+    parts = enumerate(zip(names, units, strict=True))
+    makers = {name: cone(partial(exact.rows, drives, i), limit, ball(unit)) for i, (name, unit) in parts}
+    same = {(names[i], end): ((names[j], other), units[j] / units[i]) for (i, end), (j, other) in exact.corners}
+    return makers, same
 
 
 def together(contacts: Iterable[Contact], corners: Mapping[Corner, tuple[Corner, float]]) -> list[Contact]:

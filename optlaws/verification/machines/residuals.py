@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import partial, reduce
-from itertools import accumulate, takewhile
+from itertools import accumulate, pairwise, takewhile
 from operator import mul
 from typing import Any, TypeVar
 
@@ -15,8 +15,7 @@ from flint import acb, acb_poly, acb_series, arb, arb_poly
 
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
-from optlaws.mechanisms.machine.residual_boxes import ModeResidual
-from optlaws.mechanisms.residual import Residual
+from optlaws.mechanisms.machine.residual import BandResidual, ModeResidual, Residual
 from optlaws.tolerances import SAME_FREQUENCY, SAME_ROOT, TAYLOR_REST, VIBRATING
 from optlaws.verification.enclosing.balls import ball, root
 from optlaws.verification.enclosing.pieces import PolynomialPiece
@@ -81,10 +80,10 @@ def _squared(series: list[acb]) -> arb_poly:
 _I = acb(0, 1)
 
 
-class ExactResidual:
+class ExactBandResidual:
     """The complex amplitude, times nu² and the weight, as a function of the frequency, in parts."""
 
-    def __init__(self, constant: Residual) -> None:
+    def __init__(self, constant: BandResidual) -> None:
         self.parts = [tuple(map(Fraction, part)) for part in constant.parts]
         self.damping, self.design_damping = Fraction(constant.damping), Fraction(constant.design_damping)
         self.design = None if constant.design is None else Fraction(constant.design)
@@ -104,6 +103,12 @@ class ExactResidual:
         square = 1 / ball(self.design**2)
         apart = frequency * acb(ball(-self.damping)) + acb(ball(self.design_damping * self.design))
         return 1 - frequency * frequency * acb(square) + apart * w * acb(2 * square)
+
+    @property
+    def corners(self) -> Corners:
+        """Each part begins where the one before it ends, unless the weight is 0 between them."""
+        beside = enumerate(pairwise(self.parts), 1)
+        return [((i, 0.0), (i - 1, 1.0)) for i, (before, part) in beside if before[1] == part[0]]
 
     def rows(self, drives: Sequence[DrivenStretch], part: int, place: Fraction) -> list[acb]:
         """Amplitudes of a space's free functions and of its base law, at a place of a part from 0 to 1."""
@@ -134,6 +139,9 @@ class ExactResidual:
             yield _squared(polynomial.coeffs()), rest * ball(max(a, b))
 
 
+#: ends of edges by number and place, each with the same place of an earlier edge
+Corners = Sequence[tuple[tuple[int, float], tuple[int, float]]]
+_OF_BOX: Corners = [((1, 0.0), (0, 1.0)), ((2, 1.0), (1, 1.0)), ((3, 0.0), (0, 0.0)), ((3, 1.0), (2, 0.0))]
 Corner = tuple[arb, arb]
 
 
@@ -200,6 +208,11 @@ class ExactModeResidual:
         lower, upper = ((low, least), (high, least)), ((low, most), (high, most))
         return [ExactEdge(*lower), ExactEdge(lower[1], upper[1]), ExactEdge(*upper), ExactEdge(lower[0], upper[0])]
 
+    @property
+    def corners(self) -> Corners:
+        """The corners of a box."""
+        return _OF_BOX if len(self.edges) > 1 else []
+
     def rows(self, drives: Sequence[DrivenStretch], edge: int, place: Fraction) -> list[acb]:
         """Amplitudes of a space's free functions and of its base law, at a place of an edge from 0 to 1."""
         transforms = velocity_transforms(self.edges[edge].root(acb(ball(place))), drives)
@@ -214,6 +227,15 @@ class ExactModeResidual:
 
         along = [partial(amplitude, edge) for edge in self.edges]
         return self.share * greatest_modulus(along, Fraction(0), Fraction(0 if self.edges[0].single else 1))
+
+
+def exact_residual(constant: Residual) -> ExactBandResidual | ExactModeResidual:
+    """A residual in balls."""
+    if isinstance(constant, BandResidual):
+        return ExactBandResidual(constant)
+    if not isinstance(constant, ModeResidual):
+        raise InputError(f"{constant.title} is a residual of no band and of no mode: it is not checked")
+    return ExactModeResidual(constant)
 
 
 def vibrations(poles: Sequence[tuple[acb, int]]) -> list[list[tuple[acb, int]]]:
