@@ -32,12 +32,10 @@ from optlaws.errors import InputError
 from optlaws.extras import needed
 from optlaws.files.reading import check_names
 from optlaws.kept import kept_property
-from optlaws.motion.motion import Motion, motion_of_pieces
 from optlaws.motion.piece import Piece, by_pieces, unit_of, values_of_pieces
 from optlaws.motion.quantities import QUANTITIES, TURN, Exact, quantity
 from optlaws.motion.quantity_kinds import Kind
 from optlaws.numbers import Array, Quantity, derivative, number_or_array, real_times
-from optlaws.shown.report import Report
 from optlaws.synthesis.solution import Solution
 from optlaws.synthesis.status import Status
 from optlaws.tolerances import CYCLE_OPTIMALITY, JUMP
@@ -51,6 +49,8 @@ if TYPE_CHECKING:
     from optlaws.mechanisms.drives.motor import Motor
     from optlaws.mechanisms.linkages.mechanism import Mechanism
     from optlaws.mechanisms.machine.over_time import RepeatedMotion
+    from optlaws.motion.motion import Motion
+    from optlaws.shown.report import Report
 
 #: what a picture of a cycle is over
 PlotOver = Literal["time", "speed"]
@@ -453,6 +453,8 @@ class Answers(Exportable):
         return transition_cam(kind, cycle.programme, self.pieces, cycle.in_si, given)
 
     def motion(self, master: Quantity | None = "360 deg", unit: str | None = None) -> Motion:
+        from optlaws.motion.motion import motion_of_pieces
+
         plan, proof = self.solve(), tuple[str, ...]()
         if plan.solutions:
             bound = "" if plan.lower_bound is None else f", none below {plan.lower_bound:.9g}"

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from typing import Any, Unpack
+from typing import TYPE_CHECKING, Any, Unpack
 
 from optlaws.errors import OptlawsError
 from optlaws.laws.exporting import ExportOptions
-from optlaws.motion.motion import Motion
 from optlaws.numbers import Quantity
-from optlaws.shown.report import Report
-from optlaws.shown.summary import Summary
 from optlaws.suggest import keywords_of
+
+if TYPE_CHECKING:
+    from optlaws.motion.motion import Motion
+    from optlaws.shown.report import Report
+    from optlaws.shown.summary import Summary
 
 
 class Exportable:

@@ -29,7 +29,6 @@ from optlaws.entries.value_types import Measured, ReadBy, Text, Whole
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
-from optlaws.laws.catalogue.catalogue import catalogue
 from optlaws.numbers import MOST_DEGREE, Quantity
 
 if TYPE_CHECKING:
@@ -272,6 +271,8 @@ class Specification(Declared, title="a stored cycle"):
         >>> round(cycle.modified_sine_jerk, 3), round(cycle.peak(3) / cycle.modified_sine_jerk, 6)
         (4201.325, 4.145892)
         """
+        from optlaws.laws.catalogue.catalogue import catalogue
+
         if self.minimise != "acceleration":
             return None
         greatest = 0.0
