@@ -129,11 +129,6 @@ class PieceEffort:
         """The share of the motor's peak torque at its speed."""
         return _share(np.abs(self.force(times)), self.drive.motor.peak_at(self.speed(times)))
 
-    def _before_gear(self, times: Array) -> Array:
-        """The torque at the mechanism's input, which turns where the power through a gear does."""
-        x, v, w = (self.piece.values(times, nu) for nu in range(3))
-        return np.asarray(self.drive.mechanism.torque(x, v, w, self.piece.direction(times), time=times))
-
     @kept_property
     def parts(self) -> SmoothParts:
         """Parts of the piece on which force and power are smooth and of one sign."""
@@ -146,12 +141,16 @@ class PieceEffort:
 
             return value
 
+        def before_gear(times: Array) -> Array:
+            x, v, w = (piece.values(times, nu) for nu in range(3))
+            return np.asarray(self.drive.mechanism.torque(x, v, w, piece.direction(times), time=times))
+
         places = (piece.start + piece.duration * place for place in piece.law.breaks)
         breaks = [*places, *piece.turns, *table_places(load, "t")]
         signs: list[Callable[[Array], Array]] = []
         if piece.stroke:
             signs = [bend(switch) for switch in corners(load, "xt")]
-            signs += [*([self._before_gear] if self.drive.train.loses else []), self.force]
+            signs += [*([before_gear] if self.drive.train.loses else []), self.force]
         start, stop = self.ends or (piece.start, piece.stop)
         inside = [time for time in breaks if start < time < stop]
         return SmoothParts.between(start, stop, breaks=inside, signs=signs)

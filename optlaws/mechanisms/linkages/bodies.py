@@ -5,14 +5,14 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import KW_ONLY, dataclass
 from math import cos, sin
-from typing import Any, Literal, TypeAlias, get_args
+from typing import Any, Literal, TypeAlias, cast, get_args
 
 import numpy as np
 
 from optlaws.echo import shortened
-from optlaws.entries.declared import Declared, TableOf, declared, entry
+from optlaws.entries.declared import Declared, TableOf, ValueOf, declared, entry
 from optlaws.entries.value_types import Choice, InSI, Kept, Measured, SINumber, Together, ValueType
-from optlaws.errors import InputError, located
+from optlaws.errors import InputError
 from optlaws.formulas.slopes import added, multiplied
 from optlaws.formulas.tracing import Traced
 from optlaws.formulas.tree import Exponentiation, Formula, Number, number, substituted
@@ -222,11 +222,8 @@ class BodyOf(ValueType):
     dimension: str = ""
 
     def read(self, value: Any, name: str) -> Body:
-        if isinstance(value, Body):
-            return value
-        if isinstance(value, Mapping):
-            with located(name):
-                return Body.from_dict(value)
+        if isinstance(value, Body | Mapping):
+            return cast("Body", ValueOf(Body).read(value, name))
         if not self.dimension:
             raise InputError(
                 f"{name} is on no pivot and needs a Body with its mass and centre, such as Body('2 kg', "

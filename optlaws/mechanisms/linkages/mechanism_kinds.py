@@ -167,26 +167,20 @@ def mechanism_of_motion(
     for key, position in positions.items():
         if key not in masses:
             raise InputError(f"masses: what moves as {key!r} needs a mass, such as '5 kg', or '0 kg' if it has none")
-        kind, weight = _weight(masses[key], key)
-        link = DrivenLink(key, position, derivative(position, "x"), kind)
-        inertia.append(reduced_inertia(weight, link.velocity))
+        if not isinstance(masses[key], str) and not hasattr(masses[key], "units"):
+            raise InputError(
+                f"masses: {key} must be a mass such as '5 kg' for a link that slides, or a moment of inertia such as "
+                f"'0.1 kg m^2' for one that turns, got {shortened(masses[key])}"
+            )
+        dimension, weight = either(masses[key], ("mass", "moment of inertia"), f"masses: {key}")
+        link = DrivenLink(key, position, derivative(position, "x"), "length" if dimension == "mass" else "angle")
+        inertia.append(reduced_inertia(not_negative(weight, f"masses: {key}"), link.velocity))
         load += acting.get(key, NO_LOADS).on(link, axis)
         if acting.get(key, NO_LOADS).gravity is not None:
             raise InputError(
                 f"loads: {key}: a function has no plane for gravity: give weight as a force, such as '-49 N'"
             )
     return Mechanism(added(inertia), added(load), over=over, name=name, linkage=LinkGeometry(tuple(positions.items())))
-
-
-def _weight(value: Any, name: str) -> tuple[str, float]:
-    """Whether a link slides or turns, and its mass or moment of inertia."""
-    if not isinstance(value, str) and not hasattr(value, "units"):
-        raise InputError(
-            f"masses: {name} must be a mass such as '5 kg' for a link that slides, or a moment of inertia such as "
-            f"'0.1 kg m^2' for one that turns, got {shortened(value)}"
-        )
-    dimension, weight = either(value, ("mass", "moment of inertia"), f"masses: {name}")
-    return ("length" if dimension == "mass" else "angle"), not_negative(weight, f"masses: {name}")
 
 
 @declared

@@ -155,8 +155,7 @@ class FourBarLinks:
     def __init__(self, lengths: Sequence[float], branch: FourBarBranch, ends: tuple[float, float]) -> None:
         a, b, c, d = lengths
         _check_assembly({"crank": a, "coupler": b, "rocker": c, "frame": d}, ends)
-        self.frame, self.ends = d, ends
-        x = Traced(Name("x"))
+        self.ends, x = ends, Traced(Name("x"))
         self.sine, self.cosine = np.sin(x), np.cos(x)
         self.base = d - a * self.cosine, -a * self.sine
         self.square = a**2 + d**2 - 2.0 * a * d * self.cosine
