@@ -19,7 +19,7 @@ from .cams.least_sizes import (
     LeastPrimeCircle as LeastPrimeCircle,
 )
 from .cycles.advising.candidates import LawKind as LawKind, LawMeasure as LawMeasure, ProvenLeast as ProvenLeast
-from .cycles.axes.enclosed_axis import Way as Way
+from .cycles.axes.enclosed import Way as Way
 from .cycles.axes.interlock import Interlock as Interlock, LeastClearance as LeastClearance
 from .cycles.axes.machine_axes import AxesPicture as AxesPicture, Overlap as Overlap
 from .cycles.cycle import PlotOver as PlotOver

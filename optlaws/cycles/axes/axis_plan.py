@@ -105,15 +105,9 @@ class AxisPlan:
 def planned(name: str, cycle: Cycle, way: Way, times: Sequence[float] | None) -> list[PlannedSegment]:
     """The segments of an axis, whose moves have laws of their own, each from rest to rest.
 
-    Parameters
-    ----------
-    name, cycle
-        The axis.
-    way
-        "fastest": moves with limits take the least time that these allow, others keep theirs. "gentlest": moves have
-        the least acceleration, and take at least that time. "kept": they are as in the cycle.
-    times
-        Durations of all segments, in which laws are gentlest; without, they are the fastest.
+    "fastest": moves with limits take the least time that these allow, others keep theirs. "gentlest": they have the
+    least acceleration in the times of all segments, or are the fastest without such, and may take longer. "kept": they
+    are as in the cycle.
 
     Raises
     ------

@@ -11,8 +11,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from optlaws.cycles.axes.enclosed_axis import EnclosedAxis, Way, least
-from optlaws.cycles.axes.regions import FormulaBound, PositionBound, SimplePolygon, TableBound
+from optlaws.cycles.axes.enclosed import EnclosedAxis, FormulaBound, SimplePolygon, TableBound, Way, least
 from optlaws.cycles.cycle import Cycle
 from optlaws.cycles.specification.programme import AXES, time_of
 from optlaws.cycles.specification.segments import Dwell, Move
@@ -387,7 +386,7 @@ class Clearance(Interlock, kind="clearance"):
             raise InputError("clearance: give a table as pairs, least=[('0 deg', '20 mm'), ...], not in a formula")
         return formula
 
-    def _in_si(self, first: Cycle, second: Cycle) -> PositionBound:
+    def _in_si(self, first: Cycle, second: Cycle) -> TableBound | FormulaBound:
         kinds = second.axis, first.axis
         if isinstance(self.given, str):
             units = zip(self.units or (), kinds, strict=True)
@@ -404,7 +403,7 @@ class Clearance(Interlock, kind="clearance"):
         first, second = (cycles[name](times) for name in self.axes)
         return np.asarray(self.sign * (first - self.in_si(cycles)(second)))
 
-    def _least(self, given: PositionBound, first: EnclosedAxis, second: EnclosedAxis) -> tuple[float, ...]:
+    def _least(self, given: TableBound | FormulaBound, first: EnclosedAxis, second: EnclosedAxis) -> tuple[float, ...]:
         def room(at: Interval, order: int) -> Jet:
             difference = first.jet(at, order) - given.jet(second.jet(at, order))
             return difference if self.sign > 0.0 else -difference

@@ -20,8 +20,8 @@ from typing import Any
 import numpy as np
 
 from optlaws.cycles.axes.axis_plan import AxisPlan, PlannedSegment, Way, planned
+from optlaws.cycles.axes.enclosed import SimplePolygon
 from optlaws.cycles.axes.interlock import After, Clearance, Forbidden, Interlock
-from optlaws.cycles.axes.regions import SimplePolygon
 from optlaws.cycles.cycle import Cycle
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.kept import kept_property
@@ -205,23 +205,13 @@ Optimum = tuple[Array, float]
 
 @dataclass(frozen=True, eq=False)
 class Overlapping:
-    """The problem: plans of axes, what interlocks demand, and which of period (least) and pace (greatest) is sought.
-
-    Attributes
-    ----------
-    period
-        The period that is given, None where the least is sought.
-    longest
-        A period that is not passed.
-    unit
-        Of the unknown times, in seconds: programs are solved in shares of it.
-    """
+    """The problem: plans of axes, what interlocks demand, and which of period (least) and pace (greatest) is sought."""
 
     plans: Sequence[AxisPlan]
     requirements: Sequence[Requirement]
-    period: float | None
-    longest: float
-    unit: float
+    period: float | None  #: the period that is given, None where the least is sought
+    longest: float  #: a period that is not passed
+    unit: float  #: of the unknown times, in seconds: programs are solved in shares of it
 
     @kept_property
     def efforts(self) -> Array:
