@@ -466,7 +466,8 @@ class Candidates:
         tighter: dict[str, Any] = {}
         apart = (DECELERATION,) if name == "acceleration" and DECELERATION in limits else ()
         for each in (name, *apart):
-            given, known = limits.get(each), partial(quantity, dimension=AXES[self.cycle.axis][_order(name)], name=each)
+            order = LIMITS[name].order if name in LIMITS else 0
+            given, known = limits.get(each), partial(quantity, dimension=AXES[self.cycle.axis][order], name=each)
             if unit == "SI":
                 tighter[each] = most
             elif isinstance(given, list | tuple):
@@ -474,10 +475,6 @@ class Candidates:
             else:
                 tighter[each] = Exact(most, unit) if given is None or known(given) > most else given
         return tighter
-
-
-def _order(name: str) -> int:
-    return LIMITS[name].order if name in LIMITS else 0
 
 
 def _may_change(segment: CycleSegment) -> bool:

@@ -54,10 +54,10 @@ class _Value(NamedTuple):
     text: str
     line: int
 
-    def number(self) -> float:
-        """The field as a number."""
+    def number(self, suffix: str = "") -> float:
+        """The field as a number, without a suffix of C."""
         try:
-            value = float(_TYPED.sub("", self.text).replace("_", ""))
+            value = float(_TYPED.sub("", self.text).replace("_", "").rstrip(suffix))
         except ValueError:
             raise InputError(f"line {self.line}: {shortened(self.text)} is no number") from None
         if not isfinite(value):
@@ -282,7 +282,7 @@ def _of_arrays(text: str) -> Decoded | None:
     rows = max((rows for _, rows in tables), key=len, default=[])
     if len(rows) < 2:
         # one flat array of pairs
-        rows = next((_pairs(head, rows[0]) for head, rows in tables if rows and _is_flat(head)), [])
+        rows = next((pairs for head, rows in tables if rows and (pairs := _pairs(head, rows[0]))), [])
     return _of_rows(text, rows) if len(rows) > 1 else None
 
 
@@ -325,19 +325,16 @@ def _rows(text: str, start: int, body: str) -> Iterator[list[_Value]]:
         ]
 
 
-def _is_flat(head: str) -> bool:
-    bounds = _BOUNDS.search(head)
-    return bool(bounds and bounds[3])
-
-
 def _pairs(head: str, flat: list[_Value]) -> list[list[_Value]]:
-    rows = [flat[i : i + 2] for i in range(0, len(flat), 2)]
+    """The pairs of an array of two dimensions; none of another one."""
     bounds = _BOUNDS.search(head)
-    if bounds and re.search(r"(?:0\s*\.\.\s*1|1\s*\.\.\s*2)", bounds[3] or "") is None:
+    if bounds is None or not bounds[3]:
+        return []
+    if re.search(r"(?:0\s*\.\.\s*1|1\s*\.\.\s*2)", bounds[3]) is None:
         raise InputError(f"line {flat[0].line}: an array of points has two columns, master and slave")
     if flat and len(flat) % 2:
         raise InputError(f"line {flat[-1].line}: {len(flat)} numbers are no pairs of master and slave")
-    return rows
+    return [flat[i : i + 2] for i in range(0, len(flat), 2)]
 
 
 def _used(rows: list[list[_Value]]) -> list[list[_Value]]:
@@ -358,10 +355,10 @@ def _of_cam_profile(rows: Sequence[Sequence[_Value]]) -> Decoded:
         halves = [int(number) for cell in row if (number := cell.number()).is_integer() and abs(number) <= 2**31]
         if len(halves) != _CALCULATED:
             raise InputError(f"line {row[0].line}: an element of CAM_PROFILE is 14 whole numbers of 32 bits")
-        try:
-            values.append([_double(halves[i], halves[i + 1]) for i in (1, 3, 6, 8, 10, 12)])
-        except ValueError:
-            raise InputError(f"line {row[0].line}: an element of CAM_PROFILE holds no finite number") from None
+        packed = b"".join(pack(">II", *(half & 0xFFFFFFFF for half in halves[i : i + 2])) for i in (1, 3, 6, 8, 10, 12))
+        values.append(list(unpack(">6d", packed)))
+        if not all(map(isfinite, values[-1])):
+            raise InputError(f"line {row[0].line}: an element of CAM_PROFILE holds no finite number")
     places, heights = ([repr(numbers[i]) for numbers in values] for i in (0, 1))
     pieces = []
     for row, (x, y, *constants), (stop, *_) in zip(rows, values, values[1:], strict=False):
@@ -369,14 +366,6 @@ def _of_cam_profile(rows: Sequence[Sequence[_Value]]) -> Decoded:
             pieces.append(powers(x, stop, [y + constants[0], *constants[1:]]))
     # the points are the cam, and the spline through them the controller's
     return Decoded("Rockwell CAM_PROFILE", places, heights, [] if len(values) >= FEWEST_POINTS else pieces)
-
-
-def _double(high: int, low: int) -> float:
-    """The double whose halves are two whole numbers of 32 bits."""
-    (value,) = unpack(">d", pack(">II", high & 0xFFFFFFFF, low & 0xFFFFFFFF))
-    if not isfinite(value):
-        raise ValueError
-    return float(value)
 
 
 def _of_source(text: str, named: dict[str, tuple[str, int, str]]) -> Decoded:
@@ -390,7 +379,7 @@ def _of_source(text: str, named: dict[str, tuple[str, int, str]]) -> Decoded:
         if stated is not None and stated != len(cells[name]):
             line = _line(text, start)
             raise InputError(f"line {line}: {name} are stated as {stated} numbers and are {len(cells[name])}")
-    breaks, flat = ([_number_of_c(cell) for cell in cells[name]] for name in ("breaks", "coefficients"))
+    breaks, flat = ([each.number(suffix="fF") for each in cells[name]] for name in ("breaks", "coefficients"))
     if len(breaks) < 2 or len(flat) % (len(breaks) - 1):
         raise InputError(f"{len(flat)} coefficients are no rows for {len(breaks) - 1} pieces")
     width = len(flat) // (len(breaks) - 1)
@@ -400,7 +389,3 @@ def _of_source(text: str, named: dict[str, tuple[str, int, str]]) -> Decoded:
         with _in_line({"x": cell}):
             pieces.append(powers(low, high, row))
     return Decoded("breaks and coefficients", pieces=pieces)
-
-
-def _number_of_c(cell: _Value) -> float:
-    return cell._replace(text=cell.text.rstrip("fF")).number()
