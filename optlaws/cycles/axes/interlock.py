@@ -142,12 +142,12 @@ class Interlock(Kinded, ABC, title="an interlock"):
 
     def in_si(self, cycles: Mapping[str, Any]) -> Any:
         """What it gives of the positions of cycles by the names of their axes, in SI units; refuse what is wrong."""
-        for name in self.axes:
-            if name not in cycles:
-                raise InputError(f"interlock {self.label}: {unknown_key(name, tuple(cycles), 'axis')}")
-        if self.axes[0] == self.axes[1]:
-            raise InputError(f"interlock {self.label}: it is of two axes, and both are {self.axes[0]}")
         with located(f"interlock {self.label}"):
+            for name in self.axes:
+                if name not in cycles:
+                    raise InputError(unknown_key(name, tuple(cycles), "axis"))
+            if self.axes[0] == self.axes[1]:
+                raise InputError(f"it is of two axes, and both are {self.axes[0]}")
             return self._in_si(*(cycles[name] for name in self.axes))
 
     def unit(self, kind: str, other: str) -> str:  # noqa: ARG002 - of the other one where a heir says so

@@ -197,8 +197,7 @@ class Axes(Declared, Mapping[str, Cycle], title="stored axes"):
         >>> best.status.value, round(best.objective, 6)
         ('optimal', 0.175878)
         """
-        for name in of:
-            self[name]
+        check_names(of, tuple(self), "axis")
         return self._overlap("acceleration", of or tuple(self))
 
     def _overlap(self, goal: Literal["period", "acceleration"], longer: Sequence[str]) -> Overlap:
@@ -467,8 +466,7 @@ class Overlap(Declared, title="axes that overlap"):
     given: Axes = entry(ReadBy(_axes, "axes", _stored), "The machine as it was.")
 
     def _check(self) -> None:
-        for name in self.of:
-            self.given[name]
+        check_names(self.of, tuple(self.given), "axis")
 
     @property
     def status(self) -> Status:

@@ -191,25 +191,18 @@ class AxesReport:
                 regions[number] = self._region(rule, pair, ranges)
         return Plane(pair, (ranges[0], ranges[1]), dict(sorted(regions.items())))
 
-    def _region(self, rule: After | Clearance, pair: tuple[str, str], ranges: Sequence[tuple[float, float]]) -> Array:
+    def _region(self, rule: After | Clearance, pair: tuple[str, str], ranges: list[tuple[float, float]]) -> Array:
         """The forbidden side of a bound, or the wall that is not passed, up to the ends of the ranges."""
-        along, across = (0, 1) if rule.axes[0] != pair[0] else (1, 0)
-        sizes = [self._size(name) for name in pair]
+        order, side, given = 1 if rule.axes == pair else -1, 0 if rule.sign > 0.0 else 1, rule.in_si(self.cycles)
+        (first, second), (ends, along) = (self._size(name) for name in rule.axes), ranges[::order]
         if isinstance(rule, After):
-            passed, level = rule.positions(self.cycles)
-            wall = np.empty((2, 2))
-            wall[:, across] = passed * sizes[across]
-            wall[:, along] = level * sizes[along], ranges[along][0 if rule.sign > 0.0 else 1]
-            return wall
-        bound = rule.in_si(self.cycles)
+            wall = [[given[0] * first, level] for level in (given[1] * second, along[side])]
+            return np.array(wall)[:, ::order]
 
         def edge(places: Array) -> Array:
-            return np.asarray(bound(places / sizes[along]) * sizes[across])
+            return np.asarray(given(places / second) * first)
 
-        places = np.linspace(*ranges[along], _PLACES)
+        places = np.linspace(*along, _PLACES)
         places, (values,) = refined(places, [edge(places)], [edge], np.empty(0))
-        side = ranges[across][0 if rule.sign > 0.0 else 1]
-        region = np.empty((len(places) + 2, 2))
-        region[:, along] = [*places, places[-1], places[0]]
-        region[:, across] = [*values, side, side]
-        return region
+        across, up = [*values, ends[side], ends[side]], [*places, places[-1], places[0]]
+        return np.column_stack([across, up])[:, ::order]
