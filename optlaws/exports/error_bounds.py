@@ -87,7 +87,8 @@ def error_bounds(motion: PiecewiseMotion, arithmetic: FloatingPoint = DOUBLE) ->
         for nu in range(ORDERS):
             error = gamma * _magnitude(row, length, nu) + _magnitude(missed, length, nu)
             bounds[nu] = max(bounds[nu], error + _underflow(run.degree, length, nu, arithmetic))
-    return tuple(_up(bound) for bound in bounds)
+    rounded = ((float(bound), bound) for bound in bounds)
+    return tuple(number if Fraction(number) >= bound else nextafter(number, inf) for number, bound in rounded)
 
 
 def _moved(motion: PiecewiseMotion, breaks: tuple[float, ...]) -> list[list[Fraction]]:
@@ -111,8 +112,3 @@ def _underflow(degree: int, length: Fraction, nu: int, arithmetic: FloatingPoint
     # with at most as many factors s as there are steps; twice that covers the roundings on the way
     paths = Fraction((4 * degree + 2) * 2 ** (degree + 1)) * max(Fraction(1), length) ** degree
     return factorial(nu) * paths * arithmetic.unit * arithmetic.least
-
-
-def _up(value: Fraction) -> float:
-    number = float(value)
-    return number if Fraction(number) >= value else nextafter(number, inf)

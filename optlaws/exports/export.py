@@ -165,7 +165,10 @@ class Export:
         written, rows = self.written, self.rows()
         head = f"{self.format.target}: {written.points} {written.counted}, {written.model}"
         width = max(len(name) for name, *_ in rows)
-        table = [("", "run", "law", "run/law"), *((name, *map(_cell, values)) for name, *values in rows)]
+        table = [
+            ("", "run", "law", "run/law"),
+            *((name, *("-" if value is None else format(value, ".7g") for value in values)) for name, *values in rows),
+        ]
         lines = (f"{name:{width}}  {run:>14}  {law:>14}  {ratio:>9}".rstrip() for name, run, law, ratio in table)
         return "\n".join([head, *self.motion.proof, *written.notes, *lines])
 
@@ -222,7 +225,3 @@ def export_together(
 
 def _ratio(run: float, law: float) -> float | None:
     return run / law if law > 0.0 else None
-
-
-def _cell(value: float | None) -> str:
-    return "-" if value is None else format(value, ".7g")

@@ -207,8 +207,12 @@ def places(motion: Motion, count: int, *, straight: bool = False) -> Array:
 
     With `straight` dwells and uniform motions need no point inside, as where the file has V and A.
     """
-    breaks = np.array(motion.breaks)
-    shares = _shares(np.diff(breaks), count - 1, _needs(motion) if straight else np.ones(len(breaks) - 1))
+    breaks, weights = np.array(motion.breaks), np.ones(len(motion.breaks) - 1)
+    if straight:
+        which = np.searchsorted(motion.joints[1:-1], 0.5 * (breaks[:-1] + breaks[1:]), side="right")
+        pieces = [motion.pieces[i] for i in which]
+        weights = np.array([float(piece.stroke != 0.0 and piece.law.peak(2).value > 0.0) for piece in pieces])
+    shares = _shares(np.diff(breaks), count - 1, weights)
     digits = _DIGITS - int(np.ceil(np.log10(motion.length)))
     parts = []
     for (low, high), n in zip(pairwise(breaks), shares, strict=True):
@@ -303,14 +307,6 @@ def _rank(motion: Motion, table: PointTable) -> Rank:
 def _change(motion: Motion, first: float, last: float) -> float:
     """The jump from the last value to the first where a motion repeats, else from and to rest."""
     return abs(last - first) if motion.repeats else max(abs(first), abs(last))
-
-
-def _needs(motion: Motion) -> Array:
-    """1 for curved stretches between breaks, 0 for straight ones."""
-    middles = [0.5 * (low + high) for low, high in pairwise(motion.breaks)]
-    which = np.searchsorted(motion.joints[1:-1], middles, side="right")
-    curved = [motion.pieces[i].stroke != 0.0 and motion.pieces[i].law.peak(2).value > 0.0 for i in which]
-    return np.array(curved, dtype=np.float64)
 
 
 def _shares(lengths: Array, steps: int, weights: Array) -> list[int]:

@@ -90,13 +90,16 @@ class Labels:
 
 def program_heading(motion: PiecewiseMotion, labels: Labels, arithmetics: Sequence[FloatingPoint]) -> list[str]:
     """Lines that describe a program's function, its peaks, and the bound of its rounding errors."""
-    count = len(motion.coefficients)
-    plural = "s" if count > 1 else ""
+    count, plural = len(motion.coefficients), "s" if len(motion.coefficients) > 1 else ""
     interval = f"for x from {motion.start!r} to {motion.stop!r} {labels.master}"
+    peaks = ((name, *motion.extremes(nu), labels.unit(nu)) for nu, name in enumerate(QUANTITIES))
     lines = [
         f"y(x) in {labels.slave} {interval}: {count} polynomial{plural} of degree {motion.degree}",
         *labels.notes,
-        *(_peaks(motion, nu, labels.unit(nu)) for nu in range(len(QUANTITIES))),
+        *(
+            f"{name} from {low.value:.9g} at x = {low.x:.9g} to {high.value:.9g} at x = {high.x:.9g} {unit}"
+            for name, low, high, unit in peaks
+        ),
     ]
     for arithmetic in arithmetics:
         bounds = error_bounds(motion, arithmetic)
@@ -112,11 +115,6 @@ def rounded_up(bound: float) -> str:
     '2.72e-05'
     """
     return f"{Context(prec=3, rounding=ROUND_CEILING).create_decimal_from_float(bound):.2e}"
-
-
-def _peaks(motion: PiecewiseMotion, nu: int, unit: str) -> str:
-    low, high = motion.extremes(nu)
-    return f"{QUANTITIES[nu]} from {low.value:.9g} at x = {low.x:.9g} to {high.value:.9g} at x = {high.x:.9g} {unit}"
 
 
 def plain(value: float, digits: int | None = None, decimal: str = ".") -> str:

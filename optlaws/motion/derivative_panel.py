@@ -35,7 +35,9 @@ def motion_panel(
 ) -> Panel:
     """The derivative of order nu of pieces; extremes are values with their times, limits are in SI units."""
     name, factor = unit
-    times, values = samples(pieces, nu, _EACH)
+    places = [times_in(piece, _EACH) for piece in pieces]
+    times = np.concatenate(places)
+    values = np.concatenate([piece.values(at, nu) for piece, at in zip(pieces, places, strict=True)])
 
     def inside(at: Array) -> Array:
         number = np.searchsorted([piece.start for piece in pieces[1:]], at, side="right")
@@ -49,13 +51,6 @@ def motion_panel(
     shown = tuple(limit._replace(low=factor * limit.low, high=factor * limit.high) for limit in limits)
     ends = factor * least[0], factor * most[0]
     return Panel(DERIVATIVES[nu], name, (Series(times, factor * values),), shown, peaks, ends)
-
-
-def samples(pieces: Sequence[Piece], nu: int, count: int) -> tuple[Array, Array]:
-    """Times and values of a derivative, at points in each piece and at its breaks; jumps are vertical lines."""
-    times = [times_in(piece, count) for piece in pieces]
-    values = [piece.values(inside, nu) for piece, inside in zip(pieces, times, strict=True)]
-    return np.concatenate(times), np.concatenate(values)
 
 
 def times_in(piece: Piece, count: int) -> Array:

@@ -63,14 +63,11 @@ class EnclosedStretch:
             still = exact(np.zeros(place.middle.shape))
             return Jet((still + self.offset, *(still,) * nu))
         values = enclosed_derivatives(self.segment, self.length, *self._cells(place), nu)
-        factors, blur = self._factors(nu)
+        # what derivatives by k are multiplied with for Taylor terms by the master, and its rounding
+        factors = [self.stroke / self.duration**i / factorial(i) for i in range(nu + 1)]
+        blur = [abs(each) * (i + 3) * ROUNDOFF for i, each in enumerate(factors)]
         shape = (nu + 1, *(1,) * place.middle.ndim)
-        return Jet.of_rows(values * Interval(factors.reshape(shape), blur.reshape(shape))) + self.offset
-
-    def _factors(self, nu: int) -> tuple[Array, Array]:
-        """What derivatives by k are multiplied with for Taylor terms by the master, and its rounding."""
-        by = [self.stroke / self.duration**i / factorial(i) for i in range(nu + 1)]
-        return np.array(by), np.array([abs(each) * (i + 3) * ROUNDOFF for i, each in enumerate(by)])
+        return Jet.of_rows(values * Interval(np.reshape(factors, shape), np.reshape(blur, shape))) + self.offset
 
     def power(self, place: Interval, nu: int) -> Jet:
         """The velocity times the acceleration, by the master, in intervals of places: finite where d of the law is."""

@@ -18,7 +18,7 @@ DEGREE = 6
 MOST = 64
 LARGEST = 2**31 - 1
 CLOSES = 0.1  # warning 37111 of the drive begins there
-_LETTERS = "abcdefg"
+_LETTERS = "abcdefgx"
 
 
 @file_format(
@@ -44,7 +44,13 @@ def _write(motion: Motion, request: Request) -> Written:
         "powers of each polynomial count from where it begins, x is where it ends: compare a point before use",
         *(() if request.counts is None else (f"slave in increments, {request.counts} over the stroke",)),
     )
-    rows = [_row(row, x) for row, x in zip(profile.coefficients, profile.breaks[1:], strict=True)]
+    rows = [
+        ", ".join(
+            f"{letter} := {real(number, single=True)}"
+            for letter, number in zip(_LETTERS, (*row, *[0.0] * (DEGREE + 1 - len(row)), x), strict=True)
+        )
+        for row, x in zip(profile.coefficients, profile.breaks[1:], strict=True)
+    ]
     head = f"MasterPeriod := {master}, SlavePeriod := {slave}, PolynomialNumber := {len(rows)}"
     text = "\n".join(
         [
@@ -92,9 +98,3 @@ def _as_run(profile: PiecewiseMotion, exact: PiecewiseMotion, scale: float) -> P
         row[0] += exact.coefficients[0][0]
     breaks = [x + exact.start for x in profile.breaks[:-1]] + [exact.stop]
     return PiecewiseMotion(breaks, rows)
-
-
-def _row(row: tuple[float, ...], x: float) -> str:
-    powers = [*row, *[0.0] * (len(_LETTERS) - len(row))]
-    texts = [f"{letter} := {real(c, single=True)}" for letter, c in zip(_LETTERS, powers, strict=True)]
-    return ", ".join([*texts, f"x := {real(x, single=True)}"])

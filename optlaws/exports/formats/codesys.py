@@ -111,19 +111,11 @@ def _cam_builder(motion: Motion, request: Request) -> Written:
         "library SM3_CamBuilder, namespace SMCB, of SoftMotion 4.17 or later",
     )
     heading = iec_heading(f"{name}: a cam for the CamBuilder of CODESYS SoftMotion", motion, run, notes)
-    words = {
-        "HEADING": heading.splitlines()[1:-1],
-        "NAME": name,
-        "COUNT": count,
-        "SEGMENTS": [
-            f"camBuilder.Append(SMCB.Poly7_Coeffs({_coefficients(low, high, row)}));"
-            for low, high, row in zip(run.breaks, run.breaks[1:], run.coefficients, strict=False)
-        ],
-    }
+    segments = [
+        fields(x0=low, x1=high, **{f"a{n}": c for n, c in enumerate([*row, *[0.0] * (DEGREE + 1 - len(row))])})
+        for low, high, row in zip(run.breaks, run.breaks[1:], run.coefficients, strict=False)
+    ]
+    appended = [f"camBuilder.Append(SMCB.Poly7_Coeffs({segment}));" for segment in segments]
+    words = {"HEADING": heading.splitlines()[1:-1], "NAME": name, "COUNT": count, "SEGMENTS": appended}
     text = filled(template("codesys.st"), words)
     return Written(text, run, "exact polynomials of degree 7", count, "segments", notes=notes)
-
-
-def _coefficients(low: float, high: float, row: tuple[float, ...]) -> str:
-    powers = [*row, *[0.0] * (DEGREE + 1 - len(row))]
-    return fields(x0=low, x1=high, **{f"a{n}": c for n, c in enumerate(powers)})

@@ -19,7 +19,8 @@ POINTS = SEGMENTS + 1
 _REMEDY = "take siemens-elements, whose elements have ends of their own, or a smoother law"
 #: codes of LCamHdl_ProfileConstants; an element of each takes one segment of the TO
 DWELL, CONST_VELO, POLY_5, ADD_POLY = 2, 3, 5, 44
-START_JERK = 1  # LCAMHDL_POLY_MODE_BOUNDARY_VALUES_AND_START_JERK
+#: the mode is LCAMHDL_POLY_MODE_BOUNDARY_VALUES_AND_START_JERK
+_BY_START_JERK = {"camProfileType": ADD_POLY, "polynomialMode": 1}
 
 
 _siemens = partial(file_format, extension=".st")
@@ -31,7 +32,7 @@ def _elements(motion: Motion, request: Request, *, degree: int, kind: str, model
     ends = ends_of(motion, fit.run, 3 if degree == 5 else 4)
     run = PiecewiseMotion(fit.run.breaks, [_quintic(end) if degree == 5 else _sixth(end) for end in ends])
     rows = [
-        fields(**_bounds(end), **(_profile(row) if degree == 5 else _start_jerk(end)))
+        fields(**_bounds(end), **(_profile(row) if degree == 5 else {"geoJerkStart": end.first[3], **_BY_START_JERK}))
         for end, row in zip(ends, fit.run.coefficients, strict=True)
     ]
     text, notes = _configuration(name, kind, rows, motion, (run, fit))
@@ -72,10 +73,6 @@ def _bounds(ends: Ends) -> dict[str, object]:
 def _profile(row: Sequence[float]) -> dict[str, object]:
     degree = max((n for n, c in enumerate(row) if c), default=0)
     return {"camProfileType": POLY_5 if degree > 1 else (DWELL, CONST_VELO)[degree]}
-
-
-def _start_jerk(ends: Ends) -> dict[str, object]:
-    return {"geoJerkStart": ends.first[3], "camProfileType": ADD_POLY, "polynomialMode": START_JERK}
 
 
 def _quintic(ends: Ends) -> list[float]:
