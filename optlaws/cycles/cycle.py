@@ -628,7 +628,12 @@ class Cycle(Answers, Specification):
         return fastest_cycle(self)
 
     def front(
-        self, minimise: str, *, longest: Quantity | None = None, points: int = 17, follower: Any = None
+        self,
+        minimise: str,
+        *,
+        longest: Quantity | None = None,
+        points: int = 17,
+        follower: Mapping[str, Any] | None = None,
     ) -> TimeFront:
         """The least of a quantity over the time of a cycle of one move, from its least time within the limits on.
 

@@ -97,7 +97,6 @@ class _Words:
 
     @property
     def rule(self) -> str:
-        """The rule by which the law is chosen."""
         limited = any(law.limits for law in self.candidates.laws.values())
         parts = ("keep every limit" if limited else "", f"take {self.no_more}" if self.no_more else "")
         which = " and ".join(part for part in parts if part)
@@ -107,7 +106,6 @@ class _Words:
 
     @property
     def gain(self) -> Sentence:
-        """The law to take, and its gain."""
         minimise, usual, law = self.candidates.minimise, self.candidates.usual, self.law
         full = [
             sentence("{} {}", taken.name, taken.text)
