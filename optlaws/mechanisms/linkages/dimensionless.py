@@ -47,11 +47,8 @@ class LinearForce(NamedTuple):
 
     def _factors(self, stroke: float, duration: float) -> tuple[float, float, float]:
         """The factors of a, b and c of a law in the force."""
-        return (
-            self.stiffness * stroke,
-            self.viscous * factor(stroke, duration, 1),
-            self.inertia * factor(stroke, duration, 2),
-        )
+        damper, inertia = self.viscous * factor(stroke, duration, 1), self.inertia * factor(stroke, duration, 2)
+        return self.stiffness * stroke, damper, inertia
 
 
 class Train(NamedTuple):
@@ -116,8 +113,7 @@ class StrokeTorque:
         Where a gear loses power, its magnitude is no maximum of smooth formulas: `peak` takes it with side="high", and
         the last branch with side="low", which braking never passes.
         """
-        through = self._through
-        return " + ".join([*self._motor, through[0] if len(through) == 1 else f"max({', '.join(through)})"])
+        return " + ".join([*self._motor, _greatest(self._through)])
 
     @property
     def branches(self) -> tuple[str, ...]:
@@ -142,9 +138,8 @@ class StrokeTorque:
         """
         if not self.train.copper:
             return ""
-        powers, share = ", ".join(self._powers), 1.0 - self.train.regeneration
-        burnt = f"{share!r}*(max({powers}, 0) - {self.power})"
-        return f"{self.copper!r}*({self.torque})^2 + {burnt}"
+        burnt = f"(max({', '.join(self._powers)}, 0) - {self.power})"
+        return f"{self.copper!r}*({self.torque})^2 + {1.0 - self.train.regeneration!r}*{burnt}"
 
     @property
     def copper(self) -> float:
@@ -194,9 +189,8 @@ def recovering(powers: Sequence[str], share: float) -> str:
     >>> recovering(["c*b"], 0.5)
     'max(c*b, 0.5*c*b)'
     """
-    if share == 1.0:
-        return _greatest(powers)
-    return _greatest([*powers, *([f"{share!r}*{power}" for power in powers] if share else ["0"])])
+    fed_back = [f"{share!r}*{power}" for power in powers] if share else ["0"]
+    return _greatest([*powers, *(fed_back if share != 1.0 else [])])
 
 
 def dimensionless(

@@ -451,10 +451,17 @@ class Mechanism(JsonText):
         more = formula_of(inertia, (self.axis, DIMENSIONS[self.axis]["inertia"]), "inertia")
         return self._changed(inertia=added([more, self.inertia_formula]))
 
+    @property
+    def _entries(self) -> dict[str, Any]:
+        known = {
+            "inertia": self.inertia_formula,
+            "load": self.load_formula,
+            "over": self.over if self.has_end else None,
+        }
+        return {name: known[name] if name in known else getattr(self, name) for name in entries_of(MechanismEntries)}
+
     def _changed(self, **fields: Any) -> Self:
-        known = {name: value for name, value in vars(self).items() if name in entries_of(MechanismEntries)}
-        known |= {"inertia": self.inertia_formula, "load": self.load_formula}
-        return type(self)(**{**known, "over": self.over if self.has_end else None, **fields})
+        return type(self)(**{**self._entries, **fields})
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Mechanism) and self.to_dict() == other.to_dict()
@@ -484,17 +491,9 @@ class Mechanism(JsonText):
         >>> Mechanism("0.8 kg m^2", over=("0 deg", "90 deg")).to_dict()["inertia"]
         '0.8'
         """
-        return {
-            "format": FORMAT,
-            "name": self.name,
-            "axis": self.axis,
-            "over": list(self.over) if self.has_end else None,
-            "inertia": str(self.inertia_formula),
-            "load": str(self.load_formula),
-            "coulomb": self.coulomb,
-            "viscous": self.viscous,
-            "linkage": self.linkage.to_dict(),
-        }
+        types, known = entries_of(MechanismEntries), self._entries
+        plain = {name: None if known[name] is None else types[name].type.plain(known[name]) for name in types}
+        return {"format": FORMAT, **plain}
 
     @classmethod
     def from_dict(cls, data: Any) -> Mechanism:

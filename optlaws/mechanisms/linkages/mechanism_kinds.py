@@ -76,16 +76,9 @@ class MechanismKind(Kinded, ABC, title="a mechanism"):
         linkage: LinkGeometry,
     ) -> Mechanism:
         """A mechanism whose input turns, of the terms of its inertia and load."""
-        return Mechanism(
-            added(list(inertia)),
-            added(list(load)),
-            coulomb=self.coulomb,
-            viscous=self.viscous,
-            over=over,
-            axis="angle",
-            name=self.kind.replace(" ", "-"),
-            linkage=linkage,
-        )
+        friction, name = {"coulomb": self.coulomb, "viscous": self.viscous}, self.kind.replace(" ", "-")
+        terms = added(list(inertia)), added(list(load))
+        return Mechanism(*terms, **friction, over=over, axis="angle", name=name, linkage=linkage)
 
 
 @declared
