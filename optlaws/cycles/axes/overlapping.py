@@ -221,18 +221,16 @@ class Overlapping:
     @kept_property
     def base(self) -> tuple[Array, Array, list[str]]:
         """Rows, right sides and names of the conditions without choices: row @ unknowns >= right side."""
-        known = list[tuple[Array, float, str]]()
+        known, of = list[tuple[Array, float, str]](), np.eye(len(self.efforts) + 2)
         for plan in self.plans:
             for here, segment in enumerate(plan.segments, plan.first):
-                least, name = segment.least, segment.binds
-                known.append((self._row({here: 1.0, -2: -least.share}), least.time / self.unit, name))
+                least, most, name = segment.least, segment.most, segment.binds
+                known.append((of[here] - least.share * of[-2], least.time / self.unit, name))
                 if segment.effort > 0.0:
-                    known.append((self._row({here: 1.0, -1: -segment.effort / self.unit}), 0.0, ""))
-                if segment.most is not None:
-                    known.append(
-                        (self._row({here: -1.0, -2: segment.most.share}), -segment.most.time / self.unit, name)
-                    )
-            whole = self._row({-2: 1.0} | {plan.first + i: -1.0 for i in range(len(plan.segments))})
+                    known.append((of[here] - segment.effort / self.unit * of[-1], 0.0, ""))
+                if most is not None:
+                    known.append((most.share * of[-2] - of[here], -most.time / self.unit, name))
+            whole = of[-2] - of[plan.first : plan.first + len(plan.segments)].sum(axis=0)
             known += [(whole, 0.0, ""), (-whole, 0.0, "")]
         rows, sides, names = zip(*known, strict=True)
         return np.array(rows), np.array(sides), list(names)
@@ -289,11 +287,12 @@ class Overlapping:
             rows = self.requirements[i].known_rows(option)
             matrix = np.vstack([matrix, rows])
             right = np.append(right, np.full(len(rows), margin if self.requirements[i].extended else 0.0))
-        goal, low = self._row({-2: 1.0} if self.period is None else {-1: -1.0}), np.zeros(matrix.shape[1])
+        goal, low = np.zeros((2, matrix.shape[1]))
         most, paced = np.full(len(low), self.longest / self.unit), self.efforts[self.efforts > 0.0]
-        low[-2:], most[-1] = (0.0, 1.0), 1.0
-        if self.period is not None:
-            low[-2:], most[-1] = (self.period / self.unit, 0.0), self.longest / min(paced, default=self.longest)
+        if self.period is None:
+            goal[-2], low[-1], most[-1] = 1.0, 1.0, 1.0
+        else:
+            goal[-1], low[-2], most[-1] = -1.0, self.period / self.unit, self.longest / min(paced, default=self.longest)
         solve: Any = linprog
         answer = solve(
             goal,
@@ -344,12 +343,6 @@ class Overlapping:
             f"no instants of these laws keep all interlocks: {'; '.join(named or [rule.label for rule in rules])}: "
             "change a position of one of them, or give a longer period"
         )
-
-    def _row(self, entries: Mapping[int, float]) -> Array:
-        row = np.zeros(len(self.efforts) + 2)
-        for place, value in entries.items():
-            row[place] += value
-        return row
 
 
 def program(
