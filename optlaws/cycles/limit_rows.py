@@ -93,7 +93,11 @@ def refuse_beyond(cycle: Cycle) -> None:
     proof = (*(each.taken for each in broken), *of_whole)
     if proof:
         others = "" if len(proof) == 1 else sentence("; beyond a limit is also {}", joined("; ", proof[1:]))
-        reason = _reason(broken[0], cycle) if broken else _reason_of_whole(proof[0])
+        reason = _reason(broken[0], cycle) if broken else sentence(
+            "limits: the {} over the cycle is {}, but its limit is {}: allow more, give the cycle more time, or give "
+            "its moves other laws",
+            proof[0].name, proof[0].value_text, proof[0].text,
+        )  # fmt: skip
         raise InfeasibleProblem(sentence("{}{}", reason, others), proof=proof)
 
 
@@ -122,27 +126,21 @@ def _reason(broken: _Taken, cycle: Cycle) -> str:
     )  # fmt: skip
 
 
-def _reason_of_whole(broken: LimitTaken) -> str:
-    return sentence(
-        "limits: the {} over the cycle is {}, but its limit is {}: allow more, give the cycle more time, or give its "
-        "moves other laws",
-        broken.name, broken.value_text, broken.text,
-    )  # fmt: skip
-
-
 def limit_rows(plan: Plan) -> list[Row]:
     """Rows of limits: the value in the segment that uses most of the limit, with its time and the limit."""
     limits = read_limits(plan.limits, plan.axis, "limits")
-    taken_of = _of_segments(plan.peaks, plan.specification, limits, plan.programme.stretches, keys=_is_unshown)
+    taken_of = _of_segments(
+        plan.peaks,
+        plan.specification,
+        limits,
+        plan.programme.stretches,
+        # peaks of a cycle do not show what is limited there
+        keys=lambda key: bool(key.sign) or key.kind is Kind.SNAP,
+    )
     return [
         Row(taken.name, taken.value, unit_of(plan.axis, key.kind.order), time, f"limit {taken.text} of {taken.where}")
         for key, taken, time, _ in _most(taken_of)
     ]
-
-
-def _is_unshown(key: Side) -> bool:
-    """Whether the peaks of a cycle do not show what is limited."""
-    return bool(key.sign) or key.kind is Kind.SNAP
 
 
 def _most(taken: Iterable[_Taken]) -> list[_Taken]:

@@ -115,7 +115,8 @@ def _parts(placed: SegmentPeaks, same_time: float) -> list[tuple[float, float, M
         )
     from optlaws.laws.making.transform import section
 
-    first, last = (_break(law, piece, time) for time in times)
+    joints = [piece.start + place * piece.duration for place in law.breaks]
+    first, last = (min(range(len(joints)), key=lambda i: abs(joints[i] - time)) for time in times)
     ends = [first, last]
     if abs(moved) <= CLOSURE * abs(piece.stroke):
         heights = [abs(float(law(place)) - float(law(law.breaks[first]))) for place in law.breaks[first : last + 1]]
@@ -126,12 +127,6 @@ def _parts(placed: SegmentPeaks, same_time: float) -> list[tuple[float, float, M
         parts.append((way, piece.duration * (law.breaks[high] - law.breaks[low]), section(law, low, high)))
         left -= way
     return parts
-
-
-def _break(law: PiecewiseLaw, piece: Piece, time: float) -> int:
-    """The number of the break at a joint."""
-    away = [abs(piece.start + place * piece.duration - time) for place in law.breaks]
-    return away.index(min(away))
 
 
 def segments_of_cam(

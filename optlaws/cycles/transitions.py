@@ -243,19 +243,6 @@ class TransitionCam(Exportable, Declared, title="a transition cam"):
         return {"law": value.to_dict()}
 
     @classmethod
-    def from_dict(cls, data: Mapping[str, Any]) -> TransitionCam:
-        """Read the output of `to_dict`; the law is checked against the state at which it joins the cycle.
-
-        Raises
-        ------
-        InputError
-            If an entry is missing or wrong, or the law does not meet the cycle.
-        """
-        read = super().from_dict(data)
-        read._check_law()  # noqa: SLF001 - a method of its own
-        return read
-
-    @classmethod
     def _from_earlier(cls, data: dict[str, Any]) -> dict[str, Any]:
         least = data.get("least")
         if (least is None) == (data.get("best") is None):
@@ -265,7 +252,7 @@ class TransitionCam(Exportable, Declared, title="a transition cam"):
         read = FastestMove.from_dict(least)
         return data | {"least": read, "best": read.least.solution}
 
-    def _check_law(self) -> None:
+    def _check(self) -> None:
         """Refuse a law that does not meet the cycle, or a least time of another move."""
         side = 1 if self.kind == "run-in" else 0
         for nu, jump in enumerate(list(self.jumps.values())[: self.solution.problem.order]):
