@@ -252,7 +252,6 @@ class Answers(Exportable):
 
     @answer
     def along(self) -> tuple[PieceEffort, ...]:
-        """The effort of the drive along each piece."""
         drive = self.solve().specification.in_si.drive
         return tuple(along(drive, piece) for piece in self.pieces)
 
