@@ -62,6 +62,7 @@ from .mechanisms.machine.residual import (
     BandResidual as BandResidual,
     ModeResidual as ModeResidual,
     Residual as Residual,
+    Vibrating as Vibrating,
 )
 from .mechanisms.machine.state_space import Rows as Rows, StateSpace as StateSpace
 from .motion.motion import Motion as Motion

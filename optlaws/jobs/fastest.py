@@ -27,7 +27,7 @@ from optlaws.numbers import Quantity
 from optlaws.plots.moves import fronts_figure, motion_figure, strokes_figure
 from optlaws.results import Page, Results
 from optlaws.studies.problem_entries import gap, problem
-from optlaws.synthesis.least_time.follower_residual import RESIDUAL
+from optlaws.synthesis.least_time.follower_residual import RESIDUAL, RESIDUALS
 from optlaws.synthesis.least_time.move_objective import AT_MOTOR
 from optlaws.synthesis.problem.problem import PROBLEM, Problem
 from optlaws.synthesis.status import Status
@@ -143,7 +143,7 @@ def arguments_of(move: MoveEntries, folder: Path) -> dict[str, Any]:
         )
     elif move.start is not None:
         raise InputError("start: it is the position of a mechanism: give the move its mechanism and drive")
-    if move.follower is not None and RESIDUAL in move.limits:
+    if move.follower is not None and any(name in move.limits for name in RESIDUALS):
         given["follower"] = move.follower
     return given
 

@@ -26,6 +26,7 @@ class Kind(Enum):
     CURVE = -6  #: the share of a motor's curve of torque over speed
     RMS_FORCE = -7  #: over the whole cycle
     RESIDUAL = -10  #: acceleration of what vibrates on after a move
+    RESIDUAL_DISPLACEMENT = -11  #: amplitude of what vibrates on after a move
     VELOCITY_ALONG = -8  #: in the direction of the motion
     ACCELERATION_ALONG = -9  #: likewise: above 0 where it speeds up
 

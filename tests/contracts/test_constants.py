@@ -66,6 +66,7 @@ TEXTS = (
     "residual(frequency=(18.0, 22.0), damping=0.03)",
     "residual(frequency=(8.0, 12.0), design=10.0)",
     "residual(frequency=(9.0, 11.0), damping=0.02, design=10.0, design_damping=0.05)",
+    "residual(frequency=(18.0, 22.0), damping=0.03, of=displacement)",
     "peak(c + 0.2*b)",
     "peak((1 + k)*c - a, side=high)",
     "peak(j + sin(6*k)*c, side=low, start=0.1, stop=0.6)",
@@ -191,14 +192,15 @@ def signal(constant: Functional, law: MotionLaw) -> Array:
 
 
 def vibration(constant: BandResidual, law: MotionLaw) -> tuple[float, float]:
-    """nu² times the amplitude left at k = 1, by Simpson's rule, over frequencies."""
+    """The amplitude left at k = 1, or nu² times it, by Simpson's rule, over frequencies."""
     weights = np.concatenate([[1.0], np.resize([4.0, 2.0], len(GRID) - 2), [1.0]]) / (3.0 * (len(GRID) - 1))
     b = np.asarray(law.b(GRID))
     if constant.design is not None:
         b = combination(law, 1, constant.design, constant.design_damping, GRID)
     frequencies = np.linspace(constant.low, constant.high, 41 if constant.high > constant.low else 1)
     w = frequencies * complex(-constant.damping, sqrt(1.0 - constant.damping**2))
-    values = np.abs(frequencies**2 * w.conj() / w.imag * (np.exp(np.outer(w, 1.0 - GRID)) @ (weights * b)))
+    unit = np.ones_like(frequencies) if constant.displacement else frequencies**2
+    values = np.abs(unit * w.conj() / w.imag * (np.exp(np.outer(w, 1.0 - GRID)) @ (weights * b)))
     return float(values.max()), float(np.abs(np.diff(values)).max(initial=0.0))
 
 

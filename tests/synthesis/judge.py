@@ -160,7 +160,7 @@ class Judged:
         ]
 
     def residual(self, constant: BandResidual) -> float:
-        """nu² times the amplitude that the follower's free vibration has at k = 1, greatest over the frequencies."""
+        """The amplitude that the follower's free vibration has at k = 1, or nu² times it, greatest over frequencies."""
         b = self.derivatives[1]
         if constant.design is not None:
             b = self.cam(constant.design, constant.design_damping)[1]
@@ -174,7 +174,8 @@ class Judged:
 
         def size(nu: float) -> float:
             w = complex(-constant.damping * nu, nu * sqrt(1.0 - constant.damping**2))
-            return float(abs(nu**2 * w.conjugate() / w.imag * (np.exp(w * (1.0 - k)) @ velocity)))
+            unit = 1.0 if constant.displacement else nu**2
+            return float(abs(unit * w.conjugate() / w.imag * (np.exp(w * (1.0 - k)) @ velocity)))
 
         if constant.low == constant.high:
             return size(constant.low)

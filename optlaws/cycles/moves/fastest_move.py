@@ -27,7 +27,7 @@ from optlaws.shown.curve_points import refined
 from optlaws.shown.report import Panel, PanelLimit, Report, ReportSegment, ReportTable, Series
 from optlaws.shown.summary import Row, Summary
 from optlaws.suggest import keywords_of
-from optlaws.synthesis.least_time.follower_residual import RESIDUAL
+from optlaws.synthesis.least_time.follower_residual import RESIDUALS
 from optlaws.synthesis.least_time.least_time import LeastTime
 from optlaws.synthesis.least_time.motor_torque import CURVE_LIMIT
 from optlaws.synthesis.least_time.time_search import least_time
@@ -323,7 +323,8 @@ class MoveReport:
     @kept_property
     def limits_taken(self) -> tuple[LimitTaken, ...]:
         """The use of each limit of the move, in SI units."""
-        axis, others = AXES[self.move.unit], {CURVE_LIMIT: "", RESIDUAL: unit_of(AXES[self.move.unit], 2)}
+        axis, others = AXES[self.move.unit], {CURVE_LIMIT: ""}
+        others |= {name: unit_of(axis, nu) for name, nu in zip(RESIDUALS, (2, 0), strict=True)}
         return tuple(
             LimitTaken(
                 limit.name,

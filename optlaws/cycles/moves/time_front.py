@@ -29,7 +29,7 @@ from optlaws.motion.quantities import Exact, positive_quantity
 from optlaws.motion.quantity_kinds import Kind
 from optlaws.numbers import NumberOrQuantity, Quantity, bounded, listed, positive, real
 from optlaws.suggest import unknown_key
-from optlaws.synthesis.least_time.follower_residual import RESIDUAL
+from optlaws.synthesis.least_time.follower_residual import RESIDUAL, RESIDUALS
 from optlaws.synthesis.least_time.move_limits import power
 from optlaws.synthesis.least_time.move_objective import AT_MOTOR, OBJECTIVES, MoveObjective
 from optlaws.synthesis.least_time.timed_move import TimedMove
@@ -404,7 +404,7 @@ def front_of_cycle(cycle: Any, minimise: str, *, follower: Any, **options: Any) 
         limits=limits,
         start_velocity=given.start_velocity,
         end_velocity=given.end_velocity,
-        follower=follower if RESIDUAL in limits else None,
+        follower=follower if any(name in limits for name in RESIDUALS) else None,
         **moved,
     )
     at_motor = moved if minimise in AT_MOTOR else {}
@@ -440,7 +440,7 @@ def _objective(
         return MoveObjective(name)
     if not timed.at_rest:
         raise InputError("minimise: what is left vibrating is that of a move from rest to rest")
-    known = None if timed.residual is None else replace(timed.residual, most=1.0)
+    known = None if timed.residual is None else replace(timed.residual, most=1.0, of="acceleration")
     given = known if follower is None else read_follower(follower)
     if given is None:
         raise InputError(f"minimise: the {RESIDUAL} is that of a follower: give the follower")

@@ -8,7 +8,15 @@ from math import inf, isfinite, tau
 from typing import Any
 
 from optlaws.cycles.moves.fastest_move import AXES, FastestMove
-from optlaws.cycles.optimisation.motion_limits import DECELERATION, Limits, greatest, read_limits, sides, tightest
+from optlaws.cycles.optimisation.motion_limits import (
+    DECELERATION,
+    OF_WHOLE,
+    Limits,
+    greatest,
+    read_limits,
+    sides,
+    tightest,
+)
 from optlaws.cycles.optimisation.motor_limits import curve_lines
 from optlaws.cycles.specification.limit_entries import LIMITS_OF_MOVE
 from optlaws.cycles.specification.programme import AXES as SI
@@ -20,7 +28,7 @@ from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.motion.quantities import either, quantity
 from optlaws.motion.quantity_kinds import Kind
 from optlaws.numbers import NumberOrQuantity, Quantity, listed
-from optlaws.synthesis.least_time.follower_residual import RESIDUAL, FollowerResidual
+from optlaws.synthesis.least_time.follower_residual import RESIDUAL, RESIDUALS, FollowerResidual
 from optlaws.synthesis.least_time.least_time import LeastTime
 from optlaws.synthesis.least_time.motor_torque import LossyGear, MotorTorque
 from optlaws.synthesis.least_time.move_limits import MoveLimits
@@ -75,7 +83,7 @@ def fastest(
     follower
         What the axis drives elastically, as {"frequency": ("15.9 Hz", "17.5 Hz"), "damping": 0.05}: its natural
         frequency, or the least and the greatest, and its damping ratio, 0 unless given. Limits then name the "residual
-        acceleration", the amplitude that vibrates on after the move.
+        acceleration" or the "residual displacement", the amplitude that vibrates on after the move.
 
     Returns
     -------
@@ -166,12 +174,16 @@ def _timed(
         remedy = "turn the axis and its limits round" if far else "give how far it moves, such as '100 mm'"
         raise InputError(f"stroke must be above 0, got {shortened(stroke)}: {remedy}")
     allowed, torque, residual = read_limits(entries, dimension, "limits"), None, None
+    left = [name for name in RESIDUALS if name in entries]
+    if len(left) > 1:
+        raise InputError(f"limits: {left[0]} and {left[1]} are of one vibration: give one of them")
     if follower is not None:
-        if Kind.RESIDUAL not in allowed:
+        if not left:
             raise InputError(f'a follower, as in {_EXAMPLE}, needs limits={{"{RESIDUAL}": "0.5 m/s^2"}}')
-        residual = replace(read_follower(follower), most=allowed[Kind.RESIDUAL][1])
-    elif Kind.RESIDUAL in allowed:
-        raise InputError(f"limits: {RESIDUAL} is that of a follower: give the follower")
+        most, of = allowed[OF_WHOLE[left[0]]][1], left[0].removeprefix("residual ")
+        residual = replace(read_follower(follower), most=most, of=of)
+    elif left:
+        raise InputError(f"limits: {left[0]} is that of a follower: give the follower")
     if drive is not None:
         torque = motor_torque(drive, start, stroke, allowed)
         most = drive.motor.greatest_speed / drive.ratio

@@ -31,6 +31,7 @@ OF_WHOLE = {
     "rms torque": Kind.RMS_FORCE,
     "energy": Kind.ENERGY,
     "residual acceleration": Kind.RESIDUAL,
+    "residual displacement": Kind.RESIDUAL_DISPLACEMENT,
 }
 FORCES = {"length": "force", "angle": "torque"}
 FORCE_UNITS = {"length": "N", "angle": "N m"}
@@ -148,7 +149,8 @@ def _both(kind: Kind, value: Any, axis: str, place: str) -> Limits:
 def _dimension(kind: Kind, axis: str) -> str:
     if kind.order:
         return AXES[axis][kind.order]
-    known = {Kind.POWER: "power", Kind.ENERGY: "energy", Kind.RESIDUAL: AXES[axis][2]}
+    known = {Kind.POWER: "power", Kind.ENERGY: "energy"}
+    known |= {Kind.RESIDUAL: AXES[axis][2], Kind.RESIDUAL_DISPLACEMENT: axis}
     return known.get(kind, FORCES[axis])
 
 

@@ -46,6 +46,7 @@ _OF_MOVE = {
     "residual acceleration": _limit(
         "The amplitude that its follower vibrates on with.", "acceleration", "angular acceleration", example="0.5 m/s^2"
     ),
+    "residual displacement": _limit("The same as a displacement, such as sway.", "length", "angle", example="20 mm"),
 }
 _LOADED = ReadBy(written, "a quantity, or of a `Machine` a number in SI units", json={"type": ["string", "number"]})
 _OF_CYCLE = dict.fromkeys(_OF_WHOLE, "is of the whole cycle: give it among the limits of the Cycle")

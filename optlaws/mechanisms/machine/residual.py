@@ -13,13 +13,14 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from hashlib import sha256
 from math import asin, ceil, inf, nan
-from typing import Any, ClassVar
+from typing import Any, ClassVar, Literal, TypeAlias, get_args
 
 import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError
+from optlaws.files.reading import check_names
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw, Peak
 from optlaws.mechanisms.cam_constants import check_order
@@ -41,6 +42,9 @@ from optlaws.synthesis.families.cone import ConeFamily
 from optlaws.synthesis.problem.constants import MAKERS, Functional
 from optlaws.synthesis.spaces.space import LawSpace
 from optlaws.tolerances import NEGLIGIBLE_TERM
+
+#: what of a vibration is counted
+Vibrating: TypeAlias = Literal["acceleration", "displacement"]
 
 _WIDEST = 1000.0
 #: terms beside those of an exponential, for the weight and the powers of the frequency
@@ -188,7 +192,7 @@ def _places(count: int) -> Array:
 
 @dataclass(frozen=True, repr=False)
 class BandResidual(Residual):
-    """Greatest residual acceleration over an interval of frequencies; constructed by `residual_vibration`.
+    """Greatest residual over an interval of frequencies; constructed by `residual_vibration`.
 
     Attributes
     ----------
@@ -202,6 +206,8 @@ class BandResidual(Residual):
         The ratio for which it is designed.
     spectrum
         Pairs of a frequency and a weight, linear between them; None where all frequencies weigh 1.
+    displacement
+        Whether it is the amplitude of the displacement, in strokes, in place of that of the acceleration.
     """
 
     low: float
@@ -210,13 +216,15 @@ class BandResidual(Residual):
     design: float | None = None
     design_damping: float = 0.0
     spectrum: Spectrum | None = None
+    displacement: bool = False
 
     _part = "part"
 
     @kept_property
     def scale(self) -> float:
-        """As of the law's acceleration, times the greatest weight; a power of 2."""
-        return power_of_two(max(size for _, size in self.spectrum)) if self.spectrum else 1.0
+        """As of the law's acceleration or what that displaces, times the greatest weight; a power of 2."""
+        size = max(weight for _, weight in self.spectrum) if self.spectrum else 1.0
+        return power_of_two(size * min(1.0, _ACCELERATION / self.low**2) if self.displacement else size)
 
     @kept_property
     def parts(self) -> tuple[WeightPart, ...]:
@@ -236,7 +244,8 @@ class BandResidual(Residual):
         frequencies = ((1.0 - share) * low + share * high).ravel()
         weights = ((1.0 - share) * first + share * last).ravel()
         _, w, damped = roots(frequencies, self.damping)
-        scale = -1j * frequencies**2 * w.conj() / damped * self._detuning(frequencies, w)
+        size = 1.0 if self.displacement else frequencies**2
+        scale = -1j * size * w.conj() / damped * self._detuning(frequencies, w)
         left = (weights * (scale * transform(w).T)).T
         return np.asarray(left.reshape(len(edges), len(u), *left.shape[1:]))
 
@@ -278,11 +287,12 @@ def residual_vibration(
     design_damping: float | None = None,
     spectrum: Any = None,
     duration: Any = None,
+    of: Vibrating = "acceleration",
 ) -> BandResidual:
-    """The greatest residual acceleration of an elastic follower over a whole interval of frequencies.
+    """The greatest residual of an elastic follower over a whole interval of frequencies.
 
-    In units of a'': nu² times the amplitude of the free vibration at k = 1, its envelope where damped, as
-    `Response.residual_acceleration`.
+    Of the displacement it is the amplitude of the free vibration at k = 1, its envelope where damped, in strokes; of
+    the acceleration nu² times it, in units of a'', as `Response.residual_acceleration`.
 
     Parameters
     ----------
@@ -299,6 +309,8 @@ def residual_vibration(
         multiplied: of `read_spectrum`, arrays, text "{18: 0.5, 20: 1, 22: 0.5}", or a file as `read_spectrum` takes it.
     duration
         Of the motion, where the frequencies of a spectrum are in Hz: "0.1 s", or seconds.
+    of
+        What of the vibration: its acceleration or its displacement.
 
     Raises
     ------
@@ -317,7 +329,11 @@ def residual_vibration(
     >>> wide = residual_vibration(frequency=(18, 22), design=20)
     >>> wide, wide.peak(savin("III", 7.2))
     (residual(frequency=(18.0, 22.0), design=20.0), Peak(value=1.368836, k=18.0))
+    >>> sway = residual_vibration(frequency=18, of="displacement")
+    >>> sway, round(18**2 * sway.value(savin("III", 7.2)), 6)
+    (residual(frequency=18.0, of=displacement), 7.204401)
     """
+    check_names([of], get_args(Vibrating), "residual of")
     if frequency is None and spectrum is None:
         raise InputError("residual needs a frequency, an interval of them, or a spectrum")
     if spectrum is None and duration is not None:
@@ -347,6 +363,7 @@ def residual_vibration(
     parts += [f"damping={ratio!r}"] if ratio else []
     parts += [f"design={design_frequency!r}"] if design_frequency else []
     parts += [f"design_damping={design_ratio!r}"] if design_frequency and design_ratio != ratio else []
+    parts += [f"of={of}"] if of == "displacement" else []
     name = f"residual({', '.join(parts)})"
     return BandResidual(
         name,
@@ -358,6 +375,7 @@ def residual_vibration(
         design=design_frequency,
         design_damping=design_ratio if design_frequency else 0.0,
         spectrum=weights,
+        displacement=of == "displacement",
     )
 
 

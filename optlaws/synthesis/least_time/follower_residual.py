@@ -5,14 +5,16 @@ from __future__ import annotations
 from math import inf, nextafter, sqrt
 
 from optlaws.entries.declared import Declared, declared, entry
-from optlaws.entries.value_types import Number
+from optlaws.entries.value_types import Choice, Number
 from optlaws.errors import InputError
 from optlaws.synthesis.least_time.move_limits import SpanLimit, TimedLimit
 from optlaws.synthesis.problem.named_constants import named
 from optlaws.tolerances import LIMIT_ROUNDING
 
-#: the name of the limit
+#: the names of the limits
 RESIDUAL = "residual acceleration"
+RESIDUAL_DISPLACEMENT = "residual displacement"
+RESIDUALS = (RESIDUAL, RESIDUAL_DISPLACEMENT)
 
 
 _POSITIVE = Number(above=0.0)
@@ -20,31 +22,44 @@ _POSITIVE = Number(above=0.0)
 
 @declared
 class FollowerResidual(Declared, title="the residual vibration of a move"):
-    """The residual acceleration of an elastic follower after a move, with its limit.
+    """The residual acceleration or displacement of an elastic follower after a move, with its limit.
 
     >>> FollowerResidual(95.0, 105.0, 0.05, most=0.4).limit_in(0.2, stroke=0.1)
     TimedLimit(name='residual acceleration', constant=residual(frequency=(19.0, 21.0), damping=0.05), bound=0.16)
+    >>> FollowerResidual(95.0, 105.0, 0.05, 4e-5, of="displacement").limit_in(0.2, stroke=0.1).bound
+    0.0004
     """
+
+    newer = ("of",)
 
     lowest: float = entry(_POSITIVE, "Its least natural circular frequency, rad/s.")
     highest: float = entry(_POSITIVE, "The greatest.")
     damping: float = entry(Number(least=0.0), "Its damping ratio, below 1.")
     most: float = entry(
-        _POSITIVE, "The greatest amplitude of its acceleration after the move, in units of the stroke a square second."
+        _POSITIVE,
+        "The greatest amplitude after the move: of its acceleration, in units of the stroke a square second, or of its "
+        "displacement, in those of the stroke.",
     )
+    of: str = entry(Choice("acceleration", "displacement"), "What of the vibration is limited.", default="acceleration")
 
     def _check(self) -> None:
         if self.lowest > self.highest or self.damping >= 1.0:
             raise InputError("the frequencies of a follower must be in order, and its damping below 1")
 
+    @property
+    def name(self) -> str:
+        """The name of the limit."""
+        return f"residual {self.of}"
+
     def along(self, stroke: float) -> SpanLimit:
         """The limit of a law with the stroke 1 over the time."""
-        return SpanLimit(RESIDUAL, self.most, lambda duration: self.limit_in(duration, stroke)[1:])
+        return SpanLimit(self.name, self.most, lambda duration: self.limit_in(duration, stroke)[1:])
 
     def limit_in(self, duration: float, stroke: float) -> TimedLimit:
         """The limit of a law with the stroke 1 in a time."""
         low, high = (frequency * duration for frequency in (self.lowest, self.highest))
-        return self._limit(low, high, self.most * duration * duration / stroke)
+        unit = 1.0 if self.of == "displacement" else duration * duration
+        return self._limit(low, high, self.most * unit / stroke)
 
     def limit_over(
         self, shortest: float, longest: float, stroke: float, velocity: float, acceleration: float
@@ -64,18 +79,24 @@ class FollowerResidual(Declared, title="the residual vibration of a move"):
         """
         low, high = nextafter(self.lowest * longest, inf), nextafter(self.highest * shortest, 0.0)
         wider = 1.0 + LIMIT_ROUNDING
-        most = self.most * longest / stroke * wider
+        displaced = self.of == "displacement"
+        most = self.most / stroke * wider if displaced else self.most * longest / stroke * wider
         if low <= high:
-            return self._limit(low, high, most * longest)
+            return self._limit(low, high, most if displaced else most * longest)
         # |P| = nu/s |integral of exp(nu u (1 - k)) c|: half of the wave is taken out, so that its slope has |k - 1/2|
         nu, apart = 0.5 * (low + high), 0.5 * (low - high) * wider
         damped, share = sqrt((1.0 - self.damping) * (1.0 + self.damping)), 1.0 - 0.5 * self.damping * apart
         if share <= 0.0:
             return self._limit(nu, nu, inf)
-        by_acceleration = nu * (most / self.lowest + apart * acceleration / damped)
-        by_velocity = nu * nu * (self.most / stroke / self.lowest**2 + apart * velocity / damped)
-        return self._limit(nu, nu, min(by_acceleration, by_velocity) / share * wider)
+        # of the place nearest to the middle at which a limit is kept: its |P| / nu and |P| / nu^2
+        slope = most * low if displaced else most / self.lowest
+        amplitude = most if displaced else self.most / stroke / self.lowest**2
+        by_acceleration = nu * (slope + apart * acceleration / damped)
+        by_velocity = nu * nu * (amplitude + apart * velocity / damped)
+        unit = nu * nu if displaced else 1.0
+        return self._limit(nu, nu, min(by_acceleration, by_velocity) / unit / share * wider)
 
     def _limit(self, low: float, high: float, bound: float) -> TimedLimit:
         spread = repr(low) if low == high else f"({low!r}, {high!r})"
-        return TimedLimit(RESIDUAL, named(f"residual(frequency={spread}, damping={self.damping!r})"), bound)
+        of = ", of=displacement" if self.of == "displacement" else ""
+        return TimedLimit(self.name, named(f"residual(frequency={spread}, damping={self.damping!r}{of})"), bound)

@@ -81,19 +81,21 @@ _I = acb(0, 1)
 
 
 class ExactBandResidual:
-    """The complex amplitude, times nu² and the weight, as a function of the frequency, in parts."""
+    """The complex amplitude, of an acceleration times nu², and the weight, as a function of the frequency, in parts."""
 
     def __init__(self, constant: BandResidual) -> None:
         self.parts = [tuple(map(Fraction, part)) for part in constant.parts]
         self.damping, self.design_damping = Fraction(constant.damping), Fraction(constant.design_damping)
         self.design = None if constant.design is None else Fraction(constant.design)
+        self.displacement = constant.displacement
 
     def amplitudes(self, frequency: Number, drives: Sequence[DrivenStretch]) -> list[Number]:
         """The amplitudes of laws given by the ends of their pieces; where the breaks end at 1/2, b(1-k) = b(k)."""
         sine = ball((1 - self.damping) * (1 + self.damping)).sqrt()
         root = acb(ball(-self.damping), sine)
         w = frequency * root
-        scale = frequency * frequency * self._detuning(frequency, w) * (-_I * acb(ball(-self.damping), -sine) / sine)
+        scale = self._detuning(frequency, w) * (-_I * acb(ball(-self.damping), -sine) / sine)
+        scale = scale if self.displacement else frequency * frequency * scale
         return [scale * transform for transform in velocity_transforms(w, drives)]
 
     def _detuning(self, frequency: Number, w: Number) -> Number:

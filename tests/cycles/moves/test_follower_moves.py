@@ -1,6 +1,6 @@
 """Least times with a limit of the vibration that is left, beside shaped laws and by integration of the follower."""
 
-from math import pi, tau
+from math import pi, sqrt, tau
 from typing import Any, Literal
 
 import numpy as np
@@ -185,6 +185,15 @@ def test_the_residual_is_that_of_the_functional(quiet: FastestMove) -> None:
         ({"follower": {"frequency": "18 Hz", "damping": 1.0}}, "damping below 1"),
         ({"follower": {"frequency": ("18 Hz", "19 Hz", "20 Hz")}}, "follower: frequency must be a list of 2 at most"),
         ({"limits": LIMITS}, "residual acceleration"),
+        (
+            {"limits": LIMITS | {"residual displacement": "1 mm"}, "follower": None},
+            "displacement is that of a follower",
+        ),
+        ({"limits": LIMITS | {"residual displacement": "1 deg"}}, "residual displacement must be a length"),
+        (
+            {"limits": LIMITS | {"residual displacement": "1 mm", "residual acceleration": "1 m/s^2"}},
+            "are of one vibration",
+        ),
         ({"start_velocity": "0.1 m/s"}, "from rest to rest"),
     ],
 )
@@ -201,3 +210,62 @@ def test_many_strokes_leave_as_much_as_one_by_one() -> None:
     alone = fastest(Problem(order=3), stroke="100 mm", limits=limits, follower=elastic)
     assert moves[1].duration == pytest.approx(alone.duration, rel=1e-9)
     assert moves[0].least.used["residual acceleration"] <= 1.0 + 1e-9
+
+
+def crane(degree: int, **left: str) -> FastestMove:
+    """5 m at 0.6 m/s and 0.3 m/s², with a load on a rope of 4 m."""
+    limits = {"velocity": "0.6 m/s", "acceleration": "0.3 m/s^2"} | left
+    swing = {"frequency": f"{sqrt(9.81 / 4.0) / tau!r} Hz"}
+    return fastest(Problem(order=2, basis=Chebyshev(degree)), stroke="5 m", limits=limits, follower=swing)
+
+
+def test_a_displacement_of_one_frequency_is_its_acceleration_over_the_square() -> None:
+    sway = crane(9, **{"residual displacement": "20 mm"})
+    left = crane(9, **{"residual acceleration": f"{0.02 * 9.81 / 4.0!r} m/s^2"})
+    assert sway.duration == pytest.approx(left.duration, rel=1e-12)
+    assert sway.status is Status.OPTIMAL
+    assert "residual displacement" in sway.binding
+    assert FastestMove.from_json(sway.to_json()) == sway
+    assert verify(sway.to_dict()).proven
+
+
+def sways_in(duration: float, steps: int) -> bool:
+    """Whether any acceleration in steps keeps the limits and leaves 20 mm: a linear program, the sway in 64 sides."""
+    edges, omega = np.linspace(0.0, duration, steps + 1), sqrt(9.81 / 4.0)
+    width, middle = duration / steps, 0.5 * (edges[1:] + edges[:-1])
+    # a pendulum on a trolley: y'' + omega^2 y = -acceleration, in each step by its closed form
+    swing = np.exp(1j * omega * (duration - middle)) * 2.0 * np.sin(0.5 * omega * width) / omega**2
+    turns = np.exp(1j * np.arange(64) * tau / 64.0) / np.cos(pi / 64.0)
+    speeds = width * np.tril(np.ones((steps, steps)))
+    program = linprog(
+        np.zeros(steps),
+        np.vstack([speeds, -speeds, (turns[:, None] * swing).real]),
+        np.concatenate([np.full(2 * steps, 0.6), np.full(64, 0.02)]),
+        np.vstack([np.full(steps, width), width * (duration - middle)]),
+        [0.0, 5.0],
+        bounds=(-0.3, 0.3),
+    )
+    return bool(program.status == 0)
+
+
+@pytest.mark.long
+def test_a_crane_is_nearly_as_fast_as_any_motion_that_leaves_its_load_in_20_mm() -> None:
+    low, high = 10.0, 12.0
+    while high - low > 1e-4:
+        middle = 0.5 * (low + high)
+        low, high = (low, middle) if sways_in(middle, 400) else (middle, high)
+    assert high == pytest.approx(10.867, abs=2e-3)
+    assert high < crane(25, **{"residual displacement": "20 mm"}).duration < 1.013 * high
+
+
+@pytest.mark.long
+def test_a_spread_of_frequencies_leaves_no_more_than_the_displacement() -> None:
+    limits = LIMITS | {"residual displacement": "0.05 mm"}
+    move = fastest(DEGREE_15, stroke="100 mm", limits=limits, follower=SPREAD)
+    found = [
+        0.1 * left(move.law, tau * hertz * move.duration, 0.02) / (tau * hertz * move.duration) ** 2
+        for hertz in (15.865, 16.7, 17.535)
+    ]
+    assert max(found) == pytest.approx(5e-5, rel=1e-3)
+    assert move.status is Status.OPTIMAL
+    assert verify(move.to_dict()).proven

@@ -438,8 +438,11 @@ def test_a_deceleration_alone_is_a_limit_of_the_end() -> None:
 
 @pytest.mark.sample(2)
 @pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("of", ["acceleration", "displacement"])
 @pytest.mark.parametrize("limits", [{"acceleration": 9.0, "deceleration": 7.0}, {"velocity": 2.5}, {"jerk": 90.0}])
-def test_what_a_law_keeps_in_a_time_it_keeps_in_every_box_of_that_time(limits: dict[str, float], seed: int) -> None:
+def test_what_a_law_keeps_in_a_time_it_keeps_in_every_box_of_that_time(
+    limits: dict[str, float], of: str, seed: int
+) -> None:
     """Random laws, times, frequencies and dampings: with just what is left of them, in boxes wide and narrow."""
     random = np.random.default_rng(seed)
     law = catalogue["modified sine" if seed % 2 else "3-4-5 polynomial"].law
@@ -447,17 +450,18 @@ def test_what_a_law_keeps_in_a_time_it_keeps_in_every_box_of_that_time(limits: d
     damping = float(random.choice([0.0, 0.05, 0.3]))
     low = random.uniform(3.0, 60.0) / duration
     high = low * float(random.choice([1.0, 1.0001, 1.2]))
-    left = FollowerResidual(low, high, damping, 1.0).limit_in(duration, stroke).constant.value(law)
+    left = FollowerResidual(low, high, damping, 1.0, of).limit_in(duration, stroke).constant.value(law)
+    most = left * stroke / (1.0 if of == "displacement" else duration**2)
     peaks = {"velocity": B, "acceleration": C_plus, "deceleration": C_minus, "jerk": J}
     move = TimedMove(
         Problem(order=3),
         stroke,
         MoveLimits(**{each: peaks[each].value(law) * stroke / duration ** peaks[each].nu for each in limits}),
-        residual=FollowerResidual(low, high, damping, left * stroke / duration**2),
+        residual=FollowerResidual(low, high, damping, most, of),
     )
     for width in (1e-12, 1e-6, 1e-3, 0.05):
         before = random.uniform(0.0, 1.0) * width
         box = move.limits_over(duration * (1.0 - before), duration * (1.0 + width - before))
         assert all(limit.constant.value(law) <= limit.bound * (1.0 + 1e-12) for limit in box)
-        assert box[-1].name == "residual acceleration"
+        assert box[-1].name == f"residual {of}"
     assert box[-1].bound >= left
