@@ -7,11 +7,12 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache
 from math import inf, nan, pi, sqrt
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.polynomial import legendre
 
+from optlaws.echo import shortened
 from optlaws.errors import InputError, OptlawsError
 from optlaws.files.reading import check_names
 from optlaws.kept import kept_property
@@ -28,9 +29,8 @@ from optlaws.mechanisms.machine.over_time import (
     jumps,
     steady,
 )
-from optlaws.mechanisms.machine.state_space import StateSpace
-from optlaws.mechanisms.machine.texts import check_repeats, check_rest, output_entries, time_of, title_of
-from optlaws.numbers import Array, power_of_two
+from optlaws.mechanisms.machine.state_space import StateSpace, check_rest, machine_of, text_of, title_of
+from optlaws.numbers import Array, numbers, power_of_two
 from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, NormFamily
 from optlaws.synthesis.functionals.makers import PeakSide
 from optlaws.synthesis.functionals.sizes import Reach, by_norm, reach_of
@@ -38,8 +38,9 @@ from optlaws.synthesis.problem.constants import MAKERS, Functional
 from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
 from optlaws.synthesis.spaces.piecewise_families import PieceFamily, PieceSeries
 from optlaws.synthesis.spaces.space import LawSpace
-from optlaws.tolerances import NEGLIGIBLE_TERM, SHORTEST_STRETCH, VALUE_ROUNDING
+from optlaws.tolerances import CLOSURE, NEGLIGIBLE_TERM, SHORTEST_STRETCH, VALUE_ROUNDING
 
+_LATEST = 100.0
 _RADIANS = 40.0  # of the fastest vibration on one piece of the rows
 _MOST_GAIN = 1e6
 _MOST_PANELS = 800  # of a cycle that repeats, some six vibrations long each
@@ -70,7 +71,7 @@ class OutputConstant(Functional):
 
     def _moved_by(self, law: MotionLaw) -> OutputCurve:
         if self.steady:
-            check_repeats(self.name, self.machine, float(law.a(1.0)) - float(law.a(0.0)))
+            _check_repeats(self.name, self.machine, float(law.a(1.0)) - float(law.a(0.0)))
             return RepeatedMotion(self.machine, tuple(drives.of_law(law)), tuple(jumps(law)))[self.output]
         if self.cycle is not None:
             return MachineCycle(self.machine, law, law, self.cycle[0], 1.0, self.cycle[1])[self.output]
@@ -149,7 +150,7 @@ class OutputConstant(Functional):
     def panels(self, space: LawSpace) -> list[tuple[float, float, Array]]:
         """Start, length and series of the output on short stretches, a column for each function of a space."""
         if self.steady:
-            check_repeats(self.name, self.machine, space.stroke)
+            _check_repeats(self.name, self.machine, space.stroke)
         else:
             check_rest(self.name, space)
         if self.machine.output_rows(self.output)[1][2] and getattr(space, "continuity", 2) < 1:
@@ -287,6 +288,16 @@ class OutputPeak(OutputConstant):
         return np.ascontiguousarray(rows[:, : 1 + _terms(rows[:, 1:])])
 
 
+def _check_repeats(name: str, machine: StateSpace, stroke: float) -> None:
+    """Refuse a law that ends elsewhere than it begins where the machine is driven by displacements."""
+    if "a" in machine.inputs and abs(stroke) > CLOSURE:
+        short = name.partition("(")[0]
+        raise InputError(
+            f"{short}: steady is of a law that ends where it begins, but its stroke is {stroke:g}: a machine whose "
+            "motion goes on is driven by b and c alone"
+        )
+
+
 def check_peaks_of_cycle(machine: StateSpace, output: str, lengths: Sequence[float] = (1.0,)) -> None:
     """Refuse peaks of a cycle that repeats if there are too many to look at each, by the machine's roots alone.
 
@@ -373,7 +384,7 @@ def output_peak(
     [1.620669, 9.523921]
     """
     check_names([side], SIDES, "side")
-    entries, words = output_entries(of, output, within=within, cycle=cycle, steady=steady, offset=offset)
+    entries, words = _entries(of, output, within=within, cycle=cycle, steady=steady, offset=offset)
     words += [] if side == "both" else [f"side={side}"]
     return OutputPeak(f"output_peak({', '.join(words)})", nan, convex=True, **entries, signs=SIDES[side])
 
@@ -396,10 +407,54 @@ def output_rms(
     >>> output_rms(of=machine).value(smoothstep(4))
     0.29...
     """
-    within = (0.0, 1.0 + time_of(dwell, "dwell"))
-    entries, words = output_entries(of, output, within=within, cycle=cycle, steady=steady, offset=offset)
+    within = (0.0, 1.0 + _time(dwell, "dwell"))
+    entries, words = _entries(of, output, within=within, cycle=cycle, steady=steady, offset=offset)
     text = ", ".join(f"dwell={float(dwell)!r}" if part.startswith("within") else part for part in words)
     return OutputRms(f"output_rms({text})", nan, convex=True, **entries)
+
+
+def _entries(
+    of: str | StateSpace, output: str | None, *, within: object, cycle: object, steady: object, offset: object
+) -> tuple[dict[str, Any], list[str]]:
+    """The checked common entries of an output's constant, and the words for them in a text."""
+    machine = machine_of(of)
+    name = machine.outputs[machine.place(output)]
+    times, pauses = _pair(within, "within"), None
+    if not times[0] < times[1]:
+        raise InputError(f"within must be two times, the first before the last, got {shortened(within)}")
+    words = [f"of={text_of(machine, name)}"]
+    if cycle is not None:
+        pauses = _pair(cycle, "cycle")
+        times = 0.0, 2.0 + sum(pauses)
+        words.append(f"cycle=({pauses[0]!r}, {pauses[1]!r})")
+    elif times != (0.0, 1.0):
+        words.append(f"within=({times[0]!r}, {times[1]!r})")
+    # in a text it is a word
+    repeats = {"True": True, "False": False}.get(steady, steady) if isinstance(steady, str) else steady
+    if not isinstance(repeats, bool):
+        raise InputError(f"steady must be True or False, got {shortened(repeats)}")
+    if repeats and (pauses is not None or times != (0.0, 1.0)):
+        raise InputError("steady is of a law that is a whole cycle: leave within, dwell and cycle out")
+    words += ["steady=True"] if repeats else []
+    (added,) = numbers([offset], "offset")
+    words += [f"offset={added!r}"] if added else []
+    common = {"machine": machine, "output": name, "within": times, "cycle": pauses, "steady": repeats, "offset": added}
+    return common, words
+
+
+def _pair(value: object, name: str) -> tuple[float, float]:
+    pair = numbers(value, name) if isinstance(value, list | tuple) else ()
+    if len(pair) != 2:
+        raise InputError(f"{name} must be two times in durations of the rise, got {shortened(value)}")
+    return _time(pair[0], name), _time(pair[1], name)
+
+
+def _time(value: float, name: str) -> float:
+    """A time in durations of the rise."""
+    (time,) = numbers([value], name)
+    if not 0.0 <= time <= _LATEST:
+        raise InputError(f"{name}: times are durations of the rise, from 0 to {_LATEST:g}, got {shortened(value)}")
+    return time
 
 
 MAKERS.setdefault("output_peak", output_peak)

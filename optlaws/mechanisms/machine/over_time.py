@@ -222,14 +222,18 @@ class MachineMotion(ABC):
         impulses = np.array([k for k, _ in jumps]), np.array([np.copysign(np.inf, direct[2] * b) for _, b in jumps])
         return OutputCurve(output, starts, lengths, parts, impulses)
 
-    @property
-    @abstractmethod
+    @kept_property
     def _panels(self) -> list[Panel]:
-        """The states of the machine, panel by panel."""
+        return steady(self.machine.dynamics, self._drives)
 
     @property
     @abstractmethod
-    def _velocity_jumps(self) -> list[tuple[float, float]]:
+    def _drives(self) -> Sequence[DriveStretch]:
+        """The motion of the drive, from rest or repeated."""
+
+    @property
+    @abstractmethod
+    def _velocity_jumps(self) -> Sequence[tuple[float, float]]:
         """The places where the law's velocity jumps inside, so that its acceleration is an impulse there."""
 
 
@@ -276,13 +280,15 @@ class MachineResponse(MachineMotion):
         low, high = self[output].extrema(0, within)
         return high if high.value >= -low.value else Peak(-low.value, low.k)
 
+    @property
+    def _drives(self) -> list[DriveStretch]:
+        pause = [drives.rest(1.0, self.dwell, float(self.law.a(1.0)))] if self.dwell > SHORTEST_STRETCH else []
+        return drives.of_law(self.law) + pause
+
     @kept_property
     def _panels(self) -> list[Panel]:
-        level = np.array([float(self.law.a(0.0))])
-        moved = drives.of_law(self.law)
-        if self.dwell > SHORTEST_STRETCH:
-            moved.append(drives.rest(1.0, self.dwell, float(self.law.a(1.0))))
-        return self.machine.dynamics.moved(moved, self.machine.settled(level))[0]
+        begun = self.machine.settled(np.array([float(self.law.a(0.0))]))
+        return self.machine.dynamics.moved(self._drives, begun)[0]
 
     @property
     def _velocity_jumps(self) -> list[tuple[float, float]]:
@@ -322,9 +328,9 @@ class MachineCycle(RiseReturnCycle, MachineMotion):
         super().__post_init__()
         self._panels  # noqa: B018 - a cycle in resonance is refused at once
 
-    @kept_property
-    def _panels(self) -> list[Panel]:
-        return steady(self.machine.dynamics, self._course(drives.of_law, drives.rest))
+    @property
+    def _drives(self) -> list[DriveStretch]:
+        return self._course(drives.of_law, drives.rest)
 
     @property
     def _velocity_jumps(self) -> list[tuple[float, float]]:
@@ -353,13 +359,13 @@ class RepeatedMotion(MachineMotion):
     drives: tuple[DriveStretch, ...]
     jumps: tuple[tuple[float, float], ...]
 
-    @kept_property
-    def _panels(self) -> list[Panel]:
-        return steady(self.machine.dynamics, self.drives)
+    @property
+    def _drives(self) -> Sequence[DriveStretch]:
+        return self.drives
 
     @property
-    def _velocity_jumps(self) -> list[tuple[float, float]]:
-        return list(self.jumps)
+    def _velocity_jumps(self) -> Sequence[tuple[float, float]]:
+        return self.jumps
 
     def __repr__(self) -> str:
         last = self.drives[-1]

@@ -24,9 +24,9 @@ from optlaws.files.reading import check_names
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw, Peak
 from optlaws.mechanisms.cam_constants import check_order
-from optlaws.mechanisms.machine.modes import mode, participation
-from optlaws.mechanisms.machine.state_space import StateSpace
-from optlaws.mechanisms.machine.texts import check_rest, machine_of, text_of, title_of
+from optlaws.mechanisms.machine.modes import mode as _mode
+from optlaws.mechanisms.machine.modes import participation
+from optlaws.mechanisms.machine.state_space import StateSpace, check_rest, machine_of, text_of, title_of
 from optlaws.mechanisms.measured_spectrum import Spectrum, WeightPart, parts_of, spectrum_of, weight_of
 from optlaws.mechanisms.transforms import (
     Transform,
@@ -440,12 +440,12 @@ class ModeResidual(Residual):
     @kept_property
     def share(self) -> float:
         """The mode's amplitude in the output over the magnitude of the integral of exp(root (1 - k)) b(k)."""
-        return abs(participation(self.machine, mode(self.machine, self.mode), self.output))
+        return abs(participation(self.machine, _mode(self.machine, self.mode), self.output))
 
     @kept_property
     def edges(self) -> tuple[BoxEdge, ...]:
         """The edges of the box; one where it is thin."""
-        vibration = mode(self.machine, self.mode)
+        vibration = _mode(self.machine, self.mode)
         low, high = ((1.0 + sign * self.spread) * vibration.frequency for sign in (-1.0, 1.0))
         least, most = (asin(damping) for damping in self.dampings or (vibration.damping, vibration.damping))
         corners = [(low, least), (high, least), (high, most), (low, most)]
@@ -495,7 +495,9 @@ def mode_residual(
     """
     machine = machine_of(of)
     name = machine.outputs[machine.place(output)]
-    mode_number = _mode_number(machine, mode, name)
+    vibration = _mode(machine, mode)
+    if vibration.frequency > 10.0 * _WIDEST or vibration.damping > _MOST_DAMPING:
+        raise InputError(f"mode {vibration.number} hardly vibrates: use the peak of {name!r} in the dwell instead")
     share = not_negative(spread, "spread")
     pair = damping if isinstance(damping, list | tuple) else (damping, damping)
     dampings = None if damping is None else numbers(pair, "damping")
@@ -506,23 +508,16 @@ def mode_residual(
         )
     if share >= 1.0:
         raise InputError(f"spread is a share of the frequency, below 1, such as 0.1, got {share:g}")
-    words = [f"of={text_of(machine, name)!s}", f"mode={mode_number}"]
+    words = [f"of={text_of(machine, name)!s}", f"mode={vibration.number}"]
     words += [f"spread={share!r}"] if share else []
     words += [f"damping=({dampings[0]!r}, {dampings[1]!r})"] if dampings else []
     text = f"mode_residual({', '.join(words)})"
     pairs = None if dampings is None else (dampings[0], dampings[1])
     constant = ModeResidual(
-        text, nan, convex=True, machine=machine, output=name, mode=mode_number, spread=share, dampings=pairs
+        text, nan, convex=True, machine=machine, output=name, mode=vibration.number, spread=share, dampings=pairs
     )
     constant.share  # noqa: B018 - a defective mode is refused at once
     return constant
-
-
-def _mode_number(machine: StateSpace, number: float, output: str) -> int:
-    vibration = mode(machine, number)
-    if vibration.frequency > _WIDEST * 10.0 or vibration.damping > _MOST_DAMPING:
-        raise InputError(f"mode {vibration.number} hardly vibrates: use the peak of {output!r} in the dwell instead")
-    return vibration.number
 
 
 MAKERS.setdefault("residual", residual_vibration)

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Iterable, Sequence
 from dataclasses import KW_ONLY
 from math import inf, isfinite
-from typing import Any, Self, TypeAlias
+from typing import TYPE_CHECKING, Any, Self, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,11 +15,14 @@ from optlaws.echo import shortened
 from optlaws.entries.declared import Declared, declared, entry
 from optlaws.entries.value_types import Kept, ReadBy, Text, ValueType
 from optlaws.errors import InputError
-from optlaws.files.reading import check_names
+from optlaws.files.reading import check_names, json_text
 from optlaws.kept import kept_property
 from optlaws.mechanisms.machine.dynamics import Dynamics
 from optlaws.motion.quantities import si_number
 from optlaws.numbers import MAGNITUDE_LIMIT, Array, Complex, NumberOrQuantity, positive, real_times
+
+if TYPE_CHECKING:
+    from optlaws.synthesis.spaces.space import LawSpace
 
 _UNSTABLE = 1e-7  # of the fastest root: what its rounding may be
 _SETTLED = 1e-9  # of a load: what a static state may miss it by
@@ -240,3 +244,42 @@ def _names(names: tuple[Any, ...], count: int) -> tuple[str, ...]:
     if len(names) != count or len(set(names)) != count:
         raise InputError(f"outputs must be {count} different names, one for each row of C, got {shortened(names)}")
     return names
+
+
+def text_of(machine: StateSpace, output: str) -> str:
+    """A machine with a selected output, as quoted JSON.
+
+    >>> print(text_of(StateSpace([[-2.0]], [[2.0]], [[1.0]], outputs=["speed"]), "speed"))
+    '{"A":[[-2.0]],"B":[[2.0]],"C":[[1.0]],"D":[[0.0]],"inputs":"a","outputs":["speed"]}'
+    """
+    place = machine.place(output)
+    plain = machine.to_dict() | {"outputs": [output]}
+    plain |= {name: [plain[name][place]] for name in "CD"}
+    return f"'{json.dumps(plain, separators=(',', ':'), ensure_ascii=False)}'"
+
+
+def title_of(machine: StateSpace, what: str, output: str, *words: str) -> str:
+    """The title of a constant of a machine in messages."""
+    count = len(machine.A)
+    states = "1 state" if count == 1 else f"{count} states"
+    return ", ".join([f"{what} {output!r} of a machine of {states}", *words])
+
+
+def machine_of(given: Any) -> StateSpace:
+    """The machine that is given, or that a text describes."""
+    if isinstance(given, StateSpace):
+        return given
+    if not isinstance(given, str):
+        raise InputError(f"of must be a machine, or one as JSON text, got {shortened(given)}")
+    try:
+        data = json_text(given, "of, a machine,")
+    except InputError as error:
+        raise InputError(f"of must be a machine as JSON text, {{...}}: {error}") from None
+    return StateSpace.from_dict(data)
+
+
+def check_rest(name: str, space: LawSpace) -> None:
+    """Refuse laws that do not begin and end at rest."""
+    if space.start_velocity != 0.0 or space.velocity_change != 0.0 or space.boundary.order < 2:
+        short = name.partition("(")[0]
+        raise InputError(f"{short} of a machine needs laws from rest to rest, of order 2 at least")
