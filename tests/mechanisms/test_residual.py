@@ -20,10 +20,12 @@ from optlaws import (
     at_most,
     catalogue,
     polydyne,
+    residual_phasor,
     residual_vibration,
     savin,
     synthesize,
 )
+from optlaws.verification import verify
 from tests.mechanisms.cam_programs import integrated, least_acceleration, residuals
 from tests.sampling import examples
 
@@ -51,6 +53,27 @@ def test_the_greatest_residual_of_any_interval(low: float, length: float, dampin
     grid = residuals(law.b, np.linspace(low, low + length, 1001), damping)
     assert grid.max() <= vibration * (1 + 1e-9) + 1e-12
     assert grid.max() >= vibration * (1 - 1e-2 - length * 1e-3)
+
+
+@given(st.floats(2.0, 60.0), st.floats(0.0, 40.0), st.floats(0.0, 0.9))
+@examples(25)
+def test_the_residual_displacement_is_that_of_responses(low: float, length: float, damping: float) -> None:
+    law = savin("III", 7.2)
+    peak = residual_vibration(frequency=(low, low + length), damping=damping, of="displacement").peak(law)
+    assert low <= peak.k <= low + length
+    displacement = Follower(peak.k, damping).response(law).residual_displacement
+    assert peak.value == pytest.approx(displacement, rel=1e-9, abs=1e-12)
+    nu = np.linspace(low, low + length, 301)
+    assert np.abs(residual_phasor(law, nu, damping)).max() <= peak.value * (1 + 1e-9) + 1e-12
+
+
+def test_a_law_of_little_residual_displacement_is_proven() -> None:
+    sway = residual_vibration(frequency=(6, 7), of="displacement")
+    solution = synthesize(Problem(order=3, basis=Chebyshev(11), bounds={sway: at_most(0.002)}))
+    assert solution.status.value == "optimal"
+    assert verify(solution.to_dict()).proven
+    assert sway.value(solution.law) == pytest.approx(0.002, rel=1e-7)
+    assert residual_vibration(frequency=6.0).value(solution.law) <= 0.002 * 36 * (1 + 1e-9)
 
 
 @pytest.mark.parametrize("dampings", [(0.0, 0.0), (0.05, 0.05), (0.05, 0.0), (0.02, 0.08)])

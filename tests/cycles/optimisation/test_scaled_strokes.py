@@ -105,6 +105,7 @@ def test_every_limit_of_a_move_is_tried() -> None:
         "torque",
         "rms torque",
         "residual acceleration",
+        "residual displacement",
     }
 
 

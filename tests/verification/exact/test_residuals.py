@@ -35,12 +35,17 @@ def velocity(k: mpmath.mpf) -> mpmath.mpf:
     return 140 * k**3 * (1 - k) ** 3
 
 
-def amplitude(frequency: float, damping: float, design: float | None = None, design_damping: float = 0.0) -> mpmath.mpf:
+def amplitude(
+    frequency: float, damping: float, design: float | None = None, design_damping: float = 0.0, of: str = "acceleration"
+) -> mpmath.mpf:
     """Of 35 k^4 - 84 k^5 + 70 k^6 - 20 k^7, by Duhamel's integral."""
     n, ratio = mpmath.mpf(damping) * frequency, mpmath.mpf(damping)
     w = mpmath.mpc(-n, frequency * mpmath.sqrt(1 - ratio**2))
     size = (
-        frequency**2 * abs(w) / w.imag * abs(mpmath.quad(lambda k: mpmath.exp(w * (1 - k)) * velocity(k), [0, 0.5, 1]))
+        frequency ** (2 if of == "acceleration" else 0)
+        * abs(w)
+        / w.imag
+        * abs(mpmath.quad(lambda k: mpmath.exp(w * (1 - k)) * velocity(k), [0, 0.5, 1]))
     )
     if design is None:
         return size
@@ -53,6 +58,7 @@ def amplitude(frequency: float, damping: float, design: float | None = None, des
     [
         {"frequency": 18.0, "damping": 0.0},
         {"frequency": 7.5, "damping": 0.25},
+        {"frequency": 7.5, "damping": 0.25, "of": "displacement"},
         {"frequency": 12.0, "damping": 0.0625, "design": 10.0, "design_damping": 0.125},
     ],
 )
