@@ -81,7 +81,6 @@ nitpick_ignore = [
     ("py:class", "optlaws.cams.followers.follower.Place"),
     ("py:class", "optlaws.mechanisms.measured_spectrum.WeightPart"),
     ("py:class", "optlaws.mechanisms.drives.effort.PieceEffort"),
-    ("py:class", "optlaws.synthesis.least_time.follower_residual.LawSize"),
     ("py:class", "optlaws.synthesis.least_time.timed_move.Timed"),
     ("py:class", "optlaws.synthesis.least_time.timed_move.TimedMove"),
     ("py:class", "optlaws.motion.quantity_kinds.Kind"),

@@ -16,6 +16,7 @@ from optlaws import (
     InfeasibleProblem,
     InputError,
     Move,
+    Plan,
     Problem,
     Return,
     Rise,
@@ -168,7 +169,7 @@ BRAKED = [ConstantVelocity("0.4 m/s", "0.1 s"), Move("20 mm", "0.2 s"), Dwell("0
 GOING_BACK = "formula: k^3*(10 - 15*k + 6*k^2) - 1.6*(k*(1 - k))^2*(1 - 2*k)"
 
 
-def backwards(limited: Cycle, i: int, stop: float | None = None) -> float:
+def backwards(limited: Cycle | Plan, i: int, stop: float | None = None) -> float:
     """The greatest velocity against the way of a piece."""
     piece = limited.pieces[i]
     (low, _), (high, _) = piece.extremes(1, piece.start, stop or piece.stop)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
-from optlaws import Advice, Cycle, advise
+from optlaws import Advice, Cycle, Plan, advise
 from tests.explorer.talk import OPTIMAL, Server, written
 from tests.explorer.test_page import go, settle
 from tests.internals.explorer import CycleRequest, cycle_view, example, machine_view, start
@@ -29,7 +29,7 @@ def advised(study: dict[str, Any], **entries: Any) -> Advice:
     return advise(known(study), points=0, **entries)
 
 
-def changed(study: dict[str, Any], take: dict[str, Any]) -> Cycle:
+def changed(study: dict[str, Any], take: dict[str, Any]) -> Plan:
     """The cycle with a law that the page takes."""
     axis = study["axis"][0]
     pairs = zip(axis["segment"], take["laws"], strict=True)
@@ -79,7 +79,7 @@ def test_a_machine_is_advised_by_its_torque(served: Server) -> None:
 @pytest.mark.long
 def test_starts_of_a_flat_optimum_agree_as_soon_as_they_are_known_to() -> None:
     cycle = cycle_view.cycle(CycleRequest(study=machine_view.example(), axis=1))
-    for solution in advise(cycle, points=0)["least torque"].solutions:
+    for solution in advise(cycle.specification, points=0)["least torque"].solutions:
         least, *others = solution.starts
         assert len(others) == 1
         assert others[0] <= least * (1.0 + 1e-3)
