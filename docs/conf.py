@@ -80,6 +80,7 @@ nitpick_ignore = [
     ("py:class", "optlaws.cams.followers.rollers.RollerContact"),
     ("py:class", "optlaws.cams.followers.follower.Place"),
     ("py:class", "optlaws.mechanisms.measured_spectrum.WeightPart"),
+    ("py:class", "optlaws.mechanisms.machine.residual.BoxEdge"),
     ("py:class", "optlaws.mechanisms.drives.effort.PieceEffort"),
     ("py:class", "optlaws.synthesis.least_time.timed_move.Timed"),
     ("py:class", "optlaws.synthesis.least_time.timed_move.TimedMove"),
