@@ -15,8 +15,7 @@ from optlaws.cams.curves.motion_by_angle import CamMotion
 from optlaws.cams.disc import DiscCam
 from optlaws.cams.followers.contact import Friction, Transmission
 from optlaws.cycles.cycle import Cycle, Plan
-from optlaws.cycles.specification.drive import read_linear_drive
-from optlaws.cycles.specification.process import FORCES, ProcessEntries
+from optlaws.cycles.specification.drive import FORCES, ProcessEntries, read_linear_drive
 from optlaws.entries.declared import Declared, ValueOf, declared, documented_by, entry
 from optlaws.entries.value_types import Measured, Number, ReadBy, Together
 from optlaws.errors import InputError

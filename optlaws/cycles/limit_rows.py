@@ -6,7 +6,6 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from math import inf, isfinite
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
-from optlaws.cycles.optimisation.drive_formulas import along
 from optlaws.cycles.optimisation.motion_limits import (
     FORCE_UNITS,
     FORCES,
@@ -17,7 +16,8 @@ from optlaws.cycles.optimisation.motion_limits import (
     name_of,
     read_limits,
 )
-from optlaws.cycles.optimisation.motor_limits import MOTOR
+from optlaws.cycles.optimisation.objectives import MOTOR
+from optlaws.cycles.optimisation.span_values import along
 from optlaws.cycles.placed import SegmentPeaks, segments_in_place
 from optlaws.cycles.specification.programme import TimedSegment, is_optimal
 from optlaws.cycles.specification.segments import Dwell, Move

@@ -9,15 +9,14 @@ from typing import TYPE_CHECKING, Any, Self
 from optlaws.cycles.optimisation.durations import durations
 from optlaws.cycles.optimisation.joint_limits import check_limits_at_joints
 from optlaws.cycles.optimisation.motion_limits import both_sides, read_limits, tightest
-from optlaws.cycles.optimisation.motor_limits import motor_limits
 from optlaws.cycles.optimisation.objectives import (
     OBJECTIVES,
     CycleObjective,
     check_objective,
     limits_of_stretch,
+    motor_limits,
     read_load_limits,
 )
-from optlaws.cycles.specification.frozen import FrozenTable, frozen, thawed
 from optlaws.cycles.specification.joints import Layout, State, layout
 from optlaws.cycles.specification.limit_entries import LIMITS_OF_CYCLE
 from optlaws.cycles.specification.load import ElasticLoad, Load, is_process, read_load
@@ -25,6 +24,7 @@ from optlaws.cycles.specification.programme import Programme, is_optimal, period
 from optlaws.cycles.specification.segments import SEGMENTS, CycleSegment, Dwell
 from optlaws.echo import shortened
 from optlaws.entries.declared import Declared, ValueOf, declared, entries_of, entry
+from optlaws.entries.frozen import FrozenTable, frozen, thawed
 from optlaws.entries.value_types import Measured, ReadBy, Text, Whole
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
@@ -221,8 +221,7 @@ class Specification(Declared, title="a stored cycle"):
             if is_process(self.load):
                 raise InputError("load: a process force is of a drive: give one, such as drive={'mass': '2 kg'}")
             return None
-        from optlaws.cycles.specification.drive import read_drive
-        from optlaws.cycles.specification.process import read_process
+        from optlaws.cycles.specification.drive import read_drive, read_process
 
         drive = read_drive(self.drive, self.axis)
         if not is_process(self.load):

@@ -38,7 +38,7 @@ from optlaws.cams.springs_and_flywheels import (
 )
 from optlaws.cycles.cycle import Cycle
 from optlaws.cycles.report import objective_unit
-from optlaws.cycles.specification.process import ProcessEntries
+from optlaws.cycles.specification.drive import ProcessEntries
 from optlaws.entries.declared import ValueOf, declared, entries_of, entry, same
 from optlaws.entries.value_types import Choice, Listed, Measured, Number, Switch, Whole
 from optlaws.errors import InfeasibleProblem, InputError, located

@@ -11,12 +11,12 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 from optlaws.cams import at_shaft  # noqa: F401 - by which the kind "cam" is known
 from optlaws.cycles.axes.interlock import INTERLOCKS, Interlock
 from optlaws.cycles.cycle import Cycle
-from optlaws.cycles.specification.frozen import frozen, thawed
 from optlaws.cycles.specification.load import ElasticFollower
 from optlaws.cycles.specification.programme import period_of
 from optlaws.cycles.specification.segments import CycleSegment, Transition
 from optlaws.echo import shortened
 from optlaws.entries.declared import Declared, ValueOf, declared, entries_of, entry, same
+from optlaws.entries.frozen import frozen, thawed
 from optlaws.entries.value_types import Choice, Either, Listed, Number, ReadBy, Switch, Text, Whole
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure, located
 from optlaws.exports.format import Request

@@ -10,7 +10,7 @@ from optlaws.cycles.old_tables.stretches import law_of_move, nothing_to_better
 from optlaws.cycles.optimisation.objectives import OBJECTIVES
 from optlaws.cycles.optimisation.search_spaces import halved
 from optlaws.cycles.optimisation.shared_limits import _SharedLimit as SharedLimit
-from optlaws.cycles.optimisation.sums import size_of
+from optlaws.cycles.optimisation.span_values import size_of
 from optlaws.cycles.report import CycleReport
 from optlaws.cycles.specification.drive import read_drive
 from optlaws.cycles.specification.limit_entries import LIMITS_OF_CYCLE, LIMITS_OF_MOVE

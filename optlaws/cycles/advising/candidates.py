@@ -11,8 +11,7 @@ from typing import Any, Literal, NamedTuple
 from optlaws.cycles.cycle import Cycle, Plan
 from optlaws.cycles.limit_rows import limits_taken
 from optlaws.cycles.optimisation.motion_limits import DECELERATION, FORCES, LIMITS, LimitTaken, Side, amount
-from optlaws.cycles.optimisation.motor_limits import MOTOR
-from optlaws.cycles.optimisation.objectives import OBJECTIVES, kind_of
+from optlaws.cycles.optimisation.objectives import MOTOR, OBJECTIVES, kind_of
 from optlaws.cycles.report import objective_unit
 from optlaws.cycles.specification.load import LOAD, is_process
 from optlaws.cycles.specification.programme import AXES, is_optimal

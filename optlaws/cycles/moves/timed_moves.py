@@ -17,7 +17,7 @@ from optlaws.cycles.optimisation.motion_limits import (
     sides,
     tightest,
 )
-from optlaws.cycles.optimisation.motor_limits import curve_lines
+from optlaws.cycles.optimisation.objectives import curve_lines
 from optlaws.cycles.specification.limit_entries import LIMITS_OF_MOVE
 from optlaws.cycles.specification.programme import AXES as SI
 from optlaws.echo import shortened

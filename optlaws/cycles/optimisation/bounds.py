@@ -14,9 +14,17 @@ from functools import reduce
 from math import hypot, inf, sqrt
 from typing import TYPE_CHECKING, Any
 
-from optlaws.cycles.optimisation.drive_formulas import Driven, driven_mean, driven_peak, known_drive, may_turn
 from optlaws.cycles.optimisation.objectives import SUMS, CycleObjective, kind_of, limits_of_stretch
-from optlaws.cycles.optimisation.sums import size_of, span_sum, total
+from optlaws.cycles.optimisation.span_values import (
+    Driven,
+    driven_mean,
+    driven_peak,
+    known_drive,
+    may_turn,
+    size_of,
+    span_sum,
+    total,
+)
 from optlaws.cycles.specification.joints import LawSpan, Layout
 from optlaws.errors import InfeasibleProblem, SolverFailure
 from optlaws.motion.piece import Piece, factor

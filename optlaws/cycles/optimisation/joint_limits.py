@@ -8,11 +8,10 @@ from itertools import accumulate
 from math import copysign
 from operator import itemgetter
 
-from optlaws.cycles.optimisation.drive_formulas import may_turn
 from optlaws.cycles.optimisation.motion_limits import DECELERATION, SPEEDING_UP, Side, in_units, tightest
 from optlaws.cycles.optimisation.objectives import CycleObjective, kind_of, limits_of_stretch
 from optlaws.cycles.optimisation.optimal import solve
-from optlaws.cycles.optimisation.sums import size_of
+from optlaws.cycles.optimisation.span_values import may_turn, size_of
 from optlaws.cycles.specification.joints import LawSpan, Layout, State
 from optlaws.cycles.specification.programme import TimedSegment, is_optimal
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure

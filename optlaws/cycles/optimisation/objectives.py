@@ -1,21 +1,25 @@
-"""The objective of a cycle with the limits of the whole and of its segments, and the degree of its laws."""
+"""The objective of a cycle, the limits of the whole, of its segments and of its motor, and the degree of its laws."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from math import inf, isfinite
 from typing import TYPE_CHECKING, Any
 
-from optlaws.cycles.optimisation.motion_limits import Sides, limits_of_segment
+from optlaws.cycles.optimisation.motion_limits import Limits, Sides, limits_of_segment
 from optlaws.cycles.specification.load import Load, load_output
-from optlaws.cycles.specification.programme import TimedSegment
+from optlaws.cycles.specification.programme import Programme, TimedSegment
 from optlaws.errors import InputError
 from optlaws.motion.quantity_kinds import Kind
 from optlaws.suggest import unknown_key
+from optlaws.tolerances import AGREEMENT
 
 if TYPE_CHECKING:
     from optlaws.mechanisms.drives.drive_train import Drive
+    from optlaws.mechanisms.drives.motor import Motor
 
+MOTOR = "motor"
 #: what is summed over the motions of a cycle as it is
 SUMS = (Kind.ENERGY, Kind.HEAT)
 #: what may be least over a cycle, and whether it is its root mean square
@@ -101,3 +105,54 @@ def read_load_limits(entries: Mapping[str, Any], load: Load | None) -> dict[tupl
 def limits_of_stretch(stretch: TimedSegment, objective: CycleObjective, axis: str) -> Sides:
     """Limits of a segment: the segment's own limits and the cycle's limits, whichever are lower."""
     return limits_of_segment(stretch, objective.limits, axis)
+
+
+def motor_limits(entries: Mapping[str, Any], drive: Drive | None, programme: Programme) -> Limits:
+    """The limits of the motor, if the cycle is required to keep them.
+
+    The continuous torque is that at the mean speed, which no law that never turns back changes.
+
+    Raises
+    ------
+    InputError
+        If there is no motor, or its curve of torque over speed is not concave.
+    """
+    if not entries.get(MOTOR):
+        return {}
+    if drive is None or not drive.has_motor:
+        raise InputError("limits, motor: there is no motor: give one, as drive=Drive(mechanism, Motor(...), ratio=20)")
+    motor, ratio = drive.motor, drive.ratio
+    way = sum(abs(stretch.displacement) for stretch in programme.stretches)
+    known = {
+        Kind.FORCE: motor.peak_torque,
+        Kind.VELOCITY: motor.greatest_speed / ratio,
+        Kind.CURVE: 1.0 if curve_lines(motor) else inf,
+        Kind.RMS_FORCE: float(motor.continuous_at(ratio * way / programme.period)),
+    }
+    return {kind: (-most, most) for kind, most in known.items() if isfinite(most)}
+
+
+def check_rating(entries: Mapping[str, Any], drive: Drive | None) -> None:
+    """Refuse a continuous torque over the speed where the time, and with it the mean speed, is looked for."""
+    if entries.get(MOTOR) is True and drive is not None and drive.motor.continuous:
+        raise InputError(
+            "limits, motor: its continuous torque follows the speed, which is unknown: give a rated torque in place of "
+            'that curve, or limits={"rms torque": "2 N m"} beside a motor without it'
+        )
+
+
+def curve_lines(motor: Motor) -> list[tuple[float, float]]:
+    """The lines below which the curve of peak torque is: the torque at rest, and its slope over the speed."""
+    lines = motor.curve_lines
+    reached = AGREEMENT * max((torque for _, torque in motor.curve), default=0.0)
+    if any(torque < min(rest - fall * speed for rest, fall in lines) - reached for speed, torque in motor.curve):
+        raise InputError(
+            "limits, motor: its curve of torque over speed bends upwards, and what is below it is not convex: give a "
+            "curve below it that does not, or limits of torque and velocity"
+        )
+    return [(rest, 0.0 - fall) for rest, fall in lines]
+
+
+def torque_at_rest(drive: Drive) -> float:
+    """The torque that the curve of a drive's motor allows at rest; infinite without a curve."""
+    return min((torque for torque, _ in curve_lines(drive.motor)), default=inf)

@@ -13,9 +13,7 @@ from math import inf, sqrt
 from operator import itemgetter
 from typing import Any
 
-from optlaws.cycles.optimisation.drive_formulas import Driven, driven_formula, driven_mean, driven_peak, may_turn
 from optlaws.cycles.optimisation.motion_limits import Side, Sides, along_motion, greatest, in_units
-from optlaws.cycles.optimisation.motor_limits import driven_curve
 from optlaws.cycles.optimisation.objectives import SUMS, CycleObjective, kind_of, limits_of_stretch
 from optlaws.cycles.optimisation.search_spaces import (
     halved,
@@ -26,7 +24,15 @@ from optlaws.cycles.optimisation.search_spaces import (
     search_space,
     splines_of_least_rms,
 )
-from optlaws.cycles.optimisation.sums import span_sum
+from optlaws.cycles.optimisation.span_values import (
+    Driven,
+    driven_curve,
+    driven_formula,
+    driven_mean,
+    driven_peak,
+    may_turn,
+    span_sum,
+)
 from optlaws.cycles.specification.joints import LawSpan, State
 from optlaws.cycles.specification.load import load_output
 from optlaws.cycles.specification.programme import is_optimal

@@ -26,7 +26,7 @@ from optlaws.cycles.optimisation.optimal import (
     with_least_limit,
     with_share,
 )
-from optlaws.cycles.optimisation.sums import SpanSum, size_of, span_sum, total
+from optlaws.cycles.optimisation.span_values import SpanSum, size_of, span_sum, total
 from optlaws.cycles.specification.joints import LawSpan, Layout
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.kept import kept_property

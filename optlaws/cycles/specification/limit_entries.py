@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from optlaws.cycles.specification.frozen import FrozenTable
 from optlaws.entries.declared import TableOf, entry
+from optlaws.entries.frozen import FrozenTable
 from optlaws.entries.value_types import Either, Listed, Measured, ReadBy, Switch, is_list
 from optlaws.motion.quantities import written
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from optlaws.cycles.specification.frozen import FrozenTable
 from optlaws.cycles.specification.limit_entries import LIMITS_OF_SEGMENT
 from optlaws.echo import shortened
 from optlaws.entries.declared import Declared, Kinded, ValueOf, declared, entry
+from optlaws.entries.frozen import FrozenTable
 from optlaws.entries.value_types import Either, Listed, Measured, ReadBy, Text, Together, Whole, is_list
 from optlaws.errors import InputError
 from optlaws.laws import MotionLaw
