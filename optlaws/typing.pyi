@@ -23,7 +23,7 @@ from .cycles.axes.enclosed import Way as Way
 from .cycles.axes.interlock import Interlock as Interlock, LeastClearance as LeastClearance
 from .cycles.axes.machine_axes import AxesPicture as AxesPicture, Overlap as Overlap
 from .cycles.cycle import PlotOver as PlotOver
-from .cycles.optimisation.motion_limits import LimitTaken as LimitTaken
+from .cycles.specification.limits import LimitTaken as LimitTaken
 from .cycles.moves.time_front import TimePoint as TimePoint
 from .cycles.transitions import TransitionKind as TransitionKind
 from .cycles.old_tables.stretches import MoveGain as MoveGain, Stretch as Stretch

@@ -11,9 +11,9 @@ from optlaws.cycles.exportable import Exportable
 from optlaws.cycles.greatest_speed.fastest_search import FastestSearch
 from optlaws.cycles.greatest_speed.timed_spans import TimedSpan
 from optlaws.cycles.moves.fastest_move import limit_row
-from optlaws.cycles.optimisation.motion_limits import FORCE_UNITS, amount, word_of
 from optlaws.cycles.optimisation.objectives import check_rating
 from optlaws.cycles.placed import retimed_segments, segments_in_place
+from optlaws.cycles.specification.limits import FORCE_UNITS, amount, word_of
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.motion.motion import Motion

@@ -6,19 +6,18 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from math import inf, isfinite
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
-from optlaws.cycles.optimisation.motion_limits import (
+from optlaws.cycles.optimisation.objectives import MOTOR
+from optlaws.cycles.optimisation.span_values import along
+from optlaws.cycles.placed import SegmentPeaks, segments_in_place
+from optlaws.cycles.specification.limits import (
     FORCE_UNITS,
     FORCES,
     LimitTaken,
     Side,
     amount,
-    limits_of_segment,
     name_of,
     read_limits,
 )
-from optlaws.cycles.optimisation.objectives import MOTOR
-from optlaws.cycles.optimisation.span_values import along
-from optlaws.cycles.placed import SegmentPeaks, segments_in_place
 from optlaws.cycles.specification.programme import TimedSegment, is_optimal
 from optlaws.cycles.specification.segments import Dwell, Move
 from optlaws.errors import InfeasibleProblem
@@ -163,7 +162,7 @@ def _of_segments(
     """The use of limits by segments, whose own are those of `limited`; rests take of those of a drive alone."""
     axis, pieces = cycle.axis, [each.piece for each in placed]
     for each in placed:
-        limits = limits_of_segment(limited[each.stretch.number - 1], of_cycle, axis)
+        limits = limited[each.stretch.number - 1].sides(of_cycle)
         for key, limit in limits.items():
             if keys(key) and (key.kind.is_driven or not isinstance(each.stretch.given, Dwell)):
                 if key.kind.is_driven:

@@ -11,9 +11,9 @@ import numpy as np
 
 from optlaws.cycles.cycle import Answers
 from optlaws.cycles.limit_rows import limit_rows
-from optlaws.cycles.optimisation.motion_limits import FORCE_UNITS, FORCES, LimitTaken
 from optlaws.cycles.optimisation.objectives import SUMS, kind_of
 from optlaws.cycles.placed import Place
+from optlaws.cycles.specification.limits import FORCE_UNITS, FORCES, LimitTaken
 from optlaws.cycles.specification.load import LOAD, is_process, read_load
 from optlaws.errors import InfeasibleProblem, OptlawsError, SolverFailure
 from optlaws.kept import kept_property

@@ -8,17 +8,15 @@ from typing import TYPE_CHECKING, Any, Self
 
 from optlaws.cycles.optimisation.durations import durations
 from optlaws.cycles.optimisation.joint_limits import check_limits_at_joints
-from optlaws.cycles.optimisation.motion_limits import both_sides, read_limits, tightest
 from optlaws.cycles.optimisation.objectives import (
     OBJECTIVES,
     CycleObjective,
     check_objective,
-    limits_of_stretch,
     motor_limits,
     read_load_limits,
 )
 from optlaws.cycles.specification.joints import Layout, State, layout
-from optlaws.cycles.specification.limit_entries import LIMITS_OF_CYCLE
+from optlaws.cycles.specification.limits import LIMITS_OF_CYCLE, both_sides, read_limits, tightest
 from optlaws.cycles.specification.load import ElasticLoad, Load, is_process, read_load
 from optlaws.cycles.specification.programme import Programme, is_optimal, period_of, programme
 from optlaws.cycles.specification.segments import SEGMENTS, CycleSegment, Dwell
@@ -245,7 +243,7 @@ class Specification(Declared, title="a stored cycle"):
         >>> Cycle([rise, Return()], speed="100 rpm", limits={"velocity": "1 m/s"}).limits_of_segments
         ({1: (-1.0, 1.0), 2: (-9.0, 12.0)}, {1: (-1.0, 1.0)})
         """
-        limits = (limits_of_stretch(stretch, self.in_si, self.axis) for stretch in self.programme.stretches)
+        limits = (stretch.sides(self.in_si.limits) for stretch in self.programme.stretches)
         return tuple(
             {} if isinstance(stretch.given, Dwell) else {kind.value: ends for kind, ends in both_sides(limited).items()}
             for limited, stretch in zip(limits, self.programme.stretches, strict=True)
@@ -276,9 +274,7 @@ class Specification(Declared, title="a stored cycle"):
             return None
         greatest = 0.0
         for span in self.layout.spans:
-            bounded = any(
-                side.kind.order >= _JERK for side in limits_of_stretch(span.stretches[0], self.in_si, self.axis)
-            )
+            bounded = any(side.kind.order >= _JERK for side in span.stretches[0].sides(self.in_si.limits))
             if bounded or span.via or len(span.stretches) > 1 or (span.first, span.last) != (_REST, _REST):
                 return None
             jerk = catalogue["modified sine"].law.constants.J.value * abs(span.displacement) / span.duration**_JERK

@@ -12,10 +12,10 @@ import numpy as np
 
 from optlaws.cycles.exportable import Exportable
 from optlaws.cycles.moves.fastest_move import AXES, FastestMove, limit_row
-from optlaws.cycles.optimisation.motion_limits import Side, along_motion, greatest, of_segments
-from optlaws.cycles.optimisation.objectives import CycleObjective, kind_of, limits_of_stretch
+from optlaws.cycles.optimisation.objectives import CycleObjective, kind_of
 from optlaws.cycles.optimisation.optimal import scale, solved, span_problem
 from optlaws.cycles.specification.joints import LawSpan, State
+from optlaws.cycles.specification.limits import Side, along_motion, greatest, of_segments
 from optlaws.cycles.specification.programme import Programme, TimedSegment, time_of
 from optlaws.cycles.specification.segments import Move, Transition
 from optlaws.echo import shortened
@@ -318,7 +318,7 @@ def transition_cam(
             f"the place of rest is that of the cycle at {shown}: its least time is not sought; "
             "give `over`, or another place"
         )
-    limits = limits_of_stretch(stretch(period, period), of_motion, axis)
+    limits = stretch(period, period).sides(of_motion.limits)
     sign = 1.0 if moved > 0.0 else -1.0
     problem = Problem(
         order=of_motion.order,

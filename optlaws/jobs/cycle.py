@@ -9,8 +9,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 from optlaws.cycles.cycle import Cycle
-from optlaws.cycles.optimisation.motion_limits import FORCE_UNITS, FORCES
 from optlaws.cycles.report import CycleReport, motion_table, objective_unit
+from optlaws.cycles.specification.limits import FORCE_UNITS, FORCES
 from optlaws.errors import InfeasibleProblem, InputError, located
 from optlaws.exports.format import FORMATS, format_of
 from optlaws.exports.text import variable_names

@@ -11,7 +11,7 @@ from typing import Any
 from optlaws.cycles.moves.fastest_move import AXES, FastestMove
 from optlaws.cycles.moves.time_front import FrontOverTime, TimeFront, time_front
 from optlaws.cycles.moves.timed_moves import VibratingFollower, fastest, fastest_moves
-from optlaws.cycles.specification.limit_entries import LIMITS_OF_MOVE
+from optlaws.cycles.specification.limits import LIMITS_OF_MOVE
 from optlaws.cycles.specification.segments import Move
 from optlaws.entries.declared import Declared, ValueOf, declared, entry, same
 from optlaws.entries.frozen import FrozenTable

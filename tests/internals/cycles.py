@@ -13,7 +13,7 @@ from optlaws.cycles.optimisation.shared_limits import _SharedLimit as SharedLimi
 from optlaws.cycles.optimisation.span_values import size_of
 from optlaws.cycles.report import CycleReport
 from optlaws.cycles.specification.drive import read_drive
-from optlaws.cycles.specification.limit_entries import LIMITS_OF_CYCLE, LIMITS_OF_MOVE
+from optlaws.cycles.specification.limits import LIMITS_OF_CYCLE, LIMITS_OF_MOVE
 from optlaws.cycles.specification.load import ElasticFollower
 from optlaws.files import reading
 from optlaws.laws.catalogue.reading import LARGEST_TABLE

@@ -13,7 +13,8 @@ from optlaws.cycles.advising.candidates import AdvisedLaw, Candidates, LawMeasur
 from optlaws.cycles.advising.recommendation import Recommendation, recommended
 from optlaws.cycles.cycle import Cycle
 from optlaws.cycles.moves.timed_moves import read_follower
-from optlaws.cycles.specification.programme import AXES, axis_of
+from optlaws.cycles.specification.limits import AXES
+from optlaws.cycles.specification.programme import axis_of
 from optlaws.cycles.specification.segments import Move, Return
 from optlaws.echo import shortened
 from optlaws.errors import InfeasibleProblem, InputError, OptlawsError, located

@@ -10,11 +10,11 @@ from typing import Any, Literal, NamedTuple
 
 from optlaws.cycles.cycle import Cycle, Plan
 from optlaws.cycles.limit_rows import limits_taken
-from optlaws.cycles.optimisation.motion_limits import DECELERATION, FORCES, LIMITS, LimitTaken, Side, amount
 from optlaws.cycles.optimisation.objectives import MOTOR, OBJECTIVES, kind_of
 from optlaws.cycles.report import objective_unit
+from optlaws.cycles.specification.limits import AXES, DECELERATION, FORCES, LIMITS, LimitTaken, Side, amount
 from optlaws.cycles.specification.load import LOAD, is_process
-from optlaws.cycles.specification.programme import AXES, is_optimal
+from optlaws.cycles.specification.programme import is_optimal
 from optlaws.cycles.specification.segments import OPTIMAL, CycleSegment, Free, Move
 from optlaws.errors import InputError, OptlawsError
 from optlaws.kept import kept_property

@@ -13,7 +13,8 @@ import numpy as np
 
 from optlaws.cycles.axes.enclosed import EnclosedAxis, FormulaBound, SimplePolygon, TableBound, Way, least
 from optlaws.cycles.cycle import Cycle
-from optlaws.cycles.specification.programme import AXES, time_of
+from optlaws.cycles.specification.limits import AXES
+from optlaws.cycles.specification.programme import time_of
 from optlaws.cycles.specification.segments import Dwell, Move
 from optlaws.echo import shortened
 from optlaws.entries.declared import Kinded, ValueOf, declared, entry

@@ -15,18 +15,17 @@ from math import isfinite
 from optlaws.cycles.greatest_speed.force_rating import ForceRating
 from optlaws.cycles.greatest_speed.periods import DurationRange, duration_ranges, durations_at, least_period
 from optlaws.cycles.greatest_speed.timed_spans import TimedSpan, least_scale, limits_of_span, slower
-from optlaws.cycles.optimisation.motion_limits import (
-    FORCES,
-    Sides,
-    in_units,
-    limits_of_segment,
-    raised,
-    word_of,
-)
 from optlaws.cycles.optimisation.objectives import CycleObjective
 from optlaws.cycles.optimisation.optimal import forward_windows, scale, solve, span_problem
 from optlaws.cycles.optimisation.search_spaces import joint_windows
 from optlaws.cycles.specification.joints import LawSpan, Layout, State, layout
+from optlaws.cycles.specification.limits import (
+    FORCES,
+    Sides,
+    in_units,
+    raised,
+    word_of,
+)
 from optlaws.cycles.specification.programme import Programme, TimedSegment
 from optlaws.cycles.specification.segments import Dwell
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
@@ -285,7 +284,7 @@ class FastestSearch:
     def _check_way(self, stretch: TimedSegment, piece: Piece) -> None:
         """Refuse a given law that goes back where its velocity must not."""
         (low, _), (high, _) = piece.extremes(1, piece.start, piece.stop)
-        for key in limits_of_segment(stretch, self.objective.limits, self.programme.axis):
+        for key in stretch.sides(self.objective.limits):
             back = high if key.sign > 0.0 else -low
             if key.kind is Kind.VELOCITY_ALONG and back > AGREEMENT * max(high, -low):
                 raise InfeasibleProblem(
@@ -296,7 +295,7 @@ class FastestSearch:
     def _limits(self, span: LawSpan, stroke: float) -> tuple[SpanLimit, ...]:
         axis, limits = self.programme.axis, list[Sides]()
         for stretch in span.stretches:
-            given = limits_of_segment(stretch, self.objective.limits, axis)
+            given = stretch.sides(self.objective.limits)
             limits.append({key: most * self.more.get(word_of(key, axis), 1.0) for key, most in given.items()})
         return tuple(limits_of_span(span, limits, self.objective, stroke, axis))
 
@@ -306,7 +305,7 @@ class FastestSearch:
         several = span.turns or len(span.stretches) > 1 or span.via
         windows = tuple(joint_windows(span, self.objective.order, stroke)) if several else ()
         if several:
-            windows += tuple(forward_windows(span, self.objective, self.programme.axis, stroke))
+            windows += tuple(forward_windows(span, self.objective, stroke))
         return replace(limited, windows=windows, bounds={}, B=None, C=None, D=None, J=None, minimise="C")
 
     def _turns(self, span: TimedSpan) -> bool:

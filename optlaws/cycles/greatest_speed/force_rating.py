@@ -14,10 +14,10 @@ from math import inf, log, sqrt
 
 from optlaws.cycles.greatest_speed.timed_spans import falling_root, static_force
 from optlaws.cycles.optimisation.bounds import span_bound
-from optlaws.cycles.optimisation.motion_limits import FORCES, of_segments
 from optlaws.cycles.optimisation.objectives import CycleObjective
 from optlaws.cycles.optimisation.optimal import solve
 from optlaws.cycles.specification.joints import LawSpan, Layout
+from optlaws.cycles.specification.limits import FORCES, of_segments
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.kept import kept_property
 from optlaws.mechanisms.drives.drive_train import Drive

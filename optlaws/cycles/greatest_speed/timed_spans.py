@@ -17,12 +17,12 @@ from math import exp, inf, log
 
 import numpy as np
 
-from optlaws.cycles.optimisation.motion_limits import Side, Sides, in_units, name_of
 from optlaws.cycles.optimisation.objectives import CycleObjective, torque_at_rest
 from optlaws.cycles.optimisation.optimal import limited_by
 from optlaws.cycles.optimisation.search_spaces import place
 from optlaws.cycles.optimisation.span_values import Driven, driven_curve, driven_peak
 from optlaws.cycles.specification.joints import LawSpan
+from optlaws.cycles.specification.limits import Side, Sides, in_units, name_of
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.formulas.tree import Number, table_places
 from optlaws.kept import kept_property

@@ -9,7 +9,7 @@ from typing import Any, Unpack
 
 import numpy as np
 
-from optlaws.cycles.optimisation.motion_limits import LimitTaken
+from optlaws.cycles.specification.limits import LimitTaken
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.files.reading import JsonText, entries_of

@@ -8,8 +8,11 @@ from math import inf, isfinite, tau
 from typing import Any
 
 from optlaws.cycles.moves.fastest_move import AXES, FastestMove
-from optlaws.cycles.optimisation.motion_limits import (
+from optlaws.cycles.optimisation.objectives import curve_lines
+from optlaws.cycles.specification.limits import AXES as SI
+from optlaws.cycles.specification.limits import (
     DECELERATION,
+    LIMITS_OF_MOVE,
     OF_WHOLE,
     Limits,
     greatest,
@@ -17,9 +20,6 @@ from optlaws.cycles.optimisation.motion_limits import (
     sides,
     tightest,
 )
-from optlaws.cycles.optimisation.objectives import curve_lines
-from optlaws.cycles.specification.limit_entries import LIMITS_OF_MOVE
-from optlaws.cycles.specification.programme import AXES as SI
 from optlaws.echo import shortened
 from optlaws.entries.declared import Declared, ValueOf, declared, entry
 from optlaws.entries.value_types import Either, Listed, Measured, Number, is_list

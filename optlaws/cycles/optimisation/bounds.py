@@ -14,7 +14,7 @@ from functools import reduce
 from math import hypot, inf, sqrt
 from typing import TYPE_CHECKING, Any
 
-from optlaws.cycles.optimisation.objectives import SUMS, CycleObjective, kind_of, limits_of_stretch
+from optlaws.cycles.optimisation.objectives import SUMS, CycleObjective, kind_of
 from optlaws.cycles.optimisation.span_values import (
     Driven,
     driven_mean,
@@ -172,5 +172,5 @@ def is_exact(span: LawSpan, objective: CycleObjective) -> bool:
     drive, (kind, mean) = objective.drive, kind_of(objective.minimise)
     if drive is None or not drive.train.loses or drive.brakes_as_it_drives:
         return True
-    limited = (key.kind for stretch in span.stretches for key in limits_of_stretch(stretch, objective, "angle"))
+    limited = (key.kind for stretch in span.stretches for key in stretch.sides(objective.limits))
     return not any(each.is_driven for each in limited) and (mean or not kind.is_driven)

@@ -16,10 +16,10 @@ from math import inf, log2
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.cycles.optimisation.motion_limits import greatest
-from optlaws.cycles.optimisation.objectives import CycleObjective, kind_of, limits_of_stretch
+from optlaws.cycles.optimisation.objectives import CycleObjective, kind_of
 from optlaws.cycles.optimisation.optimal import span_problem
 from optlaws.cycles.specification.joints import LawSpan, State
+from optlaws.cycles.specification.limits import greatest
 from optlaws.cycles.specification.programme import Programme, TimedSegment, is_optimal
 from optlaws.cycles.specification.segments import ConstantVelocity, Dwell, Free, Move
 from optlaws.errors import InfeasibleProblem, InputError
@@ -117,7 +117,7 @@ def _cost(programme: Programme, i: int, objective: CycleObjective, nu: int, *, m
 
 def _quickest(programme: Programme, i: int, objective: CycleObjective) -> float:
     stretch = programme.stretches[i]
-    limits = limits_of_stretch(stretch, objective, programme.axis) if is_optimal(stretch.given) else {}
+    limits = stretch.sides(objective.limits) if is_optimal(stretch.given) else {}
     return abs(stretch.displacement) / greatest(limits, Kind.VELOCITY, -1.0 if stretch.displacement < 0.0 else 1.0)
 
 

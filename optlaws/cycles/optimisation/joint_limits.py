@@ -8,11 +8,11 @@ from itertools import accumulate
 from math import copysign
 from operator import itemgetter
 
-from optlaws.cycles.optimisation.motion_limits import DECELERATION, SPEEDING_UP, Side, in_units, tightest
-from optlaws.cycles.optimisation.objectives import CycleObjective, kind_of, limits_of_stretch
+from optlaws.cycles.optimisation.objectives import CycleObjective, kind_of
 from optlaws.cycles.optimisation.optimal import solve
 from optlaws.cycles.optimisation.span_values import may_turn, size_of
 from optlaws.cycles.specification.joints import LawSpan, Layout, State
+from optlaws.cycles.specification.limits import DECELERATION, SPEEDING_UP, Side, in_units, tightest
 from optlaws.cycles.specification.programme import TimedSegment, is_optimal
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.motion.piece import Piece
@@ -56,9 +56,9 @@ class SegmentEnd:
 def check_limits_at_joints(layout: Layout, objective: CycleObjective, axis: str, period: float) -> None:
     """Refuse a limit that no law keeps: of slowing down where it turns, of force less than a joint takes."""
     for span in layout.spans:
-        _check_direction(span, objective, axis)
+        _check_direction(span, objective)
         for edge in _edges(span):
-            limits = limits_of_stretch(edge.stretch, objective, axis)
+            limits = edge.stretch.sides(objective.limits)
             needed = edge.demand(objective, Kind.FORCE)
             most = limits.get(_FORCE, needed)
             if needed > most * (1.0 + AGREEMENT):
@@ -73,9 +73,9 @@ def check_limits_at_joints(layout: Layout, objective: CycleObjective, axis: str,
                 )  # fmt: skip
 
 
-def _check_direction(span: LawSpan, objective: CycleObjective, axis: str) -> None:
+def _check_direction(span: LawSpan, objective: CycleObjective) -> None:
     """Refuse a limit of slowing down where the velocities at the ends turn the motion back."""
-    keys = [key for stretch in span.stretches for key in limits_of_stretch(stretch, objective, axis)]
+    keys = [key for stretch in span.stretches for key in stretch.sides(objective.limits)]
     against = any(state.velocity * span.displacement < 0.0 for state in (span.first, span.last))
     if against and any(key.kind is Kind.VELOCITY_ALONG for key in keys):
         raise InfeasibleProblem(

@@ -7,9 +7,9 @@ from dataclasses import dataclass, field
 from math import inf, isfinite
 from typing import TYPE_CHECKING, Any
 
-from optlaws.cycles.optimisation.motion_limits import Limits, Sides, limits_of_segment
+from optlaws.cycles.specification.limits import Limits
 from optlaws.cycles.specification.load import Load, load_output
-from optlaws.cycles.specification.programme import Programme, TimedSegment
+from optlaws.cycles.specification.programme import Programme
 from optlaws.errors import InputError
 from optlaws.motion.quantity_kinds import Kind
 from optlaws.suggest import unknown_key
@@ -100,11 +100,6 @@ def read_load_limits(entries: Mapping[str, Any], load: Load | None) -> dict[tupl
         if output is not None and load is not None:
             limits[output] = load.limit(value, output[0], f"limits, {name}")
     return limits
-
-
-def limits_of_stretch(stretch: TimedSegment, objective: CycleObjective, axis: str) -> Sides:
-    """Limits of a segment: the segment's own limits and the cycle's limits, whichever are lower."""
-    return limits_of_segment(stretch, objective.limits, axis)
 
 
 def motor_limits(entries: Mapping[str, Any], drive: Drive | None, programme: Programme) -> Limits:

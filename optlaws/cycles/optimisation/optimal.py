@@ -13,8 +13,7 @@ from math import inf, sqrt
 from operator import itemgetter
 from typing import Any
 
-from optlaws.cycles.optimisation.motion_limits import Side, Sides, along_motion, greatest, in_units
-from optlaws.cycles.optimisation.objectives import SUMS, CycleObjective, kind_of, limits_of_stretch
+from optlaws.cycles.optimisation.objectives import SUMS, CycleObjective, kind_of
 from optlaws.cycles.optimisation.search_spaces import (
     halved,
     joined_basis,
@@ -34,6 +33,7 @@ from optlaws.cycles.optimisation.span_values import (
     span_sum,
 )
 from optlaws.cycles.specification.joints import LawSpan, State
+from optlaws.cycles.specification.limits import Side, Sides, along_motion, greatest, in_units
 from optlaws.cycles.specification.load import load_output
 from optlaws.cycles.specification.programme import is_optimal
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
@@ -129,7 +129,7 @@ def with_least_limit(
     """The error of a span without a law, saying in units of the machine what one limit would have to allow at least."""
     stroke = scale(span)
     problem = span_problem(span, objective, axis, stroke)
-    for key, most in limits_of_stretch(span.stretches[0], objective, axis).items():
+    for key, most in span.stretches[0].sides(objective.limits).items():
         if key.kind is Kind.VELOCITY_ALONG:
             continue
         limited = limited_by(span, objective, stroke, key)
@@ -221,7 +221,7 @@ def span_problem(span: LawSpan, objective: CycleObjective, axis: str, stroke: fl
     ends = _ends(span, stroke, objective.order)
     plain = not any(any(end[1:]) for end in (ends.start, ends.end))
     bounds, parts = _limits(span, objective, axis, stroke)
-    limits = limits_of_stretch(span.stretches[0], objective, axis)
+    limits = span.stretches[0].sides(objective.limits)
     _check_energy(span, objective, limits)
     minimised = kind_of(objective.minimise)[0]
     forced = minimised.is_driven or minimised in SUMS or any(key.kind.is_driven for key in limits)
@@ -260,7 +260,7 @@ def _holds_acceleration(key: Side) -> bool:
 def _problem_of_several(span: LawSpan, objective: CycleObjective, axis: str, stroke: float) -> Problem:
     """The problem of a single law over several stretches, or through points on the way."""
     bounds, parts = _limits(span, objective, axis, stroke)
-    minimised, highest = kind_of(objective.minimise)[0], _highest_limited(span, objective, axis)
+    minimised, highest = kind_of(objective.minimise)[0], _highest_limited(span, objective)
     if objective.of_load:
         minimised = Kind.LOAD
     elif Kind.POWER in objective.limits or minimised is Kind.ENERGY:
@@ -280,16 +280,16 @@ def _problem_of_several(span: LawSpan, objective: CycleObjective, axis: str, str
         boundary=plain if span.turns else _ends(span, stroke, objective.order),
         windows=(
             *joint_windows(span, objective.order, stroke),
-            *forward_windows(span, objective, axis, stroke),
+            *forward_windows(span, objective, stroke),
             *parts,
         ),
         bounds=bounds,
     )
 
 
-def _highest_limited(span: LawSpan, objective: CycleObjective, axis: str) -> int:
+def _highest_limited(span: LawSpan, objective: CycleObjective) -> int:
     """The order of the highest limited derivative from the jerk on, whose peaks are to be at breaks; else 0."""
-    keys = (key for stretch in span.stretches for key in limits_of_stretch(stretch, objective, axis))
+    keys = (key for stretch in span.stretches for key in stretch.sides(objective.limits))
     return max((key.kind.order for key in keys if key.kind.order > 2), default=0)
 
 
@@ -308,9 +308,7 @@ def _limits(
 ) -> tuple[dict[Any, Range], tuple[Window, ...]]:
     """Limits of the whole span as bounds of its constants, limits of parts of it as windows."""
     _check_mean(span, objective, axis)
-    of_each = [
-        limits_of_stretch(stretch, objective, axis) if is_optimal(stretch.given) else None for stretch in span.stretches
-    ]
+    of_each = [stretch.sides(objective.limits) if is_optimal(stretch.given) else None for stretch in span.stretches]
     sought = [limits for limits in of_each if limits is not None]
     if all(limits == sought[0] for limits in sought) and _straight_within(span, sought[0]):
         bounded = ((key, most) for key, most in sought[0].items() if key.kind is not Kind.VELOCITY_ALONG)
@@ -361,10 +359,10 @@ def _window(
     return Window(name, -most / unit, most / unit, *ends)
 
 
-def forward_windows(span: LawSpan, objective: CycleObjective, axis: str, stroke: float) -> Iterator[Window]:
+def forward_windows(span: LawSpan, objective: CycleObjective, stroke: float) -> Iterator[Window]:
     """Windows in which motions that must not turn back go on."""
     for stretch, start, stop in span.timed:
-        limits = limits_of_stretch(stretch, objective, axis) if is_optimal(stretch.given) else {}
+        limits = stretch.sides(objective.limits) if is_optimal(stretch.given) else {}
         for key in (key for key in limits if key.kind is Kind.VELOCITY_ALONG):
             sides = (0.0, inf) if key.sign * stroke < 0.0 else (-inf, 0.0)
             yield Window("b", *sides, place(span, start), place(span, stop))
@@ -408,7 +406,7 @@ def _alike(of_each: Sequence[Sides | None], times: Sequence[float]) -> Iterator[
 def _check_mean(span: LawSpan, objective: CycleObjective, axis: str) -> None:
     """Refuse a velocity limit that is no more than the mean velocity: such a law cannot start from rest."""
     for stretch, start, stop in span.timed:
-        limits = limits_of_stretch(stretch, objective, axis) if is_optimal(stretch.given) else {}
+        limits = stretch.sides(objective.limits) if is_optimal(stretch.given) else {}
         most, mean = (
             greatest(limits, Kind.VELOCITY, _sign(stretch.displacement)),
             abs(stretch.displacement) / (stop - start),

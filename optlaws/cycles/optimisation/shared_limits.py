@@ -16,7 +16,6 @@ from typing import TYPE_CHECKING
 
 from optlaws.cycles.optimisation.bounds import bound_of, is_exact, span_bound
 from optlaws.cycles.optimisation.joint_limits import ties_broken
-from optlaws.cycles.optimisation.motion_limits import tightest
 from optlaws.cycles.optimisation.objectives import SUMS, CycleObjective, kind_of
 from optlaws.cycles.optimisation.optimal import (
     scale,
@@ -28,6 +27,7 @@ from optlaws.cycles.optimisation.optimal import (
 )
 from optlaws.cycles.optimisation.span_values import SpanSum, size_of, span_sum, total
 from optlaws.cycles.specification.joints import LawSpan, Layout
+from optlaws.cycles.specification.limits import tightest
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.kept import kept_property
 from optlaws.motion.piece import Piece

@@ -7,7 +7,8 @@ from dataclasses import dataclass, replace
 from itertools import accumulate
 from typing import NamedTuple
 
-from optlaws.cycles.specification.programme import AXES, Programme, TimedSegment, is_optimal, time_of
+from optlaws.cycles.specification.limits import AXES
+from optlaws.cycles.specification.programme import Programme, TimedSegment, is_optimal, time_of
 from optlaws.cycles.specification.segments import ConstantVelocity, Dwell, Free, Move
 from optlaws.echo import shortened
 from optlaws.errors import InputError

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from math import pi
 from typing import TYPE_CHECKING, Any
 
-from optlaws.cycles.specification.programme import AXES
+from optlaws.cycles.specification.limits import AXES
 from optlaws.echo import shortened
 from optlaws.entries.declared import Declared, declared, entry
 from optlaws.entries.value_types import Measured, Number

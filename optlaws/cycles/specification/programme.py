@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from math import inf
 from typing import Any
 
+from optlaws.cycles.specification.limits import AXES, Limits, Sides, read_limits, sides, tightest
 from optlaws.cycles.specification.segments import (
     OPTIMAL,
     ConstantVelocity,
@@ -20,25 +21,21 @@ from optlaws.cycles.specification.segments import (
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.motion.quantities import TURN, check_scale, either, in_small_units, positive_quantity, quantity
+from optlaws.motion.quantity_kinds import Kind
 from optlaws.sentences import Amount, sentence
 from optlaws.tolerances import CLOSURE, SAME_TIME
-
-#: dimensions of the derivatives of a position, for slides and for tables
-AXES = {
-    "length": ("length", "velocity", "acceleration", "jerk", "snap"),
-    "angle": ("angle", "angular velocity", "angular acceleration", "angular jerk", "angular snap"),
-}
 
 
 @dataclass(frozen=True)
 class TimedSegment:
-    """A segment in SI units: the least and greatest duration, the displacement, and the user's segment."""
+    """A segment in SI units: least and greatest duration, displacement and its own limits, and the user's segment."""
 
     number: int
     given: CycleSegment
     least: float
     most: float
     displacement: float
+    limits: Limits = field(default_factory=dict, hash=False)
 
     @property
     def fixed(self) -> bool:
@@ -49,6 +46,28 @@ class TimedSegment:
     def where(self) -> str:
         """The name that errors give it."""
         return f"segment {self.number} ({self.given.label})"
+
+    def sides(self, of_cycle: Mapping[Kind, tuple[float, float]]) -> Sides:
+        """The limited sides of the segment: by its own limits and the cycle's, whichever are lower.
+
+        Raises
+        ------
+        InputError
+            If slowing down has a limit where the motion may turn back, or what ends where it begins must not turn back.
+        """
+        limits = tightest(of_cycle, self.limits)
+        if isinstance(self.given, Free) and Kind.ACCELERATION_ALONG in limits:
+            raise InputError(
+                f"{self.where} may turn back, where speeding up and slowing down are of no one direction: give its "
+                "acceleration as the least and the greatest, such as ('-8 m/s^2', '12 m/s^2'), in place of a "
+                "deceleration"
+            )
+        if isinstance(self.given, Free) and Kind.VELOCITY_ALONG in limits and not self.displacement:
+            raise InputError(
+                f"{self.where} ends where it begins, so that it must turn back: give the limit of its velocity as "
+                "one quantity, or as a least one below 0"
+            )
+        return sides(limits, -1.0 if self.displacement < 0.0 else 1.0)
 
 
 @dataclass(frozen=True)
@@ -98,10 +117,10 @@ def programme(segments: Sequence[CycleSegment], period: float, start: Any, advan
     stretches: list[TimedSegment] = []
     position = first
     for i, (segment, (least, most)) in enumerate(zip(segments, durations, strict=True)):
-        moved = _displacement(
-            segment, axis, f"segment {i + 1} ({segment.label})", here=position, last=first + forward, duration=least
-        )
-        stretches.append(TimedSegment(i + 1, segment, least, most, moved))
+        where = f"segment {i + 1} ({segment.label})"
+        moved = _displacement(segment, axis, where, here=position, last=first + forward, duration=least)
+        limits = read_limits(segment.limits if isinstance(segment, Move | Free) else {}, axis, f"{where}: limits")
+        stretches.append(TimedSegment(i + 1, segment, least, most, moved, limits))
         position += moved
     _check_closed(position - first, forward, stretches, axis)
     return Programme(period, axis, tuple(stretches), first)

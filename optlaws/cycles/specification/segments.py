@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from optlaws.cycles.specification.limit_entries import LIMITS_OF_SEGMENT
+from optlaws.cycles.specification.limits import LIMITS_OF_SEGMENT
 from optlaws.echo import shortened
 from optlaws.entries.declared import Declared, Kinded, ValueOf, declared, entry
 from optlaws.entries.frozen import FrozenTable

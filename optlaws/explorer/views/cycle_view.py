@@ -14,10 +14,9 @@ import msgspec
 from optlaws import Cycle, Plan
 from optlaws.cycles.axes.interlock import Interlock
 from optlaws.cycles.limit_rows import broken_limits
-from optlaws.cycles.optimisation.motion_limits import LIMITS
 from optlaws.cycles.optimisation.objectives import OBJECTIVES
 from optlaws.cycles.report import CycleReport, drive_rows, joint_rows, objective_unit, proof_rows
-from optlaws.cycles.specification.limit_entries import LIMITS_OF_CYCLE
+from optlaws.cycles.specification.limits import LIMITS, LIMITS_OF_CYCLE
 from optlaws.cycles.specification.segments import CycleSegment
 from optlaws.entries.declared import entries_of
 from optlaws.errors import InfeasibleProblem, SolverFailure, located

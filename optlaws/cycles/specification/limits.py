@@ -1,4 +1,4 @@
-"""Limits of a cycle and of its segments: magnitudes, both sides apart, and slowing down apart from speeding up."""
+"""Limits of cycles, segments and moves: their entries, and one mapping of kinds to the least and the greatest value."""
 
 from __future__ import annotations
 
@@ -6,16 +6,22 @@ from collections.abc import Mapping
 from math import inf
 from typing import Any, NamedTuple, TypeAlias
 
-from optlaws.cycles.specification.programme import AXES, TimedSegment
-from optlaws.cycles.specification.segments import Free, Move
 from optlaws.echo import shortened
+from optlaws.entries.declared import TableOf, entry
+from optlaws.entries.frozen import FrozenTable
+from optlaws.entries.value_types import Either, Listed, Measured, ReadBy, Switch, is_list
 from optlaws.errors import InputError
 from optlaws.motion.piece import unit_of
-from optlaws.motion.quantities import in_small_units, positive_quantity, quantity
+from optlaws.motion.quantities import in_small_units, positive_quantity, quantity, written
 from optlaws.motion.quantity_kinds import Kind
 from optlaws.numerics.peaks import is_kept
 from optlaws.sentences import Amount, sentence
 
+#: dimensions of the derivatives of a position, for slides and for tables
+AXES = {
+    "length": ("length", "velocity", "acceleration", "jerk", "snap"),
+    "angle": ("angle", "angular velocity", "angular acceleration", "angular jerk", "angular snap"),
+}
 LIMITS = {
     "velocity": Kind.VELOCITY,
     "acceleration": Kind.ACCELERATION,
@@ -38,6 +44,57 @@ FORCE_UNITS = {"length": "N", "angle": "N m"}
 DECELERATION, SPEEDING_UP, BACKWARDS = "deceleration", "acceleration along the motion", "velocity backwards"
 _ALONG = (DECELERATION, SPEEDING_UP, BACKWARDS)
 _KINDS_ALONG = (Kind.VELOCITY_ALONG, Kind.ACCELERATION_ALONG)
+
+
+def _limit(about: str, *dimensions: str, example: str) -> Any:
+    return entry(Measured(*dimensions, above=0.0), about, default=None, example=example)
+
+
+def _sided(of: str, example: str, more: str = "") -> Any:
+    """A limit of a derivative: of its magnitude, or its least and its greatest value."""
+    dimensions = of, f"angular {of}"
+    sides = Listed(Measured(*dimensions), least=2, most=2)
+    about = f"The greatest {of}; of two the first is the least value{more}."
+    return entry(Either(Measured(*dimensions, above=0.0), sides, which=is_list), about, default=None, example=example)
+
+
+_OF_MOTION = {
+    "velocity": _sided("velocity", "616 mm/s", ", 0 where motions never turn back"),
+    "acceleration": _sided("acceleration", "20 m/s^2"),
+    "deceleration": _limit("Of moves that slow down.", "acceleration", "angular acceleration", example="14 m/s^2"),
+    "jerk": _sided("jerk", "2000 m/s^3"),
+    "snap": _limit("The greatest snap.", "snap", "angular snap", example="900000 m/s^4"),
+    "force": _limit("Of the drive of a slide.", "force", example="120 N"),
+    "torque": _limit("Of the drive of a table, or at the input of a mechanism.", "torque", example="6 N m"),
+    "power": _limit("Of the drive.", "power", example="400 W"),
+}
+_OF_WHOLE = {
+    "rms force": _limit("Root mean square over the cycle, as motors are rated.", "force", example="40 N"),
+    "rms torque": _limit("Likewise of a table, or at the input of a mechanism.", "torque", example="2 N m"),
+    "energy": _limit("Of the drive over the cycle.", "energy", example="12 J"),
+    "motor": entry(Switch(), "Whether all limits of its motor hold.", default=None, example=True),
+}
+_OF_MOVE = {
+    **{name: _OF_MOTION[name] for name in ("velocity", "acceleration", "deceleration", "jerk")},
+    "snap": _sided("snap", "900000 m/s^4"),
+    "torque": _limit("At its motor.", "torque", example="6 N m"),
+    "rms torque": _limit("At its motor, over the move.", "torque", example="2 N m"),
+    "residual acceleration": _limit(
+        "The amplitude that its follower vibrates on with.", "acceleration", "angular acceleration", example="0.5 m/s^2"
+    ),
+    "residual displacement": _limit("The same as a displacement, such as sway.", "length", "angle", example="20 mm"),
+}
+_LOADED = ReadBy(written, "a quantity, or of a `Machine` a number in SI units", json={"type": ["string", "number"]})
+_OF_CYCLE = dict.fromkeys(_OF_WHOLE, "is of the whole cycle: give it among the limits of the Cycle")
+
+LIMITS_OF_SEGMENT = TableOf("limit", _OF_MOTION, keep=FrozenTable, elsewhere=_OF_CYCLE)
+LIMITS_OF_CYCLE = TableOf(
+    "limit",
+    _OF_MOTION | _OF_WHOLE,
+    keep=FrozenTable,
+    further=lambda name: _LOADED if name.removeprefix("rms ").startswith("load ") else None,
+)
+LIMITS_OF_MOVE = TableOf("limit", _OF_MOVE, keep=FrozenTable)
 
 #: the least and the greatest allowed value of each limited quantity in SI units
 Limits: TypeAlias = dict[Kind, tuple[float, float]]
@@ -152,29 +209,6 @@ def _dimension(kind: Kind, axis: str) -> str:
     known = {Kind.POWER: "power", Kind.ENERGY: "energy"}
     known |= {Kind.RESIDUAL: AXES[axis][2], Kind.RESIDUAL_DISPLACEMENT: axis}
     return known.get(kind, FORCES[axis])
-
-
-def limits_of_segment(stretch: TimedSegment, of_cycle: Mapping[Kind, tuple[float, float]], axis: str) -> Sides:
-    """Limits of a segment: the segment's own limits and the cycle's limits, whichever are lower.
-
-    Raises
-    ------
-    InputError
-        If slowing down has a limit where the motion may turn back, or what ends where it begins must not turn back.
-    """
-    entries = stretch.given.limits if isinstance(stretch.given, Move | Free) else {}
-    limits = tightest(of_cycle, read_limits(entries, axis, f"{stretch.where}: limits"))
-    if isinstance(stretch.given, Free) and Kind.ACCELERATION_ALONG in limits:
-        raise InputError(
-            f"{stretch.where} may turn back, where speeding up and slowing down are of no one direction: give its "
-            "acceleration as the least and the greatest, such as ('-8 m/s^2', '12 m/s^2'), in place of a deceleration"
-        )
-    if isinstance(stretch.given, Free) and Kind.VELOCITY_ALONG in limits and not stretch.displacement:
-        raise InputError(
-            f"{stretch.where} ends where it begins, so that it must turn back: give the limit of its velocity as "
-            "one quantity, or as a least one below 0"
-        )
-    return sides(limits, -1.0 if stretch.displacement < 0.0 else 1.0)
 
 
 def of_segments(limits: Mapping[Kind, tuple[float, float]]) -> Limits:
