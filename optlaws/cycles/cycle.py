@@ -96,8 +96,7 @@ class Answers(Exportable):
         """
         if not self.solve().checked and not all(taken.is_kept for taken in self.limits_taken):
             return Status.INFEASIBLE
-        ranks = (Status.OPTIMAL, Status.LOCAL, Status.INACCURATE)
-        worst = max((solution.status for solution in self.solutions), key=ranks.index, default=Status.OPTIMAL)
+        worst = Status.worst(solution.status for solution in self.solutions)
         if self.solutions and worst == Status.OPTIMAL and self.lower_bound is not None:
             return Status.OPTIMAL if self.objective <= self.lower_bound * (1.0 + CYCLE_OPTIMALITY) else Status.LOCAL
         return worst

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from enum import StrEnum
 from typing import overload
 
@@ -64,6 +65,15 @@ class Status(StrEnum):
     def _missing_(cls, value: object) -> Status | None:
         # what files of older versions say
         return {"not found": cls.FAILED, "wrong input": cls.INVALID}.get(str(value))
+
+    @classmethod
+    def worst(cls, statuses: Iterable[Status]) -> Status:
+        """The worst of several statuses, in the order in which they stand here; optimal where there is none.
+
+        >>> Status.worst([Status.LOCAL, Status.OPTIMAL]), Status.worst([])
+        ('local', 'optimal')
+        """
+        return max(statuses, key=list(cls).index, default=cls.OPTIMAL)
 
     def __repr__(self) -> str:
         # as the text that it is: lists of statuses are read by people

@@ -141,3 +141,9 @@ def test_a_plan_with_laws_beyond_a_limit_is_infeasible_wherever_they_come_from()
     data = cycle.solve().to_dict()
     data["solutions"] = [solution.to_dict() for solution in wild]
     assert Plan.from_dict(data).status is Status.INFEASIBLE
+
+
+def test_axes_with_a_plan_beyond_a_limit_are_infeasible() -> None:
+    moves = [Rise("35 mm", "0.1 s", law="cycloidal"), Return(law="cycloidal")]
+    shown = Cycle(moves, period="0.25 s", limits={"velocity": "616 mm/s"}).unchecked()
+    assert Axes({"x": Cycle(moves, period="0.25 s"), "y": shown}).status is Status.INFEASIBLE

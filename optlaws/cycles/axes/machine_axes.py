@@ -121,8 +121,7 @@ class Axes(Declared, Mapping[str, Cycle], title="stored axes"):
     @property
     def status(self) -> Status:
         """The worst status of the axes."""
-        ranks = (Status.OPTIMAL, Status.LOCAL, Status.INACCURATE)
-        return max((cycle.status for cycle in self.values()), key=ranks.index)
+        return Status.worst(cycle.status for cycle in self.values())
 
     def at(self, speed: Quantity) -> Axes:
         """The same motions at another speed of the master, like `Cycle.at`."""
