@@ -15,7 +15,8 @@ from optlaws.cams.curves.motion_by_angle import CamMotion
 from optlaws.cams.disc import DiscCam
 from optlaws.cams.followers.contact import Friction, Transmission
 from optlaws.cycles.cycle import Cycle, Plan
-from optlaws.cycles.specification.drive import FORCES, ProcessEntries, read_linear_drive
+from optlaws.cycles.specification.drive import ProcessEntries, read_linear_drive
+from optlaws.cycles.specification.limits import FORCES
 from optlaws.entries.declared import Declared, ValueOf, declared, documented_by, entry
 from optlaws.entries.value_types import Measured, Number, ReadBy, Together
 from optlaws.errors import InputError
@@ -453,8 +454,8 @@ def read_process_by_angle(
         return ProcessByAngle(motion)
     process = ValueOf(ProcessEntries).read(given, "process")
     kind, over, interpolation = process.kind, process.over, process.interpolation
-    if FORCES[kind] != motion.axis:
-        right = next(name for name, axis in FORCES.items() if axis == motion.axis)
+    right = FORCES[motion.axis]
+    if kind != right:
         raise InputError(f"process: on this follower acts a {right}: give {right} in place of {kind}")
     if over == "time" and rate is None:
         raise InputError(

@@ -5,13 +5,14 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from functools import partial
-from math import inf, sqrt
+from math import sqrt
 from typing import Any, Literal, get_args
 
 import numpy as np
 
 from optlaws.cycles.exportable import Exportable
 from optlaws.cycles.moves.fastest_move import AXES, FastestMove, limit_row
+from optlaws.cycles.moves.timed_moves import limits_of_sides
 from optlaws.cycles.optimisation.objectives import CycleObjective, kind_of
 from optlaws.cycles.optimisation.optimal import scale, solved, span_problem
 from optlaws.cycles.specification.joints import LawSpan, State
@@ -369,7 +370,4 @@ def _move_limits(limits: Mapping[Side, float], sign: float) -> MoveLimits:
             raise InputError(f"limits: the {_NAMES[key.kind]} has two sides: the least time takes one limit of both")
     if not limits:
         raise InputError("nothing limits the least time: give the cycle limits, or say the time or angle as `over`")
-    both = {name: greatest(limits, kind, 1.0) for kind, name in _NAMES.items()}
-    names = (("acceleration", sign), ("deceleration", -sign))
-    sides = {name: greatest(limits, Kind.ACCELERATION, side) for name, side in names}
-    return MoveLimits(**{name: most for name, most in (both | sides).items() if most < inf})
+    return limits_of_sides(limits, sign)

@@ -15,6 +15,7 @@ from optlaws.cycles.specification.limits import (
     LIMITS_OF_MOVE,
     OF_WHOLE,
     Limits,
+    Side,
     greatest,
     read_limits,
     sides,
@@ -38,11 +39,11 @@ from optlaws.synthesis.problem.problem import Problem
 
 _MOST = 100_000
 _SIDES = (
-    ("velocity", Kind.VELOCITY, 0.0),
+    ("velocity", Kind.VELOCITY, 1.0),
     ("acceleration", Kind.ACCELERATION, 1.0),
     (DECELERATION, Kind.ACCELERATION, -1.0),
-    ("jerk", Kind.JERK, 0.0),
-    ("snap", Kind.SNAP, 0.0),
+    ("jerk", Kind.JERK, 1.0),
+    ("snap", Kind.SNAP, 1.0),
 )
 _EXAMPLE = '{"frequency": ("15.9 Hz", "17.5 Hz"), "damping": 0.05}'
 
@@ -213,7 +214,12 @@ def _of_move(entries: Mapping[str, Any], limits: Limits) -> MoveLimits:
             remedy = " or begin with 0" if key.kind is Kind.VELOCITY else ""
             pair = shortened(entries[key.name])
             raise InputError(f"limits: {key.name}: its two values must be opposite{remedy}, got {pair}")
-    least = {name: greatest(given, kind, side) for name, kind, side in _SIDES}
+    return limits_of_sides(given, 1.0)
+
+
+def limits_of_sides(limits: Mapping[Side, float], direction: float) -> MoveLimits:
+    """The limits of a move in a direction, whose limits but of the acceleration are of both sides alike."""
+    least = {name: greatest(limits, kind, side * direction) for name, kind, side in _SIDES}
     return MoveLimits(**{name: most for name, most in least.items() if isfinite(most)})
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+from optlaws.cycles.specification.limits import FORCES
 from optlaws.echo import shortened
 from optlaws.entries.declared import Declared, TableOf, declared, entry
 from optlaws.entries.value_types import Choice, Measured, Text
@@ -105,7 +106,7 @@ def read_linear_drive(entries: Mapping[str, Any] | Mechanism | Drive, axis: str)
 
 
 _PLACES = "the time t, the master's angle m, the driven position s or the input's x"
-FORCES = {"force": "length", "torque": "angle"}
+_AXES = {force: axis for axis, force in FORCES.items()}
 
 
 @declared
@@ -164,7 +165,7 @@ def read_process(given: Mapping[str, Any], mechanism: Mechanism, period: float) 
     places, variable = {
         "time": ("time", "t"),
         "master": ("angle", "m"),
-        "driven": (FORCES[kind], "s"),
+        "driven": (_AXES[kind], "s"),
         "input": (mechanism.axis, "x"),
     }[process.over]
     force = formula_of(
