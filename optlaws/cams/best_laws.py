@@ -29,7 +29,7 @@ from optlaws.cycles.optimisation.objectives import OBJECTIVES
 from optlaws.entries.declared import documented_by
 from optlaws.errors import InfeasibleProblem, InputError, OptlawsError, SolverFailure
 from optlaws.formulas.arithmetic import NUMPY, evaluate
-from optlaws.formulas.intervals import Endpoints, enclosed
+from optlaws.formulas.convexity import Endpoints, enclosed
 from optlaws.formulas.reading import read
 from optlaws.formulas.slopes import derivative
 from optlaws.formulas.tree import Formula

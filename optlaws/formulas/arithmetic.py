@@ -11,8 +11,8 @@ from typing import Any
 
 import numpy as np
 
-from optlaws.formulas.functions import SMOOTH_FUNCTIONS
 from optlaws.formulas.tree import (
+    SMOOTH_FUNCTIONS,
     Call,
     Exponentiation,
     Formula,

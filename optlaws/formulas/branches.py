@@ -11,9 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.formulas.arithmetic import NUMPY, pieces, step_value
-from optlaws.formulas.functions import SMOOTH_FUNCTIONS
 from optlaws.formulas.slopes import added, multiplied, opposite
 from optlaws.formulas.tree import (
+    SMOOTH_FUNCTIONS,
     Call,
     Exponentiation,
     Formula,

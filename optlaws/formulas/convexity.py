@@ -1,25 +1,365 @@
-"""Convexity of a formula in some of its names, by the rules of disciplined convex programming, with the reason.
+"""Formulas judged by rules: between which values they stay, whether they are affine or quadratic, and their convexity.
 
-A part's curvature follows from its own parts: sums of convex parts are convex, a convex function that rises takes
-convex parts, one that falls takes concave ones (Grant, Boyd, Ye 2006). Beyond that, quadratic forms are looked at as a
-whole.
+Interval arithmetic of many boxes at once says between which values a formula stays while its names stay between theirs.
+Intervals are known by their ends, since boxes may have no bound on one side; functions in narrow cells have the
+middles and radii of `optlaws.numerics.interval`. Every operation is rounded outward by itself: terms that cancel each
+other would else leave less than what they are rounded by.
+
+Convexity follows by the rules of disciplined convex programming, with the reason: sums of convex parts are convex, a
+convex function that rises takes convex parts, one that falls takes concave ones (Grant, Boyd, Ye 2006). Beyond that,
+quadratic forms are looked at as a whole.
 """
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, replace
 from enum import Enum
+from fractions import Fraction
+from functools import reduce
 from itertools import pairwise
+from math import pi
 
 import numpy as np
 
-from optlaws.formulas.affine import affine, semidefinite
 from optlaws.formulas.arithmetic import pieces
-from optlaws.formulas.functions import SMOOTH_FUNCTIONS
-from optlaws.formulas.intervals import Endpoints, enclosed
-from optlaws.formulas.slopes import constant
-from optlaws.formulas.tree import Call, Exponentiation, Formula, Negative, Product, Reciprocal, Sum, Table
+from optlaws.formulas.slopes import added, constant, multiplied, opposite
+from optlaws.formulas.tree import (
+    SMOOTH_FUNCTIONS,
+    Call,
+    Exponentiation,
+    Formula,
+    Name,
+    Negative,
+    Number,
+    Product,
+    Reciprocal,
+    Sum,
+    Table,
+)
+from optlaws.numbers import Array
+from optlaws.tolerances import OPERATIONS_ROUNDING
+
+_MOST_ANGLE = 2.0**24
+
+
+@dataclass(frozen=True, eq=False)
+class Endpoints:
+    """Least and greatest values, an array of each."""
+
+    low: Array
+    high: Array
+
+    def __neg__(self) -> Endpoints:
+        return Endpoints(-self.high, -self.low)
+
+    def __add__(self, other: Endpoints) -> Endpoints:
+        return Endpoints(self.low + other.low, self.high + other.high).outward()
+
+    def __mul__(self, other: Endpoints) -> Endpoints:
+        with np.errstate(invalid="ignore"):
+            ends = [low * two for low in (self.low, self.high) for two in (other.low, other.high)]
+        # nothing times whatever is nothing
+        ends = [np.where(np.isnan(end), 0.0, end) for end in ends]
+        return Endpoints(np.minimum.reduce(ends), np.maximum.reduce(ends)).outward()
+
+    def outward(self) -> Endpoints:
+        """A little wider, for the rounding of an operation; a sum or a product that is 0 is exact, and stays."""
+        less, more = 1.0 - OPERATIONS_ROUNDING, 1.0 + OPERATIONS_ROUNDING
+        below, above = np.where(self.low > 0.0, less, more), np.where(self.high > 0.0, more, less)
+        return Endpoints(self.low * below, self.high * above)
+
+    def through(self, function: Callable[[Array], Array]) -> Endpoints:
+        """The image under a rising function."""
+        with np.errstate(all="ignore"):
+            return Endpoints(np.asarray(function(self.low)), np.asarray(function(self.high)))
+
+
+def between(value: Array | float) -> Endpoints:
+    """The intervals that hold a single number each."""
+    return Endpoints(np.array(value), np.array(value))
+
+
+def enclosed(formula: Formula, names: Mapping[str, Endpoints]) -> Endpoints:
+    """Bounds of a formula over boxes; NaN where it has no value in a part of one.
+
+    >>> from optlaws.formulas.reading import read
+    >>> values = enclosed(read("(1 + k)^2"), {"k": Endpoints(np.array(0.0), np.array(1.0))})
+    >>> round(float(values.low), 9), round(float(values.high), 9)
+    (1.0, 4.0)
+    """
+    if isinstance(formula, Number):
+        return between(formula.value)
+    if isinstance(formula, Name):
+        return between(pi).outward() if formula.name == "pi" and "pi" not in names else names[formula.name]
+    parts = [enclosed(part, names) for part in formula.parts]
+    if isinstance(formula, Negative):
+        return -parts[0]
+    if isinstance(formula, Sum):
+        return reduce(lambda total, other: total + other, parts)
+    if isinstance(formula, Product):
+        return reduce(lambda product, other: product * other, parts)
+    if isinstance(formula, Reciprocal):
+        return _reciprocal(parts[0])
+    if isinstance(formula, Exponentiation):
+        return _power(parts[0], parts[1], constant(formula.exponent)).outward()
+    if isinstance(formula, Table):
+        return _table(formula, parts[0]).outward()
+    assert isinstance(formula, Call)  # noqa: S101 - there are no others
+    return _call(formula.function, parts).outward()
+
+
+def _reciprocal(of: Endpoints) -> Endpoints:
+    crossing = (of.low < 0.0) & (of.high > 0.0)
+    with np.errstate(divide="ignore"):
+        low = np.where(of.high == 0.0, -np.inf, 1.0 / of.high)
+        high = np.where(of.low == 0.0, np.inf, 1.0 / of.low)
+    return Endpoints(np.where(crossing, -np.inf, low), np.where(crossing, np.inf, high)).outward()
+
+
+def _power(base: Endpoints, exponent: Endpoints, known: float | None) -> Endpoints:
+    if known is not None and known == int(known):
+        whole = int(known)
+        with np.errstate(all="ignore"):
+            ends = [base.low ** float(abs(whole)), base.high ** float(abs(whole))]
+        low, high = np.minimum(*ends), np.maximum(*ends)
+        if whole % 2 == 0:
+            low = np.where((base.low <= 0.0) & (base.high >= 0.0), 0.0, low)
+        interval = Endpoints(low, high)
+        return interval if whole >= 0 else _reciprocal(interval)
+    with np.errstate(all="ignore"):
+        ends = [np.power(x, y) for x in (base.low, base.high) for y in (exponent.low, exponent.high)]
+    return Endpoints(np.minimum.reduce(ends), np.maximum.reduce(ends))
+
+
+def _table(table: Table, at: Endpoints) -> Endpoints:
+    """The bounds of a table: the bounds of each piece over the part of the argument's range in it."""
+    places, rows = np.array(table.places), pieces(table)
+    # the first and the last piece go on beyond the table
+    starts, stops = np.array([-np.inf, *places[1:-1]]), np.array([*places[1:-1], np.inf])
+    first, last = np.searchsorted(stops[:-1], at.low), np.searchsorted(starts[1:], at.high, side="right")
+    lows, highs = np.full(np.shape(at.low), np.inf), np.full(np.shape(at.low), -np.inf)
+    # narrow ranges lie in few pieces: the next one of each, until all are through
+    for further in range(int(np.max(last - first, initial=-1)) + 1):
+        met = first + further <= last
+        i = (first + further)[met]
+        s = Endpoints(np.maximum(at.low[met], starts[i]), np.minimum(at.high[met], stops[i])) + between(-places[i])
+        total = reduce(lambda sum_, column: between(column) + sum_ * s, rows[i].T[::-1], between(0.0))
+        lows[met], highs[met] = np.minimum(lows[met], total.low), np.maximum(highs[met], total.high)
+    return Endpoints(lows, highs)
+
+
+def _call(function: str, parts: list[Endpoints]) -> Endpoints:
+    first = parts[0]
+    if function == "max":
+        return reduce(lambda p, q: Endpoints(np.maximum(p.low, q.low), np.maximum(p.high, q.high)), parts)
+    if function == "min":
+        return reduce(lambda p, q: Endpoints(np.minimum(p.low, q.low), np.minimum(p.high, q.high)), parts)
+    if function == "norm":
+        squares = [_power(part, part, 2.0) for part in parts]
+        return reduce(lambda total, other: total + other, squares).through(np.sqrt)
+    if function == "abs":
+        return Endpoints(np.maximum(np.maximum(first.low, -first.high), 0.0), np.maximum(-first.low, first.high))
+    known = SMOOTH_FUNCTIONS[function]
+    if known.rising:
+        # where it has no value it says nothing
+        return first.through(lambda x: known.numpy(np.maximum(x, 0.0) if known.from_zero else x))
+    if function == "tan":
+        # a pole lies where the half turns differ
+        same = np.floor(first.low / pi + 0.5) == np.floor(first.high / pi + 0.5)
+        tangents = first.through(np.tan)
+        return Endpoints(np.where(same, tangents.low, -np.inf), np.where(same, tangents.high, np.inf))
+    return _cosine(first + -between(pi / 2.0).outward() if function == "sin" else first)
+
+
+def _cosine(turn: Endpoints) -> Endpoints:
+    """The range of a cosine; of so large an angle that its turns are rounded nothing is known."""
+    with np.errstate(invalid="ignore"):
+        ends = [np.cos(turn.low), np.cos(turn.high)]
+    top = np.floor(turn.high / (2 * pi)) * 2 * pi >= turn.low
+    bottom = np.floor((turn.high - pi) / (2 * pi)) * 2 * pi + pi >= turn.low
+    large = np.maximum(np.abs(turn.low), np.abs(turn.high)) > _MOST_ANGLE
+    return Endpoints(np.where(bottom | large, -1.0, np.minimum(*ends)), np.where(top | large, 1.0, np.maximum(*ends)))
+
+
+#: factors of products of names: none, one or two of them, sorted
+Terms = dict[tuple[str, ...], Formula]
+_MOST = 2
+
+
+def quadratic(formula: Formula, names: Collection[str], most: int = _MOST) -> Terms | None:
+    """The factors of products of up to `most` names; None where the formula has others, or is no polynomial of them.
+
+    >>> from optlaws.formulas.reading import read
+    >>> quadratic(read("(c + k*b)*b - 3"), "bc")
+    {('b', 'c'): 1, ('b', 'b'): k, (): -3}
+    """
+    if not formula.names() & set(names):
+        return {(): formula}
+    if isinstance(formula, Name):
+        return {(formula.name,): Number(1.0)}
+    if isinstance(formula, Negative):
+        form = quadratic(formula.of, names, most)
+        return None if form is None else {key: opposite(coefficient) for key, coefficient in form.items()}
+    if isinstance(formula, Sum):
+        return _sum([quadratic(term, names, most) for term in formula.terms])
+    if isinstance(formula, Product):
+        return _product(formula, names, most)
+    if isinstance(formula, Exponentiation) and most > 1:
+        exponent = constant(formula.exponent)
+        if exponent is None or not 0.0 <= exponent <= most or exponent % 1.0:
+            return None
+        return _multiplied([{(): Number(1.0)}, *[quadratic(formula.base, names, most)] * int(exponent)], most)
+    return None
+
+
+def semidefinite(formula: Formula, names: Collection[str], within: Mapping[str, Endpoints], sign: int) -> bool:
+    """Whether the formula, times the sign, is a quadratic form that is nonnegative at every k.
+
+    >>> from optlaws.formulas.reading import read
+    >>> semidefinite(read("c^2 + 2*b*c + b^2"), "bc", {}, 1), semidefinite(read("c^2 + 3*b*c + b^2"), "bc", {}, 1)
+    (True, False)
+    """
+    form = quadratic(formula, names)
+    if form is None:
+        return False
+    variables = sorted({name for key in form if len(key) == _MOST for name in key})
+    entries = {
+        (i, j): form.get((first, other), Number(0.0))
+        for i, first in enumerate(variables)
+        for j, other in enumerate(variables)
+        if i <= j
+    }
+    values = {place: constant(entry) for place, entry in entries.items()}
+    if None not in values.values():
+        return _exactly({place: sign * Fraction(value or 0.0) for place, value in values.items()}, len(variables))
+    return _widely({place: enclosed(entry, within) for place, entry in entries.items()}, len(variables), sign)
+
+
+def _exactly(entries: Mapping[tuple[int, int], Fraction], size: int) -> bool:
+    """The test by elimination in exact arithmetic; off-diagonal entries combine both sides."""
+    matrix = [[entries[min(i, j), max(i, j)] / (1 if i == j else 2) for j in range(size)] for i in range(size)]
+    for i in range(size):
+        if matrix[i][i] < 0 or (matrix[i][i] == 0 and any(matrix[i][j] for j in range(i + 1, size))):
+            return False
+        for j in range(i + 1, size if matrix[i][i] else 0):
+            share = matrix[j][i] / matrix[i][i]
+            for column in range(i, size):
+                matrix[j][column] -= share * matrix[i][column]
+    return True
+
+
+def _widely(entries: Mapping[tuple[int, int], Endpoints], size: int, sign: int) -> bool:
+    """The test by eigenvalues at the midpoints of many parts, less the variation of the entries."""
+    count = max(np.size(entry.low) for entry in entries.values())
+    middles, reach = np.zeros((count, size, size)), np.zeros((count, size, size))
+    for (i, j), entry in entries.items():
+        half = 1.0 if i == j else 0.5
+        with np.errstate(invalid="ignore"):  # of an entry without bounds
+            middles[:, i, j] = middles[:, j, i] = sign * half * (entry.low + entry.high) / 2.0
+        reach[:, i, j] = reach[:, j, i] = half * (entry.high - entry.low) / 2.0
+    if not np.isfinite(middles).all() or not np.isfinite(reach).all():
+        return False
+    sizes = np.linalg.norm(middles, axis=(1, 2)) + np.linalg.norm(reach, axis=(1, 2))
+    least = np.linalg.eigvalsh(middles)[:, 0] - np.linalg.norm(reach, axis=(1, 2)) - OPERATIONS_ROUNDING * sizes
+    return bool(least.min() > 0.0)
+
+
+def _sum(terms: list[Terms | None]) -> Terms | None:
+    gathered: dict[tuple[str, ...], list[Formula]] = {}
+    for term in terms:
+        if term is None:
+            return None
+        for key, factor in term.items():
+            gathered.setdefault(key, []).append(factor)
+    return {key: added(factors) for key, factors in gathered.items()}
+
+
+def _product(formula: Product, names: Collection[str], most: int) -> Terms | None:
+    """The factors without names times the product of the others."""
+    moving = [factor for factor in formula.factors if factor.names() & set(names)]
+    still = multiplied([factor for factor in formula.factors if factor not in moving])
+    form = _multiplied([quadratic(factor, names, most) for factor in moving], most)
+    return None if form is None else {key: multiplied([still, factor]) for key, factor in form.items()}
+
+
+def _multiplied(factors: list[Terms | None], most: int) -> Terms | None:
+    terms: Terms = {(): Number(1.0)}
+    for factor in factors:
+        if factor is None:
+            return None
+        products: list[Terms | None] = [
+            {tuple(sorted((*name, *other))): multiplied([first, second])}
+            for name, first in terms.items()
+            for other, second in factor.items()
+        ]
+        together = _sum(products)
+        if together is None or any(len(key) > most for key in together):
+            return None
+        terms = together
+    return terms
+
+
+@dataclass(frozen=True)
+class Affine:
+    """The sum of factors times names, plus what is left; neither has any of the names."""
+
+    factors: tuple[tuple[str, Formula], ...]  #: by name, those that are not 0
+    rest: Formula
+
+
+def affine(formula: Formula, names: Collection[str]) -> Affine | None:
+    """The formula as an affine function of these names; None where it is not affine.
+
+    >>> from optlaws.formulas.reading import read
+    >>> affine(read("2*(c + k*b) - c + k^2"), "bc")
+    Affine(factors=(('c', 2 - 1), ('b', 2*k)), rest=k^2)
+    >>> affine(read("b*c"), "bc") is None
+    True
+    """
+    form = quadratic(formula, names, most=1)
+    if form is None:
+        return None
+    return Affine(tuple((key[0], factor) for key, factor in form.items() if key), form.get((), Number(0.0)))
+
+
+def degree(formula: Formula, names: Mapping[str, int]) -> int | None:
+    """The greatest degree that a formula can have where its names are polynomials of these degrees.
+
+    Tables, and sizes and maxima of what depends on k alone, count as what they are on each of their pieces. None where
+    the formula is no polynomial.
+
+    >>> from optlaws.formulas.reading import read
+    >>> degree(read("k^2*c + b"), {"k": 1, "c": 5, "b": 6}), degree(read("sin(k)"), {"k": 1})
+    (7, None)
+    """
+    degrees: list[int | None] = []
+    for part, places, _ in formula.steps:
+        degrees.append(_degree(part, [degrees[place] for place in places], names))
+    return degrees[-1]
+
+
+def _degree(formula: Formula, parts: list[int | None], names: Mapping[str, int]) -> int | None:
+    if not formula.names() & names.keys():
+        return 0
+    if isinstance(formula, Name):
+        return names[formula.name]
+    if isinstance(formula, Exponentiation):
+        base, exponent = parts[0], constant(formula.exponent)
+        whole = exponent is not None and exponent >= 0.0 and exponent % 1.0 == 0.0
+        return int(exponent) * base if whole and exponent is not None and base is not None else None
+    known = [part for part in parts if part is not None]
+    if len(known) < len(parts):
+        return None
+    if isinstance(formula, Negative | Sum):
+        return max(known)
+    if isinstance(formula, Product):
+        return sum(known)
+    if isinstance(formula, Table) and formula.names() <= {"k"}:
+        return known[0] * (max(3 - formula.order, 0) if formula.smooth else 1)
+    kinks = isinstance(formula, Call) and formula.function in {"abs", "max", "min"} and formula.names() <= {"k"}
+    return max(known) if kinks else None
+
 
 _PARTS = 256
 

@@ -12,10 +12,9 @@ from typing import Any
 import numpy as np
 
 from optlaws.errors import InputError
-from optlaws.formulas.affine import Affine, affine, degree
 from optlaws.formulas.arithmetic import NUMPY, evaluate
 from optlaws.formulas.branches import branches
-from optlaws.formulas.convexity import Curvature, Judge, Verdict
+from optlaws.formulas.convexity import Affine, Curvature, Judge, Verdict, affine, degree
 from optlaws.formulas.reading import read, refused
 from optlaws.formulas.slopes import added, constant, opposite, scaled
 from optlaws.formulas.tree import (
@@ -221,7 +220,7 @@ def of_text(text: str, start: float = 0.0, stop: float = 1.0) -> MotionFormula:
 
     >>> of_text("d + 1/(k - 0.5)")
     Traceback (most recent call last):
-    optlaws.formulas.scanner.FormulaError: k - 0.5 is 0 within k = 0..1, and it is divided by
+    optlaws.formulas.reading.FormulaError: k - 0.5 is 0 within k = 0..1, and it is divided by
       d + 1/(k - 0.5)
            ^
     """

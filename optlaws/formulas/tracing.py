@@ -9,9 +9,8 @@ import numpy as np
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError
-from optlaws.formulas.functions import SMOOTH_FUNCTIONS
 from optlaws.formulas.slopes import added, multiplied, opposite
-from optlaws.formulas.tree import Call, Exponentiation, Formula, Name, Number, Reciprocal, Sum, number
+from optlaws.formulas.tree import SMOOTH_FUNCTIONS, Call, Exponentiation, Formula, Name, Number, Reciprocal, Sum, number
 from optlaws.numbers import finite, real
 
 _SQUARE, _HALF = Number(2.0), Number(0.5)

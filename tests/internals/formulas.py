@@ -1,12 +1,9 @@
 """Internals of `optlaws.formulas` that tests look at by themselves."""
 
-from optlaws.formulas.affine import affine, degree, quadratic
 from optlaws.formulas.arithmetic import NUMPY, Arithmetic, casadi_arithmetic, evaluate, horner, pieces
-from optlaws.formulas.convexity import Curvature, Judge, judge
-from optlaws.formulas.functions import SMOOTH_FUNCTIONS
-from optlaws.formulas.intervals import Endpoints, enclosed
+from optlaws.formulas.convexity import Curvature, Endpoints, Judge, affine, degree, enclosed, judge, quadratic
 from optlaws.formulas.of_motion import MotionFormula, of_text
 from optlaws.formulas.reading import DEEPEST, LONGEST, read
 from optlaws.formulas.slopes import derivative
 from optlaws.formulas.tracing import Traced, traced
-from optlaws.formulas.tree import ORDERS, Formula, Name, Table
+from optlaws.formulas.tree import ORDERS, SMOOTH_FUNCTIONS, Formula, Name, Table

@@ -44,7 +44,7 @@ def formula_law(text: str) -> PiecewiseLaw:
     PiecewiseLaw(segments=1, B=2, C=6.28319, D=8.1621, J=39.4784)
     >>> formula_law("k^2*(3 - 2*v)")
     Traceback (most recent call last):
-    optlaws.formulas.scanner.FormulaError: unknown name 'v'; known are k
+    optlaws.formulas.reading.FormulaError: unknown name 'v'; known are k
       k^2*(3 - 2*v)
                  ^
     """

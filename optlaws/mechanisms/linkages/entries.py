@@ -14,8 +14,8 @@ import numpy as np
 from optlaws.echo import shortened
 from optlaws.entries.value_types import ReadBy, ValueType
 from optlaws.errors import InputError
-from optlaws.formulas.affine import affine
 from optlaws.formulas.arithmetic import horner, pieces
+from optlaws.formulas.convexity import affine
 from optlaws.formulas.reading import read
 from optlaws.formulas.slopes import added, constant, multiplied, opposite, scaled
 from optlaws.formulas.tree import Formula, Name, Negative, Sum, Table, TableJoin, number, rebuilt

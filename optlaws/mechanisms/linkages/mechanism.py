@@ -19,7 +19,7 @@ from optlaws.errors import InputError
 from optlaws.files.reading import JsonText, check_names, of_known_format
 from optlaws.formulas.arithmetic import NUMPY, Together, evaluate
 from optlaws.formulas.branches import smooth_itself
-from optlaws.formulas.intervals import Endpoints, enclosed
+from optlaws.formulas.convexity import Endpoints, enclosed
 from optlaws.formulas.slopes import added
 from optlaws.formulas.slopes import derivative as slope
 from optlaws.formulas.tree import Formula, Name, Table, table_places

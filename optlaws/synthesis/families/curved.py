@@ -10,9 +10,9 @@ from typing import Self
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.formulas.affine import degree, quadratic
 from optlaws.formulas.arithmetic import NUMPY, Together
 from optlaws.formulas.branches import switches
+from optlaws.formulas.convexity import degree, quadratic
 from optlaws.formulas.of_motion import MotionFormula
 from optlaws.formulas.slopes import scaled
 from optlaws.formulas.tree import Call, Exponentiation, Formula, Number, total

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from optlaws.formulas.affine import degree
+from optlaws.formulas.convexity import degree
 from optlaws.formulas.of_motion import MotionFormula
 from optlaws.numbers import Array
 from optlaws.numerics.chebyshev import from_values, interpolated, nodes

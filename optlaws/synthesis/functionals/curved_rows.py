@@ -10,9 +10,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from optlaws.formulas.affine import quadratic
 from optlaws.formulas.branches import switches, together
-from optlaws.formulas.convexity import Judge
+from optlaws.formulas.convexity import Judge, quadratic
 from optlaws.formulas.of_motion import MotionFormula
 from optlaws.formulas.tree import ORDERS, Call, Exponentiation, Formula, Name, Negative, Number, number, product, total
 from optlaws.numbers import Array

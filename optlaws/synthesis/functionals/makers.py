@@ -12,13 +12,12 @@ from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.files.reading import check_names
 from optlaws.formulas.branches import smooth_itself
-from optlaws.formulas.functions import SMOOTH_FUNCTIONS
 from optlaws.formulas.of_motion import MotionFormula, checked, of_text
-from optlaws.formulas.reading import LONGEST, read
-from optlaws.formulas.scanner import FormulaError
+from optlaws.formulas.reading import LONGEST, FormulaError, read
 from optlaws.formulas.slopes import added, derivative, multiplied, opposite
 from optlaws.formulas.tree import (
     ORDERS,
+    SMOOTH_FUNCTIONS,
     VOCABULARY,
     Call,
     Exponentiation,

@@ -8,12 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.errors import InputError
-from optlaws.formulas.functions import SMOOTH_FUNCTIONS
 from optlaws.formulas.of_motion import MotionFormula
-from optlaws.formulas.reading import read
-from optlaws.formulas.scanner import FormulaError
+from optlaws.formulas.reading import FormulaError, read
 from optlaws.formulas.slopes import constant
-from optlaws.formulas.tree import ORDERS, Call, Exponentiation, Formula, Reciprocal
+from optlaws.formulas.tree import ORDERS, SMOOTH_FUNCTIONS, Call, Exponentiation, Formula, Reciprocal
 from optlaws.numbers import Array
 from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
 

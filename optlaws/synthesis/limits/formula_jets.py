@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from optlaws.formulas.arithmetic import Arithmetic, evaluate
-from optlaws.formulas.intervals import Endpoints, enclosed
+from optlaws.formulas.convexity import Endpoints, enclosed
 from optlaws.formulas.tree import Call, Formula, Name, Table
 from optlaws.numerics.interval import Interval, between
 from optlaws.numerics.taylor import Jet

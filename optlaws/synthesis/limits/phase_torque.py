@@ -10,8 +10,8 @@ import numpy as np
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError
-from optlaws.formulas.affine import quadratic
 from optlaws.formulas.arithmetic import NUMPY, evaluate
+from optlaws.formulas.convexity import quadratic
 from optlaws.formulas.of_motion import MotionFormula
 from optlaws.formulas.reading import read
 from optlaws.formulas.slopes import added, constant, opposite, scaled

@@ -15,9 +15,8 @@ from collections.abc import Callable, Mapping
 from functools import lru_cache
 
 from optlaws.errors import InputError
-from optlaws.formulas.reading import LONGEST
+from optlaws.formulas.reading import LONGEST, FormulaError, Scanner, Token
 from optlaws.formulas.reading import parse as parse_formula
-from optlaws.formulas.scanner import FormulaError, Scanner, Token
 from optlaws.formulas.tree import VOCABULARY
 from optlaws.suggest import CONSTANTS, unknown_key
 from optlaws.synthesis.problem.constants import FUNCTIONALS, MAKERS, PLAIN, WITHOUT_ARGUMENTS, Functional

@@ -11,7 +11,7 @@ from optlaws.entries.declared import Declared, declared, entry
 from optlaws.entries.value_types import Number, Text
 from optlaws.errors import InputError
 from optlaws.formulas.of_motion import MotionFormula, of_text
-from optlaws.formulas.scanner import FormulaError
+from optlaws.formulas.reading import FormulaError
 from optlaws.kept import kept_property
 from optlaws.suggest import unknown_key
 

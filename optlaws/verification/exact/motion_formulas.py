@@ -12,8 +12,8 @@ import numpy as np
 from flint import arb, arb_series, ctx, fmpq, fmpq_poly
 from numpy.polynomial import legendre
 
-from optlaws.formulas.affine import affine, degree
 from optlaws.formulas.arithmetic import Arithmetic, evaluate
+from optlaws.formulas.convexity import affine, degree
 from optlaws.formulas.of_motion import MotionFormula
 from optlaws.formulas.slopes import added, derivative, multiplied, opposite
 from optlaws.formulas.tree import ORDERS, Call, Exponentiation, Formula, Number, Table, number, product, rebuilt

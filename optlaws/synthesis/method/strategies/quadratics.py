@@ -13,8 +13,8 @@ from typing import Any
 
 import numpy as np
 
-from optlaws.formulas.affine import affine
 from optlaws.formulas.branches import switches
+from optlaws.formulas.convexity import affine
 from optlaws.formulas.of_motion import MotionFormula
 from optlaws.formulas.slopes import added, multiplied, opposite
 from optlaws.formulas.tree import Call, Formula, Name, Negative, Number, Product, Sum

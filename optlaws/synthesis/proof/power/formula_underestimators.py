@@ -14,7 +14,7 @@ from math import inf, isfinite
 
 import numpy as np
 
-from optlaws.formulas.intervals import Endpoints, enclosed
+from optlaws.formulas.convexity import Endpoints, enclosed
 from optlaws.formulas.tree import ORDERS
 from optlaws.kept import kept_property
 from optlaws.numbers import Array

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from optlaws.formulas.intervals import Endpoints, enclosed
+from optlaws.formulas.convexity import Endpoints, enclosed
 from optlaws.formulas.of_motion import MotionFormula
 from optlaws.formulas.slopes import derivative
 from optlaws.formulas.tree import ORDERS, Formula
