@@ -13,7 +13,6 @@ from optlaws.cycles.exportable import Exportable
 from optlaws.cycles.limit_rows import limits_taken, refuse_beyond
 from optlaws.cycles.optimisation.bounds import bound_of, is_exact
 from optlaws.cycles.optimisation.objectives import MOTOR, SUMS, check_objective, kind_of
-from optlaws.cycles.optimisation.optimal import scale
 from optlaws.cycles.optimisation.search_spaces import remark_on_degrees, search_space
 from optlaws.cycles.optimisation.shared_limits import best_of
 from optlaws.cycles.optimisation.span_values import along, total
@@ -578,7 +577,7 @@ class Cycle(Answers, Specification):
 
     @kept_property
     def _unchecked(self) -> Plan:
-        best = best_of(self.layout, self.in_si, self.axis, self.duration)
+        best = best_of(self.layout, self.in_si, self.duration)
         solutions = tuple(solution for _, solution in best.laws)
         return Plan(self, solutions, chosen=best.remarks, bound=best.bound)
 
@@ -741,7 +740,7 @@ class Plan(Answers, Declared, title="a plan"):
     def laws(self) -> tuple[tuple[LawSpan, Piece, Solution], ...]:
         """The spans whose laws were looked for, each with its law in its place and its solution."""
         return tuple(
-            (span, Piece(*span.times, span.offset, scale(span), solution.law), solution)
+            (span, span.by(solution.law), solution)
             for span, solution in zip(self.specification.layout.spans, self.solutions, strict=True)
         )
 

@@ -170,7 +170,7 @@ class Specification(Declared, title="a stored cycle"):
                 )
         if all(stretch.fixed for stretch in self.programme.stretches):
             # velocities that do not meet, and forces at joints beyond their limits, are refused at once
-            check_limits_at_joints(self.layout, self.in_si, self.axis, self.duration)
+            check_limits_at_joints(self.layout, self.in_si, self.duration)
 
     @kept_property
     def programme(self) -> Programme:
@@ -209,6 +209,7 @@ class Specification(Declared, title="a stored cycle"):
             self.order,
             self.degree,
             drive,
+            self.axis,
             self._load,
             read_load_limits(self.limits, self._load),
         )

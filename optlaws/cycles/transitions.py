@@ -13,8 +13,8 @@ import numpy as np
 from optlaws.cycles.exportable import Exportable
 from optlaws.cycles.moves.fastest_move import AXES, FastestMove, limit_row
 from optlaws.cycles.moves.timed_moves import limits_of_sides
-from optlaws.cycles.optimisation.objectives import CycleObjective, kind_of
-from optlaws.cycles.optimisation.optimal import scale, solved, span_problem
+from optlaws.cycles.optimisation.objectives import CycleObjective
+from optlaws.cycles.optimisation.optimal import solved, span_problem
 from optlaws.cycles.specification.joints import LawSpan, State
 from optlaws.cycles.specification.limits import Side, along_motion, greatest, of_segments
 from optlaws.cycles.specification.programme import Programme, TimedSegment, time_of
@@ -289,7 +289,7 @@ def transition_cam(
         velocity, jerk = -velocity, -jerk  # its law is reversed in time
     of_motion = replace(
         objective,
-        minimise=objective.minimise if kind_of(objective.minimise)[0].order else "acceleration",
+        minimise=objective.minimise if objective.kind.order else "acceleration",
         order=given.order or objective.order,
         limits=of_segments(objective.limits),
         load=None,
@@ -304,11 +304,11 @@ def transition_cam(
             raise InputError(f"the cycle is in the place of rest at {shown}, and rests: it needs no {kind}")
         last, timed = State(velocity, acceleration), stretch(duration, duration)
         span = LawSpan((timed,), (0.0,), duration, rest, moved, _REST, last, ())
-        stroke, count = scale(span), of_motion.order - 1
+        stroke, count = span.stroke, of_motion.order - 1
         rates = [rate / factor(stroke, duration, nu) for nu, rate in enumerate((velocity, acceleration, jerk), start=1)]
         ends = (*rates, *(0.0,) * count)[:count]
         problem = replace(
-            span_problem(span, of_motion, axis, stroke),
+            span_problem(span, of_motion),
             basis=Chebyshev(max(of_motion.degree, _DEGREE)),
             symmetric=False,
             boundary=BoundaryConditions((0.0, *(0.0,) * count), (moved / stroke, *ends)),

@@ -166,12 +166,12 @@ def _of_move(
         raise _refused(stretch)
     elif way == "gentlest" and times is not None:
         try:
-            law = solve(slower(span, times[i] / span.duration), search.objective, cycle.axis)[0].law
+            law = solve(slower(span, times[i] / span.duration), search.objective)[0].law
         except (InfeasibleProblem, SolverFailure):
             law = None  # the time is too short for the limits
     known = search.fastest(span) if law is None else search.of_law(span, law)
     if not known.limits:
-        law = law or solve(span, search.objective, cycle.axis)[0].law
+        law = law or solve(span, search.objective)[0].law
         fixed = _NOTHING if way == "gentlest" else _given(cycle, i)
         return replace(segment, law=law, least=fixed, most=None if way == "gentlest" else fixed)
     limit = word_of(known.binding[0].key, cycle.axis)

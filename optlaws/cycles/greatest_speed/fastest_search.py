@@ -16,7 +16,7 @@ from optlaws.cycles.greatest_speed.force_rating import ForceRating
 from optlaws.cycles.greatest_speed.periods import DurationRange, duration_ranges, durations_at, least_period
 from optlaws.cycles.greatest_speed.timed_spans import TimedSpan, least_scale, limits_of_span, slower
 from optlaws.cycles.optimisation.objectives import CycleObjective
-from optlaws.cycles.optimisation.optimal import forward_windows, scale, solve, span_problem
+from optlaws.cycles.optimisation.optimal import forward_windows, solve, span_problem, unlimited
 from optlaws.cycles.optimisation.search_spaces import joint_windows
 from optlaws.cycles.specification.joints import LawSpan, Layout, State, layout
 from optlaws.cycles.specification.limits import (
@@ -189,13 +189,13 @@ class FastestSearch:
 
     def of_law(self, span: LawSpan, law: MotionLaw) -> TimedSpan:
         """A span with a law within its limits."""
-        self._check_way(span.stretches[0], Piece(*span.times, span.offset, scale(span), law))
-        return TimedSpan(span, span.duration, self._limits(span, scale(span)), given=law)
+        self._check_way(span.stretches[0], span.by(law))
+        return TimedSpan(span, span.duration, self._limits(span), given=law)
 
     def fastest(self, span: LawSpan) -> TimedSpan:
         """A span with its limits and all laws; without a law where nothing limits it."""
-        limits = self._limits(span, scale(span))
-        return TimedSpan(span, span.duration, limits, self._base(span, scale(span)) if limits else None)
+        limits = self._limits(span)
+        return TimedSpan(span, span.duration, limits, self._base(span) if limits else None)
 
     def time_of(self, span: TimedSpan) -> float:
         """The time that a motion has at the least period."""
@@ -215,7 +215,7 @@ class FastestSearch:
         fastest, known = self._fastest(span), self._known(span)
         if fastest is None or known is None or known.needed < span.duration * (1.0 - BINDING_LIMIT):
             try:
-                return solve(span, self.objective, self.programme.axis)[0]
+                return solve(span, self.objective)[0]
             except (InfeasibleProblem, SolverFailure):
                 if fastest is None:
                     raise
@@ -228,7 +228,7 @@ class FastestSearch:
         """The fastest law of a span in its place; None where no limit bounds it."""
         known = self._known(span)
         law = None if known is None else known.law
-        return None if law is None else Piece(span.start, span.duration, span.offset, scale(span), law)
+        return None if law is None else span.by(law)
 
     def _placed(self, period: float) -> Layout:
         """The pieces and spans at a period."""
@@ -267,7 +267,7 @@ class FastestSearch:
         still = isinstance(stretch.given, Dwell) or piece.stroke == 0.0
         if not still:
             self._check_way(stretch, piece)
-        timed = TimedSpan(span, piece.duration, () if still else self._limits(span, piece.stroke), given=piece.law)
+        timed = TimedSpan(span, piece.duration, () if still else self._limits(span), given=piece.law)
         jerked = [limit for limit in timed.limits if limit.nu >= _JERK]
         jumps = jerked and jump_beside(piece, self._layout.pieces, self.programme.period) is not None
         if jumps or not isfinite(timed.scale):
@@ -292,21 +292,21 @@ class FastestSearch:
                     "or a least velocity below 0"
                 )
 
-    def _limits(self, span: LawSpan, stroke: float) -> tuple[SpanLimit, ...]:
+    def _limits(self, span: LawSpan) -> tuple[SpanLimit, ...]:
         axis, limits = self.programme.axis, list[Sides]()
         for stretch in span.stretches:
             given = stretch.sides(self.objective.limits)
             limits.append({key: most * self.more.get(word_of(key, axis), 1.0) for key, most in given.items()})
-        return tuple(limits_of_span(span, limits, self.objective, stroke, axis))
+        return tuple(limits_of_span(span, limits, self.objective))
 
-    def _base(self, span: LawSpan, stroke: float) -> Problem:
+    def _base(self, span: LawSpan) -> Problem:
         """The problem of a span without its limits."""
-        limited = span_problem(slower(span, _SLOW), self.objective, self.programme.axis, stroke)
+        limited = span_problem(slower(span, _SLOW), self.objective)
         several = span.turns or len(span.stretches) > 1 or span.via
-        windows = tuple(joint_windows(span, self.objective.order, stroke)) if several else ()
+        windows = tuple(joint_windows(span, self.objective.order)) if several else ()
         if several:
-            windows += tuple(forward_windows(span, self.objective, stroke))
-        return replace(limited, windows=windows, bounds={}, B=None, C=None, D=None, J=None, minimise="C")
+            windows += tuple(forward_windows(span, self.objective))
+        return replace(unlimited(limited), windows=windows, minimise="C")
 
     def _turns(self, span: TimedSpan) -> bool:
         return all(self.ranges[i].turns for i in span.places)
@@ -349,7 +349,7 @@ def _of_what(proof: Certificate) -> str:
 
 def _at_rest(span: LawSpan) -> LawSpan:
     """The span with end states of exact rest where they differ from rest by rounding only: proofs assume rest."""
-    way = abs(scale(span)) * SAME_TIME
+    way = abs(span.stroke) * SAME_TIME
     first, last = (
         State(*(0.0 if abs(value) <= factor(way, span.duration, nu) else value for nu, value in enumerate(state, 1)))
         for state in (span.first, span.last)

@@ -87,10 +87,10 @@ class ForceRating:
         laws = [self._law(span) for span in placed.spans]
         square = sum(PieceEffort(self.drive, piece).square for piece in placed.pieces)
         proofs = {}
-        for span, (piece, solution) in zip(placed.spans, laws, strict=True):
+        for span, (_, solution) in zip(placed.spans, laws, strict=True):
             if solution is None:
                 return None
-            square += span.duration * span_bound(span, piece, solution, self._of_force) ** 2
+            square += span.duration * span_bound(span, solution, self._of_force) ** 2
             proofs[f"{span.where}, least {self.name}"] = solution.certificate
         return proofs if square > self.most**2 * period else None
 
@@ -115,7 +115,7 @@ class ForceRating:
     def _law(self, span: LawSpan) -> tuple[Piece, Solution | None]:
         """The law of a span in its place, with its solution where it was looked for there."""
         try:
-            return solve(span, self._of_force, self.axis)
+            return solve(span, self._of_force)
         except (InfeasibleProblem, SolverFailure):
             piece = self.fastest(span)
             if piece is None:

@@ -18,9 +18,7 @@ from math import exp, inf, log
 import numpy as np
 
 from optlaws.cycles.optimisation.objectives import CycleObjective, torque_at_rest
-from optlaws.cycles.optimisation.optimal import limited_by
-from optlaws.cycles.optimisation.search_spaces import place
-from optlaws.cycles.optimisation.span_values import Driven, driven_curve, driven_peak
+from optlaws.cycles.optimisation.span_values import SpanValue, known_drive, limited_value, span_value
 from optlaws.cycles.specification.joints import LawSpan
 from optlaws.cycles.specification.limits import Side, Sides, in_units, name_of
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
@@ -215,9 +213,7 @@ def slower(span: LawSpan, scale: float) -> LawSpan:
     )
 
 
-def limits_of_span(
-    span: LawSpan, limits: Sequence[Sides], objective: CycleObjective, stroke: float, axis: str
-) -> list[SpanLimit]:
+def limits_of_span(span: LawSpan, limits: Sequence[Sides], objective: CycleObjective) -> list[SpanLimit]:
     """The limits of a span, from the limits of each of its segments.
 
     Raises
@@ -238,17 +234,17 @@ def limits_of_span(
         if key.kind.is_driven:
             if not alike:
                 raise InputError(f"{span.where} are one law: give the force or power of all of them the same limit")
-            if objective.drive is None:
-                raise InputError("force, torque and power are of a drive: give one, such as drive={'mass': '2 kg'}")
-            rows += _of_drive(key, first, span, objective.drive, stroke, axis)
+            rows += _of_drive(key, first, span, known_drive(objective.drive), objective.axis)
             continue
-        known = limited_by(span, objective, stroke, key)
-        of_law = [] if alike else [(_of_part(key, stroke, span, ends), most) for ends, most in limited]
+        known = limited_value(span, objective.drive, key)
+        of_law = [] if alike else [(_of_part(key, span, ends), most) for ends, most in limited]
         if everywhere:
             # beside those of parts it says nothing new, but bounds laws as wholes, without which nothing is proven
             of_law.append((known.constants[0], max(most for _, most in limited)))
         nu = key.kind.order
-        rows += [derivative_limit(name_of(key, axis), most, of, nu, most / known.unit, key) for of, most in of_law]
+        rows += [
+            derivative_limit(name_of(key, objective.axis), most, of, nu, most / known.unit, key) for of, most in of_law
+        ]
     return rows
 
 
@@ -262,16 +258,16 @@ def _parts(span: LawSpan, limits: Sequence[Sides]) -> Iterator[tuple[tuple[float
             begun = i
 
 
-def _of_part(key: Side, stroke: float, span: LawSpan, ends: tuple[float, float]) -> Functional:
-    nu, (start, stop) = key.kind.order, (place(span, end) for end in ends)
+def _of_part(key: Side, span: LawSpan, ends: tuple[float, float]) -> Functional:
+    nu, (start, stop) = key.kind.order, (span.place(end) for end in ends)
     if not 1 <= nu <= 3:
         raise AssertionError  # those of the snap and of forces are of whole spans
     if not key.sign:
         return peak("abcj"[nu], start=start, stop=stop)
-    return peak("abcj"[nu], side="high" if key.sign * stroke > 0.0 else "low", start=start, stop=stop)
+    return peak("abcj"[nu], side="high" if key.sign * span.stroke > 0.0 else "low", start=start, stop=stop)
 
 
-def _of_drive(key: Side, most: float, span: LawSpan, drive: Drive, stroke: float, axis: str) -> list[SpanLimit]:
+def _of_drive(key: Side, most: float, span: LawSpan, drive: Drive, axis: str) -> list[SpanLimit]:
     """A drive limit along a span, as one limit for each constant that it involves."""
     if key.kind in {Kind.FORCE, Kind.CURVE}:
         position, force = static_force(span, drive)
@@ -286,26 +282,18 @@ def _of_drive(key: Side, most: float, span: LawSpan, drive: Drive, stroke: float
                 )
             )  # fmt: skip
 
-    def driven(scale: float) -> Driven:
-        moved = slower(span, scale)
-        return (
-            driven_curve(moved, drive, stroke)
-            if key.kind is Kind.CURVE
-            else driven_peak(moved, drive, stroke, key.kind)
-        )
-
     def term(part: int, scale: float) -> tuple[Functional, float]:
-        known = driven(scale)
+        known = span_value(slower(span, scale), drive, key.kind)
         return known.constants[part], most / known.unit
 
-    known = driven(1.0)
+    known = span_value(span, drive, key.kind)
     scales = _scales(key.kind, span, drive, known)
     return [
         SpanLimit(name_of(key, axis), most, partial(term, part), 0, scales, key) for part in range(len(known.constants))
     ]
 
 
-def _scales(kind: Kind, span: LawSpan, drive: Drive, driven: Driven) -> bool:
+def _scales(kind: Kind, span: LawSpan, drive: Drive, driven: SpanValue) -> bool:
     """Whether the limit is the original one, so that a law which keeps it keeps it at every lower speed."""
     resting = not any((span.first.velocity, span.last.velocity))
     force = drive.linear

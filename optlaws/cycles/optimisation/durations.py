@@ -9,15 +9,15 @@ derivative, and T ~ h^(2/(2n)) = h^(1/n) for its root mean square.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cache
 from math import inf, log2
 
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.cycles.optimisation.objectives import CycleObjective, kind_of
-from optlaws.cycles.optimisation.optimal import span_problem
+from optlaws.cycles.optimisation.objectives import CycleObjective
+from optlaws.cycles.optimisation.optimal import span_problem, unlimited
 from optlaws.cycles.specification.joints import LawSpan, State
 from optlaws.cycles.specification.limits import greatest
 from optlaws.cycles.specification.programme import Programme, TimedSegment, is_optimal
@@ -60,7 +60,7 @@ def durations(programme: Programme, objective: CycleObjective) -> tuple[float, .
     left = programme.period - sum(stretch.least for stretch in programme.stretches if stretch.fixed)
     for i in free:
         _check_rest(programme, i)
-    kind, mean = kind_of(objective.minimise)
+    kind, mean = objective.kind, objective.mean
     driven = any(limited.is_driven for limited in objective.limits)
     if not kind.order or driven or objective.shares or objective.loaded:
         raise InputError(
@@ -129,17 +129,17 @@ def _shape(programme: Programme, i: int, objective: CycleObjective, nu: int, *, 
         value = _constant(law, nu, mean=mean)
         return lambda _: value
     offset = programme.start + sum(other.displacement for other in programme.stretches[:i])
-    unlimited: list[MotionLaw] = []
+    unbound: list[MotionLaw] = []
     nearest: list[Solution] = []
 
     def shape(duration: float) -> float:
         span = LawSpan((stretch,), (0.0,), duration, offset, stretch.displacement, _REST, _REST, ())
         try:
-            problem = span_problem(span, objective, programme.axis, stretch.displacement)
-            if not unlimited:
-                unlimited.append(synthesize(replace(problem, bounds={}, B=None, C=None, J=None)).law)
-            if _keeps_limits(unlimited[0], problem):
-                return _constant(unlimited[0], nu, mean=mean)
+            problem = span_problem(span, objective)
+            if not unbound:
+                unbound.append(synthesize(unlimited(problem)).law)
+            if _keeps_limits(unbound[0], problem):
+                return _constant(unbound[0], nu, mean=mean)
             nearest[:] = [synthesize(problem, start=nearest[0] if nearest else None)]
             return _constant(nearest[0].law, nu, mean=mean)
         except InfeasibleProblem:

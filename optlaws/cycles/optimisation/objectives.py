@@ -53,8 +53,19 @@ class CycleObjective:
     order: int
     degree: int
     drive: Drive | None
+    axis: str
     load: Load | None = None
     loaded: Mapping[tuple[str, bool], float] = field(default_factory=dict)
+
+    @property
+    def kind(self) -> Kind:
+        """The kind of the minimised quantity."""
+        return kind_of(self.minimise)[0]
+
+    @property
+    def mean(self) -> bool:
+        """Whether its root mean square is minimised."""
+        return kind_of(self.minimise)[1]
 
     @property
     def mean_force(self) -> float | None:
@@ -74,7 +85,7 @@ class CycleObjective:
     @property
     def of_load(self) -> bool:
         """Whether the load is spoken of, so that the cycle is one problem."""
-        return bool(self.loaded) or kind_of(self.minimise)[0] is Kind.LOAD
+        return bool(self.loaded) or self.kind is Kind.LOAD
 
 
 def kind_of(minimise: str) -> tuple[Kind, bool]:

@@ -13,25 +13,16 @@ from math import inf, sqrt
 from operator import itemgetter
 from typing import Any
 
-from optlaws.cycles.optimisation.objectives import SUMS, CycleObjective, kind_of
+from optlaws.cycles.optimisation.objectives import SUMS, CycleObjective
 from optlaws.cycles.optimisation.search_spaces import (
     halved,
     joined_basis,
     joint_windows,
     minimised_rms,
-    place,
     search_space,
     splines_of_least_rms,
 )
-from optlaws.cycles.optimisation.span_values import (
-    Driven,
-    driven_curve,
-    driven_formula,
-    driven_mean,
-    driven_peak,
-    may_turn,
-    span_sum,
-)
+from optlaws.cycles.optimisation.span_values import PEAKS, DrivenSpan, known_drive, limited_value, span_value
 from optlaws.cycles.specification.joints import LawSpan, State
 from optlaws.cycles.specification.limits import Side, Sides, along_motion, greatest, in_units
 from optlaws.cycles.specification.load import load_output
@@ -41,7 +32,6 @@ from optlaws.motion.piece import Piece, factor
 from optlaws.motion.quantities import in_small_units
 from optlaws.motion.quantity_kinds import Kind
 from optlaws.sentences import sentence
-from optlaws.synthesis.functionals.makers import integral, peak
 from optlaws.synthesis.problem.constants import FUNCTIONALS, Functional
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.problem.ranges import Range
@@ -54,36 +44,33 @@ from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
 from optlaws.synthesis.status import Status
 from optlaws.tolerances import AGREEMENT
 
-_PEAKS = {Kind.VELOCITY: "B", Kind.ACCELERATION: "C", Kind.JERK: "J", Kind.SNAP: "snap"}
 _SNAP = Side(Kind.SNAP)
 _ROUGH = 15  # degree of Z where points on the way or velocities bend the law
 
 
-def solve(span: LawSpan, objective: CycleObjective, axis: str, share: float = inf) -> tuple[Piece, Solution]:
+def solve(span: LawSpan, objective: CycleObjective, share: float = inf) -> tuple[Piece, Solution]:
     """The best law of a span, in its place, with its proof; it takes no more than its share of a limit of the cycle."""
-    stroke = scale(span)
-    problem = span_problem(span, objective, axis, stroke)
+    problem = span_problem(span, objective)
     if share < inf:
-        problem = with_share(problem, span, objective, stroke, share)
-    solution = _unhindered(problem, span, objective, stroke)
+        problem = with_share(problem, span, objective, share)
+    solution = _unhindered(problem, span, objective)
     if solution is None:
         solution = solved(problem, span)
         if isinstance(problem.basis, Pieces) and (solution.status == Status.INACCURATE or objective.of_load):
             finer = _with_more_pieces(problem, problem.basis, span)
             if finer is not None and (solution.status == Status.INACCURATE or finer.objective < solution.objective):
                 solution = finer
-    return Piece(span.start, span.duration, span.offset, stroke, solution.law), solution
+    return span.by(solution.law), solution
 
 
-def _unhindered(problem: Problem, span: LawSpan, objective: CycleObjective, stroke: float) -> Solution | None:
+def _unhindered(problem: Problem, span: LawSpan, objective: CycleObjective) -> Solution | None:
     """The solution with the least RMS of all motions, where it is known in what space that lies and limits allow it."""
     nu = minimised_rms(problem) if isinstance(problem.basis, Pieces) else None
     splines = None if nu is None else splines_of_least_rms(span, objective.order, nu)
     if splines is None:
         return None
     limited = replace(problem, basis=splines)
-    windows = tuple(joint_windows(span, objective.order, stroke))
-    free = replace(limited, windows=windows, bounds={}, B=None, C=None, D=None, J=None)
+    free = replace(unlimited(limited), windows=tuple(joint_windows(span, objective.order)))
     try:
         least = synthesize(free)
         best = least if limited == free else synthesize(limited)
@@ -99,13 +86,11 @@ def _with_more_pieces(problem: Problem, basis: Pieces, span: LawSpan) -> Solutio
     load does follows its own period, for which few pieces may be too long.
     """
     finer = halved(basis)
-    if finer is None:
-        return None
     try:
-        solution = solved(replace(problem, basis=finer), span)
+        solution = None if finer is None else solved(replace(problem, basis=finer), span)
     except SolverFailure:
         return None
-    return solution if solution.status == Status.OPTIMAL else None
+    return solution if solution is not None and solution.status == Status.OPTIMAL else None
 
 
 def solved(problem: Problem, span: LawSpan) -> Solution:
@@ -123,257 +108,138 @@ def solved(problem: Problem, span: LawSpan) -> Solution:
         ) from None
 
 
-def with_least_limit(
-    error: InfeasibleProblem, span: LawSpan, objective: CycleObjective, axis: str
-) -> InfeasibleProblem:
+def unlimited(problem: Problem) -> Problem:
+    """The problem without bounds of its constants."""
+    return replace(problem, bounds={}, B=None, C=None, D=None, J=None)
+
+
+def with_least_limit(error: InfeasibleProblem, span: LawSpan, objective: CycleObjective) -> InfeasibleProblem:
     """The error of a span without a law, saying in units of the machine what one limit would have to allow at least."""
-    stroke = scale(span)
-    problem = span_problem(span, objective, axis, stroke)
+    problem = span_problem(span, objective)
     for key, most in span.stretches[0].sides(objective.limits).items():
         if key.kind is Kind.VELOCITY_ALONG:
             continue
-        limited = limited_by(span, objective, stroke, key)
+        limited = limited_value(span, objective.drive, key)
         limit = problem.range(limited.constants[0].name)
         others = {other: best for other, best in problem.bounded if other not in limited.constants}
-        free = replace(problem, minimise=limited.objective, bounds={}, B=None, C=None, D=None, J=None)
+        minimised = replace(unlimited(problem), minimise=limited.objective)
         try:
-            least = synthesize(replace(free, bounds=others)).lower_bound
+            least = synthesize(replace(minimised, bounds=others)).lower_bound
         except (InfeasibleProblem, SolverFailure):
             continue
-        if limit is not None and least > limit.high:
-            allowed, needed = (in_units(key, value, axis) for value in (most, least / limit.high * most))
-            space = search_space(problem, span, objective.order)
-            proven = (
-                _whatever_degree(replace(problem, minimise=limited.objective), limited) if key.kind.is_driven else None
-            )
-            beyond = ""
-            if proven is not None and proven > limit.high:
-                greater = in_units(key, proven / limit.high * most, axis)
+        if limit is None or least <= limit.high:
+            continue
+        allowed, needed = (in_units(key, value, objective.axis) for value in (most, least / limit.high * most))
+        beyond = ""
+        if key.kind.is_driven:
+            # the infimum over all laws that never turn back
+            peaks: list[Any] = [*limited.beneath] or [limited.objective]
+            planes = (limit_beside(replace(minimised, minimise=each, symmetric=False, monotone=True)) for each in peaks)
+            proven = max((plane.value for plane in planes if plane is not None), default=0.0)
+            if proven > limit.high:
+                greater = in_units(key, proven / limit.high * most, objective.axis)
                 beyond = sentence("; no law that never turns back, of whatever degree, takes less than {}", greater)
-            return InfeasibleProblem(
-                sentence(
-                    "{}: no law keeps its limits in {} s: among {} the least is {}, but its limit is {}{}: give it "
-                    "more time, a wider limit or a higher degree",
-                    span.where,
-                    f"{span.duration:.9g}",
-                    space,
-                    needed,
-                    allowed,
-                    beyond,
-                ),
-                problem=problem,
-                tried=error.tried,
-                proof=error.proof,
-            )
+        return InfeasibleProblem(
+            sentence(
+                "{}: no law keeps its limits in {} s: among {} the least is {}, but its limit is {}{}: give it more "
+                "time, a wider limit or a higher degree",
+                span.where, f"{span.duration:.9g}", search_space(problem, span, objective.order), needed, allowed,
+                beyond,
+            ),
+            problem=problem,
+            tried=error.tried,
+            proof=error.proof,
+        )  # fmt: skip
     return error
 
 
-def _whatever_degree(problem: Problem, driven: Driven) -> float | None:
-    """The infimum of a drive's peak over all laws that never turn back; None where it is not known."""
-    free = replace(problem, bounds={}, B=None, C=None, D=None, J=None)
-    peaks: list[Any] = [peak(formula) for formula in driven.beneath] or [problem.minimise]
-    limits = (limit_beside(replace(free, minimise=each, symmetric=False, monotone=True)) for each in peaks)
-    return max((limit.value for limit in limits if limit is not None), default=None)
-
-
-def with_share(problem: Problem, span: LawSpan, objective: CycleObjective, stroke: float, share: float) -> Problem:
+def with_share(problem: Problem, span: LawSpan, objective: CycleObjective, share: float) -> Problem:
     """The problem of a span of which the squared force, or the energy, is at most a share, in SI units."""
-    monotone = problem.monotone or never_back(span, objective)
-    if objective.mean_force is None:
-        energy = span_sum(span, Kind.ENERGY, objective.drive, stroke)
-        bounds = {**problem.bounds, integral(energy.formula): Range(0.0, (share - energy.constant) / energy.unit)}
-        return replace(problem, bounds=bounds, monotone=monotone, symmetric=False)
-    driven, most = driven_mean(span, objective.drive, stroke), share / span.duration
-    if most <= driven.friction:
+    of_energy = objective.mean_force is None
+    kind, most = (Kind.ENERGY, share) if of_energy else (Kind.FORCE, share / span.duration)
+    value = span_value(span, objective.drive, kind, mean=not of_energy)
+    if not of_energy and most <= value.constant:
         raise InfeasibleProblem(
-            f"{span.where}: dry friction alone takes an rms force of {sqrt(driven.friction):.9g}, more than what is "
+            f"{span.where}: dry friction alone takes an rms force of {sqrt(value.constant):.9g}, more than what is "
             f"left for it, {sqrt(max(most, 0.0)):.9g}: allow more, or give the cycle more time"
         )
-    bounds = {**problem.bounds, driven.constants[0]: Range(0.0, sqrt(most - driven.friction) / driven.unit)}
+    left = most - value.constant
+    allowed = Range(0.0, (left if of_energy else sqrt(left)) / value.unit)
+    bounds = {**problem.bounds, value.constants[0]: allowed}
+    monotone = problem.monotone or _never_back(span, objective)
     return replace(problem, bounds=bounds, monotone=monotone, symmetric=False)
 
 
-def never_back(span: LawSpan, objective: CycleObjective) -> bool:
+def _never_back(span: LawSpan, objective: CycleObjective) -> bool:
     """Whether a span's law is never to go back, so that dry friction is a constant force and limits of drives hold."""
     drive = objective.drive
-    if drive is None or may_turn(span):
+    if drive is None or span.may_turn:
         return False
-    summed = kind_of(objective.minimise)[0] in SUMS or objective.energy is not None
+    summed = objective.kind in SUMS or objective.energy is not None
     return drive.linear is None or drive.mechanism.has_end or drive.dry > 0.0 or summed
 
 
-def scale(span: LawSpan) -> float:
-    """The scale of a span's law: its displacement or, if that is zero, the greatest distance on the way."""
-    if span.displacement:
-        return span.displacement
-    ways = [abs(position - span.offset) for _, position in span.via]
-    known = (edge_state for edge_state in (span.first, span.last, *span.states) if edge_state is not None)
-    ways += [abs(state.velocity) * span.duration for state in known]
-    return max(ways)
-
-
-def span_problem(span: LawSpan, objective: CycleObjective, axis: str, stroke: float) -> Problem:
+def span_problem(span: LawSpan, objective: CycleObjective) -> Problem:
     """The dimensionless problem of a span."""
-    if stroke == 0.0:
+    if span.stroke == 0.0:
         raise InputError(f"{span.where} has nothing to move: take a Dwell")
+    of_each = span.sides(objective.limits)
+    _check_mean(span, of_each, objective.axis)
+    bounds, windows = _limits(span, objective, of_each)
+    minimised, ends = objective.kind, BoundaryConditions(*_ends(span, objective.order))
     if span.turns or len(span.stretches) > 1 or span.via:
-        return _problem_of_several(span, objective, axis, stroke)
-    ends = _ends(span, stroke, objective.order)
-    plain = not any(any(end[1:]) for end in (ends.start, ends.end))
-    bounds, parts = _limits(span, objective, axis, stroke)
-    limits = span.stretches[0].sides(objective.limits)
-    _check_energy(span, objective, limits)
-    minimised = kind_of(objective.minimise)[0]
-    forced = minimised.is_driven or minimised in SUMS or any(key.kind.is_driven for key in limits)
-    sided = any(key.sign and key.kind is not Kind.VELOCITY_ALONG for key in limits)
-    return Problem(
-        order=objective.order,
-        basis=Chebyshev(objective.degree if plain else max(objective.degree, _ROUGH)),
-        minimise=_objective(span, objective, stroke),
-        monotone=(forced and never_back(span, objective)) or along_motion(limits) or _follows_curve(span, limits),
-        symmetric=plain and not forced and not sided and not parts,
-        boundary=ends,
-        windows=parts,
-        bounds=bounds,
-    )
-
-
-def _follows_curve(span: LawSpan, limits: Sides) -> bool:
-    """Whether a motor's curve limits a motion between rests, which falls with a speed of one sign."""
-    return Side(Kind.CURVE) in limits and not may_turn(span)
-
-
-def _check_energy(span: LawSpan, objective: CycleObjective, limits: Sides) -> None:
-    """Refuse a least energy without a bound on the acceleration: the energy falls as accelerations grow."""
-    if kind_of(objective.minimise)[0] is Kind.ENERGY and not any(_holds_acceleration(key) for key in limits):
+        if objective.of_load:
+            minimised = Kind.LOAD
+        elif Kind.POWER in objective.limits or minimised is Kind.ENERGY:
+            minimised = Kind.POWER
+        else:
+            # peaks of the jerk and the snap are to be at breaks
+            orders = (key.kind for limits in of_each for key in limits or () if key.kind.order > 2)
+            minimised = max([minimised, *orders], key=lambda kind: kind.order)
+        bounds |= {
+            _of_load(objective, *output, span): Range(0.0, most / abs(span.stroke))
+            for output, most in objective.loaded.items()
+        }
+        joints, forward = joint_windows(span, objective.order), forward_windows(span, objective)
+        return Problem(
+            order=1 if span.turns else objective.order,
+            basis=joined_basis(span, objective.order, objective.degree, minimised),
+            minimise=_minimised(span, objective),
+            symmetric=False,
+            boundary=ends,
+            windows=(*joints, *forward, *windows),
+            bounds=bounds,
+        )
+    limits = of_each[0] or {}
+    if minimised is Kind.ENERGY and all(key.sign or key.kind is Kind.VELOCITY for key in limits):
         raise InputError(
             f"{span.where}: its energy falls with ever greater accelerations, so that none is least: give a limit of "
             "the acceleration, or of the force or torque"
         )
-
-
-def _holds_acceleration(key: Side) -> bool:
-    """Whether a limit bounds the acceleration: any limit except a limit of the velocity or of one side alone."""
-    return not key.sign and key.kind is not Kind.VELOCITY
-
-
-def _problem_of_several(span: LawSpan, objective: CycleObjective, axis: str, stroke: float) -> Problem:
-    """The problem of a single law over several stretches, or through points on the way."""
-    bounds, parts = _limits(span, objective, axis, stroke)
-    minimised, highest = kind_of(objective.minimise)[0], _highest_limited(span, objective)
-    if objective.of_load:
-        minimised = Kind.LOAD
-    elif Kind.POWER in objective.limits or minimised is Kind.ENERGY:
-        minimised = Kind.POWER
-    elif highest > minimised.order:
-        minimised = Kind(highest)
-    bounds |= {
-        _of_load(objective, *output, span): Range(0.0, most / abs(stroke)) for output, most in objective.loaded.items()
-    }
-    first = (span.offset - span.origin) / stroke
-    plain = BoundaryConditions((first,), (first + span.displacement / stroke,))
+    plain = not any(any(end[1:]) for end in (ends.start, ends.end))
+    forced = minimised.is_driven or minimised in SUMS or any(key.kind.is_driven for key in limits)
+    sided = any(key.sign and key.kind is not Kind.VELOCITY_ALONG for key in limits)
+    # a motor's curve falls with a speed of one sign
+    curved = Side(Kind.CURVE) in limits and not span.may_turn
     return Problem(
-        order=1 if span.turns else objective.order,
-        basis=joined_basis(span, objective.order, objective.degree, minimised),
-        minimise=_objective(span, objective, stroke),
-        symmetric=False,
-        boundary=plain if span.turns else _ends(span, stroke, objective.order),
-        windows=(
-            *joint_windows(span, objective.order, stroke),
-            *forward_windows(span, objective, stroke),
-            *parts,
-        ),
+        order=objective.order,
+        basis=Chebyshev(objective.degree if plain else max(objective.degree, _ROUGH)),
+        minimise=_minimised(span, objective),
+        monotone=(forced and _never_back(span, objective)) or along_motion(limits) or curved,
+        symmetric=plain and not forced and not sided and not windows,
+        boundary=ends,
+        windows=windows,
         bounds=bounds,
     )
 
 
-def _highest_limited(span: LawSpan, objective: CycleObjective) -> int:
-    """The order of the highest limited derivative from the jerk on, whose peaks are to be at breaks; else 0."""
-    keys = (key for stretch in span.stretches for key in stretch.sides(objective.limits))
-    return max((key.kind.order for key in keys if key.kind.order > 2), default=0)
-
-
-def _ends(span: LawSpan, stroke: float, order: int) -> BoundaryConditions:
-    first, last = (_end(state, span.duration, stroke, order) for state in (span.first, span.last))
-    return BoundaryConditions((0.0, *first), (span.displacement / stroke, *last))
-
-
-def _end(state: State, duration: float, stroke: float, order: int) -> tuple[float, ...]:
-    values = [value / factor(stroke, duration, nu) + 0.0 for nu, value in enumerate(state, start=1)]
-    return tuple((values + [0.0] * order)[: order - 1])
-
-
-def _limits(
-    span: LawSpan, objective: CycleObjective, axis: str, stroke: float
-) -> tuple[dict[Any, Range], tuple[Window, ...]]:
-    """Limits of the whole span as bounds of its constants, limits of parts of it as windows."""
-    _check_mean(span, objective, axis)
-    of_each = [stretch.sides(objective.limits) if is_optimal(stretch.given) else None for stretch in span.stretches]
-    sought = [limits for limits in of_each if limits is not None]
-    if all(limits == sought[0] for limits in sought) and _straight_within(span, sought[0]):
-        bounded = ((key, most) for key, most in sought[0].items() if key.kind is not Kind.VELOCITY_ALONG)
-        of_limits = ((limited_by(span, objective, stroke, key), most) for key, most in bounded)
-        ranges = ((known.constants, Range(0.0, most / known.unit)) for known, most in of_limits)
-        return {constant: allowed for constants, allowed in ranges for constant in constants}, ()
-    bounds, windows = dict[Any, Range](), list[Window]()
-    for limits, start, stop in _alike(of_each, (*span.starts, span.stop)):
-        for key, most in limits.items():
-            if key.kind is Kind.CURVE:
-                known = driven_curve(span, objective.drive, stroke)
-                bounds |= dict.fromkeys(known.constants, Range(0.0, most / known.unit))
-            elif key == _SNAP:
-                bounds[FUNCTIONALS[_PEAKS[Kind.SNAP]]] = Range(0.0, _snap_of_all(span, sought) / _unit(span, stroke, 4))
-            elif key.kind is not Kind.VELOCITY_ALONG:
-                windows.append(_window(span, objective, stroke, key, most, (place(span, start), place(span, stop))))
-    return bounds, tuple(windows)
-
-
-def limited_by(span: LawSpan, objective: CycleObjective, stroke: float, key: Side) -> Driven:
-    """The constants of a whole span's law that a limit bounds, with their unit in SI."""
-    nu = key.kind.order
-    if key.sign:
-        sign = key.sign * (1.0 if stroke > 0.0 else -1.0)
-        one_sided = FUNCTIONALS["C_plus" if sign > 0.0 else "C_minus"] if nu == 2 else None
-        constant = one_sided or peak("abcj"[nu], side="high" if sign > 0.0 else "low")
-        return Driven((constant,), _unit(span, stroke, nu))
-    if key.kind is Kind.CURVE:
-        return driven_curve(span, objective.drive, stroke)
-    if key.kind.is_driven:
-        return driven_peak(span, objective.drive, stroke, key.kind)
-    return Driven((FUNCTIONALS[_PEAKS[key.kind]],), _unit(span, stroke, nu))
-
-
-def _window(
-    span: LawSpan, objective: CycleObjective, stroke: float, key: Side, most: float, ends: tuple[float, float]
-) -> Window:
-    """A limit of a part of a span as a window of its law."""
-    nu = key.kind.order
-    if key.sign:
-        most /= _unit(span, stroke, nu)
-        high = key.sign * stroke > 0.0
-        return Window("abcj"[nu], -inf if high else -most, most if high else inf, *ends)
-    if key.kind.is_driven:
-        name, unit = driven_formula(span, objective.drive, stroke, key.kind)
-    else:
-        name, unit = "abcj"[nu], _unit(span, stroke, nu)
-    return Window(name, -most / unit, most / unit, *ends)
-
-
-def forward_windows(span: LawSpan, objective: CycleObjective, stroke: float) -> Iterator[Window]:
-    """Windows in which motions that must not turn back go on."""
-    for stretch, start, stop in span.timed:
-        limits = stretch.sides(objective.limits) if is_optimal(stretch.given) else {}
-        for key in (key for key in limits if key.kind is Kind.VELOCITY_ALONG):
-            sides = (0.0, inf) if key.sign * stroke < 0.0 else (-inf, 0.0)
-            yield Window("b", *sides, place(span, start), place(span, stop))
-
-
-def _snap_of_all(span: LawSpan, sought: Sequence[Sides]) -> float:
-    """The snap limit of a law over several stretches, which must be the same in each."""
-    given = {limits.get(_SNAP, inf) for limits in sought}
-    if len(given) > 1:
-        raise InputError(f"{span.where} are one law: give the snap of all of them the same limit")
-    return given.pop()
+def _minimised(span: LawSpan, objective: CycleObjective) -> Any:
+    kind, mean = objective.kind, objective.mean
+    output = load_output(objective.minimise, objective.load) if kind is Kind.LOAD else None
+    if output is not None:
+        return _of_load(objective, *output, span)
+    value = span_value(span, objective.drive, kind, mean=mean)
+    return value.constants[0].name if kind.order else value.objective
 
 
 def _of_load(objective: CycleObjective, output: str, mean: bool, span: LawSpan) -> Functional:  # noqa: FBT001 - the second of a pair
@@ -382,35 +248,77 @@ def _of_load(objective: CycleObjective, output: str, mean: bool, span: LawSpan) 
     return objective.load.constant(output, span.duration, mean=mean)
 
 
+def _ends(span: LawSpan, order: int) -> tuple[tuple[float, ...], tuple[float, ...]]:
+    if span.turns:
+        first = (span.offset - span.origin) / span.stroke
+        return (first,), (first + span.displacement / span.stroke,)
+
+    def rates(state: State) -> tuple[float, ...]:
+        values = [value / factor(span.stroke, span.duration, nu) + 0.0 for nu, value in enumerate(state, start=1)]
+        return tuple((values + [0.0] * order)[: order - 1])
+
+    return (0.0, *rates(span.first)), (span.displacement / span.stroke, *rates(span.last))
+
+
+def _limits(  # noqa: C901 - kinds of limits, one after another
+    span: LawSpan, objective: CycleObjective, of_each: Sequence[Sides | None]
+) -> tuple[dict[Any, Range], tuple[Window, ...]]:
+    """Limits of the whole span as bounds of its constants, limits of parts of it as windows."""
+    first, *others = sought = [limits for limits in of_each if limits is not None]
+    bounds, windows = dict[Any, Range](), list[Window]()
+    if all(limits == first for limits in others) and _straight_within(span, first):
+        for key, most in first.items():
+            if key.kind is not Kind.VELOCITY_ALONG:
+                value = limited_value(span, objective.drive, key)
+                bounds |= dict.fromkeys(value.constants, Range(0.0, most / value.unit))
+        return bounds, ()
+    for limits, of_part in groupby(zip(of_each, span.timed, strict=True), key=itemgetter(0)):
+        times = [time for _, (_, *ends) in of_part for time in ends]
+        for key, most in (limits or {}).items():
+            if key.kind is Kind.CURVE:
+                value = span_value(span, objective.drive, key.kind)
+                bounds |= dict.fromkeys(value.constants, Range(0.0, most / value.unit))
+            elif key == _SNAP:
+                if len({each.get(_SNAP, inf) for each in sought}) > 1:
+                    raise InputError(f"{span.where} are one law: give the snap of all of them the same limit")
+                bounds[FUNCTIONALS[PEAKS[Kind.SNAP]]] = Range(0.0, most / span.unit(4))
+            elif key.kind is not Kind.VELOCITY_ALONG:
+                name, unit = "abcj"[key.kind.order], span.unit(key.kind.order)
+                if key.kind.is_driven:
+                    name, unit = DrivenSpan(span, known_drive(objective.drive)).along(key.kind)
+                low, high = -most / unit, most / unit
+                if key.sign:
+                    low, high = (-inf, high) if key.sign * span.stroke > 0.0 else (low, inf)
+                windows.append(Window(name, low, high, span.place(times[0]), span.place(times[-1])))
+    return bounds, tuple(windows)
+
+
+def forward_windows(span: LawSpan, objective: CycleObjective) -> Iterator[Window]:
+    """Windows in which motions that must not turn back go on."""
+    for limits, (_, start, stop) in zip(span.sides(objective.limits), span.timed, strict=True):
+        for key in limits or ():
+            if key.kind is Kind.VELOCITY_ALONG:
+                low, high = (0.0, inf) if key.sign * span.stroke < 0.0 else (-inf, 0.0)
+                yield Window("b", low, high, span.place(start), span.place(stop))
+
+
 def _straight_within(span: LawSpan, limits: Sides) -> bool:
     """Whether uniform motions keep the limits of the velocity."""
     return all(
         is_optimal(stretch.given)
-        or abs(stretch.displacement) <= greatest(limits, Kind.VELOCITY, _sign(stretch.displacement)) * (stop - start)
+        or abs(stretch.displacement) <= _fastest(limits, stretch.displacement) * (stop - start)
         for stretch, start, stop in span.timed
     )
 
 
-def _sign(displacement: float) -> float:
-    return -1.0 if displacement < 0.0 else 1.0
+def _fastest(limits: Sides, displacement: float) -> float:
+    return greatest(limits, Kind.VELOCITY, -1.0 if displacement < 0.0 else 1.0)
 
 
-def _alike(of_each: Sequence[Sides | None], times: Sequence[float]) -> Iterator[tuple[Sides, float, float]]:
-    """Limits of stretches from where to where they are the same."""
-    for limits, several in groupby(zip(of_each, times, times[1:], strict=False), key=itemgetter(0)):
-        parts = list(several)
-        if limits is not None:
-            yield limits, parts[0][1], parts[-1][2]
-
-
-def _check_mean(span: LawSpan, objective: CycleObjective, axis: str) -> None:
+def _check_mean(span: LawSpan, of_each: Sequence[Sides | None], axis: str) -> None:
     """Refuse a velocity limit that is no more than the mean velocity: such a law cannot start from rest."""
-    for stretch, start, stop in span.timed:
-        limits = stretch.sides(objective.limits) if is_optimal(stretch.given) else {}
-        most, mean = (
-            greatest(limits, Kind.VELOCITY, _sign(stretch.displacement)),
-            abs(stretch.displacement) / (stop - start),
-        )
+    for limits, (stretch, start, stop) in zip(of_each, span.timed, strict=True):
+        most, mean = _fastest(limits or {}, stretch.displacement), abs(stretch.displacement) / (stop - start)
         if mean >= most:
             raise InfeasibleProblem(
                 sentence(
@@ -420,22 +328,3 @@ def _check_mean(span: LawSpan, objective: CycleObjective, axis: str) -> None:
                     in_small_units(mean, axis, "/s"), in_small_units(most, axis, "/s"),
                 )
             )  # fmt: skip
-
-
-def _unit(span: LawSpan, stroke: float, nu: int) -> float:
-    """The unit of a derivative of a span's law."""
-    return abs(factor(stroke, span.duration, nu))
-
-
-def _objective(span: LawSpan, objective: CycleObjective, stroke: float) -> Any:
-    kind, mean = kind_of(objective.minimise)
-    if kind.order:
-        return {2: "rms_c", 3: "rms_j", 4: "rms_snap"}[kind.order] if mean else _PEAKS[kind]
-    output = load_output(objective.minimise, objective.load) if kind is Kind.LOAD else None
-    if output is not None:
-        return _of_load(objective, *output, span)
-    if mean:
-        return driven_mean(span, objective.drive, stroke).objective
-    if kind in SUMS:
-        return integral(span_sum(span, kind, objective.drive, stroke).formula)
-    return driven_peak(span, objective.drive, stroke, kind).objective

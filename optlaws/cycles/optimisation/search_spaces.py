@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from itertools import pairwise
 from math import ceil, inf
 
-from optlaws.cycles.specification.joints import LawSpan, State
-from optlaws.cycles.specification.programme import TimedSegment, is_optimal
+from optlaws.cycles.specification.joints import LawSpan
+from optlaws.cycles.specification.programme import is_optimal
 from optlaws.errors import InputError
 from optlaws.motion.piece import factor
 from optlaws.motion.quantity_kinds import Kind
@@ -22,9 +23,7 @@ from optlaws.tolerances import AGREEMENT
 _MOST, _LEAST = 600, 3  # pieces of a law, and of a motion even so: fewer may not bend as its ends require
 #: pieces of a stretch where what is minimised has its peaks inside of pieces: the velocity, what a load does, power
 _FEW = {Kind.VELOCITY: 6, Kind.LOAD: 4, Kind.POWER: 4}
-
-#: times and positions, in SI units
-Points = list[tuple[float, float]]
+_ALL_MOTIONS = "all motions through the joints"
 
 
 def joined_basis(span: LawSpan, order: int, degree: int, minimised: Kind) -> Pieces:
@@ -39,7 +38,7 @@ def joined_basis(span: LawSpan, order: int, degree: int, minimised: Kind) -> Pie
     >>> len(solution.problem.basis.breaks), solution.problem.basis.degree
     (49, 3)
     """
-    curved = sum(len(points) - 1 for stretch, points in _points(span) if is_optimal(stretch.given))
+    curved = sum(len(points) - 1 for bends, points in _points(span) if bends)
     most = min(2 * (degree + order), max(_LEAST, _MOST // curved))
     if _LEAST * curved > MOST_PIECES:
         raise InputError(
@@ -47,43 +46,40 @@ def joined_basis(span: LawSpan, order: int, degree: int, minimised: Kind) -> Pie
             "pieces: put a dwell or a move between them, where velocity and acceleration are known"
         )
     each = most if minimised not in _FEW else max(1, min(most, _FEW[minimised] * (degree + order) // 12))
-    fastest = least_velocity(span)
+    fastest = _least_velocity(span)
     breaks, straight = [0.0], list[int]()
-    for stretch, points in _points(span):
-        if not is_optimal(stretch.given):
+    for bends, points in _points(span):
+        if not bends:
             straight.append(len(breaks) - 1)
-            breaks.append(place(span, points[-1][0]))
+            breaks.append(span.place(points[-1][0]))
             continue
         for (low, y), (high, z) in pairwise(points):
             parts = ceil(each / (len(points) - 1))
             if minimised is Kind.VELOCITY:
                 turning = _pieces_to_turn(abs(z - y) / (high - low), fastest, order)
                 parts = max(parts, min(turning, ceil(most / (len(points) - 1))))
-            begin, end = place(span, low), place(span, high)
+            begin, end = span.place(low), span.place(high)
             breaks += [begin + (end - begin) * i / parts for i in range(1, parts)] + [end]
     smoothness = max(order - 1, minimised.order - 1, 1)
     power = max(3, minimised.order, 2 * order - 1 if minimised is Kind.LOAD else order)
-    if span.turns:
-        return PeriodicPieces(breaks, power, smoothness, straight)
-    return Pieces(breaks, power, smoothness)
+    return PeriodicPieces(breaks, power, smoothness, straight) if span.turns else Pieces(breaks, power, smoothness)
 
 
-def least_velocity(span: LawSpan) -> float:
+def _least_velocity(span: LawSpan) -> float:
     """A lower bound of the peak velocity of a span: the greatest mean between two points, or a known value."""
     steps = [(low, y, high, z) for _, points in _points(span) for (low, y), (high, z) in pairwise(points)]
     means = [abs(z - y) / (high - low) for low, y, high, z in steps if high > low]
-    return max(
-        0.0, *means, *(abs(state.velocity) for state in (span.first, span.last, *span.states) if state is not None)
-    )
+    known = (abs(state.velocity) for state in (span.first, span.last, *span.states) if state is not None)
+    return max(0.0, *means, *known)
 
 
-def _points(span: LawSpan) -> Iterator[tuple[TimedSegment, Points]]:
-    """Each stretch of a span with the points that it passes, its ends among them."""
+def _points(span: LawSpan) -> Iterator[tuple[bool, list[tuple[float, float]]]]:
+    """Of each stretch whether it bends, and the times and positions that it passes, its ends among them."""
     position = span.offset
     for stretch, start, stop in span.timed:
         passed = [(start, position), *(point for point in span.via if start < point[0] < stop)]
         position += stretch.displacement
-        yield stretch, [*passed, (stop, position)]
+        yield is_optimal(stretch.given), [*passed, (stop, position)]
 
 
 def _pieces_to_turn(mean: float, fastest: float, order: int) -> int:
@@ -105,43 +101,29 @@ def halved(basis: Pieces) -> Pieces | None:
     """
     if 2 * len(basis.breaks) > _MOST:
         return None
-    straight_pieces = set(basis.straight) if isinstance(basis, PeriodicPieces) else set[int]()
+    stiff = set(basis.straight) if isinstance(basis, PeriodicPieces) else set[int]()
     breaks, straight = [0.0], list[int]()
     for i, (low, high) in enumerate(pairwise(basis.breaks)):
-        if i in straight_pieces:
+        if i in stiff:
             straight.append(len(breaks) - 1)
         else:
             breaks.append(0.5 * (low + high))
         breaks.append(high)
     if isinstance(basis, PeriodicPieces):
-        return PeriodicPieces(breaks, basis.degree, basis.continuity, straight)
-    return Pieces(breaks, basis.degree, basis.continuity)
+        return replace(basis, breaks=tuple(breaks), straight=tuple(straight))
+    return replace(basis, breaks=tuple(breaks))
 
 
-def place(span: LawSpan, time: float) -> float:
-    """The k of a time in a span; its ends are 0 and 1 exactly."""
-    return 1.0 if time == span.stop else (time - span.start) / span.duration
-
-
-def joint_windows(span: LawSpan, order: int, stroke: float) -> Iterator[Window]:
+def joint_windows(span: LawSpan, order: int) -> Iterator[Window]:
     """Positions at joints and on the way, and what is known of velocities and accelerations at joints of a cycle."""
     for time, position in span.via:
-        yield via("a", (position - span.origin) / stroke, at=place(span, time))
+        yield via("a", (position - span.origin) / span.stroke, at=span.place(time))
+    bends = [is_optimal(stretch.given) for stretch in span.stretches]
     for i, state in enumerate(span.states):
-        if state is not None:
-            yield from _state_windows(span, order, stroke, i, state)
-
-
-def _state_windows(span: LawSpan, order: int, stroke: float, i: int, state: State) -> Iterator[Window]:
-    before, after = (is_optimal(span.stretches[j].given) for j in (i - 1, i))
-    values = [*state, 0.0][: order - 1]
-    for nu, value in enumerate(values, start=1):
-        # after a straight stretch the velocity is that of its start; beside one there is no acceleration
-        if before if nu == 1 else before and after:
-            yield via("abcj"[nu], value / factor(stroke, span.duration, nu), at=place(span, span.starts[i]))
-
-
-ALL_MOTIONS = "all motions through the joints"
+        for nu, value in enumerate([*state, 0.0][: order - 1] if state is not None else (), start=1):
+            # after a straight stretch the velocity is that of its start; beside one there is no acceleration
+            if bends[i - 1] and (nu == 1 or bends[i]):
+                yield via("abcj"[nu], value / factor(span.stroke, span.duration, nu), at=span.place(span.starts[i]))
 
 
 def minimised_rms(problem: Problem) -> int | None:
@@ -157,25 +139,24 @@ def search_space(problem: Problem, span: LawSpan, order: int, fastest: float = i
     the least root mean square of the derivative of order nu, if its ends have no more than nu conditions each.
     """
     nu, basis = minimised_rms(problem), problem.basis
-    if problem.minimise == "B" and fastest <= least_velocity(span) * (1.0 + AGREEMENT):
-        return ALL_MOTIONS
+    if problem.minimise == "B" and fastest <= _least_velocity(span) * (1.0 + AGREEMENT):
+        return _ALL_MOTIONS
     if isinstance(basis, Pieces):
         if nu is not None and basis == splines_of_least_rms(span, order, nu):
-            return ALL_MOTIONS
+            return _ALL_MOTIONS
         return f"splines of degree {basis.degree} in {len(basis.breaks) - 1} pieces"
     degree = basis.degree if isinstance(basis, PolynomialBasis) else 0
     rich = nu is not None and problem.order <= nu and 2 * nu <= 2 * problem.order + degree + 1
     if rich and not (problem.bounded or problem.windows or problem.monotone):
-        return ALL_MOTIONS
+        return _ALL_MOTIONS
     return f"laws of order {problem.order} with Z of degree {degree}"
 
 
 def remark_on_degrees(problems: Sequence[tuple[LawSpan, Problem]], degree: int) -> tuple[str, ...]:
     """The remarks on spans whose Z has another degree than the requested degree."""
-    raised = [(span, problem.basis) for span, problem in problems]
     return tuple(
         f"{span.where}: Z has the degree {basis.degree}, not {degree}, for the velocities at its ends"
-        for span, basis in raised
+        for span, basis in ((span, problem.basis) for span, problem in problems)
         if isinstance(basis, PolynomialBasis) and basis.degree != degree
     )
 
@@ -196,9 +177,8 @@ def splines_of_least_rms(span: LawSpan, order: int, nu: int) -> Pieces | None:
     if order > (nu if known else 2 * nu - 1):
         return None
     times = sorted({*span.starts, *(time for time, _ in span.via), span.stop})
-    breaks = [place(span, time) for time in times]
+    breaks = [span.place(time) for time in times]
     if not span.turns:
         return Pieces(breaks, 2 * nu - 1, 2 * nu - 2)
-    fixed = [start for stretch, start in zip(span.stretches, span.starts, strict=True) if not is_optimal(stretch.given)]
-    straight = [times.index(start) for start in fixed]
+    straight = [times.index(start) for stretch, start, _ in span.timed if not is_optimal(stretch.given)]
     return PeriodicPieces(breaks, 2 * nu - 1, nu - 1 if known else 2 * nu - 2, straight)

@@ -12,22 +12,15 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from math import exp, inf, log, sqrt
-from typing import TYPE_CHECKING
+from typing import TypeAlias
 
 from optlaws.cycles.optimisation.bounds import bound_of, is_exact, span_bound
 from optlaws.cycles.optimisation.joint_limits import ties_broken
-from optlaws.cycles.optimisation.objectives import SUMS, CycleObjective, kind_of
-from optlaws.cycles.optimisation.optimal import (
-    scale,
-    solve,
-    solved,
-    span_problem,
-    with_least_limit,
-    with_share,
-)
-from optlaws.cycles.optimisation.span_values import SpanSum, size_of, span_sum, total
+from optlaws.cycles.optimisation.objectives import SUMS, CycleObjective
+from optlaws.cycles.optimisation.optimal import solve, solved, span_problem, with_least_limit, with_share
+from optlaws.cycles.optimisation.span_values import SpanValue, size_of, sum_along, total
 from optlaws.cycles.specification.joints import LawSpan, Layout
-from optlaws.cycles.specification.limits import tightest
+from optlaws.cycles.specification.limits import FORCES, tightest
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.kept import kept_property
 from optlaws.motion.piece import Piece
@@ -35,9 +28,6 @@ from optlaws.motion.quantity_kinds import Kind
 from optlaws.synthesis.functionals.makers import integral
 from optlaws.synthesis.solution import Solution
 from optlaws.tolerances import FEASIBILITY
-
-if TYPE_CHECKING:
-    from optlaws.mechanisms.drives.drive_train import Drive
 
 _LEAST_PEAK_SLACK = 1e-6  # of a least peak, given to problems that are not convex
 _PEAK_BRACKET = 1e-11  # of a peak: where a limit is met
@@ -50,36 +40,38 @@ _NONE = 1.0  # by how much a limit counts as missed where there is no law
 #: shares of a peak below which it is tried whether none is possible
 _BELOW = (2e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2)
 
+Laws: TypeAlias = tuple[tuple[Piece, Solution], ...]
+
 
 @dataclass(frozen=True)
 class Best:
     """The best laws of a cycle with their solutions, the choice among equals, and the lower bound in their spaces."""
 
-    laws: tuple[tuple[Piece, Solution], ...]
+    laws: Laws
     remarks: tuple[str, ...]
     bound: float | None
 
 
-def best_of(layout: Layout, objective: CycleObjective, axis: str, period: float) -> Best:
+def best_of(layout: Layout, objective: CycleObjective, period: float) -> Best:
     """The best laws of all spans; of none, without a bound of what is given."""
     if not layout.spans:
         return Best((), (), None)
     if not objective.shares:
-        laws = tuple(_solved(span, objective, axis) for span in layout.spans)
+        laws = tuple(_solved(span, objective) for span in layout.spans)
         bound = bound_of(layout, laws, objective, period)
-        return Best(*ties_broken(layout, objective, axis, laws, period), bound)
+        return Best(*ties_broken(layout, objective, laws, period), bound)
     if objective.drive is None:
         raise InputError(
             "limits: the rms force and the energy of a cycle are of a drive: give one, such as drive={'mass': '2 kg'}"
         )
-    return _SharedLimit(layout, objective, objective.drive, axis, period).best()
+    return _SharedLimit(layout, objective, period).best()
 
 
-def _solved(span: LawSpan, objective: CycleObjective, axis: str) -> tuple[Piece, Solution]:
+def _solved(span: LawSpan, objective: CycleObjective) -> tuple[Piece, Solution]:
     try:
-        return solve(span, objective, axis)
+        return solve(span, objective)
     except InfeasibleProblem as error:
-        raise with_least_limit(error, span, objective, axis) from None
+        raise with_least_limit(error, span, objective) from None
 
 
 @dataclass(frozen=True)
@@ -88,8 +80,6 @@ class _SharedLimit:
 
     layout: Layout
     objective: CycleObjective
-    drive: Drive
-    axis: str
     period: float
 
     def best(self) -> Best:
@@ -98,17 +88,15 @@ class _SharedLimit:
             raise self._too_much(self._given, "what is given takes")
         if len(self.layout.spans) == 1:
             return self._alone()
-        laws = tuple(solve(span, self.objective, self.axis) for span in self.layout.spans)
+        laws = self._laws(self.objective)
         bound = bound_of(self.layout, laws, self.objective, self.period)
         if self._taken(laws) <= self.left * (1.0 + FEASIBILITY):
             return Best(laws, (), bound)
-        kind, mean = kind_of(self.objective.minimise)
-        summed = mean or kind in SUMS
+        summed = self.objective.mean or self.objective.kind in SUMS
         if summed and self._kind is Kind.ENERGY:
             # the least energy has no bound without one of the acceleration
             return self._by_multiplier(laws, bound or 0.0)
-        ceiling = inf if self._kind is Kind.FORCE else _HIGHEST * self._greatest(laws)
-        least = tuple(self._least(span, ceiling) for span in self.layout.spans)
+        least = self._least(inf if self._kind is Kind.FORCE else _HIGHEST * self._greatest(laws))
         if self._least_taken(least) > self.left:
             raise self._too_much(self._given + self._least_taken(least), "no law takes less than")
         return self._by_multiplier(laws, bound or 0.0) if summed else self._by_peak(laws, least, bound or 0.0)
@@ -133,11 +121,12 @@ class _SharedLimit:
     @kept_property
     def _given(self) -> float:
         """The share of the sum that dwells and given laws take."""
-        return total(self.layout.pieces, self._kind, self.drive)
+        return total(self.layout.pieces, self._kind, self.objective.drive)
 
     def _too_much(self, taken: float, why: str) -> InfeasibleProblem:
-        what = "energy" if self._kind is Kind.ENERGY else f"rms {'force' if self.axis == 'length' else 'torque'}"
-        most, least = (self._shown(value) for value in (self.most, taken))
+        energy = self._kind is Kind.ENERGY
+        most, least = (value if energy else sqrt(value / self.period) for value in (self.most, taken))
+        what = "energy" if energy else f"rms {FORCES[self.objective.axis]}"
         return InfeasibleProblem(
             f"limits: the {what} over the cycle is to be at most {most:.9g}, but {why} {least:.9g}: allow more, or "
             "give the cycle more time"
@@ -148,68 +137,59 @@ class _SharedLimit:
         """Whether the sought laws are optimised and judged by the same quantity."""
         return all(is_exact(span, self.objective) for span in self.layout.spans)
 
-    def _shown(self, taken: float) -> float:
-        """A sum as its limit is given: a root mean square, or an energy."""
-        return taken if self._kind is Kind.ENERGY else sqrt(taken / self.period)
+    def _laws(self, objective: CycleObjective) -> Laws:
+        return tuple(solve(span, objective) for span in self.layout.spans)
 
     def _alone(self) -> Best:
         """The only span takes the whole remainder; the limit is lowered where friction takes more than estimated."""
         (span,) = self.layout.spans
         allowed, bound = self.left, inf
         for _ in range(_ROUNDS):
-            piece, solution = self._within(span, allowed)
-            bound = min(bound, bound_of(self.layout, ((piece, solution),), self.objective, self.period) or 0.0)
-            over = self._taken(((piece, solution),)) - self.left
+            laws = (self._within(span, allowed),)
+            bound = min(bound, bound_of(self.layout, laws, self.objective, self.period) or 0.0)
+            over = self._taken(laws) - self.left
             if over <= FEASIBILITY * self.left:
-                return Best(((piece, solution),), (), bound)
+                return Best(laws, (), bound)
             allowed -= over
         raise SolverFailure(f"{span.where}: no law was found whose rms force with dry friction keeps its limit")
 
     def _within(self, span: LawSpan, allowed: float) -> tuple[Piece, Solution]:
         try:
-            return solve(span, self.objective, self.axis, allowed)
+            return solve(span, self.objective, allowed)
         except InfeasibleProblem:
-            if self._kind is Kind.ENERGY:
-                raise
-            least = (self._least(span, inf),)
-            if self._least_taken(least) > self.left:
-                raise self._too_much(self._given + self._least_taken(least), "no law takes less than") from None
+            if self._kind is Kind.FORCE and (least := self._least_taken(self._least(inf))) > self.left:
+                raise self._too_much(self._given + least, "no law takes less than") from None
             raise
 
-    def _taken(self, laws: Sequence[tuple[Piece, Solution]]) -> float:
+    def _taken(self, laws: Laws) -> float:
         """The laws' contribution to the sum."""
-        return total([piece for piece, _ in laws], self._kind, self.drive)
+        return total([piece for piece, _ in laws], self._kind, self.objective.drive)
 
-    def _least_taken(self, laws: Sequence[tuple[Piece, Solution]]) -> float:
+    def _least_taken(self, laws: Laws) -> float:
         """The lower bound of the sum, from laws that take the least of it."""
-        of_sum = self._of_sum()
-        bounds = [span_bound(span, *law, of_sum) for span, law in zip(self.layout.spans, laws, strict=True)]
-        if self._kind is Kind.ENERGY:
-            return sum(bounds)
-        return sum(stretch.duration * bound**2 for stretch, bound in zip(self.layout.spans, bounds, strict=True))
+        spans = zip(self.layout.spans, laws, strict=True)
+        bounds = [(span.duration, span_bound(span, solution, self._of_sum())) for span, (_, solution) in spans]
+        return sum(bound if self._kind is Kind.ENERGY else duration * bound**2 for duration, bound in bounds)
 
     def _of_sum(self, peak: float = inf) -> CycleObjective:
         """The objective of the least sum, where what is minimised is at most a peak."""
-        kind, mean = kind_of(self.objective.minimise)
-        limits = self.objective.limits
-        if not mean and kind not in SUMS and peak < inf:
+        limits, kind = self.objective.limits, self.objective.kind
+        if not self.objective.mean and kind not in SUMS and peak < inf:
             limits = tightest(limits, {kind: (-peak, peak)})
         return replace(self.objective, minimise="energy" if self._kind is Kind.ENERGY else "rms force", limits=limits)
 
-    def _least(self, span: LawSpan, peak: float) -> tuple[Piece, Solution]:
-        return solve(span, self._of_sum(peak), self.axis)
+    def _least(self, peak: float) -> Laws:
+        return self._laws(self._of_sum(peak))
 
-    def _by_peak(
-        self, laws: Sequence[tuple[Piece, Solution]], least: Sequence[tuple[Piece, Solution]], bound: float
-    ) -> Best:
+    def _by_peak(self, laws: Laws, least: Laws, bound: float) -> Best:
         """The least peak at which laws keep the limit, and one below it at which none do."""
         from scipy.optimize import brentq
 
-        tried: dict[float, tuple[tuple[Piece, Solution], ...]] = {}
+        tried: dict[float, Laws] = {}
 
         def over(peak: float) -> float:
             try:
-                tried[peak] = tuple(self._least(span, peak) for span in self.layout.spans)
+                tried[peak] = self._least(peak)
             except (InfeasibleProblem, SolverFailure):
                 # so near the least peak that no law is found any more
                 return _NONE
@@ -220,20 +200,17 @@ class _SharedLimit:
         high = self._greatest(least)
         if over(low) > 0.0:
             brentq(over, low, high, xtol=_PEAK_BRACKET * high, rtol=_PEAK_BRACKET)
-            tried.setdefault(high, tuple(least))
+            tried.setdefault(high, least)
         least_peak = min(peak for peak, laws in tried.items() if self._taken(laws) <= self.left * (1.0 + FEASIBILITY))
         return Best(tried[least_peak], (), max(bound, self._impossible(least_peak, bound)))
 
     def _impossible(self, peak: float, bound: float) -> float:
         """A peak just below the optimum for which no laws satisfy the shared limit."""
-        if not self._exact:
-            return bound
-        for share in _BELOW:
-            lower = peak * (1.0 - share)
+        for lower in (peak * (1.0 - share) for share in _BELOW if self._exact):
             if lower <= bound:
                 return bound
             try:
-                laws = [self._least(span, lower) for span in self.layout.spans]
+                laws = self._least(lower)
             except InfeasibleProblem:
                 return lower
             except SolverFailure:
@@ -242,24 +219,23 @@ class _SharedLimit:
                 return lower
         return bound
 
-    def _greatest(self, laws: Sequence[tuple[Piece, Solution]]) -> float:
+    def _greatest(self, laws: Laws) -> float:
         """The greatest value of the objective over the whole cycle, for any laws."""
-        kind, _ = kind_of(self.objective.minimise)
         pieces = [*(piece for piece, _ in laws), *self.layout.pieces]
-        return max(size_of(piece, kind, self.drive) for piece in pieces)
+        return max(size_of(piece, self.objective.kind, self.objective.drive) for piece in pieces)
 
-    def _by_multiplier(self, laws: Sequence[tuple[Piece, Solution]], bound: float) -> Best:
+    def _by_multiplier(self, laws: Laws, bound: float) -> Best:
         """The least root mean square or sum, by the limit's multiplier; `bound` is the bound without the limit."""
         from scipy.optimize import brentq
 
-        tried: dict[float, tuple[tuple[Piece, Solution], ...]] = {}
+        tried: dict[float, Laws] = {}
+        kind, drive = self.objective.kind, self.objective.drive
 
         def over(multiplier: float) -> float:
             tried[multiplier] = tuple(self._with_multiplier(span, exp(multiplier)) for span in self.layout.spans)
             return log(self._taken(tried[multiplier]) / self.left)
 
-        kind, _ = kind_of(self.objective.minimise)
-        first = log(abs(total([piece for piece, _ in laws], kind, self.drive)) / self._taken(laws))
+        first = log(abs(total([piece for piece, _ in laws], kind, drive)) / self._taken(laws))
         low, high = first - 2.0, first + 2.0
         while over(low) < 0.0:
             low -= 4.0
@@ -273,41 +249,35 @@ class _SharedLimit:
         least = min(
             multiplier for multiplier, laws in tried.items() if self._taken(laws) <= self.left * (1.0 + FEASIBILITY)
         )
-        pieces = [*self.layout.pieces, *(piece for piece, _ in tried[least])]
-        attained = self._of_total(total(pieces, kind, self.drive))
+        attained = total([*self.layout.pieces, *(piece for piece, _ in tried[least])], kind, drive)
         # the laws may miss the limit by a rounding, the bound is of those that keep it: it is no better than they are
         proven = max(self._bound_with_multiplier(tried[least], exp(least)), bound)
-        return Best(tried[least], (), min(proven, attained))
+        return Best(tried[least], (), min(proven, self._of_total(attained)))
 
     def _with_multiplier(self, span: LawSpan, multiplier: float) -> tuple[Piece, Solution]:
         """The law of a span that minimises the objective plus a multiple of the limited quantity."""
-        stroke = scale(span)
-        minimised, limited = self._sums(span, stroke)
+        minimised, limited = self._sums(span)
         weight = multiplier * limited.unit / minimised.unit
         formula = f"{minimised.formula} + ({weight!r})*({limited.formula})"
-        plain = replace(span_problem(span, self.objective, self.axis, stroke), minimise=integral(formula))
+        plain = replace(span_problem(span, self.objective), minimise=integral(formula))
         # the limit as if the others took nothing: it only says how great laws may be
-        problem = with_share(plain, span, self.objective, stroke, self.left)
-        solution = solved(problem, span)
-        return Piece(span.start, span.duration, span.offset, stroke, solution.law), solution
+        solution = solved(with_share(plain, span, self.objective, self.left), span)
+        return span.by(solution.law), solution
 
-    def _bound_with_multiplier(self, laws: Sequence[tuple[Piece, Solution]], multiplier: float) -> float:
+    def _bound_with_multiplier(self, laws: Laws, multiplier: float) -> float:
         """The lower bound for laws that keep the limit: the bound with the multiplier, less multiplier times limit."""
-        kind, _ = kind_of(self.objective.minimise)
         if not self._exact:
-            return 0.0 if kind not in SUMS else -inf
-        least = -multiplier * self.left + total(self.layout.pieces, kind, self.drive)
-        for span, (piece, solution) in zip(self.layout.spans, laws, strict=True):
-            minimised, limited = self._sums(span, piece.stroke)
+            return 0.0 if self.objective.kind not in SUMS else -inf
+        least = -multiplier * self.left + total(self.layout.pieces, self.objective.kind, self.objective.drive)
+        for span, (_, solution) in zip(self.layout.spans, laws, strict=True):
+            minimised, limited = self._sums(span)
             least += minimised.unit * solution.lower_bound + minimised.constant + multiplier * limited.constant
         return self._of_total(least)
 
-    def _sums(self, span: LawSpan, stroke: float) -> tuple[SpanSum, SpanSum]:
+    def _sums(self, span: LawSpan) -> Sequence[SpanValue]:
         """The objective and the limited quantity over a span."""
-        kind, _ = kind_of(self.objective.minimise)
-        return span_sum(span, kind, self.drive, stroke), span_sum(span, self._kind, self.drive, stroke)
+        return [sum_along(span, self.objective.drive, kind) for kind in (self.objective.kind, self._kind)]
 
     def _of_total(self, taken: float) -> float:
         """A sum in the form of the objective: a root mean square, or an energy."""
-        kind, _ = kind_of(self.objective.minimise)
-        return taken if kind in SUMS else sqrt(max(taken, 0.0) / self.period)
+        return taken if self.objective.kind in SUMS else sqrt(max(taken, 0.0) / self.period)

@@ -1,4 +1,4 @@
-"""What a span's law takes: force and power of its drive as formulas, with dry friction, and the sums of a cycle.
+"""What a span's law takes, as functionals of the law with their units in SI: derivatives, forces, powers, and sums.
 
 Where a motion never turns back, dry friction is a constant force. Where it may, it is +-d with the sign of the velocity
 v, and F = u + d sgn v with u = m v' + c v. The mean of F² is then that of u² and of what no law changes but by turning:
@@ -18,13 +18,15 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
-from math import inf, sqrt
+from math import hypot, inf, sqrt
 from typing import TYPE_CHECKING
 
-from optlaws.cycles.optimisation.objectives import curve_lines
+from optlaws.cycles.optimisation.objectives import SUMS, curve_lines
 from optlaws.cycles.specification.joints import LawSpan
+from optlaws.cycles.specification.limits import Side
 from optlaws.cycles.specification.segments import Dwell
 from optlaws.errors import InputError
+from optlaws.kept import kept_property
 from optlaws.motion.piece import Piece, factor
 from optlaws.motion.quantity_kinds import Kind
 from optlaws.motion.smooth_parts import SmoothParts
@@ -33,252 +35,89 @@ from optlaws.synthesis.problem.constants import FUNCTIONALS, Functional
 from optlaws.synthesis.problem.expression import Maximum, maximum
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.search import limit_beside
-from optlaws.synthesis.solution import Solution
 
 if TYPE_CHECKING:
     from optlaws.mechanisms.drives.drive_train import Drive
     from optlaws.mechanisms.drives.effort import PieceEffort
-    from optlaws.mechanisms.linkages.dimensionless import LinearForce, StrokeTorque
+    from optlaws.mechanisms.linkages.dimensionless import StrokeTorque
+
+PEAKS = {Kind.VELOCITY: "B", Kind.ACCELERATION: "C", Kind.JERK: "J", Kind.SNAP: "snap"}
+_MEANS = {Kind.ACCELERATION: "rms_c", Kind.JERK: "rms_j", Kind.SNAP: "rms_snap"}
 
 
 @dataclass(frozen=True)
-class Driven:
-    """Dimensionless constants of a span's law of which the greatest is what its drive takes, with their unit in SI.
+class SpanValue:
+    """A quantity of a span's law: `unit` in SI times the greatest of dimensionless constants of the law.
 
-    Of a mean square, `friction` is what dry friction adds at least, in SI units, and `formula` the force in its unit.
-    `beneath` are forces in the unit whose magnitude is never greater, in whose phase plane bounds are proven. Where it
-    is not `exact`, the constants are of more than the force: bounds of them are not of it.
+    A sum is an integral of `formula` in its unit and a `constant` more, of a mean square what dry friction adds at
+    least. `beneath` are constants that are never greater, in whose phase planes bounds are proven; `least` is what it
+    is at least, whatever the law. Where it is not `exact`, the constants are of more: bounds of them are not of it.
     """
 
     constants: tuple[Functional, ...]
     unit: float
-    friction: float = 0.0
+    constant: float = 0.0
     formula: str = ""
-    beneath: tuple[str, ...] = ()
+    beneath: tuple[Functional, ...] = ()
     exact: bool = True
+    least: float = 0.0
+    summed: bool = False
 
     @property
     def objective(self) -> Functional | Maximum:
         """The greatest of the constants, to be minimised."""
         return self.constants[0] if len(self.constants) == 1 else maximum(*self.constants)
 
-
-def may_turn(span: LawSpan) -> bool:
-    """Whether a span's law may go back on its way."""
-    if span.turns or len(span.stretches) > 1 or span.via or not span.displacement:
-        return True
-    return any(state.velocity * span.displacement < 0.0 for state in (span.first, span.last))
-
-
-def driven_peak(span: LawSpan, drive: Drive | None, stroke: float, kind: Kind) -> Driven:
-    """Peak of the force or the power along a span's law."""
-    known = known_drive(drive)
-    if kind is Kind.POWER and known.linear is not None and known.linear.inertia > 0.0 and not any(known.linear[1:]):
-        return Driven((FUNCTIONALS["D"],), known.ratio * known.linear.inertia * stroke**2 / span.duration**3)
-    formula, unit = driven_formula(span, drive, stroke, kind)
-    if not known.train.loses:
-        return Driven((peak(formula),), unit)
-    to_load, back = _branches(span, known, stroke)
-    braked = f"({back})*b" if kind is Kind.POWER else back
-    formula = f"max(({to_load})*b, {braked})" if kind is Kind.POWER else formula
-    exact = known.brakes_as_it_drives
-    beneath = (back,) if exact and kind is Kind.FORCE else ()
-    return Driven((peak(formula, side="high"), peak(braked, side="low")), unit, beneath=beneath, exact=exact)
+    def bound(self, problem: Problem, proven: float) -> float:
+        """The lower bound in SI units, from one of the constants in a problem and from phase planes."""
+        limits = (limit_beside(replace(problem, minimise=constant)) for constant in self.beneath)
+        most = max([proven, *(limit.value for limit in limits if limit is not None)])
+        if self.summed:
+            return max(self.unit * most + self.constant, self.least)
+        # neither a peak nor a mean is below 0, whether or not anything is proven
+        return hypot(max(most, 0.0) * self.unit, sqrt(max(self.constant, 0.0)))
 
 
-def driven_formula(span: LawSpan, drive: Drive | None, stroke: float, kind: Kind) -> tuple[str, float]:
-    """Force or power along a span's law as a formula, and its unit."""
-    known = known_drive(drive)
-    if known.dry > 0.0 and may_turn(span):
-        raise InputError(
-            f"drive: dry: {span.where} may turn back, where dry friction jumps and a peak of force or power is not "
-            "proven: leave it out of what is minimised or bounded, take moves between rests, or minimise or bound the "
-            "rms force"
-        )
-    unit = _unit(span, known, stroke)
-    formula = _formula(span, known, stroke, unit)
-    if kind is Kind.POWER:
-        return f"({formula})*b", unit * known.ratio * abs(factor(stroke, span.duration, 1))
-    return formula, unit
-
-
-def driven_mean(span: LawSpan, drive: Drive | None, stroke: float) -> Driven:
-    """Root mean square of the force along a span's law."""
-    known = known_drive(drive)
-    unit = _unit(span, known, stroke)
-    if known.dry == 0.0 or not may_turn(span):
-        formula = _formula(span, known, stroke, unit)
-        below = known.train.loses and known.brakes_as_it_drives
-        beneath = _branches(span, known, stroke)[1:] if below else ()
-        return Driven((rms(formula),), unit, formula=formula, beneath=beneath)
-    linear = known.linear
-    if linear is None:
-        raise InputError(
-            f"drive: {span.where} may turn back, where friction of a mechanism jumps: take moves between rests"
-        )
-    if linear.stiffness or linear.constant or not (linear.inertia or linear.viscous):
-        raise InputError(
-            f"drive: dry: {span.where} may turn back: with dry friction the rms force of such a motion is convex only "
-            "without stiffness, preload and gravity: leave these out, or take moves between rests"
-        )
-    _check_range(span, known)
-    formula = linear.formula(stroke, span.duration, span.origin, 0.0, unit)
-    return Driven((rms(formula),), unit, _friction(span, linear), formula)
-
-
-def moved(span: LawSpan, drive: Drive, stroke: float) -> StrokeTorque:
-    """Torque, power and energy over a span as formulas of a law that never turns back."""
-    return drive.dimensionless(span.origin, stroke, span.duration, begins=span.start)
-
-
-def _unit(span: LawSpan, drive: Drive, stroke: float) -> float:
-    """The order of magnitude of the force along a span, as its unit."""
-    if drive.linear is None:
-        return 4.0 * moved(span, drive, stroke).unit
-    unit = drive.linear.size(stroke, span.duration, span.origin)
-    if unit == 0.0:
-        raise InputError("drive: nothing resists the motion: give it a mass, an inertia, a spring or friction")
-    return unit
-
-
-def known_drive(drive: Drive | None) -> Drive:
-    """The drive of the cycle; without one, the error explains how to give it."""
-    if drive is None:
-        raise InputError("force, torque and power are of a drive: give one, such as drive={'mass': '2 kg'}")
-    return drive
-
-
-def along(drive: Drive | None, piece: Piece, ends: tuple[float, float] | None = None) -> PieceEffort:
-    """Force and power of the drive of a cycle along a law in its place, or between two times in it."""
-    from optlaws.mechanisms.drives.effort import PieceEffort
-
-    return PieceEffort(known_drive(drive), piece, ends)
-
-
-def _formula(span: LawSpan, drive: Drive, stroke: float, unit: float) -> str:
-    """The force along a span's law, in a unit."""
-    if drive.linear is not None:
-        _check_range(span, drive)
-        direction = 1.0 if span.displacement > 0.0 else -1.0
-        return drive.linear.formula(stroke, span.duration, span.origin, direction, unit)
-    if may_turn(span):
-        raise InputError(
-            f"drive: {span.where} may turn back, and its torque is that of laws that do not: take moves between rests"
-        )
-    over = moved(span, drive, stroke)
-    return f"{over.unit / unit!r}*({over.torque})"
-
-
-def _check_range(span: LawSpan, drive: Drive) -> None:
-    """Refuse motions that may turn back beyond the range of a mechanism."""
-    if drive.mechanism.has_end and may_turn(span):
-        raise InputError(
-            f"drive: {span.where} may turn back and leave the range of the {drive.mechanism.name}: take moves between "
-            "rests, or leave out its over="
-        )
-
-
-def driven_curve(span: LawSpan, drive: Drive | None, stroke: float) -> Driven:
-    """The share of the motor's curve that a span's law uses: at most 1 where the motor can."""
-    known = known_drive(drive)
-    speed = known.ratio * abs(factor(stroke, span.duration, 1))
-    torque, unit = driven_formula(span, known, stroke, Kind.FORCE)
-    back = _branches(span, known, stroke)[-1] if known.train.loses else torque
-    constants: list[Functional] = []
-    for at_rest, slope in curve_lines(known.motor):
-        share, falls = unit / at_rest, slope * speed / at_rest
-        if not falls and not known.train.loses:
-            constants.append(peak(f"{share!r}*({torque})"))
-            continue
-        for fall in (falls, -falls) if may_turn(span) else (falls,):
-            constants.append(peak(f"{share!r}*({torque}) + {-fall!r}*b", side="high"))
-            constants.append(peak(f"{share!r}*({back}) + {fall!r}*b", side="low"))
-    return Driven(tuple(constants), 1.0, exact=not known.train.loses or known.brakes_as_it_drives)
-
-
-def _branches(span: LawSpan, drive: Drive, stroke: float) -> tuple[str, ...]:
-    """The torques at the motor of power that flows to the load and back, in the unit of the span's force."""
-    over = moved(span, drive, stroke)
-    share = over.unit / _unit(span, drive, stroke)
-    return tuple(f"{share!r}*({branch})" for branch in over.branches)
-
-
-def _friction(span: LawSpan, drive: LinearForce) -> float:
-    """The least addition of dry friction to the mean square of the force of a motion that may turn back."""
-    moving = sum(stop - start for segment, start, stop in span.timed if not isinstance(segment.given, Dwell))
-    gained = 0.0 if span.turns else abs(span.last.velocity) - abs(span.first.velocity)
-    positions = [span.offset, *(position for _, position in span.via), span.offset + span.displacement]
-    way = sum(abs(after - before) for before, after in pairwise(positions))
-    added = drive.dry * moving + 2.0 * (drive.inertia * gained + drive.viscous * way)
-    return drive.dry * added / span.duration
-
-
-@dataclass(frozen=True)
-class SpanSum:
-    """An integral over a span's law in SI units: `unit` times the integral of a formula, plus a constant.
-
-    `beneath` are formulas whose integrals are never greater, in whose phase plane bounds are proven; `least` is what
-    the sum is at least, whatever the law.
-    """
-
-    formula: str
-    unit: float
-    constant: float = 0.0
-    beneath: tuple[str, ...] = ()
-    least: float = -inf
-
-    def bound(self, solution: Solution, *, exact: bool = True) -> float:
-        """The lower bound of the laws of a problem, in SI units, from its solution and from phase planes.
-
-        Where the problem is not exact, its solution proves nothing.
-        """
-        proven = max(solution.lower_bound if exact else -inf, self._of_planes(solution.problem))
-        return max(self.unit * proven + self.constant, self.least)
-
-    def _of_planes(self, problem: Problem) -> float:
-        limits = (limit_beside(replace(problem, minimise=integral(formula))) for formula in self.beneath)
-        return max((limit.value for limit in limits if limit is not None), default=-inf)
-
-
-def span_sum(span: LawSpan, kind: Kind, drive: Drive | None, stroke: float) -> SpanSum:
-    """The integrand over a span: the square of a derivative or of the force, energy or heat."""
-    nu = kind.order
-    if nu:
-        return SpanSum(f"{'abcj'[nu]}^2", factor(stroke, span.duration, nu) ** 2 * span.duration)
-    if kind is Kind.FORCE:
-        driven = driven_mean(span, drive, stroke)
-        # in the direction of the stroke, as phase planes have it
-        force = (
-            f"-({driven.formula})"
-            if drive is not None and drive.linear is not None and stroke < 0.0
-            else driven.formula
-        )
-        return SpanSum(f"({force})^2", driven.unit**2 * span.duration, driven.friction * span.duration)
-    from optlaws.mechanisms.linkages.dimensionless import recovering
-
-    known = known_drive(drive)
-    # a span that may turn back is refused as it is for forces
-    force, unit = driven_formula(span, known, stroke, Kind.FORCE)
-    if kind is Kind.HEAT:
-        return _heat(span, known, stroke)
-    least = _least_energy(span, known, stroke)
-    if known.linear is None:
-        over = moved(span, known, stroke)
-        branches = over.branches if known.train.loses else ()
-        beneath = tuple(recovering([f"({branch})*b"], known.regeneration) for branch in branches)
-        return SpanSum(over.energy, over.energy_unit, beneath=beneath, least=least)
-    power = f"({force})*b" if stroke > 0.0 else f"(-({force}))*b"
-    return SpanSum(recovering([power], known.regeneration), unit * known.ratio * abs(stroke), least=least)
-
-
-def sum_of_piece(piece: Piece, kind: Kind, drive: Drive | None) -> float:
-    """A piece's contribution to a sum, in SI units."""
+def span_value(span: LawSpan, drive: Drive | None, kind: Kind, *, mean: bool = False) -> SpanValue:
+    """A peak or root mean square along a span, or a sum over it."""
     if kind.order:
-        return piece.duration * piece.mean_square(kind.order)
-    taken = along(drive, piece)
-    if kind is Kind.FORCE:
-        return taken.square
-    return taken.energy if kind is Kind.ENERGY else taken.heat
+        return SpanValue((FUNCTIONALS[(_MEANS if mean else PEAKS)[kind]],), span.unit(kind.order))
+    driven = DrivenSpan(span, known_drive(drive))
+    if mean:
+        return driven.mean
+    known = {Kind.CURVE: driven.curve, Kind.ENERGY: driven.energy, Kind.HEAT: driven.heat}
+    return known[kind]() if kind in known else driven.peak(kind)
+
+
+def limited_value(span: LawSpan, drive: Drive | None, key: Side) -> SpanValue:
+    """The constants of a whole span's law that a limit bounds, with their unit in SI."""
+    if not key.sign:
+        return span_value(span, drive, key.kind)
+    nu, sign = key.kind.order, key.sign * (1.0 if span.stroke > 0.0 else -1.0)
+    one_sided = FUNCTIONALS["C_plus" if sign > 0.0 else "C_minus"] if nu == 2 else None
+    return SpanValue((one_sided or peak("abcj"[nu], side="high" if sign > 0.0 else "low"),), span.unit(nu))
+
+
+def sum_along(span: LawSpan, drive: Drive | None, kind: Kind) -> SpanValue:
+    """The integral over a span of the square of a derivative or of the force, of energy or of heat."""
+    if kind in SUMS:
+        return span_value(span, drive, kind)
+    if kind.order:
+        squared = factor(span.stroke, span.duration, kind.order) ** 2
+        return SpanValue((), squared * span.duration, formula=f"{'abcj'[kind.order]}^2")
+    mean = span_value(span, drive, kind, mean=True)
+    # in the direction of the stroke, as phase planes have it
+    backwards = drive is not None and drive.linear is not None and span.stroke < 0.0
+    force = f"-({mean.formula})" if backwards else mean.formula
+    return SpanValue((), mean.unit**2 * span.duration, mean.constant * span.duration, f"({force})^2")
+
+
+def total(pieces: Sequence[Piece], kind: Kind, drive: Drive | None) -> float:
+    """A sum over pieces, in SI units: of squares, of energy or of heat."""
+    if kind.order:
+        return sum(piece.duration * piece.mean_square(kind.order) for piece in pieces)
+    of = {Kind.FORCE: "square", Kind.ENERGY: "energy", Kind.HEAT: "heat"}[kind]
+    return sum(float(getattr(along(drive, piece), of)) for piece in pieces)
 
 
 def size_of(piece: Piece, kind: Kind, drive: Drive | None, *, mean: bool = False) -> float:
@@ -295,44 +134,200 @@ def size_of(piece: Piece, kind: Kind, drive: Drive | None, *, mean: bool = False
     return sqrt(taken.square / piece.duration) if mean else taken.peak_force.value
 
 
-def total(pieces: Sequence[Piece], kind: Kind, drive: Drive | None) -> float:
-    """A sum over pieces, in SI units."""
-    return sum(sum_of_piece(piece, kind, drive) for piece in pieces)
+def along(drive: Drive | None, piece: Piece, ends: tuple[float, float] | None = None) -> PieceEffort:
+    """Force and power of the drive of a cycle along a law in its place, or between two times in it."""
+    from optlaws.mechanisms.drives.effort import PieceEffort
+
+    return PieceEffort(known_drive(drive), piece, ends)
 
 
-def _least_energy(span: LawSpan, drive: Drive, stroke: float) -> float:
-    """What the energy of a span is at least, J: the work along its stroke, of which no more than a share comes back."""
-    if drive.mechanism.varies:
-        return -inf
-    work = _work(span, drive, stroke)
-    return max(work, drive.regeneration * work)
+def known_drive(drive: Drive | None) -> Drive:
+    """The drive of the cycle; without one, the error explains how to give it."""
+    if drive is None:
+        raise InputError("force, torque and power are of a drive: give one, such as drive={'mass': '2 kg'}")
+    return drive
 
 
-def _heat(span: LawSpan, drive: Drive, stroke: float) -> SpanSum:
-    """The copper heat of a motor and the braking energy that is not fed back."""
-    train, over = drive.train, moved(span, drive, stroke)
-    if not train.copper:
-        raise InputError(
-            "minimise: heat is that of a motor's winding and of its brake resistor: give drive=Drive(...) with a motor "
-            "that has a motor constant, such as Motor('3e-4 kg m^2', constant=0.3), in N m/√W"
-        )
-    squared = [f"{over.copper!r}*({torque})^2" for torque in (over.torque, over.branches[-1])]
-    burnt, beneath = 1.0 - drive.regeneration, tuple(squared[1:]) if drive.brakes_as_it_drives else ()
-    if not burnt:
-        return SpanSum(squared[0], over.energy_unit, beneath=beneath, least=0.0)
-    if drive.mechanism.varies or train.loses or drive.mechanism.viscous or train.viscous:
-        return SpanSum(over.heat, over.energy_unit, beneath=beneath, least=0.0)
-    formula = f"{squared[0]} + {burnt!r}*max({over.power}, 0)"
-    return SpanSum(formula, over.energy_unit, -burnt * _work(span, drive, stroke), least=0.0)
+@dataclass(frozen=True)
+class DrivenSpan:
+    """The load of a drive along a span."""
+
+    span: LawSpan
+    drive: Drive
+
+    @kept_property
+    def over(self) -> StrokeTorque:
+        """Torque, power and energy as formulas of a law that never turns back."""
+        span = self.span
+        return self.drive.dimensionless(span.origin, span.stroke, span.duration, begins=span.start)
+
+    @kept_property
+    def unit(self) -> float:
+        """The order of magnitude of the force, as its unit."""
+        if self.drive.linear is None:
+            return 4.0 * self.over.unit
+        unit = self.drive.linear.size(self.span.stroke, self.span.duration, self.span.origin)
+        if unit == 0.0:
+            raise InputError("drive: nothing resists the motion: give it a mass, an inertia, a spring or friction")
+        return unit
+
+    def _affine(self, direction: float) -> str:
+        """The force of constant inertia and an affine load in its unit; within the range of the mechanism."""
+        span, linear = self.span, self.drive.linear
+        assert linear is not None  # noqa: S101 - as whoever asks has seen
+        if self.drive.mechanism.has_end and span.may_turn:
+            raise InputError(
+                f"drive: {span.where} may turn back and leave the range of the {self.drive.mechanism.name}: take moves "
+                "between rests, or leave out its over="
+            )
+        return linear.formula(span.stroke, span.duration, span.origin, direction, self.unit)
+
+    @kept_property
+    def force(self) -> str:
+        """The force in its unit, where dry friction does not jump."""
+        span = self.span
+        if self.drive.dry > 0.0 and span.may_turn:
+            raise InputError(
+                f"drive: dry: {span.where} may turn back, where dry friction jumps and a peak of force or power is not "
+                "proven: leave it out of what is minimised or bounded, take moves between rests, or minimise or bound "
+                "the rms force"
+            )
+        if self.drive.linear is not None:
+            return self._affine(1.0 if span.displacement > 0.0 else -1.0)
+        if span.may_turn:
+            raise InputError(
+                f"drive: {span.where} may turn back, and its torque is that of laws that do not: take moves between "
+                "rests"
+            )
+        return f"{self.over.unit / self.unit!r}*({self.over.torque})"
+
+    @property
+    def branches(self) -> tuple[str, str]:
+        """The torques of power that flows to the load and back through the gear, in the unit of the force."""
+        if not self.drive.train.loses:
+            return self.force, self.force
+        share = self.over.unit / self.unit
+        to_load, back = (f"{share!r}*({branch})" for branch in self.over.branches)
+        return to_load, back
+
+    def along(self, kind: Kind) -> tuple[str, float]:
+        """Force or power as a formula, and its unit."""
+        if kind is Kind.FORCE:
+            return self.force, self.unit
+        return f"({self.force})*b", self.unit * self.drive.ratio * self.span.unit(1)
+
+    def peak(self, kind: Kind) -> SpanValue:
+        """The peak of the force or the power."""
+        drive, span, power = self.drive, self.span, kind is Kind.POWER
+        if power and drive.linear is not None and drive.linear.inertia > 0.0 and not any(drive.linear[1:]):
+            unit = drive.ratio * drive.linear.inertia * span.stroke**2 / span.duration**3
+            return SpanValue((FUNCTIONALS["D"],), unit)
+        formula, unit = self.along(kind)
+        if not drive.train.loses:
+            return SpanValue((peak(formula),), unit)
+        to_load, back = self.branches
+        exact, braked = drive.brakes_as_it_drives, f"({back})*b" if power else back
+        constants = peak(f"max(({to_load})*b, {braked})" if power else formula, side="high"), peak(braked, side="low")
+        return SpanValue(constants, unit, beneath=(peak(back),) if exact and not power else (), exact=exact)
+
+    @property
+    def mean(self) -> SpanValue:
+        """The root mean square of the force."""
+        span, drive, linear = self.span, self.drive, self.drive.linear
+        if drive.dry == 0.0 or not span.may_turn:
+            below = drive.train.loses and drive.brakes_as_it_drives
+            beneath = (rms(self.branches[1]),) if below else ()
+            return SpanValue((rms(self.force),), self.unit, formula=self.force, beneath=beneath)
+        if linear is None:
+            raise InputError(
+                f"drive: {span.where} may turn back, where friction of a mechanism jumps: take moves between rests"
+            )
+        if linear.stiffness or linear.constant or not (linear.inertia or linear.viscous):
+            raise InputError(
+                f"drive: dry: {span.where} may turn back: with dry friction the rms force of such a motion is convex "
+                "only without stiffness, preload and gravity: leave these out, or take moves between rests"
+            )
+        formula = self._affine(0.0)
+        return SpanValue((rms(formula),), self.unit, self._friction, formula)
+
+    @property
+    def _friction(self) -> float:
+        """The least addition of dry friction to the mean square of the force of a motion that may turn back."""
+        span, linear = self.span, self.drive.linear
+        assert linear is not None  # noqa: S101 - others are refused
+        moving = sum(stop - start for segment, start, stop in span.timed if not isinstance(segment.given, Dwell))
+        gained = 0.0 if span.turns else abs(span.last.velocity) - abs(span.first.velocity)
+        positions = [span.offset, *(position for _, position in span.via), span.offset + span.displacement]
+        way = sum(abs(after - before) for before, after in pairwise(positions))
+        added = linear.dry * moving + 2.0 * (linear.inertia * gained + linear.viscous * way)
+        return linear.dry * added / span.duration
+
+    def curve(self) -> SpanValue:
+        """The share of the motor's curve: at most 1 where the motor can."""
+        drive, (torque, back), unit = self.drive, (self.force, self.branches[1]), self.unit
+        speed = drive.ratio * self.span.unit(1)
+        constants: list[Functional] = []
+        for at_rest, slope in curve_lines(drive.motor):
+            share, falls = unit / at_rest, slope * speed / at_rest
+            if not falls and not drive.train.loses:
+                constants.append(peak(f"{share!r}*({torque})"))
+                continue
+            for fall in (falls, -falls) if self.span.may_turn else (falls,):
+                constants.append(peak(f"{share!r}*({torque}) + {-fall!r}*b", side="high"))
+                constants.append(peak(f"{share!r}*({back}) + {fall!r}*b", side="low"))
+        return SpanValue(tuple(constants), 1.0, exact=not drive.train.loses or drive.brakes_as_it_drives)
+
+    def energy(self) -> SpanValue:
+        """The energy: at least the work along the stroke, of which no more than a share comes back."""
+        from optlaws.mechanisms.linkages.dimensionless import recovering
+
+        drive, stroke = self.drive, self.span.stroke
+        force = self.force  # a span that may turn back is refused as it is for forces
+        beneath: tuple[str, ...] = ()
+        if drive.linear is None:
+            formula, unit = self.over.energy, self.over.energy_unit
+            branches = self.over.branches if drive.train.loses else ()
+            beneath = tuple(recovering([f"({branch})*b"], drive.regeneration) for branch in branches)
+        else:
+            power = f"({force})*b" if stroke > 0.0 else f"(-({force}))*b"
+            formula, unit = recovering([power], drive.regeneration), self.unit * drive.ratio * abs(stroke)
+        least = -inf if drive.mechanism.varies else max(self.work, drive.regeneration * self.work)
+        return _sum(formula, unit, beneath=beneath, least=least)
+
+    def heat(self) -> SpanValue:
+        """The copper heat of a motor and the braking energy that is not fed back."""
+        _ = self.force
+        drive, train, over = self.drive, self.drive.train, self.over
+        if not train.copper:
+            raise InputError(
+                "minimise: heat is that of a motor's winding and of its brake resistor: give drive=Drive(...) with a "
+                "motor that has a motor constant, such as Motor('3e-4 kg m^2', constant=0.3), in N m/√W"
+            )
+        squared = [f"{over.copper!r}*({torque})^2" for torque in (over.torque, over.branches[-1])]
+        burnt, beneath = 1.0 - drive.regeneration, squared[1:] if drive.brakes_as_it_drives else ()
+        if not burnt:
+            return _sum(squared[0], over.energy_unit, beneath=beneath)
+        if drive.mechanism.varies or train.loses or drive.mechanism.viscous or train.viscous:
+            return _sum(over.heat, over.energy_unit, beneath=beneath)
+        formula = f"{squared[0]} + {burnt!r}*max({over.power}, 0)"
+        return _sum(formula, over.energy_unit, -burnt * self.work)
+
+    @kept_property
+    def work(self) -> float:
+        """The work along the stroke without viscous friction, J: whatever the law."""
+        mechanism, train, span = self.drive.mechanism, self.drive.train, self.span
+        ends = (span.origin, span.origin + span.stroke)
+        load = SmoothParts.between(*sorted(ends)).integral(mechanism.load) * (1.0 if span.stroke > 0.0 else -1.0)
+        kinetic = [
+            0.5 * (mechanism.inertia(x) + train.ratio**2 * train.inertia) * state.velocity**2
+            for x, state in zip(ends, (span.first, span.last), strict=True)
+        ]
+        rubbed = (mechanism.coulomb + train.ratio * train.coulomb) * abs(span.stroke)
+        return float(load + rubbed + kinetic[1] - kinetic[0])
 
 
-def _work(span: LawSpan, drive: Drive, stroke: float) -> float:
-    """The work along a span's stroke without viscous friction, J: whatever the law."""
-    mechanism, train, ends = drive.mechanism, drive.train, (span.origin, span.origin + stroke)
-    load = SmoothParts.between(*sorted(ends)).integral(mechanism.load) * (1.0 if stroke > 0.0 else -1.0)
-    kinetic = [
-        0.5 * (mechanism.inertia(x) + train.ratio**2 * train.inertia) * state.velocity**2
-        for x, state in zip(ends, (span.first, span.last), strict=True)
-    ]
-    rubbed = (mechanism.coulomb + train.ratio * train.coulomb) * abs(stroke)
-    return float(load + rubbed + kinetic[1] - kinetic[0])
+def _sum(
+    formula: str, unit: float, constant: float = 0.0, *, beneath: Sequence[str] = (), least: float = 0.0
+) -> SpanValue:
+    planes = tuple(map(integral, beneath))
+    return SpanValue((integral(formula),), unit, constant, formula, planes, least=least, summed=True)

@@ -71,13 +71,13 @@ def test_below_a_peak_the_nearest_share_is_taken_at_which_no_laws_keep_the_limit
         _exact = True
         left = 1.0
 
-        def _least(self, span: Any, peak: float) -> Any:  # noqa: ARG002
-            return peak
+        def _least(self, peak: float) -> Any:
+            return (peak,)
 
         def _least_taken(self, laws: Any) -> float:
             return 2.0 if laws[0] < 2.0 - 1e-6 else 0.5
 
-    by_hand = ByHand(SimpleNamespace(spans=(None,)), None, None, "angle", 1.0)  # type: ignore[arg-type]
+    by_hand = ByHand(SimpleNamespace(spans=(None,)), None, 1.0)  # type: ignore[arg-type]
     assert by_hand._impossible(2.0, 1.0) == 2.0 * (1.0 - 1e-6)
     assert by_hand._impossible(2.0, 2.0 - 1e-6) == 2.0 - 1e-6
 
