@@ -77,8 +77,7 @@ from .errors import (
 )
 from .laws.catalogue.catalogue import catalogue as catalogue
 from .laws.catalogue.reading import read_law as read_law
-from .laws.constants import Constants as Constants
-from .laws.law import MotionLaw as MotionLaw
+from .laws.law import Constants as Constants, MotionLaw as MotionLaw
 from .laws.making.formula_law import formula_law as formula_law
 from .laws.making.input_shaping import shaped_law as shaped_law
 from .laws.making.multiplier import multiplied_law as multiplied_law, multiplier_for as multiplier_for

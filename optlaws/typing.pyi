@@ -32,8 +32,7 @@ from .exports.front_export import FrontExport as FrontExport
 from .exports.front_table import MoveStatus as MoveStatus, RunTimeMove as RunTimeMove
 from .formulas.tree import Formula as Formula
 from .laws.curve import Many as Many
-from .laws.exporting import Interpolation as Interpolation
-from .laws.law import Jumps as Jumps
+from .laws.law import Interpolation as Interpolation, Jumps as Jumps
 from .laws.making.input_shaping import Shaper as Shaper
 from .laws.making.multiplier import Multiplier as Multiplier
 from .laws.segments.segment import Segment as Segment

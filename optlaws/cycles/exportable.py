@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, Unpack
 
 from optlaws.errors import OptlawsError
-from optlaws.laws.exporting import ExportOptions
+from optlaws.laws.law import ExportOptions
 from optlaws.numbers import Quantity
 from optlaws.suggest import keywords_of
 

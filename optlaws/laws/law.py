@@ -1,28 +1,213 @@
-"""Motion laws: immutable values with a displacement a and its derivatives on [0, 1]."""
+"""Motion laws: immutable values with a displacement a and its derivatives on [0, 1].
+
+With them their constants, their export to controllers, and where they go forwards, backwards, or rest: that is decided
+by their extremes, not by the sign of a rounded velocity.
+"""
 
 from __future__ import annotations
 
 from abc import abstractmethod
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import lru_cache
+from itertools import pairwise
 from math import inf
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal, Self, TypedDict, Unpack
 
 import numpy as np
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError
+from optlaws.files.reading import JsonText, entries_of
 from optlaws.kept import kept_property
-from optlaws.laws.constants import Constants
 from optlaws.laws.curve import Curve, Sides
-from optlaws.laws.exporting import LawExport
 from optlaws.laws.storage import StoredLaw
-from optlaws.numbers import Array, Quantity, derivative, times
+from optlaws.numbers import Array, Quantity, bounded, derivative, finite, times
 from optlaws.numerics.peaks import Peak as Peak  # noqa: PLC0414 - a name of optlaws.laws
-from optlaws.tolerances import JUMP
-
-_JUMP_OF_LOWER = 1e-13  # the same as a share of a lower derivative: uniform motion has c = 0 but for it
+from optlaws.shown.summary import Row, Summary
+from optlaws.suggest import keywords_of
+from optlaws.tolerances import JUMP, VALUE_ROUNDING
 
 if TYPE_CHECKING:
     from optlaws.shown.report import Report
+
+
+@dataclass(frozen=True, slots=True)
+class Constants(JsonText):
+    """The constants of a law, dimensionless.
+
+    Attributes
+    ----------
+    B, C, D, J
+        Peaks of |b|, |c|, |d|, |j| over the whole interval.
+    rms_c
+        Root mean square of c.
+
+    Examples
+    --------
+    >>> from optlaws import smoothstep
+    >>> smoothstep(2).constants.C
+    Peak(value=6.0, k=0.0)
+    """
+
+    _json_name = "constants"
+
+    B: Peak
+    C: Peak
+    D: Peak
+    J: Peak
+    rms_c: float
+
+    def to_dict(self, *, rms: bool = True) -> dict[str, dict[str, float | None] | float | None]:
+        """B, C, D, J as {"value": ..., "k": ...}; rms_c too unless `rms` is False; None where a value has no bound.
+
+        Examples
+        --------
+        >>> from optlaws import smoothstep
+        >>> smoothstep(2).constants.to_dict()["B"]
+        {'value': 1.5, 'k': 0.5}
+        """
+        table: dict[str, dict[str, float | None] | float | None] = {
+            "B": self.B.to_dict(),
+            "C": self.C.to_dict(),
+            "D": self.D.to_dict(),
+            "J": self.J.to_dict(),
+        }
+        if rms:
+            table["rms_c"] = bounded(self.rms_c)
+        return table
+
+    @classmethod
+    def from_dict(cls, data: Mapping[str, Any]) -> Self:
+        """The constants that `to_dict` described, all five of them.
+
+        Raises
+        ------
+        InputError
+            If an entry is missing or no number.
+        """
+        entries = entries_of(data, ("B", "C", "D", "J", "rms_c"), cls._json_name)
+        rms_c = entries.pop("rms_c")
+        peaks = {name: Peak.from_dict(peak) for name, peak in entries.items()}
+        return cls(**peaks, rms_c=inf if rms_c is None else finite(rms_c, "rms_c"))
+
+    def summary(self) -> Summary:
+        """The peaks with their places, and the root mean square of c, as rows.
+
+        Examples
+        --------
+        >>> from optlaws import smoothstep
+        >>> [row.name for row in smoothstep(2).constants.summary() if row.place == 0.0]
+        ['C', 'J']
+        """
+        peaks = [Row(name, peak.value, place=peak.k) for name in "BCDJ" for peak in [getattr(self, name)]]
+        return Summary([*peaks, Row("RMS of c", self.rms_c)], at="k")
+
+    def _repr_html_(self) -> str:
+        return self.summary()._repr_html_()
+
+
+#: of which each format takes some
+Interpolation = Literal["linear", "cubic", "spline", "akima", "c1", "quintic", "septic"]
+
+
+class AxesExportOptions(TypedDict, total=False):
+    """The options of exports to controllers; each format has some of them, as `optlaws export --list` shows.
+
+    Parameters
+    ----------
+    points
+        How many points, or "best", as it is unless given: the fewest whose run is as good as that of any number.
+        Formats of polynomials take a number, or as few pieces as will do unless given.
+    counts
+        Steps of the slave's encoder over the stroke, to which positions are rounded.
+    digits, decimal
+        Digits behind the decimal sign, and the sign, "." or ",", of tables as text.
+    interpolation
+        The interpolation of the controller, where the format can state it.
+    task
+        Time of the drive's task, such as "1 ms": the report then says what it samples once in each.
+    """
+
+    points: int | Literal["best"] | None
+    counts: int | None
+    digits: int | None
+    decimal: Literal[".", ","] | None
+    interpolation: Interpolation | None
+    task: Quantity | None
+
+
+class ExportOptions(AxesExportOptions, total=False):
+    """The options of an export of one motion: `name` of the variable, the table or the joint, "Cam" unless given."""
+
+    name: str | None
+
+
+class LawExport:
+    """The export of a law, or of a value with a law and its proof."""
+
+    @keywords_of(ExportOptions)
+    def export(
+        self,
+        to: str,
+        *,
+        stroke: Quantity | None = None,
+        duration: Quantity | None = None,
+        master: Quantity | None = None,
+        start: Quantity | None = None,
+        **options: Unpack[ExportOptions],
+    ) -> Any:
+        """The law in the format of a controller, with the executed motion and the proof of the law.
+
+        Parameters
+        ----------
+        to
+            The format: `optlaws export --list` names them.
+        stroke
+            How far the slave moves, "35 mm" or "-20 deg": positions are in its unit.
+        duration, master
+            How long it takes, "0.1 s", and how far the master goes meanwhile, "120 deg"; one of them or both. Without
+            a master it is time in seconds.
+        start
+            Position at the start; 0 unless given.
+        points, counts, digits, decimal, interpolation, task, name
+            As `ExportOptions` has them: how many points, of which numbers, for which task of the drive.
+
+        Returns
+        -------
+        An `Export`: its `text`, its `report`, its `run`; `write(file)` writes it.
+
+        Raises
+        ------
+        InputError
+            If there is no such format, it takes no such option, or it cannot hold the motion.
+
+        Examples
+        --------
+        >>> from optlaws import smoothstep
+        >>> table = smoothstep(4).export("csv", stroke="40 mm", master="120 deg", counts=65536, points=361)
+        >>> round(table.report.ratio(2), 1), round(table.report.bound / table.report.law.peak(2), 1)
+        (1.9, 1.6)
+        >>> import optlaws
+        >>> basis = optlaws.Pieces(8, degree=7, continuity=3)
+        >>> solution = optlaws.synthesize(optlaws.Problem(B=1.859, order=4, basis=basis))
+        >>> program = solution.export("codesys-cambuilder", stroke="35 mm", duration="0.1 s", master="120 deg")
+        >>> [line.strip() for line in program.text.splitlines() if "none below" in line]
+        ['law: least C = 4.59646..., none below 4.59646... in its space; status optimal']
+        """
+        from optlaws.exports.export import export_law
+
+        law, proof = self._exported()
+        return export_law(
+            law, to, {"stroke": stroke, "duration": duration, "master": master, "start": start}, proof, **options
+        )
+
+    def _exported(self) -> tuple[Any, tuple[str, ...]]:
+        """The law and its proof, as text for files."""
+        return self, ()
+
+
+_JUMP_OF_LOWER = 1e-13  # the same as a share of a lower derivative: uniform motion has c = 0 but for it
 
 Jumps = tuple[tuple[float, float], ...]
 
@@ -254,3 +439,90 @@ def motion_law(value: Any, name: str = "law") -> MotionLaw:
             f"got {shortened(value)}"
         )
     return law
+
+
+_HALVES = 60
+
+
+@dataclass(frozen=True, eq=False)
+class Direction:
+    """The direction of a law: 1 forwards, -1 backwards, 0 at rest, constant between ascending edges from 0 to 1.
+
+    Examples
+    --------
+    >>> from optlaws import catalogue, smoothstep
+    >>> law = catalogue["4-5-6-7 polynomial"].law
+    >>> k = np.array([1.0749790817499163e-08])
+    >>> law.b(k).tolist(), direction_of(law)(k).tolist()
+    ([-1.1102230246251565e-16], [1.0])
+    >>> direction_of(smoothstep(2)).edges
+    array([0., 1.])
+    """
+
+    edges: Array
+    signs: Array
+
+    def __call__(self, k: Array) -> Array:
+        """The direction at places, at an edge just after it, at the end just before it."""
+        return np.asarray(self.signs[np.searchsorted(self.edges[1:-1], k, side="right")])
+
+    @property
+    def turns(self) -> Array:
+        """The places inside where the direction changes."""
+        return self.edges[1:-1]
+
+
+@lru_cache(maxsize=256)
+def direction_of(law: MotionLaw) -> Direction:
+    """The direction of a law.
+
+    Between neighbouring extremes the velocity is monotone, so that the direction follows from its values there; one
+    that is rounding beside the greatest velocity has none of its own. A law rests where its velocity is no more than
+    that between two breaks.
+    """
+    k, b = law._sides(1)  # noqa: SLF001 - one package
+    order = np.argsort(k, kind="stable")
+    k, b = k[order], b[order]
+    size = float(np.max(np.abs(b), where=np.isfinite(b), initial=0.0))
+    signs = np.where(np.abs(b) <= VALUE_ROUNDING * size, 0.0, np.sign(b))
+    edges, ways = [0.0], list[float]()
+    for start, stop in pairwise(law.breaks):
+        inner = (k > start) & (k < stop)
+        first, last = np.flatnonzero(k == start)[-1], np.flatnonzero(k == stop)[0]
+        which = np.concatenate([[first], np.flatnonzero(inner), [last]])
+        for place, sign in _ways(law, k[which], signs[which]):
+            edges.append(place)
+            ways.append(sign)
+    return _joined(np.array(edges), np.array(ways))
+
+
+def _ways(law: MotionLaw, k: Array, signs: Array) -> list[tuple[float, float]]:
+    """The directions between two breaks, each with the place where it ends."""
+    known = np.flatnonzero(signs)
+    if not len(known):
+        return [(float(k[-1]), 0.0)]
+    turns = [(_zero(law, k[i : j + 1], signs[i]), float(signs[i])) for i, j in pairwise(known) if signs[i] != signs[j]]
+    return [*turns, (float(k[-1]), float(signs[known[-1]]))]
+
+
+def _zero(law: MotionLaw, k: Array, sign: float) -> float:
+    """The place between the first and the last where the velocity leaves a sign; halfway where it rests meanwhile."""
+    if len(k) > 2:
+        return float(0.5 * (k[1] + k[-2]))
+    low, high = float(k[0]), float(k[1])
+    for _ in range(_HALVES):
+        middle = 0.5 * (low + high)
+        if law.b(middle) * sign > 0.0:
+            low = middle
+        else:
+            high = middle
+    return 0.5 * (low + high)
+
+
+def _joined(edges: Array, ways: Array) -> Direction:
+    """The directions with those that are alike and neighbours as one."""
+    changed = np.flatnonzero(np.diff(ways)) + 1
+    edges = np.concatenate([edges[:1], edges[changed], edges[-1:]])
+    signs = np.concatenate([ways[:1], ways[changed]])
+    edges.flags.writeable = signs.flags.writeable = False
+    return Direction(edges, signs)

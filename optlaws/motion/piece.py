@@ -26,7 +26,7 @@ from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
-from optlaws.laws.direction import direction_of
+from optlaws.laws.law import direction_of
 from optlaws.numbers import Array
 from optlaws.tolerances import CLOSURE, INSIDE_PIECE, JUMP, SAME_TIME
 

@@ -12,7 +12,7 @@ import numpy as np
 from optlaws.files.reading import JsonText
 from optlaws.kept import kept_property
 from optlaws.laws import Constants, MotionLaw
-from optlaws.laws.exporting import LawExport
+from optlaws.laws.law import LawExport
 from optlaws.numbers import bounded
 from optlaws.shown.summary import Row, Summary
 from optlaws.synthesis.families.active_set import ActiveSet

@@ -4,7 +4,7 @@ from optlaws.laws.catalogue.catalogue import plain
 from optlaws.laws.catalogue.entry import continuity_with_rest
 from optlaws.laws.catalogue.tyr_codes import canonical, coded
 from optlaws.laws.curve import Curve
-from optlaws.laws.direction import direction_of
+from optlaws.laws.law import direction_of
 from optlaws.laws.making.input_shaping import Shaper
 from optlaws.laws.making.through_points import law_of_table
 from optlaws.laws.making.transform import as_polynomial, law_between, section

@@ -19,7 +19,7 @@ from optlaws.errors import InfeasibleProblem, InputError, located
 from optlaws.extras import needed
 from optlaws.files.reading import check_names
 from optlaws.kept import kept_property
-from optlaws.laws.exporting import AxesExportOptions
+from optlaws.laws.law import AxesExportOptions
 from optlaws.motion.quantities import Exact
 from optlaws.numbers import Quantity
 from optlaws.shown.report import Report

@@ -14,8 +14,7 @@ from optlaws.errors import InputError
 from optlaws.files.reading import JsonText, entries_of
 from optlaws.kept import kept_property
 from optlaws.laws.catalogue.tyr_codes import coded
-from optlaws.laws.constants import Constants
-from optlaws.laws.law import HIGHEST, MotionLaw
+from optlaws.laws.law import HIGHEST, Constants, MotionLaw
 from optlaws.laws.making.trapezoids import scca, trapezoid
 from optlaws.laws.polynomial import smoothstep
 from optlaws.laws.segments.piecewise import PiecewiseLaw
