@@ -27,8 +27,8 @@ from optlaws.numbers import Quantity
 from optlaws.plots.moves import fronts_figure, motion_figure, strokes_figure
 from optlaws.results import Page, Results
 from optlaws.studies.problem_entries import gap, problem
-from optlaws.synthesis.least_time.follower_residual import RESIDUAL, RESIDUALS
-from optlaws.synthesis.least_time.move_objective import AT_MOTOR
+from optlaws.synthesis.least_time.move_limits import RESIDUAL, RESIDUALS
+from optlaws.synthesis.least_time.timed_move import AT_MOTOR
 from optlaws.synthesis.problem.problem import PROBLEM, Problem
 from optlaws.synthesis.status import Status
 

@@ -13,7 +13,7 @@ from optlaws.files.reading import check_names, entries_of
 from optlaws.lazy import imported
 from optlaws.numbers import real
 from optlaws.synthesis.least_time.least_time import LeastTime
-from optlaws.synthesis.least_time.move_objective import MoveObjective
+from optlaws.synthesis.least_time.timed_move import MoveObjective
 from optlaws.synthesis.limits.rounding import rounded_up
 from optlaws.synthesis.problem.constants import meant
 from optlaws.synthesis.proven.front import FrontPoint, ProvenFront

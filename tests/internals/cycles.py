@@ -18,7 +18,7 @@ from optlaws.cycles.specification.load import ElasticFollower
 from optlaws.files import reading
 from optlaws.laws.catalogue.reading import LARGEST_TABLE
 from optlaws.motion.quantity_kinds import Kind
-from optlaws.synthesis.least_time.move_objective import RATES as OBJECTIVES_OF_MOVES
+from optlaws.synthesis.least_time.timed_move import RATES as OBJECTIVES_OF_MOVES
 
 
 def read_points(file: Path, *columns: Any, **options: Any) -> CamPoints:

@@ -18,14 +18,11 @@ from optlaws.synthesis.families.names import RowName
 from optlaws.synthesis.families.peaks import peaks
 from optlaws.synthesis.functionals.kinds import FormulaIntegral, FormulaPeak, FormulaRms, FormulaValue, OfFormula
 from optlaws.synthesis.least_time import time_search
-from optlaws.synthesis.least_time.follower_residual import FollowerResidual
 from optlaws.synthesis.least_time.least_time import LeastTime
 from optlaws.synthesis.least_time.motor_torque import MotorTorque
-from optlaws.synthesis.least_time.move_limits import MoveLimits
-from optlaws.synthesis.least_time.move_objective import MoveObjective
-from optlaws.synthesis.least_time.segment_times import LimitSegments, segment_times
+from optlaws.synthesis.least_time.move_limits import FollowerResidual, LimitSegments, MoveLimits, segment_times
 from optlaws.synthesis.least_time.time_search import least_time
-from optlaws.synthesis.least_time.timed_move import TimedMove
+from optlaws.synthesis.least_time.timed_move import MoveObjective, TimedMove
 from optlaws.synthesis.limits import closed_forms
 from optlaws.synthesis.limits.closed_forms import (
     acceleration_limit_at_jerk,

@@ -28,7 +28,7 @@ from optlaws.numbers import bounded, chop, whole
 from optlaws.shown.report import Panel, PlainReport, Report, ReportTable, Series
 from optlaws.shown.summary import Row, Summary
 from optlaws.suggest import unknown_key
-from optlaws.synthesis.least_time.follower_residual import RESIDUAL
+from optlaws.synthesis.least_time.move_limits import RESIDUAL
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.tolerances import VALUE_ROUNDING
 

@@ -23,7 +23,7 @@ from optlaws.motion.piece import Piece, factor, named_law, unit_of
 from optlaws.motion.quantities import Exact, quantity
 from optlaws.motion.quantity_kinds import Kind
 from optlaws.shown.report import Report
-from optlaws.synthesis.least_time.follower_residual import RESIDUAL, FollowerResidual
+from optlaws.synthesis.least_time.move_limits import RESIDUAL, FollowerResidual
 from optlaws.synthesis.problem.constants import FUNCTIONALS, Functional
 from optlaws.synthesis.problem.expression import Maximum, leaves
 from optlaws.synthesis.problem.fields import CONSTANTS

@@ -33,8 +33,7 @@ from optlaws.numbers import Array
 from optlaws.sentences import sentence
 from optlaws.synthesis.functionals.makers import peak
 from optlaws.synthesis.least_time.least_time import LeastTime
-from optlaws.synthesis.least_time.move_limits import MoveLimits, SpanLimit, derivative_limit
-from optlaws.synthesis.least_time.segment_times import time_of_any_law
+from optlaws.synthesis.least_time.move_limits import MoveLimits, SpanLimit, derivative_limit, time_of_any_law
 from optlaws.synthesis.least_time.time_search import least_time
 from optlaws.synthesis.least_time.timed_move import Timed
 from optlaws.synthesis.problem.constants import B, C, C_minus, C_plus, D, Functional, J, meant, snap

@@ -27,9 +27,9 @@ from optlaws.shown.curve_points import refined
 from optlaws.shown.report import Panel, PanelLimit, Report, ReportSegment, ReportTable, Series
 from optlaws.shown.summary import Row, Summary
 from optlaws.suggest import keywords_of
-from optlaws.synthesis.least_time.follower_residual import RESIDUALS
 from optlaws.synthesis.least_time.least_time import LeastTime
 from optlaws.synthesis.least_time.motor_torque import CURVE_LIMIT
+from optlaws.synthesis.least_time.move_limits import RESIDUALS
 from optlaws.synthesis.least_time.time_search import least_time
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.status import Status

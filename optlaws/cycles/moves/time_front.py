@@ -29,10 +29,8 @@ from optlaws.motion.quantities import Exact, positive_quantity
 from optlaws.motion.quantity_kinds import Kind
 from optlaws.numbers import NumberOrQuantity, Quantity, bounded, listed, positive, real
 from optlaws.suggest import unknown_key
-from optlaws.synthesis.least_time.follower_residual import RESIDUAL, RESIDUALS
-from optlaws.synthesis.least_time.move_limits import power
-from optlaws.synthesis.least_time.move_objective import AT_MOTOR, OBJECTIVES, MoveObjective
-from optlaws.synthesis.least_time.timed_move import TimedMove
+from optlaws.synthesis.least_time.move_limits import RESIDUAL, RESIDUALS, power
+from optlaws.synthesis.least_time.timed_move import AT_MOTOR, OBJECTIVES, MoveObjective, TimedMove
 from optlaws.synthesis.problem.constants import meant
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.solution import Solution

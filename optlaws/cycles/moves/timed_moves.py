@@ -29,10 +29,9 @@ from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.motion.quantities import either, quantity
 from optlaws.motion.quantity_kinds import Kind
 from optlaws.numbers import NumberOrQuantity, Quantity, listed
-from optlaws.synthesis.least_time.follower_residual import RESIDUAL, RESIDUALS, FollowerResidual
 from optlaws.synthesis.least_time.least_time import LeastTime
 from optlaws.synthesis.least_time.motor_torque import LossyGear, MotorTorque
-from optlaws.synthesis.least_time.move_limits import MoveLimits
+from optlaws.synthesis.least_time.move_limits import RESIDUAL, RESIDUALS, FollowerResidual, MoveLimits
 from optlaws.synthesis.least_time.time_search import least_time
 from optlaws.synthesis.least_time.timed_move import TimedMove
 from optlaws.synthesis.problem.problem import Problem

@@ -30,8 +30,8 @@ from optlaws.numbers import Array, Quantity, bounded
 from optlaws.sentences import Amount
 from optlaws.shown.summary import Row
 from optlaws.studies.problem_entries import problem
-from optlaws.synthesis.least_time.follower_residual import RESIDUAL
-from optlaws.synthesis.least_time.move_objective import AT_MOTOR, OBJECTIVES
+from optlaws.synthesis.least_time.move_limits import RESIDUAL
+from optlaws.synthesis.least_time.timed_move import AT_MOTOR, OBJECTIVES
 from optlaws.tolerances import AGREEMENT, LEAST_TIME_GAP
 
 _WHERE = Path("the study")

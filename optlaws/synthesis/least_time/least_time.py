@@ -1,26 +1,250 @@
-"""The least time of a move as a value: the law that takes it, the proof that none is faster, and what would help."""
+"""The least time of a move as a value, with the proofs that no law is faster: the same multipliers for all times.
+
+Multipliers m of rows |a^(nu)(k)| <= limit T^nu / h leave of every law f(T) = A + V T - sum m limit T^nu / h, in which V
+comes from the velocities at the ends: no law keeps the limits where f > 0. It is concave, so that f > 0 at two times is
+f > 0 between them; where both ends are at rest it falls, so that f > 0 at a time is f > 0 at every shorter one. With an
+acceleration or a jerk at the end it is a polynomial of higher degree, positive where its Bernstein coefficients are.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from itertools import pairwise
+from math import inf
 from typing import Any
 
-from optlaws.errors import InputError
+from numpy.polynomial.polynomial import polyroots
+
+from optlaws.entries.declared import Declared, ValueOf, declared, entry
+from optlaws.entries.value_types import Number
+from optlaws.errors import InputError, SolverFailure
 from optlaws.files.reading import JsonText, entries_of, of_known_format
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.numbers import finite, listed, positive, real
-from optlaws.synthesis.least_time.follower_residual import FollowerResidual
+from optlaws.numerics.roots import bisect
+from optlaws.synthesis.families import names
 from optlaws.synthesis.least_time.motor_torque import MotorTorque
-from optlaws.synthesis.least_time.move_limits import MoveLimits, power
-from optlaws.synthesis.least_time.time_proof import Multipliers, TimeProof, covers
-from optlaws.synthesis.least_time.timed_move import TimedMove
+from optlaws.synthesis.least_time.move_limits import FollowerResidual, MoveLimits, power
+from optlaws.synthesis.least_time.timed_move import Timed, TimedMove, control_point, powers_of
 from optlaws.synthesis.problem.constants import meant
+from optlaws.synthesis.proof.certificate import VIOLATION, Certificate
 from optlaws.synthesis.proof.data import problem_of
+from optlaws.synthesis.proof.nodes import Contact
 from optlaws.synthesis.solution import Solution
 from optlaws.synthesis.status import Status
-from optlaws.tolerances import BOUND_FEASIBILITY, LEAST_TIME_GAP, MIRROR, PHASE_GAP, STORED_VALUE
+from optlaws.tolerances import AGREEMENT, BOUND_FEASIBILITY, LEAST_TIME_GAP, MIRROR, PHASE_GAP, STORED_VALUE
+
+#: how much of the overlap of two intervals is left to the one before
+_OVERLAP = 0.25
+_DOUBLINGS = 1000
+
+
+@declared
+class TimeProof(Declared, title="a proof of a least time"):
+    """The proof that no law keeps the limits in any time from the shortest to the longest."""
+
+    shortest: float = entry(Number(least=0.0), "In s; 0 where limits that hold in a time hold in every longer one.")
+    longest: float = entry(Number(above=0.0), "In s.")
+    certificate: Certificate = entry(
+        ValueOf(Certificate),
+        "That no law keeps the limits in the longest time. The same multipliers prove it of all others. Where a "
+        "vibration that is left is limited: that no law keeps what every law keeps that keeps the limits in some time "
+        "of the interval.",
+    )
+
+    def _check(self) -> None:
+        if self.shortest > self.longest:
+            raise InputError(f"the shortest time, {self.shortest!r}, is above the longest, {self.longest!r}")
+
+    def stands(self, move: Timed) -> bool:
+        """Whether the multipliers prove the stated time of the move, with numpy alone."""
+        certificates = self.certificates(move)
+        return bool(certificates) and all(proof.proves_infeasible for proof in certificates)
+
+    def certificates(self, move: Timed) -> list[Certificate]:
+        """The certificates at the ends of the interval; none where they are not of the move.
+
+        What is proven without the limit of the vibration that is left holds with it.
+        """
+        if move.residual is not None and self.shortest > 0.0:
+            over = move.within(self.longest, self.shortest) if move.stays_possible else None
+            proves = self.certificate.problem == over and self.certificate.program == VIOLATION
+            return [self.certificate] if proves else []
+        move = move.without_residual
+        if self.certificate.problem != move.within(self.longest) or self.certificate.program != VIOLATION:
+            return []
+        if move.stays_possible or self.shortest == self.longest:
+            return [self.certificate]
+        if move.at_rest:
+            return []
+        if not move.concave:
+            between = move.within_control_points(self.shortest, self.longest)[:-1]
+            return [self.certificate, *(replace(self.certificate, problem=problem) for problem in between)]
+        return [self.certificate, replace(self.certificate, problem=move.within(self.shortest))]
+
+
+@dataclass(frozen=True)
+class Multipliers:
+    """Bounds for all times by the multipliers of one optimum: f(T) = constant + sum of ends T^nu - sum of weights T^nu.
+
+    The weights are those of the limits, constant and ends of what the ends leave, by the order nu.
+    """
+
+    certificate: Certificate
+    weights: tuple[tuple[int, float], ...]
+    constant: float
+    ends: tuple[tuple[int, float], ...]
+
+    @classmethod
+    def of(cls, move: Timed, duration: float, solution: Solution) -> Multipliers:
+        """The multipliers of the least greatest share of the limits in a time."""
+        proof, bound, powers = solution.certificate, solution.lower_bound, powers_of(duration)
+        weights = _weights(move, duration, proof.contacts)
+        ends, constant = [], bound
+        for i in (i for i, rates in enumerate(move.moving) if any(rates)):
+            doubled = tuple(2.0 * each if i == j else each for j, each in enumerate(powers))
+            share = replace(proof, problem=move.shares(duration, ends=doubled)).bound - bound
+            ends.append((i + 1, share / powers[i]))
+            constant -= share
+        return cls(proof, weights, constant, tuple(ends))
+
+    def of_stroke(self, ratio: float) -> Multipliers:
+        """These multipliers for a longer or shorter stroke, from rest to rest: the limits are scaled accordingly."""
+        return replace(self, weights=tuple((nu, weight / ratio) for nu, weight in self.weights))
+
+    def above(self, duration: float) -> float:
+        """The value f at a time: above 0 no law keeps the limits."""
+        left = self.constant + sum(end * power(duration, nu) for nu, end in self.ends)
+        return left - sum(weight * power(duration, nu) for nu, weight in self.weights)
+
+    @property
+    def steepness(self) -> dict[int, float]:
+        """The coefficients of f by the order nu, without the constant."""
+        steep = dict.fromkeys(sorted({nu for nu, _ in (*self.ends, *self.weights)}), 0.0)
+        for nu, end in self.ends:
+            steep[nu] += end
+        for nu, weight in self.weights:
+            steep[nu] -= weight
+        return steep
+
+    def longest(self, duration: float) -> float:
+        """The time up to which f stays positive, from a time at which it is, or back to a time at which it is not."""
+        if self.above(duration) > 0.0:
+            high = next(iter(self._roots(duration, 1.0)), inf)
+            if high < inf:
+                return self._crossing(duration, high)
+        factor = 2.0 if self.above(duration) > 0.0 else 0.5
+        near = far = duration
+        for _ in range(_DOUBLINGS):
+            near, far = far, factor * far
+            if (self.above(far) > 0.0) == (factor < 1.0):
+                break
+        return self._crossing(min(near, far), max(near, far))
+
+    def shortest(self, duration: float) -> float:
+        """The time down to which f stays positive, from a time at which it is; 0 where it is positive throughout."""
+        low = next(iter(self._roots(duration, -1.0)), 0.0)
+        if low == 0.0 and self.above(0.0) > 0.0:
+            return 0.0
+        return self._crossing(duration, low)
+
+    def _roots(self, duration: float, sign: float) -> list[float]:
+        """Where f, if not concave, may cross 0 after a time (sign 1) or before it (-1), the nearest first."""
+        if all(nu < 2 for nu, _ in self.ends):
+            return []
+        series = [self.constant, *(self.steepness.get(nu, 0.0) * power(duration, nu) for nu in range(1, 5))]
+        known = (duration * float(root.real) for root in polyroots(series) if abs(root.imag) <= AGREEMENT)
+        beyond = [root * (1.0 + sign * AGREEMENT) for root in known if root > 0.0 and sign * (root - duration) > 0.0]
+        return sorted((root for root in beyond if self.above(root) <= 0.0), key=lambda root: sign * root)
+
+    def _crossing(self, inside: float, outside: float) -> float:
+        """The last time at which f is above 0, between a time where it is and one where it is not."""
+        return bisect(lambda time: self.above(time) > 0.0, inside, outside, _DOUBLINGS)[0]
+
+    def above_between(self, shortest: float, longest: float) -> bool:
+        """Whether the Bernstein coefficients of f between two times show that it is above 0 there."""
+        steep = self.steepness
+        degree = max(steep)
+        points = (control_point(shortest, longest, i, degree) for i in range(degree + 1))
+        return all(self.constant + sum(a * point[nu - 1] for nu, a in steep.items()) > 0.0 for point in points)
+
+
+def proof_by(certificate: Certificate, move: Timed, shortest: float, longest: float) -> TimeProof:
+    """The proof of an interval by the multipliers of an optimum, without multipliers of the share's parts."""
+    problem = move.within(longest, shortest if shortest and move.residual is not None else None)
+    # rows of an amplitude are in units of its bound, where it has one
+    units = {constant.name: bound.high for constant, bound in problem.bounds.items() if constant.normalised}
+    of_rows = [
+        replace(contact, multiplier=contact.multiplier * units.get(contact.constraint, 1.0))
+        for contact in certificate.contacts
+        if names.part_number(contact.constraint) is None
+    ]
+    total = sum(contact.multiplier for contact in of_rows)
+    contacts = [replace(contact, multiplier=contact.multiplier / total) for contact in of_rows]
+    equations = [multiplier / total for multiplier in certificate.equations]
+    return TimeProof(shortest, longest, Certificate.of_leaf(problem, contacts, equations, VIOLATION))
+
+
+def covering(move: Timed, known: Sequence[tuple[float, Multipliers]], duration: float) -> tuple[TimeProof, ...]:
+    """Few proofs that cover every time that is conceivable and shorter than a duration, the shortest times first.
+
+    Raises
+    ------
+    SolverFailure
+        If they leave times between them.
+    """
+    least = move.least_conceivable()
+    ranges = [(each.shortest(at), each.longest(at), each) for at, each in known]
+    proofs: list[TimeProof] = []
+    upper = duration
+    while upper > least:
+        reaching = [(low, i) for i, (low, high, _) in enumerate(ranges) if low < upper <= high]
+        if not reaching:
+            raise SolverFailure(f"no multipliers speak of the time {upper!r}", problem=move.problem)
+        low, i = min(reaching)
+        lower = 0.0 if move.at_rest else least
+        if low > lower:
+            before = max((high for start, high, _ in ranges if start < low), default=low)
+            lower = low + _OVERLAP * (min(before, upper) - low)
+        proofs += _in_parts(ranges[i][2], move, lower, upper)
+        upper = lower
+    return tuple(reversed(proofs))
+
+
+def _in_parts(multipliers: Multipliers, move: Timed, shortest: float, longest: float) -> list[TimeProof]:
+    """The proofs of an interval, the longest times first: a single proof, or several for its parts."""
+    middle = 0.5 * (shortest + longest)
+    if move.concave or multipliers.above_between(shortest, longest) or not shortest < middle < longest:
+        return [proof_by(multipliers.certificate, move, shortest, longest)]
+    parts = ((middle, longest), (shortest, middle))
+    return [proof for low, high in parts for proof in _in_parts(multipliers, move, low, high)]
+
+
+def _weights(move: Timed, duration: float, contacts: Sequence[Contact]) -> tuple[tuple[int, float], ...]:
+    """Weights of the limits: multipliers of the greatest share's parts, over powers of the time."""
+    rates = move.rates
+    if len(rates) == 1:
+        return ((rates[0].nu, 1.0 / power(duration, rates[0].nu)),)
+    shares = [0.0] * len(rates)
+    for contact in contacts:
+        part = names.part_number(contact.constraint)
+        if part is not None:
+            shares[part - 1] += contact.multiplier
+    return tuple((limit.nu, share / power(duration, limit.nu)) for limit, share in zip(rates, shares, strict=True))
+
+
+def covers(move: Timed, proofs: Sequence[TimeProof], duration: float) -> bool:
+    """Whether proofs cover every time shorter than a duration, up to the allowed gap."""
+    least = duration * (1.0 - LEAST_TIME_GAP)
+    if not proofs:
+        # with a torque nothing is claimed but the limit of all laws
+        return not move.without_residual.of_rates or least <= move.least_conceivable()
+    first = 0.0 if move.at_rest else move.least_conceivable()
+    joined = all(proof.longest == after.shortest for proof, after in pairwise(proofs))
+    return joined and proofs[0].shortest <= first and proofs[-1].longest >= least
+
 
 _LIMIT_REACHED = 1e-6  # of a limit of a move: where no more of it is left, the law reaches it
 

@@ -13,8 +13,7 @@ from typing import cast
 
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.synthesis.families.active_set import ActiveSet
-from optlaws.synthesis.least_time.least_time import LeastTime
-from optlaws.synthesis.least_time.time_proof import Multipliers, TimeProof, covering, proof_by
+from optlaws.synthesis.least_time.least_time import LeastTime, Multipliers, TimeProof, covering, proof_by
 from optlaws.synthesis.least_time.timed_move import Timed, TimedMove
 from optlaws.synthesis.problem.constants import meant
 from optlaws.synthesis.program.writer import model_of

@@ -221,7 +221,7 @@ def test_gains_are_those_of_a_cycle_with_a_higher_limit() -> None:
     assert 0.7 * first < by_name["acceleration"].ratio - 1.0 < first
 
 
-def test_free_motions_need_their_least_times_beside_dwells_that_stay() -> None:
+def test_free_motions_need_their_time_search_beside_dwells_that_stay() -> None:
     segments = [Rise("35 mm"), Dwell("50 ms"), Return(), Dwell("90 deg")]
     fastest = cycle(segments=segments).fastest()
     least = fastest.segments[0].least
