@@ -56,7 +56,7 @@ from .mechanisms.linkages.mechanism import InputAxis as InputAxis, LinkGeometry 
 from .mechanisms.linkages.move_limit import LimitedMove as LimitedMove
 from .mechanisms.machine.follower import Change as Change
 from .mechanisms.machine.output_constants import OutputPeak as OutputPeak, OutputRms as OutputRms
-from .mechanisms.machine.over_time import MachineCycle as MachineCycle, MachineResponse as MachineResponse
+from .mechanisms.machine.over_time import MachineMotion as MachineMotion
 from .mechanisms.machine.residual import (
     BandResidual as BandResidual,
     ModeResidual as ModeResidual,

@@ -45,7 +45,7 @@ if TYPE_CHECKING:
     from optlaws.mechanisms.drives.effort import CycleSheet, Effort, PieceEffort, SegmentEffort
     from optlaws.mechanisms.drives.motor import Motor
     from optlaws.mechanisms.linkages.mechanism import Mechanism
-    from optlaws.mechanisms.machine.over_time import RepeatedMotion
+    from optlaws.mechanisms.machine.over_time import MachineMotion
     from optlaws.motion.motion import Motion
     from optlaws.shown.report import Report
 
@@ -230,7 +230,7 @@ class Answers(Exportable):
         return next(piece.jump(start, nu) for piece in self.pieces if piece.start < start < piece.stop)
 
     @answer
-    def load_motion(self) -> RepeatedMotion:
+    def load_motion(self) -> MachineMotion:
         """The steady motion of the load over time in seconds: its outputs by their names, in SI units.
 
         Examples

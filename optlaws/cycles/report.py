@@ -378,7 +378,7 @@ def load_peaks(plan: Plan) -> dict[str, float]:
     """The peaks of the outputs of an elastic load, in SI units; nothing without one."""
     if plan.specification.in_si.load is None:
         return {}
-    return {name: plan.load_motion.peak(name).value for name in plan.load_motion.machine.outputs}
+    return {name: plan.load_motion.peak(name).value for name in plan.load_motion.outputs}
 
 
 def joint_rows(plan: Plan) -> list[Row]:

@@ -2,24 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import Any
 
 import numpy as np
 
-from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw, PolynomialLaw
-from optlaws.laws.law import motion_law
 from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import Segment, Wave, Waves
 from optlaws.laws.segments.sine import SineSegment
-from optlaws.numbers import Array, not_negative, positive
+from optlaws.numbers import Array
 from optlaws.numerics import chebyshev
 from optlaws.numerics.panels import Panels, resolved
-from optlaws.tolerances import CLOSURE, SHORTEST_STRETCH
 
 _VELOCITY_RESOLVED = 1e-14  # of the velocity: what a series may miss anywhere
 _VELOCITY_ABSORBED = 1e-15  # the same times half the length on which it is missed
@@ -133,58 +129,3 @@ class _Frame:
             c = tuple((chebyshev.derivative(b) / (last - first)).tolist())
             pieces.append(self._forcing(Waves(c, float(chebyshev.value(b, -1.0))), first, last))
         return pieces
-
-
-class RiseReturnCycle:
-    """A repeating motion of rise, dwell, return and rest, in durations of the rise, with a base motion."""
-
-    rise: MotionLaw
-    fall: MotionLaw
-    dwell: float
-    fall_duration: float
-    rest: float
-
-    def __post_init__(self) -> None:
-        for name, checked in _CHECKS.items():
-            object.__setattr__(self, name, checked(getattr(self, name), name))
-        strokes = [float(law.a(1.0)) - float(law.a(0.0)) for law in (self.rise, self.fall)]
-        if abs(strokes[1] - strokes[0]) > CLOSURE * max(1.0, abs(strokes[0])):
-            raise InputError(f"fall must lead back over the rise's stroke {strokes[0]:g}, but has {strokes[1]:g}")
-
-    @property
-    def period(self) -> float:
-        """Duration of the cycle, in durations of the rise."""
-        return 1.0 + self.dwell + self.fall_duration + self.rest
-
-    def _course(self, driven: Callable[..., Sequence[Any]], still: Callable[..., Any]) -> list[Any]:
-        """The cycle in parts: each law by `driven`, each pause by `still`."""
-        low, high = float(self.rise.a(0.0)), float(self.rise.a(1.0))
-        fall = driven(self.fall, 1.0 + self.dwell, self.fall_duration, high, -1.0)
-        return around(driven(self.rise), fall, (high, low), (self.dwell, self.fall_duration, self.rest), still)
-
-
-_CHECKS: dict[str, Callable[[Any, str], Any]] = {
-    "rise": motion_law,
-    "fall": motion_law,
-    "dwell": not_negative,
-    "fall_duration": positive,
-    "rest": not_negative,
-}
-
-
-def around(
-    rise: Sequence[Any],
-    fall: Sequence[Any],
-    levels: tuple[Any, Any],
-    durations: tuple[float, float, float],
-    still: Callable[..., Any],
-) -> list[Any]:
-    """A cycle: rise, dwell at the upper level, return, rest at the lower one; `durations` are those after the rise."""
-    (high, low), (dwell, fall_duration, pause) = levels, durations
-    moved = list(rise)
-    if dwell > SHORTEST_STRETCH:
-        moved.append(still(1.0, dwell, high))
-    moved += fall
-    if pause > SHORTEST_STRETCH:
-        moved.append(still(1.0 + dwell + fall_duration, pause, low))
-    return moved

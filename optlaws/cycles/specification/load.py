@@ -19,7 +19,7 @@ from optlaws.synthesis.problem.constants import Functional
 
 if TYPE_CHECKING:
     from optlaws.mechanisms.machine.machine import Machine
-    from optlaws.mechanisms.machine.over_time import RepeatedMotion
+    from optlaws.mechanisms.machine.over_time import MachineMotion
 
 LOAD = "load "
 
@@ -85,17 +85,17 @@ class Load:
             check_peaks_of_cycle(machine, output)
         return (output_rms if mean else output_peak)(of=machine, output=output, steady=True)
 
-    def motion(self, pieces: Sequence[Piece]) -> RepeatedMotion:
+    def motion(self, pieces: Sequence[Piece]) -> MachineMotion:
         """The steady outputs of the load under pieces that form a cycle, over time in seconds."""
         from optlaws.mechanisms.machine import drives
-        from optlaws.mechanisms.machine.over_time import RepeatedMotion, jumps
+        from optlaws.mechanisms.machine.over_time import MachineMotion, jumps
 
         drives_of_pieces, at_breaks = [], list[tuple[float, float]]()
         for piece in pieces:
             drives_of_pieces += drives.of_law(piece.law, piece.start, piece.duration, piece.offset, piece.stroke)
             size = factor(piece.stroke, piece.duration, 1)
             at_breaks += [(piece.start + k * piece.duration, size * jump) for k, jump in jumps(piece.law)]
-        return RepeatedMotion(self.machine, tuple(drives_of_pieces), tuple(at_breaks))
+        return MachineMotion(self.machine.dynamics, self.machine.rows, drives_of_pieces, jumps=at_breaks)
 
     def limit(self, value: Any, output: str, name: str) -> float:
         """A limit of an output in SI units: with its unit where that is known, else a number."""

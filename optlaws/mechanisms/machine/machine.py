@@ -18,7 +18,7 @@ from optlaws.laws.law import motion_law
 from optlaws.mechanisms.machine.follower import Follower
 from optlaws.mechanisms.machine.masses import Link, MachineModel, assembly
 from optlaws.mechanisms.machine.modes import Mode, modal_model, modes
-from optlaws.mechanisms.machine.over_time import MachineCycle, MachineResponse
+from optlaws.mechanisms.machine.over_time import MachineMotion, RiseReturnCycle
 from optlaws.mechanisms.machine.state_space import SYMBOLS, StateSpace
 from optlaws.numbers import NumberOrQuantity, not_negative, positive
 
@@ -293,7 +293,7 @@ class Machine(StateSpace):
         """
         return modes(self)
 
-    def response(self, law: MotionLaw, *, dwell: float = 0.0) -> MachineResponse:
+    def response(self, law: MotionLaw, *, dwell: float = 0.0) -> MachineMotion:
         """The response of the machine during a rise and the dwell after it.
 
         Parameters
@@ -310,11 +310,11 @@ class Machine(StateSpace):
         >>> machine.response(smoothstep(4), dwell=1.0).dwell_peak("position")
         Peak(value=1.004147, k=1.128319)
         """
-        return MachineResponse(self, motion_law(law), not_negative(dwell, "dwell"))
+        return MachineMotion.of_law(self, motion_law(law), not_negative(dwell, "dwell"))
 
     def cycle(
         self, rise: MotionLaw, fall: MotionLaw | None = None, *, dwell: float, fall_duration: float = 1.0, rest: float
-    ) -> MachineCycle:
+    ) -> MachineMotion:
         """The steady motion of the machine when the law rises, dwells, returns and rests, as `Follower.cycle` takes it.
 
         Raises
@@ -330,7 +330,8 @@ class Machine(StateSpace):
         >>> machine.cycle(smoothstep(4), dwell=0.5, rest=1.0).peak("position")
         Peak(value=1.00..., k=...)
         """
-        return MachineCycle(self, rise, rise if fall is None else fall, dwell, fall_duration, rest)
+        cycle = RiseReturnCycle(rise, rise if fall is None else fall, dwell, fall_duration, rest)
+        return MachineMotion.of_cycle(self.dynamics, self.rows, cycle)
 
     @documented_by(Measure)
     def peak(

@@ -87,7 +87,7 @@ def participation(machine: StateSpace, vibration: Mode, output: str) -> complex:
     load = turn.conj().T @ dynamics.load
     driven = load[:, 0] / root + load[:, 1] + root * load[:, 2]
     part = driven[:size] - beside @ driven[size:]
-    states, _ = machine.output_rows(output)
+    states, _ = machine.rows[output]
     return complex(2.0 * (states @ turn[:, :size]) @ part)
 
 

@@ -18,16 +18,14 @@ from optlaws.files.reading import check_names
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw, smoothstep
 from optlaws.laws.law import motion_law
-from optlaws.mechanisms.forcing import around
 from optlaws.mechanisms.machine import drives
 from optlaws.mechanisms.machine.dynamics import Panel, inverse_gain
 from optlaws.mechanisms.machine.over_time import (
-    MachineCycle,
-    MachineResponse,
+    MachineMotion,
     OutputCurve,
-    RepeatedMotion,
+    RiseReturnCycle,
+    around,
     jumps,
-    steady,
 )
 from optlaws.mechanisms.machine.state_space import StateSpace, check_rest, machine_of, text_of, title_of
 from optlaws.numbers import Array, numbers, power_of_two
@@ -72,10 +70,12 @@ class OutputConstant(Functional):
     def _moved_by(self, law: MotionLaw) -> OutputCurve:
         if self.steady:
             _check_repeats(self.name, self.machine, float(law.a(1.0)) - float(law.a(0.0)))
-            return RepeatedMotion(self.machine, tuple(drives.of_law(law)), tuple(jumps(law)))[self.output]
+            course, rows = drives.of_law(law), self.machine.rows
+            return MachineMotion(self.machine.dynamics, rows, course, jumps=jumps(law))[self.output]
         if self.cycle is not None:
-            return MachineCycle(self.machine, law, law, self.cycle[0], 1.0, self.cycle[1])[self.output]
-        return MachineResponse(self.machine, law, max(0.0, self.within[1] - 1.0))[self.output]
+            cycle = RiseReturnCycle(law, law, self.cycle[0], 1.0, self.cycle[1])
+            return MachineMotion.of_cycle(self.machine.dynamics, self.machine.rows, cycle)[self.output]
+        return MachineMotion.of_law(self.machine, law, max(0.0, self.within[1] - 1.0))[self.output]
 
     #: what of the output it is, in words
     _what: ClassVar[str]
@@ -153,9 +153,9 @@ class OutputConstant(Functional):
             _check_repeats(self.name, self.machine, space.stroke)
         else:
             check_rest(self.name, space)
-        if self.machine.output_rows(self.output)[1][2] and getattr(space, "continuity", 2) < 1:
+        if self.machine.rows[self.output][1][2] and getattr(space, "continuity", 2) < 1:
             raise InputError(f"{self.output!r} is beyond every bound where the velocity jumps: give a continuity of 1")
-        states, direct = self.machine.output_rows(self.output)
+        states, direct = self.machine.rows[self.output]
         panels = [(panel.start, panel.length, panel.output(states, direct)) for panel in self._moved(space)]
         for *_, series in panels:
             series[0, -1] += self.offset
@@ -163,18 +163,15 @@ class OutputConstant(Functional):
 
     def _moved(self, space: LawSpace) -> list[Panel]:
         rise = drives.of_space(space)
-        if self.steady:
-            return steady(self.machine.dynamics, rise, _RADIANS)
         low, high = rise[0].ends[0][0], rise[-1].ends[1][0]
+        dynamics, initial = self.machine.dynamics, None
         if self.cycle is not None:
             dwell, rest = self.cycle
-            fall = drives.backward(rise, 1.0 + dwell, 1.0, high)
-            course = around(rise, fall, (high, low), (dwell, 1.0, rest), drives.rest)
-            return steady(self.machine.dynamics, course, _RADIANS)
-        if self.within[1] > 1.0 + SHORTEST_STRETCH:
-            rise.append(drives.rest(1.0, self.within[1] - 1.0, high))
-        initial = self.machine.settled(low)
-        return self.machine.dynamics.moved(rise, initial, radians=_RADIANS)[0]
+            rise = around(rise, drives.backward(rise, 1.0 + dwell, 1.0, high), (high, low), (dwell, 1.0, rest))
+        elif not self.steady:
+            rise += [drives.rest(1.0, self.within[1] - 1.0, high)] if self.within[1] > 1.0 + SHORTEST_STRETCH else []
+            initial = self.machine.settled(low)
+        return MachineMotion(dynamics, self.machine.rows, rise, initial, radians=_RADIANS).panels
 
     def rows_of_output(self, space: LawSpace) -> Array:
         """A column for each function of a space: the RMS of the output is the norm of their sum."""
@@ -191,7 +188,7 @@ class OutputConstant(Functional):
 @lru_cache(maxsize=256)
 def _scale_of_output(machine: StateSpace, output: str, offset: float) -> float:
     try:
-        curve = MachineResponse(machine, smoothstep(_SMOOTH), 0.0)[output]
+        curve = MachineMotion.of_law(machine, smoothstep(_SMOOTH))[output]
         return power_of_two(max(abs(offset), *(abs(extreme.value) for extreme in curve.extrema(0))))
     except (ArithmeticError, OptlawsError, ValueError):
         return power_of_two(max(abs(offset), _along_a_wave(machine, output)))  # it does not come to rest
@@ -230,7 +227,7 @@ class OutputPeak(OutputConstant):
         begins = self.cycle is None and not self.steady and self.within[0] == 0.0
         if not begins or (len(conditions.start) < _KNOWN and self.machine.direct[place][2]):
             return -inf
-        states, direct = self.machine.output_rows(self.output)
+        states, direct = self.machine.rows[self.output]
         still = (states @ self.machine.settled(np.array([level]))).real[0]
         value = float(still) + direct[0] * level + self.offset
         size = abs(float(still)) + abs(direct[0] * level) + abs(self.offset)
@@ -273,7 +270,7 @@ class OutputPeak(OutputConstant):
     def _jumps(self, space: LawSpace) -> bool:
         """Whether the output jumps where the acceleration does: at breaks, or where the motion ends."""
         smooth = getattr(space, "continuity", 2) > 1 and space.boundary.order > 2
-        return bool(self.machine.output_rows(self.output)[1][2]) and not smooth
+        return bool(self.machine.rows[self.output][1][2]) and not smooth
 
     def _rows(self, space: LawSpace) -> Array:
         """Series in the place u, which falls with time, a panel each; before each its start."""

@@ -2,27 +2,28 @@
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
-from collections.abc import Sequence
+from abc import abstractmethod
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.extras import needed
+from optlaws.files.reading import check_names
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw, Peak
 from optlaws.laws.curve import Curve, Sides
+from optlaws.laws.law import motion_law
 from optlaws.laws.segments.piecewise import PiecewiseLaw
-from optlaws.mechanisms.forcing import RiseReturnCycle
 from optlaws.mechanisms.machine import drives
 from optlaws.mechanisms.machine.dynamics import RADIANS, DriveStretch, Dynamics, Panel
-from optlaws.mechanisms.machine.state_space import StateSpace
-from optlaws.numbers import Array, Complex, real_times, whole
+from optlaws.mechanisms.machine.state_space import OutputRows, StateSpace
+from optlaws.numbers import Array, Complex, not_negative, positive, real_times, whole
 from optlaws.numerics import chebyshev
-from optlaws.tolerances import EPSILON, RESONANCE, SHORTEST_STRETCH
+from optlaws.tolerances import CLOSURE, EPSILON, RESONANCE, SHORTEST_STRETCH
 
 _END_ROUNDING = 1e-14  # of a time: the end of a motion is a sum of lengths
 
@@ -171,22 +172,150 @@ class OutputCurve(PanelCurve):
         return (places, values) if nu == 0 else (places[:0], values[:0])
 
 
-@dataclass(frozen=True, eq=False, repr=False)
-class MachineMotion(ABC):
-    """The outputs of a machine over time, by their names: each a curve, or an `InputError` where it is undefined."""
+@dataclass(frozen=True)
+class RiseReturnCycle:
+    """A repeated motion of rise, dwell, return and rest, in durations of the rise."""
 
-    machine: StateSpace
+    rise: MotionLaw
+    fall: MotionLaw
+    dwell: float
+    fall_duration: float
+    rest: float
+
+    def __post_init__(self) -> None:
+        for name, checked in _CHECKS.items():
+            object.__setattr__(self, name, checked(getattr(self, name), name))
+        strokes = [float(law.a(1.0)) - float(law.a(0.0)) for law in (self.rise, self.fall)]
+        if abs(strokes[1] - strokes[0]) > CLOSURE * max(1.0, abs(strokes[0])):
+            raise InputError(f"fall must lead back over the rise's stroke {strokes[0]:g}, but has {strokes[1]:g}")
+
+    @property
+    def period(self) -> float:
+        """Duration of the cycle, in durations of the rise."""
+        return 1.0 + self.dwell + self.fall_duration + self.rest
+
+
+_CHECKS: dict[str, Callable[[Any, str], Any]] = {
+    "rise": motion_law,
+    "fall": motion_law,
+    "dwell": not_negative,
+    "fall_duration": positive,
+    "rest": not_negative,
+}
+
+
+def around(
+    rise: list[DriveStretch],
+    fall: list[DriveStretch],
+    levels: tuple[Array | float, Array | float],
+    durations: tuple[float, float, float],
+) -> list[DriveStretch]:
+    """A cycle: rise, dwell at the upper level, return, rest at the lower one; `durations` are those after the rise."""
+    (high, low), (dwell, fall_duration, pause) = levels, durations
+    above = [drives.rest(1.0, dwell, high)] if dwell > SHORTEST_STRETCH else []
+    below = [drives.rest(1.0 + dwell + fall_duration, pause, low)] if pause > SHORTEST_STRETCH else []
+    return [*rise, *above, *fall, *below]
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class MachineMotion:
+    """The outputs of a machine over time, by their names, each a curve; of `Machine.response`, `Machine.cycle`, cycles.
+
+    Time is in durations of the rise, of a whole cycle in seconds.
+
+    Attributes
+    ----------
+    dynamics
+        The equation of the machine.
+    outputs
+        Rows that take its states to each output, and those that take a, b and c of the drive to it.
+    drives
+        The motion of the drive, stretch by stretch.
+    initial
+        The states at its beginning; the drive repeats, and the motion is the steady one, where there are none.
+    jumps
+        Where the velocity of the drive jumps inside, and by how much: its acceleration is an impulse there.
+    radians
+        How much of the fastest vibration is in a panel.
+
+    Examples
+    --------
+    >>> from optlaws import Machine, smoothstep
+    >>> mass = Machine([[0, 1], [-400, -2]], [[0], [400]], [[1, 0]], outputs=["position"])
+    >>> response = mass.response(smoothstep(4), dwell=0.5)
+    >>> response["position"](0.5), response.rise_peak("position"), response.dwell_peak("position")
+    (0.489570, Peak(value=1.003509, k=0.886102), Peak(value=1.003445, k=1.179061))
+    >>> cycle = mass.cycle(smoothstep(4), dwell=0.5, rest=1.0)
+    >>> cycle, cycle.period, round(cycle["position"](0.0) - cycle["position"](3.5), 12) + 0.0
+    (MachineMotion(outputs=['position'], from 0 to 3.5), 3.5, 0.0)
+    """
+
+    dynamics: Dynamics
+    outputs: Mapping[str, OutputRows]
+    drives: Sequence[DriveStretch]
+    initial: Complex | None = None
+    jumps: Sequence[tuple[float, float]] = ()
+    radians: float = RADIANS
+
+    @classmethod
+    def of_law(cls, machine: StateSpace, law: MotionLaw, dwell: float = 0.0) -> Self:
+        """The motion under a law and in the dwell after it, from rest."""
+        pause = [drives.rest(1.0, dwell, float(law.a(1.0)))] if dwell > SHORTEST_STRETCH else []
+        begun = machine.settled(np.array([float(law.a(0.0))]))
+        return cls(machine.dynamics, machine.rows, drives.of_law(law) + pause, begun, jumps(law))
+
+    @classmethod
+    def of_cycle(
+        cls, dynamics: Dynamics, outputs: Mapping[str, OutputRows], cycle: RiseReturnCycle, radians: float = RADIANS
+    ) -> Self:
+        """The steady motion over a cycle, which is refused at once where it is in resonance."""
+        low, high, back = float(cycle.rise.a(0.0)), float(cycle.rise.a(1.0)), 1.0 + cycle.dwell
+        fall = drives.of_law(cycle.fall, back, cycle.fall_duration, high, -1.0)
+        pauses = cycle.dwell, cycle.fall_duration, cycle.rest
+        course = around(drives.of_law(cycle.rise), fall, (high, low), pauses)
+        falling = [(back + cycle.fall_duration * k, -b / cycle.fall_duration) for k, b in jumps(cycle.fall)]
+        motion = cls(dynamics, outputs, course, jumps=[*jumps(cycle.rise), *falling], radians=radians)
+        motion.panels  # noqa: B018
+        return motion
+
+    @property
+    def period(self) -> float:
+        """The duration of the motion."""
+        return self.drives[-1].start + self.drives[-1].length - self.drives[0].start
 
     def __getitem__(self, output: str) -> OutputCurve:
         """The curve of an output."""
-        self.machine.place(output)
+        check_names([output], self.outputs, "output of the machine")
         if output not in self._curves:
-            self._curves[output] = self._curve(output)
+            direct = self.outputs[output][1][2]
+            jumps = self.jumps if direct else []
+            impulses = np.array([k for k, _ in jumps]), np.array([np.copysign(np.inf, direct * b) for _, b in jumps])
+            self._curves[output] = OutputCurve(output, *self.grid, tuple(self.series(output)), impulses)
         return self._curves[output]
 
     def peak(self, output: str) -> Peak:
         """The greatest magnitude of an output, with its place."""
         return self[output].peak(0)
+
+    def rise_peak(self, output: str) -> Peak:
+        """The greatest magnitude of an output during the rise."""
+        return self._greatest(output, (0.0, 1.0))
+
+    def dwell_peak(self, output: str) -> Peak:
+        """The greatest magnitude of an output after the rise.
+
+        Raises
+        ------
+        InputError
+            If the motion has no dwell.
+        """
+        if self.period <= 1.0 + SHORTEST_STRETCH:
+            raise InputError("this response has no dwell: request one, machine.response(law, dwell=1.0)")
+        return self._greatest(output, (1.0, self[output].interval[1]))
+
+    def _greatest(self, output: str, within: tuple[float, float]) -> Peak:
+        low, high = self[output].extrema(0, within)
+        return high if high.value >= -low.value else Peak(-low.value, low.k)
 
     def extrema(self, output: str) -> tuple[Peak, Peak]:
         """Minimum and maximum of an output, signed."""
@@ -207,198 +336,49 @@ class MachineMotion(ABC):
         [0.0, 0.489570, 1.00..., 1.00...]
         """
         pd = needed("pandas", "to_pandas")
-        return pd.concat([self[name].to_pandas(count) for name in self.machine.outputs], axis=1)
+        return pd.concat([self[name].to_pandas(count) for name in self.outputs], axis=1)
+
+    def __repr__(self) -> str:
+        start = self.drives[0].start
+        return f"MachineMotion(outputs={list(self.outputs)}, from {start:g} to {start + self.period:g})"
 
     @kept_property
     def _curves(self) -> dict[str, OutputCurve]:
         return {}
 
-    def _curve(self, output: str) -> OutputCurve:
-        states, direct = self.machine.output_rows(output)
-        panels = self._panels
-        parts = tuple(trimmed(panel.output(states, direct)[:, 0]) for panel in panels)
-        starts, lengths = grid(panels)
-        jumps = self._velocity_jumps if direct[2] else []
-        impulses = np.array([k for k, _ in jumps]), np.array([np.copysign(np.inf, direct[2] * b) for _, b in jumps])
-        return OutputCurve(output, starts, lengths, parts, impulses)
+    def series(self, output: str) -> list[Array]:
+        """The series of an output on each panel."""
+        return [trimmed(panel.output(*self.outputs[output])[:, 0]) for panel in self.panels]
 
     @kept_property
-    def _panels(self) -> list[Panel]:
-        return steady(self.machine.dynamics, self._drives)
-
-    @property
-    @abstractmethod
-    def _drives(self) -> Sequence[DriveStretch]:
-        """The motion of the drive, from rest or repeated."""
-
-    @property
-    @abstractmethod
-    def _velocity_jumps(self) -> Sequence[tuple[float, float]]:
-        """The places where the law's velocity jumps inside, so that its acceleration is an impulse there."""
-
-
-@dataclass(frozen=True, eq=False, repr=False)
-class MachineResponse(MachineMotion):
-    """The outputs of a machine during a rise, 0 <= k <= 1, and the dwell after it; computed by `Machine.response`.
-
-    Attributes
-    ----------
-    law
-        The law that drives it, from rest.
-    dwell
-        Duration of the dwell, in durations of the rise.
-
-    Examples
-    --------
-    >>> from optlaws import Machine, smoothstep
-    >>> mass = Machine([[0, 1], [-400, -2]], [[0], [400]], [[1, 0]], outputs=["position"])
-    >>> response = mass.response(smoothstep(4), dwell=0.5)
-    >>> response["position"](0.5), response.rise_peak("position"), response.dwell_peak("position")
-    (0.489570, Peak(value=1.003509, k=0.886102), Peak(value=1.003445, k=1.179061))
-    """
-
-    law: MotionLaw
-    dwell: float
-
-    def rise_peak(self, output: str) -> Peak:
-        """The greatest magnitude of an output during the rise."""
-        return self._greatest(output, (0.0, 1.0))
-
-    def dwell_peak(self, output: str) -> Peak:
-        """The greatest magnitude of an output during the dwell.
-
-        Raises
-        ------
-        InputError
-            If the response has no dwell.
-        """
-        if self.dwell <= SHORTEST_STRETCH:
-            raise InputError("this response has no dwell: request one, machine.response(law, dwell=1.0)")
-        return self._greatest(output, (1.0, self[output].interval[1]))
-
-    def _greatest(self, output: str, within: tuple[float, float]) -> Peak:
-        low, high = self[output].extrema(0, within)
-        return high if high.value >= -low.value else Peak(-low.value, low.k)
-
-    @property
-    def _drives(self) -> list[DriveStretch]:
-        pause = [drives.rest(1.0, self.dwell, float(self.law.a(1.0)))] if self.dwell > SHORTEST_STRETCH else []
-        return drives.of_law(self.law) + pause
+    def grid(self) -> tuple[Array, Array]:
+        """Starts and lengths of the panels."""
+        return np.array([panel.start for panel in self.panels]), np.array([panel.length for panel in self.panels])
 
     @kept_property
-    def _panels(self) -> list[Panel]:
-        begun = self.machine.settled(np.array([float(self.law.a(0.0))]))
-        return self.machine.dynamics.moved(self._drives, begun)[0]
-
-    @property
-    def _velocity_jumps(self) -> list[tuple[float, float]]:
-        return jumps(self.law)
-
-    def __repr__(self) -> str:
-        return f"MachineResponse({self.machine!r}, {self.law!r}, dwell={self.dwell:g})"
-
-
-@dataclass(frozen=True, eq=False, repr=False)
-class MachineCycle(RiseReturnCycle, MachineMotion):
-    """The steady outputs of a machine over a repeated cycle; computed by `Machine.cycle`. Time is in rises' durations.
-
-    Attributes
-    ----------
-    rise, fall
-        Laws of the rise and of the return.
-    dwell, fall_duration, rest
-        Durations of what follows the rise, in durations of the rise.
-
-    Examples
-    --------
-    >>> from optlaws import Machine, smoothstep
-    >>> mass = Machine([[0, 1], [-400, -2]], [[0], [400]], [[1, 0]], outputs=["position"])
-    >>> cycle = mass.cycle(smoothstep(4), dwell=0.5, rest=1.0)
-    >>> cycle.period, round(cycle["position"](0.0) - cycle["position"](3.5), 12) + 0.0
-    (3.5, 0.0)
-    """
-
-    rise: MotionLaw
-    fall: MotionLaw
-    dwell: float
-    fall_duration: float
-    rest: float
-
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        self._panels  # noqa: B018 - a cycle in resonance is refused at once
-
-    @property
-    def _drives(self) -> list[DriveStretch]:
-        return self._course(drives.of_law, drives.rest)
-
-    @property
-    def _velocity_jumps(self) -> list[tuple[float, float]]:
-        back = 1.0 + self.dwell
-        falling = [(back + self.fall_duration * k, -b / self.fall_duration) for k, b in jumps(self.fall)]
-        return [*jumps(self.rise), *falling]
-
-    def __repr__(self) -> str:
-        return f"MachineCycle({self.machine!r}, period={self.period:g})"
-
-
-@dataclass(frozen=True, eq=False, repr=False)
-class RepeatedMotion(MachineMotion):
-    """The steady outputs of a machine under any repeated motion; computed by a whole cycle.
-
-    `drives` are its stretches in the machine's unit of time, `jumps` where the velocity jumps inside, and by how much.
-
-    >>> from optlaws import Machine, smoothstep
-    >>> mass = Machine([[0, 1], [-400, -2]], [[0], [400]], [[1, 0]], outputs=["position"])
-    >>> there, back = drives.of_law(smoothstep(4)), drives.of_law(smoothstep(4), 1.0, 1.0, 1.0, -1.0)
-    >>> repeated, cycle = RepeatedMotion(mass, (*there, *back), ()), mass.cycle(smoothstep(4), dwell=0, rest=0)
-    >>> bool(abs(repeated.peak("position").value - cycle.peak("position").value) < 1e-12)
-    True
-    """
-
-    drives: tuple[DriveStretch, ...]
-    jumps: tuple[tuple[float, float], ...]
-
-    @property
-    def _drives(self) -> Sequence[DriveStretch]:
-        return self.drives
-
-    @property
-    def _velocity_jumps(self) -> Sequence[tuple[float, float]]:
-        return self.jumps
-
-    def __repr__(self) -> str:
-        last = self.drives[-1]
-        return f"RepeatedMotion({self.machine!r}, period={last.start + last.length - self.drives[0].start:g})"
-
-
-def steady(dynamics: Dynamics, cycle: Sequence[DriveStretch], radians: float = RADIANS) -> list[Panel]:
-    """The motion that comes back after a cycle, a column for each of the cycle's."""
-    columns, size = cycle[0].series.shape[2], len(dynamics.roots)
-    last = cycle[-1]
-    period, before = last.start + last.length - cycle[0].start, last.ends[1][1]
-    nothing = np.zeros((size, columns), dtype=np.complex128)
-    still = [drives.rest(0.0, period, np.zeros(size))]
-    forced = dynamics.moved(cycle, nothing, radians=radians, before=before)[1]
-    free = dynamics.moved(still, np.eye(size, dtype=np.complex128), radians=radians)[1]
-    returned = np.eye(size) - free
-    if np.linalg.svd(returned, compute_uv=False)[-1] < RESONANCE:
-        raise InputError(
-            f"there is no steady motion: a vibration without damping is in resonance with a cycle of {period:g} "
-            "durations of the rise, or a state drifts; give damping or change the cycle"
-        )
-    initial: Complex = np.linalg.solve(returned, forced).astype(np.complex128)
-    return dynamics.moved(cycle, initial, radians=radians, before=before)[0]
+    def panels(self) -> list[Panel]:
+        """The states of the machine, a column for each of the drives'."""
+        if self.initial is not None:
+            return self.dynamics.moved(self.drives, self.initial, radians=self.radians)[0]
+        columns, size = self.drives[0].series.shape[2], len(self.dynamics.roots)
+        before = self.drives[-1].ends[1][1]
+        nothing = np.zeros((size, columns), dtype=np.complex128)
+        still = [drives.rest(0.0, self.period, np.zeros(size))]
+        forced = self.dynamics.moved(self.drives, nothing, radians=self.radians, before=before)[1]
+        free = self.dynamics.moved(still, np.eye(size, dtype=np.complex128), radians=self.radians)[1]
+        returned = np.eye(size) - free
+        if np.linalg.svd(returned, compute_uv=False)[-1] < RESONANCE:
+            raise InputError(
+                "there is no steady motion: a vibration without damping is in resonance with a cycle of "
+                f"{self.period:g} durations of the rise, or a state drifts; give damping or change the cycle"
+            )
+        initial: Complex = np.linalg.solve(returned, forced).astype(np.complex128)
+        return self.dynamics.moved(self.drives, initial, radians=self.radians, before=before)[0]
 
 
 def jumps(law: MotionLaw) -> list[tuple[float, float]]:
     """The places and sizes of jumps of a law's velocity inside its interval."""
     return list(law.jumps(1)) if isinstance(law, PiecewiseLaw) else []
-
-
-def grid(panels: Sequence[Panel]) -> tuple[Array, Array]:
-    """Starts and lengths of panels."""
-    return np.array([panel.start for panel in panels]), np.array([panel.length for panel in panels])
 
 
 def trimmed(series: Array) -> Array:

@@ -14,13 +14,13 @@ from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw, Peak
 from optlaws.laws.law import motion_law
-from optlaws.mechanisms.forcing import RiseReturnCycle
 from optlaws.mechanisms.machine import drives
-from optlaws.mechanisms.machine.dynamics import DriveStretch, Dynamics, Panel
-from optlaws.mechanisms.machine.over_time import PanelCurve, grid, steady, trimmed
+from optlaws.mechanisms.machine.dynamics import Dynamics
+from optlaws.mechanisms.machine.over_time import MachineMotion, PanelCurve, RiseReturnCycle
+from optlaws.mechanisms.machine.state_space import OutputRows
 from optlaws.motion.piece import factor, unit_of
 from optlaws.motion.quantities import quantity, read_stroke
-from optlaws.numbers import Array, Complex, Quantity, derivative, positive, real_times
+from optlaws.numbers import Array, Quantity, derivative, positive, real_times
 
 _STIFF = 8.0  # radians in the rise: slower vibrations are slower than most laws
 _RADIANS = 40.0  # of a vibration in a panel: roots of a few long series take less time than those of many short ones
@@ -114,13 +114,15 @@ class Oscillator:
         return Dynamics(matrix, np.array([[0.0, 0.0, self.lag], [0.0, left, -1.0]]))
 
     @property
-    def orders(self) -> Array:
-        """Rows that take the states on a cam, then a, b and c, to a_m and its derivatives up to the jerk."""
+    def rows(self) -> dict[str, OutputRows]:
+        """Rows that take the states on a cam, and a, b and c, to a_m, its velocity, acceleration and jerk."""
         square, twice = self.frequency**2, 2.0 * self.n
         left = 0.0 if self.lag else -twice
         acceleration = np.array([-square, -twice, 0.0, left, 0.0])
         jerk = np.array([0.0, -square, 0.0, 0.0, 0.0]) - twice * acceleration
-        return np.array([[1.0, 0.0, 1.0, -self.lag, 0.0], [0.0, 1.0, 0.0, 1.0, 0.0], acceleration, jerk])
+        displacement, velocity = np.array([[1.0, 0.0, 1.0, -self.lag, 0.0], [0.0, 1.0, 0.0, 1.0, 0.0]])
+        rows = {"a": displacement, "b": velocity, "c": acceleration, "j": jerk}
+        return {letter: (row[:2] @ self.on_cam.out_of, row[2:]) for letter, row in rows.items()}
 
 
 def duration_of_rise(duration: Quantity | None, speed: Quantity | None, rise: Quantity | None) -> float:
@@ -133,6 +135,7 @@ def duration_of_rise(duration: Quantity | None, speed: Quantity | None, rise: Qu
     return positive(quantity(rise, "angle", "rise"), "rise") / turning
 
 
+@dataclass(frozen=True, repr=False)
 class MassMotion(PanelCurve):
     """Displacement a_m of the mass with its derivatives, dimensionless like a law; k in durations of the rise.
 
@@ -145,37 +148,29 @@ class MassMotion(PanelCurve):
     (True, (0.0, 3.5))
     """
 
-    @property
-    @abstractmethod
-    def _oscillator(self) -> Oscillator:
-        """The equation of the mass."""
+    frequency: float
+    damping: float
 
     @property
     @abstractmethod
-    def _cam(self) -> list[DriveStretch]:
-        """The motion of the cam over the interval."""
-
-    @property
-    @abstractmethod
-    def _panels(self) -> list[Panel]:
-        """The states of the mass on its cam."""
+    def _motion(self) -> MachineMotion:
+        """The mass and its derivatives as outputs."""
 
     @kept_property
+    def _oscillator(self) -> Oscillator:
+        return Oscillator(self.frequency, self.damping)
+
+    @property
     def _grid(self) -> tuple[Array, Array]:
-        return grid(self._panels)
+        return self._motion.grid
 
     @kept_property
     def _series(self) -> dict[int, list[Array]]:
-        oscillator = self._oscillator
-        rows = [(row[:2] @ oscillator.on_cam.out_of, row[2:]) for row in oscillator.orders]
-        return {
-            nu: [trimmed(panel.output(states, direct)[:, 0]) for panel in self._panels]
-            for nu, (states, direct) in enumerate(rows)
-        }
+        return {nu: self._motion.series(letter) for nu, letter in enumerate(self._motion.outputs)}
 
     @property
     def _breaks(self) -> tuple[float, ...]:
-        return (*(stretch.start for stretch in self._cam), self.interval[1])
+        return (*(stretch.start for stretch in self._motion.drives), self.interval[1])
 
     def _before_breaks(self, nu: int) -> Array:
         return self._before_panels(nu)[np.searchsorted(self._grid[0], self._breaks[1:-1]) - 1]
@@ -216,8 +211,6 @@ class Response(MassMotion):
     (2.035976, 7.204401)
     """
 
-    frequency: float
-    damping: float
     law: MotionLaw
     initial: tuple[float, float]
 
@@ -336,29 +329,18 @@ class Response(MassMotion):
         )
 
     @kept_property
-    def _oscillator(self) -> Oscillator:
-        return Oscillator(self.frequency, self.damping)
-
-    @kept_property
-    def _cam(self) -> list[DriveStretch]:
-        return drives.of_law(self.law)
-
-    @kept_property
-    def _moved(self) -> tuple[list[Panel], Complex]:
-        dynamics = self._oscillator.on_cam
+    def _motion(self) -> MachineMotion:
+        oscillator, cam = self._oscillator, drives.of_law(self.law)
         off = np.array([[self.initial[0] - float(self.law.a(0.0))], [self.initial[1]]])
-        return dynamics.moved(self._cam, dynamics.into @ off, radians=_RADIANS)
-
-    @property
-    def _panels(self) -> list[Panel]:
-        return self._moved[0]
+        dynamics = oscillator.on_cam
+        return MachineMotion(dynamics, oscillator.rows, cam, dynamics.into @ off, radians=_RADIANS)
 
     @kept_property
     def _off(self) -> tuple[float, float]:
         """Displacement and velocity at k = 1 relative to the dwell, where the cam stands still."""
-        oscillator = self._oscillator
-        (end,) = (oscillator.on_cam.out_of @ self._moved[1]).real.T
-        velocity = float(self._cam[-1].ends[1][1, 0])
+        oscillator, motion = self._oscillator, self._motion
+        (end,) = (oscillator.on_cam.out_of @ motion.panels[-1].states.sum(axis=0)).real.T
+        velocity = float(motion.drives[-1].ends[1][1, 0])
         return float(end[0]) - oscillator.lag * velocity, float(end[1]) + velocity
 
     def _times(self, k: Any) -> Array:
@@ -400,17 +382,9 @@ class CycleResponse(RiseReturnCycle, MassMotion):
     CycleResponse(frequency=20, damping=0.05, period=3.5, peak acceleration=11.018)
     """
 
-    frequency: float
-    damping: float
-    rise: MotionLaw
-    fall: MotionLaw
-    dwell: float
-    fall_duration: float
-    rest: float
-
     def __post_init__(self) -> None:
         super().__post_init__()
-        self._panels  # noqa: B018 - a cycle in resonance is refused at once
+        self._motion  # noqa: B018 - a cycle in resonance is refused at once
 
     @property
     def interval(self) -> tuple[float, float]:
@@ -424,16 +398,8 @@ class CycleResponse(RiseReturnCycle, MassMotion):
         )
 
     @kept_property
-    def _oscillator(self) -> Oscillator:
-        return Oscillator(self.frequency, self.damping)
-
-    @kept_property
-    def _cam(self) -> list[DriveStretch]:
-        return self._course(drives.of_law, drives.rest)
-
-    @kept_property
-    def _panels(self) -> list[Panel]:
-        return steady(self._oscillator.on_cam, self._cam, _RADIANS)
+    def _motion(self) -> MachineMotion:
+        return MachineMotion.of_cycle(self._oscillator.on_cam, self._oscillator.rows, self, _RADIANS)
 
     def _derivative(self, k: Array, nu: int) -> Array:
         return super()._derivative(np.mod(k, self.period), nu)

@@ -31,6 +31,7 @@ Matrix = tuple[tuple[float, ...], ...]
 
 Rows = NDArray[Any] | Sequence[Sequence[float]]
 MatrixRows: TypeAlias = Kept["Matrix", "Rows"]
+OutputRows: TypeAlias = tuple[Complex, Array]
 OutputNames: TypeAlias = Kept["tuple[str, ...]", "Sequence[str]"]
 
 SYMBOLS = "abc"
@@ -169,10 +170,15 @@ class StateSpace(Declared, title="a machine"):
         """D with a column for each of a, b and c."""
         return _spread(np.array(self.D), self.inputs)
 
+    @kept_property
+    def rows(self) -> dict[str, tuple[Complex, Array]]:
+        """The rows that take the triangular form's states to each output, and those that take a, b and c to it."""
+        states = (np.array(row) @ self.dynamics.out_of for row in self.C)
+        return dict(zip(self.outputs, zip(states, self.direct, strict=True), strict=True))
+
     def output_rows(self, output: str) -> tuple[Complex, Array]:
-        """The rows that take the triangular form's states to an output, and those that take a, b and c to it."""
-        place = self.place(output)
-        return np.array(self.C[place]) @ self.dynamics.out_of, self.direct[place]
+        """The rows of an output."""
+        return self.rows[self.outputs[self.place(output)]]
 
     def place(self, output: str | None) -> int:
         """The index of an output by its name; the first output if there is no name."""
