@@ -18,8 +18,7 @@ from optlaws.cams.forces import CamForces
 from optlaws.cams.least_sizes import CamLimits
 from optlaws.cycles.cycle import Cycle, Plan
 from optlaws.kept import kept_property
-from optlaws.motion.display_units import DEGREES, MILLI, TURN_DEG, UNITS
-from optlaws.motion.quantities import TURN
+from optlaws.motion.quantities import DEGREES, MILLI, TURN, TURN_DEG, UNITS
 from optlaws.numbers import Array, Quantity, bounded, chop
 from optlaws.sentences import Sentence, sentence
 from optlaws.shown.curve_points import refined

@@ -30,8 +30,7 @@ from optlaws.extras import needed
 from optlaws.files.reading import check_names
 from optlaws.kept import kept_property
 from optlaws.motion.piece import Piece, by_pieces, unit_of, values_of_pieces
-from optlaws.motion.quantities import QUANTITIES, TURN, Exact, quantity
-from optlaws.motion.quantity_kinds import Kind
+from optlaws.motion.quantities import QUANTITIES, TURN, Exact, Kind, quantity
 from optlaws.numbers import Array, Quantity, derivative, number_or_array, real_times
 from optlaws.synthesis.solution import Solution
 from optlaws.synthesis.status import Status

@@ -17,8 +17,7 @@ from optlaws.cycles.specification.limits import FORCE_UNITS, amount, word_of
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.motion.motion import Motion
-from optlaws.motion.quantities import TURN, Exact
-from optlaws.motion.quantity_kinds import Kind
+from optlaws.motion.quantities import TURN, Exact, Kind
 from optlaws.numbers import Quantity
 from optlaws.sentences import Amount, joined, sentence
 from optlaws.shown.report import Report

@@ -22,7 +22,7 @@ from optlaws.cycles.specification.programme import TimedSegment, is_optimal
 from optlaws.cycles.specification.segments import Dwell, Move
 from optlaws.errors import InfeasibleProblem
 from optlaws.motion.piece import Piece, jump_beside, unit_of
-from optlaws.motion.quantity_kinds import Kind
+from optlaws.motion.quantities import Kind
 from optlaws.numerics.peaks import is_kept
 from optlaws.sentences import Amount, joined, sentence
 from optlaws.shown.summary import Row

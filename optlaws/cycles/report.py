@@ -20,10 +20,8 @@ from optlaws.kept import kept_property
 from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.mechanisms.linkages.mechanism import Mechanism
 from optlaws.motion.derivative_panel import DERIVATIVES, display_unit, motion_panel, times_in
-from optlaws.motion.display_units import MILLI, RPM, TURN_DEG, UNITS
 from optlaws.motion.piece import unit_of
-from optlaws.motion.quantities import QUANTITIES
-from optlaws.motion.quantity_kinds import Kind
+from optlaws.motion.quantities import MILLI, QUANTITIES, RPM, TURN_DEG, UNITS, Kind
 from optlaws.numbers import Array, chop
 from optlaws.shown.curve_points import refined
 from optlaws.shown.report import Panel, PanelLimit, ReportSegment, ReportTable, Series

@@ -29,8 +29,7 @@ from optlaws.laws.making.transform import mirrored_law
 from optlaws.motion.derivative_panel import display_unit, motion_panel
 from optlaws.motion.motion import MASTERS, Motion, motion_of_pieces
 from optlaws.motion.piece import Piece, factor, unit_of, values_of_pieces
-from optlaws.motion.quantities import QUANTITIES, Exact, given_quantity, quantity
-from optlaws.motion.quantity_kinds import Kind
+from optlaws.motion.quantities import QUANTITIES, Exact, Kind, given_quantity, quantity
 from optlaws.numbers import Quantity, derivative, number_or_array, real_times
 from optlaws.shown.report import PlainReport, Report, ReportSegment
 from optlaws.shown.summary import Row, Summary

@@ -45,8 +45,7 @@ from optlaws.errors import InfeasibleProblem, InputError, located
 from optlaws.jobs.cycle_entries import AxisEntries, cycle_of
 from optlaws.jobs.job_entries import ProblemFile
 from optlaws.kept import kept_property
-from optlaws.motion.display_units import MICRO, MILLI, TURN_DEG
-from optlaws.motion.quantities import TURN, Exact
+from optlaws.motion.quantities import MICRO, MILLI, TURN, TURN_DEG, Exact
 from optlaws.numbers import Quantity, chop
 from optlaws.plots.cam import animated, barrel_figure, cam_figure, forces_figure, pair_figure
 from optlaws.results import Results

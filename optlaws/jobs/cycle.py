@@ -28,8 +28,7 @@ from optlaws.jobs.cycle_entries import (
 from optlaws.jobs.job_entries import plain_name
 from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.mechanisms.linkages.mechanism import Mechanism
-from optlaws.motion.display_units import RPM
-from optlaws.motion.quantities import Exact
+from optlaws.motion.quantities import RPM, Exact
 from optlaws.plots.style import figure_of, plot_style
 from optlaws.plots.sweep import sweep_figure
 from optlaws.results import Page, Results

@@ -22,7 +22,7 @@ from optlaws.files.tables import Cell
 from optlaws.jobs.cycle_entries import AxisEntries, drive_of
 from optlaws.jobs.job_entries import ProblemFile, plain_name
 from optlaws.mechanisms.drives.drive_train import Drive
-from optlaws.motion.display_units import UNITS
+from optlaws.motion.quantities import UNITS
 from optlaws.numbers import Quantity
 from optlaws.plots.moves import fronts_figure, motion_figure, strokes_figure
 from optlaws.results import Page, Results

@@ -6,9 +6,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from optlaws.motion.display_units import UNITS
 from optlaws.motion.piece import Piece, unit_of
-from optlaws.motion.quantities import QUANTITIES
+from optlaws.motion.quantities import QUANTITIES, UNITS
 from optlaws.numbers import Array, chop
 from optlaws.shown.curve_points import refined
 from optlaws.shown.report import Panel, PanelLimit, Series

@@ -1,9 +1,13 @@
-"""Quantities with units, as people write them, converted to floats in SI units (metres, radians, seconds)."""
+"""Quantities: the kinds that are limited, what people write as floats in SI units, and the units that tables show.
+
+SI units are metres, radians and seconds.
+"""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Mapping
+from enum import Enum
 from fractions import Fraction
 from functools import lru_cache
 from math import isfinite, pi
@@ -417,3 +421,51 @@ def _kind(unit: str) -> str:
         for sign in (1, -1)
     )
     return f"of dimension {' / '.join([' * '.join(above) or ('1' if below else 'dimensionless'), *below])}"
+
+
+class Kind(Enum):
+    """What is limited or minimised; values are the numbers that `Cycle.limits_of_segments` has for them.
+
+    Examples
+    --------
+    >>> Kind.JERK.order, Kind.FORCE.order
+    (3, 0)
+    """
+
+    VELOCITY = 1
+    ACCELERATION = 2
+    JERK = 3
+    SNAP = 4
+    FORCE = -1
+    LOAD = -2
+    POWER = -3
+    ENERGY = -4
+    HEAT = -5
+    CURVE = -6  #: the share of a motor's curve of torque over speed
+    RMS_FORCE = -7  #: over the whole cycle
+    RESIDUAL = -10  #: acceleration of what vibrates on after a move
+    RESIDUAL_DISPLACEMENT = -11  #: amplitude of what vibrates on after a move
+    VELOCITY_ALONG = -8  #: in the direction of the motion
+    ACCELERATION_ALONG = -9  #: likewise: above 0 where it speeds up
+
+    @property
+    def order(self) -> int:
+        """The order of the derivative; 0 of what is no derivative."""
+        along = {Kind.VELOCITY_ALONG: 1, Kind.ACCELERATION_ALONG: 2}
+        return along.get(self, max(self.value, 0))
+
+    @property
+    def is_driven(self) -> bool:
+        """Whether it is of a drive at each time."""
+        return self in {Kind.FORCE, Kind.POWER, Kind.CURVE}
+
+
+#: how many of a unit make one of SI: thousandths, millionths, turns a minute, degrees
+MILLI, MICRO, RPM, DEGREES = 1e3, 1e6, 30.0 / pi, 360.0 / TURN
+#: the degrees of a turn of the master
+TURN_DEG = 360.0
+#: units of position, velocity, acceleration and jerk, and how many of them make one of SI
+UNITS = {
+    "length": (("mm", MILLI), ("mm/s", MILLI), ("m/s²", 1.0), ("m/s³", 1.0)),
+    "angle": (("deg", DEGREES), ("deg/s", DEGREES), ("rad/s²", 1.0), ("rad/s³", 1.0)),
+}

@@ -14,7 +14,7 @@ from optlaws.cams.forces import CamForces
 from optlaws.cams.report import CamReport
 from optlaws.errors import InputError
 from optlaws.files.writing import MARK
-from optlaws.motion.display_units import DEGREES, MILLI, TURN_DEG
+from optlaws.motion.quantities import DEGREES, MILLI, TURN_DEG
 from optlaws.numbers import Array
 from optlaws.plots.report import draw_panels
 from optlaws.plots.style import BLUES, GREEN, GREY, WARM, new_figure, plot_style, titled

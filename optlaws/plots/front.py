@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
-from optlaws.motion.display_units import MILLI
+from optlaws.motion.quantities import MILLI
 from optlaws.plots.style import BLUES, GREY, WARM, name_point, new_axes
 from optlaws.synthesis.report import axis_label
 

@@ -11,7 +11,7 @@ from optlaws.cycles.axes.machine_axes import AxesPicture
 from optlaws.cycles.specification.segments import Dwell
 from optlaws.errors import InputError
 from optlaws.files.reading import check_names
-from optlaws.motion.display_units import TURN_DEG
+from optlaws.motion.quantities import TURN_DEG
 from optlaws.plots.report import draw_panel
 from optlaws.plots.style import (
     BLUES,

@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optlaws.cycles.moves.fastest_move import AXES
-from optlaws.motion.display_units import MILLI, UNITS
-from optlaws.motion.quantities import QUANTITIES
+from optlaws.motion.quantities import MILLI, QUANTITIES, UNITS
 from optlaws.plots.front import draw_time_front
 from optlaws.plots.law import four
 from optlaws.plots.report import draw_panels

@@ -17,7 +17,7 @@ from optlaws.cycles.specification.limits import LIMITS_OF_CYCLE, LIMITS_OF_MOVE
 from optlaws.cycles.specification.load import ElasticFollower
 from optlaws.files import reading
 from optlaws.laws.catalogue.reading import LARGEST_TABLE
-from optlaws.motion.quantity_kinds import Kind
+from optlaws.motion.quantities import Kind
 from optlaws.synthesis.least_time.timed_move import RATES as OBJECTIVES_OF_MOVES
 
 

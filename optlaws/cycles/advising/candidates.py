@@ -20,8 +20,7 @@ from optlaws.errors import InputError, OptlawsError
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.motion.piece import Piece, factor, named_law, unit_of
-from optlaws.motion.quantities import Exact, quantity
-from optlaws.motion.quantity_kinds import Kind
+from optlaws.motion.quantities import Exact, Kind, quantity
 from optlaws.shown.report import Report
 from optlaws.synthesis.least_time.move_limits import RESIDUAL, FollowerResidual
 from optlaws.synthesis.problem.constants import FUNCTIONALS, Functional

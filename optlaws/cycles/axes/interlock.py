@@ -22,9 +22,8 @@ from optlaws.entries.value_types import Choice, Either, Listed, Measured, Number
 from optlaws.errors import InputError, located
 from optlaws.formulas.reading import read
 from optlaws.formulas.tree import Formula, Table
-from optlaws.motion.display_units import UNITS
 from optlaws.motion.piece import unit_of
-from optlaws.motion.quantities import in_small_units, quantity
+from optlaws.motion.quantities import UNITS, in_small_units, quantity
 from optlaws.numbers import Array, Quantity
 from optlaws.numerics.interval import Interval
 from optlaws.numerics.taylor import Jet, Pair

@@ -22,7 +22,7 @@ from optlaws.cycles.cycle import Cycle
 from optlaws.cycles.limit_rows import broken_limits
 from optlaws.cycles.report import objective_unit
 from optlaws.kept import kept_property
-from optlaws.motion.display_units import TURN_DEG, UNITS
+from optlaws.motion.quantities import TURN_DEG, UNITS
 from optlaws.numbers import Array
 from optlaws.sentences import joined
 from optlaws.shown.curve_points import refined

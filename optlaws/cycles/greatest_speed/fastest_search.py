@@ -48,7 +48,7 @@ from optlaws.laws import MotionLaw
 from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.mechanisms.drives.effort import PieceEffort
 from optlaws.motion.piece import Piece, factor, jump_beside
-from optlaws.motion.quantity_kinds import Kind
+from optlaws.motion.quantities import Kind
 from optlaws.sentences import sentence
 from optlaws.synthesis.least_time.move_limits import SpanLimit
 from optlaws.synthesis.problem.problem import Problem

@@ -26,8 +26,7 @@ from optlaws.formulas.tree import Number, table_places
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.mechanisms.drives.drive_train import Drive
-from optlaws.motion.quantities import in_small_units
-from optlaws.motion.quantity_kinds import Kind
+from optlaws.motion.quantities import Kind, in_small_units
 from optlaws.motion.smooth_parts import SmoothParts
 from optlaws.numbers import Array
 from optlaws.sentences import sentence

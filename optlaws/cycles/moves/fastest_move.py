@@ -19,9 +19,8 @@ from optlaws.laws.law import ExportOptions, LawExport
 from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.mechanisms.drives.effort import DriveSheet, PieceEffort
 from optlaws.motion.derivative_panel import DERIVATIVES, display_unit, motion_panel
-from optlaws.motion.display_units import DEGREES
 from optlaws.motion.piece import Piece, unit_of
-from optlaws.motion.quantities import QUANTITIES, Exact, positive_quantity
+from optlaws.motion.quantities import DEGREES, QUANTITIES, Exact, positive_quantity
 from optlaws.numbers import Array, Quantity, positive
 from optlaws.shown.curve_points import refined
 from optlaws.shown.report import Panel, PanelLimit, Report, ReportSegment, ReportTable, Series

@@ -25,8 +25,7 @@ from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.motion.piece import unit_of
-from optlaws.motion.quantities import Exact, positive_quantity
-from optlaws.motion.quantity_kinds import Kind
+from optlaws.motion.quantities import Exact, Kind, positive_quantity
 from optlaws.numbers import NumberOrQuantity, Quantity, bounded, listed, positive, real
 from optlaws.suggest import unknown_key
 from optlaws.synthesis.least_time.move_limits import RESIDUAL, RESIDUALS, power

@@ -26,8 +26,7 @@ from optlaws.entries.declared import Declared, ValueOf, declared, entry
 from optlaws.entries.value_types import Either, Listed, Measured, Number, is_list
 from optlaws.errors import InputError
 from optlaws.mechanisms.drives.drive_train import Drive
-from optlaws.motion.quantities import either, quantity
-from optlaws.motion.quantity_kinds import Kind
+from optlaws.motion.quantities import Kind, either, quantity
 from optlaws.numbers import NumberOrQuantity, Quantity, listed
 from optlaws.synthesis.least_time.least_time import LeastTime
 from optlaws.synthesis.least_time.motor_torque import LossyGear, MotorTorque

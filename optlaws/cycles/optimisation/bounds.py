@@ -19,7 +19,7 @@ from optlaws.cycles.optimisation.span_values import known_drive, size_of, span_v
 from optlaws.cycles.specification.joints import LawSpan, Layout
 from optlaws.errors import InfeasibleProblem, SolverFailure
 from optlaws.motion.piece import Piece, factor
-from optlaws.motion.quantity_kinds import Kind
+from optlaws.motion.quantities import Kind
 from optlaws.synthesis.functionals.makers import peak
 from optlaws.synthesis.problem.expression import maximum
 from optlaws.synthesis.problem.problem import Problem

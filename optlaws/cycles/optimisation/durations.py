@@ -25,7 +25,7 @@ from optlaws.cycles.specification.segments import ConstantVelocity, Dwell, Free,
 from optlaws.errors import InfeasibleProblem, InputError
 from optlaws.laws import MotionLaw
 from optlaws.motion.piece import factor, named_law
-from optlaws.motion.quantity_kinds import Kind
+from optlaws.motion.quantities import Kind
 from optlaws.numerics.roots import bisect
 from optlaws.synthesis.problem.constants import FUNCTIONALS
 from optlaws.synthesis.problem.problem import Problem

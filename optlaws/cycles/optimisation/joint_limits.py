@@ -15,8 +15,7 @@ from optlaws.cycles.specification.joints import LawSpan, Layout, State
 from optlaws.cycles.specification.limits import DECELERATION, SPEEDING_UP, Side, Sides, in_units, tightest
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.motion.piece import Piece
-from optlaws.motion.quantities import in_small_units
-from optlaws.motion.quantity_kinds import Kind
+from optlaws.motion.quantities import Kind, in_small_units
 from optlaws.sentences import Amount, sentence
 from optlaws.synthesis.solution import Solution
 from optlaws.tolerances import AGREEMENT

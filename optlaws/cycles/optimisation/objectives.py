@@ -11,7 +11,7 @@ from optlaws.cycles.specification.limits import Limits
 from optlaws.cycles.specification.load import Load, load_output
 from optlaws.cycles.specification.programme import Programme
 from optlaws.errors import InputError
-from optlaws.motion.quantity_kinds import Kind
+from optlaws.motion.quantities import Kind
 from optlaws.suggest import unknown_key
 from optlaws.tolerances import AGREEMENT
 

@@ -29,8 +29,7 @@ from optlaws.cycles.specification.load import load_output
 from optlaws.cycles.specification.programme import is_optimal
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.motion.piece import Piece, factor
-from optlaws.motion.quantities import in_small_units
-from optlaws.motion.quantity_kinds import Kind
+from optlaws.motion.quantities import Kind, in_small_units
 from optlaws.sentences import sentence
 from optlaws.synthesis.problem.constants import FUNCTIONALS, Functional
 from optlaws.synthesis.problem.problem import Problem

@@ -11,7 +11,7 @@ from optlaws.cycles.specification.joints import LawSpan
 from optlaws.cycles.specification.programme import is_optimal
 from optlaws.errors import InputError
 from optlaws.motion.piece import factor
-from optlaws.motion.quantity_kinds import Kind
+from optlaws.motion.quantities import Kind
 from optlaws.numbers import MOST_PIECES
 from optlaws.synthesis.problem.constants import FUNCTIONALS, RootMeanSquare
 from optlaws.synthesis.problem.problem import Problem

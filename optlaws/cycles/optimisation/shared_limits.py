@@ -24,7 +24,7 @@ from optlaws.cycles.specification.limits import FORCES, tightest
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.kept import kept_property
 from optlaws.motion.piece import Piece
-from optlaws.motion.quantity_kinds import Kind
+from optlaws.motion.quantities import Kind
 from optlaws.synthesis.functionals.makers import integral
 from optlaws.synthesis.solution import Solution
 from optlaws.tolerances import FEASIBILITY

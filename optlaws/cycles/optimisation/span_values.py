@@ -28,7 +28,7 @@ from optlaws.cycles.specification.segments import Dwell
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.motion.piece import Piece, factor
-from optlaws.motion.quantity_kinds import Kind
+from optlaws.motion.quantities import Kind
 from optlaws.motion.smooth_parts import SmoothParts
 from optlaws.synthesis.functionals.makers import integral, peak, rms
 from optlaws.synthesis.problem.constants import FUNCTIONALS, Functional

@@ -15,8 +15,7 @@ from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw, smoothstep
 from optlaws.motion.piece import Piece, factor, named_law
-from optlaws.motion.quantities import in_small_units, quantity
-from optlaws.motion.quantity_kinds import Kind
+from optlaws.motion.quantities import Kind, in_small_units, quantity
 from optlaws.sentences import sentence
 from optlaws.tolerances import CLOSURE
 

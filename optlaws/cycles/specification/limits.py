@@ -12,8 +12,7 @@ from optlaws.entries.frozen import FrozenTable
 from optlaws.entries.value_types import Either, Listed, Measured, ReadBy, Switch, is_list
 from optlaws.errors import InputError
 from optlaws.motion.piece import unit_of
-from optlaws.motion.quantities import in_small_units, positive_quantity, quantity, written
-from optlaws.motion.quantity_kinds import Kind
+from optlaws.motion.quantities import Kind, in_small_units, positive_quantity, quantity, written
 from optlaws.numerics.peaks import is_kept
 from optlaws.sentences import Amount, sentence
 

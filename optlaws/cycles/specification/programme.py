@@ -20,8 +20,7 @@ from optlaws.cycles.specification.segments import (
 )
 from optlaws.echo import shortened
 from optlaws.errors import InputError
-from optlaws.motion.quantities import TURN, check_scale, either, in_small_units, positive_quantity, quantity
-from optlaws.motion.quantity_kinds import Kind
+from optlaws.motion.quantities import TURN, Kind, check_scale, either, in_small_units, positive_quantity, quantity
 from optlaws.sentences import Amount, sentence
 from optlaws.tolerances import CLOSURE, SAME_TIME
 

@@ -19,7 +19,7 @@ from optlaws.explorer.views import cycle_view
 from optlaws.explorer.views.cycle_view import CycleRequest, packaged_study
 from optlaws.explorer.views.law_view import TITLES, digits, refusing
 from optlaws.explorer.views.panel_data import drawn, fact_sentences, panel_data, table_data
-from optlaws.motion.display_units import TURN_DEG, UNITS
+from optlaws.motion.quantities import TURN_DEG, UNITS
 from optlaws.sentences import Amount, joined, sentence
 from optlaws.shown.report import Panel
 

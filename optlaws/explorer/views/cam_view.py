@@ -22,8 +22,7 @@ from optlaws.explorer.views.law_view import refusing
 from optlaws.explorer.views.panel_data import drawn, fact_sentences, panel_data
 from optlaws.explorer.views.requests import check_size, without_files
 from optlaws.jobs.cam import CamProblemFile, CamResult
-from optlaws.motion.display_units import MILLI
-from optlaws.motion.quantities import quantity
+from optlaws.motion.quantities import MILLI, quantity
 from optlaws.sentences import Sentence, capital, joined, sentence
 
 _STEPS = 360

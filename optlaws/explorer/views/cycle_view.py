@@ -27,7 +27,7 @@ from optlaws.files import reading
 from optlaws.files.packaged import packaged
 from optlaws.jobs.cycle_entries import AxisEntries, CycleProblemFile, cycle_of
 from optlaws.mechanisms.drives.motor import OF_TORQUE, Motor
-from optlaws.motion.display_units import MILLI, TURN_DEG, UNITS
+from optlaws.motion.quantities import MILLI, TURN_DEG, UNITS
 from optlaws.numbers import Quantity
 from optlaws.sentences import Amount, joined, sentence
 from optlaws.tolerances import AGREEMENT, BOUND_SLACK

@@ -24,8 +24,7 @@ from optlaws.explorer.views.panel_data import drawn, fact_sentences, over_time, 
 from optlaws.explorer.views.requests import check_size, without_files
 from optlaws.jobs.cycle_entries import AxisEntries, CycleProblemFile
 from optlaws.jobs.fastest import FastestProblemFile, MoveEntries, arguments_of, front_of
-from optlaws.motion.display_units import MILLI
-from optlaws.motion.quantities import Exact, si_number
+from optlaws.motion.quantities import MILLI, Exact, si_number
 from optlaws.numbers import Array, Quantity, bounded
 from optlaws.sentences import Amount
 from optlaws.shown.summary import Row

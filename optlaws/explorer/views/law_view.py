@@ -28,9 +28,8 @@ from optlaws.explorer.views.requests import (
 )
 from optlaws.mechanisms.machine.residual import BandResidual
 from optlaws.mechanisms.measured_spectrum import Spectrum, weight_of
-from optlaws.motion import display_units
 from optlaws.motion.piece import factor
-from optlaws.motion.quantities import either, positive_quantity
+from optlaws.motion.quantities import UNITS, either, positive_quantity
 from optlaws.numbers import bounded
 from optlaws.sentences import Amount
 from optlaws.synthesis.limits.of_problem import limited_laws
@@ -227,7 +226,7 @@ def in_machine_units(request: LawsRequest) -> dict[str, Any]:
     sizes = {"B": (of.B.value, 1), "C": (of.C.value, 2), "J": (of.J.value, 3), "rms_c": (of.rms_c, 2)}
     inertia, force = _INERTIAS[axis]
     peaks = {name: value * factor(stroke, time, nu) for name, (value, nu) in sizes.items()}
-    units = {name: display_units.UNITS[axis][nu] for name, (_, nu) in sizes.items()}
+    units = {name: UNITS[axis][nu] for name, (_, nu) in sizes.items()}
     cells = {name: Amount(abs(peak * units[name][1]), units[name][0], 5) for name, peak in peaks.items()}
     rows = [{"name": f"{request.stroke} in {request.time}", "cells": cells}]
     if request.mass:

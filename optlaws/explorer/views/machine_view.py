@@ -25,8 +25,7 @@ from optlaws.jobs.cycle_entries import AxisEntries, CycleProblemFile, cycle_of
 from optlaws.mechanisms.drives.effort import over_speed
 from optlaws.mechanisms.linkages.mechanism_kinds import MechanismKind
 from optlaws.mechanisms.linkages.report import INPUTS, MechanismReport
-from optlaws.motion.display_units import MILLI, RPM
-from optlaws.motion.quantities import si_number
+from optlaws.motion.quantities import MILLI, RPM, si_number
 from optlaws.numbers import Array, bounded
 from optlaws.shown.summary import Row
 

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from optlaws.motion.display_units import MILLI
+from optlaws.motion.quantities import MILLI
 from optlaws.numbers import Array, bounded
 from optlaws.sentences import Amount, Sentence, joined, sentence
 from optlaws.shown.report import Panel, ReportSegment, ReportTable

@@ -17,8 +17,8 @@ from optlaws.kept import kept_property
 from optlaws.laws.storage import PlainNumbers
 from optlaws.mechanisms.drives.motor import Motor
 from optlaws.motion.derivative_panel import times_in
-from optlaws.motion.display_units import RPM
 from optlaws.motion.piece import Piece
+from optlaws.motion.quantities import RPM
 from optlaws.motion.smooth_parts import Greatest, SmoothParts
 from optlaws.numbers import Array
 from optlaws.numerics.peaks import is_kept

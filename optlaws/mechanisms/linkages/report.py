@@ -8,7 +8,7 @@ import numpy as np
 
 from optlaws.formulas.arithmetic import NUMPY, evaluate
 from optlaws.mechanisms.linkages.mechanism import Mechanism
-from optlaws.motion.display_units import DEGREES, MILLI
+from optlaws.motion.quantities import DEGREES, MILLI
 from optlaws.numbers import Array
 from optlaws.shown.report import Panel, Series
 
