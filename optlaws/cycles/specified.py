@@ -21,8 +21,7 @@ from optlaws.cycles.specification.load import ElasticLoad, Load, is_process, rea
 from optlaws.cycles.specification.programme import Programme, is_optimal, period_of, programme
 from optlaws.cycles.specification.segments import SEGMENTS, CycleSegment, Dwell
 from optlaws.echo import shortened
-from optlaws.entries.declared import Declared, ValueOf, declared, entries_of, entry
-from optlaws.entries.frozen import FrozenTable, frozen, thawed
+from optlaws.entries.declared import Declared, FrozenTable, ValueOf, declared, entries_of, entry, frozen, thawed
 from optlaws.entries.value_types import Measured, ReadBy, Text, Whole
 from optlaws.errors import InputError
 from optlaws.kept import kept_property

@@ -15,8 +15,7 @@ from optlaws.cycles.specification.load import ElasticFollower
 from optlaws.cycles.specification.programme import period_of
 from optlaws.cycles.specification.segments import CycleSegment, Transition
 from optlaws.echo import shortened
-from optlaws.entries.declared import Declared, ValueOf, declared, entries_of, entry, same
-from optlaws.entries.frozen import frozen, thawed
+from optlaws.entries.declared import Declared, ValueOf, declared, entries_of, entry, frozen, same, thawed
 from optlaws.entries.value_types import Choice, Either, Listed, Number, ReadBy, Switch, Text, Whole
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure, located
 from optlaws.exports.format import Request

@@ -13,8 +13,7 @@ from optlaws.cycles.moves.time_front import FrontOverTime, TimeFront, time_front
 from optlaws.cycles.moves.timed_moves import VibratingFollower, fastest, fastest_moves
 from optlaws.cycles.specification.limits import LIMITS_OF_MOVE
 from optlaws.cycles.specification.segments import Move
-from optlaws.entries.declared import Declared, ValueOf, declared, entry, same
-from optlaws.entries.frozen import FrozenTable
+from optlaws.entries.declared import Declared, FrozenTable, ValueOf, declared, entry, same
 from optlaws.entries.value_types import Either, Listed, Measured, Text, is_list
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure, located
 from optlaws.files import writing

@@ -9,8 +9,7 @@ from typing import Any
 import numpy as np
 
 from optlaws.echo import shortened
-from optlaws.entries.declared import Declared, ValueOf, declared, entry
-from optlaws.entries.frozen import FrozenTable
+from optlaws.entries.declared import Declared, FrozenTable, ValueOf, declared, entry
 from optlaws.entries.value_types import Either, Listed, Number, ReadBy, Table, Text, Whole, is_list
 from optlaws.errors import InputError, located
 from optlaws.files.tables import Cell

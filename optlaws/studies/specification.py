@@ -10,8 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from optlaws.echo import shortened
-from optlaws.entries.declared import Declared, ValueOf, declared, entry, same
-from optlaws.entries.frozen import FrozenTable
+from optlaws.entries.declared import Declared, FrozenTable, ValueOf, declared, entry, same
 from optlaws.entries.value_types import Choice, Either, Listed, Number, ReadBy, Table, Text, Whole, is_list
 from optlaws.errors import InputError, located
 from optlaws.files import reading

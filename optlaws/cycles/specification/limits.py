@@ -7,8 +7,7 @@ from math import inf
 from typing import Any, NamedTuple, TypeAlias
 
 from optlaws.echo import shortened
-from optlaws.entries.declared import TableOf, entry
-from optlaws.entries.frozen import FrozenTable
+from optlaws.entries.declared import FrozenTable, TableOf, entry
 from optlaws.entries.value_types import Either, Listed, Measured, ReadBy, Switch, is_list
 from optlaws.errors import InputError
 from optlaws.motion.piece import unit_of

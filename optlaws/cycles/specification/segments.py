@@ -7,8 +7,7 @@ from typing import Any
 
 from optlaws.cycles.specification.limits import LIMITS_OF_SEGMENT
 from optlaws.echo import shortened
-from optlaws.entries.declared import Declared, Kinded, ValueOf, declared, entry
-from optlaws.entries.frozen import FrozenTable
+from optlaws.entries.declared import Declared, FrozenTable, Kinded, ValueOf, declared, entry
 from optlaws.entries.value_types import Either, Listed, Measured, ReadBy, Text, Together, Whole, is_list
 from optlaws.errors import InputError
 from optlaws.laws import MotionLaw
