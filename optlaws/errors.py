@@ -1,10 +1,13 @@
-"""The errors that optlaws raises: a small tree, so that a single `except` can catch them all."""
+"""The errors that optlaws raises: a small tree, so that a single `except` can catch them all; and optional libraries."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
 from copy import copy
+from importlib import import_module
+from importlib.util import find_spec
+from typing import Any
 
 from optlaws.echo import cut
 from optlaws.sentences import sentence
@@ -155,3 +158,22 @@ def _report(message: str, tried: str, problem: object | None) -> str:
     if problem is not None:
         lines.append(f"problem: {getattr(problem, 'as_code', None) or repr(problem)}")
     return "\n".join(lines)
+
+
+class NotInstalled(InputError, ImportError):  # noqa: N818 - as SolverFailure
+    """A library is missing that an extra of optlaws brings, or that was left out of an installation.
+
+    Examples
+    --------
+    >>> raise NotInstalled("to_pandas needs pandas: pip install optlaws[studies]")
+    Traceback (most recent call last):
+    optlaws.errors.NotInstalled: to_pandas needs pandas: pip install optlaws[studies]
+    """
+
+
+def needed(module: str, what: str, extra: str = "studies") -> Any:
+    """An optional library, imported if it is installed; a module within it comes with it."""
+    library = module.partition(".")[0]
+    if find_spec(library) is None:
+        raise NotInstalled(f"{what} needs {library}: pip install 'optlaws[{extra}]'")
+    return import_module(module)

@@ -25,8 +25,7 @@ from optlaws.cycles.specification.segments import CycleSegment, Transition
 from optlaws.cycles.specified import Specification
 from optlaws.entries.declared import Declared, ValueOf, declared, documented_by, entry
 from optlaws.entries.value_types import Listed, Text
-from optlaws.errors import InputError
-from optlaws.extras import needed
+from optlaws.errors import InputError, needed
 from optlaws.files.reading import check_names
 from optlaws.kept import kept_property
 from optlaws.motion.piece import Piece, by_pieces, unit_of, values_of_pieces

@@ -9,8 +9,7 @@ from typing import Any
 from optlaws.echo import shortened
 from optlaws.entries.declared import Declared, ValueOf, declared, entry
 from optlaws.entries.value_types import Either, Number, Table, Text, Together, is_list
-from optlaws.errors import InputError
-from optlaws.extras import needed
+from optlaws.errors import InputError, needed
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.laws.catalogue.reading import read_law

@@ -11,7 +11,7 @@ from typing import Annotated, Any, Literal, TypeVar, get_args, get_origin, get_t
 import msgspec
 
 from optlaws.errors import InputError
-from optlaws.locks import process_lock
+from optlaws.lazy import process_lock
 from optlaws.suggest import unknown_key
 
 Kind = TypeVar("Kind")

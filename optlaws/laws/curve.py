@@ -11,8 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.echo import shortened
-from optlaws.errors import InputError
-from optlaws.extras import needed
+from optlaws.errors import InputError, needed
 from optlaws.kept import kept_property
 from optlaws.numbers import MOST_VALUES, Array, derivative, finite, number_or_array, whole
 from optlaws.numerics import peaks

@@ -10,7 +10,7 @@ from contextvars import ContextVar
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, cast
 
-from optlaws.extras import NotInstalled
+from optlaws.errors import NotInstalled
 from optlaws.files import writing
 from optlaws.files.writing import MARK
 

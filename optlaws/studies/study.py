@@ -10,8 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import msgspec
 
-from optlaws.errors import InputError
-from optlaws.extras import needed
+from optlaws.errors import InputError, needed
 from optlaws.files.reading import check_names
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw

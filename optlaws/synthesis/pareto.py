@@ -14,8 +14,7 @@ from numpy.typing import NDArray
 
 from optlaws.echo import shortened
 from optlaws.entries.declared import ValueOf
-from optlaws.errors import InfeasibleProblem, InputError, OptlawsError, SolverFailure, located
-from optlaws.extras import needed
+from optlaws.errors import InfeasibleProblem, InputError, OptlawsError, SolverFailure, located, needed
 from optlaws.files.reading import JsonText, entries_of
 from optlaws.kept import kept_property
 from optlaws.laws import PolynomialLaw

@@ -11,8 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.errors import OptlawsError
-from optlaws.extras import needed
+from optlaws.errors import OptlawsError, needed
 from optlaws.files.reading import JsonText
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw

@@ -12,8 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from optlaws.errors import InputError
-from optlaws.lazy import imported
-from optlaws.locks import process_lock
+from optlaws.lazy import imported, process_lock
 
 if TYPE_CHECKING:
     from optlaws.laws import MotionLaw

@@ -21,7 +21,7 @@ def test_threads_and_children_answer_as_one_thread_does(rounds: int) -> None:
 
 NESTED = """
 import os, threading
-from optlaws.locks import process_lock
+from optlaws.lazy import process_lock
 
 outer, inner, held = process_lock(), process_lock(), threading.Event()
 

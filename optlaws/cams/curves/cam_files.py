@@ -23,7 +23,7 @@ from optlaws.errors import InputError
 from optlaws.files import writing
 from optlaws.files.reading import check_names
 from optlaws.files.writing import MARK
-from optlaws.locks import process_lock
+from optlaws.lazy import process_lock
 from optlaws.motion.quantities import positive_quantity
 from optlaws.numbers import Array, Quantity
 from optlaws.numerics.roots import bisect_each

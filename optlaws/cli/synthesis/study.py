@@ -65,7 +65,7 @@ def _cluster(address: str | None) -> Iterator[tuple[Executor | None, int | None]
     if address is None:
         yield None, None
         return
-    from optlaws.extras import NotInstalled
+    from optlaws.errors import NotInstalled
 
     try:
         from distributed import Client

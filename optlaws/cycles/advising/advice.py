@@ -17,8 +17,7 @@ from optlaws.cycles.specification.limits import AXES
 from optlaws.cycles.specification.programme import axis_of
 from optlaws.cycles.specification.segments import Move, Return
 from optlaws.echo import shortened
-from optlaws.errors import InfeasibleProblem, InputError, OptlawsError, located
-from optlaws.extras import needed
+from optlaws.errors import InfeasibleProblem, InputError, OptlawsError, located, needed
 from optlaws.laws.catalogue.reading import read_law
 from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.mechanisms.linkages.mechanism import Mechanism

@@ -15,8 +15,7 @@ from optlaws.cycles.specified import problem_file
 from optlaws.echo import shortened
 from optlaws.entries.declared import Declared, declared, entry, same
 from optlaws.entries.value_types import Choice, Listed, Number, ReadBy, Text
-from optlaws.errors import InfeasibleProblem, InputError, located
-from optlaws.extras import needed
+from optlaws.errors import InfeasibleProblem, InputError, located, needed
 from optlaws.files.reading import check_names
 from optlaws.kept import kept_property
 from optlaws.laws.law import AxesExportOptions

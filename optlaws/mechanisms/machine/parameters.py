@@ -8,8 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from optlaws.errors import InputError
-from optlaws.extras import needed
+from optlaws.errors import InputError, needed
 from optlaws.laws import MotionLaw
 from optlaws.laws.law import motion_law
 from optlaws.mechanisms.machine.machine import Machine

@@ -28,7 +28,7 @@ from optlaws.formulas.tree import (
     number,
     plain,
 )
-from optlaws.locks import casadi_lock
+from optlaws.lazy import casadi_lock
 from optlaws.numbers import real
 from optlaws.synthesis.problem.constants import MAKERS, Functional
 

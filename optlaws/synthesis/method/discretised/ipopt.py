@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from optlaws.locks import casadi_lock
+from optlaws.lazy import casadi_lock
 from optlaws.numbers import Array
 from optlaws.synthesis.families.cone import ConeFamily
 from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, Points, Program
