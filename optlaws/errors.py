@@ -1,4 +1,4 @@
-"""The errors that optlaws raises: a small tree, so that a single `except` can catch them all; and optional libraries."""
+"""The errors that optlaws raises, a small tree, so that a single `except` can catch all; and optional libraries."""
 
 from __future__ import annotations
 

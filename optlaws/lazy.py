@@ -1,6 +1,6 @@
-"""Names and kinds that are imported at their first use, so that importing a package costs nothing; locks of the process.
+"""Names and kinds that are imported at their first use, so that importing a package costs nothing; and locks.
 
-Such a lock is for libraries that only one thread may use at a time.
+A lock is of the whole process, for libraries that only one thread may use at a time.
 """
 
 from __future__ import annotations

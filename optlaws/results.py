@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias, TypeVar
 
 import msgspec
 
+from optlaws.echo import unknown_key
 from optlaws.errors import InputError
 from optlaws.files import reading, tables, writing
 from optlaws.files.printed import MISPRINT, ON_GRID, REPRODUCED, PrintedNumber, compared, number, rows, same_digits
@@ -16,7 +17,6 @@ from optlaws.files.problem_file import Text, convert
 from optlaws.files.tables import Cell
 from optlaws.files.writing import MARK
 from optlaws.kept import kept_property
-from optlaws.suggest import unknown_key
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -9,8 +9,8 @@ from importlib import import_module
 from pathlib import Path
 from typing import Any
 
+from optlaws.echo import unknown_key
 from optlaws.errors import InputError
-from optlaws.suggest import unknown_key
 
 _PACKAGE = Path(__file__).resolve().parent
 _REFERENCE = re.compile(r'"#/\$defs/(\w+)"')

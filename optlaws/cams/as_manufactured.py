@@ -14,6 +14,7 @@ from optlaws.cams.curves.cam_files import DECIMALS, POINTS, Cutting, polar
 from optlaws.cams.curves.plane_curve import CurveAlongNormals, Outline, PiecewiseCurve
 from optlaws.cams.disc import DiscCam
 from optlaws.cams.followers.contact import FollowerContact, shifted
+from optlaws.echo import unknown_key
 from optlaws.entries.declared import Declared, declared, documented_by, entry
 from optlaws.entries.value_types import Choice, Listed, Measured, Whole
 from optlaws.errors import InputError
@@ -25,7 +26,6 @@ from optlaws.numbers import Array, Quantity
 from optlaws.numerics.branch_and_bound import extremes_of_each
 from optlaws.numerics.interval import Interval
 from optlaws.numerics.taylor import Jet, Pair, turned, variable
-from optlaws.suggest import unknown_key
 from optlaws.tolerances import DEVIATIONS
 
 _MANUFACTURED_PEAKS = 1e-6  # peaks of a motion as it is manufactured

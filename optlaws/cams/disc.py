@@ -15,7 +15,7 @@ from optlaws.cams.curves.plane_curve import PlaneCurve
 from optlaws.cams.followers.contact import FollowerContact
 from optlaws.cams.followers.follower import CamFollower, Place, follower_names, positive
 from optlaws.cycles.cycle import Cycle, Plan
-from optlaws.echo import shortened
+from optlaws.echo import keywords_of, shortened
 from optlaws.entries.declared import documented_by
 from optlaws.errors import InputError
 from optlaws.files.reading import check_names
@@ -27,7 +27,6 @@ from optlaws.numerics.taylor import Pair, turned, variable
 from optlaws.sentences import sentence
 from optlaws.shown.report import Report
 from optlaws.shown.summary import Summary
-from optlaws.suggest import keywords_of
 
 Turning = Literal["counterclockwise", "clockwise"]
 TURNINGS: dict[Turning, float] = {"counterclockwise": 1.0, "clockwise": -1.0}

@@ -17,6 +17,7 @@ from optlaws.cams.followers.contact import Friction, Transmission
 from optlaws.cycles.cycle import Cycle, Plan
 from optlaws.cycles.specification.drive import ProcessEntries, read_linear_drive
 from optlaws.cycles.specification.limits import FORCES
+from optlaws.echo import unknown_key
 from optlaws.entries.declared import Declared, ValueOf, declared, documented_by, entry
 from optlaws.entries.value_types import Measured, Number, ReadBy, Together
 from optlaws.errors import InputError
@@ -35,7 +36,6 @@ from optlaws.numerics.interval import Interval, exact, highest, middle
 from optlaws.numerics.roots import bisect
 from optlaws.numerics.taylor import Jet, variable
 from optlaws.sentences import sentence
-from optlaws.suggest import unknown_key
 from optlaws.synthesis.limits.formula_jets import formula_jet
 from optlaws.tolerances import CLOSURE, FORCE_EXTREMES
 

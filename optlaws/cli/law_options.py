@@ -111,9 +111,9 @@ def named(text: str, alpha: float | None, B: float | None, by: str) -> str:
 
 def read_axes(file: Path, axis: str | None) -> dict[str, Cycle]:
     """The axes of a problem file of the job "cycle" by their names, or a single one."""
+    from optlaws.echo import unknown_key
     from optlaws.jobs.cycle_entries import read
     from optlaws.jobs.job import problem_of_job
-    from optlaws.suggest import unknown_key
 
     source, _, entries = problem_of_job(file, "cycle")
     _, cycles = read(entries, source)

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Unpack
 
+from optlaws.echo import keywords_of
 from optlaws.errors import OptlawsError
 from optlaws.laws.law import ExportOptions
 from optlaws.numbers import Quantity
-from optlaws.suggest import keywords_of
 
 if TYPE_CHECKING:
     from optlaws.motion.motion import Motion

@@ -6,7 +6,7 @@ from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from optlaws.echo import shortened
+from optlaws.echo import shortened, unknown_key
 from optlaws.entries.declared import Declared, declared, entries_of, entry
 from optlaws.entries.value_types import Choice, Either, Text, Whole
 from optlaws.errors import InputError, located
@@ -14,7 +14,6 @@ from optlaws.files.reading import check_names
 from optlaws.lazy import Registry
 from optlaws.motion.motion import Motion
 from optlaws.motion.polynomials import PiecewiseMotion
-from optlaws.suggest import unknown_key
 
 MOST_POINTS = 65_536
 BEST = "best"

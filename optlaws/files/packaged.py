@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from optlaws.echo import unknown_key
 from optlaws.errors import InputError
-from optlaws.suggest import unknown_key
 
 _PACKAGE = Path(__file__).resolve().parents[1]
 #: an installed package carries its data; in a checkout they lie beside the package

@@ -10,9 +10,9 @@ from typing import Annotated, Any, Literal, TypeVar, get_args, get_origin, get_t
 
 import msgspec
 
+from optlaws.echo import unknown_key
 from optlaws.errors import InputError
 from optlaws.lazy import process_lock
-from optlaws.suggest import unknown_key
 
 Kind = TypeVar("Kind")
 

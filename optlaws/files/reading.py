@@ -15,9 +15,8 @@ from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, ClassVar, Self
 
-from optlaws.echo import shortened
+from optlaws.echo import shortened, unknown_key
 from optlaws.errors import InputError
-from optlaws.suggest import unknown_key
 
 LARGEST_TOML = 1_000_000
 LARGEST_JSON = 64_000_000

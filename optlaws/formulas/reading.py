@@ -18,7 +18,7 @@ from dataclasses import dataclass
 from itertools import pairwise
 from typing import NoReturn
 
-from optlaws.echo import shortened
+from optlaws.echo import shortened, unknown_key
 from optlaws.errors import InputError
 from optlaws.formulas.tree import (
     SMOOTH_FUNCTIONS,
@@ -35,7 +35,6 @@ from optlaws.formulas.tree import (
     total,
 )
 from optlaws.numbers import MAGNITUDE_LIMIT
-from optlaws.suggest import unknown_key
 
 _TOKEN = re.compile(
     r"""\s*(?:(?P<number>\d+\.?\d*(?:[eE][+-]?\d+)?|\.\d+(?:[eE][+-]?\d+)?)|(?P<name>[A-Za-z_]\w*)"""

@@ -7,12 +7,12 @@ from importlib import import_module
 from pathlib import Path
 from typing import Any
 
+from optlaws.echo import unknown_key
 from optlaws.errors import InputError
 from optlaws.files import reading
 from optlaws.files.packaged import packaged, problem_file
 from optlaws.plots.style import figures_for_files
 from optlaws.results import Results
-from optlaws.suggest import unknown_key
 
 #: the job of a problem file is the function `run` of the module of its name
 JOBS = ("cam", "cycle", "fastest", "machine laws", "solutions")

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any, Literal, Self, TypedDict, Unpack
 
 import numpy as np
 
-from optlaws.echo import shortened
+from optlaws.echo import keywords_of, shortened
 from optlaws.errors import InputError
 from optlaws.files.reading import JsonText, entries_of
 from optlaws.kept import kept_property
@@ -25,7 +25,6 @@ from optlaws.laws.storage import StoredLaw
 from optlaws.numbers import Array, Quantity, bounded, derivative, finite, times
 from optlaws.numerics.peaks import Peak as Peak  # noqa: PLC0414 - a name of optlaws.laws
 from optlaws.shown.summary import Row, Summary
-from optlaws.suggest import keywords_of
 from optlaws.tolerances import JUMP, VALUE_ROUNDING
 
 if TYPE_CHECKING:

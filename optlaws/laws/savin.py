@@ -14,14 +14,13 @@ from typing import Literal
 
 from numpy.polynomial import Polynomial
 
-from optlaws.echo import shortened
+from optlaws.echo import shortened, unknown_key
 from optlaws.errors import InputError
 from optlaws.laws.polynomial import PolynomialLaw
 from optlaws.numbers import MOST_EXPONENT, finite, fractions, whole
 from optlaws.numerics.panels import Panels
 from optlaws.numerics.peaks import Peak
 from optlaws.numerics.roots import bisect
-from optlaws.suggest import unknown_key
 
 _p, _q = Polynomial([0.0, 1.0]), Polynomial([0.25, -1.0])
 _TERMS = 5  # of a quartic: the cubics are of less

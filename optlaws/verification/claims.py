@@ -11,13 +11,12 @@ from typing import Any
 
 from flint import arb, ctx, fmpq, fmpq_poly
 
-from optlaws.echo import shortened
+from optlaws.echo import shortened, unknown_key
 from optlaws.errors import InputError
 from optlaws.files.reading import entries_of, of_known_format
 from optlaws.laws import MotionLaw
 from optlaws.mechanisms.linkages.move_limit import MoveLimit
 from optlaws.numbers import listed, real
-from optlaws.suggest import unknown_key
 from optlaws.synthesis.limits.drive_limits import DriveLimit
 from optlaws.synthesis.limits.of_problem import known_limit
 from optlaws.synthesis.limits.rounding import rounded_down, rounded_up

@@ -11,12 +11,11 @@ from dataclasses import dataclass, field
 from math import prod
 from typing import Any
 
-from optlaws.echo import shortened
+from optlaws.echo import shortened, unknown_key
 from optlaws.entries.value_types import Choice, Listed, Number, ReadBy, Table, Text, ValueType, Whole
 from optlaws.errors import InputError, located
 from optlaws.files.reading import of_known_format
 from optlaws.numbers import finite, real
-from optlaws.suggest import unknown_key
 from optlaws.synthesis.proof.certificate import Certificate
 from optlaws.synthesis.proof.data import problem_of
 from optlaws.synthesis.proof.no_law import ground_of

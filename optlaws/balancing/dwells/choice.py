@@ -16,12 +16,11 @@ from optlaws.balancing.dwells.mechanism import (
     DwellType,
     dwell_mechanism,
 )
-from optlaws.echo import shortened
+from optlaws.echo import keywords_of, shortened
 from optlaws.errors import InfeasibleProblem, InputError
 from optlaws.motion.quantities import si_number
 from optlaws.numbers import real
 from optlaws.numerics.peaks import is_kept
-from optlaws.suggest import keywords_of
 
 SHORT, LONG = pi / 4.0, 5.0 * pi / 9.0
 

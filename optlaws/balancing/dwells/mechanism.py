@@ -17,7 +17,7 @@ from optlaws.balancing.dwells.sections import (
     top,
 )
 from optlaws.balancing.loaders.loader import Loader
-from optlaws.echo import shortened
+from optlaws.echo import keywords_of, shortened
 from optlaws.entries.declared import Declared, declared, documented_by, entry
 from optlaws.entries.value_types import Choice, InSI, Kept, Number, ReadBy, SINumber
 from optlaws.errors import InputError
@@ -25,7 +25,6 @@ from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.numbers import NumberOrQuantity
-from optlaws.suggest import keywords_of
 from optlaws.tolerances import AGREEMENT
 
 DwellType = Literal["I", "II", "III"]

@@ -16,7 +16,7 @@ from optlaws.cycles.moves.timed_moves import read_follower
 from optlaws.cycles.specification.limits import AXES
 from optlaws.cycles.specification.programme import axis_of
 from optlaws.cycles.specification.segments import Move, Return
-from optlaws.echo import shortened
+from optlaws.echo import shortened, unknown_key
 from optlaws.errors import InfeasibleProblem, InputError, OptlawsError, located, needed
 from optlaws.laws.catalogue.reading import read_law
 from optlaws.mechanisms.drives.drive_train import Drive
@@ -26,7 +26,6 @@ from optlaws.motion.quantities import Exact, positive_quantity, quantity, table
 from optlaws.numbers import bounded, chop, whole
 from optlaws.shown.report import Panel, PlainReport, Report, ReportTable, Series
 from optlaws.shown.summary import Row, Summary
-from optlaws.suggest import unknown_key
 from optlaws.synthesis.least_time.move_limits import RESIDUAL
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.tolerances import VALUE_ROUNDING

@@ -16,7 +16,7 @@ from optlaws.cycles.cycle import Cycle
 from optlaws.cycles.specification.limits import AXES
 from optlaws.cycles.specification.programme import time_of
 from optlaws.cycles.specification.segments import Dwell, Move
-from optlaws.echo import shortened
+from optlaws.echo import shortened, unknown_key
 from optlaws.entries.declared import Kinded, ValueOf, declared, entry
 from optlaws.entries.value_types import Choice, Either, Listed, Measured, Number, Text, Together
 from optlaws.errors import InputError, located
@@ -28,7 +28,6 @@ from optlaws.numbers import Array, Quantity
 from optlaws.numerics.interval import Interval
 from optlaws.numerics.taylor import Jet, Pair
 from optlaws.sentences import Amount, sentence
-from optlaws.suggest import unknown_key
 from optlaws.tolerances import CLEARANCE_SHARE, CYCLE_ROUNDING, INTERLOCK, SAME_TIME
 
 #: small units by those of SI, and how many of them make one

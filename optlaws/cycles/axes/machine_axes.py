@@ -12,7 +12,7 @@ from optlaws.cycles.cycle import Cycle, Plan
 from optlaws.cycles.specification.programme import is_optimal, period_of
 from optlaws.cycles.specification.segments import CycleSegment, Dwell
 from optlaws.cycles.specified import problem_file
-from optlaws.echo import shortened
+from optlaws.echo import keywords_of, shortened
 from optlaws.entries.declared import Declared, declared, entry, same
 from optlaws.entries.value_types import Choice, Listed, Number, ReadBy, Text
 from optlaws.errors import InfeasibleProblem, InputError, located, needed
@@ -23,7 +23,6 @@ from optlaws.motion.quantities import Exact
 from optlaws.numbers import Quantity
 from optlaws.shown.report import Report
 from optlaws.shown.summary import Row, Summary
-from optlaws.suggest import keywords_of
 from optlaws.synthesis.status import Status
 from optlaws.tolerances import CLOSURE, CYCLE_OPTIMALITY
 

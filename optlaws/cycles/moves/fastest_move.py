@@ -10,7 +10,7 @@ from typing import Any, Unpack
 import numpy as np
 
 from optlaws.cycles.specification.limits import LimitTaken
-from optlaws.echo import shortened
+from optlaws.echo import keywords_of, shortened
 from optlaws.errors import InputError
 from optlaws.files.reading import JsonText, entries_of
 from optlaws.kept import kept_property
@@ -25,7 +25,6 @@ from optlaws.numbers import Array, Quantity, positive
 from optlaws.shown.curve_points import refined
 from optlaws.shown.report import Panel, PanelLimit, Report, ReportSegment, ReportTable, Series
 from optlaws.shown.summary import Row, Summary
-from optlaws.suggest import keywords_of
 from optlaws.synthesis.least_time.least_time import LeastTime
 from optlaws.synthesis.least_time.motor_torque import CURVE_LIMIT
 from optlaws.synthesis.least_time.move_limits import RESIDUALS

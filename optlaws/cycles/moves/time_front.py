@@ -16,7 +16,7 @@ from optlaws.cycles.moves.timed_moves import fastest, motor_torque, read_followe
 from optlaws.cycles.optimisation.objectives import MOTOR, check_rating
 from optlaws.cycles.specification.programme import is_optimal
 from optlaws.cycles.specification.segments import Move
-from optlaws.echo import shortened
+from optlaws.echo import shortened, unknown_key
 from optlaws.entries.declared import Declared, declared, documented_by, entry
 from optlaws.entries.value_types import Listed, Measured, Text, Whole
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
@@ -27,7 +27,6 @@ from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.motion.piece import unit_of
 from optlaws.motion.quantities import Exact, Kind, positive_quantity
 from optlaws.numbers import NumberOrQuantity, Quantity, bounded, listed, positive, real
-from optlaws.suggest import unknown_key
 from optlaws.synthesis.least_time.move_limits import RESIDUAL, RESIDUALS, power
 from optlaws.synthesis.least_time.timed_move import AT_MOTOR, OBJECTIVES, MoveObjective, TimedMove
 from optlaws.synthesis.problem.constants import meant

@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING, Any
 from optlaws.cycles.specification.limits import Limits
 from optlaws.cycles.specification.load import Load, load_output
 from optlaws.cycles.specification.programme import Programme
+from optlaws.echo import unknown_key
 from optlaws.errors import InputError
 from optlaws.motion.quantities import Kind
-from optlaws.suggest import unknown_key
 from optlaws.tolerances import AGREEMENT
 
 if TYPE_CHECKING:

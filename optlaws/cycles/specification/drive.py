@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from optlaws.cycles.specification.limits import FORCES
-from optlaws.echo import shortened
+from optlaws.echo import shortened, unknown_key
 from optlaws.entries.declared import Declared, TableOf, declared, entry
 from optlaws.entries.value_types import Choice, Measured, Text
 from optlaws.entries.value_types import Number as Share
@@ -18,7 +18,6 @@ from optlaws.mechanisms.linkages.dimensionless import LinearForce
 from optlaws.mechanisms.linkages.entries import JOINED, OverPlace, TableKind, formula_of, rescaled
 from optlaws.mechanisms.linkages.mechanism import DIMENSIONS, Mechanism, loaded
 from optlaws.motion.quantities import TURN
-from optlaws.suggest import unknown_key
 from optlaws.tolerances import CLOSURE
 
 REGENERATION = "regeneration"

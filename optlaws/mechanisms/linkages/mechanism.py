@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Literal, Self, TypeAlias, get_args
 
 import numpy as np
 
-from optlaws.echo import shortened
+from optlaws.echo import shortened, unknown_key
 from optlaws.entries.declared import Declared, ValueOf, declared, documented_by, entries_of, entry
 from optlaws.entries.value_types import Choice, Kept, Listed, Measured, Text, pairs
 from optlaws.entries.value_types import Table as TableOf
@@ -31,7 +31,6 @@ from optlaws.numbers import Array, NumberOrQuantity, derivative, finite, not_neg
 from optlaws.numerics.branch_and_bound import extremes
 from optlaws.numerics.interval import Interval
 from optlaws.numerics.taylor import Jet
-from optlaws.suggest import unknown_key
 from optlaws.tolerances import CLOSURE, OPERATIONS_ROUNDING, VALUE_ROUNDING
 
 if TYPE_CHECKING:

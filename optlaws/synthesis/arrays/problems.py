@@ -9,11 +9,10 @@ from typing import Any, TypedDict, Unpack
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.echo import shortened
+from optlaws.echo import keywords_of, shortened
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.numbers import MOST_VELOCITY, Array
-from optlaws.suggest import keywords_of
 from optlaws.synthesis.problem.problem import Problem
 
 #: what `Problem` takes for an entry, or arrays of it

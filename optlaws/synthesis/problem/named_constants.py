@@ -14,11 +14,11 @@ import re
 from collections.abc import Callable, Mapping
 from functools import lru_cache
 
+from optlaws.echo import CONSTANTS, unknown_key
 from optlaws.errors import InputError
 from optlaws.formulas.reading import LONGEST, FormulaError, Scanner, Token
 from optlaws.formulas.reading import parse as parse_formula
 from optlaws.formulas.tree import VOCABULARY
-from optlaws.suggest import CONSTANTS, unknown_key
 from optlaws.synthesis.problem.constants import FUNCTIONALS, MAKERS, PLAIN, WITHOUT_ARGUMENTS, Functional
 from optlaws.synthesis.problem.expression import Expression, Term, maximum
 

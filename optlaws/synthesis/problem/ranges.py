@@ -7,10 +7,9 @@ from dataclasses import dataclass
 from math import inf, isfinite
 from typing import Any
 
-from optlaws.echo import shortened
+from optlaws.echo import CONSTANTS, shortened, unknown_key
 from optlaws.errors import InputError
 from optlaws.numbers import finite, real
-from optlaws.suggest import CONSTANTS, unknown_key
 from optlaws.synthesis.problem.constants import MAKERS, WITHOUT_ARGUMENTS, Functional
 from optlaws.synthesis.problem.named_constants import is_named, named
 

@@ -6,14 +6,13 @@ import re
 from math import inf, isfinite
 from typing import Any
 
-from optlaws.echo import shortened
+from optlaws.echo import shortened, unknown_key
 from optlaws.entries.declared import Declared, declared, entry
 from optlaws.entries.value_types import Number, Text
 from optlaws.errors import InputError
 from optlaws.formulas.of_motion import MotionFormula, of_text
 from optlaws.formulas.reading import FormulaError
 from optlaws.kept import kept_property
-from optlaws.suggest import unknown_key
 
 QUANTITIES = {"a": 0, "b": 1, "c": 2, "j": 3}
 

@@ -13,11 +13,11 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from optlaws.echo import unknown_key
 from optlaws.errors import InputError
 from optlaws.files.reading import check_names
 from optlaws.kept import kept_property
 from optlaws.numbers import Array
-from optlaws.suggest import unknown_key
 from optlaws.synthesis.problem.constants import ALIASES, FUNCTIONALS, MAKERS, Functional
 from optlaws.synthesis.problem.expression import Expression, Term
 from optlaws.synthesis.problem.fields import CONSTANTS
