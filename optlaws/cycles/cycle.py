@@ -12,14 +12,13 @@ import numpy as np
 from optlaws.cycles.exportable import Exportable
 from optlaws.cycles.limit_rows import limits_taken, refuse_beyond
 from optlaws.cycles.optimisation.bounds import bound_of, is_exact
-from optlaws.cycles.optimisation.objectives import MOTOR, SUMS, check_objective, kind_of
+from optlaws.cycles.optimisation.objectives import SUMS, check_objective, kind_of
 from optlaws.cycles.optimisation.search_spaces import remark_on_degrees, search_space
 from optlaws.cycles.optimisation.shared_limits import best_of
 from optlaws.cycles.optimisation.span_values import along, total
 from optlaws.cycles.placed import SegmentPeaks, retimed_segments, segments_in_place, segments_of_cam
 from optlaws.cycles.specification.joints import LawSpan
-from optlaws.cycles.specification.limits import FORCE_UNITS, FORCES, LimitTaken
-from optlaws.cycles.specification.load import LOAD
+from optlaws.cycles.specification.limits import FORCE_UNITS, FORCES, LOAD, MOTOR, LimitTaken
 from optlaws.cycles.specification.programme import Programme, period_of
 from optlaws.cycles.specification.segments import CycleSegment, Transition
 from optlaws.cycles.specified import Specification

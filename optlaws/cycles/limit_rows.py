@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from math import inf, isfinite
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
-from optlaws.cycles.optimisation.objectives import MOTOR
 from optlaws.cycles.optimisation.span_values import along
 from optlaws.cycles.placed import SegmentPeaks, segments_in_place
 from optlaws.cycles.specification.limits import (
     FORCE_UNITS,
     FORCES,
+    MOTOR,
+    Limits,
     LimitTaken,
     Side,
     amount,
@@ -54,7 +55,7 @@ def limits_taken(plan: Plan, limited: Cycle | None = None) -> tuple[LimitTaken, 
     Of each limit the segment that takes most of it counts. A motor's limits are those of the sheet.
     """
     given = plan.specification if limited is None else limited
-    of_cycle = read_limits(given.limits, plan.axis, "limits")
+    of_cycle = _limits(given)
     segments = _of_segments(plan.peaks, plan.specification, of_cycle, given.programme.stretches)
     return (*(taken.taken for taken in _most(segments)), *_of_whole(plan, given))
 
@@ -127,7 +128,7 @@ def _reason(broken: _Taken, cycle: Cycle) -> str:
 
 def limit_rows(plan: Plan) -> list[Row]:
     """Rows of limits: the value in the segment that uses most of the limit, with its time and the limit."""
-    limits = read_limits(plan.limits, plan.axis, "limits")
+    limits = _limits(plan.specification)
     taken_of = _of_segments(
         plan.peaks,
         plan.specification,
@@ -154,7 +155,7 @@ def _most(taken: Iterable[_Taken]) -> list[_Taken]:
 def _of_segments(
     placed: Sequence[SegmentPeaks],
     cycle: Cycle,
-    of_cycle: Mapping[Kind, tuple[float, float]],
+    of_cycle: Limits,
     limited: Sequence[TimedSegment],
     *,
     keys: Callable[[Side], bool] = lambda _: True,
@@ -205,7 +206,7 @@ def _greatest_of_drive(placed: SegmentPeaks, kind: Kind, drive: Drive | None) ->
 
 def _of_whole(plan: Plan, limited: Cycle) -> Iterator[LimitTaken]:
     """The use of limits of the whole: of means and sums, of the motor, of the load."""
-    of_cycle = read_limits(limited.limits, plan.axis, "limits")
+    of_cycle = _limits(limited)
     force, unit = FORCES[plan.axis], FORCE_UNITS[plan.axis]
     if Kind.RMS_FORCE in of_cycle:
         yield _of_cycle(f"rms {force}", plan.effort.rms_force, of_cycle[Kind.RMS_FORCE][1], unit)
@@ -217,6 +218,11 @@ def _of_whole(plan: Plan, limited: Cycle) -> Iterator[LimitTaken]:
     for (output, rms), limit in limited.in_si.loaded.items():
         value = plan.load_motion.rms(output) if rms else plan.load_motion.peak(output).value
         yield _of_cycle(f"{'rms ' * rms}load {output}", value, limit, "")
+
+
+def _limits(cycle: Cycle) -> Limits:
+    """The limits of a cycle itself, without those of its motor."""
+    return read_limits(cycle.limits, cycle.axis, "limits", cycle.in_si.load)
 
 
 def _of_cycle(name: str, value: float, limit: float, unit: str) -> LimitTaken:

@@ -13,8 +13,8 @@ from optlaws.cycles.cycle import Answers
 from optlaws.cycles.limit_rows import limit_rows
 from optlaws.cycles.optimisation.objectives import SUMS, kind_of
 from optlaws.cycles.placed import Place
-from optlaws.cycles.specification.limits import FORCE_UNITS, FORCES, LimitTaken
-from optlaws.cycles.specification.load import LOAD, is_process, read_load
+from optlaws.cycles.specification.limits import FORCE_UNITS, FORCES, LOAD, LimitTaken
+from optlaws.cycles.specification.load import is_process, read_load
 from optlaws.errors import InfeasibleProblem, OptlawsError, SolverFailure
 from optlaws.kept import kept_property
 from optlaws.mechanisms.drives.drive_train import Drive
@@ -390,4 +390,5 @@ def joint_rows(plan: Plan) -> list[Row]:
 
 def load_unit(cycle: Cycle | Plan, output: str) -> str:
     """The unit of an output of the load; an unknown dimension is described as SI."""
-    return _LOAD_UNITS.get(read_load(cycle.load, cycle.axis).dimensions.get(output, ""), "SI")
+    load = read_load(cycle.load, cycle.axis)
+    return _LOAD_UNITS.get(load.dimensions.get(output, "") if load else "", "SI")

@@ -8,15 +8,9 @@ from typing import TYPE_CHECKING, Any, Self
 
 from optlaws.cycles.optimisation.durations import durations
 from optlaws.cycles.optimisation.joint_limits import check_limits_at_joints
-from optlaws.cycles.optimisation.objectives import (
-    OBJECTIVES,
-    CycleObjective,
-    check_objective,
-    motor_limits,
-    read_load_limits,
-)
+from optlaws.cycles.optimisation.objectives import OBJECTIVES, CycleObjective, check_objective, limits_of_cycle
 from optlaws.cycles.specification.joints import Layout, State, layout
-from optlaws.cycles.specification.limits import LIMITS_OF_CYCLE, both_sides, read_limits, tightest
+from optlaws.cycles.specification.limits import LIMITS_OF_CYCLE, both_sides
 from optlaws.cycles.specification.load import ElasticLoad, Load, is_process, read_load
 from optlaws.cycles.specification.programme import Programme, is_optimal, period_of, programme
 from optlaws.cycles.specification.segments import SEGMENTS, CycleSegment, Dwell
@@ -200,18 +194,9 @@ class Specification(Declared, title="a stored cycle"):
     @kept_property
     def in_si(self) -> CycleObjective:
         """The objective with the limits of the whole, the drive and the load in SI units, and the space of the laws."""
-        drive = self._drive
-        limits = read_limits(self.limits, self.axis, "limits")
-        return CycleObjective(
-            self.minimise,
-            tightest(limits, motor_limits(self.limits, drive, self.programme)),
-            self.order,
-            self.degree,
-            drive,
-            self.axis,
-            self._load,
-            read_load_limits(self.limits, self._load),
-        )
+        drive, load = self._drive, self._load
+        limits = limits_of_cycle(self.limits, self.programme, drive, load)
+        return CycleObjective(self.minimise, limits, self.order, self.degree, drive, self.axis, load)
 
     @property
     def _drive(self) -> Drive | None:
@@ -228,7 +213,7 @@ class Specification(Declared, title="a stored cycle"):
 
     @kept_property
     def _load(self) -> Load | None:
-        return None if self.load is None or is_process(self.load) else read_load(self.load, self.axis)
+        return read_load(self.load, self.axis)
 
     @property
     def limits_of_segments(self) -> tuple[dict[int, tuple[float, float]], ...]:

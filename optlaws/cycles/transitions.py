@@ -292,7 +292,6 @@ def transition_cam(
         order=given.order or objective.order,
         limits=of_segments(objective.limits),
         load=None,
-        loaded={},
     )
     # as a segment it has the name that errors give it; a run-out moves the other way than its law
     stretch = partial(TimedSegment, 1, Move(name=kind), displacement=moved if kind == "run-in" else -moved)

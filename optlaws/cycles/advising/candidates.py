@@ -10,10 +10,20 @@ from typing import Any, Literal, NamedTuple
 
 from optlaws.cycles.cycle import Cycle, Plan
 from optlaws.cycles.limit_rows import limits_taken
-from optlaws.cycles.optimisation.objectives import MOTOR, OBJECTIVES, kind_of
+from optlaws.cycles.optimisation.objectives import OBJECTIVES, kind_of
 from optlaws.cycles.report import objective_unit
-from optlaws.cycles.specification.limits import AXES, DECELERATION, FORCES, LIMITS, LimitTaken, Side, amount
-from optlaws.cycles.specification.load import LOAD, is_process
+from optlaws.cycles.specification.limits import (
+    AXES,
+    DECELERATION,
+    FORCES,
+    LIMITS,
+    LOAD,
+    MOTOR,
+    LimitTaken,
+    Side,
+    amount,
+)
+from optlaws.cycles.specification.load import is_process
 from optlaws.cycles.specification.programme import is_optimal
 from optlaws.cycles.specification.segments import OPTIMAL, CycleSegment, Free, Move
 from optlaws.errors import InputError, OptlawsError

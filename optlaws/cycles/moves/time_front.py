@@ -13,7 +13,8 @@ import numpy as np
 
 from optlaws.cycles.moves.fastest_move import AXES, FastestMove
 from optlaws.cycles.moves.timed_moves import fastest, motor_torque, read_follower
-from optlaws.cycles.optimisation.objectives import MOTOR, check_rating
+from optlaws.cycles.optimisation.objectives import check_rating
+from optlaws.cycles.specification.limits import MOTOR
 from optlaws.cycles.specification.programme import is_optimal
 from optlaws.cycles.specification.segments import Move
 from optlaws.echo import shortened, unknown_key

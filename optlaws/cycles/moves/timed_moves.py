@@ -262,9 +262,7 @@ def read_follower(follower: VibratingFollower | Mapping[str, Any]) -> FollowerRe
     return FollowerResidual(low, high, read.damping, 1.0)
 
 
-def motor_torque(
-    drive: Drive, start: NumberOrQuantity, stroke: NumberOrQuantity, limits: Mapping[Kind, tuple[float, float]]
-) -> MotorTorque:
+def motor_torque(drive: Drive, start: NumberOrQuantity, stroke: NumberOrQuantity, limits: Limits) -> MotorTorque:
     """The torque at the motor over a stroke of the mechanism's input, and its limit.
 
     Raises

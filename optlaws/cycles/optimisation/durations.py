@@ -61,8 +61,7 @@ def durations(programme: Programme, objective: CycleObjective) -> tuple[float, .
     for i in free:
         _check_rest(programme, i)
     kind, mean = objective.kind, objective.mean
-    driven = any(limited.is_driven for limited in objective.limits)
-    if not kind.order or driven or objective.shares or objective.loaded:
+    if not all(isinstance(each, Kind) and each.order for each in (kind, *objective.limits)):
         raise InputError(
             "free durations are shared by velocity, acceleration or jerk, not by a force, power or a load: "
             "give durations"

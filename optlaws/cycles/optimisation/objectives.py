@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from math import inf, isfinite
 from typing import TYPE_CHECKING, Any
 
-from optlaws.cycles.specification.limits import Limits
-from optlaws.cycles.specification.load import Load, load_output
+from optlaws.cycles.specification.limits import MOTOR, Limits, LoadOutput, load_output, read_limits, tightest
+from optlaws.cycles.specification.load import Load
 from optlaws.cycles.specification.programme import Programme
 from optlaws.echo import unknown_key
 from optlaws.errors import InputError
@@ -19,7 +19,6 @@ if TYPE_CHECKING:
     from optlaws.mechanisms.drives.drive_train import Drive
     from optlaws.mechanisms.drives.motor import Motor
 
-MOTOR = "motor"
 #: what is summed over the motions of a cycle as it is
 SUMS = (Kind.ENERGY, Kind.HEAT)
 #: what may be least over a cycle, and whether it is its root mean square
@@ -44,18 +43,17 @@ OBJECTIVES = {
 class CycleObjective:
     """The objective of a cycle, from `OBJECTIVES`, the limits of the whole in SI units, and the degree of its laws.
 
-    Of the limits the root mean square of the force and the energy are of the whole cycle, the others of each segment;
-    `loaded` are by the load's output and whether of its root mean square.
+    Of the limits the root mean square of the force, the energy and those of the load are of the whole cycle, the others
+    of each segment.
     """
 
     minimise: str
-    limits: Mapping[Kind, tuple[float, float]]
+    limits: Limits
     order: int
     degree: int
     drive: Drive | None
     axis: str
-    load: Load | None = None
-    loaded: Mapping[tuple[str, bool], float] = field(default_factory=dict)
+    load: Load | None
 
     @property
     def kind(self) -> Kind:
@@ -83,6 +81,11 @@ class CycleObjective:
         return self.mean_force is not None or self.energy is not None
 
     @property
+    def loaded(self) -> dict[LoadOutput, float]:
+        """The limits of outputs of the load."""
+        return {output: most for output, (_, most) in self.limits.items() if isinstance(output, LoadOutput)}
+
+    @property
     def of_load(self) -> bool:
         """Whether the load is spoken of, so that the cycle is one problem."""
         return bool(self.loaded) or self.kind is Kind.LOAD
@@ -103,28 +106,19 @@ def check_objective(minimise: Any, load: Load | None) -> None:
         raise InputError(f"minimise: {unknown_key(minimise, (*OBJECTIVES, 'load acceleration'), 'objective')}")
 
 
-def read_load_limits(entries: Mapping[str, Any], load: Load | None) -> dict[tuple[str, bool], float]:
-    """Limits of the load in SI units, by output and whether they are of root mean squares."""
-    limits = {}
-    for name, value in entries.items():
-        output = load_output(name, load)
-        if output is not None and load is not None:
-            limits[output] = load.limit(value, output[0], f"limits, {name}")
-    return limits
-
-
-def motor_limits(entries: Mapping[str, Any], drive: Drive | None, programme: Programme) -> Limits:
-    """The limits of the motor, if the cycle is required to keep them.
+def limits_of_cycle(entries: Mapping[str, Any], programme: Programme, drive: Drive | None, load: Load | None) -> Limits:
+    """The limits of a cycle, and those of its motor if the cycle is required to keep them.
 
     The continuous torque is that at the mean speed, which no law that never turns back changes.
 
     Raises
     ------
     InputError
-        If there is no motor, or its curve of torque over speed is not concave.
+        If a limit is wrong, there is no motor, or its curve of torque over speed is not concave.
     """
+    limits = read_limits(entries, programme.axis, "limits", load)
     if not entries.get(MOTOR):
-        return {}
+        return limits
     if drive is None or not drive.has_motor:
         raise InputError("limits, motor: there is no motor: give one, as drive=Drive(mechanism, Motor(...), ratio=20)")
     motor, ratio = drive.motor, drive.ratio
@@ -135,7 +129,7 @@ def motor_limits(entries: Mapping[str, Any], drive: Drive | None, programme: Pro
         Kind.CURVE: 1.0 if curve_lines(motor) else inf,
         Kind.RMS_FORCE: float(motor.continuous_at(ratio * way / programme.period)),
     }
-    return {kind: (-most, most) for kind, most in known.items() if isfinite(most)}
+    return tightest(limits, {kind: (-most, most) for kind, most in known.items() if isfinite(most)})
 
 
 def check_rating(entries: Mapping[str, Any], drive: Drive | None) -> None:

@@ -24,8 +24,7 @@ from optlaws.cycles.optimisation.search_spaces import (
 )
 from optlaws.cycles.optimisation.span_values import PEAKS, DrivenSpan, known_drive, limited_value, span_value
 from optlaws.cycles.specification.joints import LawSpan, State
-from optlaws.cycles.specification.limits import Side, Sides, along_motion, greatest, in_units
-from optlaws.cycles.specification.load import load_output
+from optlaws.cycles.specification.limits import LoadOutput, Side, Sides, along_motion, greatest, in_units, load_output
 from optlaws.cycles.specification.programme import is_optimal
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.motion.piece import Piece, factor
@@ -196,7 +195,7 @@ def span_problem(span: LawSpan, objective: CycleObjective) -> Problem:
             orders = (key.kind for limits in of_each for key in limits or () if key.kind.order > 2)
             minimised = max([minimised, *orders], key=lambda kind: kind.order)
         bounds |= {
-            _of_load(objective, *output, span): Range(0.0, most / abs(span.stroke))
+            _of_load(objective, output, span): Range(0.0, most / abs(span.stroke))
             for output, most in objective.loaded.items()
         }
         joints, forward = joint_windows(span, objective.order), forward_windows(span, objective)
@@ -236,15 +235,15 @@ def _minimised(span: LawSpan, objective: CycleObjective) -> Any:
     kind, mean = objective.kind, objective.mean
     output = load_output(objective.minimise, objective.load) if kind is Kind.LOAD else None
     if output is not None:
-        return _of_load(objective, *output, span)
+        return _of_load(objective, output, span)
     value = span_value(span, objective.drive, kind, mean=mean)
     return value.constants[0].name if kind.order else value.objective
 
 
-def _of_load(objective: CycleObjective, output: str, mean: bool, span: LawSpan) -> Functional:  # noqa: FBT001 - the second of a pair
+def _of_load(objective: CycleObjective, output: LoadOutput, span: LawSpan) -> Functional:
     if objective.load is None:
         raise AssertionError  # what is asked of a load is read with it
-    return objective.load.constant(output, span.duration, mean=mean)
+    return objective.load.constant(output.output, span.duration, mean=output.mean)
 
 
 def _ends(span: LawSpan, order: int) -> tuple[tuple[float, ...], tuple[float, ...]]:

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import accumulate
 from typing import NamedTuple
 
-from optlaws.cycles.specification.limits import AXES, Sides
+from optlaws.cycles.specification.limits import AXES, Limits, Sides
 from optlaws.cycles.specification.programme import Programme, TimedSegment, is_optimal, time_of
 from optlaws.cycles.specification.segments import ConstantVelocity, Dwell, Free, Move
 from optlaws.echo import shortened
@@ -15,7 +15,7 @@ from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw, smoothstep
 from optlaws.motion.piece import Piece, factor, named_law
-from optlaws.motion.quantities import Kind, in_small_units, quantity
+from optlaws.motion.quantities import in_small_units, quantity
 from optlaws.sentences import sentence
 from optlaws.tolerances import CLOSURE
 
@@ -99,7 +99,7 @@ class LawSpan:
         """The segments, each with the times at which it begins and ends."""
         return zip(self.stretches, self.starts, (*self.starts[1:], self.stop), strict=True)
 
-    def sides(self, of_cycle: Mapping[Kind, tuple[float, float]]) -> tuple[Sides | None, ...]:
+    def sides(self, of_cycle: Limits) -> tuple[Sides | None, ...]:
         """The limited sides of each segment whose law is optimised; None of the others."""
         return tuple(each.sides(of_cycle) if is_optimal(each.given) else None for each in self.stretches)
 

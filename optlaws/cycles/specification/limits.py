@@ -15,6 +15,9 @@ from optlaws.motion.quantities import Kind, in_small_units, positive_quantity, q
 from optlaws.numerics.peaks import is_kept
 from optlaws.sentences import Amount, sentence
 
+#: a `Load`, which knows this module
+Load: TypeAlias = Any
+
 #: dimensions of the derivatives of a position, for slides and for tables
 AXES = {
     "length": ("length", "velocity", "acceleration", "jerk", "snap"),
@@ -39,9 +42,10 @@ OF_WHOLE = {
 }
 FORCES = {"length": "force", "angle": "torque"}
 FORCE_UNITS = {"length": "N", "angle": "N m"}
+MOTOR, LOAD = "motor", "load "
 DECELERATION, SPEEDING_UP, BACKWARDS = "deceleration", "acceleration along the motion", "velocity backwards"
 _ALONG = (DECELERATION, SPEEDING_UP, BACKWARDS)
-_KINDS_ALONG = (Kind.VELOCITY_ALONG, Kind.ACCELERATION_ALONG)
+_NO_SIDES = (*OF_WHOLE.values(), Kind.VELOCITY_ALONG, Kind.ACCELERATION_ALONG)
 
 
 def _limit(about: str, *dimensions: str, example: str) -> Any:
@@ -70,7 +74,7 @@ _OF_WHOLE = {
     "rms force": _limit("Root mean square over the cycle, as motors are rated.", "force", example="40 N"),
     "rms torque": _limit("Likewise of a table, or at the input of a mechanism.", "torque", example="2 N m"),
     "energy": _limit("Of the drive over the cycle.", "energy", example="12 J"),
-    "motor": entry(Switch(), "Whether all limits of its motor hold.", default=None, example=True),
+    MOTOR: entry(Switch(), "Whether all limits of its motor hold.", default=None, example=True),
 }
 _OF_MOVE = {
     **{name: _OF_MOTION[name] for name in ("velocity", "acceleration", "deceleration", "jerk")},
@@ -90,12 +94,20 @@ LIMITS_OF_CYCLE = TableOf(
     "limit",
     _OF_MOTION | _OF_WHOLE,
     keep=FrozenTable,
-    further=lambda name: _LOADED if name.removeprefix("rms ").startswith("load ") else None,
+    further=lambda name: _LOADED if name.removeprefix("rms ").startswith(LOAD) else None,
 )
 LIMITS_OF_MOVE = TableOf("limit", _OF_MOVE, keep=FrozenTable)
 
+
+class LoadOutput(NamedTuple):
+    """An output of the load, or its root mean square."""
+
+    output: str
+    mean: bool
+
+
 #: the least and the greatest allowed value of each limited quantity in SI units
-Limits: TypeAlias = dict[Kind, tuple[float, float]]
+Limits: TypeAlias = Mapping[Kind | LoadOutput, tuple[float, float]]
 
 
 class Side(NamedTuple):
@@ -152,7 +164,7 @@ class LimitTaken(NamedTuple):
         return sentence("{}{}, {} of {}", f"{self.where}: " if self.where else "", self.name, value, limit)
 
 
-def read_limits(entries: Mapping[str, Any], axis: str, where: str) -> Limits:
+def read_limits(entries: Mapping[str, Any], axis: str, where: str, load: Load = None) -> Limits:
     """The least and greatest value of each limited quantity in SI units, from the entries that have limits.
 
     A velocity that is at least 0 never turns back: it is above 0 along the motion, whichever way that goes.
@@ -163,12 +175,15 @@ def read_limits(entries: Mapping[str, Any], axis: str, where: str) -> Limits:
     Raises
     ------
     InputError
-        If a quantity is wrong, or the same is limited twice.
+        If a quantity is wrong, the same is limited twice, or there is no such load.
     """
     limits: Limits = {}
     for name, value in entries.items():
-        kind, place = (LIMITS | OF_WHOLE).get(name), f"{where}: {name}"
-        if name == DECELERATION:
+        kind, place, output = (LIMITS | OF_WHOLE).get(name), f"{where}: {name}", load_output(name, load)
+        if output is not None:
+            most = load.limit(value, output.output, f"{where}, {name}")
+            limits = {**limits, output: (-most, most)}
+        elif name == DECELERATION:
             limits = tightest(limits, {Kind.ACCELERATION_ALONG: (-positive_quantity(value, AXES[axis][2], place), inf)})
         elif kind is None:
             continue
@@ -180,12 +195,23 @@ def read_limits(entries: Mapping[str, Any], axis: str, where: str) -> Limits:
             most = positive_quantity(value, _dimension(kind, axis), place)
             apart = name == "acceleration" and DECELERATION in entries
             limits = tightest(limits, {Kind.ACCELERATION_ALONG: (-inf, most)} if apart else {kind: (-most, most)})
-    if "energy" in entries and (Kind.RMS_FORCE in limits or "motor" in entries):
+    if "energy" in entries and (Kind.RMS_FORCE in limits or MOTOR in entries):
         raise InputError(
             f"{where}: energy and an rms force or torque, which a motor has as well, are both of the whole cycle: give "
             "one of them"
         )
     return limits
+
+
+def load_output(name: str, load: Load) -> LoadOutput | None:
+    """The output of the load that an objective or a limit names; None if of none."""
+    output = name.removeprefix("rms ").removeprefix(LOAD)
+    if name not in {f"{LOAD}{output}", f"rms {LOAD}{output}"}:
+        return None
+    if load is None:
+        raise InputError(f"{name} is of a load: give one, such as load={{'period': '20 ms', 'damping': 0.05}}")
+    load.machine.place(output)
+    return LoadOutput(output, name.startswith("rms "))
 
 
 def _both(kind: Kind, value: Any, axis: str, place: str) -> Limits:
@@ -209,12 +235,12 @@ def _dimension(kind: Kind, axis: str) -> str:
     return known.get(kind, FORCES[axis])
 
 
-def of_segments(limits: Mapping[Kind, tuple[float, float]]) -> Limits:
+def of_segments(limits: Limits) -> Limits:
     """The limits of each segment, without those of the whole cycle."""
-    return {kind: ends for kind, ends in limits.items() if kind not in OF_WHOLE.values()}
+    return {kind: ends for kind, ends in limits.items() if isinstance(kind, Kind) and kind not in OF_WHOLE.values()}
 
 
-def sides(limits: Mapping[Kind, tuple[float, float]], direction: float) -> Sides:
+def sides(limits: Limits, direction: float) -> Sides:
     """The limited sides of a motion that goes in a direction.
 
     >>> sides({Kind.VELOCITY: (-2.0, 2.0), Kind.JERK: (-9.0, 7.0)}, 1.0)[Side(Kind.JERK, -1.0, "jerk")]
@@ -223,7 +249,8 @@ def sides(limits: Mapping[Kind, tuple[float, float]], direction: float) -> Sides
     bounds: Sides = {}
     along, both = limits.get(Kind.ACCELERATION_ALONG), (-inf, inf)
     known = {**limits, Kind.ACCELERATION: limits.get(Kind.ACCELERATION, both)} if along else limits
-    for kind in sorted(of_segments(known).keys() - {*_KINDS_ALONG}, key=lambda kind: kind.value):
+    kinds = (kind for kind in known if isinstance(kind, Kind) and kind not in _NO_SIDES)
+    for kind in sorted(kinds, key=lambda kind: kind.value):
         low, high = known[kind]
         if low == -high and not (along and kind is Kind.ACCELERATION):
             bounds[Side(kind)] = high
@@ -239,7 +266,7 @@ def sides(limits: Mapping[Kind, tuple[float, float]], direction: float) -> Sides
     return bounds
 
 
-def tightest(limits: Mapping[Kind, tuple[float, float]], others: Mapping[Kind, tuple[float, float]]) -> Limits:
+def tightest(limits: Limits, others: Limits) -> Limits:
     """Limits of both, whichever is less.
 
     >>> tightest({Kind.VELOCITY: (-2.0, 2.0)}, {Kind.VELOCITY: (-3.0, 1.0)})
@@ -252,17 +279,17 @@ def tightest(limits: Mapping[Kind, tuple[float, float]], others: Mapping[Kind, t
     return both
 
 
-def raised(limits: Mapping[Kind, tuple[float, float]], more: Mapping[str, float], axis: str) -> Limits:
+def raised(limits: Limits, more: Mapping[str, float], axis: str) -> Limits:
     """Limits times factors of those that have these names."""
     slower = {Kind.ACCELERATION_ALONG: DECELERATION}
 
     def factor(name: str) -> float:
         return more.get(name, 1.0)
 
-    words = {kind: word_of(Side(kind), axis) for kind in limits}
+    words = {kind: word_of(Side(kind), axis) for kind in limits if isinstance(kind, Kind)}
     return {
-        kind: (low * factor(slower.get(kind, words[kind])), high * factor(words[kind]))
-        for kind, (low, high) in limits.items()
+        kind: (limits[kind][0] * factor(slower.get(kind, word)), limits[kind][1] * factor(word))
+        for kind, word in words.items()
     }
 
 
@@ -281,14 +308,16 @@ def greatest(limits: Mapping[Side, float], kind: Kind, direction: float = 0.0) -
     return min([limits.get(Side(kind), inf), *known])
 
 
-def both_sides(limits: Mapping[Side, float]) -> Limits:
+def both_sides(limits: Mapping[Side, float]) -> dict[Kind, tuple[float, float]]:
     """The least and greatest allowed value of each limited quantity, infinite without a limit.
 
     >>> both_sides({Side(Kind.ACCELERATION, -1.0, "acceleration"): 8.0})
     {<Kind.ACCELERATION: 2>: (-8.0, inf)}
     """
     kinds = dict.fromkeys(key.kind for key in limits if key.kind is not Kind.VELOCITY_ALONG)
-    known: Limits = {kind: (-greatest(limits, kind, -1.0), greatest(limits, kind, 1.0)) for kind in kinds}
+    known: dict[Kind, tuple[float, float]] = {
+        kind: (-greatest(limits, kind, -1.0), greatest(limits, kind, 1.0)) for kind in kinds
+    }
     for sign in (key.sign for key in limits if key.kind is Kind.VELOCITY_ALONG):
         low, high = known.get(Kind.VELOCITY, (-inf, inf))
         known[Kind.VELOCITY] = (0.0, high) if sign < 0.0 else (low, 0.0)
@@ -320,7 +349,7 @@ def word_of(key: Side, axis: str) -> str:
     ('acceleration', 'torque')
     """
     given = {
-        Kind.CURVE: "motor",
+        Kind.CURVE: MOTOR,
         Kind.RMS_FORCE: f"rms {FORCES[axis]}",
         Kind.ENERGY: "energy",
         Kind.VELOCITY_ALONG: "velocity",

@@ -21,8 +21,6 @@ if TYPE_CHECKING:
     from optlaws.mechanisms.machine.machine import Machine
     from optlaws.mechanisms.machine.over_time import MachineMotion
 
-LOAD = "load "
-
 
 @declared
 class ElasticFollower(Declared, title="an elastic follower"):
@@ -103,8 +101,10 @@ class Load:
         return positive(value, name) if known is None else positive_quantity(value, known, name)
 
 
-def read_load(given: Any, axis: str) -> Load:
-    """A load from its entries, or a machine in seconds and SI units."""
+def read_load(given: Any, axis: str) -> Load | None:
+    """A load from its entries, or a machine in seconds and SI units; None without one, or of a process force."""
+    if given is None or is_process(given):
+        return None
     from optlaws.mechanisms.machine.machine import Machine
     from optlaws.mechanisms.machine.state_space import FASTEST
 
@@ -147,15 +147,3 @@ def _mass_on_a_spring(given: ElasticLoad, axis: str, frequency: float) -> Load:
 
 def _article(axis: str) -> str:
     return f"{'an' if axis == 'angle' else 'a'} {axis}"
-
-
-def load_output(name: str, load: Load | None) -> tuple[str, bool] | None:
-    """The output that an objective or a limit speaks of, and whether of its root mean square; None if of none."""
-    mean = name.startswith(f"rms {LOAD}")
-    if not mean and not name.startswith(LOAD):
-        return None
-    output = name.removeprefix("rms ").removeprefix(LOAD)
-    if load is None:
-        raise InputError(f"{name} is of a load: give one, such as load={{'period': '20 ms', 'damping': 0.05}}")
-    load.machine.place(output)
-    return output, mean

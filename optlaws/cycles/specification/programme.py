@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from math import inf
 from typing import Any
@@ -46,7 +46,7 @@ class TimedSegment:
         """The name that errors give it."""
         return f"segment {self.number} ({self.given.label})"
 
-    def sides(self, of_cycle: Mapping[Kind, tuple[float, float]]) -> Sides:
+    def sides(self, of_cycle: Limits) -> Sides:
         """The limited sides of the segment: by its own limits and the cycle's, whichever are lower.
 
         Raises
