@@ -65,7 +65,7 @@ declare("plain constant", {"optlaws.balancing.loaders.constants": "B_loader C_lo
 declare(
     "constant",
     {
-        "optlaws.mechanisms.cam_constants": "B_cam C_cam C_minus_cam C_plus_cam D_cam J_cam",
+        "optlaws.mechanisms.machine.polydyne": "B_cam C_cam C_minus_cam C_plus_cam D_cam J_cam",
         "optlaws.mechanisms.machine.output_constants": "output_peak output_rms",
         "optlaws.mechanisms.machine.residual": "mode_residual residual",
         "optlaws.synthesis.functionals.makers": "integral peak rms value",

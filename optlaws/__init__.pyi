@@ -91,7 +91,6 @@ from .laws.making.trapezoids import scca as scca, trapezoid as trapezoid
 from .laws.polynomial import PolynomialLaw as PolynomialLaw, smoothstep as smoothstep
 from .laws.savin import SavinFamily as SavinFamily, savin as savin
 from .laws.segments.piecewise import PiecewiseLaw as PiecewiseLaw
-from .mechanisms.cam_constants import cam_constant as cam_constant
 from .mechanisms.drives.drive_train import Drive as Drive
 from .mechanisms.drives.motor import Motor as Motor, read_motors as read_motors
 from .mechanisms.linkages.bodies import Body as Body, Loads as Loads
@@ -108,17 +107,31 @@ from .mechanisms.linkages.plane_linkages import (
     slider_crank as slider_crank,
     toggle as toggle,
 )
-from .mechanisms.machine.flat_output import driving_law as driving_law, flat_output as flat_output
 from .mechanisms.machine.follower import Deviation as Deviation, Follower as Follower, off_design as off_design
-from .mechanisms.machine.machine import Machine as Machine
-from .mechanisms.machine.masses import Link as Link
-from .mechanisms.machine.parameters import MachineSpectrum as MachineSpectrum, machine_spectrum as machine_spectrum
+from .mechanisms.machine.machine import (
+    Machine as Machine,
+    MachineSpectrum as MachineSpectrum,
+    machine_spectrum as machine_spectrum,
+)
+from .mechanisms.machine.models import Link as Link
+from .mechanisms.machine.polydyne import (
+    cam_constant as cam_constant,
+    driving_law as driving_law,
+    flat_output as flat_output,
+    mass_law as mass_law,
+    polydyne as polydyne,
+)
 from .mechanisms.machine.residual import residual_vibration as residual_vibration
 from .mechanisms.machine.response import CycleResponse as CycleResponse, Response as Response
-from .mechanisms.measured_spectrum import read_spectrum as read_spectrum
-from .mechanisms.polydyne_cam import mass_law as mass_law, polydyne as polydyne
-from .mechanisms.spectrum import ResponseSpectrum as ResponseSpectrum, response_spectrum as response_spectrum
-from .mechanisms.transforms import residual_functional as residual_functional, residual_phasor as residual_phasor
+from .mechanisms.machine.spectrum import (
+    ResponseSpectrum as ResponseSpectrum,
+    read_spectrum as read_spectrum,
+    response_spectrum as response_spectrum,
+)
+from .mechanisms.machine.transforms import (
+    residual_functional as residual_functional,
+    residual_phasor as residual_phasor,
+)
 from .motion.polynomials import PiecewiseMotion as PiecewiseMotion
 from .numbers import deg as deg
 from .numerics.peaks import Peak as Peak

@@ -133,7 +133,7 @@ def segments_of_cam(
     programme: Programme, pieces: Sequence[Piece], period: Quantity, damping: float
 ) -> list[CycleSegment]:
     """The segments of the cam of an elastic follower: every move corrected by its frequency over its duration."""
-    from optlaws.mechanisms.polydyne_cam import polydyne
+    from optlaws.mechanisms.machine.polydyne import polydyne
 
     natural = positive_quantity(period, "time", "follower: period")
     if len(pieces) != len(programme.stretches):

@@ -18,8 +18,8 @@ from optlaws.laws import MotionLaw
 from optlaws.laws.catalogue.catalogue import catalogue
 from optlaws.laws.making.input_shaping import Shaper, shaped_law
 from optlaws.mechanisms.machine.machine import SPREAD, Machine, Measure
-from optlaws.mechanisms.machine.modes import mode
-from optlaws.mechanisms.transforms import velocity_transform
+from optlaws.mechanisms.machine.models import mode
+from optlaws.mechanisms.machine.transforms import velocity_transform
 from optlaws.numbers import Array, bounded
 from optlaws.plots.machine import laws_figure
 from optlaws.results import Results

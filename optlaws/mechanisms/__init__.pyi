@@ -12,8 +12,8 @@ from .linkages.move_limit import MoveLimit as MoveLimit
 from .linkages.plane_linkages import four_bar as four_bar, slider_crank as slider_crank, toggle as toggle
 from .machine.follower import Deviation as Deviation, Follower as Follower, off_design as off_design
 from .machine.machine import Machine as Machine
-from .machine.masses import Link as Link
+from .machine.models import Link as Link
+from .machine.polydyne import mass_law as mass_law, polydyne as polydyne
 from .machine.response import CycleResponse as CycleResponse, Response as Response
-from .polydyne_cam import mass_law as mass_law, polydyne as polydyne
-from .spectrum import ResponseSpectrum as ResponseSpectrum, response_spectrum as response_spectrum
-from .transforms import residual_functional as residual_functional, residual_phasor as residual_phasor
+from .machine.spectrum import ResponseSpectrum as ResponseSpectrum, response_spectrum as response_spectrum
+from .machine.transforms import residual_functional as residual_functional, residual_phasor as residual_phasor

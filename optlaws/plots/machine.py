@@ -34,9 +34,9 @@ if TYPE_CHECKING:
     from optlaws.cycles.cycle import Plan
     from optlaws.mechanisms.drives.effort import BestRatio, PieceEffort
     from optlaws.mechanisms.linkages.mechanism import Mechanism
+    from optlaws.mechanisms.machine.machine import MachineSpectrum
     from optlaws.mechanisms.machine.over_time import OutputCurve
-    from optlaws.mechanisms.machine.parameters import MachineSpectrum
-    from optlaws.mechanisms.spectrum import ResponseSpectrum
+    from optlaws.mechanisms.machine.spectrum import ResponseSpectrum
     from optlaws.shown.report import Panel, Series
 
 

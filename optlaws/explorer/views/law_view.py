@@ -27,7 +27,7 @@ from optlaws.explorer.views.requests import (
     without,
 )
 from optlaws.mechanisms.machine.residual import BandResidual
-from optlaws.mechanisms.measured_spectrum import Spectrum, weight_of
+from optlaws.mechanisms.machine.spectrum import Spectrum, weight_of
 from optlaws.motion.piece import factor
 from optlaws.motion.quantities import UNITS, either, positive_quantity
 from optlaws.numbers import bounded

@@ -13,7 +13,7 @@ import msgspec
 from optlaws import MotionLaw, Problem, Solution, synthesize
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.laws.catalogue import reading
-from optlaws.mechanisms.measured_spectrum import MOST_POINTS
+from optlaws.mechanisms.machine.spectrum import MOST_POINTS
 from optlaws.numbers import whole
 
 #: beyond this nobody drags, and an answer takes longer than a page should wait

@@ -19,7 +19,6 @@ from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw, smoothstep
 from optlaws.laws.law import motion_law
 from optlaws.mechanisms.machine import drives
-from optlaws.mechanisms.machine.dynamics import Panel, inverse_gain
 from optlaws.mechanisms.machine.over_time import (
     MachineMotion,
     OutputCurve,
@@ -27,7 +26,15 @@ from optlaws.mechanisms.machine.over_time import (
     around,
     jumps,
 )
-from optlaws.mechanisms.machine.state_space import StateSpace, check_rest, machine_of, text_of, title_of
+from optlaws.mechanisms.machine.state_space import (
+    Panel,
+    StateSpace,
+    check_rest,
+    inverse_gain,
+    machine_of,
+    text_of,
+    title_of,
+)
 from optlaws.numbers import Array, numbers, power_of_two
 from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, NormFamily
 from optlaws.synthesis.functionals.makers import PeakSide

@@ -18,8 +18,7 @@ from optlaws.laws.curve import Curve, Sides
 from optlaws.laws.law import motion_law
 from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.mechanisms.machine import drives
-from optlaws.mechanisms.machine.dynamics import RADIANS, DriveStretch, Dynamics, Panel
-from optlaws.mechanisms.machine.state_space import OutputRows, StateSpace
+from optlaws.mechanisms.machine.state_space import RADIANS, DriveStretch, Dynamics, OutputRows, Panel, StateSpace
 from optlaws.numbers import Array, Complex, not_negative, positive, real_times, whole
 from optlaws.numerics import chebyshev
 from optlaws.tolerances import CLOSURE, EPSILON, RESONANCE, SHORTEST_STRETCH

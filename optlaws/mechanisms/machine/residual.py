@@ -23,12 +23,12 @@ from optlaws.errors import InputError
 from optlaws.files.reading import check_names
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw, Peak
-from optlaws.mechanisms.cam_constants import check_order
-from optlaws.mechanisms.machine.modes import mode as _mode
-from optlaws.mechanisms.machine.modes import participation
+from optlaws.mechanisms.machine.models import mode as _mode
+from optlaws.mechanisms.machine.models import participation
+from optlaws.mechanisms.machine.polydyne import check_order
+from optlaws.mechanisms.machine.spectrum import Spectrum, WeightPart, parts_of, spectrum_of, weight_of
 from optlaws.mechanisms.machine.state_space import StateSpace, check_rest, machine_of, text_of, title_of
-from optlaws.mechanisms.measured_spectrum import Spectrum, WeightPart, parts_of, spectrum_of, weight_of
-from optlaws.mechanisms.transforms import (
+from optlaws.mechanisms.machine.transforms import (
     Transform,
     greatest_modulus,
     roots,

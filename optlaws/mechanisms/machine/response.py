@@ -15,9 +15,8 @@ from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw, Peak
 from optlaws.laws.law import motion_law
 from optlaws.mechanisms.machine import drives
-from optlaws.mechanisms.machine.dynamics import Dynamics
 from optlaws.mechanisms.machine.over_time import MachineMotion, PanelCurve, RiseReturnCycle
-from optlaws.mechanisms.machine.state_space import OutputRows
+from optlaws.mechanisms.machine.state_space import Dynamics, OutputRows
 from optlaws.motion.piece import factor, unit_of
 from optlaws.motion.quantities import quantity, read_stroke
 from optlaws.numbers import Array, Quantity, derivative, positive, real_times

@@ -14,7 +14,7 @@ from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.laws import MotionLaw
 from optlaws.laws.law import motion_law
-from optlaws.mechanisms.forcing import Forcing, forcings
+from optlaws.mechanisms.machine.drives import Forcing, forcings
 from optlaws.numbers import Array, Complex, circular_frequency, not_negative, numbers, whole
 from optlaws.numerics import chebyshev
 from optlaws.synthesis.families.cone import stationary_places
