@@ -23,6 +23,7 @@ from optlaws.verification.conditions import Excess, excesses
 from optlaws.verification.enclosing.balls import enclosed
 from optlaws.verification.exact.bound import Along, Proof, prove, prove_along
 from optlaws.verification.exact.law import ExactLaw
+from optlaws.verification.exact.least_times import least_time_of_any_law
 from optlaws.verification.reading import built, number
 from optlaws.verification.result import Claim, Verification
 
@@ -135,8 +136,11 @@ def _between(point: _Known, other: _Known, number: SweptParameter) -> Fraction |
 def least_time(data: Mapping[str, Any], of_law: Verification) -> Verification:
     """Check the time, the limits that its law keeps and the proofs; `of_law` is what is known of its solution."""
     least = _stated(data)
-    claims = (*of_law.claims, *_limits(least), *_proofs(least))
-    return replace(of_law, claims=claims, unchecked=(*of_law.unchecked, *_limit(least, data)))
+    of_all = list(_limit(least, data))
+    claims = (*of_law.claims, *_limits(least), *_proofs(least), *(claim for claim in of_all if claim.checked))
+    return replace(
+        of_law, claims=claims, unchecked=(*of_law.unchecked, *(claim for claim in of_all if not claim.checked))
+    )
 
 
 def _stated(data: Mapping[str, Any]) -> LeastTime:
@@ -173,9 +177,19 @@ def _proofs(least: LeastTime) -> Iterator[Claim]:
 
 
 def _limit(least: LeastTime, data: Mapping[str, Any]) -> Iterator[Claim]:
-    """The closed form for all laws, recomputed in doubles; a file with another value is refused."""
-    if least.limit is not None:
-        detail = f"{number(data, 'limit')!r} stated, {least.limit!r} by the segments"
+    """The claim that no law of any degree is faster, by the segments; that in a phase plane is known in doubles only.
+
+    A file with another value than these is refused.
+    """
+    if least.limit is None or data["limit"] is None:
+        return
+    stated, proven = number(data, "limit"), least_time_of_any_law(least.move)
+    if proven is not None and Fraction(stated) <= proven * (1 + Fraction(STORED_VALUE)):
+        yield Claim(
+            "the limit of all laws", proven=True, detail=f"{stated!r} stated, {float(proven)!r} by the segments"
+        )
+    else:
+        detail = f"{stated!r} stated, {least.limit!r} by a program of the phase plane in doubles, which proves no bound"
         yield Claim("the limit of all laws", proven=False, detail=detail, checked=False)
 
 

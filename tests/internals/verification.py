@@ -10,6 +10,7 @@ from optlaws.verification.enclosing.balls import ball, enclosed, enclosure, lowe
 from optlaws.verification.enclosing.pieces import between, real_roots
 from optlaws.verification.exact.bound import Proof, _better, _System, prove
 from optlaws.verification.exact.law import ExactLaw
+from optlaws.verification.exact.least_times import least_time_of_any_law
 from optlaws.verification.exact.of_basis import exact_space
 from optlaws.verification.exact.rows import ExactRows
 from optlaws.verification.exact.sublevel_bounds import (

@@ -5,12 +5,16 @@ from collections.abc import Callable
 from contextlib import suppress
 from typing import Any
 
+import numpy as np
 import pytest
 
-from optlaws import InputError, Problem, fastest
+from optlaws import Drive, InputError, Mechanism, Motor, Problem, fastest
 from optlaws.verification import verify, verify_all
+from tests.internals.synthesis import MoveLimits, TimedMove
 
 pytest.importorskip("flint")
+
+from tests.internals.verification import least_time_of_any_law
 
 LIMITS = {"velocity": "1 m/s", "acceleration": ("-8 m/s^2", "12 m/s^2"), "jerk": "300 m/s^3"}
 
@@ -28,6 +32,8 @@ def test_the_law_and_that_none_is_faster_are_proven(data: dict[str, Any]) -> Non
     names = [claim.name for claim in verification.claims]
     assert "the limit of the deceleration" in names
     assert any(name.startswith("no law in a time") for name in names)
+    assert "the limit of all laws" in names
+    assert verification.unchecked == ()
     assert list(verify_all({"moves": [data]})) == ["moves[0]"]
 
 
@@ -54,3 +60,37 @@ def test_what_was_changed_is_not_proven(data: dict[str, Any], change: Callable[[
     change(changed)
     with suppress(InputError):
         assert not verify(changed).proven
+
+
+def random_moves(numbers: np.random.Generator, count: int) -> list[TimedMove]:
+    """Moves of every order in units of any size, some limits left out, some with velocities at their ends."""
+    moves: list[TimedMove] = []
+    while len(moves) < count:
+        order, unit = int(numbers.integers(1, 5)), 10.0 ** numbers.uniform(-9.0, 9.0)
+        names = ("velocity", "acceleration", "deceleration", "jerk", "snap")
+        most = {name: unit * 10.0 ** numbers.uniform(-2.0, 2.0) for name in names if numbers.random() < 0.6}
+        ends = unit * numbers.uniform(-1.0, 1.0, 2) * (order > 1) * (numbers.random() < 0.5)
+        with suppress(InputError):
+            stroke = unit * 10.0 ** numbers.uniform(-2.0, 2.0)
+            moves.append(TimedMove(Problem(order=order), stroke, MoveLimits(**most), *ends.tolist()))
+    return moves
+
+
+def test_the_limit_of_all_laws_is_proven_in_every_unit_and_with_every_limit() -> None:
+    for move in random_moves(np.random.default_rng(3), 400):
+        known, proven = move.limit, least_time_of_any_law(move)
+        assert (known is None) == (proven is None), move
+        assert known is None or float(proven or 0) == pytest.approx(known, rel=1e-13, abs=0.0), move
+
+
+def test_a_limit_within_a_torque_is_proven_only_where_the_motion_has_no_less() -> None:
+    motor = Motor("3e-4 kg m^2", peak_torque="4 N m", greatest_speed="900 rpm")
+    table = Drive(Mechanism("0.8 kg m^2", "20 N m"), motor, ratio=20)
+    turn = fastest(Problem(order=3), stroke="45 deg", limits={}, drive=table)
+    (claim,) = verify(json.loads(turn.to_json())).unchecked
+    assert claim.name == "the limit of all laws"
+    assert "phase plane" in claim.detail
+    slow = fastest(
+        Problem(order=3), stroke="45 deg", limits={"velocity": "0.5 rad/s", "jerk": "20 rad/s^3"}, drive=table
+    )
+    assert "the limit of all laws" in [claim.name for claim in verify(json.loads(slow.to_json())).claims]

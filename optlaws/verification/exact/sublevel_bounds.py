@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from fractions import Fraction
 from math import inf, isfinite
 
@@ -10,7 +10,7 @@ from flint import arb, ctx
 
 from optlaws.mechanisms.machine.output_constants import OutputConstant
 from optlaws.synthesis.families.names import VariableName
-from optlaws.synthesis.limits.closed_forms import back_velocity
+from optlaws.synthesis.limits.closed_forms import back_velocity, best_velocity, jerk_limit, rms_limit
 from optlaws.synthesis.limits.rounding import rounded_up
 from optlaws.synthesis.problem.constants import Functional, PeakConstant, PowerConstant
 from optlaws.synthesis.problem.expression import Expression, Maximum, Term, leaves
@@ -159,7 +159,7 @@ _SLIGHTLY_LESS = 1 - Fraction(1, 10**13)
 def exact_limit(problem: Problem) -> Fraction | None:
     """A lower bound of the objective for all laws of the problem; None where no closed form exists.
 
-    Only C and D count, the law's and its cam's; every other constant is to be at least 0.
+    Only C, D, J and the RMS of c count, and C and D of its cam; every other constant is to be at least 0.
 
     >>> exact_limit(Problem(B=1.5, order=4, minimise="D"))
     Fraction(9, 4)
@@ -184,13 +184,31 @@ def _term(problem: Problem, term: Term) -> Fraction:
     if name.startswith(tuple(_LEAST_OF_CAMS)):
         known(term)
         return _LEAST_OF_CAMS[name[: name.index("(") + 1]]
-    limits = problem.range("B")
-    if name not in {"C", "D"}:
+    if name not in {"C", "D", "J", "rms_c"}:
         return Fraction(0)
-    if limits is None or not limits.fixed or problem.inflexion is not None:
-        return Fraction(4) if name == "C" else Fraction(9, 4)
-    B = Fraction(limits.high)
-    return _acceleration(B, monotone=problem.monotone) if name == "C" else _power(B, monotone=problem.monotone)
+    limits, best = problem.range("B"), best_velocity(name, problem.order)
+    if limits is None or problem.inflexion is not None:
+        B = Fraction(best)
+    elif limits.fixed:
+        B = Fraction(limits.high)
+    else:
+        # up to the best of all it falls, so that of smaller ones the greatest has the least
+        B = Fraction(min(best, limits.high))
+    return _EXACT[name](B, problem)
+
+
+def _jerk(B: Fraction, problem: Problem) -> Fraction:
+    # beyond the best B of laws whose acceleration jumps at their ends it is a root, which is not enclosed
+    beyond = problem.order == 2 and Fraction(3, 2) < B and not (problem.monotone and B >= 2)
+    return Fraction(jerk_limit(1.5 if beyond else float(B), monotone=problem.monotone, order=problem.order))
+
+
+_EXACT: Mapping[str, Callable[[Fraction, Problem], Fraction]] = {
+    "C": lambda B, problem: _acceleration(B, monotone=problem.monotone),
+    "D": lambda B, problem: _power(B, monotone=problem.monotone),
+    "J": _jerk,
+    "rms_c": lambda B, problem: Fraction(rms_limit(float(B), monotone=problem.monotone)),
+}
 
 
 def _acceleration(B: Fraction, *, monotone: bool) -> Fraction:
