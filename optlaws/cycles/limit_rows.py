@@ -26,11 +26,11 @@ from optlaws.motion.piece import Piece, jump_beside, unit_of
 from optlaws.motion.quantities import Kind
 from optlaws.numerics.peaks import is_kept
 from optlaws.sentences import Amount, joined, sentence
-from optlaws.shown.summary import Row
 from optlaws.tolerances import AGREEMENT
 
 if TYPE_CHECKING:
     from optlaws.mechanisms.drives.drive_train import Drive
+    from optlaws.shown.summary import Row
 
 #: a `Cycle`, and its `Plan`, which know this module
 Cycle: TypeAlias = Any
@@ -128,6 +128,8 @@ def _reason(broken: _Taken, cycle: Cycle) -> str:
 
 def limit_rows(plan: Plan) -> list[Row]:
     """Rows of limits: the value in the segment that uses most of the limit, with its time and the limit."""
+    from optlaws.shown.summary import Row
+
     limits = _limits(plan.specification)
     taken_of = _of_segments(
         plan.peaks,

@@ -24,11 +24,11 @@ from optlaws.laws.curve import Curve, Sides
 from optlaws.laws.storage import StoredLaw
 from optlaws.numbers import Array, Quantity, bounded, derivative, finite, times
 from optlaws.numerics.peaks import Peak as Peak  # noqa: PLC0414 - a name of optlaws.laws
-from optlaws.shown.summary import Row, Summary
 from optlaws.tolerances import JUMP, VALUE_ROUNDING
 
 if TYPE_CHECKING:
     from optlaws.shown.report import Report
+    from optlaws.shown.summary import Summary
 
 
 @dataclass(frozen=True, slots=True)
@@ -99,6 +99,8 @@ class Constants(JsonText):
         >>> [row.name for row in smoothstep(2).constants.summary() if row.place == 0.0]
         ['C', 'J']
         """
+        from optlaws.shown.summary import Row, Summary
+
         peaks = [Row(name, peak.value, place=peak.k) for name in "BCDJ" for peak in [getattr(self, name)]]
         return Summary([*peaks, Row("RMS of c", self.rms_c)], at="k")
 

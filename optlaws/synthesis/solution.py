@@ -14,7 +14,6 @@ from optlaws.kept import kept_property
 from optlaws.laws import Constants, MotionLaw
 from optlaws.laws.law import LawExport
 from optlaws.numbers import bounded
-from optlaws.shown.summary import Row, Summary
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.proof.certificate import Certificate
@@ -24,6 +23,7 @@ from optlaws.synthesis.status import Status, measure
 
 if TYPE_CHECKING:
     from optlaws.shown.report import Report
+    from optlaws.shown.summary import Summary
     from optlaws.synthesis.limits.drive_limits import DriveLimit
 
 _MAY_TURN_BACK = (
@@ -167,6 +167,7 @@ class Solution(LawExport, JsonText):
         >>> [row.name for row in rows][:4], rows[3].text(5), rows[3].note
         (['status', 'C', 'lower bound', 'limit'], '4.0231', 'which no law of order 4 with this B can beat, whatever...
         """
+        from optlaws.shown.summary import Row, Summary
         from optlaws.synthesis.limits.of_problem import limited_laws
 
         problem, starts = self.problem, self.starts

@@ -29,7 +29,6 @@ from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.motion.piece import Piece, factor
 from optlaws.motion.quantities import Kind
-from optlaws.motion.smooth_parts import SmoothParts
 from optlaws.synthesis.functionals.makers import integral, peak, rms
 from optlaws.synthesis.problem.constants import FUNCTIONALS, Functional
 from optlaws.synthesis.problem.expression import Maximum, maximum
@@ -317,6 +316,8 @@ class DrivenSpan:
         """The work along the stroke without viscous friction, J: whatever the law."""
         mechanism, train, span = self.drive.mechanism, self.drive.train, self.span
         ends = (span.origin, span.origin + span.stroke)
+        from optlaws.motion.smooth_parts import SmoothParts
+
         load = SmoothParts.between(*sorted(ends)).integral(mechanism.load) * (1.0 if span.stroke > 0.0 else -1.0)
         kinetic = [
             0.5 * (mechanism.inertia(x) + train.ratio**2 * train.inertia) * state.velocity**2
