@@ -28,8 +28,7 @@ from .cycles.moves.time_front import TimePoint as TimePoint
 from .cycles.transitions import TransitionKind as TransitionKind
 from .cycles.old_tables.stretches import MoveGain as MoveGain, Stretch as Stretch
 from .cycles.specification.segments import CycleSegment as CycleSegment
-from .exports.front_export import FrontExport as FrontExport
-from .exports.front_table import MoveStatus as MoveStatus, RunTimeMove as RunTimeMove
+from .exports.front_export import FrontExport as FrontExport, MoveStatus as MoveStatus, RunTimeMove as RunTimeMove
 from .formulas.tree import Formula as Formula
 from .laws.curve import Many as Many
 from .laws.law import Interpolation as Interpolation, Jumps as Jumps
