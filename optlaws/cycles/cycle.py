@@ -13,6 +13,7 @@ from optlaws.cycles.exportable import Exportable
 from optlaws.cycles.limit_rows import limits_taken, refuse_beyond
 from optlaws.cycles.optimisation.bounds import bound_of, is_exact
 from optlaws.cycles.optimisation.objectives import SUMS, check_objective, kind_of
+from optlaws.cycles.optimisation.optimal import span_problem
 from optlaws.cycles.optimisation.search_spaces import remark_on_degrees, search_space
 from optlaws.cycles.optimisation.shared_limits import best_of
 from optlaws.cycles.optimisation.span_values import along, total
@@ -740,6 +741,15 @@ class Plan(Answers, Declared, title="a plan"):
             (span, span.by(solution.law), solution)
             for span, solution in zip(self.specification.layout.spans, self.solutions, strict=True)
         )
+
+    def contradiction(self) -> str:
+        """What of its laws contradicts its cycle; empty where they meet its joints and keep its limits."""
+        cycle = self.specification
+        for span, _, solution in self.laws:
+            known = span_problem(span, cycle.in_si)
+            if solution.problem.boundary != known.boundary:
+                return f"{span.where}: its solution has other ends than its joints"
+        return "; ".join(f"{taken} is beyond its limit" for taken in self.limits_taken if not taken.is_kept)
 
     def with_solutions(self, solutions: Sequence[Solution]) -> Plan:
         """The plan of the same cycle with other solutions, as `Cycle.with_solutions`."""

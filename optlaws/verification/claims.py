@@ -37,7 +37,7 @@ from optlaws.verification.exact.bound import Proof, prove
 from optlaws.verification.exact.law import ExactLaw
 from optlaws.verification.exact.sublevel_bounds import exact_limit
 from optlaws.verification.file_entries import NO_FILE, FileEntry, check_keys, entries, is_entry, kind_of
-from optlaws.verification.fronts_and_times import least_time, overlap_of_axes, proven_front, time_front
+from optlaws.verification.fronts_and_times import least_time, overlap_of_axes, plan_of_cycle, proven_front, time_front
 from optlaws.verification.reading import built, number, read
 from optlaws.verification.result import Claim, Verification
 
@@ -212,6 +212,15 @@ def _time_front(data: Mapping[str, Any]) -> Verification:
         _solution(entries_of(point, ["solution"], f"points[{i}]")["solution"]) for i, point in enumerate(points)
     ]
     return time_front(data, _least_time(data["fastest"]), solutions)
+
+
+def _plan(data: Mapping[str, Any]) -> Verification:
+    solutions = {f"solutions[{i}]": each for i, each in enumerate(listed(data["solutions"], "solutions", _MOST_POINTS))}
+    for place, solution in solutions.items():
+        if not isinstance(solution, Mapping) or kind_of(solution) != "solution":
+            raise InputError(f"{place} is no solution with its problem, its law and its certificate")
+        check_keys(solution)
+    return plan_of_cycle(data, {place: _solution(solution) for place, solution in solutions.items()})
 
 
 def _law_alone(data: Mapping[str, Any]) -> Verification:
@@ -464,6 +473,7 @@ _VERIFIED: Mapping[str | None, Callable[[Mapping[str, Any]], Verification]] = {
     "least time": _least_time,
     "time front": _time_front,
     "overlap": overlap_of_axes,
+    "plan": _plan,
     "solution": _solution,
     "law": _law_alone,
     "certificate": _certificate,

@@ -51,6 +51,7 @@ _KINDS = (
     ("least time", {"duration", "solution", "proofs"}),
     ("time front", {"minimise", "fastest", "points"}),
     ("overlap", {"goal", "axes", "given"}),
+    ("plan", {"cycle", "solutions"}),
     ("solution", {"problem", "law", "certificate"}),
     ("law", {"law", "constants"}),
     ("certificate", {"problem", "contacts"}),

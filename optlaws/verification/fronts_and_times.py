@@ -1,4 +1,4 @@
-"""Fronts, least times and overlapping axes of files, with every rounding enclosed: what they state of several laws."""
+"""Fronts, least times, plans and overlapping axes of files: what they state of several laws, with enclosures."""
 
 from __future__ import annotations
 
@@ -246,6 +246,24 @@ def _point(least: LeastTime, objective: MoveObjective, row: Mapping[str, Any], k
 
 def _shown(value: Fraction | None) -> str:
     return "nothing" if value is None else repr(float(value))
+
+
+def plan_of_cycle(data: Mapping[str, Any], solutions: Mapping[str, Verification]) -> Verification:
+    """Check the laws of a plan, each by itself, and that they are those of its cycle, computed again from the cycle."""
+    try:
+        plan = imported("optlaws.cycles.cycle").Plan.from_dict(data)
+        wrong = plan.contradiction()
+        detail = wrong or f"they meet its joints and keep its limits, in doubles; status {plan.status.value}"
+    except OptlawsError as error:
+        wrong = detail = str(error)
+    claim = Claim("the laws of the cycle", proven=False, detail=detail, checked=bool(wrong))
+    named = [(f"{place}: ", each) for place, each in solutions.items()]
+    claims, unchecked = (
+        [replace(claim, name=place + claim.name) for place, each in named for claim in getattr(each, kind)]
+        for kind in ("claims", "unchecked")
+    )
+    (claims if claim.checked else unchecked).append(claim)
+    return Verification(problem=None, bound=None, claims=tuple(claims), unchecked=tuple(unchecked))
 
 
 def overlap_of_axes(data: Mapping[str, Any]) -> Verification:
