@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Any, Literal, TypeVar, get_args
 
 import numpy as np
 
-from optlaws.cycles.exportable import Exportable
 from optlaws.cycles.limit_rows import limits_taken, refuse_beyond
 from optlaws.cycles.optimisation.bounds import bound_of, is_exact
 from optlaws.cycles.optimisation.objectives import SUMS, check_objective, kind_of
@@ -28,6 +27,7 @@ from optlaws.entries.value_types import Listed, Text
 from optlaws.errors import InputError, needed
 from optlaws.files.reading import check_names
 from optlaws.kept import kept_property
+from optlaws.motion.exportable import Exportable
 from optlaws.motion.piece import Piece, by_pieces, unit_of, values_of_pieces
 from optlaws.motion.quantities import QUANTITIES, TURN, Exact, Kind, quantity
 from optlaws.numbers import Array, Quantity, derivative, number_or_array, real_times

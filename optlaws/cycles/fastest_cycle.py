@@ -7,7 +7,6 @@ from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import Any
 
-from optlaws.cycles.exportable import Exportable
 from optlaws.cycles.greatest_speed.fastest_search import FastestSearch
 from optlaws.cycles.greatest_speed.timed_spans import TimedSpan
 from optlaws.cycles.moves.fastest_move import limit_row
@@ -16,6 +15,7 @@ from optlaws.cycles.placed import retimed_segments, segments_in_place
 from optlaws.cycles.specification.limits import FORCE_UNITS, amount, word_of
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
+from optlaws.motion.exportable import Exportable
 from optlaws.motion.motion import Motion
 from optlaws.motion.quantities import TURN, Exact, Kind
 from optlaws.numbers import Quantity

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from functools import partial
 from math import sqrt
@@ -10,30 +10,26 @@ from typing import Any, Literal, get_args
 
 import numpy as np
 
-from optlaws.cycles.exportable import Exportable
-from optlaws.cycles.moves.fastest_move import AXES, FastestMove, limit_row
-from optlaws.cycles.moves.timed_moves import limits_of_sides
+from optlaws.cycles.moves.fastest_move import AXES, FastestMove, MovePlan, limit_row, panels_of
+from optlaws.cycles.moves.timed_moves import move_limits
 from optlaws.cycles.optimisation.objectives import CycleObjective
 from optlaws.cycles.optimisation.optimal import solved, span_problem
 from optlaws.cycles.specification.joints import LawSpan, State
-from optlaws.cycles.specification.limits import Side, along_motion, greatest, of_segments
+from optlaws.cycles.specification.limits import along_motion, of_segments
 from optlaws.cycles.specification.programme import Programme, TimedSegment, time_of
 from optlaws.cycles.specification.segments import Move, Transition
-from optlaws.echo import shortened
 from optlaws.entries.declared import Declared, ValueOf, declared, entry
 from optlaws.entries.value_types import Choice, Number, ReadBy, Together
 from optlaws.errors import InputError
 from optlaws.files.reading import check_names
 from optlaws.kept import kept_property
 from optlaws.laws.making.transform import mirrored_law
-from optlaws.motion.derivative_panel import display_unit, motion_panel
-from optlaws.motion.motion import MASTERS, Motion, motion_of_pieces
+from optlaws.motion.motion import MASTERS, Motion
 from optlaws.motion.piece import Piece, factor, unit_of, values_of_pieces
-from optlaws.motion.quantities import QUANTITIES, Exact, Kind, given_quantity, quantity
-from optlaws.numbers import Quantity, derivative, number_or_array, real_times
+from optlaws.motion.quantities import QUANTITIES, Exact, given_quantity, quantity
+from optlaws.numbers import Quantity
 from optlaws.shown.report import PlainReport, Report, ReportSegment
 from optlaws.shown.summary import Row, Summary
-from optlaws.synthesis.least_time.move_limits import MoveLimits
 from optlaws.synthesis.least_time.time_search import least_time
 from optlaws.synthesis.least_time.timed_move import TimedMove
 from optlaws.synthesis.problem.problem import Problem
@@ -48,7 +44,6 @@ _POSITIVE, _NUMBER = Number(above=0.0), Number()
 _UNITS = {axis: unit for unit, axis in AXES.items()}
 _REST = State(0.0, 0.0)
 _DEGREE = 15  # of Z at least, as of the motions of cycles whose ends move
-_NAMES = {Kind.VELOCITY: "velocity", Kind.JERK: "jerk", Kind.SNAP: "snap"}
 
 
 def _axis(value: Any) -> str:
@@ -57,7 +52,7 @@ def _axis(value: Any) -> str:
 
 
 @declared
-class TransitionCam(Exportable, Declared, title="a transition cam"):
+class TransitionCam(MovePlan, Declared, title="a transition cam"):
     """A cam beside a cycle's cam: it starts the axis from rest, or stops it, while the master keeps turning.
 
     Where it meets the cycle position, velocity and acceleration are those of the cycle, from order 4 on the jerk too.
@@ -121,23 +116,6 @@ class TransitionCam(Exportable, Declared, title="a transition cam"):
             return Piece(0.0, self.duration, self.rest, stroke, law)
         return Piece(0.0, self.duration, position, stroke, mirrored_law(law))
 
-    def __call__(self, time: Any, nu: int = 0) -> Any:
-        """Position (nu 0), velocity, acceleration, jerk at a time in seconds since it began, in SI units.
-
-        Raises
-        ------
-        InputError
-            If the time is before it begins or after it ends.
-        """
-        times = real_times(time)
-        if ((times < 0.0) | (times > self.duration)).any():
-            raise InputError(f"a {self.kind} lasts from 0 to {self.duration:.9g} s, got {shortened(time)}")
-        return number_or_array(self.piece.values(times, derivative(nu)))
-
-    def peak(self, nu: int) -> float:
-        """The greatest magnitude of the derivative of order nu, in SI units, recomputed from the law."""
-        return max(abs(value) for value, _ in self.piece.extremes(derivative(nu), 0.0, self.duration))
-
     @property
     def jumps(self) -> dict[str, float]:
         """Jumps of position, velocity, acceleration and jerk where cam and cycle meet; 0 if they are rounding."""
@@ -157,15 +135,14 @@ class TransitionCam(Exportable, Declared, title="a transition cam"):
 
         The `master` is how far that of the cycle goes in a turn: it goes less in the cam as this takes less time.
         """
-        span = master
         if master is not None:
             turn = given_quantity(master, MASTERS, "master")
-            span = Exact(turn.number * self.duration / self.period, turn.unit)
-        about = f"{self.kind}: its master at 0 is that of the cycle at {self.master[0]:.9g} deg"
-        return replace(
-            motion_of_pieces((self.piece,), self.duration, self.axis, master=span, unit=unit, proof=(about,)),
-            repeats=False,
-        )
+            master = Exact(turn.number * self.duration / self.period, turn.unit)
+        return super().motion(master, unit)
+
+    @property
+    def _proof(self) -> tuple[str, ...]:
+        return (f"{self.kind}: its master at 0 is that of the cycle at {self.master[0]:.9g} deg",)
 
     def plot(self, ax: Any = None, *, cycle: Any = None, **style: Any) -> list[Any]:
         """Draw position, velocity, acceleration and jerk over the master; return the artists.
@@ -196,12 +173,8 @@ class TransitionCam(Exportable, Declared, title="a transition cam"):
         >>> [f"{row.name} {row.text(5)} {row.unit}" for row in facts[:3]]
         ['master -30 to 90 deg', 'time 0.33333 s', 'status optimal ']
         """
-        ends = [self.piece.extremes(nu, 0.0, self.duration) for nu in range(len(QUANTITIES))]
-        panels = [
-            motion_panel((self.piece,), nu, display_unit(self.axis, nu), places) for nu, places in enumerate(ends)
-        ]
         segments = (ReportSegment(self.kind, 0.0, self.duration),)
-        return PlainReport(self._facts(), (), panels, self._data, segments)
+        return PlainReport(self._facts(), (), panels_of(self.piece, self.axis, {}), self._data, segments)
 
     def _facts(self) -> Summary:
         rows = [Row("master", self.master, "deg"), Row("time", self.duration, "s"), Row("status", self.status.value)]
@@ -318,6 +291,10 @@ def transition_cam(
             "give `over`, or another place"
         )
     limits = stretch(period, period).sides(of_motion.limits)
+    if not limits:
+        raise InputError("nothing limits the least time: give the cycle limits, or say the time or angle as `over`")
+    if any(key.kind.is_driven for key in limits):
+        raise InputError("the least time is sought within limits of the motion, not of a drive: give `over`")
     sign = 1.0 if moved > 0.0 else -1.0
     problem = Problem(
         order=of_motion.order,
@@ -328,7 +305,7 @@ def transition_cam(
     move = TimedMove(
         problem,
         abs(moved),
-        _move_limits(limits, sign),
+        move_limits(limits, sign, axis),
         end_velocity=sign * velocity,
         end_acceleration=sign * acceleration if of_motion.order > 2 else 0.0,
         end_jerk=sign * jerk if of_motion.order > 3 else 0.0,
@@ -356,16 +333,3 @@ def _state(
         0.0 if abs(rate) <= CLOSURE * size else rate for rate, size in zip(rates, sizes, strict=True)
     )
     return position + programme.advance * round((time - inside) / period), velocity, acceleration, jerk
-
-
-def _move_limits(limits: Mapping[Side, float], sign: float) -> MoveLimits:
-    """The limits of a move whose stroke has a sign."""
-    for key, most in limits.items():
-        if not key.kind.order:
-            raise InputError("the least time is sought within limits of the motion, not of a drive: give `over`")
-        one_sided = key.sign and key.kind not in {Kind.ACCELERATION, Kind.VELOCITY_ALONG}
-        if one_sided and greatest(limits, key.kind, -key.sign) != most:
-            raise InputError(f"limits: the {_NAMES[key.kind]} has two sides: the least time takes one limit of both")
-    if not limits:
-        raise InputError("nothing limits the least time: give the cycle limits, or say the time or angle as `over`")
-    return limits_of_sides(limits, sign)

@@ -198,10 +198,17 @@ class LawExport:
         """
         from optlaws.exports.export import export_law
 
-        law, proof = self._exported()
-        return export_law(
-            law, to, {"stroke": stroke, "duration": duration, "master": master, "start": start}, proof, **options
-        )
+        (law, proof), (usual_stroke, usual_duration) = self._exported(), self._in_machine
+        placement = {
+            "stroke": usual_stroke if stroke is None else stroke,
+            "duration": usual_duration if duration is None else duration,
+            "master": master,
+            "start": start,
+        }
+        return export_law(law, to, placement, proof, **options)
+
+    #: the stroke and the duration unless others are given
+    _in_machine: tuple[Quantity | None, Quantity | None] = (None, None)
 
     def _exported(self) -> tuple[Any, tuple[str, ...]]:
         """The law and its proof, as text for files."""

@@ -29,6 +29,13 @@ if TYPE_CHECKING:
 _ROOM = 1.08
 
 
+def draw_move(move: FastestMove, axes: Any = None, **style: Any) -> list[Artist]:
+    """Draw position, velocity, acceleration and jerk of a move with their limits into four axes; return the artists."""
+    report = move.report()
+    panels = four(one_below_the_other(axes, len(QUANTITIES), 8.2))
+    return draw_panels(report.panels[: len(panels)], report.segments, panels, **style)
+
+
 def motion_figure(move: FastestMove, title: str) -> Figure:
     """Position, velocity, acceleration and jerk of the fastest motion over time, with their limits."""
     report = move.report()

@@ -5,23 +5,25 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from math import inf, isfinite
-from typing import Any, Unpack
+from typing import Any
 
 import numpy as np
 
 from optlaws.cycles.specification.limits import LimitTaken
-from optlaws.echo import keywords_of, shortened
+from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.files.reading import JsonText, entries_of
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
-from optlaws.laws.law import ExportOptions, LawExport
+from optlaws.laws.law import LawExport
 from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.mechanisms.drives.effort import DriveSheet, PieceEffort
 from optlaws.motion.derivative_panel import DERIVATIVES, display_unit, motion_panel
+from optlaws.motion.exportable import Exportable
+from optlaws.motion.motion import Motion, motion_of_pieces
 from optlaws.motion.piece import Piece, unit_of
 from optlaws.motion.quantities import DEGREES, QUANTITIES, Exact, positive_quantity
-from optlaws.numbers import Array, Quantity, positive
+from optlaws.numbers import Array, Quantity, derivative, number_or_array, positive, real_times
 from optlaws.shown.curve_points import refined
 from optlaws.shown.report import Panel, PanelLimit, Report, ReportSegment, ReportTable, Series
 from optlaws.shown.summary import Row, Summary
@@ -39,9 +41,58 @@ _MORE = 0.1
 _STEPS = 241  # of a torque, to which those are added that its curve needs
 
 
+class MovePlan(Exportable):
+    """A plan of one law in its place, which does not repeat: call it for the motion in SI units since it began."""
+
+    kind = "move"
+    axis: str
+    duration: float
+    piece: Piece
+
+    def __call__(self, time: Any, nu: int = 0) -> Any:
+        """Position (nu 0), velocity, acceleration, jerk at a time in seconds since it began, in SI units.
+
+        Raises
+        ------
+        InputError
+            If the time is before it begins or after it ends.
+        """
+        times = real_times(time)
+        if ((times < 0.0) | (times > self.duration)).any():
+            raise InputError(f"a {self.kind} lasts from 0 to {self.duration:.9g} s, got {shortened(time)}")
+        return number_or_array(self.piece.values(times, derivative(nu)))
+
+    def peak(self, nu: int) -> float:
+        """The greatest magnitude of the derivative of order nu, in SI units, recomputed from the law."""
+        return max(abs(value) for value, _ in self.piece.extremes(derivative(nu), 0.0, self.duration))
+
+    def motion(self, master: Quantity | None = None, unit: str | None = None) -> Motion:
+        """The exact motion in machine units, as `Cycle.motion`, which does not repeat; its master begins at 0.
+
+        The master is time in seconds unless it is given.
+        """
+        motion = motion_of_pieces((self.piece,), self.duration, self.axis, master=master, unit=unit)
+        return replace(motion, repeats=False, proof=self._proof)
+
+    @property
+    def _proof(self) -> tuple[str, ...]:
+        """What is proven of the motion, as text for files."""
+        return ()
+
+
+def panels_of(piece: Piece, axis: str, limits: Mapping[int, tuple[float, float]]) -> list[Panel]:
+    """Position, velocity, acceleration and jerk of a law in its place, through their extremes; the snap if limited."""
+    panels = []
+    for nu in range(1 + max((len(QUANTITIES) - 1, *limits))):
+        limited = [PanelLimit(piece.start, piece.stop, *limits[nu])] if nu in limits else ()
+        extremes = piece.extremes(nu, piece.start, piece.stop)
+        panels.append(motion_panel([piece], nu, display_unit(axis, nu), extremes, limited))
+    return panels
+
+
 @dataclass(frozen=True, repr=False)
-class FastestMove(LawExport, JsonText):
-    """The least time of a single move within limits, with the law that takes it and the proof that none is faster.
+class FastestMove(LawExport, MovePlan, JsonText):  # type: ignore[misc] # its export places a law in a machine
+    """The plan of the least time of a single move within limits: its law, and the proof that none is faster.
 
     Attributes
     ----------
@@ -92,6 +143,8 @@ class FastestMove(LawExport, JsonText):
     gap = kept_property[float](lambda move: move.least.gap)
     status = kept_property[Status](lambda move: move.least.status)
     binding = kept_property[tuple[str, ...]](lambda move: move.least.binding)
+    axis = kept_property[str](lambda move: AXES[move.unit])
+    piece = kept_property[Piece](lambda move: Piece(0.0, move.duration, 0.0, move.stroke, move.law))
 
     def gains(self, more: float = _MORE) -> dict[str, float]:
         """The share of the time that a share more of each limit saves: the least time with it is computed again.
@@ -151,56 +204,23 @@ class FastestMove(LawExport, JsonText):
             for name in self.binding
         )
 
-    def summary(self) -> Summary:
-        """Rows with the least time, the limit for all laws, and the use of each limit.
-
-        Examples
-        --------
-        >>> import optlaws
-        >>> move = optlaws.fastest(
-        ...     optlaws.Problem(order=3), stroke="100 mm", limits={"velocity": "1 m/s", "jerk": "300 m/s^3"}
-        ... )
-        >>> [(row.name, row.text(5), row.unit) for row in move.summary()][:3]
-        [('least time', '0.22533', 's'), ('limit', '0.22013', 's'), ('velocity', '0.88481', 'm/s')]
-        """
-        return self.report().facts
-
     def proof_rows(self) -> Summary:
         """The least time and the limit of all laws, with what is proven of them."""
         rows = [Row("least time", self.duration, "s", note=self._proven)]
         laws = "of any degree" if self.least.move.torque is None else "that never turns back"
         return Summary([*rows, limit_row(self.limit, self.duration, laws)])
 
-    @keywords_of(ExportOptions)
-    def export(
-        self,
-        to: str,
-        *,
-        stroke: Quantity | None = None,
-        duration: Quantity | None = None,
-        master: Quantity | None = None,
-        start: Quantity | None = None,
-        **options: Unpack[ExportOptions],
-    ) -> Any:
-        """The move in the format of a controller, with its stroke and its least time unless others are given.
-
-        Raises
-        ------
-        InputError
-            As `MotionLaw.export`.
-        """
-        whole = Exact(self.stroke * 1e3, "mm") if self.unit == "m" else Exact(self.stroke * DEGREES, "deg")
-        return super().export(
-            to,
-            stroke=whole if stroke is None else stroke,
-            duration=Exact(self.duration, "s") if duration is None else duration,
-            master=master,
-            start=start,
-            **options,
-        )
-
     def _exported(self) -> tuple[MotionLaw, tuple[str, ...]]:
-        return self.law, (f"law: least time {self.duration:.9g} s within the limits, {self._proven}",)
+        return self.law, self._proof
+
+    @property
+    def _in_machine(self) -> tuple[Quantity, Quantity]:  # type: ignore[override] # which laws have not
+        unit, factor = ("mm", 1e3) if self.unit == "m" else ("deg", DEGREES)
+        return Exact(factor * self.stroke, unit), Exact(self.duration, "s")
+
+    @property
+    def _proof(self) -> tuple[str, ...]:
+        return (f"law: least time {self.duration:.9g} s within the limits, {self._proven}",)
 
     @property
     def _proven(self) -> str:
@@ -239,10 +259,21 @@ class FastestMove(LawExport, JsonText):
         """
         return MoveReport(self, self.law, self.duration)
 
-    def _repr_html_(self) -> str:
-        from optlaws.shown.report import report_page
+    def plot(self, ax: Any = None, **style: Any) -> list[Any]:
+        """Draw position, velocity, acceleration and jerk over time, with their limits; return the artists.
 
-        return report_page("FastestMove", self.report())
+        `ax` are four axes of matplotlib, new ones unless given; `style` is what `Axes.plot` takes, for the curves.
+
+        Examples
+        --------
+        >>> import optlaws
+        >>> move = optlaws.fastest(optlaws.Problem(order=3), stroke="100 mm", limits={"jerk": "300 m/s^3"})
+        >>> [artist.axes.get_ylabel() for artist in move.plot()][2]
+        'acceleration, m/s²'
+        """
+        from optlaws.plots.moves import draw_move
+
+        return draw_move(self, ax, **style)
 
     def __repr__(self) -> str:
         limit = "" if self.limit is None else f", limit={self.limit:.9g}"
@@ -321,7 +352,7 @@ class MoveReport:
     @kept_property
     def limits_taken(self) -> tuple[LimitTaken, ...]:
         """The use of each limit of the move, in SI units."""
-        axis, others = AXES[self.move.unit], {CURVE_LIMIT: ""}
+        axis, others = self.move.axis, {CURVE_LIMIT: ""}
         others |= {name: unit_of(axis, nu) for name, nu in zip(RESIDUALS, (2, 0), strict=True)}
         return tuple(
             LimitTaken(
@@ -368,12 +399,7 @@ class MoveReport:
     @kept_property
     def panels(self) -> tuple[Panel, ...]:
         """Position, velocity, acceleration and jerk; the snap where it is limited, and the torque of a motor."""
-        piece, axis = replace(self.piece, offset=0.0), AXES[self.move.unit]
-        panels = []
-        for nu in range(1 + max((len(QUANTITIES) - 1, *self.limits))):
-            limits = [PanelLimit(0.0, self.duration, *self.limits[nu])] if nu in self.limits else ()
-            extremes = piece.extremes(nu, 0.0, self.duration)
-            panels.append(motion_panel([piece], nu, display_unit(axis, nu), extremes, limits))
+        panels = panels_of(replace(self.piece, offset=0.0), self.move.axis, self.limits)
         return (*panels, *self._torque_panel())
 
     @kept_property

@@ -16,6 +16,7 @@ from optlaws.cycles.specification.limits import (
     OF_WHOLE,
     Limits,
     Side,
+    amount,
     greatest,
     read_limits,
     sides,
@@ -28,6 +29,7 @@ from optlaws.errors import InputError
 from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.motion.quantities import Kind, either, quantity
 from optlaws.numbers import NumberOrQuantity, Quantity, listed
+from optlaws.sentences import sentence
 from optlaws.synthesis.least_time.least_time import LeastTime
 from optlaws.synthesis.least_time.motor_torque import LossyGear, MotorTorque
 from optlaws.synthesis.least_time.move_limits import RESIDUAL, RESIDUALS, FollowerResidual, MoveLimits
@@ -199,24 +201,31 @@ def _timed(
     forward = Kind.VELOCITY_ALONG in allowed or torque is not None
     space = replace(problem, monotone=True) if forward else problem
     unit = next(unit for unit, axis in AXES.items() if axis == dimension)
-    return TimedMove(space, far, _of_move(entries, allowed), first, last, torque, residual), unit
-
-
-def _of_move(entries: Mapping[str, Any], limits: Limits) -> MoveLimits:
-    """The limits of a move to greater positions, which has one limit of both sides but of the acceleration."""
-    given = sides(limits, 1.0)
     if DECELERATION in entries and is_list(entries.get("acceleration")):
         raise InputError("limits: the acceleration is a pair, so that deceleration is given twice")
-    for key in given:
-        if key.sign and key.kind not in {Kind.ACCELERATION, Kind.VELOCITY_ALONG}:
+    return TimedMove(space, far, move_limits(sides(allowed, 1.0), 1.0, dimension), first, last, torque, residual), unit
+
+
+def move_limits(limits: Mapping[Side, float], direction: float, axis: str) -> MoveLimits:
+    """The limits of a move in a direction, of which that of the acceleration alone may have two sides.
+
+    Raises
+    ------
+    InputError
+        If another has.
+
+    Examples
+    --------
+    >>> move_limits({Side(Kind.ACCELERATION, -1.0, "acceleration"): 8.0, Side(Kind.JERK): 300.0}, -1.0, "length")
+    MoveLimits(velocity=None, acceleration=8.0, deceleration=None, jerk=300.0, snap=None)
+    """
+    for key, most in limits.items():
+        alone = key.kind in {Kind.ACCELERATION, Kind.VELOCITY_ALONG}
+        if key.sign and not alone and greatest(limits, key.kind, -key.sign) != most:
             remedy = " or begin with 0" if key.kind is Kind.VELOCITY else ""
-            pair = shortened(entries[key.name])
-            raise InputError(f"limits: {key.name}: its two values must be opposite{remedy}, got {pair}")
-    return limits_of_sides(given, 1.0)
-
-
-def limits_of_sides(limits: Mapping[Side, float], direction: float) -> MoveLimits:
-    """The limits of a move in a direction, whose limits but of the acceleration are of both sides alike."""
+            ends = (amount(Side(key.kind, sign), sign * greatest(limits, key.kind, sign), axis) for sign in (-1.0, 1.0))
+            text = sentence("its two values must be opposite{}, got {} and {}", remedy, *ends)
+            raise InputError(sentence("limits: {}: {}", key.name, text))
     least = {name: greatest(limits, kind, side * direction) for name, kind, side in _SIDES}
     return MoveLimits(**{name: most for name, most in least.items() if isfinite(most)})
 

@@ -8,7 +8,19 @@ from typing import Any
 import numpy as np
 import pytest
 
-from optlaws import FastestMove, InfeasibleProblem, InputError, Pieces, Problem, fastest, fastest_moves, synthesize
+from optlaws import (
+    Cycle,
+    Dwell,
+    FastestMove,
+    InfeasibleProblem,
+    InputError,
+    Pieces,
+    Problem,
+    Rise,
+    fastest,
+    fastest_moves,
+    synthesize,
+)
 
 ORDER_3 = Problem(order=3)
 LIMITS = {"velocity": "1 m/s", "acceleration": ("-8 m/s^2", "12 m/s^2"), "jerk": "300 m/s^3"}
@@ -99,6 +111,26 @@ def test_the_export_has_the_stroke_and_the_time(move: FastestMove) -> None:
     assert float(last[0]) == pytest.approx(move.duration)
     assert float(last[1]) == pytest.approx(100.0)
     assert "least time" in move.export("codesys-cambuilder", master="120 deg").text
+
+
+def test_a_move_answers_as_the_plan_of_a_cycle_does(move: FastestMove) -> None:
+    rise = Rise("100 mm", f"{move.duration!r} s", law=move.law)
+    cycle = Cycle([rise, Dwell()], period="1 s", advance="100 mm")
+    times = np.linspace(0.0, move.duration, 41)[:-1]
+    for nu in range(4):
+        assert move.peak(nu) == pytest.approx(cycle.peak(nu), rel=1e-12)
+        assert move(times, nu) == pytest.approx(cycle(times, nu), rel=1e-9, abs=1e-9 * move.peak(nu))
+    motion, report = move.motion("90 deg"), move.report()
+    assert not motion.repeats
+    assert motion.stop == 90.0
+    assert motion(45.0) == pytest.approx(1e3 * move(0.5 * move.duration), rel=1e-12)
+    assert "least time" in motion.proof[0]
+    assert move.summary() == report.facts
+    assert len(move.plot()) >= len(report.panels)
+    assert move.polynomials(unit="m").coefficients[0][1] == pytest.approx(0.0, abs=1e-12)
+    assert move._repr_html_().count("<svg") == 4
+    with pytest.raises(InputError, match=r"a move lasts from 0 to 0\.24\d* s, got -0\.1"):
+        move(-0.1)
 
 
 def test_a_longer_time_leaves_room_for_less_heat(move: FastestMove) -> None:

@@ -197,7 +197,7 @@ def test_limits_of_a_least_time_are_named(slide: Cycle) -> None:
         replace(slide, limits={}).run_in("40 deg", rest="-20 mm")
     with pytest.raises(InputError, match="not of a drive: give `over`"):
         replace(slide, limits={"force": "50 N"}, drive={"mass": "2 kg"}).run_in("40 deg", rest="-20 mm")
-    with pytest.raises(InputError, match="velocity has two sides"):
+    with pytest.raises(InputError, match="velocity: its two values must be opposite"):
         replace(slide, limits={"velocity": ("-1 m/s", "2 m/s")}).run_in("40 deg", rest="-20 mm")
     one_sided = replace(slide, limits={"acceleration": ("-3 m/s^2", "5 m/s^2")})
     for make, rest in ((one_sided.run_in, "-20 mm"), (one_sided.run_out, "60 mm")):
