@@ -114,7 +114,8 @@ def _sought(move: MoveEntries, space: Problem, folder: Path) -> SoughtMove:
             raise InputError("front: it is that of one stroke: give the strokes to a move of another name")
         return SoughtMove(move.name, fastest_moves(space, strokes=move.stroke, **given), ())
     front = move.front
-    if move.follower is not None and "follower" not in given and (front is None or RESIDUAL not in front.minimise):
+    names = () if front is None else front.minimise
+    if move.follower is not None and "follower" not in given and not {*RESIDUALS} & {*names}:
         raise InputError(f'follower: give a limit or a front of the "{RESIDUAL}", or leave the follower out')
     quickest = fastest(space, stroke=move.stroke, **given)
     if front is None:
@@ -154,7 +155,7 @@ def front_of(
     machine: dict[str, Any] = {}
     if minimise in AT_MOTOR and "drive" in given:
         machine = {"drive": given["drive"], "start": given["start"]}
-    elif minimise == RESIDUAL:
+    elif minimise in RESIDUALS:
         machine = {"follower": move.follower}
     return time_front(quickest, minimise, longest=extent[0], points=extent[1], **machine)
 

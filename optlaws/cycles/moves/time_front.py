@@ -129,7 +129,7 @@ class TimeFront(JsonText):
     @property
     def unit(self) -> str:
         """The unit of the objective."""
-        nu = 2 if self.minimise == RESIDUAL else self.objective.nu
+        nu = 2 if self.minimise == RESIDUAL else self.objective.nu  # that of a displacement is 0
         return AT_MOTOR.get(self.minimise) or unit_of(AXES[self.fastest.unit], nu)
 
     @property
@@ -341,7 +341,8 @@ def time_front(
         The least time of the move with its limits, from which the front goes on.
     minimise
         "velocity", "acceleration", "jerk", "snap" or the "rms acceleration", "rms jerk", "rms snap"; with a drive the
-        "torque", "rms torque" or "energy" at its motor; with a follower the "residual acceleration".
+        "torque", "rms torque" or "energy" at its motor; with a follower the "residual acceleration"
+        or "residual displacement".
     drive, start
         The motor, and the position of its mechanism where the move begins, as `fastest` takes them. Unless given they
         are those of the move, whose laws then never turn back; an energy needs them.
@@ -405,7 +406,7 @@ def front_of_cycle(cycle: Any, minimise: str, *, follower: Any, **options: Any) 
         **moved,
     )
     at_motor = moved if minimise in AT_MOTOR else {}
-    return time_front(least, minimise, follower=follower if minimise == RESIDUAL else None, **at_motor, **options)
+    return time_front(least, minimise, follower=follower if minimise in RESIDUALS else None, **at_motor, **options)
 
 
 def _least_in(move: FastestMove, objective: MoveObjective, duration: float) -> Solution:
@@ -428,19 +429,21 @@ def _objective(
         raise InputError(f"minimise: {unknown_key(name, OBJECTIVES, 'objective of a move')}")
     if drive is not None and name not in AT_MOTOR:
         raise InputError(f"drive: the {name} is of no motor: leave it out")
-    if follower is not None and name != RESIDUAL:
+    if follower is not None and name not in RESIDUALS:
         raise InputError(f"follower: the {name} is of no follower: leave it out")
     timed = move.least.move
     if name in AT_MOTOR:
         return _at_motor(name, timed, drive, start)
-    if name != RESIDUAL:
+    if name not in RESIDUALS:
         return MoveObjective(name)
     if not timed.at_rest:
         raise InputError("minimise: what is left vibrating is that of a move from rest to rest")
-    known = None if timed.residual is None else replace(timed.residual, most=1.0, of="acceleration")
-    given = known if follower is None else read_follower(follower)
-    if given is None:
-        raise InputError(f"minimise: the {RESIDUAL} is that of a follower: give the follower")
+    residual = timed.residual if follower is None else read_follower(follower)
+    if residual is None:
+        raise InputError(f"minimise: the {name} is that of a follower: give the follower")
+    known, given = (
+        each and replace(each, most=1.0, of=name.removeprefix("residual ")) for each in (timed.residual, residual)
+    )
     if known not in {None, given}:
         raise InputError("follower: it is another than that of the move")
     return MoveObjective(name, residual=given)

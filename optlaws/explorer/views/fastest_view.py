@@ -29,7 +29,7 @@ from optlaws.numbers import Array, Quantity, bounded
 from optlaws.sentences import Amount
 from optlaws.shown.summary import Row
 from optlaws.studies.problem_entries import problem
-from optlaws.synthesis.least_time.move_limits import RESIDUAL
+from optlaws.synthesis.least_time.move_limits import RESIDUALS
 from optlaws.synthesis.least_time.timed_move import AT_MOTOR, OBJECTIVES
 from optlaws.tolerances import AGREEMENT, LEAST_TIME_GAP
 
@@ -163,8 +163,8 @@ def _of_move(move: MoveEntries, entries: str) -> _Search:
         trust = verdict(solution.status, gap_text(solution.gap), [*fact_sentences(rows), *facts])
         return MoveReport(least, point.law, point.duration, drive, start), trust, [solution]
 
-    objectives = [name for name in OBJECTIVES if name not in AT_MOTOR and name != RESIDUAL]
-    objectives += [*(() if drive is None else AT_MOTOR), *(() if move.follower is None else [RESIDUAL])]
+    objectives = [name for name in OBJECTIVES if name not in {*AT_MOTOR, *RESIDUALS}]
+    objectives += [*(() if drive is None else AT_MOTOR), *(() if move.follower is None else RESIDUALS)]
     note = f"the first of {len(strokes)} strokes" if len(strokes) > 1 else ""
     return _Search(least, least.duration, minimise, motion, points, "time", objectives, note)
 

@@ -20,7 +20,7 @@ from optlaws.numerics.roots import bisect
 from optlaws.synthesis.functionals.makers import integral, peak, rms
 from optlaws.synthesis.least_time.motor_torque import MotorTorque
 from optlaws.synthesis.least_time.move_limits import (
-    RESIDUAL,
+    RESIDUALS,
     FollowerResidual,
     LimitSegments,
     MoveLimits,
@@ -427,7 +427,7 @@ RATES: dict[str, tuple[int, Functional]] = {
 #: at a motor, with the unit
 AT_MOTOR = {"torque": "N m", "rms torque": "N m", "energy": "J"}
 #: what is left vibrating in a follower
-OBJECTIVES = (*RATES, *AT_MOTOR, RESIDUAL)
+OBJECTIVES = (*RATES, *AT_MOTOR, *RESIDUALS)
 _SMOOTH = 3
 
 
@@ -459,13 +459,13 @@ class MoveObjective(Declared, title="what is least in a move"):
     )
 
     def _check(self) -> None:
-        needs = (self.name in AT_MOTOR, self.name == "energy", self.name == RESIDUAL)
+        needs = (self.name in AT_MOTOR, self.name == "energy", self.name in RESIDUALS)
         if needs != (self.torque is not None, self.way is not None, self.residual is not None):
             raise InputError(f"{self.named}: the {self.name} needs its motor or its follower, and nothing else")
         if self.torque is not None and (self.torque.peak, self.torque.rms) != (None, 1.0):
             raise InputError(f"{self.named}: its torque has the limit 1 N m of its root mean square alone")
-        if self.residual is not None and self.residual.most != 1.0:
-            raise InputError(f"{self.named}: its residual has the limit 1")
+        if self.residual is not None and (self.residual.most, self.residual.name) != (1.0, self.name):
+            raise InputError(f"{self.named}: its residual is the {self.name}, with the limit 1")
         if self.regeneration and self.way is None:
             raise InputError(f"{self.named}: regeneration is a share of an energy, got {self.regeneration!r}")
 

@@ -120,22 +120,25 @@ def test_the_torque_of_slower_laws_is_bounded_too(turn: FastestMove) -> None:
 
 
 @pytest.mark.long
-def test_the_vibration_left_is_known_at_points_alone(move: FastestMove) -> None:
+@pytest.mark.parametrize(("name", "unit"), [("residual acceleration", "m/s²"), ("residual displacement", "m")])
+def test_the_vibration_left_is_known_at_points_alone(name: str, unit: str, move: FastestMove) -> None:
     elastic = {"frequency": ("15.9 Hz", "17.5 Hz"), "damping": 0.02}
-    left = time_front(move, "residual acceleration", points=3, longest="0.3 s", follower=elastic)
-    assert left.unit == "m/s²"
+    left = time_front(move, name, points=3, longest="0.3 s", follower=elastic)
+    assert left.unit == unit
     assert left.gap < 1e-6
+    assert TimeFront.from_json(left.to_json()) == left
     assert left.values[0] > left.values[1] > left.values[2]
     with pytest.raises(InputError, match="need not fall with the time"):
         left("0.29 s")
     quiet = fastest(
         Problem(order=3),
         stroke="100 mm",
-        limits=LIMITS | {"residual acceleration": f"{left.values[1]!r} m/s^2"},
+        limits=LIMITS | {name: f"{left.values[1]!r} {unit}"},
         follower=elastic,
     )
     assert quiet.duration <= left.durations[1] * (1.0 + 1e-6)
     assert not time_front(quiet, "jerk", points=2).falls
+    assert time_front(quiet, name, points=2).values[0] == pytest.approx(left.values[1], rel=1e-4)
 
 
 @pytest.mark.long
