@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, astuple, dataclass, replace
 from math import floor, inf, isfinite, nan
-from pathlib import Path
 from typing import Any, cast
 
 import numpy as np
@@ -13,8 +12,7 @@ import numpy as np
 from optlaws.echo import shortened
 from optlaws.errors import InputError, located
 from optlaws.exports.format import Format, Written, format_of
-from optlaws.exports.text import variable_names
-from optlaws.files import writing
+from optlaws.exports.text import TextFile, variable_names
 from optlaws.laws import MotionLaw
 from optlaws.motion.motion import Motion, motion_of_law
 from optlaws.motion.polynomials import Extreme, PiecewiseMotion
@@ -266,7 +264,7 @@ Comparison = tuple[str, float | None, float | None, float | None]
 
 
 @dataclass(frozen=True)
-class Export:
+class Export(TextFile):
     """A motion in the format of a controller, with a report of the executed motion.
 
     Parameters
@@ -312,16 +310,6 @@ class Export:
     def points(self) -> int:
         """How many points or segments there are."""
         return self.written.points
-
-    def write(self, file: str | Path, *, force: bool = False) -> Path:
-        """Write the file, completely or not at all.
-
-        Raises
-        ------
-        InputError
-            If it is there with other contents, and these are not to be replaced (`force`).
-        """
-        return writing.write(Path(file), self.text, exact=True, force=force)
 
     def plot(self, ax: Any = None, **style: Any) -> list[Any]:
         """Draw the motion and the executed motion over the master, down to the jerk; return the artists.
@@ -400,9 +388,6 @@ class Export:
             name, unit = text.rsplit(", ", 1)
             rows.append(Row(name, run, unit, note="" if law is None else f"of the law {law:.7g}"))
         return Summary([*rows, *(Row("note", note) for note in (*self.motion.proof, *written.notes))])
-
-    def _repr_html_(self) -> str:
-        return self.summary()._repr_html_()
 
     def __str__(self) -> str:
         written, rows = self.written, self.rows()

@@ -9,7 +9,6 @@ from enum import IntEnum
 from fractions import Fraction
 from itertools import pairwise
 from math import cbrt, sqrt
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -18,8 +17,19 @@ from optlaws.errors import InputError
 from optlaws.exports.error_bounds import ORDERS, summation_bounds
 from optlaws.exports.format import FORMATS, format_of
 from optlaws.exports.polynomial_pieces import stretches
-from optlaws.exports.text import c_array, c_name, c_row, filled, iec_name, real, rounded_up, safe, st_array, template
-from optlaws.files import writing
+from optlaws.exports.text import (
+    TextFile,
+    c_array,
+    c_name,
+    c_row,
+    filled,
+    iec_name,
+    real,
+    rounded_up,
+    safe,
+    st_array,
+    template,
+)
 from optlaws.files.writing import MARK
 from optlaws.laws import MotionLaw
 from optlaws.laws.making.transform import law_between
@@ -83,6 +93,10 @@ class FrontTable:
     def degree(self) -> int:
         """The degree of the laws."""
         return 2 * self.terms - 1 if self.odd else self.terms - 1
+
+    def end_status(self, *, last: bool) -> MoveStatus:
+        """The status of a move by the first or the last law."""
+        return MoveStatus.PROVEN if self.ends[last] else MoveStatus.AT_END
 
     @property
     def size(self) -> int:
@@ -224,77 +238,6 @@ class RunTimeMove:
     jerk: float = 0.0
 
 
-def least_time(table: FrontTable, stroke: float, velocity: float, acceleration: float, jerk: float) -> RunTimeMove:
-    """The move of least time within limits of velocity, acceleration and jerk, in one system of units.
-
-    With z = v T/h, which is B at the limit of the velocity, the acceleration is at its limit where z² = (v²/(a h)) C,
-    and the jerk where z³ = (v³/(j h²)) J. Along the front B ascends, C and J do not: the interval is searched by
-    halving, and C and J being linear in it, the roots of a quadratic and of a cubic are the place.
-
-    >>> from optlaws import smoothstep
-    >>> table = front_table((1.5, 1.875), (smoothstep(2), smoothstep(3)), 1.0, (False, False))
-    >>> move = least_time(table, 2.0, 1.0, 1.0, 1e3)
-    >>> move.status.name, round(move.duration, 4), round(move.acceleration, 9)
-    ('PROVEN', 3.4267, 1.0)
-    """
-    if not all(map(_in_range, (velocity, acceleration, jerk))) or not (stroke == 0.0 or _in_range(abs(stroke))):
-        return RunTimeMove(MoveStatus.REFUSED)
-    if stroke == 0.0:
-        return RunTimeMove(MoveStatus.PROVEN)
-    rate = velocity / abs(stroke)
-    status, i, share, z = _fastest(table, velocity / acceleration * rate, velocity / jerk * rate * rate)
-    return _move(table, (status, i, share), stroke, z / rate * (1.0 + table.slack))
-
-
-def in_time(table: FrontTable, stroke: float, duration: float, velocity: float) -> RunTimeMove:
-    """The move of least acceleration in a given time within a limit of the velocity, in one system of units.
-
-    >>> from optlaws import smoothstep
-    >>> table = front_table((1.5, 1.875), (smoothstep(2), smoothstep(3)), 1.0, (False, False))
-    >>> move = in_time(table, 2.0, 4.0, 0.8)
-    >>> move.status.name, move.law, round(move.share, 6), in_time(table, 2.0, 2.0, 1.0).status.name
-    ('PROVEN', 0, 0.266667, 'TOO_SHORT')
-    """
-    if not all(map(_in_range, (duration, velocity))) or not (stroke == 0.0 or _in_range(abs(stroke))):
-        return RunTimeMove(MoveStatus.REFUSED)
-    if stroke == 0.0:
-        return RunTimeMove(MoveStatus.PROVEN, duration=duration)
-    of_b = table.velocities
-    z = velocity * duration / abs(stroke) / (1.0 + table.slack)
-    if z < of_b[0]:
-        return RunTimeMove(MoveStatus.TOO_SHORT)
-    last = len(table) - 1
-    if z >= of_b[last]:
-        return _move(table, (end_status(table, last=True), last - 1, 1.0), stroke, duration)
-    low = bisect_right(of_b, z) - 1
-    return _move(table, (MoveStatus.PROVEN, low, _share(table, low, z)), stroke, duration)
-
-
-def motion_at(table: FrontTable, move: RunTimeMove, times: Any) -> Array:
-    """Position, velocity, acceleration and jerk of a move at times, shape (4, ...); at rest before it and after it.
-
-    >>> from optlaws import smoothstep
-    >>> table = front_table((1.5, 1.875), (smoothstep(2), smoothstep(3)), 1.0, (False, False))
-    >>> motion_at(table, in_time(table, 2.0, 4.0, 1.0), [0.0, 2.0, 5.0])[0].round(9).tolist()
-    [0.0, 1.0, 2.0]
-    """
-    t = np.asarray(times, dtype=np.float64)
-    values = np.zeros((4, *t.shape))
-    if not move.status.moves or move.stroke == 0.0:
-        return values
-    inside = (t >= 0.0) & (t <= move.duration)
-    values[0] = np.where(t > move.duration, move.stroke, 0.0)
-    k = np.clip(np.where(inside, t, 0.0) / move.duration, 0.0, 1.0)
-    edges = np.array(table.breaks)
-    piece = np.clip(np.searchsorted(edges, k, side="right") - 1, 0, len(edges) - 2)
-    scale = 2.0 / np.diff(edges)[piece]
-    x = np.clip(scale * (k - edges[piece]) - 1.0, -1.0, 1.0)
-    first, following = table.series[move.law][piece], table.series[move.law + 1][piece]
-    for nu, value in enumerate(_summed(table, first + move.share * (following - first), x)):
-        values[nu] = np.where(inside, move.stroke * (scale / move.duration) ** nu * value, values[nu])
-    return values
-
-
 def _summed(table: FrontTable, mixed: Array, x: Array) -> list[Array]:
     """The series and its three derivatives by x, by Clenshaw's recurrence and its derivatives."""
     now, before = ([np.zeros_like(x) for _ in range(4)] for _ in range(2))
@@ -316,10 +259,10 @@ def _fastest(table: FrontTable, of_c: float, of_j: float) -> tuple[MoveStatus, i
     count = len(table)
     low = bisect_left(range(count), x=True, key=lambda i: b[i] * b[i] >= of_c * c[i] and b[i] ** 3 >= of_j * j[i])
     if low == 0:
-        return end_status(table, last=False), 0, 0.0, b[0]
+        return table.end_status(last=False), 0, 0.0, b[0]
     if low == count:
         by_acceleration, by_jerk = sqrt(of_c * c[-1]), cbrt(of_j * j[-1])
-        status = MoveStatus.JERK if by_jerk > by_acceleration else end_status(table, last=True)
+        status = MoveStatus.JERK if by_jerk > by_acceleration else table.end_status(last=True)
         return status, low - 2, 1.0, max(by_acceleration, by_jerk)
     i = low - 1
     by_acceleration, by_jerk = _of_quadratic(of_c, b, c, i), _of_cubic(of_j, b, j, i)
@@ -353,23 +296,20 @@ def _share(table: FrontTable, i: int, z: float) -> float:
     return min(max((z - b[i]) / (b[i + 1] - b[i]), 0.0), 1.0)
 
 
-def _move(table: FrontTable, place: tuple[MoveStatus, int, float], stroke: float, duration: float) -> RunTimeMove:
+def _move(table: FrontTable, status: MoveStatus, i: int, share: float, stroke: float, duration: float) -> RunTimeMove:
     """The move by a law and the weight of the next one, with what is proven of it."""
-    _, i, share = place
     bounds = (
         (p[i] + share * (p[i + 1] - p[i])) * (1.0 + table.slack) * (abs(stroke) / duration**nu)
         for nu, p in enumerate((table.velocities, table.accelerations, table.jerks), start=1)
     )
-    return RunTimeMove(*place, stroke, duration, *bounds)
+    return RunTimeMove(status, i, share, stroke, duration, *bounds)
 
 
-def end_status(table: FrontTable, *, last: bool) -> MoveStatus:
-    """The status of a move by the first or the last law."""
-    return MoveStatus.PROVEN if table.ends[last] else MoveStatus.AT_END
-
-
-def _in_range(value: float) -> bool:
-    return RUN_TIME_RANGE <= value <= 1.0 / RUN_TIME_RANGE
+def _still(stroke: float, *others: float, duration: float = 0.0) -> RunTimeMove | None:
+    """The answer to what is out of all proportion, or to a stroke of 0; None where there is a motion."""
+    if not all(RUN_TIME_RANGE <= each <= NO_LIMIT for each in (*others, abs(stroke) or 1.0)):
+        return RunTimeMove(MoveStatus.REFUSED)
+    return None if stroke else RunTimeMove(MoveStatus.PROVEN, duration=duration)
 
 
 #: a jerk that limits nothing
@@ -377,7 +317,7 @@ NO_LIMIT = 1.0 / RUN_TIME_RANGE
 
 
 @dataclass(frozen=True)
-class FrontExport:
+class FrontExport(TextFile):
     """A proven front in the language of a controller, which chooses a law for stroke, time and limits while it runs.
 
     Attributes
@@ -425,12 +365,24 @@ class FrontExport:
     def least_time(self, *, stroke: float, velocity: float, acceleration: float, jerk: float = NO_LIMIT) -> RunTimeMove:
         """The move of least time within limits, in one system of units, as the controller plans it.
 
+        With z = v T/h, which is B at the limit of the velocity, the acceleration is at its limit where
+        z² = (v²/(a h)) C, and the jerk where z³ = (v³/(j h²)) J. Along the front B ascends, C and J do not: the
+        interval is searched by halving, and C and J being linear in it, the roots of a quadratic and of a cubic are
+        the place.
+
         Raises
         ------
         InputError
             If an entry is no finite number.
         """
-        return least_time(self.table, **_finite(stroke=stroke, velocity=velocity, acceleration=acceleration, jerk=jerk))
+        given = {"stroke": stroke, "velocity": velocity, "acceleration": acceleration, "jerk": jerk}
+        stroke, velocity, acceleration, jerk = (finite(value, name) for name, value in given.items())
+        still = _still(stroke, velocity, acceleration, jerk)
+        if still is not None:
+            return still
+        rate = velocity / abs(stroke)
+        status, i, share, z = _fastest(self.table, velocity / acceleration * rate, velocity / jerk * rate * rate)
+        return _move(self.table, status, i, share, stroke, z / rate * (1.0 + self.table.slack))
 
     def in_time(self, *, stroke: float, duration: float, velocity: float) -> RunTimeMove:
         """The move of least acceleration in a given time within a velocity, as the controller plans it.
@@ -440,11 +392,39 @@ class FrontExport:
         InputError
             If an entry is no finite number.
         """
-        return in_time(self.table, **_finite(stroke=stroke, duration=duration, velocity=velocity))
+        given = {"stroke": stroke, "duration": duration, "velocity": velocity}
+        stroke, duration, velocity = (finite(value, name) for name, value in given.items())
+        still, table = _still(stroke, duration, velocity, duration=duration), self.table
+        if still is not None:
+            return still
+        z = velocity * duration / abs(stroke) / (1.0 + table.slack)
+        if z < table.velocities[0]:
+            return RunTimeMove(MoveStatus.TOO_SHORT)
+        if z >= table.velocities[-1]:
+            return _move(table, table.end_status(last=True), len(table) - 2, 1.0, stroke, duration)
+        low = bisect_right(table.velocities, z) - 1
+        return _move(table, MoveStatus.PROVEN, low, _share(table, low, z), stroke, duration)
 
     def motion(self, move: RunTimeMove, times: Any) -> Array:
-        """Position, velocity, acceleration and jerk of a move at times since it began, shape (4, ...)."""
-        return motion_at(self.table, move, times)
+        """Position, velocity, acceleration and jerk of a move at times since it began, shape (4, ...).
+
+        It is at rest before it and after it.
+        """
+        table, t = self.table, np.asarray(times, dtype=np.float64)
+        values = np.zeros((4, *t.shape))
+        if not move.status.moves or move.stroke == 0.0:
+            return values
+        inside = (t >= 0.0) & (t <= move.duration)
+        values[0] = np.where(t > move.duration, move.stroke, 0.0)
+        k = np.clip(np.where(inside, t, 0.0) / move.duration, 0.0, 1.0)
+        edges = np.array(table.breaks)
+        piece = np.clip(np.searchsorted(edges, k, side="right") - 1, 0, len(edges) - 2)
+        scale = 2.0 / np.diff(edges)[piece]
+        x = np.clip(scale * (k - edges[piece]) - 1.0, -1.0, 1.0)
+        first, following = table.series[move.law][piece], table.series[move.law + 1][piece]
+        for nu, value in enumerate(_summed(table, first + move.share * (following - first), x)):
+            values[nu] = np.where(inside, move.stroke * (scale / move.duration) ** nu * value, values[nu])
+        return values
 
     def law(self, move: RunTimeMove) -> MotionLaw:
         """The law of a move: the weighted mean of two certified laws.
@@ -457,16 +437,6 @@ class FrontExport:
         if not move.status.moves:
             raise InputError(f"there is no law of a move of status {move.status.name}")
         return law_between(self.laws[move.law], self.laws[move.law + 1], move.share)
-
-    def write(self, file: str | Path, *, force: bool = False) -> Path:
-        """Write the file, completely or not at all.
-
-        Raises
-        ------
-        InputError
-            If it is there with other contents, and these are not to be replaced (`force`).
-        """
-        return writing.write(Path(file), self.text, exact=True, force=force)
 
     def results(self) -> dict[str, Any]:
         """The export as plain data: everything but the text and the table."""
@@ -502,9 +472,6 @@ class FrontExport:
     def __str__(self) -> str:
         return "\n".join(_heading(self.table, ""))
 
-    def _repr_html_(self) -> str:
-        return self.summary()._repr_html_()
-
 
 def export_front(
     to: object,
@@ -533,10 +500,6 @@ def function_format(to: object) -> str:
             f"to: {form} holds one motion and no functions; a front is exported to {' or '.join(_WRITERS)}"
         )
     return form
-
-
-def _finite(**values: float) -> dict[str, float]:
-    return {name: finite(value, name) for name, value in values.items()}
 
 
 def _heading(table: FrontTable, about: str) -> list[str]:
@@ -568,8 +531,8 @@ def _header(table: FrontTable, name: str, heading: list[str]) -> str:
         "NAME": upper,
         "GUARD": f"OPTLAWS_{upper}_H",
         "HEADING": safe([*heading, "", MARK]),
-        "AT_FIRST": f"{upper}_{end_status(table, last=False).name}",
-        "AT_LAST": f"{upper}_{end_status(table, last=True).name}",
+        "AT_FIRST": f"{upper}_{table.end_status(last=False).name}",
+        "AT_LAST": f"{upper}_{table.end_status(last=True).name}",
         "TABLES": [
             *(
                 line
@@ -591,8 +554,8 @@ def _block(table: FrontTable, name: str, heading: list[str]) -> str:
         **{status.name: status.value for status in MoveStatus},
         "NAME": iec_name(name, "IEC 61131-3"),
         "HEADING": safe([*heading, f"status: {', '.join(f'{each.value} {each.name}' for each in MoveStatus)}", MARK]),
-        "AT_FIRST": end_status(table, last=False).value,
-        "AT_LAST": end_status(table, last=True).value,
+        "AT_FIRST": table.end_status(last=False).value,
+        "AT_LAST": table.end_status(last=True).value,
         "TERMS": table.terms,
         "LAW_SIZE": table.terms * table.series.shape[1],
         "TABLES": [

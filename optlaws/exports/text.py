@@ -9,19 +9,47 @@ from decimal import ROUND_CEILING, Context
 from functools import cache
 from itertools import chain, count
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.exports.error_bounds import FloatingPoint, error_bounds
+from optlaws.files import writing
 from optlaws.files.writing import MARK
 from optlaws.motion.motion import Motion
 from optlaws.motion.polynomials import PiecewiseMotion
 from optlaws.motion.quantities import QUANTITIES
 
+if TYPE_CHECKING:
+    from optlaws.shown.summary import Summary
+
 WIDTH = 110
+
+
+class TextFile:
+    """The file of an export, with a summary of what was written."""
+
+    if TYPE_CHECKING:
+
+        @property
+        def text(self) -> str: ...
+
+        def summary(self) -> Summary: ...
+
+    def write(self, file: str | Path, *, force: bool = False) -> Path:
+        """Write the file, completely or not at all.
+
+        Raises
+        ------
+        InputError
+            If it is there with other contents, and these are not to be replaced (`force`).
+        """
+        return writing.write(Path(file), self.text, exact=True, force=force)
+
+    def _repr_html_(self) -> str:
+        return self.summary()._repr_html_()
 
 
 def real(value: float, *, single: bool = False) -> str:
