@@ -9,14 +9,13 @@ from typing import TYPE_CHECKING, Any, Literal, TypeVar, get_args
 
 import numpy as np
 
-from optlaws.cycles.limit_rows import limits_taken, refuse_beyond
 from optlaws.cycles.optimisation.bounds import bound_of, is_exact
 from optlaws.cycles.optimisation.objectives import SUMS, check_objective, kind_of
 from optlaws.cycles.optimisation.optimal import span_problem
 from optlaws.cycles.optimisation.search_spaces import remark_on_degrees, search_space
 from optlaws.cycles.optimisation.shared_limits import best_of
 from optlaws.cycles.optimisation.span_values import along, total
-from optlaws.cycles.placed import SegmentPeaks, retimed_segments, segments_in_place, segments_of_cam
+from optlaws.cycles.placed import SegmentPeaks, limits_taken, refuse_beyond, retimed_segments, segments_in_place
 from optlaws.cycles.specification.joints import LawSpan
 from optlaws.cycles.specification.limits import FORCE_UNITS, FORCES, LOAD, MOTOR, LimitTaken
 from optlaws.cycles.specification.programme import Programme, period_of
@@ -24,12 +23,13 @@ from optlaws.cycles.specification.segments import CycleSegment, Transition
 from optlaws.cycles.specified import Specification
 from optlaws.entries.declared import Declared, ValueOf, declared, documented_by, entry
 from optlaws.entries.value_types import Listed, Text
-from optlaws.errors import InputError, needed
+from optlaws.errors import InputError, located, needed
 from optlaws.files.reading import check_names
 from optlaws.kept import kept_property
+from optlaws.laws import MotionLaw
 from optlaws.motion.exportable import Exportable
 from optlaws.motion.piece import Piece, by_pieces, unit_of, values_of_pieces
-from optlaws.motion.quantities import QUANTITIES, TURN, Exact, Kind, quantity
+from optlaws.motion.quantities import QUANTITIES, TURN, Exact, Kind, positive_quantity, quantity
 from optlaws.numbers import Array, Quantity, derivative, number_or_array, real_times
 from optlaws.synthesis.solution import Solution
 from optlaws.synthesis.status import Status
@@ -363,8 +363,19 @@ class Answers(Exportable):
         >>> round(Cycle(moves, speed="300 rpm").cam("20 ms", damping=0.05).peak(2), 6)
         39.380514
         """
-        cycle = self.solve().specification
-        segments = segments_of_cam(cycle.programme, self.pieces, period, damping)
+        from optlaws.mechanisms.machine.polydyne import polydyne
+
+        cycle, natural = self.solve().specification, positive_quantity(period, "time", "follower: period")
+        if len(self.pieces) != len(self.peaks):
+            raise InputError(
+                "the cam of an elastic follower is computed move by move: use moves in place of adjacent free motions"
+            )
+
+        def corrected(each: SegmentPeaks) -> MotionLaw:
+            with located(each.stretch.where):
+                return polydyne(each.piece.law, TURN * each.duration / natural, damping)
+
+        segments = retimed_segments(self.peaks, cycle.axis, law=corrected)
         return replace(cycle, segments=segments, speed=None, period=Exact(cycle.duration, "s"))
 
     def with_motor(self, motor: Motor) -> Plan:

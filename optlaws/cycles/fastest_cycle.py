@@ -227,7 +227,7 @@ def fastest_cycle(cycle: Any) -> FastestCycle:
     check_rating(cycle.limits, objective.drive)
     search = FastestSearch(cycle.programme, objective, {})
     laws = search.laws()
-    known = retimed_segments(segments_in_place(search.programme, laws.starts, laws.pieces), cycle.axis, 1.0)
+    known = retimed_segments(segments_in_place(search.programme, laws.starts, laws.pieces), cycle.axis)
     limited = replace(cycle, segments=known, speed=None, period=Exact(search.period, "s"))
     segments = tuple(_least_duration(search, span) for span in search.spans)
     more = {name: replace(search, more={name: 1.0 + _MORE}) for name in search.binding_limits}

@@ -1,23 +1,48 @@
-"""Segments with their laws in their places: their extremes, the same at another speed, and the cam of a follower."""
+"""Segments with their laws in their places: their extremes, the limits that they take, and the same otherwise timed."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
+from math import inf, isfinite
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
-from optlaws.cycles.specification.programme import Programme, TimedSegment
+from optlaws.cycles.optimisation.span_values import along
+from optlaws.cycles.specification.limits import (
+    FORCE_UNITS,
+    FORCES,
+    MOTOR,
+    Limits,
+    LimitTaken,
+    Side,
+    amount,
+    name_of,
+    read_limits,
+)
+from optlaws.cycles.specification.programme import Programme, TimedSegment, is_optimal
 from optlaws.cycles.specification.segments import ConstantVelocity, CycleSegment, Dwell, Free, Move
-from optlaws.errors import InputError
+from optlaws.errors import InfeasibleProblem, InputError
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.laws.segments.piecewise import PiecewiseLaw
-from optlaws.motion.piece import Piece, unit_of
-from optlaws.motion.quantities import QUANTITIES, TURN, Exact, positive_quantity
-from optlaws.numbers import Quantity
-from optlaws.tolerances import CLOSURE, SAME_TIME
+from optlaws.motion.piece import Piece, jump_beside, unit_of
+from optlaws.motion.quantities import QUANTITIES, Exact, Kind
+from optlaws.numerics.peaks import is_kept
+from optlaws.sentences import Amount, joined, sentence
+from optlaws.tolerances import AGREEMENT, CLOSURE, SAME_TIME
+
+if TYPE_CHECKING:
+    from optlaws.mechanisms.drives.drive_train import Drive
+    from optlaws.shown.summary import Row
+
+#: a `Cycle`, and its `Plan`, which know this module
+Cycle: TypeAlias = Any
+Plan: TypeAlias = Any
 
 Place = tuple[float, float]
+_JERK = 3
+_OF_MOTOR = {"speed": "rad/s", "torque-speed curve": ""}
 
 
 @dataclass(frozen=True)
@@ -54,20 +79,23 @@ class SegmentPeaks:
         """Whether it has a law; else it is straight."""
         return isinstance(self.stretch.given, Move | Free)
 
-    @kept_property
-    def extremes(self) -> tuple[tuple[Place, Place], ...]:
-        """The least and the greatest value of the position and of its derivatives up to the jerk, with their times."""
-        return tuple(map(self._ends, range(len(QUANTITIES))))
-
     def ends(self, nu: int) -> tuple[Place, Place]:
         """The least and the greatest value of a derivative over the whole of it, each with its time."""
-        return self.extremes[nu] if nu < len(QUANTITIES) else self._ends(nu)
+        if nu not in self._ends:
+            # straight: what its law has beside is rounding
+            velocity = self.stretch.displacement / self.duration if nu == 1 else 0.0
+            known = self.moves or nu == 0
+            self._ends[nu] = self.piece.extremes(nu, self.start, self.stop) if known else ((velocity, self.start),) * 2
+        return self._ends[nu]
 
-    def _ends(self, nu: int) -> tuple[Place, Place]:
-        if self.moves or nu == 0:
-            return self.piece.extremes(nu, self.start, self.stop)
-        # straight: what its law has beside is rounding
-        return ((self.stretch.displacement / self.duration if nu == 1 else 0.0, self.start),) * 2
+    @property
+    def extremes(self) -> tuple[tuple[Place, Place], ...]:
+        """The least and the greatest value of the position and of its derivatives up to the jerk, with their times."""
+        return tuple(map(self.ends, range(len(QUANTITIES))))
+
+    @kept_property
+    def _ends(self) -> dict[int, tuple[Place, Place]]:
+        return {}
 
     def peak(self, nu: int) -> float:
         """The greatest magnitude of the derivative of order nu."""
@@ -85,20 +113,26 @@ def segments_in_place(
     return tuple(placed)
 
 
-def retimed_segments(placed: Sequence[SegmentPeaks], axis: str, share: float) -> list[CycleSegment]:
-    """The segments at another speed: unchanged laws, durations multiplied by `share`, joint laws in parts."""
+def retimed_segments(
+    placed: Sequence[SegmentPeaks],
+    axis: str,
+    share: float = 1.0,
+    law: Callable[[SegmentPeaks], MotionLaw] | None = None,
+) -> list[CycleSegment]:
+    """The segments with durations multiplied by `share`, by their own laws, joint ones in parts, or by others."""
     segments, same_time = list[CycleSegment](), SAME_TIME * placed[-1].stop
     for each in placed:
         time, moved = Exact(each.duration * share, "s"), each.stretch.displacement
-        if isinstance(each.stretch.given, ConstantVelocity):
+        if isinstance(each.stretch.given, Dwell):
+            segments.append(Dwell(time, name=each.name))
+        elif isinstance(each.stretch.given, ConstantVelocity) and law is None:
             velocity = Exact(moved / each.duration / share, f"{unit_of(axis)}/s")
             segments.append(ConstantVelocity(velocity, time, name=each.name))
-        elif isinstance(each.stretch.given, Dwell):
-            segments.append(Dwell(time, name=each.name))
         else:
+            parts = _parts(each, same_time) if law is None else [(moved, each.duration, law(each))]
             segments += [
-                Move(Exact(way, unit_of(axis)), Exact(part * share, "s"), law=law, name=each.name)
-                for way, part, law in _parts(each, same_time)
+                Move(Exact(way, unit_of(axis)), Exact(part * share, "s"), law=known, name=each.name)
+                for way, part, known in parts
             ]
     return segments
 
@@ -129,26 +163,192 @@ def _parts(placed: SegmentPeaks, same_time: float) -> list[tuple[float, float, M
     return parts
 
 
-def segments_of_cam(
-    programme: Programme, pieces: Sequence[Piece], period: Quantity, damping: float
-) -> list[CycleSegment]:
-    """The segments of the cam of an elastic follower: every move corrected by its frequency over its duration."""
-    from optlaws.mechanisms.machine.polydyne import polydyne
+class _Taken(NamedTuple):
+    """The use of a limit by a segment, with the key of the limit and the time."""
 
-    natural = positive_quantity(period, "time", "follower: period")
-    if len(pieces) != len(programme.stretches):
-        raise InputError(
-            "the cam of an elastic follower is computed move by move: use moves in place of adjacent free motions"
-        )
-    segments: list[CycleSegment] = []
-    for stretch, piece in zip(programme.stretches, pieces, strict=True):
-        time, name = Exact(piece.duration, "s"), stretch.given.label
-        if piece.stroke == 0.0:
-            segments.append(Dwell(time, name=name))
-            continue
-        try:
-            law = polydyne(piece.law, TURN * piece.duration / natural, damping)
-        except InputError as error:
-            raise InputError(f"{stretch.where}: {error}") from None
-        segments.append(Move(Exact(stretch.displacement, unit_of(programme.axis)), time, law=law, name=name))
-    return segments
+    key: Side
+    taken: LimitTaken
+    time: float | None
+    stretch: TimedSegment
+
+
+def limits_taken(plan: Plan, limited: Cycle | None = None) -> tuple[LimitTaken, ...]:
+    """The use of every limit of a plan's cycle, or of another cycle with the same segments, by all its laws.
+
+    Of each limit the segment that takes most of it counts. A motor's limits are those of the sheet.
+    """
+    given = plan.specification if limited is None else limited
+    of_cycle = _limits(given)
+    segments = _of_segments(plan.peaks, plan.specification, of_cycle, given.programme.stretches)
+    return (*(taken.taken for taken in _most(segments)), *_of_whole(plan, given))
+
+
+def broken_limits(plan: Plan) -> Sequence[str]:
+    """What its laws take beyond its limits, and beyond those of its motor."""
+    broken = [sentence("{}", taken) for taken in plan.limits_taken if not taken.is_kept]
+    if hasattr(plan.specification.drive, "motor") and not plan.specification.limits.get(MOTOR):
+        weak = (margin for margin in plan.sheet.margins if not margin.is_kept)
+        uses = ((each.name, f"{100.0 * each.use:.4g}".replace("inf", "∞")) for each in weak)
+        broken += [sentence("the motor's {}, {} % of it", *use) for use in uses]
+    return broken
+
+
+def refuse_beyond(cycle: Cycle) -> None:
+    """Refuse given laws that break a limit of the cycle or of their segments.
+
+    Where no law is optimised, the limits of the whole are looked at as well.
+
+    Raises
+    ------
+    InfeasibleProblem
+        If a limit is broken: by how much, and what helps; its `proof` is every `LimitTaken` that is.
+    """
+    placed = segments_in_place(cycle.programme, cycle.layout.starts, cycle.layout.pieces)
+    taken = list(_of_segments(placed, cycle, cycle.in_si.limits, cycle.programme.stretches))
+    broken = [each for each in taken if not each.taken.is_kept]
+    if not any(is_optimal(segment) for segment in cycle.segments):
+        # limits of the motor but its rating are among those of the segments
+        known = {f"motor's {name}" for name in ("peak torque", "torque-speed curve", "speed")}
+        whole = _of_whole(cycle.unchecked(), cycle)
+        of_whole = [each for each in whole if not each.is_kept and each.name not in known]
+    else:
+        of_whole = []
+    proof = (*(each.taken for each in broken), *of_whole)
+    if proof:
+        others = "" if len(proof) == 1 else sentence("; beyond a limit is also {}", joined("; ", proof[1:]))
+        reason = _reason(broken[0], cycle) if broken else sentence(
+            "limits: the {} over the cycle is {}, but its limit is {}: allow more, give the cycle more time, or give "
+            "its moves other laws",
+            proof[0].name, proof[0].value_text, proof[0].text,
+        )  # fmt: skip
+        raise InfeasibleProblem(sentence("{}{}", reason, others), proof=proof)
+
+
+def _reason(broken: _Taken, cycle: Cycle) -> str:
+    """The limit that a given law breaks, and what helps."""
+    key, taken, time, stretch = broken
+    nu = key.kind.order
+    at = "" if time is None else sentence(" at {} of the master", Amount(360.0 * time / cycle.duration, "deg"))
+    if not isfinite(taken.value):
+        return sentence(
+            "{}: its {} jumps{}, so that no time keeps the {} {}: take a smoother law, or leave that limit out",
+            taken.where, "acceleration" if nu == _JERK else "law", at, taken.name, taken.text,
+        )  # fmt: skip
+    if key.kind is Kind.VELOCITY_ALONG:
+        return sentence(
+            "{}: it goes back at {}{}, which its velocity must not: give it another law, or a least velocity below 0",
+            taken.where, taken.value_text, at,
+        )  # fmt: skip
+    longer = f"{taken.share ** (1.0 / nu):.6g} times as much time" if nu else "more time"
+    remedy = f"give it {longer}, a wider limit{', or another law' * isinstance(stretch.given, Move)}"
+    if isinstance(stretch.given, Dwell):
+        remedy = "allow more, or change the drive's spring, preload, gravity or friction"
+    return sentence(
+        "{}: it takes the {} {}{}, but its limit is {}: {}",
+        taken.where, taken.name, taken.value_text, at, taken.text, remedy,
+    )  # fmt: skip
+
+
+def limit_rows(plan: Plan) -> list[Row]:
+    """Rows of limits: the value in the segment that uses most of the limit, with its time and the limit."""
+    from optlaws.shown.summary import Row
+
+    limits = _limits(plan.specification)
+    taken_of = _of_segments(
+        plan.peaks,
+        plan.specification,
+        limits,
+        plan.programme.stretches,
+        # peaks of a cycle do not show what is limited there
+        keys=lambda key: bool(key.sign) or key.kind is Kind.SNAP,
+    )
+    return [
+        Row(taken.name, taken.value, unit_of(plan.axis, key.kind.order), time, f"limit {taken.text} of {taken.where}")
+        for key, taken, time, _ in _most(taken_of)
+    ]
+
+
+def _most(taken: Iterable[_Taken]) -> list[_Taken]:
+    """For each limit, by name, the quantity that uses most of it."""
+    most: dict[str, _Taken] = {}
+    for each in taken:
+        if each.taken.name not in most or each.taken.share > most[each.taken.name].taken.share:
+            most[each.taken.name] = each
+    return list(most.values())
+
+
+def _of_segments(
+    placed: Sequence[SegmentPeaks],
+    cycle: Cycle,
+    of_cycle: Limits,
+    limited: Sequence[TimedSegment],
+    *,
+    keys: Callable[[Side], bool] = lambda _: True,
+) -> Iterator[_Taken]:
+    """The use of limits by segments, whose own are those of `limited`; rests take of those of a drive alone."""
+    axis, pieces = cycle.axis, [each.piece for each in placed]
+    for each in placed:
+        limits = limited[each.stretch.number - 1].sides(of_cycle)
+        for key, limit in limits.items():
+            if keys(key) and (key.kind.is_driven or not isinstance(each.stretch.given, Dwell)):
+                if key.kind.is_driven:
+                    value, time = _greatest_of_drive(each, key.kind, cycle.in_si.drive)
+                else:
+                    value, time = _greatest(each, key, pieces, cycle.duration)
+                texts = (amount(key, size, axis) for size in (limit, value))
+                yield _Taken(
+                    key, LimitTaken(name_of(key, axis), each.stretch.where, value, limit, *texts), time, each.stretch
+                )
+
+
+def _greatest(placed: SegmentPeaks, key: Side, pieces: Sequence[Piece], period: float) -> tuple[float, float | None]:
+    """The greatest magnitude in a segment on the side that a limit bounds, and its time where it has one."""
+    piece, nu = placed.piece, key.kind.order
+    if placed.moves and not is_optimal(placed.stretch.given):
+        if not isfinite(piece.law.peak(nu).value):
+            return inf, piece.start + piece.law.peak(nu).k * piece.duration
+        jump = jump_beside(piece, pieces, period) if nu >= _JERK else None
+        if jump is not None:
+            return inf, jump
+    (low, first), (high, last) = placed.ends(nu)
+    if key.sign:
+        value, time = (high, last) if key.sign > 0.0 else (-low, first)
+        still = key.kind is Kind.VELOCITY_ALONG and value <= AGREEMENT * max(high, -low)
+        return 0.0 if still else value, time
+    before, after = sorted([(first, abs(low)), (last, abs(high))])
+    return (before if is_kept(after[1], before[1]) else after)[::-1]
+
+
+def _greatest_of_drive(placed: SegmentPeaks, kind: Kind, drive: Drive | None) -> tuple[float, float | None]:
+    """The greatest force or power in a segment, or share of the motor's curve of torque over speed."""
+    taken = along(drive, placed.piece, (placed.start, placed.stop))
+    if kind is Kind.POWER:
+        return max(taken.powers), None
+    if kind is Kind.FORCE:
+        return taken.peak_force
+    return taken.parts.greatest(taken.use)
+
+
+def _of_whole(plan: Plan, limited: Cycle) -> Iterator[LimitTaken]:
+    """The use of limits of the whole: of means and sums, of the motor, of the load."""
+    of_cycle = _limits(limited)
+    force, unit = FORCES[plan.axis], FORCE_UNITS[plan.axis]
+    if Kind.RMS_FORCE in of_cycle:
+        yield _of_cycle(f"rms {force}", plan.effort.rms_force, of_cycle[Kind.RMS_FORCE][1], unit)
+    if Kind.ENERGY in of_cycle:
+        yield _of_cycle("energy", plan.effort.energy, of_cycle[Kind.ENERGY][1], "J")
+    for margin in plan.sheet.margins if limited.limits.get(MOTOR) else ():
+        unit = _OF_MOTOR.get(margin.name, "N m")
+        yield _of_cycle(f"motor's {margin.name}", margin.needed, margin.limit, unit)
+    for (output, rms), limit in limited.in_si.loaded.items():
+        value = plan.load_motion.rms(output) if rms else plan.load_motion.peak(output).value
+        yield _of_cycle(f"{'rms ' * rms}load {output}", value, limit, "")
+
+
+def _limits(cycle: Cycle) -> Limits:
+    """The limits of a cycle itself, without those of its motor."""
+    return read_limits(cycle.limits, cycle.axis, "limits", cycle.in_si.load)
+
+
+def _of_cycle(name: str, value: float, limit: float, unit: str) -> LimitTaken:
+    return LimitTaken(name, "", value, limit, *(Amount(size, unit) for size in (limit, value)))

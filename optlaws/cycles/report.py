@@ -10,9 +10,8 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from optlaws.cycles.cycle import Answers
-from optlaws.cycles.limit_rows import limit_rows
 from optlaws.cycles.optimisation.objectives import SUMS, kind_of
-from optlaws.cycles.placed import Place
+from optlaws.cycles.placed import Place, limit_rows
 from optlaws.cycles.specification.limits import FORCE_UNITS, FORCES, LOAD, LimitTaken
 from optlaws.cycles.specification.load import is_process, read_load
 from optlaws.errors import InfeasibleProblem, OptlawsError, SolverFailure
@@ -320,7 +319,7 @@ def peak_rows(plan: Plan) -> list[Row]:
     """Peak velocity, acceleration and jerk, each with its time in seconds."""
     rows = []
     for nu, name in enumerate(QUANTITIES[1:], 1):
-        extremes = (extreme for peaks in plan.peaks for extreme in peaks.extremes[nu])
+        extremes = (extreme for peaks in plan.peaks for extreme in peaks.ends(nu))
         value, time = max(extremes, key=lambda extreme: abs(extreme[0]))
         rows.append(Row(f"peak {name}", abs(value), unit_of(plan.axis, nu), time))
     return rows

@@ -9,8 +9,8 @@ from math import inf
 from typing import Any, Literal, NamedTuple
 
 from optlaws.cycles.cycle import Cycle, Plan
-from optlaws.cycles.limit_rows import limits_taken
 from optlaws.cycles.optimisation.objectives import OBJECTIVES, kind_of
+from optlaws.cycles.placed import limits_taken
 from optlaws.cycles.report import objective_unit
 from optlaws.cycles.specification.limits import (
     AXES,

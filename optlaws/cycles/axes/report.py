@@ -19,7 +19,7 @@ from optlaws.cycles.axes.interlock import (
     Synchronous,
 )
 from optlaws.cycles.cycle import Cycle
-from optlaws.cycles.limit_rows import broken_limits
+from optlaws.cycles.placed import broken_limits
 from optlaws.cycles.report import objective_unit
 from optlaws.kept import kept_property
 from optlaws.motion.quantities import TURN_DEG, UNITS

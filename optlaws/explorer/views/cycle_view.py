@@ -13,8 +13,8 @@ import msgspec
 
 from optlaws import Cycle, Plan
 from optlaws.cycles.axes.interlock import Interlock
-from optlaws.cycles.limit_rows import broken_limits
 from optlaws.cycles.optimisation.objectives import OBJECTIVES
+from optlaws.cycles.placed import broken_limits
 from optlaws.cycles.report import CycleReport, drive_rows, joint_rows, objective_unit, proof_rows
 from optlaws.cycles.specification.limits import LIMITS, LIMITS_OF_CYCLE
 from optlaws.cycles.specification.segments import CycleSegment
