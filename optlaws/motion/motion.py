@@ -247,7 +247,7 @@ def motion_of_pieces(
 def _span(master: Quantity | None, seconds: float | None) -> Given:
     """The distance that the master covers, in its unit."""
     if master is None:
-        return Given("time", seconds or 0.0, "s")
+        return Given("time", seconds or 0.0, seconds or 0.0, "s")
     span = given_quantity(master, MASTERS, "master")
     if span.number <= 0.0:
         raise InputError(f"master must be above 0, got {master!r}")

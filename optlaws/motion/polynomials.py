@@ -75,13 +75,6 @@ class PiecewiseMotion:
         return f"PiecewiseMotion({shape} from {self.start:g} to {self.stop:g})"
 
     def __call__(self, x: Any, nu: int = 0) -> Any:
-        """The derivative of order nu at x.
-
-        Examples
-        --------
-        >>> PiecewiseMotion([0, 2], [[0, 0, 1]])([0.5, 2.0], 1).tolist()
-        [1.0, 4.0]
-        """
         places, nu = real_times(x), derivative(nu)
         outside = places[(places < self.start) | (places > self.stop)]
         if outside.size:
@@ -111,18 +104,12 @@ class PiecewiseMotion:
     def powers(self, nu: int = 0) -> Array:
         """Ascending powers of x - x_i of the derivative of order nu, a row for each piece.
 
-        Examples
-        --------
         >>> PiecewiseMotion([0, 1, 2], [[0, 0, 1], [1]]).powers(1).tolist()
         [[0.0, 2.0], [0.0, 0.0]]
         """
         if nu not in self._powers:
-            table = self._powers[0]
-            self._powers[nu] = np.asarray(
-                np.polynomial.polynomial.polyder(table, nu, axis=1)
-                if nu < table.shape[1]
-                else np.zeros((len(table), 1))
-            )
+            # of no power it is one column of zeros
+            self._powers[nu] = np.asarray(np.polynomial.polynomial.polyder(self._powers[0], nu, axis=1))
         return self._powers[nu]
 
     def ends(self, nu: int) -> tuple[Array, Array]:
@@ -133,8 +120,6 @@ class PiecewiseMotion:
     def jumps(self, nu: int) -> Array:
         """The jump of the derivative of order nu at each inner break: the value after it less the value before.
 
-        Examples
-        --------
         >>> PiecewiseMotion([0, 1, 3], [[0, 1], [1, -0.5]]).jumps(1).tolist()
         [-1.5]
         """
@@ -144,8 +129,6 @@ class PiecewiseMotion:
     def seam(self, nu: int) -> float:
         """The jump of the derivative of order nu at the repetition of the motion; for nu 0, the net displacement.
 
-        Examples
-        --------
         >>> PiecewiseMotion([0, 1], [[0, 0, 1]]).seam(1)
         -2.0
         """
@@ -157,8 +140,6 @@ class PiecewiseMotion:
 
         They are enclosed by Bernstein coefficients of the pieces, halved until nothing is left but rounding.
 
-        Examples
-        --------
         >>> PiecewiseMotion([0, 1], [[0, 1, -1]]).extremes(0)
         (Extreme(value=0.0, x=0.0), Extreme(value=0.25, x=0.5))
         """
@@ -173,8 +154,6 @@ class PiecewiseMotion:
     def rms(self, nu: int) -> float:
         """Root mean square of the derivative of order nu, impulses left out.
 
-        Examples
-        --------
         >>> round(PiecewiseMotion([0, 1], [[0, 1]]).rms(0) ** 2, 12)
         0.333333333333
         """
@@ -191,8 +170,6 @@ class PiecewiseMotion:
         InputError
             If a number is beyond REAL32, or two breaks round to one.
 
-        Examples
-        --------
         >>> PiecewiseMotion([0, 0.1], [[0.1]]).in_single().breaks
         (0.0, 0.10000000149011612)
         """
@@ -225,8 +202,6 @@ class PiecewiseMotion:
         InputError
             If the intervals differ, or a function is not smooth between the breaks.
 
-        Examples
-        --------
         >>> line = PiecewiseMotion([0, np.pi / 2], [[0, 2 / np.pi]])
         >>> greatest = line.deviation(lambda x, nu: np.sin(x + nu * np.pi / 2))
         >>> round(greatest.value, 9), round(greatest.x, 6)
@@ -241,8 +216,6 @@ class PiecewiseMotion:
     def minus(self, other: PiecewiseMotion) -> PiecewiseMotion:
         """The difference, between the breaks of both.
 
-        Examples
-        --------
         >>> PiecewiseMotion([0, 2], [[0, 1]]).minus(PiecewiseMotion([0, 1, 2], [[0, 1], [1]])).coefficients
         ((0.0, 0.0), (0.0, 1.0))
         """
@@ -267,8 +240,6 @@ class PiecewiseMotion:
     def in_units(self, x: float = 1.0, y: float = 1.0) -> PiecewiseMotion:
         """The motion with places times x and values times y, coefficients rounded once.
 
-        Examples
-        --------
         >>> PiecewiseMotion([0, 0.5], [[0, 0, 1]]).in_units(720.0, 1000.0).coefficients
         ((0.0, 0.0, 0.0019290123456790122),)
         """

@@ -141,28 +141,18 @@ def quantity(value: Any, dimension: str, name: str) -> float:
     Traceback (most recent call last):
     optlaws.errors.InputError: limit must be a velocity such as '616 mm/s', but '35 mm' is a length
     """
-    return _read(value, (dimension,), name)[1]
+    return given_quantity(value, (dimension,), name).size
 
 
 def check_scale(number: float, unit: str, name: str, value: Any) -> None:
-    """Refuse a time or a stroke that is nearer to 0, or greater, than any of a machine; 0 is left to what reads it.
-
-    >>> check_scale(1e-300, "s", "period", "1e-300 s")
-    Traceback (most recent call last):
-    optlaws.errors.InputError: period must be from 1e-30 to 1e+30 s, got '1e-300 s'
-    """
+    """Refuse a time or a stroke that is nearer to 0, or greater, than any of a machine; 0 is left to what reads it."""
     if number and not 1.0 / MOST_SCALE <= abs(number) <= MOST_SCALE:
         ends = f"{1.0 / MOST_SCALE:g} to {MOST_SCALE:g} {unit}".rstrip()
         raise InputError(f"{name} must be from {ends}, got {shortened(value)}")
 
 
 def positive_quantity(value: Any, dimension: str, name: str) -> float:
-    """A quantity above 0 as a float in SI units, as `quantity` reads it.
-
-    >>> positive_quantity("0 mm", "length", "width")
-    Traceback (most recent call last):
-    optlaws.errors.InputError: width must be above 0, got '0 mm'
-    """
+    """A quantity above 0 as a float in SI units, as `quantity` reads it."""
     number = quantity(value, dimension, name)
     if not number > 0.0:
         raise InputError(f"{name} must be above 0, got {shortened(value)}")
@@ -182,16 +172,11 @@ def either(value: Any, dimensions: tuple[str, ...], name: str) -> tuple[str, flo
     >>> either("0.1 s", ("angle", "time"), "duration")
     ('time', 0.1)
     """
-    return _read(value, dimensions, name)[:2]
+    return given_quantity(value, dimensions, name)[:2]
 
 
 def read_stroke(value: Any, back: str = "") -> tuple[str, float]:
-    """A stroke above 0, a length or an angle: its dimension, and its size in SI units; `back` is the remedy below 0.
-
-    >>> read_stroke("0 mm")
-    Traceback (most recent call last):
-    optlaws.errors.InputError: stroke must be above 0, got '0 mm'; nothing moves: leave it out, or take a Dwell
-    """
+    """A stroke above 0, a length or an angle: its dimension, and its size in SI units; `back` is the remedy below 0."""
     dimension, size = either(value, ("length", "angle"), "stroke")
     if not size > 0.0:
         remedy = back if size < 0.0 else "nothing moves: leave it out, or take a Dwell"
@@ -209,12 +194,7 @@ def si_number(value: Any, dimensions: tuple[str, ...], name: str) -> Any:
 
 
 def table(entries: Any, name: str, example: str) -> Mapping[str, Any]:
-    """Entries by name, as limits and drives are given.
-
-    >>> table(["velocity"], "limits", "{'velocity': '2 m/s'}")
-    Traceback (most recent call last):
-    optlaws.errors.InputError: limits must be a table such as {'velocity': '2 m/s'}, got ['velocity']
-    """
+    """Entries by name, as limits and drives are given; `example` is one for the error."""
     if not isinstance(entries, Mapping) or not all(isinstance(key, str) for key in entries):
         raise InputError(f"{name} must be a table such as {example}, got {shortened(entries)}")
     return entries
@@ -243,9 +223,8 @@ def written(value: Any) -> Any:
 
 def in_small_units(value: float, axis: str, per: str = "") -> Amount:
     """A position in millimetres or degrees; `per` is "/s" of a velocity."""
-    if axis == "length":
-        return Amount(value * 1e3, f"mm{per}", 9)
-    return Amount(value * 360.0 / TURN, f"deg{per}", 9)
+    size, unit = (value * MILLI, "mm") if axis == "length" else (value * 360.0 / TURN, "deg")
+    return Amount(size, f"{unit}{per}", 9)
 
 
 def in_degrees(angle: float) -> Amount:
@@ -254,35 +233,24 @@ def in_degrees(angle: float) -> Amount:
 
 
 class Given(NamedTuple):
-    """A quantity in the very unit in which it was given."""
+    """A quantity as it was given: its dimension, its size in SI units, and its number in the unit of its text."""
 
     dimension: str
+    size: float
     number: float
     unit: str
 
     def same_unit(self, value: Any, name: str) -> float:
-        """Another quantity of the same dimension, as a number of this unit.
-
-        Raises
-        ------
-        InputError
-            If it is wrong, or of another dimension.
-        """
+        """Another quantity of the same dimension, as a number of this unit."""
         return quantity(value, self.dimension, name) / quantity(f"1 {self.unit}", self.dimension, name)
 
 
 def given_quantity(value: Any, dimensions: tuple[str, ...], name: str) -> Given:
-    """A quantity with one of several dimensions, in its written unit, as tables of machines have it.
+    """A quantity with one of several dimensions, in its written unit too, as tables of machines have it.
 
     >>> given_quantity("35 mm", ("length", "angle"), "stroke")
-    Given(dimension='length', number=35.0, unit='mm')
+    Given(dimension='length', size=0.035, number=35.0, unit='mm')
     """
-    dimension, _, number, unit = _read(value, dimensions, name)
-    return Given(dimension, number, unit)
-
-
-def _read(value: Any, dimensions: tuple[str, ...], name: str) -> tuple[str, float, float, str]:
-    """The dimension of a quantity, its size in SI units, and its number and unit as they were given."""
     value = written(value)
     number, unit = _parts(value, dimensions, name)
     for dimension in dimensions:
@@ -291,7 +259,7 @@ def _read(value: Any, dimensions: tuple[str, ...], name: str) -> tuple[str, floa
             size = finite(number * factor, name)
             if dimension == "time":  # derivatives are divided by its powers
                 check_scale(size, "s", name, value)
-            return dimension, size, number, unit
+            return Given(dimension, size, number, unit)
     turns_or_radians = dimensions == ("angular velocity",) and _si_factor(unit, "frequency") is not None
     remedy = ": write rev/s or rad/s" if turns_or_radians else ""
     raise InputError(f"{_asks(dimensions, name)}, but {shortened(value)} is {_kind(unit)}{remedy}")
@@ -424,13 +392,7 @@ def _kind(unit: str) -> str:
 
 
 class Kind(Enum):
-    """What is limited or minimised; values are the numbers that `Cycle.limits_of_segments` has for them.
-
-    Examples
-    --------
-    >>> Kind.JERK.order, Kind.FORCE.order
-    (3, 0)
-    """
+    """What is limited or minimised; values are the numbers that `Cycle.limits_of_segments` has for them."""
 
     VELOCITY = 1
     ACCELERATION = 2
