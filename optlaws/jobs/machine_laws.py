@@ -19,7 +19,7 @@ from optlaws.laws.catalogue.catalogue import catalogue
 from optlaws.laws.making.input_shaping import Shaper, shaped_law
 from optlaws.mechanisms.machine.machine import SPREAD, Machine, Measure
 from optlaws.mechanisms.machine.models import mode
-from optlaws.mechanisms.machine.transforms import velocity_transform
+from optlaws.mechanisms.machine.transforms import velocity_transform_of
 from optlaws.numbers import Array, bounded
 from optlaws.plots.machine import laws_figure
 from optlaws.results import Results
@@ -196,7 +196,7 @@ class Compared:
         """Residual amplitudes of a mode when all frequencies are multiplied by given factors."""
         vibration = self.machine.residual(number, self.spec.vibration.output)
         roots = np.asarray(mode(self.machine, number).root * factors, dtype=np.complex128)
-        amplitudes = np.abs(velocity_transform(self.law, roots))
+        amplitudes = np.abs(velocity_transform_of(self.law)(roots))
         # the mode's share in the output is the same at every speed
         return np.where(amplitudes > _RESIDUAL_ROUNDING, vibration.share * amplitudes, 0.0)
 

@@ -11,6 +11,7 @@ from __future__ import annotations
 from abc import abstractmethod
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
+from functools import partial
 from hashlib import sha256
 from math import asin, ceil, inf, nan
 from typing import Any, ClassVar, Literal, TypeAlias, get_args
@@ -31,6 +32,7 @@ from optlaws.mechanisms.machine.state_space import StateSpace, check_rest, machi
 from optlaws.mechanisms.machine.transforms import (
     Transform,
     greatest_modulus,
+    phasor_share,
     roots,
     terms_of_exponential,
     velocity_transform_of,
@@ -74,7 +76,6 @@ class Residual(Functional):
     _part: ClassVar[str]
 
     def value(self, law: MotionLaw) -> float:
-        """The greatest over all edges."""
         return self.peak(law).value
 
     def peak(self, law: MotionLaw) -> Peak:
@@ -86,15 +87,10 @@ class Residual(Functional):
             # an edge whose bound is below what another one attains has no greater value
             if bounds[i] < best.value:
                 break
-            best = max(best, self._peak_of(transform, i), key=lambda peak: peak.value)
+            along = partial(self.amplitudes, transform, np.array([i]))
+            value, place = greatest_modulus(lambda u, along=along: np.asarray(along(u)[0]), _places(self.counts[i]))
+            best = max(best, Peak(value, self.frequency(0.5 * (1.0 + place), i)), key=lambda peak: peak.value)
         return best
-
-    def _peak_of(self, transform: Transform, edge: int) -> Peak:
-        def along(u: Array) -> Complex:
-            return np.asarray(self.amplitudes(transform, np.array([edge]), u)[0])
-
-        value, place = greatest_modulus(along, _places(self.counts[edge]))
-        return Peak(value, self.frequency(0.5 * (1.0 + place), edge))
 
     @property
     @abstractmethod
@@ -140,13 +136,12 @@ class Residual(Functional):
             alike = np.flatnonzero(counts == count)
             for some in np.array_split(alike, ceil(len(alike) * count / _TOGETHER)):
                 values = self.amplitudes(transform, some, _places(count)).reshape(len(some), count, -1)
-                flat: Complex = np.ascontiguousarray(values.transpose(1, 0, 2)).reshape(count, -1)
+                flat = np.ascontiguousarray(values.transpose(1, 0, 2)).reshape(count, -1)
                 series: Complex = chebyshev.from_values(flat)
                 yield some, series.reshape(count, len(some), -1).transpose(1, 0, 2)
 
     @property
     def part_names(self) -> tuple[str, ...]:
-        """Names of the edges in certificates."""
         return (self.name, *(f"{self._short_name}, {self._part} {i}" for i in range(2, len(self.counts) + 1)))
 
     @property
@@ -154,7 +149,6 @@ class Residual(Functional):
         return self.name
 
     def where(self, k: float, part: int = 0) -> str:
-        """The frequency of a place on an edge."""
         return f"frequency = {self.frequency(k, part):.5g}"
 
     def families(self, space: LawSpace, slack: Array, bound: float) -> tuple[ConeFamily, ...]:
@@ -192,22 +186,10 @@ def _places(count: int) -> Array:
 
 @dataclass(frozen=True, repr=False)
 class BandResidual(Residual):
-    """Greatest residual over an interval of frequencies; constructed by `residual_vibration`.
+    """Greatest residual over the interval `low` to `high` of frequencies; constructed by `residual_vibration`.
 
-    Attributes
-    ----------
-    low, high
-        The interval of frequencies nu.
-    damping
-        Ratio zeta.
-    design
-        Frequency for which the cam is designed if the law is the mass's; None if the law is the cam's own.
-    design_damping
-        The ratio for which it is designed.
-    spectrum
-        Pairs of a frequency and a weight, linear between them; None where all frequencies weigh 1.
-    displacement
-        Whether it is the amplitude of the displacement, in strokes, in place of that of the acceleration.
+    `design` is None if the law is the cam's own, `spectrum` where all frequencies weigh 1; of the `displacement` it is
+    an amplitude in strokes.
     """
 
     low: float
@@ -229,9 +211,7 @@ class BandResidual(Residual):
     @kept_property
     def parts(self) -> tuple[WeightPart, ...]:
         """The intervals of frequencies on which the weight is linear; a single interval without a weight."""
-        if self.spectrum is None:
-            return (WeightPart(self.low, self.high, 1.0, 1.0),)
-        return parts_of(self.spectrum)
+        return parts_of(self.spectrum) if self.spectrum else (WeightPart(self.low, self.high, 1.0, 1.0),)
 
     @kept_property
     def counts(self) -> Sequence[int]:
@@ -245,30 +225,29 @@ class BandResidual(Residual):
         weights = ((1.0 - share) * first + share * last).ravel()
         _, w, damped = roots(frequencies, self.damping)
         size = 1.0 if self.displacement else frequencies**2
-        scale = -1j * size * w.conj() / damped * self._detuning(frequencies, w)
+        scale = phasor_share(w, damped, size)
+        if self.design is not None:
+            # the share that a polydyne cam leaves of the residual of its mass law cut directly on a cam
+            apart = self.design_damping * self.design - self.damping * frequencies
+            scale = scale * (1.0 - (frequencies / self.design) ** 2 + 2.0 * apart * w / self.design**2)
         left = (weights * (scale * transform(w).T)).T
         return np.asarray(left.reshape(len(edges), len(u), *left.shape[1:]))
-
-    def _detuning(self, frequencies: Array, w: Complex) -> Complex:
-        """The share that a polydyne cam leaves of the residual of its mass law cut directly on a cam."""
-        if self.design is None:
-            return np.ones(len(frequencies), dtype=np.complex128)
-        apart = self.design_damping * self.design - self.damping * frequencies
-        return np.asarray(1.0 - (frequencies / self.design) ** 2 + 2.0 * apart * w / self.design**2)
 
     def frequency(self, place: float, part: int = 0) -> float:
         return (1.0 - place) * self.parts[part].low + place * self.parts[part].high
 
     @property
+    def _long(self) -> bool:
+        """Whether the name has a long spectrum in it."""
+        return self.spectrum is not None and len(self.spectrum) > _NAMED_POINTS
+
+    @property
     def _short_name(self) -> str:
-        if self.spectrum is None or len(self.spectrum) <= _NAMED_POINTS:
-            return self.name
-        return f"residual(spectrum={sha256(self.name.encode()).hexdigest()[:_DIGITS]})"
+        return f"residual(spectrum={sha256(self.name.encode()).hexdigest()[:_DIGITS]})" if self._long else self.name
 
     @property
     def title(self) -> str:
-        """A few words for it where the name has a long spectrum in it."""
-        if self.spectrum is None or len(self.spectrum) <= _NAMED_POINTS:
+        if self.spectrum is None or not self._long:
             return self.name
         return f"residual weighed by a spectrum of {len(self.spectrum)} points, nu from {self.low:g} to {self.high:g}"
 
@@ -364,19 +343,15 @@ def residual_vibration(
     parts += [f"design={design_frequency!r}"] if design_frequency else []
     parts += [f"design_damping={design_ratio!r}"] if design_frequency and design_ratio != ratio else []
     parts += [f"of={of}"] if of == "displacement" else []
-    name = f"residual({', '.join(parts)})"
-    return BandResidual(
-        name,
-        nan,
-        convex=True,
-        low=low,
-        high=high,
-        damping=ratio,
-        design=design_frequency,
-        design_damping=design_ratio if design_frequency else 0.0,
-        spectrum=weights,
-        displacement=of == "displacement",
-    )
+    designed: dict[str, Any] = {"design": design_frequency, "design_damping": design_ratio} if design_frequency else {}
+    band: dict[str, Any] = {
+        "low": low,
+        "high": high,
+        "damping": ratio,
+        "spectrum": weights,
+        "displacement": of == "displacement",
+    }
+    return BandResidual(f"residual({', '.join(parts)})", nan, convex=True, **band, **designed)
 
 
 @dataclass(frozen=True)
@@ -388,7 +363,6 @@ class BoxEdge:
 
     @property
     def single(self) -> bool:
-        """Whether the edge is a single root."""
         return self.first == self.last
 
     def roots(self, u: Array) -> Complex:
@@ -432,7 +406,6 @@ class ModeResidual(Residual):
 
     @property
     def title(self) -> str:
-        """A few words for it; the name has the whole machine in it."""
         words = [f"within {100.0 * self.spread:g} %"] if self.spread else []
         words += [] if self.dampings is None else ["damping {:g} to {:g}".format(*self.dampings)]
         return title_of(self.machine, f"residual of mode {self.mode} in", self.output, *words)
@@ -485,13 +458,6 @@ def mode_residual(
     """The greatest amplitude that a mode is left with in an output, over a box, as `Machine.residual` has it.
 
     `of` is the machine, or its text with the output.
-
-    Examples
-    --------
-    >>> from optlaws import Machine, smoothstep
-    >>> machine = Machine([[0, 1], [-400, -2]], [[0], [400]], [[-400, -2]], [[400]], outputs=["acceleration"])
-    >>> mode_residual(of=machine).value(smoothstep(4))
-    1.650151
     """
     machine = machine_of(of)
     name = machine.outputs[machine.place(output)]
@@ -512,10 +478,12 @@ def mode_residual(
     words += [f"spread={share!r}"] if share else []
     words += [f"damping=({dampings[0]!r}, {dampings[1]!r})"] if dampings else []
     text = f"mode_residual({', '.join(words)})"
-    pairs = None if dampings is None else (dampings[0], dampings[1])
-    constant = ModeResidual(
-        text, nan, convex=True, machine=machine, output=name, mode=vibration.number, spread=share, dampings=pairs
-    )
+    box: dict[str, Any] = {
+        "mode": vibration.number,
+        "spread": share,
+        "dampings": dampings and (dampings[0], dampings[1]),
+    }
+    constant = ModeResidual(text, nan, convex=True, machine=machine, output=name, **box)
     constant.share  # noqa: B018 - a defective mode is refused at once
     return constant
 

@@ -90,16 +90,11 @@ def legendre_from_chebyshev(count: int) -> Array:
     return table
 
 
-def velocity_transform(law: MotionLaw, w: Complex) -> Complex:
-    """Integral over [0, 1] of exp(w (1 - k)) b(k) for w with real part at most 0, shape of w.
+def velocity_transform_of(law: MotionLaw) -> Transform:
+    """Integral over [0, 1] of exp(w (1 - k)) b(k) as a function of w with real parts of at most 0.
 
     Computed from c and from the jumps of b, the ends among them: so it is as small beside c as it should be.
     """
-    return velocity_transform_of(law)(w)
-
-
-def velocity_transform_of(law: MotionLaw) -> Transform:
-    """The transform of a law's velocity as a function of w, for several w of one law."""
     pieces = forcings(motion_law(law))
     ends = np.array([0.0])
     begins = float(pieces[0].derivative(ends, 1)[0])
@@ -125,7 +120,7 @@ def velocity_transform_of(law: MotionLaw) -> Transform:
 
 def _acceleration_transform(piece: Forcing, w: Complex) -> Complex:
     """Integral over the piece of exp(w (length - s)) c(s)."""
-    transform = _polynomial(piece.acceleration, piece.length, w)
+    transform = piece.length * _polynomial(piece.acceleration, piece.length, w)
     for sine in piece.sines:
         wave = 1j * sine.frequency
         for sign in (1.0, -1.0):
@@ -141,8 +136,14 @@ def _mean(z: Complex) -> Complex:
 
 
 def _polynomial(acceleration: Array, length: float, w: Complex) -> Complex:
+    """The mean over a length of exp(w (length - s)) times a Chebyshev series, or of each column of several."""
     legendre = legendre_from_chebyshev(len(acceleration)) @ acceleration
-    return length * (moments(0.5 * length * w, len(acceleration)) @ legendre)
+    return np.asarray(moments(0.5 * length * w, len(acceleration)) @ legendre)
+
+
+def phasor_share(w: Complex, damped: Array, size: Array | float = 1.0) -> Complex:
+    """The complex amplitude after a motion, times a size, over the integral of exp(w (1 - k)) b(k)."""
+    return np.asarray(-1j * size * w.conj() / damped)
 
 
 def residual_phasor(law: MotionLaw, frequency: Any, damping: float = 0.0) -> Complex:
@@ -177,7 +178,7 @@ def residual_phasor(law: MotionLaw, frequency: Any, damping: float = 0.0) -> Com
     array([7.204401])
     """
     _, w, damped = roots(frequency, damping)
-    return -1j * w.conj() / damped * velocity_transform(law, w)
+    return phasor_share(w, damped) * velocity_transform_of(law)(w)
 
 
 def residual_functional(count: int, frequency: Any, damping: float = 0.0) -> tuple[Complex, Complex]:
@@ -191,19 +192,12 @@ def residual_functional(count: int, frequency: Any, damping: float = 0.0) -> tup
     ----------
     count
         Number of Chebyshev coefficients of c.
-    frequency
-        Frequencies nu, above 0; a number or shape (m,).
-    damping
-        Ratio zeta, below 1.
+    frequency, damping
+        As of `residual_phasor`.
 
     Returns
     -------
     Complex arrays of shape (m, count) and (m,).
-
-    Raises
-    ------
-    InputError
-        If a number is out of range.
 
     Examples
     --------
@@ -215,11 +209,10 @@ def residual_functional(count: int, frequency: Any, damping: float = 0.0) -> tup
     """
     frequencies, w, damped = roots(frequency, damping)
     terms = whole(count, "count", least=1)
-    scale = (-1j * frequencies**2 * w.conj() / (damped * w))[:, None]
-    n = np.arange(terms)
-    mean = np.where(n % 2 == 0, 1.0 / (1.0 - n * n + (n % 2)), 0.0)
-    rows = moments(0.5 * w, terms) @ legendre_from_chebyshev(terms) - mean
-    return scale * rows, scale[:, 0] * np.expm1(w)
+    share = phasor_share(w, damped, frequencies**2) / w
+    # by parts: less what the velocity at the end is, the mean of each series
+    gained = np.array([chebyshev.integral(series, 0.0).sum() for series in np.eye(terms)])
+    return share[:, None] * (_polynomial(np.eye(terms), 1.0, w) - gained), share * np.expm1(w)
 
 
 def roots(frequency: Any, damping: float) -> tuple[Array, Complex, Array]:
