@@ -185,12 +185,8 @@ def jump_beside(piece: Piece, pieces: Sequence[Piece], period: float) -> float |
         for other in pieces:
             apart = (other.start if side else other.stop) - time
             if abs(apart - period * round(apart / period)) <= SAME_TIME * period:
-                c, rounding = piece.end(2, side), JUMP * max(map(_size_of_acceleration, (piece, other)))
+                sizes = (abs(factor(p.stroke, p.duration, 2)) * p.law.peak(2).value for p in (piece, other) if p.stroke)
+                c, rounding = piece.end(2, side), JUMP * max(sizes, default=0.0)
                 if min(abs(c), abs(c - other.end(2, 1 - side))) > rounding:
                     return time
     return None
-
-
-def _size_of_acceleration(piece: Piece) -> float:
-    peak = piece.law.peak(2).value if piece.stroke else 0.0
-    return abs(factor(piece.stroke, piece.duration, 2)) * peak

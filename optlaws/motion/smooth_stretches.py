@@ -130,8 +130,16 @@ def jet_of_parts(
     present = np.unique(which)
     if len(present) == 1:
         return jet(stretches[present[0]], at)
-    pieces = [(which == i, jet(stretches[i], at[which == i])) for i in present]
-    return joined(middle.shape, pieces)
+    jets = [(which == i, jet(stretches[i], at[which == i])) for i in present]
+    blocks = [each.block for _, each in jets]
+    count = len(jets[0][1].terms) if blocks[0] is None else len(blocks[0].middle)
+    whole = Interval(np.empty((count, *middle.shape)), np.empty((count, *middle.shape)))
+    for (here, each), block in zip(jets, blocks, strict=True):
+        if block is None:
+            whole.middle[:, here] = each.terms
+        else:
+            whole.middle[:, here], whole.radius[:, here] = block.middle, block.radius
+    return Jet(tuple(whole.middle)) if blocks[0] is None else Jet.of_rows(whole)
 
 
 def _segments(law: MotionLaw) -> Sequence[Segment]:
@@ -149,26 +157,6 @@ def _series(law: MotionLaw, start: float, length: float) -> Segment:
 
     series = chebyshev.interpolated(c, "acceleration of a law")
     return PolynomialSegment(tuple(series.tolist()), float(law.b(start)))
-
-
-def joined(shape: tuple[int, ...], pieces: Sequence[tuple[Any, Jet]]) -> Jet:
-    """The jet at places of which each piece has some.
-
-    >>> here = np.array([True, False])
-    >>> joined((2,), [(here, Jet([np.array([1.0])])), (~here, Jet([np.array([2.0])]))]).terms[0]
-    array([1., 2.])
-    """
-    blocks = [(here, jet.block) for here, jet in pieces]
-    count = len(pieces[0][1].terms) if blocks[0][1] is None else len(blocks[0][1].middle)
-    whole = Interval(np.empty((count, *shape)), np.empty((count, *shape)))
-    for here, block in blocks:
-        if block is not None:
-            whole.middle[:, here], whole.radius[:, here] = block.middle, block.radius
-    if blocks[0][1] is not None:
-        return Jet.of_rows(whole)
-    for here, jet in pieces:
-        whole.middle[:, here] = jet.terms
-    return Jet(tuple(whole.middle))
 
 
 _MORE = 4  # derivatives that Taylor's formula takes beyond those that are asked
