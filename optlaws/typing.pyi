@@ -81,7 +81,12 @@ from .synthesis.families.family import ConstraintFamily as ConstraintFamily
 from .synthesis.functionals.makers import FormulaKind as FormulaKind, PeakSide as PeakSide
 from .synthesis.least_time.least_time import LeastTime as LeastTime, TimeProof as TimeProof
 from .synthesis.least_time.motor_torque import MotorTorque as MotorTorque
-from .synthesis.least_time.move_limits import FollowerResidual as FollowerResidual, MoveLimits as MoveLimits, SpanLimit as SpanLimit, TimedLimit as TimedLimit
+from .synthesis.least_time.move_limits import (
+    FollowerResidual as FollowerResidual,
+    MoveLimits as MoveLimits,
+    SpanLimit as SpanLimit,
+    TimedLimit as TimedLimit,
+)
 from .synthesis.least_time.timed_move import MoveObjective as MoveObjective, TimedMove as TimedMove
 from .synthesis.limits.drive_limits import DriveObjective as DriveObjective
 from .synthesis.limits.phase_plane import PhasePlane as PhasePlane

@@ -206,7 +206,7 @@ class Candidates:
         names = ["velocity", "acceleration", "jerk", "rms acceleration"]
         names += [RESIDUAL] if self.follower is not None else []
         if cycle.load is not None and not is_process(cycle.load):
-            names += [f"{LOAD}{name}" for name in self._standing.load_motion.machine.outputs]
+            names += [f"{LOAD}{name}" for name in self._standing.load_motion.outputs]
         names += [force, f"rms {force}", "power", "energy"] if cycle.drive is not None else []
         return tuple(LawMeasure(name, self._unit(name)) for name in dict.fromkeys([*names, self.minimise]))
 

@@ -11,10 +11,9 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cache
-from math import inf, log2
+from math import inf
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.cycles.optimisation.objectives import CycleObjective
 from optlaws.cycles.optimisation.optimal import span_problem, unlimited
@@ -22,61 +21,40 @@ from optlaws.cycles.specification.joints import LawSpan, State
 from optlaws.cycles.specification.limits import greatest
 from optlaws.cycles.specification.programme import Programme, TimedSegment, is_optimal
 from optlaws.cycles.specification.segments import ConstantVelocity, Dwell, Free, Move
-from optlaws.errors import InfeasibleProblem, InputError
+from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.laws import MotionLaw
 from optlaws.motion.piece import factor, named_law
 from optlaws.motion.quantities import Kind
+from optlaws.numbers import Array
 from optlaws.numerics.roots import bisect
 from optlaws.synthesis.problem.constants import FUNCTIONALS
-from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.solution import Solution
 from optlaws.synthesis.solve import synthesize
 from optlaws.tolerances import AGREEMENT, CLOSURE, DURATION_STEP, SAME_TIME
 
 _SHORTEST_MOVE = 1e-6  # of a period: no shorter move is tried
+_SAME_SHAPE = 1e-10  # of a mean square: so near to that of the same law in another duration
 
 _REST = State(0.0, 0.0)
-_ROUNDS = 30
+_ROUNDS = 60
 _TOO_FAST = "no durations of the free moves keep the limits: slow the cycle down or widen limits"
-
-
-@dataclass(frozen=True)
-class Share:
-    """A move whose duration is free: its peak, or the integral of the square, over its duration, in SI units.
-
-    No law that keeps the limit of the velocity is shorter than `quickest`.
-    """
-
-    stretch: TimedSegment
-    cost: Callable[[float], float]
-    quickest: float
 
 
 def durations(programme: Programme, objective: CycleObjective) -> tuple[float, ...]:
     """The durations of all stretches: given ones, and optimal ones where they are free."""
-    free = [i for i, stretch in enumerate(programme.stretches) if not stretch.fixed]
-    if not free:
-        return tuple(stretch.least for stretch in programme.stretches)
-    left = programme.period - sum(stretch.least for stretch in programme.stretches if stretch.fixed)
+    stretches = programme.stretches
+    free = [i for i, stretch in enumerate(stretches) if not stretch.fixed]
     for i in free:
         _check_rest(programme, i)
-    kind, mean = objective.kind, objective.mean
-    if not all(isinstance(each, Kind) and each.order for each in (kind, *objective.limits)):
+    if free and not all(isinstance(kind, Kind) and kind.order for kind in (objective.kind, *objective.limits)):
         raise InputError(
             "free durations are shared by velocity, acceleration or jerk, not by a force, power or a load: "
             "give durations"
         )
-    shares = [
-        Share(
-            programme.stretches[i],
-            _cost(programme, i, objective, kind.order, mean=mean),
-            _quickest(programme, i, objective),
-        )
-        for i in free
-    ]
-    level = _slopes(shares, kind.order) if mean else [share.cost for share in shares]
-    given = dict(zip(free, _levelled(shares, level, left, programme.period), strict=True))
-    return tuple(given.get(i, stretch.least) for i, stretch in enumerate(programme.stretches))
+    left = programme.period - sum(stretch.least for stretch in stretches if stretch.fixed)
+    shared = _levelled([_FreeMove(programme, i, objective) for i in free], left) if free else []
+    given = dict(zip(free, shared, strict=True))
+    return tuple(given.get(i, stretch.least) for i, stretch in enumerate(stretches))
 
 
 def _check_rest(programme: Programme, i: int) -> None:
@@ -103,179 +81,120 @@ def _moves(stretch: TimedSegment, side: int) -> bool:
     return abs(float(named_law(given.law, stretch.where).b(float(side)))) > CLOSURE
 
 
-def _cost(programme: Programme, i: int, objective: CycleObjective, nu: int, *, mean: bool) -> Callable[[float], float]:
-    shape = _shape(programme, i, objective, nu, mean=mean)
-    size = abs(programme.stretches[i].displacement)
+@dataclass
+class _FreeMove:
+    """A move whose duration is free, and what falls as it grows."""
 
-    def cost(duration: float) -> float:
-        value = factor(size, duration, nu) * shape(duration)
-        return value * value * duration if mean else value
+    programme: Programme
+    i: int
+    objective: CycleObjective
+    best: MotionLaw | None = None  #: without limits
+    nearest: Solution | None = None
 
-    return cost
+    @property
+    def stretch(self) -> TimedSegment:
+        return self.programme.stretches[self.i]
 
+    @property
+    def bounds(self) -> tuple[float, float]:
+        """The least and the greatest duration: no law that keeps the limit of the velocity is shorter."""
+        stretch, sought = self.stretch, is_optimal(self.stretch.given)
+        direction = -1.0 if stretch.displacement < 0.0 else 1.0
+        fastest = greatest(stretch.sides(self.objective.limits), Kind.VELOCITY, direction) if sought else inf
+        return max(
+            stretch.least, abs(stretch.displacement) / fastest, _SHORTEST_MOVE * self.programme.period
+        ), stretch.most
 
-def _quickest(programme: Programme, i: int, objective: CycleObjective) -> float:
-    stretch = programme.stretches[i]
-    limits = stretch.sides(objective.limits) if is_optimal(stretch.given) else {}
-    return abs(stretch.displacement) / greatest(limits, Kind.VELOCITY, -1.0 if stretch.displacement < 0.0 else 1.0)
+    def level(self, duration: float) -> float:
+        """Its peak, or how fast its mean square falls: exact where the shape stays, else by differences."""
+        here, step, power = self._value(duration), DURATION_STEP * duration, 2 * self.objective.kind.order - 1
+        if not self.objective.mean:
+            return here
+        before, after = self._value(duration - step), self._value(duration + step)
+        if all(
+            abs(value * share**power - here) <= _SAME_SHAPE * here
+            for value, share in ((before, 1.0 - DURATION_STEP), (after, 1.0 + DURATION_STEP))
+        ):
+            return power * here / duration
+        return inf if before == inf else (before - after) / (2.0 * step)
 
-
-def _shape(programme: Programme, i: int, objective: CycleObjective, nu: int, *, mean: bool) -> Callable[[float], float]:
-    """The constant of a move's law as a function of its duration; inf where no law keeps the limits."""
-    stretch = programme.stretches[i]
-    if not is_optimal(stretch.given) and isinstance(stretch.given, Move):
-        law = named_law(stretch.given.law, stretch.where)
-        value = _constant(law, nu, mean=mean)
-        return lambda _: value
-    offset = programme.start + sum(other.displacement for other in programme.stretches[:i])
-    unbound: list[MotionLaw] = []
-    nearest: list[Solution] = []
-
-    def shape(duration: float) -> float:
-        span = LawSpan((stretch,), (0.0,), duration, offset, stretch.displacement, _REST, _REST, ())
+    def _value(self, duration: float) -> float:
+        """The peak, or the integral of the square over the duration, in SI units; inf where no law keeps the limits."""
         try:
-            problem = span_problem(span, objective)
-            if not unbound:
-                unbound.append(synthesize(unlimited(problem)).law)
-            if _keeps_limits(unbound[0], problem):
-                return _constant(unbound[0], nu, mean=mean)
-            nearest[:] = [synthesize(problem, start=nearest[0] if nearest else None)]
-            return _constant(nearest[0].law, nu, mean=mean)
+            law = self._law(duration)
         except InfeasibleProblem:
             return inf
+        nu, mean = self.objective.kind.order, self.objective.mean
+        value = factor(abs(self.stretch.displacement), duration, nu) * (law.rms(nu) if mean else law.peak(nu).value)
+        return value * value * duration if mean else value
 
-    return shape
-
-
-def _keeps_limits(law: MotionLaw, problem: Problem) -> bool:
-    limits = [*problem.bounded, (FUNCTIONALS["B"], problem.range("B"))]
-    return all(limit is None or constant.value(law) <= limit.high for constant, limit in limits)
-
-
-def _constant(law: MotionLaw, nu: int, *, mean: bool) -> float:
-    return law.rms(nu) if mean else law.peak(nu).value
-
-
-def _slopes(shares: Sequence[Share], nu: int) -> list[Callable[[float], float]]:
-    """How fast each mean square falls: exact where the shape stays, else by differences."""
-
-    def slope(share: Share) -> Callable[[float], float]:
-        def fall(duration: float) -> float:
-            here = share.cost(duration)
-            step = DURATION_STEP * duration
-            before, after = share.cost(duration - step), share.cost(duration + step)
-            power = 2 * nu - 1
-            stays = abs(after * (1.0 + DURATION_STEP) ** power - here) <= 1e-10 * here
-            if stays and abs(before * (1.0 - DURATION_STEP) ** power - here) <= 1e-10 * here:
-                return power * here / duration
-            return inf if before == inf else (before - after) / (2.0 * step)
-
-        return fall
-
-    return [slope(share) for share in shares]
+    def _law(self, duration: float) -> MotionLaw:
+        stretch = self.stretch
+        if isinstance(stretch.given, Move) and not is_optimal(stretch.given):
+            return named_law(stretch.given.law, stretch.where)
+        offset = self.programme.start + sum(other.displacement for other in self.programme.stretches[: self.i])
+        span = LawSpan((stretch,), (0.0,), duration, offset, stretch.displacement, _REST, _REST, ())
+        problem = span_problem(span, self.objective)
+        self.best = self.best or synthesize(unlimited(problem)).law
+        limits = [*problem.bounded, (FUNCTIONALS["B"], problem.range("B"))]
+        if all(limit is None or constant.value(self.best) <= limit.high for constant, limit in limits):
+            return self.best
+        self.nearest = synthesize(problem, start=self.nearest)
+        return self.nearest.law
 
 
-def _levelled(
-    shares: Sequence[Share], level: Sequence[Callable[[float], float]], left: float, period: float
-) -> list[float]:
-    """Durations at which what falls with each is equal, within their bounds, with the given sum."""
-    bounds = [
-        (max(part.stretch.least, part.quickest, _SHORTEST_MOVE * period), min(part.stretch.most, left))
-        for part in shares
-    ]
-    if sum(low for low, _ in bounds) >= left or any(low > high for low, high in bounds):
-        raise InfeasibleProblem(_TOO_FAST)
-    level = [cache(fall) for fall in level]
-    times = _by_powers(level, bounds, left) or _by_halves(level, bounds, left)
-    inside = [low < time < high for time, (low, high) in zip(times, bounds, strict=True)]
-    share = (left - sum(times)) / max(sum(inside), 1)
-    return [time + share if within else time for time, within in zip(times, inside, strict=True)]
+def _levelled(moves: Sequence[_FreeMove], left: float) -> list[float]:
+    """Durations within their bounds, with the given sum, at which what falls with each is equal.
 
-
-def _by_powers(
-    level: Sequence[Callable[[float], float]], bounds: Sequence[tuple[float, float]], left: float
-) -> list[float] | None:
-    """Each taken for a power of its duration, through its last two values, until they are equal; None if that fails."""
-    low, high = np.array(bounds).T
-    times = np.clip(left / len(level), low, high)
-    powers = np.ones(len(level))
-    before: tuple[NDArray[np.float64], NDArray[np.float64]] | None = None
+    Each is taken for a power of its duration, through its last two values, until they are. Where no law keeps the
+    limits, the shortest duration in which one does is the least.
+    """
+    low, high = np.array([move.bounds for move in moves]).T
+    high, levels = np.minimum(high, left), [cache(move.level) for move in moves]
+    times, powers = np.clip(left / len(moves), low, high), np.ones(len(moves))
+    before: tuple[Array, Array] | None = None
     for _ in range(_ROUNDS):
-        values = np.log([fall(time) for fall, time in zip(level, times.tolist(), strict=True)])
-        if not np.isfinite(values).all():
-            return None
+        if low.sum() >= left or (low > high).any():
+            break
+        with np.errstate(over="ignore"):
+            values = np.log([level(time) for level, time in zip(levels, times.tolist(), strict=True)])
+        short = np.flatnonzero(np.isinf(values))
+        if short.size:
+            for i in short:
+                low[i] = _shortest(levels[i], float(times[i]), float(high[i]))
+            times, before = np.clip(times, low, high), None
+            continue
         if before is not None:
-            moved = np.abs(np.log(times) - before[0]) > 1e-13
-            steps = np.where(moved, np.log(times) - before[0], 1.0)
-            powers = np.where(moved, np.clip(-(values - before[1]) / steps, 0.3, 60.0), powers)
-        nearer = _shared(np.log(times), values, powers, low, high, left=left)
+            steps = np.log(times) - before[0]
+            moved = np.abs(steps) > 1e-13
+            falls = -(values - before[1]) / np.where(moved, steps, 1.0)
+            powers = np.where(moved, np.clip(falls, 0.3, 60.0), powers)
+        nearer = _shared(np.log(times), values, powers, (low, high), left)
         if np.abs(nearer - times).max() <= SAME_TIME * left:
-            return [float(time) for time in nearer]
+            inside = (low < nearer) & (nearer < high)
+            return [*np.where(inside, nearer + (left - nearer.sum()) / max(inside.sum(), 1), nearer).tolist()]
         before, times = (np.log(times), values), nearer
-    return None
+    else:
+        raise SolverFailure("no durations of the free moves were found: give one of them a duration")
+    raise InfeasibleProblem(_TOO_FAST)
 
 
-def _shared(
-    logs: NDArray[np.float64],
-    values: NDArray[np.float64],
-    powers: NDArray[np.float64],
-    low: NDArray[np.float64],
-    high: NDArray[np.float64],
-    *,
-    left: float,
-) -> NDArray[np.float64]:
-    """Durations within their bounds at which the powers are equal, with the given sum."""
+def _shared(logs: Array, values: Array, powers: Array, ends: tuple[Array, Array], left: float) -> Array:
+    """Durations within their ends at which the powers are equal, with the given sum."""
+    low, high = ends
 
-    def at(height: float) -> NDArray[np.float64]:
+    def at(height: float) -> Array:
         return np.clip(np.exp(np.clip(logs + (values - height) / powers, -300.0, 300.0)), low, high)
 
-    first, last = float(values.min()) - 1.0, float(values.max()) + 1.0
-    while at(first).sum() < left * (1.0 - SAME_TIME) and first > -1e4:
-        first -= 10.0
-    while at(last).sum() > left * (1.0 + SAME_TIME) and last < 1e4:
-        last += 10.0
-    return at(0.5 * sum(bisect(lambda height: bool(at(height).sum() > left), first, last)))
+    first, last = ((values + powers * (logs - np.log(end))) for end in (high, low))
+    return at(0.5 * sum(bisect(lambda height: bool(at(height).sum() > left), first.min(), last.max())))
 
 
-def _by_halves(
-    level: Sequence[Callable[[float], float]], bounds: Sequence[tuple[float, float]], left: float
-) -> list[float]:
-    """The durations by bisection, for tight limits: slow, and reliable."""
-    from scipy.optimize import brentq
-
-    def at(height: float) -> list[float]:
-        return [_inverse(fall, height, *ends) for fall, ends in zip(level, bounds, strict=True)]
-
-    even = left / len(level)
-    heights = [fall(max(low, min(high, even))) for fall, (low, high) in zip(level, bounds, strict=True)]
-    known = [height for height in heights if height != inf]
-    lowest, highest = 0.9 * min(known, default=1.0), 1.1 * max(known, default=1.0)
-    while sum(at(lowest)) < left and lowest > 1e-300:
-        lowest /= 4.0
-    shortest = at(inf)
-    if sum(shortest) > left:
+def _shortest(level: Callable[[float], float], low: float, high: float) -> float:
+    """The shortest duration that keeps the limits, between one that does not and one that may."""
+    if level(high) == inf:
         raise InfeasibleProblem(_TOO_FAST)
-    while sum(at(highest)) > left:
-        highest *= 4.0
-    height = brentq(lambda log: sum(at(2.0**log)) - left, log2(lowest), log2(highest), xtol=1e-12, rtol=1e-12)
-    return at(2.0**height)
-
-
-def _inverse(fall: Callable[[float], float], height: float, low: float, high: float) -> float:
-    """The duration at which what falls is at a height, or the nearest that is within bounds and keeps limits."""
-    from scipy.optimize import brentq
-
-    if fall(high) >= height:
-        return high
-    least = low if fall(low) < inf else _shortest(fall, low, high)
-    if fall(least) <= height:
-        return least
-    return float(brentq(lambda time: log2(fall(time)) - log2(height), least, high, xtol=1e-15, rtol=1e-12))
-
-
-def _shortest(fall: Callable[[float], float], low: float, high: float) -> float:
-    """The shortest duration that keeps the limits; `high` where none does."""
     while high - low > AGREEMENT * high:
         middle = 0.5 * (low + high)
-        low, high = (middle, high) if fall(middle) == inf else (low, middle)
+        low, high = (middle, high) if level(middle) == inf else (low, middle)
     return high
