@@ -84,6 +84,7 @@ nitpick_ignore = [
     ("py:class", "optlaws.mechanisms.drives.effort.PieceEffort"),
     ("py:class", "optlaws.synthesis.least_time.timed_move.Timed"),
     ("py:class", "optlaws.synthesis.least_time.timed_move.TimedMove"),
+    ("py:class", "optlaws.synthesis.least_time.timed_move.TimedT"),
     ("py:class", "optlaws.motion.quantities.Kind"),
     ("py:class", "optlaws.synthesis.least_time.motor_torque.LossyGear"),
     ("py:class", "optlaws.motion.piece.Piece"),

@@ -119,7 +119,7 @@ class FastestCycle(Exportable):
         By the name of a motion: no law keeps its limits in a millionth less time than the motion has.
     limit
         The period in seconds that no laws of any degree beat, by the segments of greatest jerk, acceleration and
-        velocity; None where it is not known, as within limits of a drive, and of ends that move.
+        velocity; None where it is not known, as within limits of a drive and of ends that accelerate.
 
     Examples
     --------

@@ -13,7 +13,7 @@ from optlaws.files.reading import check_names, entries_of
 from optlaws.lazy import imported
 from optlaws.numbers import real
 from optlaws.synthesis.least_time.least_time import LeastTime
-from optlaws.synthesis.least_time.timed_move import MoveObjective
+from optlaws.synthesis.least_time.timed_move import MoveObjective, TimedMove
 from optlaws.synthesis.limits.rounding import rounded_up
 from optlaws.synthesis.problem.constants import meant
 from optlaws.synthesis.proven.front import FrontPoint, ProvenFront
@@ -143,13 +143,13 @@ def least_time(data: Mapping[str, Any], of_law: Verification) -> Verification:
     )
 
 
-def _stated(data: Mapping[str, Any]) -> LeastTime:
+def _stated(data: Mapping[str, Any]) -> LeastTime[TimedMove]:
     check_names([data["unit"]] if "unit" in data else (), ("m", "rad"), "unit")
     stated = {key: value for key, value in data.items() if key not in {"unit", "about"}}
     return built(LeastTime.from_dict, stated, "the least time")
 
 
-def _limits(least: LeastTime) -> Iterator[Claim]:
+def _limits(least: LeastTime[TimedMove]) -> Iterator[Claim]:
     """The claim that the law satisfies every limit in the time, in the units of the file."""
     law = ExactLaw(least.law)
     for limit in least.move.limits_in(least.duration):
@@ -161,7 +161,7 @@ def _limits(least: LeastTime) -> Iterator[Claim]:
     yield Claim("the law in the least time", not broken, detail or "it keeps every condition of the move")
 
 
-def _proofs(least: LeastTime) -> Iterator[Claim]:
+def _proofs(least: LeastTime[TimedMove]) -> Iterator[Claim]:
     """The claim that no law satisfies the limits in any shorter time."""
     wrong = least.contradiction
     if wrong:
@@ -176,7 +176,7 @@ def _proofs(least: LeastTime) -> Iterator[Claim]:
         yield Claim(f"no law in a time {times}", stands, how)
 
 
-def _limit(least: LeastTime, data: Mapping[str, Any]) -> Iterator[Claim]:
+def _limit(least: LeastTime[TimedMove], data: Mapping[str, Any]) -> Iterator[Claim]:
     """The claim that no law of any degree is faster, by the segments; that in a phase plane is known in doubles only.
 
     A file with another value than these is refused.
@@ -225,7 +225,9 @@ def time_front(data: Mapping[str, Any], of_least: Verification, of_points: Seque
     return replace(of_least, claims=tuple(claims), unchecked=(*of_least.unchecked, *unchecked))
 
 
-def _point(least: LeastTime, objective: MoveObjective, row: Mapping[str, Any], known: Verification) -> Iterator[Claim]:
+def _point(
+    least: LeastTime[TimedMove], objective: MoveObjective, row: Mapping[str, Any], known: Verification
+) -> Iterator[Claim]:
     """The claim that a law belongs to the move in its time, with its objective and its lower bound, in SI units."""
     duration, move = number(row, "duration"), least.move
     with meant():

@@ -9,6 +9,7 @@ from typing import Any, Literal, TypeAlias, Unpack
 from optlaws.cycles.axes.interlock import INTERLOCKS, Interlock, LeastClearance
 from optlaws.cycles.axes.report import AxesReport
 from optlaws.cycles.cycle import Cycle, Plan
+from optlaws.cycles.moves.fastest_move import limit_row
 from optlaws.cycles.specification.programme import is_optimal, period_of
 from optlaws.cycles.specification.segments import CycleSegment, Dwell
 from optlaws.cycles.specified import problem_file
@@ -496,7 +497,7 @@ class Overlap(Declared, title="axes that overlap"):
             "proven lower bound": (self.lower_bound, unit),
             "gain": (self.gain, better),
         }
-        rows = [Row(name, *value) for name, value in values.items()]
+        rows = [*(Row(name, *value) for name, value in values.items()), limit_row(None, self.objective)]
         return Summary([Row("status", self.status.value), *rows, *(Row("bound by", name) for name in self.binding)])
 
     @classmethod

@@ -32,7 +32,7 @@ from optlaws.numbers import Array
 from optlaws.sentences import sentence
 from optlaws.synthesis.functionals.makers import peak
 from optlaws.synthesis.least_time.least_time import LeastTime
-from optlaws.synthesis.least_time.move_limits import MoveLimits, SpanLimit, derivative_limit, time_of_any_law
+from optlaws.synthesis.least_time.move_limits import MoveLimits, SpanLimit, derivative_limit, scale_of_any_law
 from optlaws.synthesis.least_time.time_search import least_time
 from optlaws.synthesis.least_time.timed_move import Timed
 from optlaws.synthesis.problem.constants import B, C, C_minus, C_plus, D, Functional, J, meant, snap
@@ -109,7 +109,7 @@ class TimedSpan(Timed):
         return self.given if self.space is None else self._least.law
 
     @kept_property
-    def _least(self) -> LeastTime:
+    def _least(self) -> LeastTime[TimedSpan]:
         try:
             return least_time(self)
         except SolverFailure as error:
@@ -123,13 +123,16 @@ class TimedSpan(Timed):
         """The scale that no law of any degree is faster than, or that of a given law; None where it is not known."""
         if self.space is None:
             return self.scale
-        if self.space.boundary is not None:
+        ends = self.space.conditions
+        rates = (ends.start[1], ends.end[1]) if self.space.order > 1 else (0.0, 0.0)
+        if (ends.start[0], ends.end[0]) != (0.0, 1.0) or any((*ends.start[2:], *ends.end[2:])):
             return None
         most: dict[Functional, float] = {}
         for constant, rate in (limit.term(1.0) for limit in self.rates):
             most[constant] = min(rate, most.get(constant, inf))
         up, down = (most.get(side, most.get(C)) for side in (C_plus, C_minus))
-        return time_of_any_law(1.0, MoveLimits(most.get(B), up, down, most.get(J), most.get(snap)), self.space.order)
+        limits = MoveLimits(most.get(B), up, down, most.get(J), most.get(snap))
+        return scale_of_any_law(limits, self.space.order, rates)
 
     @property
     def binding(self) -> tuple[SpanLimit, ...]:

@@ -31,6 +31,7 @@ from optlaws.synthesis.least_time.least_time import LeastTime
 from optlaws.synthesis.least_time.motor_torque import CURVE_LIMIT
 from optlaws.synthesis.least_time.move_limits import RESIDUALS
 from optlaws.synthesis.least_time.time_search import least_time
+from optlaws.synthesis.least_time.timed_move import TimedMove
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.status import Status
 from optlaws.tolerances import SAME_TIME
@@ -128,7 +129,7 @@ class FastestMove(LawExport, MovePlan, JsonText):  # type: ignore[misc] # its ex
     (0.255736, 0.251858, ('acceleration', 'jerk'))
     """
 
-    least: LeastTime
+    least: LeastTime[TimedMove]
     unit: str = "m"
 
     _json_name = "a fastest move"

@@ -151,7 +151,7 @@ def fastest_moves(
     machine = (limits, (start_velocity, end_velocity), drive, start, follower)
     moves = [_timed(problem, stroke, *machine) for stroke in listed(strokes, "strokes", _MOST)]
     answers: dict[int, FastestMove] = {}
-    last: LeastTime | None = None
+    last: LeastTime[TimedMove] | None = None
     for i in sorted(range(len(moves)), key=lambda place: moves[place][0].stroke):
         move, unit = moves[i]
         last = least_time(move, last if follower is None else None)

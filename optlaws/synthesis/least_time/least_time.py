@@ -12,7 +12,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from math import inf
-from typing import Any
+from typing import Any, Generic, Self
 
 from numpy.polynomial.polynomial import polyroots
 
@@ -27,7 +27,7 @@ from optlaws.numerics.roots import bisect
 from optlaws.synthesis.families import names
 from optlaws.synthesis.least_time.motor_torque import MotorTorque
 from optlaws.synthesis.least_time.move_limits import FollowerResidual, MoveLimits, power
-from optlaws.synthesis.least_time.timed_move import Timed, TimedMove, control_point, powers_of
+from optlaws.synthesis.least_time.timed_move import Timed, TimedMove, TimedT, control_point, powers_of
 from optlaws.synthesis.problem.constants import meant
 from optlaws.synthesis.proof.certificate import VIOLATION, Certificate
 from optlaws.synthesis.proof.data import problem_of
@@ -252,8 +252,10 @@ _MOST_PROOFS = 100
 
 
 @dataclass(frozen=True)
-class LeastTime(JsonText):
-    """The least time of a move within its limits, in units of the stroke and seconds.
+class LeastTime(JsonText, Generic[TimedT]):
+    """The least time of a move, or of a span of a cycle, within its limits, in units of the stroke and seconds.
+
+    That of a move alone is stored.
 
     Attributes
     ----------
@@ -273,7 +275,7 @@ class LeastTime(JsonText):
     (3.249852, 3.174802, ('jerk',))
     """
 
-    move: TimedMove  #: or a span of a cycle, which is not stored
+    move: TimedT
     duration: float
     solution: Solution
     proofs: tuple[TimeProof, ...]
@@ -350,7 +352,7 @@ class LeastTime(JsonText):
         names = (limit.name for limit in self.move.rates)
         return {name: share / steep for name, (_, share) in zip(names, weighed, strict=True)}
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self: LeastTime[TimedMove]) -> dict[str, Any]:
         """Plain JSON-able dict: law and proofs in one, which `optlaws verify` checks."""
         move = self.move
         timed = {"torque": move.torque, "residual": move.residual}
@@ -372,7 +374,7 @@ class LeastTime(JsonText):
         )
 
     @classmethod
-    def from_dict(cls, data: Mapping[str, Any]) -> LeastTime:
+    def from_dict(cls, data: Mapping[str, Any]) -> Self:
         """Read the output of `to_dict`; the law and the proofs are checked against the move and its limits.
 
         Raises
@@ -386,7 +388,7 @@ class LeastTime(JsonText):
         ends = {name: finite(data[name], name) for name in _MOVING if name in data}
         if len(data) > len(KEYS) + (torque is not None) + (residual is not None) + len(ends):
             raise InputError(f"{cls._json_name} has the entries {', '.join(KEYS)} and no other")
-        move = TimedMove(
+        move: Any = TimedMove(
             problem_of(entries["space"]),
             positive(entries["stroke"], "stroke"),
             MoveLimits.from_dict(entries["limits"]),

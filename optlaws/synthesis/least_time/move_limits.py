@@ -242,6 +242,34 @@ def time_of_any_law(stroke: float, limits: MoveLimits, order: int) -> float | No
     return max(known, default=None)
 
 
+def scale_of_any_law(limits: MoveLimits, order: int, ends: tuple[float, float]) -> float | None:
+    """The least scale of the time of all laws with the stroke 1 whose end velocities are such shares of the mean one.
+
+    In a longer time the limits of the law are wider, so that what is too short is known of all shorter ones too.
+
+    >>> scale_of_any_law(MoveLimits(acceleration=1.0, deceleration=1.0), 2, (0.0, 1.0))  # root of 1 + root of 2
+    1.553773974
+    """
+    if not any(ends):
+        return time_of_any_law(1.0, limits, order)
+
+    def too_short(scale: float) -> bool:
+        first, last = (end / scale for end in ends)
+        if limits.velocity is not None and max(abs(first), abs(last)) > limits.velocity:
+            return True
+        segments = segment_times(1.0, limits, order, (first, last))
+        return segments is not None and segments.duration > scale
+
+    low, high = 0.5, 1.0
+    while too_short(high):
+        low, high = high, 2.0 * high
+    while not too_short(low):
+        low, high = 0.5 * low, low
+        if low < VALUE_ROUNDING:
+            return None
+    return bisect(too_short, low, high)[0]
+
+
 def _crossing(covered: Callable[[float], float], stroke: float) -> float:
     """The least velocity above that of the faster end with which the phases cover the stroke."""
     if covered(0.0) >= stroke:

@@ -9,12 +9,11 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from math import copysign, exp, inf, log, sqrt
 from operator import itemgetter
-from typing import cast
 
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.least_time.least_time import LeastTime, Multipliers, TimeProof, covering, proof_by
-from optlaws.synthesis.least_time.timed_move import Timed, TimedMove
+from optlaws.synthesis.least_time.timed_move import Timed, TimedMove, TimedT
 from optlaws.synthesis.problem.constants import meant
 from optlaws.synthesis.program.writer import model_of
 from optlaws.synthesis.search import LawSearch, best_available
@@ -150,12 +149,12 @@ class _Trials:
         return log(before / after) / (2.0 * DURATION_STEP)
 
 
-def _by_secants(move: Timed, near: LeastTime | None = None) -> LeastTime:
+def _by_secants(move: TimedT, near: LeastTime[TimedT] | None = None) -> LeastTime[TimedT]:
     """The least time by secants of the greatest share over the time, perhaps started near another.
 
     Where laws that keep the limits keep them in every longer time, a certificate of one time proves the shorter ones.
     """
-    if near is None or not isinstance(move, TimedMove):
+    if near is None or not (isinstance(move, TimedMove) and isinstance(near.move, TimedMove)):
         trials, begin = _Trials(move), move.begin
     else:
         # a torque that accelerates alone takes times as the roots of the strokes
@@ -167,10 +166,10 @@ def _by_secants(move: Timed, near: LeastTime | None = None) -> LeastTime:
     if move.stays_possible and move.shares(duration).convex:
         proof = proof_by(trials.solution(too_short).certificate, move, 0.0, too_short)
         proofs = (proof,) if proof.stands(move) else ()
-    return LeastTime(cast("TimedMove", move), duration, trials.solutions[duration], proofs)
+    return LeastTime(move, duration, trials.solutions[duration], proofs)
 
 
-def _of_vibration(move: Timed, without: LeastTime) -> LeastTime:
+def _of_vibration(move: TimedT, without: LeastTime[Timed]) -> LeastTime[TimedT]:
     """The least time within a limit of the vibration that is left, from the least time without that limit.
 
     Laws of a longer time may leave more again. The search goes up to a law; boxes of the times before are then proven
@@ -186,7 +185,7 @@ def _of_vibration(move: Timed, without: LeastTime) -> LeastTime:
     duration = trials.root(high, low) if low < high else exp(high)
     if proofs and low < high and move.stays_possible and move.shares(duration).convex:
         duration = _exclude(trials, proofs, duration)
-    return LeastTime(cast("TimedMove", move), duration, trials.solutions[duration], tuple(proofs))
+    return LeastTime(move, duration, trials.solutions[duration], tuple(proofs))
 
 
 def _exclude(trials: _Trials, proofs: list[TimeProof], duration: float) -> float:
@@ -219,7 +218,7 @@ _SETTLING = 12
 _LITTLE = 0.1
 
 
-def least_time(move: Timed, near: LeastTime | None = None) -> LeastTime:
+def least_time(move: TimedT, near: LeastTime[TimedT] | None = None) -> LeastTime[TimedT]:
     """The least time in which a law of a move, or of a span of a cycle, keeps its limits, proven to a millionth.
 
     From rest to rest the search may begin near that of another stroke in the same space: its multipliers say of this
@@ -241,13 +240,13 @@ def least_time(move: Timed, near: LeastTime | None = None) -> LeastTime:
             return _by_secants(move, near)
         duration, solution, known = _from_either_side(move, near) if move.at_rest else _from_below(move)
     proofs = covering(move, known, duration * (1.0 - LEAST_TIME_GAP)) if known or not move.at_rest else ()
-    return LeastTime(cast("TimedMove", move), duration, solution, proofs)
+    return LeastTime(move, duration, solution, proofs)
 
 
 _Known = list[tuple[float, Multipliers]]
 
 
-def _from_either_side(move: Timed, near: LeastTime | None) -> tuple[float, Solution, _Known]:
+def _from_either_side(move: TimedT, near: LeastTime[TimedT] | None) -> tuple[float, Solution, _Known]:
     """Steps from rest to rest: the multipliers of any time prove an interval from zero up to the next time."""
     duration, warm = _beside(move, near)
     known: _Known = []
@@ -283,9 +282,9 @@ def _from_either_side(move: Timed, near: LeastTime | None) -> tuple[float, Solut
     return (*min(needed, key=itemgetter(0)), [])
 
 
-def _beside(move: Timed, near: LeastTime | None) -> tuple[float, ActiveSet | None]:
+def _beside(move: TimedT, near: LeastTime[TimedT] | None) -> tuple[float, ActiveSet | None]:
     """A time slightly above that of all laws, or the one up to which the multipliers of another stroke prove."""
-    if near is None or not isinstance(move, TimedMove):
+    if not (near and isinstance(move, TimedMove) and isinstance(near.move, TimedMove)):
         return _SLOWER * move.begin, None
     if (near.move.problem, near.move.limits) != (move.problem, move.limits):
         return _SLOWER * move.begin, None

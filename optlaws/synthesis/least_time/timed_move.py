@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from math import comb, factorial, inf, nextafter
-from typing import Any
+from typing import Any, TypeVar
 
 from optlaws.echo import shortened
 from optlaws.entries.declared import Declared, ValueOf, declared, entry
@@ -39,6 +39,8 @@ from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
 _EXAMPLE = "{'velocity': 1.0, 'acceleration': 12.0}"
 _HIGHEST = 4
 
+TimedT = TypeVar("TimedT", bound="Timed")
+
 #: a time to the powers 1 to 4, or what stands for them in a Bernstein form
 Powers = tuple[float, ...]
 
@@ -64,6 +66,16 @@ class Timed:
     @property
     def limit(self) -> float | None:
         """The time that no law of any degree is faster than; None where it is not known."""
+        return None
+
+    @property
+    def segments(self) -> LimitSegments | None:
+        """The motion that no law of any degree is faster than; None where none is known."""
+        return None
+
+    @property
+    def torque(self) -> MotorTorque | None:
+        """At the motor, with its limits; None without one, or where they are among those along the motion."""
         return None
 
     @property
