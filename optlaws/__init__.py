@@ -50,14 +50,11 @@ declare(
 declare(
     "export format",
     {
-        "optlaws.exports.formats.br": "br-acp10",
-        "optlaws.exports.formats.codesys": "codesys-cambuilder codesys-xy codesys-xyva",
-        "optlaws.exports.formats.plain": "csv isg kas lenze plcopen sew technosoft",
-        "optlaws.exports.formats.rockwell": "rockwell-cam rockwell-cam-extended rockwell-cam-profile",
-        "optlaws.exports.formats.ros": "ros2",
-        "optlaws.exports.formats.siemens": "siemens-elements siemens-points siemens-polynomials",
+        "optlaws.exports.formats.controllers": "br-acp10 codesys-cambuilder codesys-xy codesys-xyva rockwell-cam "
+        "rockwell-cam-extended rockwell-cam-profile siemens-elements siemens-points siemens-polynomials twincat-mc3 "
+        "twincat-nc2 twincat-table",
+        "optlaws.exports.formats.plain": "csv isg kas lenze plcopen ros2 sew technosoft",
         "optlaws.exports.formats.source_code": "c99 iec-st iec-st-real",
-        "optlaws.exports.formats.twincat": "twincat-mc3 twincat-nc2 twincat-table",
     },
 )
 declare("what moves", {"optlaws.mechanisms.drives.moved": "mechanism drive"})

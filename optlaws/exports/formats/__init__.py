@@ -1,1 +1,1 @@
-"""Formats of controllers, a file for each manufacturer or language, and the common parts of tables and programs."""
+"""Formats of controllers: in languages of IEC 61131-3, as text without a language, and as programs."""
