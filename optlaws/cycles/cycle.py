@@ -9,16 +9,13 @@ from typing import TYPE_CHECKING, Any, Literal, TypeVar, get_args
 
 import numpy as np
 
-from optlaws.cycles.optimisation.bounds import bound_of, is_exact
 from optlaws.cycles.optimisation.objectives import SUMS, check_objective, kind_of
-from optlaws.cycles.optimisation.optimal import span_problem
-from optlaws.cycles.optimisation.search_spaces import remark_on_degrees, search_space
+from optlaws.cycles.optimisation.optimal import remark_on_degrees, search_space, span_problem
 from optlaws.cycles.optimisation.shared_limits import best_of
-from optlaws.cycles.optimisation.span_values import along, total
+from optlaws.cycles.optimisation.span_values import along, bound_of, is_exact, total
 from optlaws.cycles.placed import SegmentPeaks, limits_taken, refuse_beyond, retimed_segments, segments_in_place
-from optlaws.cycles.specification.joints import LawSpan
 from optlaws.cycles.specification.limits import FORCE_UNITS, FORCES, LOAD, MOTOR, LimitTaken
-from optlaws.cycles.specification.programme import Programme, period_of
+from optlaws.cycles.specification.programme import LawSpan, Programme, period_of
 from optlaws.cycles.specification.segments import CycleSegment, Transition
 from optlaws.cycles.specified import Specification
 from optlaws.entries.declared import Declared, ValueOf, declared, documented_by, entry

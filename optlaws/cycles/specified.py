@@ -7,12 +7,11 @@ from dataclasses import KW_ONLY, replace
 from typing import TYPE_CHECKING, Any, Self
 
 from optlaws.cycles.optimisation.durations import durations
-from optlaws.cycles.optimisation.joint_limits import check_limits_at_joints
 from optlaws.cycles.optimisation.objectives import OBJECTIVES, CycleObjective, check_objective, limits_of_cycle
-from optlaws.cycles.specification.joints import Layout, State, layout
+from optlaws.cycles.optimisation.shared_limits import check_limits_at_joints
 from optlaws.cycles.specification.limits import LIMITS_OF_CYCLE, both_sides
 from optlaws.cycles.specification.load import ElasticLoad, Load, is_process, read_load
-from optlaws.cycles.specification.programme import Programme, is_optimal, period_of, programme
+from optlaws.cycles.specification.programme import Layout, Programme, State, is_optimal, layout, period_of, programme
 from optlaws.cycles.specification.segments import SEGMENTS, CycleSegment, Dwell
 from optlaws.echo import shortened
 from optlaws.entries.declared import Declared, FrozenTable, ValueOf, declared, entries_of, entry, frozen, thawed

@@ -14,9 +14,8 @@ from optlaws.cycles.moves.fastest_move import AXES, FastestMove, MovePlan, limit
 from optlaws.cycles.moves.timed_moves import move_limits
 from optlaws.cycles.optimisation.objectives import CycleObjective
 from optlaws.cycles.optimisation.optimal import solved, span_problem
-from optlaws.cycles.specification.joints import LawSpan, State
 from optlaws.cycles.specification.limits import along_motion, of_segments
-from optlaws.cycles.specification.programme import Programme, TimedSegment, time_of
+from optlaws.cycles.specification.programme import LawSpan, Programme, State, TimedSegment, time_of
 from optlaws.cycles.specification.segments import Move, Transition
 from optlaws.entries.declared import Declared, ValueOf, declared, entry
 from optlaws.entries.value_types import Choice, Number, ReadBy, Together

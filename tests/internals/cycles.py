@@ -8,7 +8,7 @@ from optlaws.cycles.cycle import Answers, answer
 from optlaws.cycles.old_tables.reading import CamPoints, points_in
 from optlaws.cycles.old_tables.stretches import law_of_move, nothing_to_better
 from optlaws.cycles.optimisation.objectives import OBJECTIVES
-from optlaws.cycles.optimisation.search_spaces import halved
+from optlaws.cycles.optimisation.optimal import halved
 from optlaws.cycles.optimisation.shared_limits import _SharedLimit as SharedLimit
 from optlaws.cycles.optimisation.span_values import size_of
 from optlaws.cycles.report import CycleReport

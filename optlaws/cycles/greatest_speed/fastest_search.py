@@ -27,11 +27,9 @@ from optlaws.cycles.greatest_speed.timed_spans import (
     slower,
     static_force,
 )
-from optlaws.cycles.optimisation.bounds import span_bound
 from optlaws.cycles.optimisation.objectives import CycleObjective
-from optlaws.cycles.optimisation.optimal import forward_windows, solve, span_problem, unlimited
-from optlaws.cycles.optimisation.search_spaces import joint_windows
-from optlaws.cycles.specification.joints import LawSpan, Layout, State, layout
+from optlaws.cycles.optimisation.optimal import forward_windows, joint_windows, solve, span_problem, unlimited
+from optlaws.cycles.optimisation.span_values import span_bound
 from optlaws.cycles.specification.limits import (
     FORCES,
     Sides,
@@ -40,7 +38,7 @@ from optlaws.cycles.specification.limits import (
     raised,
     word_of,
 )
-from optlaws.cycles.specification.programme import Programme, TimedSegment
+from optlaws.cycles.specification.programme import LawSpan, Layout, Programme, State, TimedSegment, layout
 from optlaws.cycles.specification.segments import Dwell
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.kept import kept_property

@@ -19,8 +19,8 @@ import numpy as np
 
 from optlaws.cycles.optimisation.objectives import CycleObjective, torque_at_rest
 from optlaws.cycles.optimisation.span_values import SpanValue, known_drive, limited_value, span_value
-from optlaws.cycles.specification.joints import LawSpan
 from optlaws.cycles.specification.limits import Side, Sides, in_units, name_of
+from optlaws.cycles.specification.programme import LawSpan
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.formulas.tree import Number, table_places
 from optlaws.kept import kept_property
@@ -192,7 +192,7 @@ def falling_root(excess: Callable[[float], float], begin: float, wider: float, m
 def slower(span: LawSpan, scale: float) -> LawSpan:
     """The span slowed down by a factor: its times are longer, its velocities and accelerations smaller.
 
-    >>> from optlaws.cycles.specification.joints import State
+    >>> from optlaws.cycles.specification.programme import State
     >>> span = LawSpan((), (0.5,), 1.0, 0.0, 0.1, State(1.0, 8.0), State(0.0, 0.0), ((0.75, 0.05),))
     >>> slower(span, 2.0).stop, slower(span, 2.0).first, slower(span, 2.0).via
     (2.0, State(velocity=0.5, acceleration=2.0), ((1.5, 0.05),))

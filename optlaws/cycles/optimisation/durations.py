@@ -17,9 +17,8 @@ import numpy as np
 
 from optlaws.cycles.optimisation.objectives import CycleObjective
 from optlaws.cycles.optimisation.optimal import span_problem, unlimited
-from optlaws.cycles.specification.joints import LawSpan, State
 from optlaws.cycles.specification.limits import greatest
-from optlaws.cycles.specification.programme import Programme, TimedSegment, is_optimal
+from optlaws.cycles.specification.programme import LawSpan, Programme, State, TimedSegment, is_optimal
 from optlaws.cycles.specification.segments import ConstantVelocity, Dwell, Free, Move
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.laws import MotionLaw

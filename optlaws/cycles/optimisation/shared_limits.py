@@ -1,4 +1,4 @@
-"""A limit of the root mean square of the force, or of the energy, over a whole cycle: its motions share it.
+"""The best laws of a cycle, also where they share a limit of the whole, and what no law changes at known joints.
 
 Motors are rated by the root mean square. Each motion is a problem of its own; the limit of a sum joins them. Where a
 peak is minimised, the least sum of laws that keep a peak falls with the peak: the least peak is where that sum meets
@@ -9,26 +9,31 @@ limit, is a lower bound.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from math import exp, inf, log, sqrt
+from itertools import accumulate
+from math import copysign, exp, inf, log, sqrt
+from operator import itemgetter
 from typing import TypeAlias
 
-from optlaws.cycles.optimisation.bounds import bound_of, is_exact, span_bound
-from optlaws.cycles.optimisation.joint_limits import ties_broken
 from optlaws.cycles.optimisation.objectives import SUMS, CycleObjective
 from optlaws.cycles.optimisation.optimal import solve, solved, span_problem, with_least_limit, with_share
-from optlaws.cycles.optimisation.span_values import SpanValue, size_of, sum_along, total
-from optlaws.cycles.specification.joints import LawSpan, Layout
-from optlaws.cycles.specification.limits import FORCES, tightest
+from optlaws.cycles.optimisation.span_values import SpanValue, bound_of, is_exact, size_of, span_bound, sum_along, total
+from optlaws.cycles.specification.limits import DECELERATION, FORCES, SPEEDING_UP, Side, Sides, in_units, tightest
+from optlaws.cycles.specification.programme import LawSpan, Layout, State
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.kept import kept_property
 from optlaws.motion.piece import Piece
-from optlaws.motion.quantities import Kind
+from optlaws.motion.quantities import Kind, in_small_units
+from optlaws.sentences import Amount, sentence
 from optlaws.synthesis.functionals.makers import integral
 from optlaws.synthesis.solution import Solution
-from optlaws.tolerances import FEASIBILITY
+from optlaws.tolerances import AGREEMENT, FEASIBILITY
 
+_ACCELERATION_KNOWN = 3
+_FORCE = Side(Kind.FORCE)
+
+Solved = tuple[tuple[Piece, Solution], ...]
 _LEAST_PEAK_SLACK = 1e-6  # of a least peak, given to problems that are not convex
 _PEAK_BRACKET = 1e-11  # of a peak: where a limit is met
 
@@ -41,6 +46,112 @@ _NONE = 1.0  # by how much a limit counts as missed where there is no law
 _BELOW = (2e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2)
 
 Laws: TypeAlias = tuple[tuple[Piece, Solution], ...]
+
+
+@dataclass(frozen=True)
+class _End:
+    """An end of a stretch with an optimised law, where velocity and acceleration are known."""
+
+    limits: Sides
+    name: str
+    time: float
+    position: float
+    state: State
+    direction: float
+
+    def demand(self, objective: CycleObjective, kind: Kind) -> float:
+        """The velocity or the force there, in SI units; 0 where it is not known."""
+        if kind is Kind.VELOCITY:
+            return abs(self.state.velocity)
+        drive = objective.drive
+        if kind is not Kind.FORCE or drive is None:
+            return 0.0
+        if (drive.linear is None or drive.linear.inertia) and objective.order < _ACCELERATION_KNOWN:
+            return 0.0
+        velocity = self.state.velocity
+        way = copysign(1.0, velocity) if velocity else self.direction
+        return abs(float(drive.torque(self.position, *self.state, direction=way, time=self.time)))
+
+
+def check_limits_at_joints(layout: Layout, objective: CycleObjective, period: float) -> None:
+    """Refuse a limit that no law keeps: of slowing down where it turns, of force less than a joint takes."""
+    for span in layout.spans:
+        _check_direction(span, objective)
+        for end in _ends(span, objective):
+            needed = end.demand(objective, Kind.FORCE)
+            most = end.limits.get(_FORCE, needed)
+            if needed > most * (1.0 + AGREEMENT):
+                taken, allowed = (in_units(_FORCE, force, objective.axis) for force in (needed, most))
+                raise InfeasibleProblem(
+                    sentence(
+                        "{}, at {} and {} of the master, every law takes {}, but its limit is {}: allow more, or "
+                        "change the drive's spring, preload, gravity or friction",
+                        end.name, in_small_units(end.position, objective.axis),
+                        Amount(360.0 * end.time / period, "deg"), taken, allowed,
+                    )
+                )  # fmt: skip
+
+
+def _check_direction(span: LawSpan, objective: CycleObjective) -> None:
+    """Refuse a limit of slowing down where the velocities at the ends turn the motion back."""
+    keys = [key for limits in span.sides(objective.limits) for key in limits or ()]
+    against = any(state.velocity * span.displacement < 0.0 for state in (span.first, span.last))
+    if against and any(key.kind is Kind.VELOCITY_ALONG for key in keys):
+        raise InfeasibleProblem(
+            f"{span.where} begins or ends against its way, so that it turns back, which its velocity must not"
+        )
+    if span.may_turn and any(key.name in {DECELERATION, SPEEDING_UP} for key in keys):
+        raise InputError(
+            f"{span.where} begins or ends against its way, so that slowing down is of no one direction: give its "
+            "acceleration as the least and the greatest, such as ('-8 m/s^2', '12 m/s^2'), in place of a deceleration"
+        )
+
+
+def _ends(span: LawSpan, objective: CycleObjective) -> Iterator[_End]:
+    """The ends of stretches of a span at which its motion is known."""
+    inner = (None,) * (len(span.stretches) - 1)
+    states = (*span.states, span.states[0]) if span.turns else (span.first, *inner, span.last)
+    positions = list(accumulate((stretch.displacement for stretch in span.stretches), initial=span.offset))
+    times = (*span.starts, span.stop)
+    direction = 0.0 if span.may_turn else 1.0 if span.displacement > 0.0 else -1.0
+    for i, limits in enumerate(span.sides(objective.limits)):
+        for j, name in ((i, "start"), (i + 1, "end")) if limits is not None else ():
+            where, state = f"{span.stretches[i].where}: at its {name}", states[j]
+            if state is not None:
+                yield _End(limits or {}, where, times[j], positions[j], state, direction)
+
+
+def ties_broken(
+    layout: Layout, objective: CycleObjective, laws: Solved, period: float
+) -> tuple[Solved, tuple[str, ...]]:
+    """The laws of least acceleration among laws of least peak, where the peak is at a joint or in a given segment.
+
+    There no law changes the peak of the velocity or force, so that many take no more elsewhere. Beside the laws: a
+    remark that says so.
+    """
+    kind = objective.kind
+    if objective.mean or kind not in {Kind.VELOCITY, Kind.FORCE} or not laws:
+        return laws, ()
+    known = [(size_of(piece, kind, objective.drive), piece.start) for piece in layout.pieces]
+    known += [(end.demand(objective, kind), end.time) for span in layout.spans for end in _ends(span, objective)]
+    greatest, time = max(known, key=itemgetter(0), default=(0.0, 0.0))
+    if max(size_of(piece, kind, objective.drive) for piece, _ in laws) > greatest * (1.0 + AGREEMENT):
+        return laws, ()
+    limits = tightest(objective.limits, {kind: (-greatest, greatest)})
+    calm = replace(objective, minimise="acceleration", limits=limits)
+    remark = sentence(
+        "the {} is greatest at {} of the master, where no law changes it: of the laws that take no more elsewhere, "
+        "those of least acceleration",
+        objective.minimise, Amount(360.0 * time / period, "deg"),
+    )  # fmt: skip
+    return tuple(_calmer(span, calm, law) for span, law in zip(layout.spans, laws, strict=True)), (remark,)
+
+
+def _calmer(span: LawSpan, calm: CycleObjective, law: tuple[Piece, Solution]) -> tuple[Piece, Solution]:
+    try:
+        return solve(span, calm)
+    except (InfeasibleProblem, SolverFailure):
+        return law
 
 
 @dataclass(frozen=True)

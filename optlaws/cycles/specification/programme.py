@@ -1,11 +1,15 @@
-"""A cycle as numbers: durations that sum, positions that close, velocities that meet; errors state the remedy."""
+"""A cycle as numbers: durations that sum, positions that close, velocities that meet; errors state the remedy.
+
+The states where segments meet are its joints; between known ones are the spans whose law is optimised.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, field
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field, replace
+from itertools import accumulate
 from math import inf
-from typing import Any
+from typing import Any, NamedTuple
 
 from optlaws.cycles.specification.limits import AXES, Limits, Sides, read_limits, sides, tightest
 from optlaws.cycles.specification.segments import (
@@ -20,9 +24,14 @@ from optlaws.cycles.specification.segments import (
 )
 from optlaws.echo import shortened
 from optlaws.errors import InputError
+from optlaws.kept import kept_property
+from optlaws.laws import MotionLaw, smoothstep
+from optlaws.motion.piece import Piece, factor, named_law
 from optlaws.motion.quantities import TURN, Kind, check_scale, either, in_small_units, positive_quantity, quantity
 from optlaws.sentences import Amount, sentence
 from optlaws.tolerances import CLOSURE, SAME_TIME
+
+UNIFORM = smoothstep(1)
 
 
 @dataclass(frozen=True)
@@ -220,3 +229,237 @@ def is_optimal(segment: CycleSegment) -> bool:
     return isinstance(segment, Free) or (
         isinstance(segment, Move) and isinstance(segment.law, str) and segment.law == OPTIMAL
     )
+
+
+class State(NamedTuple):
+    """Velocity and acceleration at a joint, in SI units."""
+
+    velocity: float
+    acceleration: float
+
+
+@dataclass(frozen=True)
+class LawSpan:
+    """The segments that one optimal law covers, with their times: a single segment, or consecutive free ones.
+
+    `first` and `last` are the states at both ends, `via` pairs of time and position on the way. Of a whole cycle in
+    one, `states` say what is known where each segment begins; its law is one of positions where it is `absolute`.
+    """
+
+    stretches: tuple[TimedSegment, ...]
+    starts: tuple[float, ...]
+    stop: float
+    offset: float
+    displacement: float
+    first: State
+    last: State
+    via: tuple[tuple[float, float], ...]
+    states: tuple[State | None, ...] = ()
+    absolute: bool = False
+
+    @property
+    def origin(self) -> float:
+        """The position at which the law is 0: the span's start, or 0 for a law of positions over a whole cycle."""
+        return 0.0 if self.absolute else self.offset
+
+    @property
+    def turns(self) -> bool:
+        """Whether the span is a whole cycle, which ends in its initial state."""
+        return bool(self.states)
+
+    @kept_property
+    def stroke(self) -> float:
+        """The scale of its law: its displacement or, if that is zero, the greatest distance on the way."""
+        known = (state for state in (self.first, self.last, *self.states) if state is not None)
+        ways = [abs(state.velocity) * self.duration for state in known]
+        return self.displacement or max(ways + [abs(position - self.offset) for _, position in self.via])
+
+    @property
+    def may_turn(self) -> bool:
+        """Whether its law may go back on its way."""
+        if self.turns or len(self.stretches) > 1 or self.via or not self.displacement:
+            return True
+        return any(state.velocity * self.displacement < 0.0 for state in (self.first, self.last))
+
+    def unit(self, nu: int) -> float:
+        """The unit of a derivative of its law."""
+        return abs(factor(self.stroke, self.duration, nu))
+
+    def place(self, time: float) -> float:
+        """The k of a time in it; its ends are 0 and 1 exactly."""
+        return 1.0 if time == self.stop else (time - self.start) / self.duration
+
+    def by(self, law: MotionLaw) -> Piece:
+        """A law in its place."""
+        return Piece(self.start, self.duration, self.offset, self.stroke, law)
+
+    @property
+    def start(self) -> float:
+        """The time at which it begins."""
+        return self.starts[0]
+
+    @property
+    def duration(self) -> float:
+        """How long it takes."""
+        return self.stop - self.start
+
+    @property
+    def timed(self) -> Iterator[tuple[TimedSegment, float, float]]:
+        """The segments, each with the times at which it begins and ends."""
+        return zip(self.stretches, self.starts, (*self.starts[1:], self.stop), strict=True)
+
+    def sides(self, of_cycle: Limits) -> tuple[Sides | None, ...]:
+        """The limited sides of each segment whose law is optimised; None of the others."""
+        return tuple(each.sides(of_cycle) if is_optimal(each.given) else None for each in self.stretches)
+
+    @property
+    def where(self) -> str:
+        """The name that errors give it."""
+        return " and ".join(stretch.where for stretch in self.stretches)
+
+
+@dataclass(frozen=True)
+class Layout:
+    """A cycle with known durations: pieces with known laws, and spans with optimised laws."""
+
+    starts: tuple[float, ...]
+    pieces: tuple[Piece, ...]
+    spans: tuple[LawSpan, ...]
+
+
+def layout(programme: Programme, durations: Sequence[float], *, whole: bool = False, absolute: bool = False) -> Layout:
+    """The known laws, and the spans with optimised laws.
+
+    Where nothing is known at the start of the cycle, or `whole` is true, its motions are one law that repeats; of
+    positions if it is to be `absolute`.
+    """
+    starts = tuple(accumulate(durations, initial=0.0))
+    offsets = tuple(accumulate((stretch.displacement for stretch in programme.stretches), initial=programme.start))
+    pieces = {
+        i: _piece(stretch, starts[i], durations[i], offsets[i])
+        for i, stretch in enumerate(programme.stretches)
+        if not is_optimal(stretch.given)
+    }
+    placed = _Placed(programme, starts, offsets, pieces)
+    joints = [placed.joint(i) for i in range(len(programme.stretches))]
+    if whole or joints[0] is None:
+        return Layout(starts, (), (placed.whole(joints, absolute=absolute),))
+    return Layout(starts, tuple(pieces.values()), tuple(placed.spans(joints)))
+
+
+def _piece(stretch: TimedSegment, start: float, duration: float, offset: float) -> Piece:
+    given = stretch.given
+    law = named_law(given.law, stretch.where) if isinstance(given, Move) else UNIFORM
+    return Piece(start, duration, offset, stretch.displacement, law)
+
+
+@dataclass(frozen=True)
+class _Placed:
+    """The segments of a cycle in their times and positions, with the pieces of those whose laws are known."""
+
+    programme: Programme
+    starts: tuple[float, ...]
+    offsets: tuple[float, ...]
+    pieces: dict[int, Piece]
+
+    def joint(self, i: int) -> State | None:
+        """The known state where segment i begins; None where segment i and its predecessor are free."""
+        before = (i - 1) % len(self.programme.stretches)
+        ended, begun = self._known(before, 1), self._known(i, 0)
+        if ended is not None and begun is not None:
+            self._check_velocities(before, i, ended.velocity, begun.velocity)
+            return ended if before in self.pieces else begun
+        if ended is not None or begun is not None:
+            return begun if ended is None else ended
+        free = all(isinstance(self.programme.stretches[j].given, Free) for j in (before, i))
+        return None if free else State(0.0, 0.0)
+
+    def _known(self, i: int, side: int) -> State | None:
+        if i in self.pieces:
+            velocity, acceleration = (self.pieces[i].end(nu, side) for nu in (1, 2))
+            # rounding would turn what follows back
+            return State(velocity if self.pieces[i].leaves(side) else 0.0, acceleration)
+        stretch = self.programme.stretches[i].given
+        given = (stretch.start_velocity, stretch.end_velocity)[side] if isinstance(stretch, Move) else None
+        if given is None:
+            return None
+        name = f"{self.programme.stretches[i].where}: {('start', 'end')[side]}_velocity"
+        return State(quantity(given, AXES[self.programme.axis][1], name), 0.0)
+
+    def _check_velocities(self, before: int, after: int, ended: float, begun: float) -> None:
+        programme = self.programme
+        size = max((abs(stretch.displacement) for stretch in programme.stretches), default=0.0) / programme.period
+        if abs(ended - begun) <= CLOSURE * max(size, abs(ended), abs(begun)):
+            return
+        first, second = programme.stretches[before], programme.stretches[after]
+        shown = [in_small_units(velocity, programme.axis, "/s") for velocity in (ended, begun, begun - ended)]
+        meant = first if isinstance(second.given, Dwell | ConstantVelocity) else second
+        raise InputError(
+            sentence(
+                "{} ends with {} and {} starts with {}, a jump of {}: put a motion between them, or give {} "
+                "law='optimal', which takes the velocities of its neighbours{}",
+                first.where, shown[0], second.where, shown[1], shown[2], meant.where,
+                self._meeting((second, first), (begun, ended)),
+            )
+        )  # fmt: skip
+
+    def _meeting(self, stretches: tuple[TimedSegment, TimedSegment], velocities: tuple[float, float]) -> str:
+        """The stroke at which a half segment would meet its neighbour, as a remedy; nothing where none would."""
+        for stretch, velocity, other in zip(stretches, velocities, reversed(velocities), strict=True):
+            if isinstance(stretch.given, Move) and not is_optimal(stretch.given) and velocity * other > 0.0:
+                stroke = in_small_units(abs(stretch.displacement * other / velocity), self.programme.axis)
+                return sentence("; moving by {} in the same time, {} would meet its neighbour", stroke, stretch.where)
+        return ""
+
+    def whole(self, joints: Sequence[State | None], *, absolute: bool) -> LawSpan:
+        """The cycle as a single span; its stretches with given laws must be straight."""
+        for stretch in self.programme.stretches:
+            if isinstance(stretch.given, Move) and not is_optimal(stretch.given):
+                raise InputError(
+                    f"{stretch.where}: give it law='optimal': the cycle is sought as one law; or begin it where "
+                    "velocity and acceleration are known, after a Dwell, a ConstantVelocity or a Move"
+                )
+        rest = State(0.0, 0.0)
+        return replace(self._span(0, len(joints), rest, rest), states=tuple(joints), absolute=absolute)
+
+    def spans(self, joints: Sequence[State | None]) -> Iterator[LawSpan]:
+        """The spans of stretches whose law is optimised, from one known joint to the next."""
+        i = 0
+        while i < len(joints):
+            stop = i + 1
+            if is_optimal(self.programme.stretches[i].given):
+                while stop < len(joints) and joints[stop] is None:
+                    stop += 1
+                first, last = joints[i], joints[stop % len(joints)]
+                if first is None or last is None:
+                    raise AssertionError  # spans begin and end where joints are known
+                yield self._span(i, stop, first, last)
+            i = stop
+
+    def _span(self, i: int, stop: int, first: State, last: State) -> LawSpan:
+        stretches, starts, offsets = self.programme.stretches, self.starts, self.offsets
+        via = [
+            (starts[j], offsets[j])
+            for j in range(i + 1, stop)
+            # what is straight brings its position on, and the last stretch ends where the span does
+            if is_optimal(stretches[j - 1].given) and (j < stop - 1 or is_optimal(stretches[j].given))
+        ]
+        via += [point for j in range(i, stop) for point in self._via(j)]
+        # positions are sums, which return up to rounding
+        moved = offsets[stop] - offsets[i]
+        near = CLOSURE * max(abs(offset - offsets[i]) for offset in offsets[i : stop + 1])
+        forward = moved if abs(moved) > near else 0.0
+        return LawSpan(
+            stretches[i:stop], starts[i:stop], starts[stop], offsets[i], forward, first, last, tuple(sorted(via))
+        )
+
+    def _via(self, j: int) -> Iterator[tuple[float, float]]:
+        stretch, (start, stop) = self.programme.stretches[j], self.starts[j : j + 2]
+        for i, point in enumerate(stretch.given.via if isinstance(stretch.given, Free) else (), 1):
+            name = f"{stretch.where}: via {i}"
+            place = start + time_of(point[0], self.programme.period, f"{name}, when")
+            if not start < place < stop:
+                raise InputError(
+                    f"{name} must be within the segment, which takes {stop - start:.9g} s, got {shortened(point[0])}"
+                )
+            yield place, quantity(point[1], self.programme.axis, f"{name}, position")
