@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache
 from math import inf, nan, pi, sqrt
@@ -70,19 +70,18 @@ class OutputConstant(Functional):
     steady: bool = False
     offset: float = 0.0
 
-    def curve(self, law: MotionLaw) -> OutputCurve:
+    def curve(self, given: MotionLaw) -> OutputCurve:
         """The output under a law with its offset, over all that counts and what is before it."""
-        return self._moved_by(motion_law(law)).plus(self.offset)
-
-    def _moved_by(self, law: MotionLaw) -> OutputCurve:
+        law, machine = motion_law(given), self.machine
         if self.steady:
-            _check_repeats(self.name, self.machine, float(law.a(1.0)) - float(law.a(0.0)))
-            course, rows = drives.of_law(law), self.machine.rows
-            return MachineMotion(self.machine.dynamics, rows, course, jumps=jumps(law))[self.output]
-        if self.cycle is not None:
+            _check_repeats(self.name, machine, float(law.a(1.0)) - float(law.a(0.0)))
+            motion = MachineMotion(machine.dynamics, machine.rows, drives.of_law(law), jumps=jumps(law))
+        elif self.cycle is not None:
             cycle = RiseReturnCycle(law, law, self.cycle[0], 1.0, self.cycle[1])
-            return MachineMotion.of_cycle(self.machine.dynamics, self.machine.rows, cycle)[self.output]
-        return MachineMotion.of_law(self.machine, law, max(0.0, self.within[1] - 1.0))[self.output]
+            motion = MachineMotion.of_cycle(machine.dynamics, machine.rows, cycle)
+        else:
+            motion = MachineMotion.of_law(machine, law, max(0.0, self.within[1] - 1.0))
+        return motion[self.output].plus(self.offset)
 
     #: what of the output it is, in words
     _what: ClassVar[str]
@@ -95,7 +94,6 @@ class OutputConstant(Functional):
 
     @property
     def title(self) -> str:
-        """A few words for it; the name has the whole machine in it."""
         first, last = self.within
         words = [] if self.cycle is not None or self.within == (0.0, 1.0) else [f"times {first:g} to {last:g}"]
         words += [] if self.cycle is None else ["over a cycle with dwell {:g} and rest {:g}".format(*self.cycle)]
@@ -109,7 +107,6 @@ class OutputConstant(Functional):
         return self.within[1]
 
     def where(self, k: float, part: int = 0) -> str:  # noqa: ARG002 - it has one
-        """The time of a place."""
         return f"time {k * self.duration:.4g}"
 
     @kept_property
@@ -123,7 +120,6 @@ class OutputConstant(Functional):
         return (order, gain * self.duration) if gain * self.scale < _MOST_GAIN else None
 
     def sizes(self, space: LawSpace) -> tuple[tuple[int, float, float], ...]:
-        """Bounds of a law's derivatives from its output: of a single derivative, or of all in the law space."""
         if self.steady and self.both:
             return by_norm(space, self.rows_of_output(space))
         if self._gain is not None and self.both:
@@ -160,9 +156,9 @@ class OutputConstant(Functional):
             _check_repeats(self.name, self.machine, space.stroke)
         else:
             check_rest(self.name, space)
-        if self.machine.rows[self.output][1][2] and getattr(space, "continuity", 2) < 1:
-            raise InputError(f"{self.output!r} is beyond every bound where the velocity jumps: give a continuity of 1")
         states, direct = self.machine.rows[self.output]
+        if direct[2] and getattr(space, "continuity", 2) < 1:
+            raise InputError(f"{self.output!r} is beyond every bound where the velocity jumps: give a continuity of 1")
         panels = [(panel.start, panel.length, panel.output(states, direct)) for panel in self._moved(space)]
         for *_, series in panels:
             series[0, -1] += self.offset
@@ -188,8 +184,12 @@ class OutputConstant(Functional):
         # a norm is that of the triangle alone
         return np.ascontiguousarray(np.linalg.qr(np.vstack(rows), mode="r"))
 
-    def _cached(self, space: LawSpace, make: Callable[[], Array]) -> Array:
-        return space.cached((type(self).__name__, self.name), make)
+    @abstractmethod
+    def _rows(self, space: LawSpace) -> Array:
+        """What the rows of the constant are made from."""
+
+    def _cached(self, space: LawSpace) -> Array:
+        return space.cached((type(self).__name__, self.name), lambda: self._rows(space))
 
 
 @lru_cache(maxsize=256)
@@ -218,12 +218,10 @@ class OutputPeak(OutputConstant):
 
     @property
     def title(self) -> str:
-        """The title of an output's constant, with the side of the peak."""
         return super().title + ("" if self.both else f", side {_SIDE[self.signs]}")
 
     @property
     def both(self) -> bool:
-        """Whether the constant can be small only if the output is."""
         return len(self.signs) == 2
 
     def floor(self, conditions: BoundaryConditions) -> float:
@@ -245,14 +243,13 @@ class OutputPeak(OutputConstant):
         return None if reach is None else reach.by_peak() if self.both else reach.by_one_sign(self.signs[0])
 
     def value(self, law: MotionLaw) -> float:
-        """The greatest magnitude over the whole time that counts."""
         curve = self.curve(law)
         low, high = curve.extrema(0, None if self.cycle is not None else (self.within[0], curve.interval[1]))
         return max(high.value if sign > 0.0 else -low.value for sign in self.signs)
 
     def families(self, space: LawSpace, slack: Array, bound: float) -> tuple[ConstraintFamily, ...]:
         """The output's series, on pieces where it has many."""
-        rows = self._cached(space, lambda: self._rows(space))
+        rows = self._cached(space)
         breaks, series = 1.0 - 2.0 * rows[:, 0, 0] / self.duration, rows[:, 1:]
         wide = np.zeros((*series.shape[:2], len(slack) + 1))
         wide[:, :, : space.terms], wide[:, :, -1] = series[:, :, :-1], series[:, :, -1]
@@ -262,22 +259,16 @@ class OutputPeak(OutputConstant):
         if len(wide) == 1:
             return (LinearFamily(self.name, slack, bound, self.signs, domain, series=wide[0]),)
         pieces = PieceSeries(np.append(breaks, -1.0), wide)
-        nothing = np.zeros((1, 1))
-        return (
-            PieceFamily(
-                self.name, slack, bound, self.signs, domain, series=nothing, pieces=pieces, jumps=self._jumps(space)
-            ),
-        )
+        # the output jumps where the acceleration does: at breaks, or where the motion ends
+        smooth = getattr(space, "continuity", 2) > 1 and space.boundary.order > 2
+        jumps = bool(self.machine.rows[self.output][1][2]) and not smooth
+        entries = self.name, slack, bound, self.signs, domain
+        return (PieceFamily(*entries, series=np.zeros((1, 1)), pieces=pieces, jumps=jumps),)
 
     def unit(self, space: LawSpace) -> float:
         """The size of the rows: nearly the base law's output."""
-        rows = self._cached(space, lambda: self._rows(space))
+        rows = self._cached(space)
         return float(np.abs(rows[:, 1:, -1]).max()) or float(np.abs(rows[:, 1:]).max()) or 1.0
-
-    def _jumps(self, space: LawSpace) -> bool:
-        """Whether the output jumps where the acceleration does: at breaks, or where the motion ends."""
-        smooth = getattr(space, "continuity", 2) > 1 and space.boundary.order > 2
-        return bool(self.machine.rows[self.output][1][2]) and not smooth
 
     def _rows(self, space: LawSpace) -> Array:
         """Series in the place u, which falls with time, a panel each; before each its start."""
@@ -289,7 +280,10 @@ class OutputPeak(OutputConstant):
         for i, (start, _, series) in enumerate(panels):
             rows[i, 0] = start
             rows[i, 1 : 1 + len(series)] = series * np.where(np.arange(len(series)) % 2, -1.0, 1.0)[:, None]
-        return np.ascontiguousarray(rows[:, : 1 + _terms(rows[:, 1:])])
+        # short panels have more coefficients than count, and roots are looked for by all of them
+        sizes = np.abs(rows[:, 1:]).max(axis=0)
+        counted = np.flatnonzero((sizes > NEGLIGIBLE_TERM * sizes.max(axis=0)).any(axis=1))
+        return np.ascontiguousarray(rows[:, : 2 + (int(counted[-1]) if len(counted) else 0)])
 
 
 def _check_repeats(name: str, machine: StateSpace, stroke: float) -> None:
@@ -315,13 +309,6 @@ def check_peaks_of_cycle(machine: StateSpace, output: str, lengths: Sequence[flo
         )
 
 
-def _terms(series: Array) -> int:
-    """The number of coefficients that count; short panels have more, and roots are looked for by all of them."""
-    sizes = np.abs(series).max(axis=0)
-    counted = np.flatnonzero((sizes > NEGLIGIBLE_TERM * sizes.max(axis=0)).any(axis=1))
-    return int(counted[-1]) + 1 if len(counted) else 1
-
-
 @dataclass(frozen=True, repr=False)
 class OutputRms(OutputConstant):
     """Root mean square of an output; constructed by `Machine.rms`."""
@@ -336,23 +323,21 @@ class OutputRms(OutputConstant):
         return order, factor * sqrt(self.duration), offset
 
     def value(self, law: MotionLaw) -> float:
-        """The root of the mean square over the whole time."""
         return self.curve(law).rms(0)
 
     def families(self, space: LawSpace, slack: Array, bound: float) -> tuple[ConstraintFamily, ...]:
-        """A norm of the coordinates."""
         unit = self.unit(space)
-        wide = space.widened(self._matrix(space), len(slack)) / unit
+        wide = space.widened(self._cached(space), len(slack)) / unit
         return (NormFamily(self.name, slack / unit, bound / unit, matrix=wide),)
 
     def unit(self, space: LawSpace) -> float:
         """The size of the rows: the base law's output."""
-        matrix = self._matrix(space)
+        matrix = self._cached(space)
         return float(np.linalg.norm(matrix[:, -1])) or float(np.linalg.norm(matrix, axis=0).max()) or 1.0
 
     def along(self, space: LawSpace, direction: Sequence[float]) -> MotionLaw | None:
         """The law of a space whose output has a direction, for a certificate; None without such a law."""
-        matrix = self._matrix(space) / self.scale
+        matrix = self._cached(space) / self.scale
         if len(direction) != len(matrix):
             return None
         free, base = matrix[:, :-1], matrix[:, -1]
@@ -361,8 +346,8 @@ class OutputRms(OutputConstant):
         *weights, length = np.linalg.lstsq(np.column_stack([-free, direction]), base, rcond=None)[0]
         return space.law(np.array(weights)) if length > 0.0 else None
 
-    def _matrix(self, space: LawSpace) -> Array:
-        return self._cached(space, lambda: self.rows_of_output(space))
+    def _rows(self, space: LawSpace) -> Array:
+        return self.rows_of_output(space)
 
 
 def output_peak(
@@ -379,13 +364,6 @@ def output_peak(
 
     `of` is the machine, or its text with the output; `steady` says that the law is itself a whole cycle that repeats,
     such as one of `PeriodicPieces`.
-
-    Examples
-    --------
-    >>> from optlaws import Machine, smoothstep
-    >>> machine = Machine([[0, 1], [-400, -2]], [[0], [400]], [[-400, -2]], [[400]], outputs=["acceleration"])
-    >>> [output_peak(of=machine, **of).value(smoothstep(4)) for of in ({"within": (1, 2)}, {"side": "low"})]
-    [1.620669, 9.523921]
     """
     check_names([side], SIDES, "side")
     entries, words = _entries(of, output, within=within, cycle=cycle, steady=steady, offset=offset)
@@ -402,15 +380,7 @@ def output_rms(
     steady: bool = False,
     offset: float = 0.0,
 ) -> OutputRms:
-    """The root mean square of an output of a machine, as `Machine.rms` has it; `of` and `steady` as for `output_peak`.
-
-    Examples
-    --------
-    >>> from optlaws import Machine, smoothstep
-    >>> machine = Machine([[-2.0]], [[2.0]], [[1.0]], outputs=["temperature"])
-    >>> output_rms(of=machine).value(smoothstep(4))
-    0.29...
-    """
+    """The root mean square of an output of a machine, as `Machine.rms` has it; the rest as of `output_peak`."""
     within = (0.0, 1.0 + _time(dwell, "dwell"))
     entries, words = _entries(of, output, within=within, cycle=cycle, steady=steady, offset=offset)
     text = ", ".join(f"dwell={float(dwell)!r}" if part.startswith("within") else part for part in words)
@@ -439,8 +409,8 @@ def _entries(
         raise InputError(f"steady must be True or False, got {shortened(repeats)}")
     if repeats and (pauses is not None or times != (0.0, 1.0)):
         raise InputError("steady is of a law that is a whole cycle: leave within, dwell and cycle out")
-    words += ["steady=True"] if repeats else []
     (added,) = numbers([offset], "offset")
+    words += ["steady=True"] if repeats else []
     words += [f"offset={added!r}"] if added else []
     common = {"machine": machine, "output": name, "within": times, "cycle": pauses, "steady": repeats, "offset": added}
     return common, words

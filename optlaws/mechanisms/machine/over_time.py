@@ -31,8 +31,8 @@ class PanelCurve(Curve):
 
     @property
     @abstractmethod
-    def _grid(self) -> tuple[Array, Array]:
-        """Starts and lengths of the panels."""
+    def _motion(self) -> MachineMotion:
+        """The motion whose panels they are."""
 
     @property
     @abstractmethod
@@ -41,16 +41,12 @@ class PanelCurve(Curve):
 
     def _of_order(self, nu: int) -> list[Array]:
         if nu not in self._series:
-            lower = self._of_order(nu - 1)
-            series = [
-                chebyshev.derivative(panel_series) / length
-                for panel_series, length in zip(lower, self._grid[1], strict=True)
-            ]
-            self._series[nu] = series
+            lower = zip(self._of_order(nu - 1), self._motion.grid[1], strict=True)
+            self._series[nu] = [chebyshev.derivative(series) / length for series, length in lower]
         return self._series[nu]
 
     def _derivative(self, k: Array, nu: int) -> Array:
-        starts, lengths = self._grid
+        starts, lengths = self._motion.grid
         places = np.clip(np.searchsorted(starts, k, side="right") - 1, 0, len(starts) - 1)
         values, series = np.empty(np.shape(k)), self._of_order(nu)
         for i in np.unique(places):
@@ -72,7 +68,7 @@ class PanelCurve(Curve):
 
     def _candidates(self, series: list[Array], slopes: list[Array]) -> Sides:
         places, values = [], []
-        for start, length, column, slope in zip(*self._grid, series, slopes, strict=True):
+        for start, length, column, slope in zip(*self._motion.grid, series, slopes, strict=True):
             x = np.concatenate([[-1.0], np.sort(chebyshev.real_parts_of_roots(slope)), [1.0]])
             places.append(start + 0.5 * length * (x + 1.0))
             values.append(chebyshev.value(column, x))
@@ -80,7 +76,7 @@ class PanelCurve(Curve):
 
     def _mean_square(self, nu: int) -> float:
         squares = [chebyshev.mean_product(series, series) for series in self._of_order(nu)]
-        lengths = self._grid[1]
+        lengths = self._motion.grid[1]
         return float(lengths @ np.array(squares)) / float(lengths.sum())
 
 
@@ -103,19 +99,22 @@ class OutputCurve(PanelCurve):
 
     _over = "time"
 
+    motion: MachineMotion
     name: str
-    starts: Array
-    lengths: Array
-    parts: tuple[Array, ...]
-    impulses: Sides
+    offset: float = 0.0
 
     @property
+    def _motion(self) -> MachineMotion:
+        return self.motion
+
+    @kept_property
     def interval(self) -> tuple[float, float]:
-        return float(self.starts[0]), float(self.starts[-1] + self.lengths[-1])
+        starts, lengths = self.motion.grid
+        return float(starts[0]), float(starts[-1] + lengths[-1])
 
     @property
     def _breaks(self) -> tuple[float, ...]:
-        return (*self.starts.tolist(), self.interval[1])
+        return (*self.motion.grid[0].tolist(), self.interval[1])
 
     def _plot(self, ax: Any, style: dict[str, Any]) -> list[Any]:
         from optlaws.plots.machine import draw_output
@@ -132,16 +131,11 @@ class OutputCurve(PanelCurve):
         >>> curve(1.0), curve.plus(-1.0)(1.0)
         (0.605102, -0.394898)
         """
-        added = [np.concatenate([part[:1] + offset, part[1:]]) for part in self.parts]
-        return replace(self, parts=tuple(added)) if offset else self
+        return replace(self, offset=self.offset + offset) if offset else self
 
     def _sampled(self, count: int) -> tuple[Array, dict[str, Array]]:
-        times = self.times(count)
+        times = np.linspace(*self.interval, whole(count, "count", 2))
         return times, {self.name: self(times)}
-
-    def times(self, count: int) -> Array:
-        """Equally spaced times over the interval."""
-        return np.linspace(*self.interval, whole(count, "count", 2))
 
     def __repr__(self) -> str:
         low, high = self.extrema(0)
@@ -154,25 +148,23 @@ class OutputCurve(PanelCurve):
             raise InputError(f"k must be in {low:g} to {high:g}, of which the motion is known, got {shortened(k)}")
         return np.clip(places, low, high)
 
-    @property
-    def _grid(self) -> tuple[Array, Array]:
-        return self.starts, self.lengths
-
     @kept_property
     def _series(self) -> dict[int, list[Array]]:
-        return {0: list(self.parts)}
+        series = self.motion.series(self.name)
+        return {0: [np.append(part[0] + self.offset, part[1:]) for part in series] if self.offset else series}
 
     def _before_breaks(self, nu: int) -> Array:
         return self._before_panels(nu)
 
     def _impulses(self, nu: int) -> Sides:
-        places, values = self.impulses
-        return (places, values) if nu == 0 else (places[:0], values[:0])
+        direct = self.motion.outputs[self.name][1][2]
+        jumps = self.motion.jumps if direct and nu == 0 else []
+        return np.array([k for k, _ in jumps]), np.array([np.copysign(np.inf, direct * b) for _, b in jumps])
 
 
 @dataclass(frozen=True)
 class RiseReturnCycle:
-    """A repeated motion of rise, dwell, return and rest, in durations of the rise."""
+    """A repeated motion: laws of rise and return, durations of what follows the rise, in durations of the rise."""
 
     rise: MotionLaw
     fall: MotionLaw
@@ -284,12 +276,7 @@ class MachineMotion:
     def __getitem__(self, output: str) -> OutputCurve:
         """The curve of an output."""
         check_names([output], self.outputs, "output of the machine")
-        if output not in self._curves:
-            direct = self.outputs[output][1][2]
-            jumps = self.jumps if direct else []
-            impulses = np.array([k for k, _ in jumps]), np.array([np.copysign(np.inf, direct * b) for _, b in jumps])
-            self._curves[output] = OutputCurve(output, *self.grid, tuple(self.series(output)), impulses)
-        return self._curves[output]
+        return self._curves.setdefault(output, OutputCurve(self, output))
 
     def peak(self, output: str) -> Peak:
         """The greatest magnitude of an output, with its place."""

@@ -81,14 +81,17 @@ class Residual(Functional):
     def peak(self, law: MotionLaw) -> Peak:
         """The greatest over all edges; its `k` is the frequency at which it is, in radians in the rise's duration."""
         transform, best = velocity_transform_of(law), Peak(-inf, nan)
+
+        def along(edge: int, u: Array) -> Complex:
+            return np.asarray(self.amplitudes(transform, np.array([edge]), u)[0])
+
         many = len(self.counts) > _FEW
         bounds = self._bounds(transform) if many else np.full(len(self.counts), inf)
         for i in np.argsort(-bounds, kind="stable").tolist():
             # an edge whose bound is below what another one attains has no greater value
             if bounds[i] < best.value:
                 break
-            along = partial(self.amplitudes, transform, np.array([i]))
-            value, place = greatest_modulus(lambda u, along=along: np.asarray(along(u)[0]), _places(self.counts[i]))
+            value, place = greatest_modulus(partial(along, i), _places(self.counts[i]))
             best = max(best, Peak(value, self.frequency(0.5 * (1.0 + place), i)), key=lambda peak: peak.value)
         return best
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from abc import abstractmethod
 from dataclasses import dataclass
 from math import atan2, atanh, hypot, inf, pi, sqrt
 from typing import Any
@@ -38,7 +37,6 @@ class Oscillator:
 
     @property
     def n(self) -> float:
-        """Decay n = zeta nu."""
         return self.damping * self.frequency
 
     @kept_property
@@ -63,10 +61,14 @@ class Oscillator:
 
     def motion(self, h0: float, v0: float, s: Array, nu: int) -> Array:
         """Derivative of order `nu` at s of the vibration with displacement h0 and velocity v0 at s = 0."""
-        for _ in range(nu):
-            h0, v0 = v0, -2.0 * self.n * v0 - self.frequency**2 * h0
+        h0, v0 = self._derived(h0, v0, nu)
         even, odd = self.even_odd(s)
         return h0 * even + (v0 + self.n * h0) * odd
+
+    def _derived(self, h0: float, v0: float, nu: int) -> tuple[float, float]:
+        for _ in range(nu):
+            h0, v0 = v0, -2.0 * self.n * v0 - self.frequency**2 * h0
+        return h0, v0
 
     def amplitude(self, h0: float, v0: float) -> float:
         """Amplitude of the envelope at s = 0 below critical damping (1.21); else the greatest |h| from s = 0 on."""
@@ -76,8 +78,7 @@ class Oscillator:
 
     def peak(self, h0: float, v0: float, nu: int) -> Peak:
         """Greatest magnitude of the derivative of order `nu` from s = 0 on, and its place s."""
-        for _ in range(nu):
-            h0, v0 = v0, -2.0 * self.n * v0 - self.frequency**2 * h0
+        h0, v0 = self._derived(h0, v0, nu)
         places = np.array([0.0, self._first_stop(h0, v0)])
         size = np.abs(self.motion(h0, v0, places, 0))
         best = int(np.argmax(size))
@@ -138,30 +139,15 @@ def duration_of_rise(duration: Quantity | None, speed: Quantity | None, rise: Qu
 class MassMotion(PanelCurve):
     """Displacement a_m of the mass with its derivatives, dimensionless like a law; k in durations of the rise.
 
-    Examples
-    --------
-    >>> from optlaws import smoothstep
-    >>> from optlaws import Follower
-    >>> motion = Follower(frequency=20, damping=0.05).cycle(smoothstep(4), dwell=0.5, rest=1.0)
-    >>> isinstance(motion, MassMotion), motion.interval
-    (True, (0.0, 3.5))
+    `frequency` and `damping` are those of the follower.
     """
 
     frequency: float
     damping: float
 
-    @property
-    @abstractmethod
-    def _motion(self) -> MachineMotion:
-        """The mass and its derivatives as outputs."""
-
     @kept_property
     def _oscillator(self) -> Oscillator:
         return Oscillator(self.frequency, self.damping)
-
-    @property
-    def _grid(self) -> tuple[Array, Array]:
-        return self._motion.grid
 
     @kept_property
     def _series(self) -> dict[int, list[Array]]:
@@ -172,7 +158,7 @@ class MassMotion(PanelCurve):
         return (*(stretch.start for stretch in self._motion.drives), self.interval[1])
 
     def _before_breaks(self, nu: int) -> Array:
-        return self._before_panels(nu)[np.searchsorted(self._grid[0], self._breaks[1:-1]) - 1]
+        return self._before_panels(nu)[np.searchsorted(self._motion.grid[0], self._breaks[1:-1]) - 1]
 
     def _repr_html_(self) -> str:
         from optlaws.laws.report import law_panels
@@ -194,8 +180,6 @@ class Response(MassMotion):
 
     Parameters
     ----------
-    frequency, damping
-        The follower's frequency and damping ratio.
     law
         Motion of the cam.
     initial
@@ -203,8 +187,7 @@ class Response(MassMotion):
 
     Examples
     --------
-    >>> from optlaws import savin
-    >>> from optlaws import Follower
+    >>> from optlaws import Follower, savin
     >>> response = Follower(frequency=18).response(savin("III", 7.2))
     >>> response.dynamic_factor(), response.residual_acceleration
     (2.035976, 7.204401)
@@ -230,8 +213,7 @@ class Response(MassMotion):
 
         Examples
         --------
-        >>> from optlaws import smoothstep
-        >>> from optlaws import Follower
+        >>> from optlaws import Follower, smoothstep
         >>> Follower(frequency=200).response(smoothstep(4)).dynamic_factor()
         1.003417
         """
@@ -262,11 +244,6 @@ class Response(MassMotion):
             Duration of the rise, such as "0.1 s".
         speed, rise
             In place of it: speed of the cam, such as "105 rpm", and its angle during the rise, such as "120 deg".
-
-        Raises
-        ------
-        InputError
-            If a quantity is missing, given twice, out of range, or of another dimension.
 
         Examples
         --------
@@ -313,8 +290,7 @@ class Response(MassMotion):
 
         Examples
         --------
-        >>> from optlaws import smoothstep
-        >>> from optlaws import Follower
+        >>> from optlaws import Follower, smoothstep
         >>> Follower(frequency=20, damping=0.05).response(smoothstep(4)).dwell_peak(2)
         Peak(value=1.620669, k=1.016776)
         """
@@ -364,19 +340,9 @@ class CycleResponse(RiseReturnCycle, MassMotion):
     Call it like a law, at any k; time is in durations of the rise. Peaks, extrema, root mean squares and samples are
     those of the whole cycle.
 
-    Parameters
-    ----------
-    frequency, damping
-        The follower's frequency and damping ratio.
-    rise, fall
-        Laws of the rise and of the return.
-    dwell, fall_duration, rest
-        Durations of what follows the rise, in durations of the rise.
-
     Examples
     --------
-    >>> from optlaws import smoothstep
-    >>> from optlaws import Follower
+    >>> from optlaws import Follower, smoothstep
     >>> Follower(frequency=20, damping=0.05).cycle(smoothstep(4), dwell=0.5, rest=1.0)
     CycleResponse(frequency=20, damping=0.05, period=3.5, peak acceleration=11.018)
     """
@@ -387,7 +353,6 @@ class CycleResponse(RiseReturnCycle, MassMotion):
 
     @property
     def interval(self) -> tuple[float, float]:
-        """The times at which the cycle begins and ends."""
         return 0.0, self.period
 
     def __repr__(self) -> str:

@@ -99,7 +99,7 @@ def test_a_stiff_vibration_that_dies_away_is_followed_while_it_lives(law: str) -
     nu, damping = 2e4, 0.05
     machine = follower(nu, damping).response(LAWS[law], dwell=0.5)["position"]
     k = np.linspace(0.0, 1.5, 301)
-    assert len(machine.parts) < 600  # of 3000 that are as short as the vibration asks
+    assert len(machine.motion.panels) < 600  # of 3000 that are as short as the vibration asks
     assert machine(k) == pytest.approx(Follower(nu, damping).response(LAWS[law]).a(k), abs=4e-15)
 
 
