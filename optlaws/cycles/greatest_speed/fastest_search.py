@@ -14,7 +14,7 @@ certificate, prove that no laws keep it there.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from math import inf, isfinite, log, sqrt
 
@@ -54,102 +54,6 @@ from optlaws.synthesis.proof.certificate import VIOLATION, Certificate
 from optlaws.synthesis.solution import Solution
 from optlaws.synthesis.status import Status
 from optlaws.tolerances import AGREEMENT, BINDING_LIMIT, CLOSURE, FASTER, LEAST_SCALE_MET, SAME_TIME
-
-
-@dataclass(frozen=True)
-class ForceRating:
-    """Motions that turn with the master and share a limit of the root mean square of their force.
-
-    `placed` are they at a period, `fastest` the laws that keep all other limits where no least force is known.
-    """
-
-    objective: CycleObjective
-    axis: str
-    most: float
-    least: float
-    given: float
-    placed: Callable[[float], Layout]
-    fastest: Callable[[LawSpan], Piece | None]
-
-    @kept_property
-    def drive(self) -> Drive:
-        if self.objective.drive is None:
-            raise InputError("limits: an rms force or torque is of a drive: give one, such as drive={'mass': '2 kg'}")
-        return self.objective.drive
-
-    @property
-    def name(self) -> str:
-        return f"rms {FORCES[self.axis]}"
-
-    @kept_property
-    def period(self) -> float:
-        if self.least and self._over(self.least) <= 0.0:
-            return self.least
-        period = falling_root(self._over, self.least or self.given, 1.5, LEAST_SCALE_MET)
-        if period == inf:
-            raise InfeasibleProblem(
-                f"limits: no speed keeps the {self.name} of {self.most:.9g}: the static load alone needs more: "
-                "allow more, or change the drive's spring, preload, gravity or friction"
-            )
-        return period * (1.0 + 2.0 * LEAST_SCALE_MET)
-
-    @property
-    def binds(self) -> bool:
-        """Whether the cycle is slower by it than by its other limits."""
-        return self.period > self.least * (1.0 + AGREEMENT)
-
-    def keeps(self, pieces: Sequence[Piece], period: float) -> bool:
-        """Whether laws keep the limit."""
-        taken = sum(PieceEffort(self.drive, piece).square for piece in pieces)
-        return taken <= self.most**2 * period * (1.0 + AGREEMENT)
-
-    def laws(self, period: float) -> list[Piece]:
-        """The laws of least mean square of the force at a period, within the other limits."""
-        return [self._law(span)[0] for span in self.placed(period).spans]
-
-    @kept_property
-    def proofs(self) -> dict[str, Certificate] | None:
-        """The certificates of lower bounds a little faster, whose sum is above the limit; None where it is not."""
-        period = self.period * (1.0 - FASTER)
-        placed = self.placed(period)
-        laws = [self._law(span) for span in placed.spans]
-        square = sum(PieceEffort(self.drive, piece).square for piece in placed.pieces)
-        proofs = {}
-        for span, (_, solution) in zip(placed.spans, laws, strict=True):
-            if solution is None:
-                return None
-            square += span.duration * span_bound(span, solution, self._of_force) ** 2
-            proofs[f"{span.where}, least {self.name}"] = solution.certificate
-        return proofs if square > self.most**2 * period else None
-
-    @property
-    def scales(self) -> bool:
-        """Whether a cycle that keeps the limit keeps it at every lower speed."""
-        drive = self.drive.linear
-        if drive is None or (drive.viscous and (drive.stiffness or drive.constant)):
-            return False
-        return all(static_force(span, self.drive)[1] <= self.most for span in self.placed(self.given).spans)
-
-    @property
-    def _of_force(self) -> CycleObjective:
-        return replace(self.objective, minimise="rms force", limits=of_segments(self.objective.limits))
-
-    def _over(self, period: float) -> float:
-        """The logarithm of the ratio of the root mean square to its limit."""
-        pieces = [*self.placed(period).pieces, *self.laws(period)]
-        square = sum(PieceEffort(self.drive, piece).square for piece in pieces)
-        return log(sqrt(square / period) / self.most)
-
-    def _law(self, span: LawSpan) -> tuple[Piece, Solution | None]:
-        """The law of a span in its place, with its solution where it was looked for there."""
-        try:
-            return solve(span, self._of_force)
-        except (InfeasibleProblem, SolverFailure):
-            piece = self.fastest(span)
-            if piece is None:
-                raise
-            return piece, None
-
 
 #: so many times slower every limit of a derivative is kept
 _SLOW = 1e4
@@ -193,31 +97,27 @@ class FastestSearch:
     @kept_property
     def rating(self) -> ForceRating | None:
         """The limit of the root mean square of the force over the cycle; None without such a limit."""
-        most = self.objective.mean_force
-        if most is None:
+        if self.objective.mean_force is None:
             return None
         if not self.turning:
             raise InputError(
                 "limits: an rms force or torque of a cycle that is to be fastest is of one that turns as a whole: give "
                 "all durations as angles"
             )
-        name = f"rms {FORCES[self.programme.axis]}"
-        return ForceRating(
-            replace(self.objective, limits=raised(self.objective.limits, self.more, self.programme.axis)),
-            self.programme.axis,
-            most * self.more.get(name, 1.0),
-            self.unrated,
-            self.programme.period,
-            self._placed,
-            self._fastest,
-        )
+        return ForceRating(self)
 
     @kept_property
     def unrated(self) -> float:
         """The least period by the limits of the segments, in seconds."""
         period, turned = self._summed([span.scale for span in self.spans])
         if period > turned and not self.turning:
-            self._check_vanishing(period)
+            durations = durations_at(self.ranges, self.needed, period)
+            for stretch, time in zip(self.programme.stretches, durations, strict=True):
+                if time <= SAME_TIME * self.programme.period:
+                    raise InputError(
+                        f"{stretch.where} has no duration of its own, and would vanish at the greatest speed: "
+                        "give it a least duration, such as duration=('20 ms', '10 s')"
+                    )
         return period
 
     @property
@@ -243,7 +143,6 @@ class FastestSearch:
 
     @property
     def needed(self) -> tuple[float, ...]:
-        """The least duration of each segment in seconds, by its own limits; 0 without any."""
         return self._alone([span.scale for span in self.spans])
 
     @kept_property
@@ -289,7 +188,8 @@ class FastestSearch:
         """The certificates that the motions have no laws a little faster, by their names."""
         if self.rating is not None and self.rating.binds:
             return self.rating.proofs or {}
-        return {f"{span.where}{_of_what(span.proof)}": span.proof for span in self.binding if span.proof is not None}
+        known = ((span.where, span.proof) for span in self.binding if span.proof is not None)
+        return {where + ("" if proof.program == VIOLATION else ", least power"): proof for where, proof in known}
 
     def alone(self, i: int) -> LawSpan:
         """A move by itself, from rest to rest whatever is beside it."""
@@ -314,46 +214,41 @@ class FastestSearch:
 
     def laws(self) -> Layout:
         """The laws at the least period: the fastest where there is no time left, else the best within the limits."""
-        placed, rating = self._placed(self.period), self.rating
+        placed, rating = self.placed(self.period), self.rating
         rated = rating is not None and rating.binds
         pieces = [] if rated else [*placed.pieces, *map(self._law, placed.spans)]
-        if rating is not None and (rated or not rating.keeps(pieces, self.period)):
+        if rating is not None and (rated or rating.square(pieces) > rating.most**2 * self.period * (1.0 + AGREEMENT)):
             # the best laws share the limit as the fastest cycle does: each takes least of it
             pieces = [*placed.pieces, *rating.laws(self.period)]
         return Layout(placed.starts, tuple(sorted(pieces, key=lambda piece: piece.start)), ())
 
     def _law(self, span: LawSpan) -> Piece:
-        fastest, known = self._fastest(span), self._known(span)
-        if fastest is None or known is None or known.needed < span.duration * (1.0 - BINDING_LIMIT):
-            try:
-                return solve(span, self.objective)[0]
-            except (InfeasibleProblem, SolverFailure):
-                if fastest is None:
-                    raise
-        return fastest
+        known = self._known(span)
+        if known is None or known.law is None or known.needed < span.duration * (1.0 - BINDING_LIMIT):
+            return self.solved(span, self.objective)[0]
+        return span.by(known.law)
+
+    def solved(self, span: LawSpan, objective: CycleObjective) -> tuple[Piece, Solution | None]:
+        """The best law of a span in its place; without a solution the fastest, where none is found."""
+        try:
+            return solve(span, objective)
+        except (InfeasibleProblem, SolverFailure):
+            known = self._known(span)
+            if known is None or known.law is None:
+                raise
+            return span.by(known.law), None
 
     def _known(self, span: LawSpan) -> TimedSpan | None:
         return next((known for known in self.spans if known.span.stretches == span.stretches), None)
 
-    def _fastest(self, span: LawSpan) -> Piece | None:
-        """The fastest law of a span in its place; None where no limit bounds it."""
-        known = self._known(span)
-        law = None if known is None else known.law
-        return None if law is None else span.by(law)
-
-    def _placed(self, period: float) -> Layout:
+    def placed(self, period: float) -> Layout:
         """The pieces and spans at a period."""
         if not self.turning:
             return layout(self.programme, durations_at(self.ranges, self.needed, period))
-        share = period / self.programme.period
-        return Layout(
-            tuple(start * share for start in self._layout.starts),
-            tuple(
-                replace(piece, start=piece.start * share, duration=piece.duration * share)
-                for piece in self._layout.pieces
-            ),
-            tuple(slower(span, share) for span in self._layout.spans),
-        )
+        share, given = period / self.programme.period, self._layout
+        pieces = (replace(piece, start=piece.start * share, duration=piece.duration * share) for piece in given.pieces)
+        starts, spans = (start * share for start in given.starts), (slower(span, share) for span in given.spans)
+        return Layout(tuple(starts), tuple(pieces), tuple(spans))
 
     @kept_property
     def _layout(self) -> Layout:
@@ -414,10 +309,10 @@ class FastestSearch:
         """The problem of a span without its limits."""
         limited = span_problem(slower(span, _SLOW), self.objective)
         several = span.turns or len(span.stretches) > 1 or span.via
-        windows = tuple(joint_windows(span, self.objective.order)) if several else ()
-        if several:
-            windows += tuple(forward_windows(span, self.objective))
-        return replace(unlimited(limited), windows=windows, minimise="C")
+        windows = (
+            [*joint_windows(span, self.objective.order), *forward_windows(span, self.objective)] if several else ()
+        )
+        return replace(unlimited(limited), windows=tuple(windows), minimise="C")
 
     def _turns(self, span: TimedSpan) -> bool:
         return all(self.ranges[i].turns for i in span.places)
@@ -442,21 +337,6 @@ class FastestSearch:
                 f"{span.needed:.9g} s: give it more time, wider limits, or an angle of the master"
             )
 
-    def _check_vanishing(self, period: float) -> None:
-        """Refuse a free dwell that nothing stops from vanishing."""
-        durations = durations_at(self.ranges, self.needed, period)
-        for stretch, time in zip(self.programme.stretches, durations, strict=True):
-            if time <= SAME_TIME * self.programme.period:
-                raise InputError(
-                    f"{stretch.where} has no duration of its own, and would vanish at the greatest speed: "
-                    "give it a least duration, such as duration=('20 ms', '10 s')"
-                )
-
-
-def _of_what(proof: Certificate) -> str:
-    """The quantity that a certificate bounds; None for a contradiction."""
-    return "" if proof.program == VIOLATION else ", least power"
-
 
 def _at_rest(span: LawSpan) -> LawSpan:
     """The span with end states of exact rest where they differ from rest by rounding only: proofs assume rest."""
@@ -466,3 +346,83 @@ def _at_rest(span: LawSpan) -> LawSpan:
         for state in (span.first, span.last)
     )
     return replace(span, first=first, last=last)
+
+
+@dataclass(frozen=True)
+class ForceRating:
+    """The limit of the root mean square of the force over a cycle whose motions all turn with the master."""
+
+    search: FastestSearch
+
+    @kept_property
+    def drive(self) -> Drive:
+        if self.search.objective.drive is None:
+            raise InputError("limits: an rms force or torque is of a drive: give one, such as drive={'mass': '2 kg'}")
+        return self.search.objective.drive
+
+    @property
+    def name(self) -> str:
+        return f"rms {FORCES[self.search.programme.axis]}"
+
+    @property
+    def most(self) -> float:
+        return (self.search.objective.mean_force or inf) * self.search.more.get(self.name, 1.0)
+
+    @kept_property
+    def period(self) -> float:
+        least = self.search.unrated
+        if least and self._over(least) <= 0.0:
+            return least
+        period = falling_root(self._over, least or self.search.programme.period, 1.5, LEAST_SCALE_MET)
+        if period == inf:
+            raise InfeasibleProblem(
+                f"limits: no speed keeps the {self.name} of {self.most:.9g}: the static load alone needs more: "
+                "allow more, or change the drive's spring, preload, gravity or friction"
+            )
+        return period * (1.0 + 2.0 * LEAST_SCALE_MET)
+
+    @property
+    def binds(self) -> bool:
+        """Whether the cycle is slower by it than by its other limits."""
+        return self.period > self.search.unrated * (1.0 + AGREEMENT)
+
+    def square(self, pieces: Sequence[Piece]) -> float:
+        """The integral of the squared force over pieces."""
+        return sum(PieceEffort(self.drive, piece).square for piece in pieces)
+
+    def laws(self, period: float) -> list[Piece]:
+        """The laws of least mean square of the force at a period, within the other limits."""
+        return [self.search.solved(span, self._objective)[0] for span in self.search.placed(period).spans]
+
+    @kept_property
+    def proofs(self) -> dict[str, Certificate] | None:
+        """The certificates of lower bounds a little faster, whose sum is above the limit; None where it is not."""
+        period = self.period * (1.0 - FASTER)
+        placed = self.search.placed(period)
+        square, proofs = self.square(placed.pieces), {}
+        for span in placed.spans:
+            solution = self.search.solved(span, self._objective)[1]
+            if solution is None:
+                return None
+            square += span.duration * span_bound(span, solution, self._objective) ** 2
+            proofs[f"{span.where}, least {self.name}"] = solution.certificate
+        return proofs if square > self.most**2 * period else None
+
+    @property
+    def scales(self) -> bool:
+        """Whether a cycle that keeps the limit keeps it at every lower speed."""
+        drive, given = self.drive.linear, self.search.placed(self.search.programme.period)
+        if drive is None or (drive.viscous and (drive.stiffness or drive.constant)):
+            return False
+        return all(static_force(span, self.drive)[1] <= self.most for span in given.spans)
+
+    @kept_property
+    def _objective(self) -> CycleObjective:
+        objective, axis = self.search.objective, self.search.programme.axis
+        limits = of_segments(raised(objective.limits, self.search.more, axis))
+        return replace(objective, minimise="rms force", limits=limits)
+
+    def _over(self, period: float) -> float:
+        """The logarithm of the ratio of the root mean square to its limit."""
+        pieces = [*self.search.placed(period).pieces, *self.laws(period)]
+        return log(sqrt(self.square(pieces) / period) / self.most)
