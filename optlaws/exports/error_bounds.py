@@ -39,11 +39,7 @@ ORDERS = 4
 
 
 def as_stored(motion: PiecewiseMotion, arithmetic: FloatingPoint) -> PiecewiseMotion:
-    """The motion in the numbers that an arithmetic has, each polynomial moved to where its break comes to lie.
-
-    >>> as_stored(PiecewiseMotion([0.1, 1.1], [[0.0, 1.0]]), SINGLE).coefficients
-    ((1.4901161415892261e-09, 1.0),)
-    """
+    """The motion in the numbers that an arithmetic has, each polynomial moved to where its break comes to lie."""
     if arithmetic is DOUBLE:
         return motion
     breaks = motion.in_single().breaks

@@ -155,8 +155,7 @@ def _characteristics(
     side: Motion | PiecewiseMotion, motion: Motion, rate: float, floors: Sequence[float]
 ) -> Characteristics:
     """The characteristics of the law, which is the motion, or of its run; jumps up to floors are rounding."""
-    pairs = [side.extrema(nu) if isinstance(side, Motion) else side.extremes(nu) for nu in ORDERS]
-    extremes = [tuple(_sized(each, rate**nu) for each in pair) for nu, pair in enumerate(pairs)]
+    extremes = [tuple(_sized(each, rate**nu) for each in side.extremes(nu)) for nu in ORDERS]
     start, end = (tuple(rate**nu * float(np.ravel(side.ends(nu)[i])[-i]) for nu in ORDERS) for i in (0, 1))
     small = [
         max(ROUNDING[0] * max(abs(low.value), abs(high.value)), least)

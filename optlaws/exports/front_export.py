@@ -108,13 +108,7 @@ class FrontTable:
 def front_table(
     velocities: Sequence[float], laws: Sequence[MotionLaw], gap: float, ends: tuple[bool, bool]
 ) -> FrontTable:
-    """The table of certified laws at ascending B, which are polynomials between the same breaks, from rest to rest.
-
-    >>> from optlaws import smoothstep
-    >>> table = front_table((1.5, 1.875), (smoothstep(2), smoothstep(3)), 1.0, (False, False))
-    >>> table.odd, table.degree, table.size, table.velocities, table.jerks
-    (True, 5, 96, (1.5, 1.875), (60.0, 60.0))
-    """
+    """The table of certified laws at ascending B, which are polynomials between the same breaks, from rest to rest."""
     ends_of_laws = [value for law in laws for value in (law.a(0.0), law.a(1.0) - 1.0, law.b(0.0), law.b(1.0))]
     if max(map(abs, ends_of_laws)) > JUMP:
         raise InputError("functions at run time move from rest to rest: take a front of laws whose ends rest")
@@ -488,12 +482,7 @@ def export_front(
 
 
 def function_format(to: object) -> str:
-    """The name of a format that has functions.
-
-    >>> function_format("csv")
-    Traceback (most recent call last):
-    optlaws.errors.InputError: to: csv holds one motion and no functions; a front is exported to c99 or iec-st
-    """
+    """The name of a format that has functions."""
     form = format_of(to).name
     if form not in _WRITERS:
         raise InputError(

@@ -33,12 +33,6 @@ _PIECES_OF_MOTION = 1e-9  # of the greatest value: what polynomial pieces of a m
 _ACCELERATION_HIGHER = 1e-3  # of the peak: how far a run's may be above the motion's
 
 _POLYNOMIAL_ROUNDING = 1e-9  # of a derivative: where polynomials of a controller meet
-_SOURCE_CODE_OFF = 1e-6  # of the acceleration's peak: how far polynomials of source code may be off
-
-#: of source code: the degree of polynomials for laws that are none, and of laws whose own polynomials are taken
-SOURCE_DEGREE, OWN_DEGREE = 9, 40
-SOURCE_PIECES = 1000
-SOURCE_MODEL = f"the law's own polynomials to degree {OWN_DEGREE}, else of degree {SOURCE_DEGREE}"
 
 #: how far the run's peak of the acceleration may be above the motion's, and its acceleration off it, as shares
 OFF = 1e-2
@@ -213,13 +207,6 @@ def fitted(motion: Motion, degree: int, most: int, count: int | None = None, *, 
     odd degree have the law's derivatives at both ends, and one more is laid where the acceleration is furthest from the
     law's, until its peak is within a thousandth of the motion's and it is nowhere off by more than a share `near` of
     that, or until there are as many as `count`; the target takes at most `most`.
-
-    >>> from optlaws.motion.motion import motion_of_law
-    >>> from optlaws import smoothstep
-    >>> motion = motion_of_law(smoothstep(5), stroke="35 mm", duration="0.1 s")
-    >>> fit = fitted(motion, degree=7, most=50)
-    >>> fit.count, fit.exact, f"{fit.deviation:.1e}", fitted(motion, degree=9, most=50).exact
-    (4, False, '4.9e-04', True)
     """
     sections = _sections(motion, degree)
     if len(sections) > (most if count is None else count):
@@ -260,12 +247,6 @@ def exactly(motion: Motion, degree: int) -> Fitted | None:
 
     A polynomial of degree n in powers of k has terms far above its values; on a part of the interval, in powers of x
     less its start, they are as small as these.
-
-    >>> from optlaws.motion.motion import motion_of_law
-    >>> from optlaws import smoothstep
-    >>> fit = exactly(motion_of_law(smoothstep(9), stroke="35 mm", duration="0.1 s"), 40)
-    >>> fit.exact, fit.count, fit.run.degree
-    (True, 6, 17)
     """
     parts: list[_Section] = []
     for section in _sections(motion, degree):
@@ -295,13 +276,6 @@ def polynomials_for(
     if count > most:
         raise InputError(f"points must be at most {most + points}, which the target holds, got {request.points}")
     return fitted(motion, degree, most, count)
-
-
-def source_polynomials(motion: Motion, request: Request) -> tuple[Fitted, tuple[str, ...]]:
-    """The polynomials of source code: the law's own, cut where powers would lose digits, or approximations."""
-    fit = None if request.points else exactly(motion, OWN_DEGREE)
-    fit = fit or polynomials_for(motion, request, SOURCE_DEGREE, SOURCE_PIECES, near=_SOURCE_CODE_OFF)
-    return fit, (fit.in_words(motion.units.slave),)
 
 
 def labels_of(motion: Motion, notes: Sequence[str] = ()) -> Labels:

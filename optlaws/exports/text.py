@@ -65,11 +65,7 @@ def real(value: float, *, single: bool = False) -> str:
 
 
 def wrapped(items: Sequence[str], indent: str) -> list[str]:
-    """Items with commas between them, in lines of bearable length.
-
-    >>> wrapped(["1.0", "2.0"], "  ")
-    ['  1.0, 2.0']
-    """
+    """Items with commas between them, in lines of bearable length."""
     lines: list[str] = []
     line = indent
     for i, item in enumerate(items):
@@ -137,25 +133,16 @@ def program_heading(motion: PiecewiseMotion, labels: Labels, arithmetics: Sequen
 
 
 def rounded_up(bound: float) -> str:
-    """A bound in three digits, none below it.
-
-    >>> rounded_up(2.7101e-5)
-    '2.72e-05'
-    """
+    """A bound in three digits, none below it."""
     return f"{Context(prec=3, rounding=ROUND_CEILING).create_decimal_from_float(bound):.2e}"
 
 
-def plain(value: float, digits: int | None = None, decimal: str = ".") -> str:
-    """A number without an exponent: all digits of a double, or a given number of decimals.
-
-    >>> plain(1e-05), plain(2.5, 3, ","), plain(-1e-9, 3), plain(120.0)
-    ('0.00001', '2,500', '0.000', '120')
-    """
-    return plain_column([value], digits, decimal)[0]
-
-
 def plain_column(values: Iterable[float], digits: int | None = None, decimal: str = ".") -> list[str]:
-    """Many numbers as `plain` writes one."""
+    """Numbers without an exponent: all digits of a double, or a given number of decimals.
+
+    >>> plain_column([1e-05, 120.0]), plain_column([2.5, -1e-9], 3, ",")
+    (['0.00001', '120'], ['2,500', '0,000'])
+    """
     if digits is None:
         texts = [repr(value + 0.0) for value in values]
         texts = [
@@ -307,47 +294,27 @@ def filled(text: str, words: Mapping[str, object], choices: Collection[str] = ()
 
 
 def c_array(declared: str, values: Sequence[str]) -> list[str]:
-    """Lines of a constant array of C, declared by its kind, its name and its length.
-
-    >>> c_array("double breaks[2]", ["0.0", "1.0"])
-    ['static const double breaks[2] = {', '    0.0, 1.0', '};']
-    """
+    """Lines of a constant array of C, declared by its kind, its name and its length."""
     return [f"static const {declared} = {{", *wrapped(values, "    "), "};"]
 
 
 def c_row(values: Sequence[str]) -> str:
-    """A row of an array of arrays of C.
-
-    >>> c_row(["0.0", "1.0"])
-    '    {0.0, 1.0}'
-    """
+    """A row of an array of arrays of C."""
     return "    {" + "\n".join(wrapped(values, "    ")).lstrip() + "}"
 
 
 def st_array(name: str, kind: str, values: Sequence[str]) -> list[str]:
-    """Lines of an array of Structured Text with its values.
-
-    >>> st_array("breaks", "LREAL", ["0.0", "1.0"])
-    ['    breaks : ARRAY[0..1] OF LREAL := [', '        0.0, 1.0', '    ];']
-    """
+    """Lines of an array of Structured Text with its values."""
     return [f"    {name} : ARRAY[0..{len(values) - 1}] OF {kind} := [", *wrapped(values, "        "), "    ];"]
 
 
 def fields(**values: object) -> str:
-    """Fields of a structure with their values, floats as literals.
-
-    >>> fields(PointIndex=1, MasterPos=0.5)
-    'PointIndex := 1, MasterPos := 0.5'
-    """
+    """Fields of a structure with their values, floats as literals."""
     texts = ((name, real(value) if isinstance(value, float) else str(value)) for name, value in values.items())
     return ", ".join(f"{name} := {text}" for name, text in texts)
 
 
 def st_records(name: str, kind: str, records: Sequence[str], indent: str = "    ") -> list[str]:
-    r"""Lines of an array of structures, from 1, with the fields of each.
-
-    >>> st_records("cam", "POINT", ["x := 0.0", "x := 1.0"])
-    ['    cam : ARRAY[1..2] OF POINT := [', '        (x := 0.0),\n        (x := 1.0)', '    ];']
-    """
+    """Lines of an array of structures, from 1, with the fields of each."""
     rows = ",\n".join(f"{indent}    ({record})" for record in records)
     return [f"{indent}{name} : ARRAY[1..{len(records)}] OF {kind} := [", rows, f"{indent}];"]

@@ -99,7 +99,7 @@ class Motion:
 
     @kept_property
     def stroke(self) -> float:
-        (low, _), (high, _) = self.extrema(0)
+        (low, _), (high, _) = self.extremes(0)
         return high - low
 
     @property
@@ -130,12 +130,12 @@ class Motion:
         """The derivative of order nu at the start and at the end."""
         return self.pieces[0].end(nu, 0), self.pieces[-1].end(nu, 1)
 
-    def extrema(self, nu: int) -> tuple[Place, Place]:
+    def extremes(self, nu: int) -> tuple[Place, Place]:
         """Least and greatest value of the derivative of order nu, each with its x, over the whole motion."""
-        if nu not in self._extrema:
+        if nu not in self._extremes:
             lows, highs = zip(*(piece.extremes(nu, piece.start, piece.stop) for piece in self.pieces), strict=True)
-            self._extrema[nu] = min(lows, key=itemgetter(0)), max(highs, key=itemgetter(0))
-        return self._extrema[nu]
+            self._extremes[nu] = min(lows, key=itemgetter(0)), max(highs, key=itemgetter(0))
+        return self._extremes[nu]
 
     def peak(self, nu: int) -> float:
         """The greatest magnitude of the derivative of order nu; inf where a lower one jumps, joints included."""
@@ -164,11 +164,11 @@ class Motion:
         return replace(self, pieces=tuple(pieces), units=Units("s", self.units.slave, 1.0))
 
     @kept_property
-    def _extrema(self) -> dict[int, tuple[Place, Place]]:
+    def _extremes(self) -> dict[int, tuple[Place, Place]]:
         return {}
 
     def _size(self, nu: int) -> float:
-        return max(abs(value) for value, _ in self.extrema(nu))
+        return max(abs(value) for value, _ in self.extremes(nu))
 
 
 def motion_of_law(

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from optlaws import smoothstep
 from tests.exports import readers
-from tests.internals.exports import export_motion, plain
+from tests.internals.exports import export_motion, plain_column
 from tests.internals.motion import motion_of_law
 from tests.sampling import examples
 
@@ -52,9 +52,10 @@ def test_numbers_come_back(
 @seed(8)
 @examples(100)
 def test_a_number_has_no_exponent_and_is_itself(value: float, digits: int) -> None:
-    assert float(plain(value)) == value
-    assert float(plain(value, digits)) == pytest.approx(value, abs=0.51 * 10.0**-digits + 1e-15 * abs(value))
-    for text in (plain(value), plain(value, digits, ",")):
+    every, rounded, dialect = (plain_column([value], *form)[0] for form in ((), (digits,), (digits, ",")))
+    assert float(every) == value
+    assert float(rounded) == pytest.approx(value, abs=0.51 * 10.0**-digits + 1e-15 * abs(value))
+    for text in (every, dialect):
         assert set(text) <= set("-0123456789.,")
         assert text not in {"-0", "-0,0"}
 

@@ -8,4 +8,4 @@ from optlaws.exports.formats.source_code import function_block, header
 from optlaws.exports.front_export import FrontExport, MoveStatus, RunTimeMove
 from optlaws.exports.point_tables import NumberFormat, akima_powers, point_table
 from optlaws.exports.polynomial_pieces import fitted
-from optlaws.exports.text import IEC_KEYWORDS, Labels, c_name, filled, iec_name, plain, real, template
+from optlaws.exports.text import IEC_KEYWORDS, Labels, c_name, filled, iec_name, plain_column, real, template

@@ -23,7 +23,7 @@ from optlaws.exports.point_tables import (
     places,
     point_table,
 )
-from optlaws.exports.text import plain, plain_column, table_heading
+from optlaws.exports.text import plain_column, table_heading
 from optlaws.files.writing import MARK
 from optlaws.motion.motion import SLAVES, Motion, Units
 from optlaws.motion.piece import unit_of
@@ -164,7 +164,7 @@ def _kas(motion: Motion, request: Request) -> Written:
     table = chosen_table(motion, request, "cubic", MOST_POINTS, least=5)
     lines = ["CYCLIC;YES;" if motion.repeats else "CYCLIC;NO;", "TABLE_BEGIN;;"]
     lines += [f"{row};SPLINE" for row in _rows(_x_and_y(table), request, ";")]
-    top = [plain(float(np.abs(values).max())) for values in (table.x, table.values[0])]
+    top = plain_column(float(np.abs(values).max()) for values in (table.x, table.values[0]))
     notes = (f"KAS divides X and Y by their greatest values: set the scales to {top[0]} and {top[1]} in the dialog",)
     return table.written(_lines([*lines, "TABLE_END;;"]), MODELS["cubic"], notes)
 

@@ -3,18 +3,18 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from dataclasses import replace
 from functools import partial
 
 from optlaws.exports.error_bounds import DOUBLE, SINGLE, as_stored
 from optlaws.exports.format import Request, Written, file_format
 from optlaws.exports.polynomial_pieces import (
-    SOURCE_MODEL,
-    SOURCE_PIECES,
+    exactly,
     jumps_in_words,
     jumps_of_single,
     labels_of,
-    source_polynomials,
+    polynomials_for,
 )
 from optlaws.exports.text import (
     Labels,
@@ -32,6 +32,12 @@ from optlaws.exports.text import (
 from optlaws.files.writing import MARK
 from optlaws.motion.motion import Motion
 from optlaws.motion.polynomials import PiecewiseMotion
+
+_OFF = 1e-6  # of the acceleration's peak: how far polynomials may be off
+#: the degree of polynomials for laws that are none, and of laws whose own polynomials are taken
+_DEGREE, OWN_DEGREE = 9, 40
+_PIECES = 1000
+_MODEL = f"the law's own polynomials to degree {OWN_DEGREE}, else of degree {_DEGREE}"
 
 
 def header(motion: PiecewiseMotion, name: str = "motion", labels: Labels | None = None) -> str:
@@ -140,42 +146,40 @@ def _sizes(run: PiecewiseMotion) -> dict[str, object]:
     return {"LAST": len(run.breaks) - 1, "LAST_PIECE": len(run.breaks) - 2, "DEGREE": run.degree}
 
 
-_program = partial(file_format, model=SOURCE_MODEL, limits=f"at most {SOURCE_PIECES} pieces", extension=".st")
+def _written(motion: Motion, request: Request, *, source: Callable[..., str], model: str) -> Written:
+    """The law's own polynomials, cut where powers would lose digits, or approximations, as a program."""
+    fit = None if request.points else exactly(motion, OWN_DEGREE)
+    fit = fit or polynomials_for(motion, request, _DEGREE, _PIECES, near=_OFF)
+    notes = (fit.in_words(motion.units.slave),)
+    text = source(fit.run, request.name, labels_of(motion, notes))
+    return Written(text, fit.run, model, fit.count, "segments", notes=notes)
+
+
+_program = partial(file_format, model=_MODEL, limits=f"at most {_PIECES} pieces", extension=".st")
 _ST = "IEC 61131-3, a function block in Structured Text"
 
-
-@_program(
+_program(
     "c99",
     target="C99, a header for double and float",
     contents="breaks and coefficients (double and float)",
-    limits=f"at most {SOURCE_PIECES} pieces, float for the functions with _f",
+    limits=f"at most {_PIECES} pieces, float for the functions with _f",
     extension=".h",
+)(partial(_written, source=header, model="polynomials in double"))
+_program("iec-st", target=_ST, contents="breaks and coefficients (LREAL)")(
+    partial(_written, source=function_block, model="polynomials in LREAL")
 )
-def _write_c(motion: Motion, request: Request) -> Written:
-    fit, notes = source_polynomials(motion, request)
-    text = header(fit.run, request.name, labels_of(motion, notes))
-    return Written(text, fit.run, "polynomials in double", fit.count, "segments", notes=notes)
-
-
-@_program("iec-st", target=_ST, contents="breaks and coefficients (LREAL)")
-def _write_st(motion: Motion, request: Request) -> Written:
-    fit, notes = source_polynomials(motion, request)
-    text = function_block(fit.run, request.name, labels_of(motion, notes))
-    return Written(text, fit.run, "polynomials in LREAL", fit.count, "segments", notes=notes)
 
 
 @_program(
     "iec-st-real",
     target=f"{_ST}, in REAL",
     contents="breaks and coefficients (REAL)",
-    model=f"{SOURCE_MODEL}, in REAL32",
-    limits=f"at most {SOURCE_PIECES} pieces, REAL32",
+    model=f"{_MODEL}, in REAL32",
+    limits=f"at most {_PIECES} pieces, REAL32",
 )
-def _write_st_real(motion: Motion, request: Request) -> Written:
-    fit, notes = source_polynomials(motion, request)
-    text = function_block(fit.run, request.name, labels_of(motion, notes), single=True)
-    roundings, stored = jumps_of_single(fit.run), as_stored(fit.run, SINGLE)
+def _real(motion: Motion, request: Request) -> Written:
+    made = _written(motion, request, source=partial(function_block, single=True), model="polynomials in REAL")
+    roundings, stored = jumps_of_single(made.run), as_stored(made.run, SINGLE)
     # the motion's own ends stay, which REAL32 may round
-    run = PiecewiseMotion((fit.run.start, *stored.breaks[1:-1], fit.run.stop), stored.coefficients)
-    notes = (*notes, jumps_in_words(motion, roundings))
-    return Written(text, run, "polynomials in REAL", fit.count, "segments", notes=notes, roundings=roundings)
+    run = PiecewiseMotion((made.run.start, *stored.breaks[1:-1], made.run.stop), stored.coefficients)
+    return replace(made, run=run, notes=(*made.notes, jumps_in_words(motion, roundings)), roundings=roundings)
