@@ -22,7 +22,7 @@ from .cycles.advising.candidates import LawKind as LawKind, LawMeasure as LawMea
 from .cycles.axes.enclosed import Way as Way
 from .cycles.axes.interlock import Interlock as Interlock, LeastClearance as LeastClearance
 from .cycles.axes.machine_axes import AxesPicture as AxesPicture, Overlap as Overlap
-from .cycles.cycle import PlotOver as PlotOver
+from .cycles.answers import PlotOver as PlotOver
 from .cycles.specification.limits import LimitTaken as LimitTaken
 from .cycles.moves.time_front import TimePoint as TimePoint
 from .cycles.transitions import TransitionKind as TransitionKind

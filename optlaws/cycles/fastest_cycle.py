@@ -5,20 +5,22 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
-from typing import Any
+from typing import Any, Self
 
+from optlaws.cycles.answers import Answers, Solved
 from optlaws.cycles.greatest_speed.fastest_search import FastestSearch
 from optlaws.cycles.greatest_speed.timed_spans import TimedSpan
 from optlaws.cycles.moves.fastest_move import limit_row
 from optlaws.cycles.optimisation.objectives import check_rating
 from optlaws.cycles.placed import retimed_segments, segments_in_place
 from optlaws.cycles.specification.limits import FORCE_UNITS, amount, word_of
+from optlaws.entries.declared import Declared, ValueOf, declared, entry
+from optlaws.entries.value_types import Listed, Number, ReadBy, Switch, Table, Text
 from optlaws.errors import InputError
+from optlaws.files.reading import check_names
 from optlaws.kept import kept_property
-from optlaws.motion.exportable import Exportable
-from optlaws.motion.motion import Motion
+from optlaws.lazy import imported
 from optlaws.motion.quantities import TURN, Exact, Kind
-from optlaws.numbers import Quantity
 from optlaws.sentences import Amount, joined, sentence
 from optlaws.shown.report import Report
 from optlaws.shown.summary import Row, Summary
@@ -29,20 +31,9 @@ from optlaws.tolerances import FASTER
 _MORE = 0.1  # of a limit, by which it is raised to see what that gives
 
 
-@dataclass(frozen=True)
-class LeastDuration:
+@declared
+class LeastDuration(Declared, title="a least time"):
     """The least time that a motion needs, and its time at the greatest speed.
-
-    Attributes
-    ----------
-    name
-        The segment, or the segments that are one law.
-    least, duration
-        The least time and its time in the cycle, in seconds.
-    limits
-        The limits that the fastest law takes to the full, each with its value.
-    binding
-        Whether the motion has no more than it needs, so that the speed is greatest by it.
 
     Examples
     --------
@@ -53,11 +44,17 @@ class LeastDuration:
     (True, False, 2.0, ('velocity 1000 mm/s',))
     """
 
-    name: str
-    least: float
-    duration: float
-    limits: tuple[str, ...]
-    binding: bool
+    writes_defaults = True
+
+    name: str = entry(Text(), "The segment, or the segments that are one law.")
+    least: float = entry(Number(above=0.0), "The least time in seconds.")
+    duration: float = entry(Number(above=0.0), "Its time in the cycle in seconds.")
+    limits: tuple[str, ...] = entry(
+        Listed(Text()), "The limits that the fastest law takes to the full, each with its value."
+    )
+    binding: bool = entry(
+        Switch(), "Whether the motion has no more than it needs, so that the speed is greatest by it."
+    )
 
     @property
     def row(self) -> Row:
@@ -95,31 +92,24 @@ class LimitGain:
         return f"10 % more {self.limit}: {60.0 * self.speed / TURN:.6g} rpm, {100.0 * (self.ratio - 1.0):.3g} % faster"
 
 
-@dataclass(frozen=True, repr=False)
-class FastestCycle(Exportable):
-    """The greatest speed of the master at which a cycle keeps its limits, as `Cycle.fastest` finds it, and its motion.
+def _cycle(value: Any) -> Any:
+    """A cycle, or its plain data."""
+    # which knows this module
+    of = imported("optlaws.cycles.cycle").Cycle
+    return value if isinstance(value, of) else of.from_dict(value)
 
-    Attributes
-    ----------
-    specification
-        The cycle whose greatest speed was sought.
-    cycle
-        The cycle at that speed, its laws given: the fastest where a motion has no time left, else those that are best
-        within the limits.
-    segments
-        The least time of every motion that a limit bounds.
-    period
-        The least period in seconds.
-    binding
-        What has no time left, each with the limits that it takes to the full.
-    status
-        Optimal where no law of the search space keeps the limits in a period that is shorter by a millionth, proven by
-        `proofs` or, of laws that are given, by their closed form; else local.
-    proofs
-        By the name of a motion: no law keeps its limits in a millionth less time than the motion has.
-    limit
-        The period in seconds that no laws of any degree beat, by the segments of greatest jerk, acceleration and
-        velocity; None where it is not known, as within limits of a drive and of ends that accelerate.
+
+def _status(value: Any) -> Status:
+    check_names([value], [*Status], "status")
+    return Status(value)
+
+
+@declared
+class FastestCycle(Answers, Declared, title="a fastest cycle"):
+    """The greatest speed of the master at which a cycle keeps its limits, as `Cycle.fastest` finds it, and its plan.
+
+    What is read is not sought again: the period is that of the cycle, whose laws keep the limits; that none is less is
+    what `optlaws verify` proves of its `claims`.
 
     Examples
     --------
@@ -129,17 +119,68 @@ class FastestCycle(Exportable):
     >>> fastest = slide.fastest()
     >>> fastest.status.value, round(fastest.rpm, 4), fastest.binding
     ('optimal', 208.9637, ('segment 1 (Rise): acceleration 20 m/s^2, jerk 2000 m/s^3',))
+    >>> FastestCycle.from_json(fastest.to_json()) == fastest
+    True
     """
 
-    specification: Any  # a Cycle, which knows this module
-    cycle: Any
-    segments: tuple[LeastDuration, ...]
-    status: Status
-    period: float
-    binding: tuple[str, ...]
-    proofs: Mapping[str, Certificate] = field(compare=False)
-    _raised: Mapping[str, Callable[[], float]] = field(compare=False)
-    limit: float | None = None
+    writes_defaults = True
+
+    specification: Any = entry(
+        ReadBy(_cycle, "a cycle", Declared.to_dict), "The cycle whose greatest speed was sought.", name="given"
+    )
+    cycle: Any = entry(
+        ReadBy(_cycle, "a cycle", Declared.to_dict),
+        "The cycle at that speed, its laws given: the fastest where a motion has no time left, else those that are "
+        "best within the limits.",
+    )
+    segments: tuple[LeastDuration, ...] = entry(
+        Listed(ValueOf(LeastDuration)), "The least time of every motion that a limit bounds."
+    )
+    status: Status = entry(
+        ReadBy(_status, "a status", lambda status: status.value),
+        "Optimal where no law of the search space keeps the limits in a period that is shorter by a millionth, proven "
+        "by `proofs` or, of laws that are given, by their closed form; else local.",
+    )
+    period: float = entry(Number(above=0.0), "The least period in seconds.")
+    binding: tuple[str, ...] = entry(
+        Listed(Text()), "What has no time left, each with the limits that it takes to the full."
+    )
+    proofs: Mapping[str, Certificate] = entry(
+        Table(ValueOf(Certificate)),
+        "By the name of a motion: no law keeps its limits in a millionth less time than the motion has.",
+    )
+    _raised: Mapping[str, Callable[[], float]] | None = field(default=None, compare=False, repr=False)
+    limit: float | None = entry(
+        Number(above=0.0),
+        "The period in seconds that no laws of any degree beat, by the segments of greatest jerk, acceleration and "
+        "velocity; None where it is not known, as within limits of a drive and of ends that accelerate.",
+        default=None,
+    )
+
+    def _check(self) -> None:
+        if self.cycle.limits != self.specification.limits:
+            raise InputError(f"{self.named} keeps other limits than its cycle")
+        if self.period != self.cycle.duration:
+            raise InputError(f"{self.named} has a period of {self.period!r} s, but its laws {self.cycle.duration!r} s")
+
+    @classmethod
+    def from_dict(cls, data: Any) -> Self:
+        """The fastest cycle that `to_dict` wrote.
+
+        Raises
+        ------
+        InputError
+            If an entry is missing, unknown or wrong, or the laws have another period.
+        InfeasibleProblem
+            If a law breaks a limit.
+        """
+        read = super().from_dict(data)
+        read.solve()
+        return read
+
+    def solve(self) -> Solved:
+        """The plan at the greatest speed."""
+        return self.cycle.solve()  # type: ignore[no-any-return]
 
     @property
     def speed(self) -> float:
@@ -159,16 +200,9 @@ class FastestCycle(Exportable):
     @kept_property
     def gains(self) -> tuple[LimitGain, ...]:
         """The gain in speed from a tenth more of each active limit, in all segments that have it; solved again."""
-        periods = {name: period() for name, period in self._raised.items()}
+        raised = self._raised or _raised(FastestSearch(self.specification.programme, self.specification.in_si, {}))
+        periods = {name: period() for name, period in raised.items()}
         return tuple(LimitGain(name, TURN / period, self.period / period) for name, period in periods.items())
-
-    def motion(self, master: Quantity | None = "360 deg", unit: str | None = None) -> Motion:
-        """The exact motion at the greatest speed, as `Cycle.motion`."""
-        return self.cycle.motion(master, unit)  # type: ignore[no-any-return]
-
-    def plot(self, ax: Any = None, **style: Any) -> list[Any]:
-        """Draw the motion at the greatest speed, as `Cycle.plot`; return the artists."""
-        return list(self.cycle.plot(ax, **style))
 
     def report(self) -> Report:
         """The speed and the period, the active limit, the gain from a limit raised by a tenth, and the motions' times.
@@ -230,10 +264,14 @@ def fastest_cycle(cycle: Any) -> FastestCycle:
     known = retimed_segments(segments_in_place(search.programme, laws.starts, laws.pieces), cycle.axis)
     limited = replace(cycle, segments=known, speed=None, period=Exact(search.period, "s"))
     segments = tuple(_least_duration(search, span) for span in search.spans)
-    more = {name: replace(search, more={name: 1.0 + _MORE}) for name in search.binding_limits}
-    raised = {name: partial(getattr, search, "period") for name, search in more.items()}
     proven = search.status, search.period, _binding(search, segments), search.proofs
-    return FastestCycle(cycle, limited, segments, *proven, raised, search.limit)
+    return FastestCycle(cycle, limited, segments, *proven, _raised(search), search.limit)
+
+
+def _raised(search: FastestSearch) -> dict[str, Callable[[], float]]:
+    """The least period with a tenth more of each active limit, which is sought when it is called."""
+    more = {name: replace(search, more={name: 1.0 + _MORE}) for name in search.binding_limits}
+    return {name: partial(getattr, raised, "period") for name, raised in more.items()}
 
 
 def _least_duration(search: FastestSearch, span: TimedSpan) -> LeastDuration:

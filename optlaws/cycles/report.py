@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from optlaws.cycles.cycle import Answers
+from optlaws.cycles.answers import Answers
 from optlaws.cycles.optimisation.objectives import SUMS, kind_of
 from optlaws.cycles.placed import Place, limit_rows
 from optlaws.cycles.specification.limits import FORCE_UNITS, FORCES, LOAD, LimitTaken
@@ -28,8 +28,10 @@ from optlaws.shown.summary import Row, Summary
 from optlaws.tolerances import CYCLE_ROUNDING, INSIDE_PIECE
 
 if TYPE_CHECKING:
-    from optlaws.cycles.cycle import Cycle, Plan
+    from optlaws.cycles.answers import Solved
+    from optlaws.cycles.cycle import Plan
     from optlaws.cycles.fastest_cycle import FastestCycle
+    from optlaws.cycles.specified import Specification
     from optlaws.cycles.transitions import TransitionCam
 
 _ACCELERATION, _JERK = 2, 3
@@ -54,7 +56,7 @@ class CycleReport:
     @kept_property
     def facts(self) -> Summary:
         """The proof of the cycle, its peaks, its limits, its drive and its joints, with places as times in seconds."""
-        parts = (proof_rows, peak_rows, jerk_rows, limit_rows, drive_rows, joint_rows)
+        parts: list[Any] = [proof_rows, peak_rows, jerk_rows, limit_rows, drive_rows, joint_rows]
         return Summary([row for rows in parts for row in rows(self.plan)], at="s")
 
     @kept_property
@@ -271,7 +273,7 @@ def _infimum(drive: Mechanism | Drive, name: Literal["peak torque", "rms torque"
 
 
 def motion_table(
-    motion: Plan | TransitionCam,
+    motion: Solved | TransitionCam,
     master: tuple[float, float],
     count: int,
     more: Callable[[Array], dict[str, Array]] = lambda _: {},
@@ -293,7 +295,7 @@ def motion_table(
     return ReportTable.of_columns(columns)
 
 
-def objective_unit(cycle: Cycle | Plan, name: str = "") -> str:
+def objective_unit(cycle: Specification | Solved, name: str = "") -> str:
     """The SI unit of a cycle's objective, or of another value that may be one."""
     name = name or cycle.minimise
     kind, _ = kind_of(name)
@@ -304,7 +306,7 @@ def objective_unit(cycle: Cycle | Plan, name: str = "") -> str:
     return FORCE_UNITS[cycle.axis] if kind is Kind.FORCE else unit_of(cycle.axis, kind.order)
 
 
-def proof_rows(plan: Plan) -> list[Row]:
+def proof_rows(plan: Solved) -> list[Row]:
     """The value of the objective and its proof; nothing where no law was optimised."""
     if not plan.solutions:
         return []
@@ -315,7 +317,7 @@ def proof_rows(plan: Plan) -> list[Row]:
     return [*rows, Row("found among", plan.search_space), *(Row("remark", remark) for remark in plan.remarks)]
 
 
-def peak_rows(plan: Plan) -> list[Row]:
+def peak_rows(plan: Solved) -> list[Row]:
     """Peak velocity, acceleration and jerk, each with its time in seconds."""
     rows = []
     for nu, name in enumerate(QUANTITIES[1:], 1):
@@ -346,7 +348,7 @@ def jerk_rows(plan: Plan) -> list[Row]:
     return [*rows, Row(name, least, unit_of(plan.axis, _ACCELERATION), note=offer)]
 
 
-def drive_rows(plan: Plan) -> list[Row]:
+def drive_rows(plan: Solved) -> list[Row]:
     """The effort of the drive and the peaks of its load; nothing where there is no drive."""
     rows = []
     if isinstance(plan.drive, Drive):
@@ -371,14 +373,14 @@ def drive_rows(plan: Plan) -> list[Row]:
     return rows + [Row(f"peak of the load's {name}", peak, load_unit(plan, name)) for name, peak in loaded]
 
 
-def load_peaks(plan: Plan) -> dict[str, float]:
+def load_peaks(plan: Solved) -> dict[str, float]:
     """The peaks of the outputs of an elastic load, in SI units; nothing without one."""
     if plan.specification.in_si.load is None:
         return {}
     return {name: plan.load_motion.peak(name).value for name in plan.load_motion.outputs}
 
 
-def joint_rows(plan: Plan) -> list[Row]:
+def joint_rows(plan: Solved) -> list[Row]:
     """The greatest jumps of velocity and acceleration where segments meet."""
     jumps = {name: max(abs(joint[name]) for joint in plan.joints) for name in QUANTITIES[1:3]}
     return [
@@ -387,7 +389,7 @@ def joint_rows(plan: Plan) -> list[Row]:
     ]
 
 
-def load_unit(cycle: Cycle | Plan, output: str) -> str:
+def load_unit(cycle: Specification | Solved, output: str) -> str:
     """The unit of an output of the load; an unknown dimension is described as SI."""
     load = read_load(cycle.load, cycle.axis)
     return _LOAD_UNITS.get(load.dimensions.get(output, "") if load else "", "SI")

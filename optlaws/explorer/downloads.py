@@ -19,7 +19,7 @@ import optlaws
 from optlaws import MotionLaw, Solution
 from optlaws.cams.curves import cam_files
 from optlaws.cams.curves.cam_files import Cutting
-from optlaws.cycles.cycle import Answers
+from optlaws.cycles.answers import Answers
 from optlaws.cycles.report import CycleReport
 from optlaws.errors import InputError
 from optlaws.explorer.views import advice_view, axes_view, cam_view, cycle_view, fastest_view, old_cam_view

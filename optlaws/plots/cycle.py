@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from matplotlib.artist import Artist
     from matplotlib.axes import Axes
 
-    from optlaws.cycles.cycle import Answers, Plan
+    from optlaws.cycles.answers import Answers, Solved
 
 
 _ABOVE: Any = {"loc": "lower left", "bbox_to_anchor": (0.0, 1.0), "ncols": 2, "frameon": False, "fontsize": 8.0}
@@ -26,7 +26,7 @@ _MOTION = len(QUANTITIES)
 _WITH_DRIVE = 6
 
 
-def draw_cycle(plan: Plan, axes: Any = None, **style: Any) -> list[Artist]:
+def draw_cycle(plan: Solved, axes: Any = None, **style: Any) -> list[Artist]:
     """Draw position, velocity, acceleration and jerk into four axes, and return the artists.
 
     Into six axes force (or torque) and power as well. New axes unless given: six where the cycle has a drive.
@@ -45,7 +45,7 @@ def draw_cycle(plan: Plan, axes: Any = None, **style: Any) -> list[Artist]:
     return draw_panels(report.panels[: len(into)], report.segments, into, **style)
 
 
-def _draw_together(plan: Plan, axes: Axes, style: dict[str, Any]) -> list[Artist]:
+def _draw_together(plan: Solved, axes: Axes, style: dict[str, Any]) -> list[Artist]:
     """All four derivatives, each divided by its peak, with the nearby limits."""
     report, artists = CycleReport(plan), list["Artist"]()
     motion = report.panels[:_MOTION]

@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    from optlaws.cycles.cycle import Plan
+    from optlaws.cycles.answers import Solved
     from optlaws.mechanisms.drives.effort import BestRatio, PieceEffort
     from optlaws.mechanisms.linkages.mechanism import Mechanism
     from optlaws.mechanisms.machine.machine import MachineSpectrum
@@ -163,7 +163,7 @@ def _linkage(mechanism: Mechanism, axes: Axes) -> list[Artist]:
 _SAMPLES = 801
 
 
-def draw_motor_of_cycle(plan: Plan, axes: Axes | None = None, **style: Any) -> list[Artist]:
+def draw_motor_of_cycle(plan: Solved, axes: Axes | None = None, **style: Any) -> list[Artist]:
     """Draw torque over speed at the motor during a cycle, within the motor's curves."""
     plan.geared_motor  # noqa: B018 - a drive without one has no curves
     return draw_torque_over_speed(plan.along, axes, **{"label": "cycle", **style})

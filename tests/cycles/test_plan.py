@@ -1,6 +1,7 @@
 """A cycle asks and its plan answers: what is forwarded, stored, and taken in place of a cycle."""
 
 from dataclasses import replace
+from importlib.util import find_spec
 from typing import Any
 
 import numpy as np
@@ -12,7 +13,9 @@ from optlaws import (
     DiscCam,
     Drive,
     Dwell,
+    FastestCycle,
     Free,
+    InfeasibleProblem,
     InputError,
     Mechanism,
     Motor,
@@ -25,6 +28,7 @@ from optlaws import (
     energy_fluctuation,
     synthesize,
 )
+from optlaws.verification import verify_all
 from tests.internals.cycles import Answers, answer
 
 LIMITS = {"acceleration": "20 m/s^2", "jerk": "2000 m/s^3"}
@@ -147,3 +151,31 @@ def test_axes_with_a_plan_beyond_a_limit_are_infeasible() -> None:
     moves = [Rise("35 mm", "0.1 s", law="cycloidal"), Return(law="cycloidal")]
     shown = Cycle(moves, period="0.25 s", limits={"velocity": "616 mm/s"}).unchecked()
     assert Axes({"x": Cycle(moves, period="0.25 s"), "y": shown}).status is Status.INFEASIBLE
+
+
+@pytest.mark.skipif(find_spec("flint") is None, reason="needs the extra verify")
+def test_a_fastest_cycle_is_a_plan_that_is_stored(monkeypatch: pytest.MonkeyPatch) -> None:
+    fastest = CYCLES["moves"].fastest()
+    assert (fastest.peak(2), fastest(0.01, 1)) == (fastest.cycle.peak(2), fastest.cycle(0.01, 1))
+    assert fastest.limits_taken == fastest.cycle.limits_taken
+    text, gains = fastest.to_json(), fastest.gains
+    with monkeypatch.context() as patched:
+        patched.setattr("optlaws.cycles.fastest_cycle.FastestSearch", None)  # nothing is sought any more
+        read = FastestCycle.from_json(text)
+        assert read == fastest
+        assert read.to_json() == text
+        assert read.proof_rows() == fastest.proof_rows()
+        assert all(checked.proven for checked in verify_all(read.claims()).values())
+    assert FastestCycle.from_json(text).gains == gains
+    data = fastest.to_dict()
+    for changes, error, named in (
+        ({"period": 2.0 * fastest.period}, InputError, "has a period of"),
+        ({"given": {**data["given"], "limits": {}}}, InputError, "keeps other limits than its cycle"),
+        ({"status": "best"}, InputError, "status"),
+        ({"cycle": {**data["cycle"], "period": None, "speed": "1000 rpm"}}, InputError, "durations sum"),
+    ):
+        with pytest.raises(error, match=named):
+            FastestCycle.from_dict(data | changes)
+    tight = {"acceleration": "10 m/s^2"}
+    with pytest.raises(InfeasibleProblem, match="its limit is 10 m/s"):
+        FastestCycle.from_dict(data | {name: {**data[name], "limits": tight} for name in ("given", "cycle")})

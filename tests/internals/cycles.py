@@ -3,8 +3,8 @@
 from pathlib import Path
 from typing import Any
 
+from optlaws.cycles.answers import Answers, answer
 from optlaws.cycles.axes.enclosed import SimplePolygon
-from optlaws.cycles.cycle import Answers, answer
 from optlaws.cycles.old_tables.reading import CamPoints, points_in
 from optlaws.cycles.old_tables.stretches import law_of_move, nothing_to_better
 from optlaws.cycles.optimisation.objectives import OBJECTIVES
