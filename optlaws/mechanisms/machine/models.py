@@ -2,21 +2,19 @@
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from math import pi
-from typing import Any, ClassVar
+from typing import Any
 
 import numpy as np
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.files.reading import check_names
-from optlaws.kept import kept_property
 from optlaws.mechanisms.machine.state_space import StateSpace
 from optlaws.motion.quantities import either, si_number
-from optlaws.numbers import Array, Complex, NumberOrQuantity, not_negative, numbers, positive
+from optlaws.numbers import Array, NumberOrQuantity, not_negative, numbers, positive
 from optlaws.tolerances import SAME_ROOT
 
 GROUND = "ground"
@@ -69,21 +67,16 @@ class Link:
         return f"{self.first}-{self.second}"
 
 
-class MachineModel(ABC):
-    """A model of a machine in coordinates and their velocities that a, b and c of the law drive."""
+@dataclass(frozen=True, eq=False)
+class MachineModel:
+    """A model of a machine: accelerations of its coordinates and its outputs, as rows.
 
-    #: the name of the model in errors
-    what: ClassVar[str]
+    The rows are over the coordinates, their velocities, and a, b and c of the law; `what` is its name in errors.
+    """
 
-    @property
-    @abstractmethod
-    def accelerations(self) -> Array:
-        """Accelerations of the coordinates, rows over coordinates, their velocities, and a, b and c."""
-
-    @property
-    @abstractmethod
-    def outputs(self) -> dict[str, Array]:
-        """The outputs that it has by their names, rows over coordinates, their velocities, and a, b and c."""
+    accelerations: Array
+    outputs: Mapping[str, Array]
+    what: str
 
     def matrices(self, outputs: Sequence[str]) -> tuple[Array, Array, Array, Array]:
         """A, B, C and D for the inputs a, b and c."""
@@ -103,98 +96,8 @@ class MachineModel(ABC):
         return named
 
 
-@dataclass(frozen=True, eq=False)
-class Assembly(MachineModel):
-    """Masses by name, links, and the mass that a law drives: the law is its displacement from the ground or a base."""
-
-    masses: Mapping[str, float]
-    links: tuple[Link, ...]
-    driven: str
-    base: str
-
-    what = "these masses"
-
-    @kept_property
-    def free(self) -> tuple[str, ...]:
-        """The masses whose displacements are coordinates."""
-        return tuple(name for name in self.masses if name != self.driven)
-
-    @kept_property
-    def _positions(self) -> dict[str, Array]:
-        """Displacements as rows over the coordinates and the law."""
-        rows = np.eye(len(self.free) + 1)
-        positions = dict(zip(self.free, rows, strict=False)) | {GROUND: np.zeros(len(rows))}
-        return positions | {self.driven: positions[self.base] + rows[-1]}
-
-    def _sum(self, what: str) -> Array:
-        """Stiffness or damping over the coordinates and the law."""
-        total = np.zeros((len(self.free) + 1,) * 2)
-        for link in self.links:
-            row = self._positions[link.first] - self._positions[link.second]
-            total += getattr(link, what) * np.outer(row, row)
-        return total
-
-    @kept_property
-    def _parts(self) -> tuple[Array, Array, Array]:
-        """Mass, damping and stiffness over the coordinates and the law."""
-        rows = np.array([self._positions[name] for name in self.masses])
-        inertia = rows.T @ (np.array(list(self.masses.values()))[:, None] * rows)
-        return inertia, self._sum("damping"), self._sum("stiffness")
-
-    @kept_property
-    def accelerations(self) -> Array:
-        size = len(self.free)
-        inertia, damping, stiffness = self._parts
-        right = np.zeros((size, 2 * size + 3))
-        right[:, :size], right[:, size : 2 * size] = stiffness[:-1, :-1], damping[:-1, :-1]
-        right[:, 2 * size :] = np.column_stack([stiffness[:-1, -1], damping[:-1, -1], inertia[:-1, -1]])
-        return -np.asarray(np.linalg.solve(inertia[:-1, :-1], right))
-
-    @kept_property
-    def outputs(self) -> dict[str, Array]:
-        outputs = {DRIVE_FORCE: self._drive_force()}
-        for name in self.masses:
-            outputs |= {f"{what} {name}": self._moved(self._positions[name], nu) for nu, what in enumerate(_MOTIONS)}
-        for link in self.links:
-            row = self._positions[link.first] - self._positions[link.second]
-            deflection = self._moved(row, 0)
-            outputs[f"deflection {link.name}"] = deflection
-            outputs[f"force {link.name}"] = link.stiffness * deflection + link.damping * self._moved(row, 1)
-        return outputs
-
-    def _moved(self, row: Array, nu: int) -> Array:
-        """A displacement's derivative as a row."""
-        size = len(self.free)
-        motion = np.zeros(2 * size + 3)
-        if nu < 2:
-            motion[nu * size : (nu + 1) * size] = row[:-1]
-        else:
-            motion += row[:-1] @ self.accelerations
-        motion[2 * size + nu] += row[-1]
-        return motion
-
-    def _drive_force(self) -> Array:
-        """The force of the drive, by the work of the law's displacement."""
-        unit = np.eye(len(self.free) + 1)
-        total = np.zeros(2 * len(self.free) + 3)
-        for nu, part in zip((2, 1, 0), self._parts, strict=True):
-            total += sum(weight * self._moved(row, nu) for weight, row in zip(part[-1], unit, strict=True))
-        return total
-
-
-_MOTIONS = ("position", "velocity", "acceleration")
-
-
-def assembly(
-    masses: Any,
-    links: Any,
-    drive: Any,
-) -> Assembly:
-    """Masses, links and a drive, checked.
-
-    >>> assembly({"motor": 1.0, "load": 2.0}, [("motor", "load", 400.0)], "motor").free
-    ('load',)
-    """
+def assembly(masses: Any, links: Any, drive: Any) -> MachineModel:
+    """The model of masses, links and a drive: the law is its displacement from the ground or a base."""
     if not isinstance(masses, Mapping) or len(masses) < 2:
         raise InputError(f"masses must be at least two, by their names, the driven one among them, got {masses!r}")
     for name in masses:
@@ -209,34 +112,67 @@ def assembly(
         )
     base, driven = pair
     joined = tuple(link if isinstance(link, Link) else _link(link) for link in _many(links))
-    for name in (
-        driven,
-        *((base,) if base != GROUND else ()),
-        *(n for link in joined for n in (link.first, link.second)),
-    ):
+    for name in (driven, base, *(name for link in joined for name in (link.first, link.second))):
         check_names([name], [*masses, GROUND], "mass")
     if driven in {base, GROUND}:
         raise InputError(f"drive must be a mass, moved against another one or the ground, got {shortened(drive)}")
-    numbers = {
-        name: si_number(mass, ("mass", "moment of inertia"), f"the mass {name}") for name, mass in masses.items()
-    }
-    checked = {
-        name: (not_negative if name == driven else positive)(mass, f"the mass {name}") for name, mass in numbers.items()
-    }
-    _check_joined(checked, joined, driven, base)
-    return Assembly(checked, joined, driven, base)
-
-
-def _check_joined(masses: Mapping[str, float], links: Sequence[Link], driven: str, base: str) -> None:
-    """Refuse masses that nothing joins to the drive: they would rest for ever."""
+    checked = {}
+    for name, mass in masses.items():
+        number = si_number(mass, ("mass", "moment of inertia"), f"the mass {name}")
+        checked[name] = (not_negative if name == driven else positive)(number, f"the mass {name}")
     reached, more = set[str](), {driven, base}
     while more:
         reached |= more
-        touched = (link for link in links if {link.first, link.second} & more - {GROUND})
+        touched = (link for link in joined if {link.first, link.second} & more - {GROUND})
         more = {name for link in touched for name in (link.first, link.second)} - reached
-    alone = [name for name in masses if name not in reached]
-    if alone:
+    if alone := [name for name in masses if name not in reached]:
         raise InputError(f"the mass {alone[0]!r} is linked to nothing that the drive moves: link it, or leave it out")
+    return _of_masses(checked, joined, driven, base)
+
+
+def _of_masses(masses: Mapping[str, float], links: Sequence[Link], driven: str, base: str) -> MachineModel:
+    """The model whose coordinates are the displacements of the masses that are free."""
+    free = [name for name in masses if name != driven]
+    size, unit = len(free), np.eye(len(free) + 1)
+    # displacements as rows over the coordinates and the law
+    positions = dict(zip(free, unit, strict=False)) | {GROUND: np.zeros(size + 1)}
+    positions[driven] = positions[base] + unit[-1]
+    bent = [positions[link.first] - positions[link.second] for link in links]
+    rows = np.array([positions[name] for name in masses])
+    inertia = rows.T @ (np.array(list(masses.values()))[:, None] * rows)
+    damping, stiffness = (
+        sum((getattr(link, what) * np.outer(row, row) for link, row in zip(links, bent, strict=True)), 0.0 * inertia)
+        for what in ("damping", "stiffness")
+    )
+    right = np.zeros((size, 2 * size + 3))
+    right[:, :size], right[:, size : 2 * size] = stiffness[:-1, :-1], damping[:-1, :-1]
+    right[:, 2 * size :] = np.column_stack([stiffness[:-1, -1], damping[:-1, -1], inertia[:-1, -1]])
+    accelerations = -np.asarray(np.linalg.solve(inertia[:-1, :-1], right))
+
+    def moved(row: Array, nu: int) -> Array:
+        """A displacement's derivative as a row."""
+        motion = np.zeros(2 * size + 3)
+        if nu < 2:
+            motion[nu * size : (nu + 1) * size] = row[:-1]
+        else:
+            motion += row[:-1] @ accelerations
+        motion[2 * size + nu] += row[-1]
+        return motion
+
+    # the force of the drive, by the work of the law's displacement
+    force = np.zeros(2 * size + 3)
+    for nu, part in zip((2, 1, 0), (inertia, damping, stiffness), strict=True):
+        force += sum(weight * moved(row, nu) for weight, row in zip(part[-1], unit, strict=True))
+    outputs = {DRIVE_FORCE: force}
+    for name in masses:
+        outputs |= {f"{what} {name}": moved(positions[name], nu) for nu, what in enumerate(_MOTIONS)}
+    for link, row in zip(links, bent, strict=True):
+        outputs[f"deflection {link.name}"] = deflection = moved(row, 0)
+        outputs[f"force {link.name}"] = link.stiffness * deflection + link.damping * moved(row, 1)
+    return MachineModel(accelerations, outputs, "these masses")
+
+
+_MOTIONS = ("position", "velocity", "acceleration")
 
 
 def _many(values: Any) -> list[Any]:
@@ -293,7 +229,8 @@ class Mode:
 
 def modes(machine: StateSpace) -> tuple[Mode, ...]:
     """The vibrations of a machine; equal roots are one."""
-    return tuple(_mode(i, group) for i, group in enumerate(machine.dynamics.vibrations, 1))
+    roots = enumerate((complex(group.mean()) for group in machine.dynamics.vibrations), 1)
+    return tuple(Mode(i, abs(root), -root.real / abs(root) + 0.0, root) for i, root in roots)
 
 
 def mode(machine: StateSpace, number: object) -> Mode:
@@ -332,55 +269,39 @@ def participation(machine: StateSpace, vibration: Mode, output: str) -> complex:
     return complex(2.0 * (states @ turn[:, :size]) @ part)
 
 
-def _mode(number: int, group: Complex) -> Mode:
-    root = complex(group.mean())
-    return Mode(number, abs(root), -root.real / abs(root) + 0.0, root)
-
-
-@dataclass(frozen=True, eq=False)
-class ModalModel(MachineModel):
-    """Modes by circular frequency, damping ratio and participation: the rigid motion, and what each mode adds."""
-
-    what = "these modes"
-
-    modes: tuple[tuple[float, float, float], ...]
-
-    @property
-    def accelerations(self) -> Array:
-        frequencies, dampings, shares = np.array(self.modes).T
-        parts = np.diag(-(frequencies**2)), np.diag(-2.0 * dampings * frequencies), np.zeros((len(shares), 2))
-        return np.column_stack([*parts, -shares])
-
-    @property
-    def outputs(self) -> dict[str, Array]:
-        size = len(self.modes)
-        frequencies, dampings, shares = np.array(self.modes).T
-        unit = np.eye(2 * size + 3)
-        bent, turning = unit[:size].sum(axis=0), unit[size : 2 * size].sum(axis=0)
-        bending = -shares.sum() * unit[-1]
-        bending[:size], bending[size : 2 * size] = -(frequencies**2), -2.0 * dampings * frequencies
-        rows_by_name = {"position": bent + unit[-3], "velocity": turning + unit[-2], "acceleration": bending + unit[-1]}
-        alone = {f"deflection {i + 1}": unit[i] for i in range(size)} if size > 1 else {}
-        return rows_by_name | {"deflection": bent} | alone
-
-
-def modal_model(modes: Any) -> ModalModel:
-    """Vibrations from frequencies in Hz, damping ratios and participations, checked."""
+def modal_model(modes: Any) -> MachineModel:
+    """The rigid motion, and what each mode adds, of frequencies in Hz, damping ratios and participations."""
     example = "such as [(8.5, 0.02)] or [(8.5, 0.02, 0.9), (31.0, 0.01, 0.1)]"
     if not isinstance(modes, list | tuple) or not modes:
         raise InputError(
             f"modes must be a list of frequencies in Hz with damping ratios, {example}, got {shortened(modes)}"
         )
-    return ModalModel(tuple(_vibration(i, given, example) for i, given in enumerate(modes, 1)))
+    size = len(modes)
+    frequencies, dampings, shares = np.array([_vibration(i, given, example) for i, given in enumerate(modes, 1)]).T
+    parts = np.diag(-(frequencies**2)), np.diag(-2.0 * dampings * frequencies), np.zeros((size, 2))
+    unit = np.eye(2 * size + 3)
+    bent, turning = unit[:size].sum(axis=0), unit[size : 2 * size].sum(axis=0)
+    bending = -shares.sum() * unit[-1]
+    bending[:size], bending[size : 2 * size] = -(frequencies**2), -2.0 * dampings * frequencies
+    rows_by_name = {"position": bent + unit[-3], "velocity": turning + unit[-2], "acceleration": bending + unit[-1]}
+    alone = {f"deflection {i + 1}": unit[i] for i in range(size)} if size > 1 else {}
+    outputs = rows_by_name | {"deflection": bent} | alone
+    return MachineModel(np.column_stack([*parts, -shares]), outputs, "these modes")
 
 
 def _vibration(number: int, given: Any, example: str) -> tuple[float, float, float]:
+    """Circular frequency, damping ratio and participation of a mode."""
     if not isinstance(given, list | tuple) or not 2 <= len(given) <= 3:
         raise InputError(
             f"mode {number} must be a frequency in Hz, a damping ratio and perhaps a participation, {example}, "
             f"got {shortened(given)}"
         )
-    frequency = _hertz(given[0], f"the frequency of mode {number}")
+    hertz, name = given[0], f"the frequency of mode {number}"
+    if isinstance(hertz, str) or hasattr(hertz, "units"):
+        # an angular velocity, such as "53 rad/s", is the phase's rate
+        dimension, rate = either(hertz, ("frequency", "angular velocity"), name)
+        hertz = rate if dimension == "frequency" else rate / (2.0 * pi)
+    frequency = positive(hertz, name)
     ratio = not_negative(given[1], f"the damping ratio of mode {number}")
     if ratio >= 1.0:
         raise InputError(
@@ -389,11 +310,3 @@ def _vibration(number: int, given: Any, example: str) -> tuple[float, float, flo
         )
     (share,) = numbers([given[2] if len(given) == 3 else 1.0], f"the participation of mode {number}")
     return 2.0 * pi * frequency, ratio, share
-
-
-def _hertz(value: Any, name: str) -> float:
-    """A frequency in Hz; an angular velocity, such as "53 rad/s", is the phase's rate."""
-    if isinstance(value, str) or hasattr(value, "units"):
-        dimension, number = either(value, ("frequency", "angular velocity"), name)
-        value = number if dimension == "frequency" else number / (2.0 * pi)
-    return positive(value, name)
