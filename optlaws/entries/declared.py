@@ -272,12 +272,14 @@ def _document(documented: Any, values: type[Declared]) -> None:
     place = next((each.start() for each in headings if each[2] != "Parameters"), len(text))
     named = next((each.end() for each in headings if each[2] == "Parameters"), place)
     known = [line.split(", ") for line in re.findall(rf"^{indent}(\w[\w, ]*)$", text[named:place], re.MULTILINE)]
-    takes = None if isinstance(documented, type) else signature(documented).parameters
+    of_class = isinstance(documented, type)
+    takes = documented.__init__.__annotations__ if of_class else signature(documented).parameters
     lines = []
     for each in entries_of(values).values():
-        if (takes is None or each.field in takes) and not any(each.field in names for names in known):
+        name = each.name if each.name in takes else each.field
+        if name in takes and not any(name in names for names in known):
             about = wrap(f"{each.about} {each.sentence}", 108 - len(indent))
-            lines += [f"{indent}{each.field}", *(f"{indent}    {line}" for line in about)]
+            lines += [f"{indent}{name}", *(f"{indent}    {line}" for line in about)]
     if lines:
         head = [] if named < place else ["", f"{indent}Parameters", f"{indent}----------"]
         documented.__doc__ = "\n".join([text[:place].rstrip(), *head, *lines, "", text[place:]]).rstrip(" \n")
@@ -366,7 +368,8 @@ class Declared(JsonText):
             if each.needed and absent:
                 such = "" if each.example is None else f", such as {name} = {each.example!r}"
                 raise InputError(f"{cls.named} needs its {name}{such}")
-        return cls(**{known[name].field: value for name, value in given.items()})
+        takes = cls.__init__.__annotations__
+        return cls(**{name if name in takes else known[name].field: value for name, value in given.items()})
 
 
 class Kinded(Declared):

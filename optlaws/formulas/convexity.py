@@ -88,11 +88,17 @@ def enclosed(formula: Formula, names: Mapping[str, Endpoints]) -> Endpoints:
     >>> round(float(values.low), 9), round(float(values.high), 9)
     (1.0, 4.0)
     """
+    known: list[Endpoints] = []
+    for part, places, _ in formula.steps:
+        known.append(_enclosed(part, [known[place] for place in places], names))
+    return known[-1]
+
+
+def _enclosed(formula: Formula, parts: list[Endpoints], names: Mapping[str, Endpoints]) -> Endpoints:
     if isinstance(formula, Number):
         return between(formula.value)
     if isinstance(formula, Name):
         return between(pi).outward() if formula.name == "pi" and "pi" not in names else names[formula.name]
-    parts = [enclosed(part, names) for part in formula.parts]
     if isinstance(formula, Negative):
         return -parts[0]
     if isinstance(formula, Sum):

@@ -207,7 +207,8 @@ def test_every_value_is_read_again_as_it_was(values: dict[str, Any]) -> None:
 
 def test_what_a_declared_value_keeps_is_taken_again(values: dict[str, Any]) -> None:
     for name, value in values.items():
-        if hasattr(value, "json_schema"):
+        # a mechanism takes its formulas by other names
+        if hasattr(value, "json_schema") and not isinstance(value, optlaws.Mechanism):
             assert strict(replace(value).to_json()) == strict(value.to_json()), name
 
 

@@ -5,7 +5,9 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from itertools import pairwise
+from math import ceil, factorial
 from numbers import Real
 from typing import Any, Literal
 
@@ -14,19 +16,38 @@ import numpy as np
 from optlaws.echo import shortened
 from optlaws.entries.value_types import ReadBy, ValueType
 from optlaws.errors import InputError
-from optlaws.formulas.arithmetic import horner, pieces
-from optlaws.formulas.convexity import affine
+from optlaws.formulas.arithmetic import NUMPY, evaluate, horner, pieces
+from optlaws.formulas.convexity import Endpoints, affine, enclosed
 from optlaws.formulas.reading import read
-from optlaws.formulas.slopes import added, constant, multiplied, opposite, scaled
-from optlaws.formulas.tree import Formula, Name, Negative, Sum, Table, TableJoin, number, rebuilt
+from optlaws.formulas.slopes import added, constant, derivative, multiplied, opposite, scaled
+from optlaws.formulas.tree import (
+    Call,
+    Exponentiation,
+    Formula,
+    Name,
+    Negative,
+    Reciprocal,
+    Sum,
+    Table,
+    TableJoin,
+    number,
+    rebuilt,
+    table_places,
+)
 from optlaws.motion.quantities import quantity, si_number, written
 from optlaws.numbers import finite, real
-from optlaws.tolerances import OPERATIONS_ROUNDING, VALUE_ROUNDING
+from optlaws.numerics.branch_and_bound import Extremes, extremes
+from optlaws.numerics.interval import Interval, between, exact
+from optlaws.numerics.taylor import Jet, variable
+from optlaws.synthesis.limits.formula_jets import formula_jet
+from optlaws.tolerances import OPERATIONS_ROUNDING, ROUNDOFF, VALUE_ROUNDING
 
 TableKind = Literal["spline", "lines"]
 #: how tables of values are joined: a spline of values keeps their shape
 JOINED: dict[str, TableJoin] = {"spline": "monotone", "lines": "table"}
 _FEWEST = 2
+#: places at which a formula is looked at first, cells, how often these are cut, and how many of unknown sign at most
+_LOOKS, _CELLS, _CUTS, _MOST = 1441, 64, 9, 512
 #: a number with a unit behind it; in formulas a number is followed by a sign
 _WITH_UNIT = re.compile(r"\s*[+-]?[\d./]*\d(?:[eE][+-]?\d+)?+\s*[^\W\d_]")
 
@@ -222,3 +243,106 @@ def times(formula: Formula, factor: float) -> Formula:
     if isinstance(formula, Table):
         return replace(formula, values=tuple(value * factor for value in formula.values))
     return scaled(formula, factor)
+
+
+@lru_cache(maxsize=256)
+def slope_of(formula: Formula, nu: int) -> Formula:
+    """The derivative of a formula by x of an order."""
+    return formula if nu == 0 else derivative(slope_of(formula, nu - 1), "x")
+
+
+@lru_cache(maxsize=256)
+def extremes_over(formula: Formula, low: float, high: float) -> Extremes:
+    """The extremes of a smooth formula of x between two positions, proven by enclosures of all between them.
+
+    >>> from optlaws.formulas.reading import read
+    >>> round(extremes_over(read("0.02 + 0.01*sin(x)^2", ("x",)), 0.0, 3.0).most, 12)
+    0.03
+    """
+
+    def jet(x: Interval, order: int) -> Jet:
+        at = {"x": Endpoints(x.low, x.high)}
+        values = [enclosed(slope_of(formula, nu), at) for nu in range(order + 1)]
+        ends = [np.broadcast_arrays(each.low, each.high, x.low)[:2] for each in values]
+        return Jet([between(*each) / factorial(nu) for nu, each in enumerate(ends)])
+
+    if low == high or line_of(formula) is not None:
+        first, last = (float(evaluate(formula, {"x": x}, NUMPY)) for x in (low, high))
+        (least, least_at), (most, most_at) = sorted([(first, low), (last, high)])
+        return Extremes(least, least_at, least, most, most_at, most)
+    edges = [low, *(place for place in table_places(formula, "x") if low < place < high), high]
+    return extremes(jet, edges, share=ROUNDOFF, parts=ceil(_CELLS / (len(edges) - 1)))
+
+
+@lru_cache(maxsize=256)
+def sign_over(formula: Formula, low: float, high: float) -> tuple[int, float]:
+    """The sign that a formula of x has everywhere between two positions, proven; else 0, and where it may be 0.
+
+    >>> from optlaws.formulas.reading import read
+    >>> [sign_over(read(text, ("x",)), 0.0, 3.0)[0] for text in ("2 + cos(x)", "-1 - x^2", "sin(x)")]
+    [1, -1, 0]
+    """
+    signs, starts, stops = set[int](), np.array([low]), np.array([high])
+    for _ in range(_CUTS):
+        ends = np.linspace(starts, stops, _CELLS + 1)
+        starts, stops = ends[:-1].ravel(), ends[1:].ravel()
+        middles = 0.5 * (starts + stops)
+        cells = between(np.append(middles, starts), np.append(middles, stops))
+        value, slope = formula_jet(formula, "x", variable(cells, 1)).terms
+        count, steps = len(starts), between(starts, stops) - exact(middles)
+        # of the mean value, and of the values themselves
+        known = [value[:count] + slope[count:] * steps, value[count:]]
+        above = np.any([each.low > 0.0 for each in known], axis=0)
+        below = np.any([each.high < 0.0 for each in known], axis=0)
+        signs |= {1} if np.any(above) else set()
+        signs |= {-1} if np.any(below) else set()
+        unknown = ~(above | below)
+        starts, stops = starts[unknown], stops[unknown]
+        if not 0 < len(starts) <= _MOST:
+            break
+    return (0, float(starts[0])) if len(starts) else (signs.pop(), low)
+
+
+@lru_cache(maxsize=256)
+def without_value(formula: Formula, low: float, high: float) -> float | None:
+    """A position between two others at which a formula of x has no finite value; None where it has one everywhere.
+
+    >>> from optlaws.formulas.reading import read
+    >>> without_value(read("1/(x - 0.5)", ("x",)), 0.0, 3.0), without_value(read("1/(x + 0.5)", ("x",)), 0.0, 3.0)
+    (0.5, None)
+    """
+    x = np.linspace(low, high, _LOOKS)
+    with np.errstate(all="ignore"):
+        values = np.broadcast_to(evaluate(formula, {"x": x}, NUMPY), x.shape)
+    if not np.isfinite(values).all():
+        return float(x[~np.isfinite(values)][0])
+    for step in formula.steps:
+        needed = _needed(step.formula)
+        if needed is not None:
+            part, signs = needed
+            sign, place = sign_over(part, low, high)
+            if sign not in signs:
+                if 0 not in signs:
+                    return place
+                known = extremes_over(part, low, high)
+                if known.least < -VALUE_ROUNDING * known.peak:
+                    return known.least_at
+    return None
+
+
+def _needed(part: Formula) -> tuple[Formula, set[int]] | None:
+    """A formula whose sign must be one of some everywhere, so that a part of a formula has a value."""
+    if isinstance(part, Reciprocal):
+        of = part.of.of if isinstance(part.of, Negative) else part.of
+        is_root = isinstance(of, Call) and of.function == "sqrt"
+        return (of.parts[0], {1}) if is_root else (of, {1, -1})
+    if isinstance(part, Call) and part.function in {"log", "sqrt"}:
+        return part.arguments[0], {1} if part.function == "log" else {0, 1}
+    if isinstance(part, Call) and part.function == "tan":
+        return Call("cos", part.arguments), {1, -1}
+    if isinstance(part, Exponentiation):
+        exponent = constant(part.exponent)
+        whole = exponent is not None and exponent == int(exponent)
+        above = exponent is not None and exponent > 0.0
+        return None if whole and above else (part.base, {1, -1} if whole else {0, 1} if above else {1})
+    return None

@@ -3,35 +3,38 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import KW_ONLY, dataclass, fields
-from functools import lru_cache
-from math import factorial
-from typing import TYPE_CHECKING, Any, Literal, Self, TypeAlias, get_args
+from dataclasses import KW_ONLY, fields
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias, get_args
 
 import numpy as np
 
-from optlaws.echo import shortened, unknown_key
-from optlaws.entries.declared import Declared, ValueOf, declared, documented_by, entries_of, entry
+from optlaws.echo import shortened
+from optlaws.entries.declared import Declared, ValueOf, declared, entries_of, entry
 from optlaws.entries.value_types import Choice, Kept, Listed, Measured, Text, pairs
 from optlaws.entries.value_types import Table as TableOf
 from optlaws.entries.value_types import Together as Tuple
 from optlaws.errors import InputError
-from optlaws.files.reading import JsonText, check_names, of_known_format
+from optlaws.files.reading import check_names, of_known_format
 from optlaws.formulas.arithmetic import NUMPY, Together, evaluate
 from optlaws.formulas.branches import smooth_itself
-from optlaws.formulas.convexity import Endpoints, enclosed
 from optlaws.formulas.slopes import added
-from optlaws.formulas.slopes import derivative as slope
-from optlaws.formulas.tree import Formula, Name, Table, table_places
+from optlaws.formulas.tree import Formula, Name, Table
 from optlaws.kept import kept_property
 from optlaws.mechanisms.linkages.dimensionless import LinearForce, StrokeTorque, dimensionless
-from optlaws.mechanisms.linkages.entries import FORMULA, OverPlace, formula_of, line_of, rescaled
+from optlaws.mechanisms.linkages.entries import (
+    FORMULA,
+    OverPlace,
+    extremes_over,
+    formula_of,
+    line_of,
+    rescaled,
+    sign_over,
+    slope_of,
+    without_value,
+)
 from optlaws.motion.quantities import check_scale, either, in_small_units, si_number
-from optlaws.numbers import Array, NumberOrQuantity, derivative, finite, not_negative, positive, real_times
-from optlaws.numerics.branch_and_bound import extremes
-from optlaws.numerics.interval import Interval
-from optlaws.numerics.taylor import Jet
-from optlaws.tolerances import CLOSURE, OPERATIONS_ROUNDING, VALUE_ROUNDING
+from optlaws.numbers import Array, NumberOrQuantity, derivative, finite, positive, real_times
+from optlaws.tolerances import CLOSURE, VALUE_ROUNDING
 
 if TYPE_CHECKING:
     from optlaws.mechanisms.linkages.move_limit import MoveLimit
@@ -56,9 +59,6 @@ DIMENSIONS: dict[InputAxis, dict[str, str]] = {
     },
 }
 FORMAT = 1
-_LOOKS = 1441
-_PARTS = 64
-
 
 Driven: TypeAlias = Kept[
     "tuple[tuple[str, Formula], ...]", "tuple[tuple[str, Formula], ...] | Mapping[str, Formula | str]"
@@ -86,64 +86,7 @@ NO_LINKAGE = LinkGeometry()
 
 
 @declared
-class MechanismEntries(Declared, title="a mechanism"):
-    """The entries of a `Mechanism`, as files have them."""
-
-    inertia: Any = entry(
-        OverPlace("x"),
-        "Of all masses at the input, over its position x in rad or m, in SI units where it is a formula such as "
-        '"0.02 + 0.01*sin(x)^2"; through a table runs a smooth curve.',
-        example="0.8 kg m^2",
-    )
-    load: Any = entry(
-        OverPlace("x"),
-        'What resists the motion to greater x; tables are straight lines, and a curve is "spline(x, 0:1, ...)".',
-        default=0.0,
-        example="2*sin(x)",
-    )
-    _: KW_ONLY
-    coulomb: NumberOrQuantity = entry(
-        Measured("torque", "force", bare=True, least=0.0),
-        "Friction that does not depend on the speed, at the input.",
-        default=0.0,
-        example="0.5 N m",
-    )
-    viscous: NumberOrQuantity = entry(
-        Measured("rotary viscous friction", "viscous friction", bare=True, least=0.0),
-        "Friction in proportion to the speed, at the input.",
-        default=0.0,
-        example="0.02 N m s/rad",
-    )
-    over: Any = entry(
-        Listed(Measured("angle", "length", bare=True), least=2, most=2),
-        "The range of x where it is defined; that of its tables unless given, and without tables no bound.",
-        default=None,
-        example=["0 deg", "180 deg"],
-    )
-    axis: InputAxis | None = entry(
-        Choice(*get_args(InputAxis)), "Whether the input turns or slides; as `over` says unless given.", default=None
-    )
-    name: str = entry(Text(), "What pictures and texts call it.", default="mechanism", shown=False)
-    linkage: LinkGeometry = entry(
-        ValueOf(LinkGeometry),
-        "Positions of its driven links, and what a picture draws.",
-        default=NO_LINKAGE,
-        shown=False,
-    )
-
-    @classmethod
-    def _from_earlier(cls, data: dict[str, Any]) -> dict[str, Any]:
-        return of_known_format(data, "a mechanism")
-
-    @property
-    def mechanism(self) -> Mechanism:
-        """The mechanism of these entries."""
-        return Mechanism(**{name: getattr(self, name) for name in entries_of(type(self))})
-
-
-@documented_by(MechanismEntries)
-@dataclass(frozen=True, init=False, eq=False, repr=False)
-class Mechanism(JsonText):
+class Mechanism(Declared, title="a mechanism"):
     """A mechanism of one degree of freedom: inertia J(x) and load T(x) at its input, friction, and where it is defined.
 
     The torque (or force) that moves the input is J(x) x'' + J'(x) x'²/2 + viscous x' + coulomb sign(x') + T(x): the
@@ -153,8 +96,9 @@ class Mechanism(JsonText):
     Raises
     ------
     InputError
-        If a quantity is of another dimension, the inertia is below 0 somewhere or has no derivative, or a table ends
-        within the range; the error names the place and the numbers.
+        If a quantity is of another dimension, the inertia is below 0 somewhere or has no derivative, a formula has no
+        finite value somewhere, or a table ends within the range; the error names the place and the numbers. Both are
+        proven over the whole range; where it has no ends and a formula no bounds, over a stroke when it is moved.
 
     Examples
     --------
@@ -165,16 +109,51 @@ class Mechanism(JsonText):
     c + 0.04973591971621729 + 0.1989436788648692*sin(0.7853981633974483*a)
     """
 
-    _json_name = "a mechanism"
+    writes_defaults = True
 
-    inertia_formula: Formula
-    load_formula: Formula
-    coulomb: float
-    viscous: float
-    over: tuple[float, float]
-    axis: InputAxis
-    name: str
-    linkage: LinkGeometry
+    inertia_formula: Formula = entry(
+        OverPlace("x"),
+        "Of all masses at the input, over its position x in rad or m, in SI units where it is a formula such as "
+        '"0.02 + 0.01*sin(x)^2"; through a table runs a smooth curve.',
+        name="inertia",
+        example="0.8 kg m^2",
+    )
+    load_formula: Formula = entry(
+        OverPlace("x"),
+        'What resists the motion to greater x; tables are straight lines, and a curve is "spline(x, 0:1, ...)".',
+        default=0.0,
+        name="load",
+        example="2*sin(x)",
+    )
+    _: KW_ONLY
+    coulomb: float = entry(
+        Measured("torque", "force", bare=True, least=0.0),
+        "Friction that does not depend on the speed, at the input.",
+        default=0.0,
+        example="0.5 N m",
+    )
+    viscous: float = entry(
+        Measured("rotary viscous friction", "viscous friction", bare=True, least=0.0),
+        "Friction in proportion to the speed, at the input.",
+        default=0.0,
+        example="0.02 N m s/rad",
+    )
+    over: tuple[float, float] = entry(
+        Listed(Measured("angle", "length", bare=True), least=2, most=2),
+        "The range of x where it is defined; that of its tables unless given, and without tables no bound.",
+        default=None,
+        example=["0 deg", "180 deg"],
+    )
+    axis: InputAxis = entry(
+        Choice(*get_args(InputAxis)), "Whether the input turns or slides; as `over` says unless given.", default=None
+    )
+    name: str = entry(Text(), "What pictures and texts call it.", default="mechanism", shown=False)
+    linkage: LinkGeometry = entry(
+        ValueOf(LinkGeometry),
+        "Positions of its driven links, and what a picture draws.",
+        default=NO_LINKAGE,
+        shown=False,
+    )
 
     def __init__(
         self,
@@ -188,46 +167,44 @@ class Mechanism(JsonText):
         name: str = "mechanism",
         linkage: LinkGeometry = NO_LINKAGE,
     ) -> None:
-        kind, ends = _axis_and_ends(over, axis)
-        known = DIMENSIONS[kind]
-        formulas = {
-            "inertia": formula_of(inertia, (kind, known["inertia"]), "inertia"),
-            "load": formula_of(load, (kind, known["load"]), "load", interpolation="lines"),
-        }
-        vars(self).update(
-            inertia_formula=formulas["inertia"],
-            load_formula=formulas["load"],
-            coulomb=not_negative(si_number(coulomb, (known["load"],), "coulomb"), "coulomb"),
-            viscous=not_negative(si_number(viscous, (known["viscous"],), "viscous"), "viscous"),
-            over=_range(formulas, ends, kind),
-            axis=kind,
-            name=str(name),
-            linkage=linkage,
-        )
+        given = (inertia, load, coulomb, viscous, over, axis, name, linkage)
+        for each, value in zip(entries_of(Mechanism).values(), given, strict=True):
+            object.__setattr__(self, each.field, each.read(value))
         self._check()
 
     def _check(self) -> None:
-        low, high = self.over
-        x = np.linspace(low, high, _LOOKS) if np.isfinite(high - low) else np.linspace(-np.pi, np.pi, _LOOKS)
-        if any(isinstance(part, Table) and not smooth_itself(part) for part in self.inertia_formula.walk()):
+        kind, ends = _axis_and_ends(self.over, self.axis)
+        known = DIMENSIONS[kind]
+        inertia = formula_of(self.inertia_formula, (kind, known["inertia"]), "inertia")
+        load = formula_of(self.load_formula, (kind, known["load"]), "load", interpolation="lines")
+        friction = {"coulomb": known["load"], "viscous": known["viscous"]}
+        numbers = {name: float(si_number(getattr(self, name), (of,), name)) for name, of in friction.items()}
+        over = _range({"inertia": inertia, "load": load}, ends, kind)
+        vars(self).update(inertia_formula=inertia, load_formula=load, over=over, axis=kind, **numbers)
+        if any(isinstance(part, Table) and not smooth_itself(part) for part in inertia.walk()):
             raise InputError(
                 "the inertia has corners, where the torque would jump: a table is joined by a smooth curve, and in a "
                 "formula monotone(x, ...) is one"
             )
-        slope(self.inertia_formula, "x")
-        with np.errstate(all="ignore"):
-            values = {"inertia": self._values(self.inertia_formula, x), "load": self._values(self.load_formula, x)}
-        for what, some in values.items():
-            if not np.isfinite(some).all():
-                place = self._shown(x[~np.isfinite(some)][0])
+        slope_of(inertia, 1)
+        self._check_over(*(over if self.has_end else (-np.pi, np.pi)))
+
+    def _check_over(self, low: float, high: float) -> None:
+        """Refuse formulas without a finite value between two positions, and an inertia that is below 0 there."""
+        for what, formula in (("inertia", self.inertia_formula), ("load", self.load_formula)):
+            pole = without_value(formula, low, high)
+            if pole is not None:
+                place = self._shown(pole)
                 raise InputError(
                     f"the {what} has no finite value at {place}: take a range in over= without that position"
                 )
-        inertia = values["inertia"]
-        if inertia.min() < -VALUE_ROUNDING * np.abs(inertia).max():
-            i = int(np.argmin(inertia))
+        if sign_over(self.inertia_formula, low, high)[0] > 0:
+            return
+        known = extremes_over(self.inertia_formula, low, high)
+        if known.least < -VALUE_ROUNDING * known.peak:
             raise InputError(
-                f"the inertia must be at least 0, and it is {inertia[i]:.6g} at {self._shown(x[i])}: check its signs"
+                f"the inertia must be at least 0, and it is {known.least:.6g} at {self._shown(known.least_at)}: check "
+                "its signs"
             )
 
     def _shown(self, x: float) -> str:
@@ -235,7 +212,7 @@ class Mechanism(JsonText):
 
     @kept_property
     def _of_torque(self) -> Together:
-        return Together((self.inertia_formula, _derived(self.inertia_formula, 1), self.load_formula))
+        return Together((self.inertia_formula, slope_of(self.inertia_formula, 1), self.load_formula))
 
     def _values(self, formula: Formula, x: Any) -> Array:
         return np.broadcast_to(np.asarray(evaluate(formula, {"x": x, "t": 0.0}, NUMPY), dtype=np.float64), np.shape(x))
@@ -295,9 +272,7 @@ class Mechanism(JsonText):
         >>> round(Mechanism("0.02 + 0.01*sin(x)^2").greatest_inertia(0.0, 3.0), 12)
         0.03
         """
-        if low == high or line_of(self.inertia_formula) is not None:
-            return float(np.max(self.inertia(np.array([low, high]))))
-        return _greatest(self.inertia_formula, low, high)
+        return extremes_over(self.inertia_formula, low, high).most
 
     def load(self, x: Any, nu: int = 0) -> Any:
         """The load at the input, N m or N, above 0 where it resists motion to greater x, or a derivative of it by x."""
@@ -316,7 +291,7 @@ class Mechanism(JsonText):
         return self._given(driven[name], x, nu)
 
     def _given(self, formula: Formula, x: Any, nu: int) -> Any:
-        values = self._values(_derived(formula, derivative(nu)), self.position(x))
+        values = self._values(slope_of(formula, derivative(nu)), self.position(x))
         return values if np.ndim(values) else float(values)
 
     def torque(self, position: Any, velocity: Any, acceleration: Any, direction: Any = None, *, time: Any = 0.0) -> Any:
@@ -390,6 +365,8 @@ class Mechanism(JsonText):
             )
         check_scale(way, "rad" if self.axis == "angle" else "m", "stroke", stroke)
         self.position(np.array([first, first + way]))
+        if not (self.has_end or self.varies or self.linear):
+            self._check_over(*sorted((first, first + way)))
         load = rescaled(self.load_formula, "t", "k", (begins, time)) if self.varies else self.load_formula
         load = load if process is None else added([load, process])
         return dimensionless(self.inertia_formula, load, (self.coulomb, self.viscous), (first, way, time))
@@ -441,26 +418,18 @@ class Mechanism(JsonText):
         time = None if duration is None else moved.duration
         return move_limit(LimitedMove(self, minimise, moved.start, moved.stroke, time, bounds, recovered, heat))
 
-    def with_friction(self, *, coulomb: NumberOrQuantity = 0.0, viscous: NumberOrQuantity = 0.0) -> Self:
+    def with_friction(self, *, coulomb: NumberOrQuantity = 0.0, viscous: NumberOrQuantity = 0.0) -> Mechanism:
         """The mechanism with this friction at its input in place of its own."""
         return self._changed(coulomb=coulomb, viscous=viscous)
 
-    def with_inertia(self, inertia: NumberOrQuantity) -> Self:
+    def with_inertia(self, inertia: NumberOrQuantity) -> Mechanism:
         """The mechanism with a further constant inertia at its input, as of a coupling."""
         more = formula_of(inertia, (self.axis, DIMENSIONS[self.axis]["inertia"]), "inertia")
         return self._changed(inertia=added([more, self.inertia_formula]))
 
-    @property
-    def _entries(self) -> dict[str, Any]:
-        known = {
-            "inertia": self.inertia_formula,
-            "load": self.load_formula,
-            "over": self.over if self.has_end else None,
-        }
-        return {name: known[name] if name in known else getattr(self, name) for name in entries_of(MechanismEntries)}
-
-    def _changed(self, **fields: Any) -> Self:
-        return type(self)(**{**self._entries, **fields})
+    def _changed(self, **changed: Any) -> Mechanism:
+        known = {each.name: getattr(self, each.field) for each in entries_of(Mechanism).values()}
+        return Mechanism(**{**known, "over": self.over if self.has_end else None, **changed})
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Mechanism) and self.to_dict() == other.to_dict()
@@ -490,20 +459,11 @@ class Mechanism(JsonText):
         >>> Mechanism("0.8 kg m^2", over=("0 deg", "90 deg")).to_dict()["inertia"]
         '0.8'
         """
-        types, known = entries_of(MechanismEntries), self._entries
-        plain = {name: None if known[name] is None else types[name].type.plain(known[name]) for name in types}
-        return {"format": FORMAT, **plain}
+        return {"format": FORMAT, **super().to_dict(), **({} if self.has_end else {"over": None})}
 
     @classmethod
-    def from_dict(cls, data: Any) -> Mechanism:
-        """The mechanism that `to_dict` described.
-
-        Raises
-        ------
-        InputError
-            If an entry is unknown, missing or wrong; the error names it.
-        """
-        return MechanismEntries.from_dict(data).mechanism
+    def _from_earlier(cls, data: dict[str, Any]) -> dict[str, Any]:
+        return of_known_format(data, "a mechanism")
 
 
 def loaded(mechanism: Mechanism, load: Formula) -> Mechanism:
@@ -536,18 +496,13 @@ def _range(formulas: Mapping[str, Formula], ends: tuple[float, float] | None, ax
     return ends
 
 
-def _axis_and_ends(over: Any, axis: Any) -> tuple[InputAxis, tuple[float, float] | None]:
+def _axis_and_ends(over: Any, axis: InputAxis | None) -> tuple[InputAxis, tuple[float, float] | None]:
     """The kind of the input's position, and the ends of its range if there are any."""
-    if axis is not None and axis not in tuple(DIMENSIONS):
-        raise InputError(unknown_key(axis, DIMENSIONS, "axis"))
     if over is None:
         return axis or "angle", None
-    if not isinstance(over, list | tuple) or len(over) != 2:
-        raise InputError(f"over must be two positions such as ('0 deg', '180 deg'), got {shortened(over)}")
     known = (axis,) if axis else tuple(DIMENSIONS)
     read_ends: list[tuple[Any, float]] = [
-        either(each, known, "over") if isinstance(each, str) or hasattr(each, "units") else (None, finite(each, "over"))
-        for each in over
+        either(each, known, "over") if isinstance(each, str) else (None, float(each)) for each in over
     ]
     kinds = {kind for kind, _ in read_ends if kind is not None} | ({axis} if axis else set())
     if len(kinds) > 1:
@@ -565,25 +520,3 @@ def duration_of(minimise: str, duration: NumberOrQuantity | None) -> NumberOrQua
             "duration is missing, such as '0.25 s'" if duration is None else "leave out the duration: it is minimised"
         )
     return 1.0 if duration is None else duration
-
-
-@lru_cache(maxsize=64)
-def _greatest(formula: Formula, low: float, high: float) -> float:
-    """The greatest value of a smooth formula of x between two places."""
-
-    def interval(ends: Endpoints, divisor: float, x: Interval) -> Interval:
-        low, high = (np.broadcast_to(end, x.middle.shape) / divisor for end in (ends.low, ends.high))
-        middle, radius = 0.5 * (low + high), 0.5 * (high - low)
-        return Interval(middle, radius + OPERATIONS_ROUNDING * (np.abs(middle) + radius))
-
-    def value(x: Interval, order: int) -> Jet:
-        at = {"x": Endpoints(x.low, x.high)}
-        return Jet([interval(enclosed(_derived(formula, nu), at), factorial(nu), x) for nu in range(order + 1)])
-
-    inner = [place for place in table_places(formula, "x") if low < place < high]
-    return extremes(value, [low, *inner, high], parts=_PARTS).most
-
-
-@lru_cache(maxsize=256)
-def _derived(formula: Formula, nu: int) -> Formula:
-    return formula if nu == 0 else slope(_derived(formula, nu - 1), "x")

@@ -19,7 +19,7 @@ from optlaws.formulas.slopes import added, derivative, multiplied
 from optlaws.formulas.tracing import traced
 from optlaws.formulas.tree import Formula, Name, number
 from optlaws.mechanisms.linkages.bodies import NO_LOADS, DrivenLink, Loads, reduced_inertia
-from optlaws.mechanisms.linkages.mechanism import LinkGeometry, Mechanism, MechanismEntries
+from optlaws.mechanisms.linkages.mechanism import LinkGeometry, Mechanism
 from optlaws.motion.quantities import TURN, either
 from optlaws.numbers import NumberOrQuantity, not_negative
 
@@ -81,9 +81,12 @@ class MechanismKind(Kinded, ABC, title="a mechanism"):
         return Mechanism(*terms, **friction, over=over, axis="angle", name=name, linkage=linkage)
 
 
-@declared
-class MechanismTable(MechanismEntries, MechanismKind, kind="table"):
+class MechanismTable(Mechanism, MechanismKind, kind="table"):
     """A mechanism by its inertia and load over the position of its input."""
+
+    @property
+    def mechanism(self) -> Mechanism:
+        return self._changed()
 
 
 def _read(value: Any) -> Mechanism:

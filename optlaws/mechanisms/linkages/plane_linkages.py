@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import KW_ONLY
-from math import acos, ceil, cos, degrees, pi, sin
+from math import acos, asin, ceil, cos, degrees, pi, sin
 from typing import Any, Literal, TypeAlias, get_args
 
 import numpy as np
@@ -16,9 +16,10 @@ from optlaws.formulas.arithmetic import NUMPY, evaluate
 from optlaws.formulas.tracing import Traced
 from optlaws.formulas.tree import Formula, Name
 from optlaws.mechanisms.linkages.bodies import NO_LOADS, Body, DrivenLink, Link, Loads, Slide, bodies_of, formula_from
+from optlaws.mechanisms.linkages.entries import extremes_over, sign_over
 from optlaws.mechanisms.linkages.mechanism import LinkGeometry, Mechanism
 from optlaws.mechanisms.linkages.mechanism_kinds import LENGTH, MechanismKind, function_of
-from optlaws.numbers import Array, NumberOrQuantity
+from optlaws.numbers import NumberOrQuantity
 
 FourBarBranch = Literal["open", "crossed"]
 Ends: TypeAlias = Kept[tuple[float, float], "tuple[NumberOrQuantity, NumberOrQuantity]"]
@@ -121,22 +122,35 @@ slider_crank = function_of(SliderCrank)
 
 def _check_rod(crank: float, rod: float, offset: float, ends: tuple[float, float]) -> None:
     """Refuse a range in which the rod cannot reach the slide's way."""
-    x = np.linspace(*ends, 7201)
-    far = np.abs(crank * np.sin(x) - offset)
-    if far.max() < rod:
+    arcs = []
+    if rod + offset <= crank:
+        edge = asin(max((rod + offset) / crank, -1.0))
+        arcs.append((edge, pi - edge))
+    if offset - rod >= -crank:
+        edge = asin(min((offset - rod) / crank, 1.0))
+        arcs.append((pi - edge, 2.0 * pi + edge))
+    beyond = sorted(_turned(arcs, ends))
+    if not beyond:
         return
-    where = x[far >= rod]
-    reached = x[far < rod]
-    near = (
-        f"within the range it is reached from {degrees(reached[0]):.6g} to {degrees(reached[-1]):.6g} deg but for these"
-        if reached.size
-        else "it is reached nowhere in the range"
-    )
+    lows, highs = zip(*beyond, strict=True)
+    reached = [way for way in zip((ends[0], *highs), (*lows, ends[1]), strict=True) if way[0] < way[1]]
+    near = "it is reached nowhere in the range"
+    if reached:
+        shown = f"{degrees(reached[0][0]):.6g} to {degrees(reached[-1][1]):.6g} deg"
+        near = f"within the range it is reached from {shown} but for these"
+    first = max(lows[0], ends[0])
     raise InputError(
         f"the rod of {rod:g} m is too short for a crank of {crank:g} m and an offset of {offset:g} m: at "
-        f"{degrees(where[0]):.6g} deg the pin is {far[far >= rod][0]:g} m from the "
+        f"{degrees(first):.6g} deg the pin is {abs(crank * sin(first) - offset):g} m from the "
         f"slide's way, and {near}; take a rod of more than {crank + abs(offset):g} m, or another range in over="
     )
+
+
+def _turned(arcs: Iterable[tuple[float, float]], ends: tuple[float, float]) -> list[tuple[float, float]]:
+    """Arcs of the crank's angle, rad, with whole turns added, that are in a range of it."""
+    turns = 2.0 * pi * np.arange(ends[0] // (2.0 * pi) - 1.0, ends[1] // (2.0 * pi) + 2.0)
+    moved = [(low + turn, high + turn) for low, high in arcs for turn in turns.tolist()]
+    return [(low, high) for low, high in moved if low <= ends[1] and high >= ends[0]]
 
 
 class FourBarLinks:
@@ -193,26 +207,24 @@ class FourBarLinks:
             c, s = c * self.cosine - turning * s * self.sine, s * self.cosine + turning * c * self.sine
         return self._by_base(self.of_rocker, (c * dx + s * dy, c * dy - s * dx))
 
-    def places(self, *parts: Traced) -> tuple[Array, ...]:
-        """Angles of the crank over its range, and values of parts of the linkage there."""
-        low, high = self.ends
-        x = np.linspace(low, high, ceil(_LOOKS * max(1.0, (high - low) / (2.0 * pi))))
-        return x, *(evaluate(part.formula, {"x": x}, NUMPY) + 0.0 * x for part in parts)
-
     @property
     def rocker_position(self) -> Formula | None:
         """The rocker's angle from the frame, without a jump over the range of x; None where it turns too far.
 
         One that turns round with the crank is measured from a direction that does.
         """
-        x, ex, ey = self.places(*self.rocker.way)
+        low, high = self.ends
+        x = np.linspace(low, high, ceil(_LOOKS * max(1.0, (high - low) / (2.0 * pi))))
+        ex, ey = (evaluate(part.formula, {"x": x}, NUMPY) for part in self.rocker.way)
         angles = np.unwrap(np.arctan2(ey, ex))
         for turning in _TURNING:
             swing = angles - turning * x
-            if swing.max() - swing.min() <= 2.0 * _MOST_SWING:
-                reference = float(0.5 * (swing.min() + swing.max()))
-                along, across = self.rocker_along(reference, turning)
-                turned: Traced = np.arctan(across / (along + self.rocker.length))
+            reference = float(0.5 * (swing.min() + swing.max()))
+            along, across = self.rocker_along(reference, turning)
+            # it is never opposite to the direction from which its angle is measured
+            before = along + self.rocker.length
+            if swing.max() - swing.min() <= 2.0 * _MOST_SWING and sign_over(before.formula, low, high)[0] > 0:
+                turned: Traced = np.arctan(across / before)
                 from_frame = reference + 2.0 * turned
                 return (from_frame + turning * Traced(Name("x")) if turning else from_frame).formula
         return None
@@ -282,27 +294,24 @@ def _check_assembly(lengths: dict[str, float], ends: tuple[float, float]) -> Non
             f"the links do not close: the {longest} of {lengths[longest]:g} m is as long as the others together, "
             f"{others:g} m; make it shorter"
         )
-    unreached = []
     # the distance of the crank's pin from the rocker's pivot is sqrt(middle - swing cos x)
     middle, swing = crank**2 + frame**2, 2.0 * crank * frame
-    stretched = (middle - (coupler + rocker) ** 2) / swing
-    folded = (middle - (coupler - rocker) ** 2) / swing
+    stretched, folded = ((middle - reach**2) / swing for reach in (coupler + rocker, coupler - rocker))
+    unreached = {}
     if stretched >= -1.0:
         edge = acos(min(stretched, 1.0))
-        unreached.append((edge, 2.0 * pi - edge, "stretched"))
+        unreached["stretched"] = edge, 2.0 * pi - edge
     if folded <= 1.0:
         edge = acos(max(folded, -1.0))
-        unreached.append((-edge, edge, "folded"))
-    for low, high, how in unreached:
-        for turn in range(int(ends[0] // (2.0 * pi)) - 1, int(ends[1] // (2.0 * pi)) + 2):
-            first, last = low + 2.0 * pi * turn, high + 2.0 * pi * turn
-            if first <= ends[1] and last >= ends[0]:
-                raise InputError(
-                    f"the crank reaches no angle from {degrees(first):.6g} to {degrees(last):.6g} deg: coupler and "
-                    f"rocker are in line, {how}, at these dead centres, beyond which the crank cannot go, and the "
-                    f"range is {degrees(ends[0]):.6g} to {degrees(ends[1]):.6g} deg. {_grashof(lengths)}; take a range "
-                    "in over= between dead centres, or other lengths"
-                )
+        unreached["folded"] = -edge, edge
+    for how, arc in unreached.items():
+        for first, last in _turned([arc], ends):
+            raise InputError(
+                f"the crank reaches no angle from {degrees(first):.6g} to {degrees(last):.6g} deg: coupler and "
+                f"rocker are in line, {how}, at these dead centres, beyond which the crank cannot go, and the "
+                f"range is {degrees(ends[0]):.6g} to {degrees(ends[1]):.6g} deg. {_grashof(lengths)}; take a range "
+                "in over= between dead centres, or other lengths"
+            )
 
 
 def _grashof(lengths: dict[str, float]) -> str:
@@ -397,15 +406,17 @@ toggle = function_of(Toggle)
 
 def _check_knee(linkage: FourBarLinks, along: Traced, across: Traced, lower: float) -> None:
     """Refuse a range in which the lower link does not reach the ram's way, or the knee is behind the pivot."""
-    x, before, beside = linkage.places(along, across)
-    far, behind = int(np.argmax(np.abs(beside))), int(np.argmin(before))
-    if abs(beside[far]) >= lower:
+    signs = [sign_over(part.formula, *linkage.ends)[0] for part in (lower - across, lower + across, along)]
+    if min(signs[:2]) <= 0:
+        beside = extremes_over(across.formula, *linkage.ends)
+        at = beside.most_at if beside.most == beside.peak else beside.least_at
         raise InputError(
-            f"the lower link of {lower:g} m does not reach the ram's way at {degrees(x[far]):.6g} deg, where the knee "
-            f"is {abs(beside[far]):.6g} m from it: make it longer, or take another range in over="
+            f"the lower link of {lower:g} m does not reach the ram's way at {degrees(at):.6g} deg, where the knee "
+            f"is {beside.peak:.6g} m from it: make it longer, or take another range in over="
         )
-    if before[behind] <= 0.0:
+    if signs[2] <= 0:
+        before = extremes_over(along.formula, *linkage.ends)
         raise InputError(
-            f"at {degrees(x[behind]):.6g} deg the knee is {-before[behind]:.6g} m behind the upper link's pivot, seen "
-            "along the ram's way: take the other branch, the opposite direction, or a shorter range"
+            f"at {degrees(before.least_at):.6g} deg the knee is {-before.least:.6g} m behind the upper link's pivot, "
+            "seen along the ram's way: take the other branch, the opposite direction, or a shorter range"
         )

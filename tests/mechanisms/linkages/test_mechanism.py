@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from functools import reduce
 from operator import mul
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 import pytest
@@ -192,7 +192,10 @@ REFUSED: list[tuple[Callable[[], Any], str]] = [
     ),
     (lambda: Mechanism(0.0).dimensionless(0.0, 1.0, 1.0), "neither inertia nor load nor friction"),
     (lambda: ALL["formula"].driven_position("ram", 0.0), "unknown driven link 'ram'"),
-    (lambda: slider_crank(0.1, 0.08, bodies={"slider": 1.0}), r"rod of 0.08 m is too short .* at 53.15"),
+    (
+        lambda: slider_crank(0.1, 0.08, bodies={"slider": 1.0}),
+        r"rod of 0.08 m is too short .* at 53.1301 deg the pin is 0.08 m",
+    ),
     (lambda: slider_crank(0.1, 0.4, bodies={"slider": "-5 kg"}), "bodies: slider must be at least 0"),
     (lambda: slider_crank(0.1, 0.4, bodies={"ram": "5 kg"}), "unknown body 'ram'"),
     (lambda: slider_crank(0.1, 0.4, bodies={"rod": "5 kg"}), "rod is on no pivot and needs a Body"),
@@ -215,6 +218,65 @@ REFUSED: list[tuple[Callable[[], Any], str]] = [
 def test_what_cannot_be_is_refused(wrong: Callable[[], Any], message: str) -> None:
     with pytest.raises(InputError, match=f"(?s){message}"):
         wrong()
+
+
+#: with what happens within less than a thousandth of the range, or between the places of even samples
+NARROW: list[tuple[Callable[[], Any], str]] = [
+    (lambda: Mechanism("0.1 - 0.2*exp(-(1e5*(x - 0.70001))^2)", over=(0.0, 3.0)), r"it is -0\.1 at 40\.1076"),
+    (lambda: Mechanism("0.1", "1/(x - 0.70001)", over=(0.0, 3.0)), r"the load has no finite value at 40\.1076"),
+    (lambda: Mechanism("0.1", "1/sin(x - 0.70001)^2", over=(0.0, 3.0)), r"the load has no finite value at 40\.1076"),
+    (lambda: Mechanism("0.1", "tan(x)", over=(0.0, 3.0)), "the load has no finite value at 90 deg"),
+    (lambda: Mechanism("0.1", "(x - 0.5)^-3", over=(0.0, 3.0)), "the load has no finite value at 28.6478"),
+    (lambda: Mechanism("0.1", "log((x - 0.70001)^2)", over=(0.0, 3.0)), r"the load has no finite value at 40\.1076"),
+    (
+        lambda: Mechanism("0.1", "sqrt((x - 0.7)^2 - 1e-10)", over=(0.0, 3.0)),
+        r"the load has no finite value at 40\.1070",
+    ),
+    (lambda: Mechanism("0.1*(40 - x)").dimensionless(39.0, 2.0, 1.0), r"it is -0\.1 at 2349\.1"),
+    (
+        lambda: slider_crank(0.1, 0.1 - 1e-9, bodies={}, over=("0.03 deg", "180 deg")),
+        r"at 89\.99\d* deg the pin is 0.1 m from .* it is reached from 0\.03 to 180 deg but for these",
+    ),
+    (
+        lambda: slider_crank(0.1, 0.12, offset="-20.000001 mm", bodies={}, over=("0.03 deg", "360 deg")),
+        r"at 89\.9\d* deg the pin is 0\.12 m",
+    ),
+    (lambda: slider_crank(0.1, 0.12, offset="0.3 m", bodies={}, over=("0 deg", "360 deg")), "it is reached nowhere"),
+    (lambda: slider_crank(0.1, 0.12, offset="-0.3 m", bodies={}), "it is reached nowhere"),
+    (
+        lambda: toggle({**KNEE, "lower": 0.14696411836}, bodies={}, over=("0 deg", "360 deg")),
+        r"lower link of 0\.146964 m does not reach the ram's way at 225\.55",
+    ),
+]
+
+
+@pytest.mark.parametrize(("wrong", "message"), NARROW, ids=range(len(NARROW)))
+def test_what_cannot_be_between_samples_is_refused(wrong: Callable[[], Any], message: str) -> None:
+    with pytest.raises(InputError, match=f"(?s){message}"):
+        wrong()
+
+
+def test_what_only_touches_its_bounds_is_taken() -> None:
+    """An inertia that vanishes, a root of what is 0 at an end, and a rod that is hardly long enough."""
+    assert Mechanism("0.1*(1 - cos(x))", over=(0.0, 7.0)).inertia(0.0) == 0.0
+    assert Mechanism("0.1", "sqrt(1 - x^2)", over=(-1.0, 1.0)).load(1.0) == 0.0
+    assert Mechanism("0.1 - 0.2*exp(-(1e5*(x - 3.1))^2)", over=(0.0, 3.0)).load(0.0) == 0.0
+    press = slider_crank(0.1, 0.1 + 1e-9, bodies={"crank": 0.2})
+    assert press.inertia(1.0) == 0.2
+    assert Mechanism("0.02 + 0.01*sin(x)^2").dimensionless(1e6, 2.0, 1.0).start == 1e6
+
+
+@pytest.mark.parametrize("branch", ["open", "crossed"])
+@pytest.mark.parametrize("more", [1e-2, -1e-2, 3e-3, -3e-3, 1e-5, -1e-5])
+def test_a_rocker_that_turns_over_at_once_has_no_jump(more: float, branch: Literal["open", "crossed"]) -> None:
+    """Where the crank is nearly as long as the frame, the pins of its ends pass each other, and half a turn with it."""
+    x = np.unique(np.concatenate([np.linspace(-1.0, 1.0, 401), np.linspace(-9.0, 9.0, 40001) * more]))
+    frame = 0.1 * (1.0 + more)
+    near = four_bar(0.1, 0.2, 0.2, frame, bodies={"rocker": 0.05}, over=(-1.0, 1.0), branch=branch)
+    if near.linkage.driven or abs(more) > 1e-3:
+        angle = near.driven_position("rocker", x)
+        assert np.abs(np.diff(angle)).max() < 0.02
+        assert np.abs(0.1 * np.exp(1j * x) - frame - 0.2 * np.exp(1j * angle)) == pytest.approx(0.2, abs=1e-9)
 
 
 def test_pictures(mechanism: Mechanism) -> None:
