@@ -35,9 +35,9 @@ from optlaws.motion.polynomials import PiecewiseMotion
 
 _OFF = 1e-6  # of the acceleration's peak: how far polynomials may be off
 #: the degree of polynomials for laws that are none, and of laws whose own polynomials are taken
-_DEGREE, OWN_DEGREE = 9, 40
+_DEGREE, _OWN_DEGREE = 9, 40
 _PIECES = 1000
-_MODEL = f"the law's own polynomials to degree {OWN_DEGREE}, else of degree {_DEGREE}"
+_MODEL = f"the law's own polynomials to degree {_OWN_DEGREE}, else of degree {_DEGREE}"
 
 
 def header(motion: PiecewiseMotion, name: str = "motion", labels: Labels | None = None) -> str:
@@ -148,7 +148,7 @@ def _sizes(run: PiecewiseMotion) -> dict[str, object]:
 
 def _written(motion: Motion, request: Request, *, source: Callable[..., str], model: str) -> Written:
     """The law's own polynomials, cut where powers would lose digits, or approximations, as a program."""
-    fit = None if request.points else exactly(motion, OWN_DEGREE)
+    fit = None if request.points else exactly(motion, _OWN_DEGREE)
     fit = fit or polynomials_for(motion, request, _DEGREE, _PIECES, near=_OFF)
     notes = (fit.in_words(motion.units.slave),)
     text = source(fit.run, request.name, labels_of(motion, notes))
@@ -178,8 +178,8 @@ _program("iec-st", target=_ST, contents="breaks and coefficients (LREAL)")(
     limits=f"at most {_PIECES} pieces, REAL32",
 )
 def _real(motion: Motion, request: Request) -> Written:
-    made = _written(motion, request, source=partial(function_block, single=True), model="polynomials in REAL")
-    roundings, stored = jumps_of_single(made.run), as_stored(made.run, SINGLE)
+    program = _written(motion, request, source=partial(function_block, single=True), model="polynomials in REAL")
+    roundings, stored = jumps_of_single(program.run), as_stored(program.run, SINGLE)
     # the motion's own ends stay, which REAL32 may round
-    run = PiecewiseMotion((made.run.start, *stored.breaks[1:-1], made.run.stop), stored.coefficients)
-    return replace(made, run=run, notes=(*made.notes, jumps_in_words(motion, roundings)), roundings=roundings)
+    run = PiecewiseMotion((program.run.start, *stored.breaks[1:-1], program.run.stop), stored.coefficients)
+    return replace(program, run=run, notes=(*program.notes, jumps_in_words(motion, roundings)), roundings=roundings)
