@@ -170,7 +170,7 @@ def _of_move(
         except (InfeasibleProblem, SolverFailure):
             law = None  # the time is too short for the limits
     known = search.fastest(span) if law is None else search.of_law(span, law)
-    if not known.limits:
+    if not known.along:
         law = law or solve(span, search.objective)[0].law
         fixed = _NOTHING if way == "gentlest" else _given(cycle, i)
         return replace(segment, law=law, least=fixed, most=None if way == "gentlest" else fixed)

@@ -82,7 +82,7 @@ class FastestSearch:
         spans = [*map(self._of_piece, self._layout.pieces), *map(self.fastest, self._layout.spans)]
         for span in spans:
             self._check(span)
-        limited = [span for span in spans if span.limits]
+        limited = [span for span in spans if span.along]
         if not limited and self.objective.mean_force is None:
             raise InputError(
                 "no limit bounds the motions, so that every speed is possible: give limits of the cycle or of its "
@@ -166,12 +166,12 @@ class FastestSearch:
         Of motions that turn with the master one that has no time left is enough. Where free motions sum to the period,
         one of them would have less than its least time, and any of them may be it.
         """
-        if not all(row.scales for span in self.spans for row in span.limits):
+        if not all(row.scales for span in self.spans for row in span.along):
             return Status.LOCAL
         if self.rating is not None and self.rating.binds:
             return Status.OPTIMAL if self.rating.scales and self.rating.proofs is not None else Status.LOCAL
         binding = self.binding
-        proven = [span.space is None or span.proof is not None for span in binding]
+        proven = [span.problem is None or span.proof is not None for span in binding]
         turning = any(self._turns(span) and known for span, known in zip(binding, proven, strict=True))
         return Status.OPTIMAL if turning or all(proven) else Status.LOCAL
 
@@ -274,10 +274,10 @@ class FastestSearch:
         if not still:
             self._check_way(stretch, piece)
         timed = TimedSpan(span, piece.duration, () if still else self._limits(span), given=piece.law)
-        jerked = [limit for limit in timed.limits if limit.nu >= _JERK]
+        jerked = [limit for limit in timed.along if limit.nu >= _JERK]
         jumps = jerked and jump_beside(piece, self._layout.pieces, self.programme.period) is not None
         if jumps or not isfinite(timed.scale):
-            endless = (limit for limit in timed.limits if not isfinite(least_scale(limit, piece.law)))
+            endless = (limit for limit in timed.along if not isfinite(least_scale(limit, piece.law)))
             limit = jerked[0] if jumps else next(endless)
             raise InfeasibleProblem(
                 sentence(

@@ -10,10 +10,13 @@ inertia and static force are constant: docs/theory/cycles.md.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
+from itertools import groupby
 from math import exp, inf, log
+from operator import itemgetter
+from typing import Any
 
 import numpy as np
 
@@ -30,13 +33,12 @@ from optlaws.motion.quantities import Kind, in_small_units
 from optlaws.motion.smooth_parts import SmoothParts
 from optlaws.numbers import Array
 from optlaws.sentences import sentence
-from optlaws.synthesis.functionals.makers import peak
+from optlaws.synthesis.functionals.makers import PeakSide, peak
 from optlaws.synthesis.least_time.least_time import LeastTime
 from optlaws.synthesis.least_time.move_limits import MoveLimits, SpanLimit, derivative_limit, scale_of_any_law
 from optlaws.synthesis.least_time.time_search import least_time
 from optlaws.synthesis.least_time.timed_move import Timed
 from optlaws.synthesis.problem.constants import B, C, C_minus, C_plus, D, Functional, J, meant, snap
-from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.proof.certificate import Certificate
 from optlaws.synthesis.solve import synthesize
 from optlaws.tolerances import AGREEMENT, BINDING_LIMIT, FASTER, LEAST_SHARE, SAME_TIME
@@ -54,9 +56,9 @@ class TimedSpan(Timed):
     ----------
     span, duration
         The motion, and its duration in seconds.
-    limits
-        Over the scale of its time.
-    space
+    along
+        Its limits over the scale of its time.
+    problem
         The problem without its limits, None for a law that is given.
     given
         The law that is given, if any.
@@ -64,23 +66,14 @@ class TimedSpan(Timed):
 
     span: LawSpan
     duration: float
-    limits: tuple[SpanLimit, ...]
-    space: Problem | None = None
+    along: tuple[SpanLimit, ...] = ()
+    problem: Any = None
     given: MotionLaw | None = None
-
-    @property
-    def problem(self) -> Problem:  # type: ignore[override]
-        assert self.space is not None  # noqa: S101 - only then is it sought
-        return self.space
-
-    @property
-    def along(self) -> tuple[SpanLimit, ...]:
-        return self.limits
 
     @property
     def begin(self) -> float:
         """The scale that no law is faster than, or the greatest at which a usual law takes a limit to the full."""
-        usual = ((_USUAL.get(limit.nu, 1.0) / limit.rate) ** (1.0 / (limit.nu or 2)) for limit in self.limits)
+        usual = ((_USUAL.get(limit.nu, 1.0) / limit.rate) ** (1.0 / (limit.nu or 2)) for limit in self.along)
         return self.limit or max(usual)
 
     @property
@@ -99,14 +92,14 @@ class TimedSpan(Timed):
     @kept_property
     def scale(self) -> float:
         """The least scale of the time at which a law keeps the limits, or the law that is given does; 0 without any."""
-        if self.space is not None:
+        if self.problem is not None:
             return self._least.duration
-        return max((least_scale(limit, self.given) for limit in self.limits if self.given is not None), default=0.0)
+        return max((least_scale(limit, self.given) for limit in self.along if self.given is not None), default=0.0)
 
     @property
     def law(self) -> MotionLaw | None:
         """The law that has the least scale; None where nothing limits it."""
-        return self.given if self.space is None else self._least.law
+        return self.given if self.problem is None else self._least.law
 
     @kept_property
     def _least(self) -> LeastTime[TimedSpan]:
@@ -115,16 +108,16 @@ class TimedSpan(Timed):
         except SolverFailure as error:
             raise SolverFailure(
                 f"{self.where}: no least time was found: widen its limits a little, or give it another degree",
-                problem=self.space,
+                problem=self.problem,
             ) from error
 
     @kept_property
     def limit(self) -> float | None:
         """The scale that no law of any degree is faster than, or that of a given law; None where it is not known."""
-        if self.space is None:
+        if self.problem is None:
             return self.scale
-        ends = self.space.conditions
-        rates = (ends.start[1], ends.end[1]) if self.space.order > 1 else (0.0, 0.0)
+        ends = self.problem.conditions
+        rates = (ends.start[1], ends.end[1]) if self.problem.order > 1 else (0.0, 0.0)
         if (ends.start[0], ends.end[0]) != (0.0, 1.0) or any((*ends.start[2:], *ends.end[2:])):
             return None
         most: dict[Functional, float] = {}
@@ -132,13 +125,13 @@ class TimedSpan(Timed):
             most[constant] = min(rate, most.get(constant, inf))
         up, down = (most.get(side, most.get(C)) for side in (C_plus, C_minus))
         limits = MoveLimits(most.get(B), up, down, most.get(J), most.get(snap))
-        return scale_of_any_law(limits, self.space.order, rates)
+        return scale_of_any_law(limits, self.problem.order, rates)
 
     @property
     def binding(self) -> tuple[SpanLimit, ...]:
         """The limits that the law takes to the full."""
         law, least = self.law, self.scale * (1.0 - BINDING_LIMIT)
-        return () if law is None else tuple(limit for limit in self.limits if least_scale(limit, law) >= least)
+        return () if law is None else tuple(limit for limit in self.along if least_scale(limit, law) >= least)
 
     @kept_property
     def proof(self) -> Certificate | None:
@@ -146,13 +139,13 @@ class TimedSpan(Timed):
 
         It is a contradiction or, of the power of an inertia, a bound of the least power that is above its limit.
         """
-        if self.space is None or self._least.proofs:
-            return self._least.proofs[-1].certificate if self.space else None
+        if self.problem is None or self._least.proofs:
+            return self._least.proofs[-1].certificate if self.problem else None
         faster = self.scale * (1.0 - FASTER)
         allowed = min((limit.bound for limit in self.limits_in(faster) if limit.constant == D), default=None)
         if allowed is None:
             return None
-        others = replace(self, limits=tuple(limit for limit in self.limits if limit.term(1.0)[0] != D))
+        others = replace(self, along=tuple(limit for limit in self.along if limit.term(1.0)[0] != D))
         try:
             with meant():
                 solution = synthesize(replace(others.within(faster), minimise="D"), bound="tight")
@@ -224,7 +217,10 @@ def limits_of_span(span: LawSpan, limits: Sequence[Sides], objective: CycleObjec
     InfeasibleProblem
         If the static force is beyond a limit, so that no speed keeps it.
     """
-    parts = list(_parts(span, limits))
+    parts = list[tuple[tuple[float, float], Sides]]()
+    for given, of_part in groupby(zip(limits, span.timed, strict=True), key=itemgetter(0)):
+        times = [time for _, (_, *ends) in of_part for time in ends]
+        parts.append(((span.place(times[0]), span.place(times[-1])), given))
     rows: list[SpanLimit] = []
     for key in dict.fromkeys(key for _, of_part in parts for key in of_part):
         if key.kind is Kind.VELOCITY_ALONG:
@@ -249,23 +245,11 @@ def limits_of_span(span: LawSpan, limits: Sequence[Sides], objective: CycleObjec
     return rows
 
 
-def _parts(span: LawSpan, limits: Sequence[Sides]) -> Iterator[tuple[tuple[float, float], Sides]]:
-    """Each part of a span that has limits of its own, from where to where."""
-    times = (*span.starts, span.stop)
-    begun = 0
-    for i in range(1, len(limits) + 1):
-        if i == len(limits) or limits[i] != limits[begun]:
-            yield (times[begun], times[i]), limits[begun]
-            begun = i
-
-
 def _of_part(key: Side, span: LawSpan, ends: tuple[float, float]) -> Functional:
-    nu, (start, stop) = key.kind.order, (span.place(end) for end in ends)
-    if not 1 <= nu <= 3:
+    if not 1 <= key.kind.order <= 3:
         raise AssertionError  # those of the snap and of forces are of whole spans
-    if not key.sign:
-        return peak("abcj"[nu], start=start, stop=stop)
-    return peak("abcj"[nu], side="high" if key.sign * span.stroke > 0.0 else "low", start=start, stop=stop)
+    side: PeakSide = "both" if not key.sign else "high" if key.sign * span.stroke > 0.0 else "low"
+    return peak("abcj"[key.kind.order], side=side, start=ends[0], stop=ends[1])
 
 
 def _of_drive(key: Side, most: float, span: LawSpan, drive: Drive, axis: str) -> list[SpanLimit]:
