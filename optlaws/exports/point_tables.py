@@ -197,8 +197,8 @@ def places(motion: Motion, count: int, *, straight: bool = False) -> Array:
     """
     breaks, weights = np.array(motion.breaks), np.ones(len(motion.breaks) - 1)
     if straight:
-        which = np.searchsorted(motion.joints[1:-1], 0.5 * (breaks[:-1] + breaks[1:]), side="right")
-        pieces = [motion.pieces[i] for i in which]
+        starts = [piece.start for piece in motion.pieces[1:]]
+        pieces = [motion.pieces[i] for i in np.searchsorted(starts, 0.5 * (breaks[:-1] + breaks[1:]), side="right")]
         weights = np.array([float(piece.stroke != 0.0 and piece.law.peak(2).value > 0.0) for piece in pieces])
     shares = _shares(np.diff(breaks), count - 1, weights)
     digits = _DIGITS - int(np.ceil(np.log10(motion.length)))

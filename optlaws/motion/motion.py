@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from math import inf
@@ -83,10 +83,6 @@ class Motion:
         return self.stop - self.start
 
     @kept_property
-    def joints(self) -> tuple[float, ...]:
-        return (*(piece.start for piece in self.pieces), self.stop)
-
-    @kept_property
     def breaks(self) -> tuple[float, ...]:
         """The places where the function is put together, within laws as well, both ends included."""
         inner = (
@@ -116,16 +112,6 @@ class Motion:
             raise InputError(f"x must be from {self.start:g} to {self.stop:g} {self.units.master}, got {wrong!r}")
         return number_or_array(values_of_pieces(self.pieces, places, nu))
 
-    def sides(self, nu: int) -> Iterator[tuple[float, float, float]]:
-        """Every inner joint of pieces, and every jump within laws: the place, and the values on both sides."""
-        for before, after in pairwise(self.pieces):
-            yield after.start, before.end(nu, 1), after.end(nu, 0)
-        for piece in self.pieces:
-            size = factor(piece.stroke, piece.duration, nu)
-            for k, jump in piece.law.jumps(nu) if piece.stroke else ():
-                value = size * float(piece.law(k, nu))
-                yield piece.start + k * piece.duration, value - size * jump, value
-
     def ends(self, nu: int) -> tuple[float, float]:
         """The derivative of order nu at the start and at the end."""
         return self.pieces[0].end(nu, 0), self.pieces[-1].end(nu, 1)
@@ -144,7 +130,11 @@ class Motion:
 
     def jump(self, nu: int) -> Place:
         """The greatest jump of the derivative of order nu inside, and its x; what is rounding beside its peak is 0."""
-        jumps = ((abs(after - before), x) for x, before, after in self.sides(nu))
+        jumps = [(abs(after.end(nu, 0) - before.end(nu, 1)), after.start) for before, after in pairwise(self.pieces)]
+        for piece in self.pieces:
+            size = abs(factor(piece.stroke, piece.duration, nu))
+            within = piece.law.jumps(nu) if piece.stroke else ()
+            jumps += ((size * abs(jump), piece.start + k * piece.duration) for k, jump in within)
         worst = max(jumps, default=(0.0, self.start), key=itemgetter(0))
         return worst if worst[0] > JUMP * self._size(nu) else (0.0, self.start)
 
@@ -179,18 +169,7 @@ def motion_of_law(
     master: Quantity | None = None,
     start: Quantity | None = None,
 ) -> Motion:
-    """The motion of a law with the stroke 1, a single stroke from rest to rest.
-
-    Parameters
-    ----------
-    stroke
-        How far the slave moves, such as "35 mm", "-20 deg": positions are in its unit.
-    duration
-        How long it takes, such as "0.1 s".
-    master
-        How far the master goes meanwhile, such as "120 deg"; without it the master is time in seconds.
-    start
-        Position of the slave at the start; 0 unless given.
+    """The motion of a law with the stroke 1 from rest to rest, by quantities as `MotionLaw.export` takes them.
 
     >>> from optlaws import smoothstep
     >>> motion_of_law(smoothstep(3), stroke="90 deg", duration="400 ms").peak(1)
