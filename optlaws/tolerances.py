@@ -92,7 +92,6 @@ STORED_VALUE = 1e-9  # of a value or a bound: what another machine may round oth
 
 # --- verification, in exact arithmetic and balls ---------------------------------------------------------------------
 COEFFICIENT_ROUNDING = 2.0**-44  # of what a derivative is made of: what rounding of the coefficients can do to it
-CORRECTED_MULTIPLIER = 1e-6  # of the greatest multiplier: the greatest correction that rounding explains
 STATED_BOUND = 1e-9  # of a bound: by so much one that was computed in doubles may be above the proven one
 SAME_FREQUENCY = 1e-9  # of a root's size: vibrations that differ by no more have no numbers of their own
 TAYLOR_REST = 2.0**-80  # of a function: what a Taylor polynomial may leave of it

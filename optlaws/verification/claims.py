@@ -29,7 +29,7 @@ from optlaws.synthesis.spaces.bases import PolynomialBasis
 from optlaws.synthesis.spaces.splines import PiecewiseBasis
 from optlaws.synthesis.status import measure
 from optlaws.synthesis.stored_solutions import read_solutions
-from optlaws.tolerances import COEFFICIENT_ROUNDING, CORRECTED_MULTIPLIER, OPTIMALITY_GAP, STATED_BOUND
+from optlaws.tolerances import COEFFICIENT_ROUNDING, OPTIMALITY_GAP, STATED_BOUND
 from optlaws.verification.conditions import excesses
 from optlaws.verification.enclosing.balls import at, enclosed, rational
 from optlaws.verification.enclosing.pieces import between, least_and_greatest
@@ -301,8 +301,7 @@ def _solution(data: Mapping[str, Any]) -> Verification:
         same = certificate.problem == problem
         detail = "the file's" if same else f"another: {certificate.problem!r}"
         claims.append(Claim(f"{_name(key)}'s problem", same, detail))
-        accurate = data.get("status") != "inaccurate"
-        claims += _proof_claims(proof, certificate, data[key], _name(key), accurate=accurate)
+        claims += _proof_claims(proof, certificate, data[key], _name(key))
     if drive is not None:
         same = drive.is_of(problem)
         claims.append(Claim("the drive's limit", same, "of the file's problem" if same else "of another problem"))
@@ -367,8 +366,6 @@ def _proof_claims(
     certificate: Certificate,
     data: Mapping[str, Any],
     name: str = "the certificate",
-    *,
-    accurate: bool = True,
 ) -> Iterator[Claim]:
     """Claims of a certificate: the claims of its leaves, and its bound."""
     if certificate.peak:
@@ -377,7 +374,7 @@ def _proof_claims(
         yield Claim(name, proven=False, detail=f"it {verdict} in double precision; {unchecked}")
         return
     if certificate.points is None:
-        yield from _leaf_claims(proof, certificate, accurate=accurate)
+        yield from _leaf_claims(proof, certificate)
     else:
         left = "no law has" if proof.value is not None else "the steps do not show that no law has"
         yield Claim("steps", proof.value is not None, f"{left} an objective below {certificate.claim!r}")
@@ -389,7 +386,7 @@ def _proof_claims(
         yield at_most(f"{name}'s bound", number(data, "bound"), proof.value, scale)
 
 
-def _leaf_claims(proof: Proof, certificate: Certificate, *, accurate: bool) -> Iterator[Claim]:
+def _leaf_claims(proof: Proof, certificate: Certificate) -> Iterator[Claim]:
     count = len(certificate.contacts)
     greatest = max((abs(contact.multiplier) for contact in certificate.contacts), default=0.0)
     negative = [contact for contact in certificate.contacts if contact.multiplier < -_NEGATIVE_MULTIPLIER * greatest]
@@ -398,11 +395,12 @@ def _leaf_claims(proof: Proof, certificate: Certificate, *, accurate: bool) -> I
     if proof.unknown:
         detail = f"{proof.unknown} of {count} are not of constraints that this problem has"
         yield Claim("contacts", proven=False, detail=detail)
-    detail = f"corrected by at most {proof.correction:.1e} of the greatest so that nothing depends on the law"
+    detail = "it depends on the law by more than is bounded"
+    if proof.value is not None:
+        detail = f"less {proof.charge:.1e} at most for what depends on the law"
     if not proof.by_rows:
         detail = "not needed: what is minimised is never below the bound"
-    small = proof.correction <= CORRECTED_MULTIPLIER or not accurate
-    yield Claim("sum of the rows", proof.value is not None and small, detail)
+    yield Claim("sum of the rows", proof.value is not None, detail)
 
 
 def _over(data: Mapping[str, Any], bound: Fraction | None, highest: float, problem: Problem) -> float:

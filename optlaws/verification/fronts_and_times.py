@@ -18,7 +18,7 @@ from optlaws.synthesis.limits.rounding import rounded_up
 from optlaws.synthesis.problem.constants import meant
 from optlaws.synthesis.proven.front import FrontPoint, ProvenFront
 from optlaws.synthesis.proven.swept_parameter import SweptParameter
-from optlaws.tolerances import BOUND_FEASIBILITY, CORRECTED_MULTIPLIER, NO_OBJECTIVE, STORED_VALUE
+from optlaws.tolerances import BOUND_FEASIBILITY, NO_OBJECTIVE, STORED_VALUE
 from optlaws.verification.conditions import Excess, excesses
 from optlaws.verification.enclosing.balls import enclosed
 from optlaws.verification.exact.bound import Along, Proof, prove, prove_along
@@ -90,16 +90,16 @@ def _laws(number: SweptParameter, known: list[_Known]) -> Iterator[Claim]:
 
 def _certificates(number: SweptParameter, known: list[_Known]) -> Iterator[Claim]:
     wrong = [point for point in known if point.proof.value is None or point.proof.negative or point.proof.unknown]
-    changed = max(point.proof.correction for point in known)
+    charge = max(point.proof.charge for point in known)
     detail = (
-        f"{len(known)} prove a bound, corrected by at most {changed:.1e} of the greatest multiplier"
+        f"{len(known)} prove a bound, less {charge:.1e} at most for what depends on the law"
         if not wrong
         else (
             f"{len(wrong)} of {len(known)} prove nothing or have contacts that do not count, the first at "
             f"{number.name} = {float(wrong[0].at)!r}"
         )
     )
-    yield Claim("certificates", not wrong and changed <= CORRECTED_MULTIPLIER, detail)
+    yield Claim("certificates", not wrong, detail)
 
 
 def _gap(known: list[_Known], number: SweptParameter) -> float | None:

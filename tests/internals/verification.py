@@ -8,7 +8,7 @@ from optlaws.verification.claims import near
 from optlaws.verification.enclosing.ball_formulas import BALLS
 from optlaws.verification.enclosing.balls import ball, enclosed, enclosure, lower, upper
 from optlaws.verification.enclosing.pieces import between, real_roots
-from optlaws.verification.exact.bound import Proof, _better, _System, prove
+from optlaws.verification.exact.bound import prove
 from optlaws.verification.exact.law import ExactLaw
 from optlaws.verification.exact.least_times import least_time_of_any_law
 from optlaws.verification.exact.of_basis import exact_space

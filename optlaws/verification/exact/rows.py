@@ -47,7 +47,6 @@ from optlaws.verification.exact.motion_formulas import (
 from optlaws.verification.exact.of_basis import exact_space
 from optlaws.verification.machines.certificate_rows import (
     BallRow,
-    Corner,
     Maker,
     Names,
     UpperLimit,
@@ -84,8 +83,6 @@ class ExactRows:
         self.power = relaxed_power(problem) if self.relaxed else None
         #: constants that are magnitudes of complex numbers, whose contacts' k is no place of the law
         self.cones: set[str] = set()
-        #: places of these that are another's too: which, and the ratio of their units
-        self.corners: dict[Corner, tuple[Corner, float]] = {}
         #: formulas that are not affine, whose contacts say where a tangent touches
         self.tangents: set[str] = set()
         #: outputs of machines, whose contacts' k is a share of the time that counts
@@ -94,9 +91,6 @@ class ExactRows:
         self.cost: dict[str, float] = {}
         self._makers: dict[tuple[str, float], list[Maker]] = {}
         self.equations: list[BallRow] = []
-        #: of what size each equation is, and each variable
-        self.equation_scales: list[float] = []
-        self.scales: dict[str, float] = {}
         if certificate.program != VIOLATION:
             self._objective(problem.objective)
         if problem.peak_is_variable:
@@ -123,16 +117,11 @@ class ExactRows:
         for sign in signs:
             self._makers.setdefault((name, sign), []).append(maker)
 
-    def _equal(self, row: BallRow, scale: float = 1.0) -> None:
-        self.equations.append(row)
-        self.equation_scales.append(scale)
-
     def _objective(self, expression: Expression) -> None:
         self.cost = expression.weights()
         constants = list(dict.fromkeys(leaf for _, leaf in leaves(expression)))
         maxima = list(dict.fromkeys(_maxima(expression)))
         self.names += [repr(term) for term in (*constants, *maxima)]
-        self.scales = {repr(term): term.scale for term in (*constants, *maxima)}
         for leaf in constants:
             if not isinstance(leaf, Functional) or [repr(other) for other in constants].count(repr(leaf)) > 1:
                 raise InputError(f"there are no exact rows for {leaf!r}: it is no constant, or shares its name")
@@ -277,9 +266,7 @@ class ExactRows:
         if not isinstance(constant, Residual):
             self._output(constant, limit)
             return
-        makers, corners = residual_cones(constant, of_space(self.space), self._solved, limit)
-        self.corners.update(corners)
-        for name, maker in makers.items():
+        for name, maker in residual_cones(constant, of_space(self.space), self._solved, limit).items():
             self.cones.add(name)
             self._add(name, maker)
 
@@ -309,7 +296,7 @@ class ExactRows:
         for constant, limits in problem.bounded:
             self._range(constant, limits)
         for condition in self.space.conditions:
-            self._equal(BallRow(self.space.condition(condition), {}, -ball(condition.value)))
+            self.equations.append(BallRow(self.space.condition(condition), {}, -ball(condition.value)))
         for i, window in enumerate(problem.windows, 1):
             halves = (names.window(i), names.mirrored(names.window(i)))
             if window.motion is not None:
@@ -334,17 +321,17 @@ class ExactRows:
         problem, space, limits = self.problem, self.space, self.problem.range("B")
         fixed = limits.high if limits is not None and limits.fixed else None
         if fixed is not None and not problem.symmetric:
-            self._equal(BallRow([arb(0)] * (space.terms + 1), {"B": 1.0}, -ball(fixed)))
+            self.equations.append(BallRow([arb(0)] * (space.terms + 1), {"B": 1.0}, -ball(fixed)))
         if problem.peak_at is None:
             return
         peak = Fraction(problem.peak_at)
         self._everywhere(RowName.BELOW_PEAK, partial(space.chord, peak), (1.0,), UpperLimit())
         if fixed is not None and problem.symmetric:
-            self._equal(BallRow(space.values(1, peak), {}, -ball(fixed)))
+            self.equations.append(BallRow(space.values(1, peak), {}, -ball(fixed)))
         elif problem.peak_is_variable:
-            self._equal(BallRow(space.values(1, peak), {"B": -1.0}))
+            self.equations.append(BallRow(space.values(1, peak), {"B": -1.0}))
         if not problem.symmetric:
-            self._equal(BallRow(space.values(2, peak)))
+            self.equations.append(BallRow(space.values(2, peak)))
 
     def _velocity(self) -> None:
         """Rows |b| <= B and the bounds of B."""
@@ -372,7 +359,7 @@ class ExactRows:
         for part, name in zip(separate, halves, strict=False):
             if window.value:
                 columns = formula_columns(self.space, part, Fraction(part.start))
-                self._equal(BallRow(columns, {}, -ball(window.high)), window.scale)
+                self.equations.append(BallRow(columns, {}, -ball(window.high)))
                 continue
             for sign, bound in ((1.0, window.high), (-1.0, -window.low)):
                 branches = split(part, sign, names.window_side(name, sign)) if isfinite(bound) else None
@@ -383,7 +370,7 @@ class ExactRows:
     def _window(self, name: str, window: Window, part: WindowPart) -> None:
         if window.value:
             values = self.space.values(part.order, part.start)
-            self._equal(BallRow(values, {}, -ball(part.high or Fraction(0))))
+            self.equations.append(BallRow(values, {}, -ball(part.high or Fraction(0))))
             return
 
         def make(contact: Contact, k: Fraction) -> BallRow:

@@ -171,21 +171,22 @@ class ExactSpace:
             return EndValues(None, None, stroke)
         return EndValues(start[1], end[1] - start[1], stroke)
 
-    def moments(self, nu: int) -> list[list[fmpq]]:
-        """Integrals over k of the derivatives of order nu times functions that are at most 1 in magnitude.
+    def moments(self, nu: int) -> list[list[list[arb]]]:
+        """On each piece, integrals over k of the derivatives of order nu times functions at most 1 in magnitude.
 
-        These are Legendre polynomials on one piece each; one list for each that sees a free function.
+        These are Legendre polynomials; one list for each that sees a free function.
         """
-        moments = []
+        moments: list[list[list[arb]]] = []
         for part, (low, high) in zip(self.derivative(nu), pairwise(self.breaks), strict=True):
             local = fmpq_poly([rational(low + high - 1), rational(high - low)])
             functions = [function(local) for function in part]
             degree = max((function.degree() for function in functions[:-1]), default=-1)
+            moments.append([])
             for m in range(degree + 1):
                 products = [(function * fmpq_poly.legendre_p(m)).integral() for function in functions]
                 row = [(p(fmpq(1)) - p(fmpq(-1))) / 2 * rational(high - low) for p in products]
                 if any(row[:-1]):
-                    moments.append(row)
+                    moments[-1].append([arb(entry) for entry in row])
         return moments
 
     def gauss(self, nu: int, count: int) -> list[tuple[list[arb], arb]]:

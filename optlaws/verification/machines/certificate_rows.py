@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import partial
-from math import hypot
 
 from flint import acb, arb
 
@@ -52,10 +51,6 @@ class UpperLimit:
 Maker = Callable[[Contact, Fraction], BallRow]
 
 
-#: the name of a cone, and a place of it
-Corner = tuple[str, float]
-
-
 def cone(amplitudes: Callable[[Fraction], list[acb]], limit: UpperLimit, unit: arb) -> Maker:
     """A direction times a complex amplitude is at most its magnitude."""
     known: dict[Fraction, list[acb]] = {}
@@ -74,50 +69,11 @@ def cone(amplitudes: Callable[[Fraction], list[acb]], limit: UpperLimit, unit: a
 
 def residual_cones(
     constant: Residual, drives: Sequence[DrivenStretch], solved: LawSpace, limit: UpperLimit
-) -> tuple[dict[str, Maker], dict[Corner, tuple[Corner, float]]]:
-    """A cone for each edge of a residual by its name, in the units of the certificate; and corners that two edges have.
-
-    Beside a corner stand the same one of an earlier edge, and the ratio of that edge's unit to this one's.
-    """
-    exact, names, sought = exact_residual(constant), constant.part_names, bool(limit.constants)
-    units = [constant.unit(solved, i, float(limit.high), sought=sought) for i in range(len(names))]
-    parts = enumerate(zip(names, units, strict=True))
-    makers = {name: cone(partial(exact.rows, drives, i), limit, ball(unit)) for i, (name, unit) in parts}
-    same = {(names[i], end): ((names[j], other), units[j] / units[i]) for (i, end), (j, other) in exact.corners}
-    return makers, same
-
-
-def together(contacts: Iterable[Contact], corners: Mapping[Corner, tuple[Corner, float]]) -> list[Contact]:
-    """Contacts at a corner of two edges, combined: together they bound at most as much.
-
-    Apart they would be two rows that are the same but for rounding, which could be exchanged for each other at will.
-    """
-    merged: list[Contact] = []
-    places: dict[Corner, int] = {}
-    for contact in contacts:
-        moved = _moved(contact, corners)
-        place = (moved.constraint, moved.k)
-        if place in places:
-            merged[places[place]] = _added(merged[places[place]], moved)
-            continue
-        if place in {other for other, _ in corners.values()} and moved.multiplier > 0.0 and len(moved.direction) == 2:
-            places[place] = len(merged)
-        merged.append(moved)
-    return merged
-
-
-def _moved(contact: Contact, corners: Mapping[Corner, tuple[Corner, float]]) -> Contact:
-    same = corners.get((contact.constraint, contact.k))
-    if same is None:
-        return contact
-    (name, k), ratio = same
-    return replace(contact, constraint=name, k=k, multiplier=contact.multiplier * ratio)
-
-
-def _added(contact: Contact, other: Contact) -> Contact:
-    if other.multiplier <= 0.0 or len(other.direction) != 2:
-        return contact
-    pairs = zip(contact.direction, other.direction, strict=True)
-    x, y = (contact.multiplier * first + other.multiplier * two for first, two in pairs)
-    size = hypot(x, y)
-    return replace(contact, multiplier=size, direction=(x / size, y / size)) if size else contact
+) -> dict[str, Maker]:
+    """A cone for each edge of a residual by its name, in the units of the certificate."""
+    exact, sought = exact_residual(constant), bool(limit.constants)
+    units = [constant.unit(solved, i, float(limit.high), sought=sought) for i in range(len(constant.part_names))]
+    return {
+        name: cone(partial(exact.rows, drives, i), limit, ball(unit))
+        for i, (name, unit) in enumerate(zip(constant.part_names, units, strict=True))
+    }

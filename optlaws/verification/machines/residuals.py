@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import partial, reduce
-from itertools import accumulate, pairwise, takewhile
+from itertools import accumulate, takewhile
 from operator import mul
 from typing import Any, TypeVar
 
@@ -106,12 +106,6 @@ class ExactBandResidual:
         apart = frequency * acb(ball(-self.damping)) + acb(ball(self.design_damping * self.design))
         return 1 - frequency * frequency * acb(square) + apart * w * acb(2 * square)
 
-    @property
-    def corners(self) -> Corners:
-        """Each part begins where the one before it ends, unless the weight is 0 between them."""
-        beside = enumerate(pairwise(self.parts), 1)
-        return [((i, 0.0), (i - 1, 1.0)) for i, (before, part) in beside if before[1] == part[0]]
-
     def rows(self, drives: Sequence[DrivenStretch], part: int, place: Fraction) -> list[acb]:
         """Amplitudes of a space's free functions and of its base law, at a place of a part from 0 to 1."""
         low, high, first, last = self.parts[part]
@@ -141,9 +135,6 @@ class ExactBandResidual:
             yield _squared(polynomial.coeffs()), rest * ball(max(a, b))
 
 
-#: ends of edges by number and place, each with the same place of an earlier edge
-Corners = Sequence[tuple[tuple[int, float], tuple[int, float]]]
-_OF_BOX: Corners = [((1, 0.0), (0, 1.0)), ((2, 1.0), (1, 1.0)), ((3, 0.0), (0, 0.0)), ((3, 1.0), (2, 0.0))]
 Corner = tuple[arb, arb]
 
 
@@ -209,11 +200,6 @@ class ExactModeResidual:
             return [ExactEdge((low, least), (low, most))]
         lower, upper = ((low, least), (high, least)), ((low, most), (high, most))
         return [ExactEdge(*lower), ExactEdge(lower[1], upper[1]), ExactEdge(*upper), ExactEdge(lower[0], upper[0])]
-
-    @property
-    def corners(self) -> Corners:
-        """The corners of a box."""
-        return _OF_BOX if len(self.edges) > 1 else []
 
     def rows(self, drives: Sequence[DrivenStretch], edge: int, place: Fraction) -> list[acb]:
         """Amplitudes of a space's free functions and of its base law, at a place of an edge from 0 to 1."""
