@@ -12,7 +12,7 @@ from optlaws.entries.value_types import Choice, Measured, Text
 from optlaws.entries.value_types import Number as Share
 from optlaws.errors import InputError, located
 from optlaws.formulas.slopes import added, derivative, multiplied
-from optlaws.formulas.tree import Formula, Name, Table, number, substituted
+from optlaws.formulas.tree import Name, Table, number, substituted
 from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.mechanisms.linkages.dimensionless import LinearForce
 from optlaws.mechanisms.linkages.entries import JOINED, OverPlace, TableKind, formula_of, rescaled
@@ -20,28 +20,23 @@ from optlaws.mechanisms.linkages.mechanism import DIMENSIONS, Mechanism, loaded
 from optlaws.motion.quantities import TURN
 from optlaws.tolerances import CLOSURE
 
-REGENERATION = "regeneration"
-
 
 def _constants(weight: str, inertia: str, stiffness: str, force: str, viscous: str) -> TableOf:
     """The constants of a drive: the name of its weight, and the dimensions of that and of what acts on it."""
-    acting, against = Measured(force), Measured(force, least=0.0)
+
+    def given(kind: Any, about: str) -> Any:
+        return entry(kind, about, default=None, example=getattr(kind, "example", 0.5))
+
     types = {
-        weight: (Measured(inertia, least=0.0), "What is moved."),
-        "stiffness": (Measured(stiffness), "Of a spring without force at 0."),
-        "preload": (acting, "A constant force against the motion to greater positions."),
-        "gravity": (acting, "The weight, likewise."),
-        "viscous": (Measured(viscous, least=0.0), "Friction in proportion to the speed."),
-        "dry": (against, "Friction that does not depend on the speed."),
-        REGENERATION: (Share(least=0.0, most=1.0), "The share of the braking energy that is used again."),
+        weight: given(Measured(inertia, least=0.0), "What is moved."),
+        "stiffness": given(Measured(stiffness), "Of a spring without force at 0."),
+        "preload": given(Measured(force), "A constant force against the motion to greater positions."),
+        "gravity": given(Measured(force), "The weight, likewise."),
+        "viscous": given(Measured(viscous, least=0.0), "Friction in proportion to the speed."),
+        "dry": given(Measured(force, least=0.0), "Friction that does not depend on the speed."),
+        "regeneration": given(Share(least=0.0, most=1.0), "The share of the braking energy that is used again."),
     }
-    return TableOf(
-        "key",
-        {
-            name: entry(each, about, default=None, example=getattr(each, "example", 0.5))
-            for name, (each, about) in types.items()
-        },
-    )
+    return TableOf("key", types)
 
 
 #: constants of a drive, for slides and for tables
@@ -60,7 +55,14 @@ def read_drive(entries: Mapping[str, Any] | Mechanism | Drive, axis: str) -> Dri
         If an entry is wrong, or the input slides where the cycle turns, or turns where it slides.
     """
     if isinstance(entries, Mechanism | Drive):
-        return _on_axis(entries if isinstance(entries, Drive) else Drive.of_input(entries), axis)
+        drive = entries if isinstance(entries, Drive) else Drive.of_input(entries)
+        places, moves = drive.mechanism.axis, {"angle": "turns", "length": "slides"}
+        if places == axis:
+            return drive
+        raise InputError(
+            f"drive: the input of the {drive.mechanism.name} {moves[places]} and the motion of the cycle "
+            f"{moves[axis]}: give the cycle the positions of that input, {places}s"
+        )
     given = CONSTANTS[axis].read(entries, "drive")
     types: Mapping[str, Any] = {name: each.type for name, each in CONSTANTS[axis].entries.items()}
     of = {name: types[name].number(given[name], name) if name in given else 0.0 for name in ("mass", "inertia", *types)}
@@ -71,20 +73,7 @@ def read_drive(entries: Mapping[str, Any] | Mechanism | Drive, axis: str) -> Dri
         viscous=of["viscous"],
         axis="angle" if axis == "angle" else "length",
     )
-    return Drive.of_input(mechanism, of[REGENERATION])
-
-
-def _on_axis(drive: Drive, axis: str) -> Drive:
-    """The drive of a mechanism, whose input is to move as the cycle does."""
-    mechanism = drive.mechanism
-    if mechanism.axis != axis:
-        moves = {"angle": "turns", "length": "slides"}
-        raise InputError(
-            f"drive: the input of the {mechanism.name} {moves[mechanism.axis]} and the motion of the cycle "
-            f"{moves[axis]}: "
-            f"give the cycle the positions of that input, {'angles' if mechanism.axis == 'angle' else 'lengths'}"
-        )
-    return drive
+    return Drive.of_input(mechanism, of["regeneration"])
 
 
 def read_linear_drive(entries: Mapping[str, Any] | Mechanism | Drive, axis: str) -> tuple[Drive, LinearForce]:
@@ -128,7 +117,6 @@ class ProcessEntries(Declared, title="a process"):
 
     @property
     def given(self) -> Any:
-        """The force or the torque as it is given."""
         return getattr(self, self.kind)
 
     def _check(self) -> None:
@@ -159,52 +147,34 @@ def read_process(given: Mapping[str, Any], mechanism: Mechanism, period: float) 
     """
     with located("load"):
         process = MachineProcess.from_dict(given)
-    kind = process.kind
-    position = _position(mechanism, process.on, kind)
-    places, variable = {
-        "time": ("time", "t"),
-        "master": ("angle", "m"),
-        "driven": (_AXES[kind], "s"),
-        "input": (mechanism.axis, "x"),
+    kind, taken = process.kind, DIMENSIONS[mechanism.axis]["load"]
+    driven = dict(mechanism.linkage.driven)
+    if process.on is None and taken != kind:
+        raise InputError(
+            f"load: the input of the {mechanism.name} takes a {taken}: give one, or the link on which the force acts, "
+            "as on='slider'"
+        )
+    if process.on is not None and process.on not in driven:
+        raise InputError(f"load: on: {unknown_key(process.on, driven, 'driven link')}")
+    position = Name("x") if process.on is None else driven[process.on]
+    places, variable, end, unit = {
+        "time": ("time", "t", period, "s"),
+        "master": ("angle", "m", TURN, "rad"),
+        "driven": (_AXES[kind], "s", 0.0, ""),
+        "input": (mechanism.axis, "x", 0.0, ""),
     }[process.over]
     force = formula_of(
-        process.given,
-        (places, kind),
-        f"load: {kind}",
-        variable=variable,
-        interpolation=process.interpolation,
+        process.given, (places, kind), f"load: {kind}", variable=variable, interpolation=process.interpolation
     )
-    end = {"t": period, "m": TURN}.get(variable)
-    if end is not None:
-        _check_ends(force, variable, end, kind)
-    if variable == "m":
-        force = rescaled(force, "m", "t", (0.0, TURN / period))
-    force = substituted(force, {"s": position})
-    return loaded(mechanism, multiplied([number(-1.0), force, derivative(position, "x")]))
-
-
-def _position(mechanism: Mechanism, on: Any, kind: str) -> Formula:
-    """The position on which a force acts, as a formula of the input's."""
-    if on is None:
-        if DIMENSIONS[mechanism.axis]["load"] != kind:
-            raise InputError(
-                f"load: the input of the {mechanism.name} takes a {DIMENSIONS[mechanism.axis]['load']}: give one, or "
-                "the link on which the force acts, as on='slider'"
-            )
-        return Name("x")
-    driven = dict(mechanism.linkage.driven)
-    if on not in driven:
-        raise InputError(f"load: on: {unknown_key(on, driven, 'driven link')}")
-    return driven[on]
-
-
-def _check_ends(force: Formula, variable: str, end: float, kind: str) -> None:
-    for part in force.walk():
+    for part in force.walk() if unit else ():
         if isinstance(part, Table) and part.of == Name(variable):
             first, last = part.places[0], part.places[-1]
             if first > CLOSURE * end or last < end * (1.0 - CLOSURE):
-                unit = "s" if variable == "t" else "rad"
                 raise InputError(
                     f"load: {kind}: its table goes from {first:.6g} to {last:.6g} {unit}, and the cycle from 0 to "
                     f"{end:.6g} {unit}: give a table over the whole cycle"
                 )
+    if variable == "m":
+        force = rescaled(force, "m", "t", (0.0, TURN / period))
+    force = substituted(force, {"s": position})
+    return loaded(mechanism, multiplied([number(-1.0), force, derivative(position, "x")]))

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from math import pi
 from typing import TYPE_CHECKING, Any
 
-from optlaws.cycles.specification.limits import AXES
+from optlaws.cycles.specification.limits import AXES, FORCES
 from optlaws.echo import shortened
 from optlaws.entries.declared import Declared, declared, entry
 from optlaws.entries.value_types import Measured, Number
@@ -118,32 +118,20 @@ def read_load(given: Any, axis: str) -> Load | None:
             f"load: a period of {shortened(load.period)} is too short: below {2e6 * pi / FASTEST:.0f} us a load "
             "moves as if it were rigid: leave it out, and minimise or limit the cycle's own quantities"
         )
-    return _mass_on_a_spring(load, axis, 2.0 * pi / period)
-
-
-def _mass_on_a_spring(given: ElasticLoad, axis: str, frequency: float) -> Load:
-    """The follower of `Cycle.cam`, damped against the ground, in its deflection x - y, driven by velocity and c."""
-    n = given.damping * frequency
-    motion = [-(frequency**2), -2.0 * n]
+    # the follower of `Cycle.cam`, damped against the ground, in its deflection x - y, driven by velocity and c
+    frequency = 2.0 * pi / period
+    n, square = load.damping * frequency, frequency**2
+    motion, names = [-square, -2.0 * n], {"acceleration": AXES[axis][2], "deflection": axis}
     rows, direct = [motion, [1.0, 0.0]], [[-2.0 * n, 0.0], [0.0, 0.0]]
-    names = {"acceleration": AXES[axis][2], "deflection": axis}
-    weight = {"length": "mass", "angle": "inertia"}[axis]
-    other = {"mass": "inertia", "inertia": "mass"}[weight]
-    if getattr(given, other) is not None:
-        raise InputError(f"load: the motion is {_article(axis)}: give its {weight}, not its {other}")
-    if getattr(given, weight) is not None:
-        kind = {"mass": "mass", "inertia": "moment of inertia"}[weight]
-        size = quantity(getattr(given, weight), kind, f"load: {weight}")
-        rows.append([-size * frequency**2, 0.0])
+    weight, other, kind, article = {
+        "length": ("mass", "inertia", "mass", "a"),
+        "angle": ("inertia", "mass", "moment of inertia", "an"),
+    }[axis]
+    if getattr(load, other) is not None:
+        raise InputError(f"load: the motion is {article} {axis}: give its {weight}, not its {other}")
+    if getattr(load, weight) is not None:
+        rows.append([-quantity(getattr(load, weight), kind, f"load: {weight}") * square, 0.0])
         direct.append([0.0, 0.0])
-        force = {"length": "force", "angle": "torque"}[axis]
-        names[force] = force
-    load = [[0.0, 0.0], [-2.0 * n, -1.0]]
-    from optlaws.mechanisms.machine.machine import Machine
-
-    machine = Machine([[0.0, 1.0], motion], load, rows, direct, inputs="bc", outputs=list(names))
-    return Load(machine, names)
-
-
-def _article(axis: str) -> str:
-    return f"{'an' if axis == 'angle' else 'a'} {axis}"
+        names[FORCES[axis]] = FORCES[axis]
+    driven = [[0.0, 0.0], [-2.0 * n, -1.0]]
+    return Load(Machine([[0.0, 1.0], motion], driven, rows, direct, inputs="bc", outputs=list(names)), names)

@@ -47,12 +47,10 @@ class TimedSegment:
 
     @property
     def fixed(self) -> bool:
-        """Whether the duration of the segment is one value."""
         return self.least == self.most
 
     @property
     def where(self) -> str:
-        """The name that errors give it."""
         return f"segment {self.number} ({self.given.label})"
 
     def sides(self, of_cycle: Limits) -> Sides:
@@ -119,18 +117,28 @@ def axis_of(segments: Sequence[CycleSegment]) -> str:
 def programme(segments: Sequence[CycleSegment], period: float, start: Any, advance: Any) -> Programme:
     """A cycle as numbers."""
     axis = axis_of(segments)
-    first = 0.0 if start is None else quantity(start, axis, "start")
-    forward = 0.0 if advance is None else quantity(advance, axis, "advance")
-    durations = _durations(segments, period)
-    stretches: list[TimedSegment] = []
-    position = first
-    for i, (segment, (least, most)) in enumerate(zip(segments, durations, strict=True)):
-        where = f"segment {i + 1} ({segment.label})"
+    ends = ((start, "start"), (advance, "advance"))
+    first, forward = (0.0 if value is None else quantity(value, axis, name) for value, name in ends)
+    names = [f"segment {i} ({segment.label})" for i, segment in enumerate(segments, 1)]
+    durations = _durations(segments, names, period)
+    stretches, position = list[TimedSegment](), first
+    for segment, where, (least, most) in zip(segments, names, durations, strict=True):
         moved = _displacement(segment, axis, where, here=position, last=first + forward, duration=least)
         limits = read_limits(segment.limits if isinstance(segment, Move | Free) else {}, axis, f"{where}: limits")
-        stretches.append(TimedSegment(i + 1, segment, least, most, moved, limits))
+        stretches.append(TimedSegment(len(stretches) + 1, segment, least, most, moved, limits))
         position += moved
-    _check_closed(position - first, forward, stretches, axis)
+    size = max((abs(stretch.displacement) for stretch in stretches), default=0.0)
+    if abs(position - first - forward) > CLOSURE * max(size, abs(forward)):
+        shown, due, more = (
+            in_small_units(moved, axis) for moved in (position - first, forward, forward - (position - first))
+        )
+        raise InputError(
+            sentence(
+                "the positions do not close: the cycle ends {} from its start, not {}: change a displacement by {}, "
+                "end with Return(duration=...), or give advance={} if each cycle goes on from there",
+                shown, due, more, repr(str(shown)),
+            )
+        )  # fmt: skip
     return Programme(period, axis, tuple(stretches), first)
 
 
@@ -140,10 +148,8 @@ def time_of(value: Any, period: float, name: str) -> float:
     return number / TURN * period if kind == "angle" else number
 
 
-def _durations(segments: Sequence[CycleSegment], period: float) -> list[tuple[float, float]]:
-    bounds = [
-        _bounds(segment, period, f"segment {i + 1} ({segment.label}): duration") for i, segment in enumerate(segments)
-    ]
+def _durations(segments: Sequence[CycleSegment], names: Sequence[str], period: float) -> list[tuple[float, float]]:
+    bounds = [_bounds(segment, period, f"{name}: duration") for segment, name in zip(segments, names, strict=True)]
     low, high = (sum(side) for side in zip(*bounds, strict=True))
     free = [i for i, (least, most) in enumerate(bounds) if least != most]
     if low > period * (1.0 + CLOSURE) or high < period * (1.0 - CLOSURE):
@@ -160,14 +166,11 @@ def _durations(segments: Sequence[CycleSegment], period: float) -> list[tuple[fl
     if len(free) == 1:
         left = period - (low - bounds[free[0]][0])
         if left <= CLOSURE * period:
-            raise InputError(f"segment {free[0] + 1} ({segments[free[0]].label}): nothing is left for it")
+            raise InputError(f"{names[free[0]]}: nothing is left for it")
         bounds[free[0]] = (left, left)
     for i in free if len(free) > 1 else ():
         if not isinstance(segments[i], Move):
-            raise InputError(
-                f"segment {i + 1} ({segments[i].label}): give it a duration; with several free ones only moves share"
-                " what is left"
-            )
+            raise InputError(f"{names[i]}: give it a duration; with several free ones only moves share what is left")
     return bounds
 
 
@@ -210,20 +213,6 @@ def _displacement(segment: CycleSegment, axis: str, where: str, *, here: float, 
     return -moved if isinstance(segment, Return) else moved
 
 
-def _check_closed(moved: float, forward: float, stretches: Sequence[TimedSegment], axis: str) -> None:
-    size = max((abs(stretch.displacement) for stretch in stretches), default=0.0)
-    if abs(moved - forward) <= CLOSURE * max(size, abs(forward)):
-        return
-    shown, due = (in_small_units(angle, axis) for angle in (moved, forward))
-    raise InputError(
-        sentence(
-            "the positions do not close: the cycle ends {} from its start, not {}: change a displacement by {}, end "
-            "with Return(duration=...), or give advance={} if each cycle goes on from there",
-            shown, due, in_small_units(forward - moved, axis), repr(str(shown)),
-        )
-    )  # fmt: skip
-
-
 def is_optimal(segment: CycleSegment) -> bool:
     """Whether the segment's law is optimised."""
     return isinstance(segment, Free) or (
@@ -264,7 +253,7 @@ class LawSpan:
 
     @property
     def turns(self) -> bool:
-        """Whether the span is a whole cycle, which ends in its initial state."""
+        """Whether it is a whole cycle, which ends in its initial state."""
         return bool(self.states)
 
     @kept_property
@@ -295,12 +284,10 @@ class LawSpan:
 
     @property
     def start(self) -> float:
-        """The time at which it begins."""
         return self.starts[0]
 
     @property
     def duration(self) -> float:
-        """How long it takes."""
         return self.stop - self.start
 
     @property
@@ -314,7 +301,6 @@ class LawSpan:
 
     @property
     def where(self) -> str:
-        """The name that errors give it."""
         return " and ".join(stretch.where for stretch in self.stretches)
 
 
@@ -335,22 +321,16 @@ def layout(programme: Programme, durations: Sequence[float], *, whole: bool = Fa
     """
     starts = tuple(accumulate(durations, initial=0.0))
     offsets = tuple(accumulate((stretch.displacement for stretch in programme.stretches), initial=programme.start))
-    pieces = {
-        i: _piece(stretch, starts[i], durations[i], offsets[i])
-        for i, stretch in enumerate(programme.stretches)
-        if not is_optimal(stretch.given)
-    }
+    pieces = dict[int, Piece]()
+    for i, stretch in enumerate(programme.stretches):
+        if not is_optimal(stretch.given):
+            law = named_law(stretch.given.law, stretch.where) if isinstance(stretch.given, Move) else UNIFORM
+            pieces[i] = Piece(starts[i], durations[i], offsets[i], stretch.displacement, law)
     placed = _Placed(programme, starts, offsets, pieces)
     joints = [placed.joint(i) for i in range(len(programme.stretches))]
     if whole or joints[0] is None:
         return Layout(starts, (), (placed.whole(joints, absolute=absolute),))
     return Layout(starts, tuple(pieces.values()), tuple(placed.spans(joints)))
-
-
-def _piece(stretch: TimedSegment, start: float, duration: float, offset: float) -> Piece:
-    given = stretch.given
-    law = named_law(given.law, stretch.where) if isinstance(given, Move) else UNIFORM
-    return Piece(start, duration, offset, stretch.displacement, law)
 
 
 @dataclass(frozen=True)
@@ -368,9 +348,8 @@ class _Placed:
         ended, begun = self._known(before, 1), self._known(i, 0)
         if ended is not None and begun is not None:
             self._check_velocities(before, i, ended.velocity, begun.velocity)
-            return ended if before in self.pieces else begun
         if ended is not None or begun is not None:
-            return begun if ended is None else ended
+            return begun if ended is None or (begun is not None and before not in self.pieces) else ended
         free = all(isinstance(self.programme.stretches[j].given, Free) for j in (before, i))
         return None if free else State(0.0, 0.0)
 
