@@ -59,13 +59,7 @@ class Follower:
 
     @property
     def n(self) -> float:
-        """Damping coefficient n = damping nu of (1.19).
-
-        Examples
-        --------
-        >>> Follower(frequency=20, damping=0.05).n
-        1.0
-        """
+        """Damping coefficient n = damping nu of (1.19)."""
         return self.damping * self.frequency
 
     @classmethod
@@ -238,8 +232,10 @@ class Follower:
         0.01
         """
         cam = motion_law(law)
-        at_start = (float(cam.a(0.0)), 0.0) if initial is None else _state(initial)
-        return Response(self.frequency, self.damping, cam, at_start)
+        pair = [float(cam.a(0.0)), 0.0] if initial is None else numbers(initial, "initial")
+        if len(pair) != 2:
+            raise InputError(f"initial must be displacement and velocity of the mass, got {shortened(initial)}")
+        return Response(self.frequency, self.damping, cam, (pair[0], pair[1]))
 
     def cycle(
         self, rise: MotionLaw, fall: MotionLaw | None = None, *, dwell: float, fall_duration: float = 1.0, rest: float
@@ -273,14 +269,6 @@ class Follower:
         return CycleResponse(
             self.frequency, self.damping, rise, rise if fall is None else fall, dwell, fall_duration, rest
         )
-
-
-def _state(value: Any) -> tuple[float, float]:
-    """Displacement and velocity of a mass as two floats."""
-    pair = numbers(value, "initial")
-    if len(pair) != 2:
-        raise InputError(f"initial must be displacement and velocity of the mass, got {shortened(value)}")
-    return pair[0], pair[1]
 
 
 Change = Literal["speed", "stiffness"]
@@ -358,13 +346,10 @@ def off_design(
 
     Examples
     --------
-    >>> from optlaws import savin
-    >>> from optlaws import polydyne
+    >>> from optlaws import polydyne, savin
     >>> law = savin("IV", 11.0)
-    >>> [
-    ...     round(deviation.dynamic_factor, 6)
-    ...     for deviation in off_design(polydyne(law, frequency=20), law, Follower(frequency=20))
-    ... ]
+    >>> off = off_design(polydyne(law, frequency=20), law, Follower(frequency=20))
+    >>> [round(deviation.dynamic_factor, 6) for deviation in off]
     [1.185564, 1.102502, 1.0, 0.963659, 0.945973]
     """
     meant = motion_law(reference, "reference")

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import partial
 from itertools import pairwise
 from math import sqrt
 from typing import Any
@@ -47,8 +49,7 @@ def polydyne(law: MotionLaw, frequency: float, damping: float = 0.0) -> MotionLa
 
     Examples
     --------
-    >>> from optlaws import savin
-    >>> from optlaws import Follower
+    >>> from optlaws import Follower, savin
     >>> law = savin("III", 7.2)
     >>> cam = polydyne(law, frequency=20, damping=0.05)
     >>> cam.c(0.0), cam.constants.C
@@ -91,10 +92,8 @@ def mass_law(cam: MotionLaw, frequency: float, damping: float = 0.0) -> Polynomi
     ----------
     cam
         Law of the cam.
-    frequency
-        Frequency nu of the follower.
-    damping
-        Ratio zeta = n/nu.
+    frequency, damping
+        As of `polydyne`.
 
     Raises
     ------
@@ -159,8 +158,9 @@ def check_mass_law(law: MotionLaw) -> None:
     """
     for order, (name, letter) in _NAMES.items():
         cam = "velocity" if order == 3 else "displacement"
+        sizes = np.abs(law(np.linspace(0.0, 1.0, 33), order))
+        size = max(1.0, float(sizes[np.isfinite(sizes)].max(initial=0.0)))
         for k, value in zip((0.0, 1.0), law([0.0, 1.0], order).tolist(), strict=True):
-            size = _size(law, order)
             if not abs(value) <= JUMP * size:
                 raise InputError(
                     f"the mass law has {name} {letter}({k:g}) = {value:.6g}, so the {cam} of the cam would jump there; "
@@ -172,11 +172,6 @@ def check_mass_law(law: MotionLaw) -> None:
                 f"the mass law has a jump of its {name} {letter} by {height:.6g} at k = {k:.6g}, so the {cam} of the "
                 f"cam would jump there; {_REMEDY}"
             )
-
-
-def _size(law: MotionLaw, nu: int) -> float:
-    size = np.abs(law(np.linspace(0.0, 1.0, 33), nu))
-    return max(1.0, float(size[np.isfinite(size)].max(initial=0.0)))
 
 
 _BASES = {"B": 1, "C": 2, "C_plus": 2, "C_minus": 2, "D": 1, "J": 3}
@@ -192,12 +187,10 @@ class CamPeak(CombinedPeak):
     damping: float = 0.0
 
     def value(self, law: MotionLaw) -> float:
-        """The peak over the whole rise of the cam."""
         lowest, highest = cam_law(law, self.frequency, self.damping).extrema(self.nu)
         return max(sign * extreme.value for sign in self.signs for extreme in (lowest, highest))
 
     def check(self, space: LawSpace) -> None:
-        """Refuse laws whose cam would jump in velocity, or in acceleration where its jerk counts."""
         check_order(self.name, space, _JERK_ORDER if self.nu == _BASES["J"] else _ORDER)
 
     def curbs(self) -> tuple[tuple[int, float], ...]:
@@ -214,11 +207,9 @@ class CamPower(CombinedPower):
     damping: float = 0.0
 
     def value(self, law: MotionLaw) -> float:
-        """The peak over the whole rise of the cam."""
         return cam_law(law, self.frequency, self.damping).power_peak().value
 
     def check(self, space: LawSpace) -> None:
-        """Refuse laws whose cam would jump in velocity."""
         check_order(self.name, space, _ORDER)
 
     def curbs(self) -> tuple[tuple[int, float], ...]:
@@ -233,10 +224,8 @@ def cam_constant(name: str, *, frequency: float, damping: float = 0.0) -> Functi
     ----------
     name
         "B", "C", "C_plus", "C_minus", "D" or "J": which constant of the cam.
-    frequency
-        Frequency nu at which the cam is to run.
-    damping
-        Ratio zeta = n/nu.
+    frequency, damping
+        As of `polydyne`.
 
     Raises
     ------
@@ -257,16 +246,8 @@ def cam_constant(name: str, *, frequency: float, damping: float = 0.0) -> Functi
     known = FUNCTIONALS[name]
     if name == "D":
         return CamPower(written, known.reference, convex=False, weights=weights, frequency=frequency, damping=ratio)
-    return CamPeak(
-        written,
-        known.reference,
-        convex=True,
-        nu=_BASES[name],
-        weights=weights,
-        signs=_SIGNS.get(name, (1.0, -1.0)),
-        frequency=frequency,
-        damping=ratio,
-    )
+    sides: dict[str, Any] = {"nu": _BASES[name], "signs": _SIGNS.get(name, (1.0, -1.0))}
+    return CamPeak(written, known.reference, convex=True, weights=weights, frequency=frequency, damping=ratio, **sides)
 
 
 def cam_law(law: MotionLaw, frequency: float, damping: float) -> MotionLaw:
@@ -274,12 +255,17 @@ def cam_law(law: MotionLaw, frequency: float, damping: float) -> MotionLaw:
     if not isinstance(law, PolynomialLaw):
         return polydyne(law, frequency, damping)
     once, twice = map(float, cam_factors(frequency, damping))
+    return PolynomialLaw(_combination(law, (1.0, once, twice)), a0=law.a0, b0=law.b0)
+
+
+def _combination(law: PolynomialLaw, weights: Sequence[float]) -> Array:
+    """The series of the acceleration and its derivatives, weighed."""
     series = np.array(law.acceleration or (0.0,))
-    slope = chebyshev.derivative(series)
-    series[: len(slope)] += once * slope
-    slope = chebyshev.derivative(slope)
-    series[: len(slope)] += twice * slope
-    return PolynomialLaw(series, a0=law.a0, b0=law.b0)
+    total = weights[0] * series
+    for weight in weights[1:]:
+        series = chebyshev.derivative(series)
+        total[: len(series)] += weight * series
+    return total
 
 
 def gain(frequency: float, damping: float) -> float:
@@ -317,15 +303,8 @@ def check_order(name: str, space: LawSpace, order: int) -> None:
         )
 
 
-def _maker(name: str) -> Any:
-    def make(*, frequency: float, damping: float = 0.0) -> Functional:
-        return cam_constant(name, frequency=frequency, damping=damping)
-
-    return make
-
-
 for _name in _BASES:
-    MAKERS.setdefault(f"{_name}_cam", _maker(_name))
+    MAKERS.setdefault(f"{_name}_cam", partial(cam_constant, _name))
 
 
 _FLAT_OUTPUT_JUMP = 1e-7  # the same of the derivatives from which a machine's input is computed
@@ -337,8 +316,6 @@ def flat_output(machine: StateSpace, output: str | None = None) -> tuple[float, 
 
     Parameters
     ----------
-    machine
-        The machine.
     output
         Which output; the first one unless given.
 
@@ -378,8 +355,6 @@ def driving_law(machine: StateSpace, law: MotionLaw, output: str | None = None) 
 
     Parameters
     ----------
-    machine
-        The machine.
     law
         The output's law, a polynomial; for a machine of n states its derivatives 1 to n + 1 vanish at both ends.
     output
@@ -411,12 +386,7 @@ def driving_law(machine: StateSpace, law: MotionLaw, output: str | None = None) 
                 f"the output's law must be of order {len(weights) + 1} at least, its derivatives 1 to {len(weights)} "
                 f"zero at both ends, for the driving law not to jump: that of order {order} is {float(ends.max()):.6g}"
             )
-    series = np.array(moves.acceleration or (0.0,))
-    total = weights[0] * series
-    for weight in weights[1:]:
-        series = chebyshev.derivative(series)
-        total[: len(series)] += weight * series
-    return PolynomialLaw(total, a0=weights[0] * moves.a0)
+    return PolynomialLaw(_combination(moves, weights), a0=weights[0] * moves.a0)
 
 
 def _zeros(A: Array, column: Array, row: Array) -> str:
@@ -426,9 +396,7 @@ def _zeros(A: Array, column: Array, row: Array) -> str:
     pencil = np.block([[A, column[:, None]], [row[None, :], np.zeros((1, 1))]])
     zeros = eigvals(pencil, np.diag([*np.ones(size), 0.0]))
     finite = zeros[np.isfinite(zeros) & (np.abs(zeros) < 1e6 * max(1.0, float(np.linalg.norm(A, 2))))]
-    listed = ", ".join(
-        f"{machine.real:.4g}{machine.imag:+.4g}i" if machine.imag else f"{machine.real:.4g}" for machine in finite
-    )
+    listed = ", ".join(f"{zero.real:.4g}{zero.imag:+.4g}i" if zero.imag else f"{zero.real:.4g}" for zero in finite)
     return (
         f"its transfer function has zeros ({listed}), such as dampers between masses make, so that the law that drives "
         "it would move on after the output has come to rest"
