@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import Any, Self
 
-from optlaws.cycles.answers import Answers, Solved
+from optlaws.cycles.answers import Answers
 from optlaws.cycles.greatest_speed.fastest_search import FastestSearch
 from optlaws.cycles.greatest_speed.timed_spans import TimedSpan
 from optlaws.cycles.moves.fastest_move import limit_row
@@ -178,9 +178,9 @@ class FastestCycle(Answers, Declared, title="a fastest cycle"):
         read.solve()
         return read
 
-    def solve(self) -> Solved:
-        """The plan at the greatest speed."""
-        return self.cycle.solve()  # type: ignore[no-any-return]
+    def solve(self) -> Any:
+        """The plan of the cycle at the greatest speed."""
+        return self.cycle.solve()
 
     @property
     def speed(self) -> float:

@@ -161,6 +161,8 @@ def values(jumping: Solution) -> dict[str, Any]:
             drive=optlaws.Drive(optlaws.rack("20 mm", "5 kg"), optlaws.Motor(0.0)),
         ).sheet,
         "Cycle": slide,
+        "FastestCycle": (fastest_slide := replace(slide, limits={"acceleration": "20 m/s^2"}).fastest()),
+        "LeastDuration": fastest_slide.segments[0],
         "Plan": replace(slide, segments=[optlaws.Rise("35 mm"), optlaws.Return(law="cycloidal")]).solve(),
         "Cycle with a mechanism": crank,
         "Axes": optlaws.Axes({"slide": slide}),
