@@ -54,10 +54,11 @@ def test_time_is_a_master_too(cycle: Motion) -> None:
 
 def test_jumps_are_told_at_joints_and_within_laws() -> None:
     motion = press("parabolic").motion()
-    size = 4.0 * 35.0 / 120.0**2
-    found = {round(x, 9): after - before for x, before, after in motion.sides(2)}
-    assert found[60.0] == pytest.approx(-2.0 * size)
-    assert found[120.0] == pytest.approx(size)
+    assert motion.jump(2) == pytest.approx((8.0 * 35.0 / 100.0**2, 260.0))
+    at_joint = Motion(motion.pieces[:2], motion.units, repeats=False)
+    assert at_joint.jump(2) == pytest.approx((8.0 * 35.0 / 120.0**2, 60.0))
+    cubic = press("cubic").motion()
+    assert cubic.jump(2) == pytest.approx((6.0 * 35.0 / 100.0**2, 210.0))
     assert motion.jump(1) == (0.0, 0.0)
     assert isinf(motion.peak(3))
     uniform = motion_of_law(smoothstep(1), stroke="1 m", duration="1 s")
