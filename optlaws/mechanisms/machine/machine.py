@@ -228,11 +228,6 @@ class Machine(StateSpace):
         The deflection is that of the spring, from the cam to the mass. `Follower` computes the same motion from states
         that damping keeps smaller.
 
-        Parameters
-        ----------
-        follower
-            The follower.
-
         Examples
         --------
         >>> from optlaws import smoothstep
@@ -282,13 +277,7 @@ class Machine(StateSpace):
 
     @kept_property
     def modes(self) -> tuple[Mode, ...]:
-        """The machine's free vibrations, the slowest first; equal roots are one mode.
-
-        Examples
-        --------
-        >>> Machine([[0, 1], [-400, -2]], [[0], [400]], [[1, 0]]).modes
-        (Mode(number=1, frequency=20, damping=0.05),)
-        """
+        """The machine's free vibrations, the slowest first; equal roots are one mode."""
         return modes(self)
 
     def response(self, law: MotionLaw, *, dwell: float = 0.0) -> MachineMotion:
@@ -296,10 +285,8 @@ class Machine(StateSpace):
 
         Parameters
         ----------
-        law
-            The law that drives it; the machine is at rest before.
         dwell
-            Duration of the dwell that is looked at, in durations of the rise.
+            How much of the dwell is looked at, in durations of the rise; the machine is at rest before the law.
 
         Examples
         --------
@@ -428,8 +415,13 @@ def _matrices(system: Any) -> tuple[Any, Any, Any, Any]:
     if step is not None and step != 0:
         raise InputError(f"a system must be continuous in time, got one with steps of {shortened(step)}")
     try:
-        state_space = _state_space(system)
-        A, B, C, D = (getattr(state_space, name) for name in "ABCD")
+        if type(system).__module__.partition(".")[0] == "control":
+            import control
+
+            known = control.ss(system)
+        else:
+            known = system if all(hasattr(system, name) for name in "ABCD") else system.to_ss()
+        A, B, C, D = (getattr(known, name) for name in "ABCD")
     except (AttributeError, TypeError, ValueError, NotImplementedError) as error:
         raise InputError(
             "a system must be one of scipy.signal (StateSpace, TransferFunction, ZerosPolesGain) or of python-control "
@@ -438,16 +430,6 @@ def _matrices(system: Any) -> tuple[Any, Any, Any, Any]:
     if not np.size(A):
         raise InputError("the system has no state: a mere gain is no machine")
     return A, B, C, D
-
-
-def _state_space(system: Any) -> Any:
-    if type(system).__module__.partition(".")[0] == "control":
-        import control
-
-        return control.ss(system)
-    if not all(hasattr(system, name) for name in "ABCD"):
-        return system.to_ss()
-    return system
 
 
 @dataclass(frozen=True, eq=False)
@@ -478,6 +460,8 @@ class MachineSpectrum:
     >>> spectrum = machine_spectrum(axis, [200.0, 800.0], smoothstep(3))
     >>> spectrum.frequencies.ravel().round(9).tolist(), spectrum.peaks["drive force"].round(4).tolist()
     ([10.0, 20.0], [32.8861, 24.4058])
+    >>> spectrum.to_pandas().columns.tolist(), [line.get_label() for line in spectrum.plot()]
+    (['peak drive force', 'frequency of mode 1', 'mode 1 left in drive force'], ['peak', 'mode 1 left'])
     """
 
     values: Array
@@ -491,30 +475,13 @@ class MachineSpectrum:
         """Draw the output's peak and what is left in it of each mode, over the parameter; return the lines.
 
         `ax` are axes of matplotlib, new ones unless given; `style` is what it takes for lines.
-
-        Examples
-        --------
-        >>> from optlaws import smoothstep
-        >>> machine = Machine([[0, 1], [-400, 0]], [[0], [400]], [[1, 0]], outputs=["position"])
-        >>> lines = machine_spectrum(machine.at_speed, [0.5, 1.0], smoothstep(4), parameter="speed").plot()
-        >>> [line.get_label() for line in lines]
-        ['peak', 'mode 1 left']
         """
         from optlaws.plots.machine import draw_machine_spectrum
 
         return draw_machine_spectrum(self, ax, **style)
 
     def to_pandas(self) -> Any:
-        """A table: peaks of all outputs, frequencies and what is left of the modes, a row for each value.
-
-        Examples
-        --------
-        >>> from optlaws import smoothstep
-        >>> machine = Machine([[0, 1], [-400, 0]], [[0], [400]], [[1, 0]], outputs=["position"])
-        >>> table = machine_spectrum(machine.at_speed, [0.5, 1.0], smoothstep(4), parameter="speed").to_pandas()
-        >>> table.columns.tolist()
-        ['peak position', 'frequency of mode 1', 'mode 1 left in position']
-        """
+        """A table: peaks of all outputs, frequencies and what is left of the modes, a row for each value."""
         pd = needed("pandas", "to_pandas")
         columns = {f"peak {name}": values for name, values in self.peaks.items()}
         for i, (frequency, left) in enumerate(zip(self.frequencies.T, self.residuals.T, strict=True), 1):

@@ -338,7 +338,7 @@ class CycleResponse(RiseReturnCycle, MassMotion):
     """Periodic motion of the mass under a periodic cam; computed by `Follower.cycle`.
 
     Call it like a law, at any k; time is in durations of the rise. Peaks, extrema, root mean squares and samples are
-    those of the whole cycle.
+    those of the whole cycle. `rise` and `fall` are its laws; `dwell`, `fall_duration` and `rest` follow the rise.
 
     Examples
     --------

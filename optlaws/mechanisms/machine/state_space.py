@@ -436,16 +436,16 @@ class StateSpace(Declared, title="a machine"):
                 raise InputError(f"{name} must have {says}, got shape {(len(matrix), len(matrix[0]))}")
         object.__setattr__(self, "outputs", _names(self.outputs, outputs))
         roots = self.dynamics.roots
-        largest = float(np.abs(roots).max())
+        most = float(np.abs(roots).max())
         worst = complex(roots[int(np.argmax(roots.real))])
-        if worst.real > _UNSTABLE * max(largest, 1.0):
+        if worst.real > _UNSTABLE * max(most, 1.0):
             raise InputError(
                 f"the machine is unstable: its root {worst.real:.6g}{worst.imag:+.6g}i grows with time"
                 "; left to itself it must rest or vibrate: check the signs in A"
             )
         if self.dynamics.fastest > FASTEST or self.dynamics.decay > STIFFEST:
             raise InputError(
-                f"the machine's fastest root is {largest:.3g} in the duration of the rise: beyond {FASTEST:g} radians it "
+                f"the machine's fastest root is {most:.3g} in the duration of the rise: beyond {FASTEST:g} radians it "
                 f"is as good as rigid, and beyond a decay of {STIFFEST:g} without delay: leave that part out, or give "
                 "the duration in the unit of time of the rest, such as s"
             )
