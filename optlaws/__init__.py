@@ -57,7 +57,10 @@ declare(
         "optlaws.exports.formats.source_code": "c99 iec-st iec-st-real",
     },
 )
-declare("what moves", {"optlaws.mechanisms.drives.moved": "mechanism drive"})
+declare(
+    "what moves",
+    {"optlaws.mechanisms.linkages.mechanism": "mechanism", "optlaws.mechanisms.drives.drive_train": "drive"},
+)
 declare("plain constant", {"optlaws.balancing.loaders.constants": "B_loader C_loader D_loader"})
 declare(
     "constant",

@@ -49,9 +49,9 @@ from .mechanisms.linkages.dimensionless import (
     StrokeTorque as StrokeTorque,
     Train as Train,
 )
-from .mechanisms.linkages.entries import TableKind as TableKind
+from .mechanisms.linkages.entries import InputAxis as InputAxis, TableKind as TableKind
 from .mechanisms.linkages.plane_linkages import FourBarBranch as FourBarBranch
-from .mechanisms.linkages.mechanism import InputAxis as InputAxis, LinkGeometry as LinkGeometry
+from .mechanisms.linkages.mechanism import LinkGeometry as LinkGeometry
 from .mechanisms.linkages.move_limit import LimitedMove as LimitedMove
 from .mechanisms.machine.follower import Change as Change
 from .mechanisms.machine.output_constants import OutputPeak as OutputPeak, OutputRms as OutputRms

@@ -18,7 +18,8 @@ from optlaws.laws import MotionLaw, smoothstep
 from optlaws.mechanisms.drives.effort import BestRatio, DriveSheet, PieceEffort, TorqueByRatio
 from optlaws.mechanisms.drives.motor import NO_MOTOR, Motor
 from optlaws.mechanisms.linkages.dimensionless import LinearForce, StrokeTorque, Train
-from optlaws.mechanisms.linkages.mechanism import DIMENSIONS, Mechanism, duration_of
+from optlaws.mechanisms.linkages.entries import MOVED
+from optlaws.mechanisms.linkages.mechanism import Mechanism
 from optlaws.mechanisms.linkages.mechanism_kinds import MECHANISM
 from optlaws.motion.piece import Piece, named_law
 from optlaws.motion.quantities import check_scale, si_number
@@ -262,12 +263,9 @@ class Drive(Declared, title="a drive"):
         >>> print(drive.limit("rms torque", "0 deg", "45 deg", "0.25 s"))
         rms torque at least 2.02548 N m
         """
-        from optlaws.mechanisms.linkages.move_limit import LimitedMove, limits_of_input, move_limit
+        from optlaws.mechanisms.linkages.move_limit import limit_of
 
-        way = self.mechanism.dimensionless(start, stroke, duration_of(minimise, duration))
-        bounds = limits_of_input(limits, DIMENSIONS[self.mechanism.axis])
-        time = None if duration is None else way.duration
-        return move_limit(LimitedMove(self, minimise, way.start, way.stroke, time, bounds, heat=heat))
+        return limit_of(self, minimise, (start, stroke), duration, limits, heat=heat)
 
     def sheet(
         self,
@@ -383,3 +381,6 @@ class Drive(Declared, title="a drive"):
             raise InputError(f"period must be at least the duration of the move, {moved.duration:g} s, got {time:g} s")
         piece = Piece(0.0, moved.duration, moved.start, moved.stroke, named_law(law, "drive"))
         return piece, max(time, moved.duration)
+
+
+MOVED["drive"] = Drive

@@ -34,14 +34,35 @@ from optlaws.formulas.tree import (
     rebuilt,
     table_places,
 )
+from optlaws.lazy import Registry
 from optlaws.motion.quantities import quantity, si_number, written
-from optlaws.numbers import finite, real
+from optlaws.numbers import NumberOrQuantity, finite, real
 from optlaws.numerics.branch_and_bound import Extremes, extremes
 from optlaws.numerics.interval import Interval, between, exact
 from optlaws.numerics.taylor import Jet, variable
 from optlaws.synthesis.limits.formula_jets import formula_jet
 from optlaws.tolerances import OPERATIONS_ROUNDING, ROUNDOFF, VALUE_ROUNDING
 
+InputAxis = Literal["angle", "length"]
+#: of the inertia, of the load, of viscous friction, and of the input's velocity and acceleration
+DIMENSIONS: dict[InputAxis, dict[str, str]] = {
+    "angle": {
+        "inertia": "moment of inertia",
+        "load": "torque",
+        "viscous": "rotary viscous friction",
+        "velocity": "angular velocity",
+        "acceleration": "angular acceleration",
+    },
+    "length": {
+        "inertia": "mass",
+        "load": "force",
+        "viscous": "viscous friction",
+        "velocity": "velocity",
+        "acceleration": "acceleration",
+    },
+}
+#: classes of what a move moves, by the entry that describes it
+MOVED: Registry[Any] = Registry("what moves")
 TableKind = Literal["spline", "lines"]
 #: how tables of values are joined: a spline of values keeps their shape
 JOINED: dict[str, TableJoin] = {"spline": "monotone", "lines": "table"}
@@ -346,3 +367,12 @@ def _needed(part: Formula) -> tuple[Formula, set[int]] | None:
         above = exponent is not None and exponent > 0.0
         return None if whole and above else (part.base, {1, -1} if whole else {0, 1} if above else {1})
     return None
+
+
+def duration_of(minimise: str, duration: NumberOrQuantity | None) -> NumberOrQuantity:
+    """The duration of a move, or one second where the least time is sought; errors name what is missing."""
+    if (duration is None) != (minimise == "time"):
+        raise InputError(
+            "duration is missing, such as '0.25 s'" if duration is None else "leave out the duration: it is minimised"
+        )
+    return 1.0 if duration is None else duration

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import KW_ONLY, fields
-from typing import TYPE_CHECKING, Any, Literal, TypeAlias, get_args
+from typing import TYPE_CHECKING, Any, TypeAlias, get_args
 
 import numpy as np
 
@@ -22,7 +22,10 @@ from optlaws.formulas.tree import Formula, Name, Table
 from optlaws.kept import kept_property
 from optlaws.mechanisms.linkages.dimensionless import LinearForce, StrokeTorque, dimensionless
 from optlaws.mechanisms.linkages.entries import (
+    DIMENSIONS,
     FORMULA,
+    MOVED,
+    InputAxis,
     OverPlace,
     extremes_over,
     formula_of,
@@ -40,24 +43,6 @@ if TYPE_CHECKING:
     from optlaws.mechanisms.linkages.move_limit import MoveLimit
     from optlaws.synthesis.limits.drive_limits import DriveObjective
 
-InputAxis = Literal["angle", "length"]
-#: of the inertia, of the load, of viscous friction, and of the input's velocity and acceleration
-DIMENSIONS: dict[InputAxis, dict[str, str]] = {
-    "angle": {
-        "inertia": "moment of inertia",
-        "load": "torque",
-        "viscous": "rotary viscous friction",
-        "velocity": "angular velocity",
-        "acceleration": "angular acceleration",
-    },
-    "length": {
-        "inertia": "mass",
-        "load": "force",
-        "viscous": "viscous friction",
-        "velocity": "velocity",
-        "acceleration": "acceleration",
-    },
-}
 FORMAT = 1
 
 Driven: TypeAlias = Kept[
@@ -411,12 +396,9 @@ class Mechanism(Declared, title="a mechanism"):
         >>> print(table.limit("time", "0 deg", "45 deg", limits={"torque": "50 N m", "velocity": "6 rad/s"}))
         time at least 0.2269 s
         """
-        from optlaws.mechanisms.linkages.move_limit import LimitedMove, limits_of_input, move_limit
+        from optlaws.mechanisms.linkages.move_limit import limit_of
 
-        moved = self.dimensionless(start, stroke, duration_of(minimise, duration))
-        bounds = limits_of_input(limits, DIMENSIONS[self.axis])
-        time = None if duration is None else moved.duration
-        return move_limit(LimitedMove(self, minimise, moved.start, moved.stroke, time, bounds, recovered, heat))
+        return limit_of(self, minimise, (start, stroke), duration, limits, recovered=recovered, heat=heat)
 
     def with_friction(self, *, coulomb: NumberOrQuantity = 0.0, viscous: NumberOrQuantity = 0.0) -> Mechanism:
         """The mechanism with this friction at its input in place of its own."""
@@ -466,6 +448,9 @@ class Mechanism(Declared, title="a mechanism"):
         return of_known_format(data, "a mechanism")
 
 
+MOVED["mechanism"] = Mechanism
+
+
 def loaded(mechanism: Mechanism, load: Formula) -> Mechanism:
     """The mechanism with a further load over x and the time t, of which tables may end within its range."""
     other = object.__new__(Mechanism)
@@ -511,12 +496,3 @@ def _axis_and_ends(over: Any, axis: InputAxis | None) -> tuple[InputAxis, tuple[
     if not low < high:
         raise InputError(f"over must be two positions that ascend, got {shortened(over)}")
     return (kinds.pop() if kinds else "angle"), (low, high)
-
-
-def duration_of(minimise: str, duration: NumberOrQuantity | None) -> NumberOrQuantity:
-    """The duration of a move, or one second where the least time is sought; errors name what is missing."""
-    if (duration is None) != (minimise == "time"):
-        raise InputError(
-            "duration is missing, such as '0.25 s'" if duration is None else "leave out the duration: it is minimised"
-        )
-    return 1.0 if duration is None else duration

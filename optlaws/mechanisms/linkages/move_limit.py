@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from itertools import pairwise
 from math import fsum, inf, nextafter
-from typing import Any, NamedTuple, TypeAlias, get_args
+from typing import Any, TypeAlias, get_args
 
 from optlaws.echo import shortened
 from optlaws.entries.declared import Declared, TableOf, ValueOf, declared, entry
@@ -28,9 +28,9 @@ from optlaws.files.reading import entries_of
 from optlaws.formulas.reading import read
 from optlaws.formulas.slopes import scaled
 from optlaws.kept import kept_property
-from optlaws.lazy import Registry
 from optlaws.mechanisms.linkages.dimensionless import StrokeTorque
-from optlaws.numbers import positive
+from optlaws.mechanisms.linkages.entries import DIMENSIONS, MOVED, InputAxis, duration_of
+from optlaws.numbers import NumberOrQuantity, positive
 from optlaws.synthesis.limits.drive_limits import (
     LONG,
     DriveLimit,
@@ -46,11 +46,10 @@ from optlaws.tolerances import CLOSURE, STATED_BOUND
 
 _ENTRIES = ("dimension", "unit", "move", "drive_limit")
 _DIGITS = 6
-_PART = 3
 
 
 def _source(value: Any) -> Any:
-    if not isinstance(value, tuple(kind.source for kind in MOVED.values())):
+    if not isinstance(value, tuple(MOVED.values())):
         raise InputError(f"it must be a mechanism or a drive, got {shortened(value)}")
     return value
 
@@ -98,7 +97,7 @@ class LimitedMove(Declared, title="a move with its limits"):
     @property
     def kind(self) -> str:
         """Whether a "mechanism" or a "drive" moves."""
-        return next(kind for kind, moved in MOVED.items() if isinstance(self.driven, moved.source))
+        return next(kind for kind, moved in MOVED.items() if isinstance(self.driven, moved))
 
     @property
     def _unused(self) -> set[str]:
@@ -130,7 +129,7 @@ class LimitedMove(Declared, title="a move with its limits"):
         kinds = [kind for kind in MOVED if kind in data]
         if len(kinds) != 1:
             raise InputError(f"a move with its limits has a mechanism or a drive, got {shortened(data)}")
-        return {"driven": MOVED[kinds[0]].source.from_dict(data.pop(kinds[0])), **data}
+        return {"driven": MOVED[kinds[0]].from_dict(data.pop(kinds[0])), **data}
 
 
 @declared
@@ -162,7 +161,7 @@ class MoveLimit(Declared, title="the limit of a move"):
 
     @kept_property
     def _scale(self) -> tuple[float, str]:
-        return _phase_move(self.move).scale(self.minimise)
+        return PhaseMove(self.move).scale(self.minimise)
 
     @property
     def minimise(self) -> DriveObjective:
@@ -234,13 +233,13 @@ class MoveLimit(Declared, title="the limit of a move"):
 
     def is_of_its_move(self) -> bool:
         """Whether the limit without dimensions is that of the move, or the proof that the move is impossible."""
-        of_move, form = _phase_move(self.move).plane(self.move.minimise)
+        of_move, form = PhaseMove(self.move).plane()
         same_unit = self.minimise == "time" or self.drive_limit.unit == form.size
         same_kind = self.minimise in {"time", "peak torque", self.move.minimise}
         return same_unit and same_kind and self.drive_limit.plane in planes_of_proof(of_move, self.drive_limit)
 
 
-def limits_of_input(limits: Mapping[str, Any] | None, dimensions: Mapping[str, str]) -> dict[str, Any]:
+def limits_of_input(limits: Mapping[str, Any] | None, axis: InputAxis) -> dict[str, Any]:
     """The limits that a table names in SI units: velocity, acceleration and torque, or force where the input slides.
 
     Each is one bound, or a list of bounds over parts of the way: two positions and the bound.
@@ -250,22 +249,23 @@ def limits_of_input(limits: Mapping[str, Any] | None, dimensions: Mapping[str, s
     InputError
         If a name is unknown, or a bound is of another dimension or not above 0.
     """
-    axis, load = ("angle", "torque") if dimensions["load"] == "torque" else ("length", "force")
+    dimensions = DIMENSIONS[axis]
 
     def bound(dimension: str) -> Any:
         position, most = InSI(axis), InSI(dimension, above=0.0)
         parts = Listed(Together(position, position, most, names=("from", "to", "bound")))
         return entry(Either(most, parts, which=is_list), "The greatest.", default=None, example=most.example)
 
-    known = {"velocity": "velocity", "acceleration": "acceleration", load: "load"}
-    table = TableOf("limit of a move", {name: bound(dimensions[kind]) for name, kind in known.items()})
+    known = [dimensions[name] for name in ("velocity", "acceleration", "load")]
+    names = dict(zip(("velocity", "acceleration", dimensions["load"]), known, strict=True))
+    table = TableOf("limit of a move", {name: bound(dimension) for name, dimension in names.items()})
     given = table.read(limits or {}, "limits")
     parts = {name: [[*sorted(part[:2]), part[2]] for part in of] for name, of in given.items() if isinstance(of, tuple)}
-    return {name: given[name] for name in known if name in given and name not in parts} | parts
+    return {name: given[name] for name in names if name in given and name not in parts} | parts
 
 
-class PhaseMove(NamedTuple):
-    """A move without dimensions.
+class PhaseMove:
+    """A move without dimensions, within its limits and those of its motor.
 
     Attributes
     ----------
@@ -277,54 +277,49 @@ class PhaseMove(NamedTuple):
         Pairs of a torque at rest and by how much less it is with the velocity of the input.
     windows
         Bounds over parts of the way: what is bounded, from where to where as shares of the stroke, and the bound.
-    heat
-        Copper heat that counts with an energy, in W a squared N m, or N, of the torque.
     dimension
         That of the torque, or force: "N m" or "N".
+
+    Raises
+    ------
+    InputError
+        If a limit is wrong, or the part of the way of one is not within the stroke.
     """
 
-    over: StrokeTorque
-    most: Mapping[str, float]
-    torques: Sequence[tuple[float, float]]
-    windows: Sequence[tuple[str, float, float, float]]
-    heat: float
-    dimension: str
-
-    @classmethod
-    def within(
-        cls,
-        over: StrokeTorque,
-        move: LimitedMove,
-        dimensions: Mapping[str, str],
-        speed: float,
-        lines: Sequence[tuple[float, float]],
-    ) -> PhaseMove:
-        """A move within its limits, and within the speed and the lines of torque over speed of its motor.
-
-        Raises
-        ------
-        InputError
-            If a limit is wrong, or the part of the way of one is not within the stroke.
-        """
-        most, torques, windows = {"velocity": speed, "acceleration": inf}, [*lines], []
-        for name, of in limits_of_input(dict(move.limits), dimensions).items():
+    def __init__(self, move: LimitedMove) -> None:
+        is_drive = move.kind == "drive"
+        drive = move.driven if is_drive else MOVED["drive"].of_input(move.driven, move.recovered)
+        self.minimise, self.heat = move.minimise, move.heat
+        self.over: StrokeTorque = drive.dimensionless(
+            move.start, move.stroke, duration_of(move.minimise, move.duration)
+        )
+        axis = drive.mechanism.axis
+        self.dimension = "N m" if axis == "angle" else "N"
+        self.most = {"velocity": drive.motor.greatest_speed / drive.ratio, "acceleration": inf}
+        lines = [] if move.minimise == "peak torque" else drive.motor.peak_lines
+        self.torques = [(top, fall * drive.ratio) for top, fall in lines]
+        self.windows: list[tuple[str, float, float, float]] = []
+        for name, of in limits_of_input(dict(move.limits), axis).items():
             if isinstance(of, list):
-                windows += [(name, *_of_stroke(part[:2], over), part[2]) for part in of]
-            elif name in most:
-                most[name] = min(of, most[name])
+                self.windows += [(name, *self._shares(part[:2]), part[2]) for part in of]
+            elif name in self.most:
+                self.most[name] = min(of, self.most[name])
             else:
-                torques.insert(0, (of, 0.0))
-        return cls(over, most, torques, windows, move.heat, "N m" if dimensions["load"] == "torque" else "N")
+                self.torques.insert(0, (of, 0.0))
+        #: the mean velocity of the input
+        self.velocity = abs(self.over.stroke) / self.over.duration
+
+    def _shares(self, positions: Sequence[float]) -> tuple[float, float]:
+        """Two positions of the input as shares of the stroke."""
+        low, high = sorted((position - self.over.start) / self.over.stroke for position in positions)
+        if not -CLOSURE <= low < high <= 1.0 + CLOSURE:
+            raise InputError(f"a part of the way must be within the stroke and have a length, got {positions!r}")
+        return (0.0 if low < CLOSURE else low), (1.0 if high > 1.0 - CLOSURE else high)
 
     def scale(self, minimise: DriveObjective) -> tuple[float, str]:
         """The scale of what is minimised, and its unit."""
         known = {"energy": (self.over.energy_unit, "J"), "time": (self.over.duration, "s")}
         return known.get(minimise, (self.over.unit, self.dimension))
-
-    @property
-    def velocity(self) -> float:
-        """The mean velocity of the input."""
-        return abs(self.over.stroke) / self.over.duration
 
     def least_share(self) -> float:
         """The least time for the whole way within the bounds of velocities, by the time at the mean velocity."""
@@ -336,32 +331,47 @@ class PhaseMove(NamedTuple):
             shares.append((high - low) * self.velocity / min([self.most["velocity"], *bounds]))
         return fsum(shares)
 
-    def plane(self, minimise: DriveObjective) -> tuple[PhasePlane, AnyTorque]:
+    def plane(self) -> tuple[PhasePlane, AnyTorque]:
         """The phase plane of the move, its torques divided by the size of the torque, which is given too."""
-        form = phase_torque(self.over.torque)
-        plane = _plane(form, minimise, self)
+        over, whole = self.over, phase_torque(self.over.torque)
+        form, torque = whole.scaled(1.0 / whole.size), whole.size * over.unit
+        unit_of = {"velocity": self.velocity, "acceleration": self.velocity / over.duration}
+        limits = [TorqueLimit(form, most / torque, fall * self.velocity / torque) for most, fall in self.torques]
+        velocities = []
+        for name, low, high, bound in self.windows:
+            most = bound / unit_of.get(name, torque)
+            if name == "velocity":
+                velocities.append(VelocityLimit(low, high, most))
+            else:
+                limits.append(TorqueLimit(ACCELERATION if name == "acceleration" else form, most, start=low, stop=high))
+        B, C = (self.most[name] / of for name, of in unit_of.items())
+        plane = PhasePlane(limits=tuple(limits), B=B, C=C, velocities=tuple(velocities))
+        if self.minimise == "energy":
+            plane = replace(plane, maxima=((form, form.scaled(over.train.regeneration)),))
+            # the mean of the squared torque over the time, in the unit of the energy
+            heat = self.heat * torque**2 * over.duration / over.energy_unit / whole.size
+            plane = replace(plane, squared=form, heat=heat) if self.heat else plane
+        elif self.minimise != "time":
+            is_peak = self.minimise == "peak torque"
+            plane = replace(plane, peak=form) if is_peak else replace(plane, squared=form)
         if plane.squared is not None or plane.peak is not None:
-            plane = replace(plane, holding=scaled(read(self.over.holding, ("a",)), 1.0 / form.size))
-        return plane, form
+            plane = replace(plane, holding=scaled(read(over.holding, ("a",)), 1.0 / whole.size))
+        return plane, whole
 
 
-def _of_stroke(positions: Sequence[float], over: StrokeTorque) -> tuple[float, float]:
-    """Two positions of the input as shares of the stroke."""
-    low, high = sorted((position - over.start) / over.stroke for position in positions)
-    if not -CLOSURE <= low < high <= 1.0 + CLOSURE:
-        raise InputError(f"a part of the way must be within the stroke and have a length, got {positions!r}")
-    return (0.0 if low < CLOSURE else low), (1.0 if high > 1.0 - CLOSURE else high)
-
-
-class MovedKind(NamedTuple):
-    """What a move moves: a class of it, and the move of such a one without dimensions."""
-
-    source: Any
-    phase_move: Callable[[LimitedMove], PhaseMove]
-
-
-#: what a move moves, by the entry that describes it
-MOVED: Registry[MovedKind] = Registry("what moves")
+def limit_of(
+    driven: Any,
+    minimise: DriveObjective,
+    stroke: tuple[NumberOrQuantity, NumberOrQuantity],
+    duration: NumberOrQuantity | None,
+    limits: Mapping[str, Any] | None,
+    **more: float,
+) -> MoveLimit:
+    """The limit of a mechanism or a drive over a stroke, known by its start and its length."""
+    way = driven.dimensionless(*stroke, duration_of(minimise, duration))
+    bounds = limits_of_input(limits, getattr(driven, "mechanism", driven).axis)
+    time = None if duration is None else way.duration
+    return move_limit(LimitedMove(driven, minimise, way.start, way.stroke, time, bounds, **more))
 
 
 def move_limit(move: LimitedMove) -> MoveLimit:
@@ -375,7 +385,7 @@ def move_limit(move: LimitedMove) -> MoveLimit:
         If no motion keeps the bounds; the error states what is reachable.
     """
     minimise = move.minimise
-    parts = _phase_move(move)
+    parts = PhaseMove(move)
     time, most = parts.over.duration, parts.most["velocity"]
     if minimise != "time" and (least := parts.least_share()) >= 1.0:
         takes, given = f"{least * time:.{_DIGITS}g} s", f"{time:.{_DIGITS}g} s"
@@ -383,7 +393,7 @@ def move_limit(move: LimitedMove) -> MoveLimit:
         speed = f" of {most:.{_DIGITS}g} {unit_of_velocity}" if most < inf else ""
         shown = f"at the greatest velocity{speed} alone the stroke takes {takes}"
         raise InfeasibleProblem(f"{shown}, and {given} are given: take more time, or a greater velocity", proof=shown)
-    plane, form = parts.plane(minimise)
+    plane, form = parts.plane()
     unit = form.size
     try:
         limit = limit_of_plane(plane, minimise, unit)
@@ -401,35 +411,6 @@ def move_limit(move: LimitedMove) -> MoveLimit:
             tried=str(error),
         ) from None
     return MoveLimit(limit, move)
-
-
-def _plane(form: AnyTorque, minimise: DriveObjective, move: PhaseMove) -> PhasePlane:
-    """The phase plane of a move, its torques divided by their size."""
-    unit, over, velocity = form.size, move.over, move.velocity
-    form = form.scaled(1.0 / unit)
-    torque = unit * over.unit
-    limits = tuple(TorqueLimit(form, most / torque, fall * velocity / torque) for most, fall in move.torques)
-    unit_of = {"velocity": velocity, "acceleration": velocity / over.duration}
-    B, C = (move.most[name] / of for name, of in unit_of.items())
-    windows = [(name, low, high, bound / unit_of.get(name, torque)) for name, low, high, bound in move.windows]
-    velocities = [VelocityLimit(low, high, most) for name, low, high, most in windows if name == "velocity"]
-    limits += tuple(
-        TorqueLimit(ACCELERATION if name == "acceleration" else form, most, start=low, stop=high)
-        for name, low, high, most in windows
-        if name != "velocity"
-    )
-    plane = PhasePlane(limits=limits, B=B, C=C, velocities=tuple(velocities))
-    if minimise == "peak torque":
-        return replace(plane, peak=form)
-    if minimise == "rms torque":
-        return replace(plane, squared=form)
-    if minimise == "time":
-        return plane
-    plane = replace(plane, maxima=((form, form.scaled(over.train.regeneration)),))
-    if not move.heat:
-        return plane
-    # the mean of the squared torque over the time, in the unit of the energy
-    return replace(plane, squared=form, heat=move.heat * torque**2 * over.duration / over.energy_unit / unit)
 
 
 def _infeasible(
@@ -452,8 +433,3 @@ def _infeasible(
         f"no motion keeps the limits in {given}, which is proven: {', '.join(reached)}",
         proof=MoveLimit(error.proof, move),
     )
-
-
-def _phase_move(move: LimitedMove) -> PhaseMove:
-    """The move without dimensions."""
-    return MOVED[move.kind].phase_move(move)
