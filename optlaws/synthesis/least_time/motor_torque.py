@@ -50,22 +50,18 @@ class LossyGear(Declared, title="a gear with losses"):
 
     def text(self, load: str, duration: float) -> str:
         """T² times the torque at the motor, from T² times the load behind the gear."""
-        return " + ".join([*self._motor(duration), f"max({self.to_load!r}*({load}), {self.back!r}*({load}))"])
+        return " + ".join([*self._motor(duration), f"max({', '.join(self._through(load))})"])
 
-    def branches(self, load: str, duration: float) -> tuple[str, str]:
+    def branches(self, load: str, duration: float) -> tuple[str, ...]:
         """The torque for power that flows to the load, and for power that flows back: the greater of both."""
-        first, last = (
-            " + ".join([*self._motor(duration), f"{share!r}*({load})"]) for share in (self.to_load, self.back)
-        )
-        return first, last
+        return tuple(" + ".join([*self._motor(duration), through]) for through in self._through(load))
+
+    def _through(self, load: str) -> list[str]:
+        return [f"{share!r}*({load})" for share in (self.to_load, self.back)]
 
     def _motor(self, duration: float) -> list[str]:
-        parts = (
-            (self.inertia, "*c"),
-            (self.friction * duration, "*b"),
-            (self.load * duration * duration, ""),
-        )
-        return [f"{size!r}{name}" for size, name in parts if size]
+        sizes = self.inertia, self.friction * duration, self.load * duration * duration
+        return [f"{size!r}{name}" for size, name in zip(sizes, ("*c", "*b", ""), strict=True) if size]
 
 
 def _formula(value: Any) -> str:

@@ -51,26 +51,20 @@ def law_in_time(move: Timed, duration: float, warm: ActiveSet | None, shortest: 
     search = LawSearch(model_of(problem), warm=warm)
     solution = best_available(search)
     if solution is None:
-        raise _no_law(move, duration, search.error())
+        error = search.error()
+        if isinstance(error, SolverFailure):
+            raise error
+        message = f"no time is long enough: {error.args[0]}"
+        if not move.at_rest:
+            message = (
+                f"the limits need more than {duration:.6g} s, but in that time the velocities at the ends contradict "
+                f"the problem itself: {error.args[0]}"
+            )
+        raise InfeasibleProblem(message, problem=move.problem, tried=error.tried, proof=error.proof)
     if not solution.objective > NO_OBJECTIVE:
         names = " and ".join(limit.name for limit in move.limits_in(duration))
         raise InputError(_UNBOUNDED.format(order=problem.order, names=names))
     return solution
-
-
-def _no_law(
-    move: Timed, duration: float, error: InfeasibleProblem | SolverFailure
-) -> InfeasibleProblem | SolverFailure:
-    """The error of a space without laws: without any from rest to rest, or in a time that the limits require."""
-    if isinstance(error, SolverFailure):
-        return error
-    message = f"no time is long enough: {error.args[0]}"
-    if not move.at_rest:
-        message = (
-            f"the limits need more than {duration:.6g} s, but in that time the velocities at the ends contradict the "
-            f"problem itself: {error.args[0]}"
-        )
-    return InfeasibleProblem(message, problem=move.problem, tried=error.tried, proof=error.proof)
 
 
 def unsettled(move: Timed, duration: float) -> SolverFailure:
@@ -144,8 +138,10 @@ class _Trials:
     def _slope(self, logarithm: float) -> float:
         """The exponent with which the greatest share of a law falls with the time, by that law alone."""
         law = self.solution(exp(logarithm)).law
-        shares = (self.move.greatest_share(law, exp(logarithm + step)) for step in (-DURATION_STEP, DURATION_STEP))
-        before, after = shares
+        before, after = (
+            max(limit.share(law) for limit in self.move.limits_in(exp(logarithm + step)))
+            for step in (-DURATION_STEP, DURATION_STEP)
+        )
         return log(before / after) / (2.0 * DURATION_STEP)
 
 

@@ -14,7 +14,6 @@ from optlaws.errors import InputError
 from optlaws.formulas.reading import read
 from optlaws.formulas.slopes import constant
 from optlaws.kept import kept_property
-from optlaws.laws import MotionLaw
 from optlaws.numbers import finite, positive
 from optlaws.numerics.roots import bisect
 from optlaws.synthesis.functionals.makers import integral, peak, rms
@@ -129,10 +128,6 @@ class Timed:
         """Limits of every law from rest to rest that keeps the motion's limits in some time of an interval."""
         return self.limits_in(longest)
 
-    def greatest_share(self, law: MotionLaw, duration: float) -> float:
-        """The greatest share of a limit that a law takes in a time."""
-        return max(limit.share(law) for limit in self.limits_in(duration))
-
     def within(self, duration: float, shortest: float | None = None) -> Problem:
         """The problem of the laws that keep every limit in a time: its ends, and bounds B <= v T/h, C <= a T²/h.
 
@@ -158,7 +153,11 @@ class Timed:
         ends = (nu for nu, rates in enumerate(self.moving, start=1) if any(rates))
         degree = max([2, *ends, *(limit.nu for limit in self.rates)])
         points = [control_point(shortest, longest, i, degree) for i in range(degree + 1)]
-        return [self._within(self._limits_of_rates(powers), powers) for powers in points]
+        known = [(limit.name, *limit.term(1.0), limit.nu) for limit in self.rates]
+        return [
+            self._within([TimedLimit(name, of, rate * powers[nu - 1]) for name, of, rate, nu in known], powers)
+            for powers in points
+        ]
 
     def shares(self, duration: float, ends: Powers | None = None, shortest: float | None = None) -> Problem:
         """The problem of the least greatest share of the limits in a time; with the ends of other powers if given.
@@ -174,10 +173,6 @@ class Timed:
         return replace(
             self.problem, boundary=self._ends(powers_of(duration) if ends is None else ends), minimise=objective
         )
-
-    def _limits_of_rates(self, powers: Powers) -> tuple[TimedLimit, ...]:
-        known = ((limit.name, *limit.term(1.0), limit.nu) for limit in self.rates)
-        return tuple(TimedLimit(name, constant, rate * powers[nu - 1]) for name, constant, rate, nu in known)
 
     def _within(self, limits: Sequence[TimedLimit], powers: Powers) -> Problem:
         bounds: dict[object, Range] = dict(self.problem.bounds)
