@@ -20,7 +20,7 @@ from optlaws.entries.declared import documented_by
 from optlaws.errors import InputError, needed
 from optlaws.files.reading import check_names
 from optlaws.kept import kept_property
-from optlaws.motion.exportable import Exportable
+from optlaws.motion.motion import Exportable, Motion, motion_of_pieces
 from optlaws.motion.piece import Piece, by_pieces, unit_of, values_of_pieces
 from optlaws.motion.quantities import QUANTITIES, TURN, Kind, quantity
 from optlaws.numbers import Array, Quantity, derivative, number_or_array, real_times
@@ -34,7 +34,6 @@ if TYPE_CHECKING:
     from optlaws.mechanisms.drives.effort import CycleSheet, Effort, PieceEffort, SegmentEffort
     from optlaws.mechanisms.linkages.mechanism import Mechanism
     from optlaws.mechanisms.machine.over_time import MachineMotion
-    from optlaws.motion.motion import Motion
     from optlaws.shown.report import Report
 
 #: what a picture of a cycle is over
@@ -358,8 +357,6 @@ class Answers(Exportable):
         return transition_cam(kind, cycle.programme, self.pieces, cycle.in_si, given)
 
     def motion(self, master: Quantity | None = "360 deg", unit: str | None = None) -> Motion:
-        from optlaws.motion.motion import motion_of_pieces
-
         plan, proof = self.solve(), tuple[str, ...]()
         if plan.solutions:
             bound = "" if plan.lower_bound is None else f", none below {plan.lower_bound:.9g}"

@@ -19,8 +19,7 @@ from optlaws.laws.law import LawExport
 from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.mechanisms.drives.effort import DriveSheet, PieceEffort
 from optlaws.motion.derivative_panel import DERIVATIVES, display_unit, motion_panel
-from optlaws.motion.exportable import Exportable
-from optlaws.motion.motion import Motion, motion_of_pieces
+from optlaws.motion.motion import Exportable, Motion, motion_of_pieces
 from optlaws.motion.piece import Piece, unit_of
 from optlaws.motion.quantities import DEGREES, QUANTITIES, Exact, positive_quantity
 from optlaws.numbers import Array, Quantity, derivative, number_or_array, positive, real_times
