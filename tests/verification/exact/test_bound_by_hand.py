@@ -10,7 +10,6 @@ from math import inf, nextafter, sqrt
 from typing import Any
 
 import pytest
-from scipy.optimize import brentq
 
 from optlaws import (
     BoundaryConditions,
@@ -75,8 +74,7 @@ def test_the_bound_of_one_contact_is_exact() -> None:
 
 
 def test_multipliers_that_do_not_add_up_are_charged() -> None:
-    # C itself is at most the claim: of 9/10 of its row the bound is at most 9/10, and beyond the weight it loses as much
-    # as the claim gains, 1/10 of it
+    # with less than the weight the bound is less by as much; beyond it the claim is, and a tenth of it is charged
     assert proven(small(), c_at(-GAUSS, 0.9)) == pytest.approx(0.9 * C_BASE, rel=1e-12)
     assert proven(small(), c_at(-GAUSS, 1.1)) == pytest.approx(1.1 * C_BASE * (1.0 - 0.1), rel=1e-12)
     assert proven(small(), c_at(-GAUSS, 1.0), c_at(GAUSS, 0.5)) <= C_BASE * (1.0 + 1e-14)
