@@ -93,9 +93,10 @@ from .laws.savin import SavinFamily as SavinFamily, savin as savin
 from .laws.segments.piecewise import PiecewiseLaw as PiecewiseLaw
 from .mechanisms.drives.drive_train import Drive as Drive
 from .mechanisms.drives.motor import Motor as Motor, read_motors as read_motors
-from .mechanisms.linkages.bodies import Body as Body, Loads as Loads
 from .mechanisms.linkages.mechanism import Mechanism as Mechanism
 from .mechanisms.linkages.mechanism_kinds import (
+    Body as Body,
+    Loads as Loads,
     belt as belt,
     mechanism_of_motion as mechanism_of_motion,
     rack as rack,

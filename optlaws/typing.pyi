@@ -43,7 +43,7 @@ from .mechanisms.drives.effort import (
     Margin as Margin,
     SegmentEffort as SegmentEffort,
 )
-from .mechanisms.linkages.bodies import DrivenLink as DrivenLink, LoadPlace as LoadPlace
+from .mechanisms.linkages.mechanism_kinds import DrivenLink as DrivenLink, LoadPlace as LoadPlace
 from .mechanisms.linkages.dimensionless import (
     LinearForce as LinearForce,
     StrokeTorque as StrokeTorque,

@@ -17,8 +17,7 @@ from optlaws.jobs.machine_laws import MachineLawsProblemFile
 from optlaws.jobs.solutions import SolutionsProblemFile
 from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.mechanisms.drives.motor import Motor
-from optlaws.mechanisms.linkages.bodies import Body, Loads
-from optlaws.mechanisms.linkages.mechanism_kinds import MechanismKind
+from optlaws.mechanisms.linkages.mechanism_kinds import Body, Loads, MechanismKind
 from optlaws.synthesis.problem.problem import PROBLEM
 
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "reference" / "problem-files.md"

@@ -19,9 +19,15 @@ from optlaws.entries.value_types import Choice, InSI, Measured, ReadBy, SINumber
 from optlaws.errors import InputError
 from optlaws.formulas.slopes import added, derivative, multiplied
 from optlaws.formulas.tree import Exponentiation, Formula, Name, Number, Table, number
-from optlaws.mechanisms.linkages.bodies import NO_LOADS, DrivenLink, Loads, reduced_inertia
 from optlaws.mechanisms.linkages.mechanism import LinkGeometry, Mechanism
-from optlaws.mechanisms.linkages.mechanism_kinds import MechanismKind, OptionalEnds
+from optlaws.mechanisms.linkages.mechanism_kinds import (
+    NO_LOADS,
+    DrivenLink,
+    Loads,
+    MechanismKind,
+    OptionalEnds,
+    reduced_inertia,
+)
 from optlaws.motion.quantities import quantity
 from optlaws.numbers import Array, NumberOrQuantity, Quantity
 from optlaws.numerics import chebyshev

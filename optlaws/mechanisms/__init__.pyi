@@ -1,8 +1,9 @@
 from .drives.drive_train import Drive as Drive
 from .drives.motor import Motor as Motor, read_motors as read_motors
-from .linkages.bodies import Body as Body, Loads as Loads
 from .linkages.mechanism import Mechanism as Mechanism
 from .linkages.mechanism_kinds import (
+    Body as Body,
+    Loads as Loads,
     belt as belt,
     mechanism_of_motion as mechanism_of_motion,
     rack as rack,

@@ -9,7 +9,7 @@ import numpy as np
 
 from optlaws.errors import InputError
 from optlaws.mechanisms.drives.effort import over_speed
-from optlaws.mechanisms.linkages.report import MechanismReport
+from optlaws.mechanisms.linkages.mechanism import MechanismReport
 from optlaws.motion.quantities import RPM
 from optlaws.plots.report import draw_panel
 from optlaws.plots.style import (

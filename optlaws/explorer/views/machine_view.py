@@ -23,8 +23,8 @@ from optlaws.explorer.views.panel_data import beside_each_other, drawn, over_tim
 from optlaws.explorer.views.requests import MOST_LAWS, stored_law
 from optlaws.jobs.cycle_entries import AxisEntries, CycleProblemFile, cycle_of
 from optlaws.mechanisms.drives.effort import over_speed
+from optlaws.mechanisms.linkages.mechanism import INPUTS, MechanismReport
 from optlaws.mechanisms.linkages.mechanism_kinds import MechanismKind
-from optlaws.mechanisms.linkages.report import INPUTS, MechanismReport
 from optlaws.motion.quantities import MILLI, RPM, si_number
 from optlaws.numbers import Array, bounded
 from optlaws.shown.summary import Row

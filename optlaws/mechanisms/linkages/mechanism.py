@@ -1,9 +1,9 @@
-"""Mechanisms of one degree of freedom: inertia and load as formulas of the input's position, in SI units."""
+"""Mechanisms of one degree of freedom: inertia and load as formulas of the input's position, and their reports."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import KW_ONLY, fields
+from dataclasses import KW_ONLY, dataclass, fields
 from typing import TYPE_CHECKING, Any, TypeAlias, get_args
 
 import numpy as np
@@ -35,8 +35,9 @@ from optlaws.mechanisms.linkages.entries import (
     slope_of,
     without_value,
 )
-from optlaws.motion.quantities import check_scale, either, in_small_units, si_number
+from optlaws.motion.quantities import DEGREES, MILLI, TURN, check_scale, either, in_small_units, si_number
 from optlaws.numbers import Array, NumberOrQuantity, derivative, finite, positive, real_times
+from optlaws.shown.report import Panel, Series
 from optlaws.tolerances import CLOSURE, VALUE_ROUNDING
 
 if TYPE_CHECKING:
@@ -44,6 +45,12 @@ if TYPE_CHECKING:
     from optlaws.synthesis.limits.drive_limits import DriveObjective
 
 FORMAT = 1
+_POSITIONS = 721
+#: by what the input is: its unit, how many of them make one of SI, and those of the inertia, of its slope, of the load
+INPUTS = {
+    "angle": ("deg", DEGREES, ("kg m²", "kg m²/rad", "N m")),
+    "length": ("mm", MILLI, ("kg", "kg/m", "N")),
+}
 
 Driven: TypeAlias = Kept[
     "tuple[tuple[str, Formula], ...]", "tuple[tuple[str, Formula], ...] | Mapping[str, Formula | str]"
@@ -457,6 +464,45 @@ def loaded(mechanism: Mechanism, load: Formula) -> Mechanism:
     known = {each.name: getattr(mechanism, each.name) for each in fields(mechanism)}
     vars(other).update({**known, "load_formula": added([mechanism.load_formula, load])})
     return other
+
+
+@dataclass(frozen=True)
+class MechanismReport:
+    """The report of a mechanism; where its input has no ends, over what is `used` of it, else a turn or 0.1 m."""
+
+    mechanism: Mechanism
+    used: tuple[float, float] | None = None
+
+    @property
+    def positions(self) -> Array:
+        """Positions of the input at which it is drawn, rad or m."""
+        mechanism = self.mechanism
+        usual = self.used or (0.0, TURN if mechanism.axis == "angle" else 0.1)
+        return np.linspace(*(mechanism.over if mechanism.has_end else usual), _POSITIONS)
+
+    @property
+    def panels(self) -> tuple[Panel, ...]:
+        """The inertia J, its slope J' and the load T over the input, which is in degrees or millimetres."""
+        x, (of_input, factor, units) = self.positions, INPUTS[self.mechanism.axis]
+        values = self.mechanism.inertia(x), self.mechanism.inertia(x, 1), self.mechanism.load(x)
+        return tuple(
+            Panel(name, unit, (Series(factor * x, np.asarray(curve)),), (), (), ends, f"input, {of_input}", 1.0)
+            for name, unit, curve in zip(("J", "J'", "T"), units, values, strict=True)
+            for ends in [(float(np.min(curve)), float(np.max(curve)))]
+        )
+
+    def chains(self, x: Array) -> list[Array]:
+        """The joints of each chain of links at positions of the input, in mm, of shape (joints, 2, positions)."""
+        return [
+            MILLI * np.array([[evaluate(part, {"x": x}, NUMPY) + 0.0 * x for part in point] for point in chain])
+            for chain in self.mechanism.linkage.chains
+        ]
+
+    @property
+    def moving(self) -> list[list[bool]]:
+        """Which joints of each chain move."""
+        chains = self.mechanism.linkage.chains
+        return [[bool(point[0].names() | point[1].names()) for point in chain] for chain in chains]
 
 
 def _range(formulas: Mapping[str, Formula], ends: tuple[float, float] | None, axis: InputAxis) -> tuple[float, float]:

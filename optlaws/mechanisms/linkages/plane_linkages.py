@@ -15,10 +15,21 @@ from optlaws.errors import InputError
 from optlaws.formulas.arithmetic import NUMPY, evaluate
 from optlaws.formulas.tracing import Traced
 from optlaws.formulas.tree import Formula, Name
-from optlaws.mechanisms.linkages.bodies import NO_LOADS, Body, DrivenLink, Link, Loads, Slide, bodies_of, formula_from
 from optlaws.mechanisms.linkages.entries import extremes_over, sign_over
 from optlaws.mechanisms.linkages.mechanism import LinkGeometry, Mechanism
-from optlaws.mechanisms.linkages.mechanism_kinds import LENGTH, MechanismKind, function_of
+from optlaws.mechanisms.linkages.mechanism_kinds import (
+    LENGTH,
+    NO_LOADS,
+    Body,
+    DrivenLink,
+    Link,
+    Loads,
+    MechanismKind,
+    Slide,
+    bodies_of,
+    formula_from,
+    function_of,
+)
 from optlaws.numbers import NumberOrQuantity
 
 FourBarBranch = Literal["open", "crossed"]
