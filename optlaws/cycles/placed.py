@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from math import inf, isfinite
@@ -33,7 +33,6 @@ from optlaws.sentences import Amount, joined, sentence
 from optlaws.tolerances import AGREEMENT, CLOSURE, SAME_TIME
 
 if TYPE_CHECKING:
-    from optlaws.mechanisms.drives.drive_train import Drive
     from optlaws.shown.summary import Row
 
 #: a `Cycle`, and its `Plan`, which know this module
@@ -178,9 +177,7 @@ def limits_taken(plan: Plan, limited: Cycle | None = None) -> tuple[LimitTaken, 
     Of each limit the segment that takes most of it counts. A motor's limits are those of the sheet.
     """
     given = plan.specification if limited is None else limited
-    of_cycle = _limits(given)
-    segments = _of_segments(plan.peaks, plan.specification, of_cycle, given.programme.stretches)
-    return (*(taken.taken for taken in _most(segments)), *_of_whole(plan, given))
+    return (*(each.taken for each in _most(plan, given)), *_of_whole(plan, given))
 
 
 def broken_limits(plan: Plan) -> Sequence[str]:
@@ -204,15 +201,12 @@ def refuse_beyond(cycle: Cycle) -> None:
         If a limit is broken: by how much, and what helps; its `proof` is every `LimitTaken` that is.
     """
     placed = segments_in_place(cycle.programme, cycle.layout.starts, cycle.layout.pieces)
-    taken = list(_of_segments(placed, cycle, cycle.in_si.limits, cycle.programme.stretches))
+    taken = _of_segments(placed, cycle, cycle.in_si.limits, cycle.programme.stretches)
     broken = [each for each in taken if not each.taken.is_kept]
-    if not any(is_optimal(segment) for segment in cycle.segments):
-        # limits of the motor but its rating are among those of the segments
-        known = {f"motor's {name}" for name in ("peak torque", "torque-speed curve", "speed")}
-        whole = _of_whole(cycle.unchecked(), cycle)
-        of_whole = [each for each in whole if not each.is_kept and each.name not in known]
-    else:
-        of_whole = []
+    # limits of the motor but its rating are among those of the segments
+    known = {f"motor's {name}" for name in ("peak torque", "torque-speed curve", "speed")}
+    whole = [] if any(map(is_optimal, cycle.segments)) else _of_whole(cycle.unchecked(), cycle)
+    of_whole = (each for each in whole if not each.is_kept and each.name not in known)
     proof = (*(each.taken for each in broken), *of_whole)
     if proof:
         others = "" if len(proof) == 1 else sentence("; beyond a limit is also {}", joined("; ", proof[1:]))
@@ -253,61 +247,49 @@ def limit_rows(plan: Plan) -> list[Row]:
     """Rows of limits: the value in the segment that uses most of the limit, with its time and the limit."""
     from optlaws.shown.summary import Row
 
-    limits = _limits(plan.specification)
-    taken_of = _of_segments(
-        plan.peaks,
-        plan.specification,
-        limits,
-        plan.programme.stretches,
-        # peaks of a cycle do not show what is limited there
-        keys=lambda key: bool(key.sign) or key.kind is Kind.SNAP,
-    )
     return [
         Row(taken.name, taken.value, unit_of(plan.axis, key.kind.order), time, f"limit {taken.text} of {taken.where}")
-        for key, taken, time, _ in _most(taken_of)
+        for key, taken, time, _ in _most(plan, plan.specification)
+        # peaks of a cycle show the others
+        if key.sign or key.kind is Kind.SNAP
     ]
 
 
-def _most(taken: Iterable[_Taken]) -> list[_Taken]:
-    """For each limit, by name, the quantity that uses most of it."""
+def _most(plan: Plan, given: Cycle) -> list[_Taken]:
+    """For each limit of segments, by name, the quantity that uses most of it."""
     most: dict[str, _Taken] = {}
-    for each in taken:
+    for each in _of_segments(plan.peaks, plan.specification, _limits(given), given.programme.stretches):
         if each.taken.name not in most or each.taken.share > most[each.taken.name].taken.share:
             most[each.taken.name] = each
     return list(most.values())
 
 
 def _of_segments(
-    placed: Sequence[SegmentPeaks],
-    cycle: Cycle,
-    of_cycle: Limits,
-    limited: Sequence[TimedSegment],
-    *,
-    keys: Callable[[Side], bool] = lambda _: True,
+    placed: Sequence[SegmentPeaks], cycle: Cycle, of_cycle: Limits, limited: Sequence[TimedSegment]
 ) -> Iterator[_Taken]:
     """The use of limits by segments, whose own are those of `limited`; rests take of those of a drive alone."""
     axis, pieces = cycle.axis, [each.piece for each in placed]
     for each in placed:
-        limits = limited[each.stretch.number - 1].sides(of_cycle)
-        for key, limit in limits.items():
-            if keys(key) and (key.kind.is_driven or not isinstance(each.stretch.given, Dwell)):
-                if key.kind.is_driven:
-                    value, time = _greatest_of_drive(each, key.kind, cycle.in_si.drive)
-                else:
-                    value, time = _greatest(each, key, pieces, cycle.duration)
+        for key, limit in limited[each.stretch.number - 1].sides(of_cycle).items():
+            if key.kind.is_driven or not isinstance(each.stretch.given, Dwell):
+                value, time = _greatest(each, key, pieces, cycle)
                 texts = (amount(key, size, axis) for size in (limit, value))
-                yield _Taken(
-                    key, LimitTaken(name_of(key, axis), each.stretch.where, value, limit, *texts), time, each.stretch
-                )
+                taken = LimitTaken(name_of(key, axis), each.stretch.where, value, limit, *texts)
+                yield _Taken(key, taken, time, each.stretch)
 
 
-def _greatest(placed: SegmentPeaks, key: Side, pieces: Sequence[Piece], period: float) -> tuple[float, float | None]:
-    """The greatest magnitude in a segment on the side that a limit bounds, and its time where it has one."""
+def _greatest(placed: SegmentPeaks, key: Side, pieces: Sequence[Piece], cycle: Cycle) -> tuple[float, float | None]:
+    """The greatest value in a segment on the side that a limit bounds, and its time where it has one."""
     piece, nu = placed.piece, key.kind.order
+    if key.kind.is_driven:
+        taken = along(cycle.in_si.drive, piece, (placed.start, placed.stop))
+        if key.kind is Kind.POWER:
+            return max(taken.powers), None
+        return taken.peak_force if key.kind is Kind.FORCE else taken.parts.greatest(taken.use)
     if placed.moves and not is_optimal(placed.stretch.given):
         if not isfinite(piece.law.peak(nu).value):
             return inf, piece.start + piece.law.peak(nu).k * piece.duration
-        jump = jump_beside(piece, pieces, period) if nu >= _JERK else None
+        jump = jump_beside(piece, pieces, cycle.duration) if nu >= _JERK else None
         if jump is not None:
             return inf, jump
     (low, first), (high, last) = placed.ends(nu)
@@ -317,16 +299,6 @@ def _greatest(placed: SegmentPeaks, key: Side, pieces: Sequence[Piece], period: 
         return 0.0 if still else value, time
     before, after = sorted([(first, abs(low)), (last, abs(high))])
     return (before if is_kept(after[1], before[1]) else after)[::-1]
-
-
-def _greatest_of_drive(placed: SegmentPeaks, kind: Kind, drive: Drive | None) -> tuple[float, float | None]:
-    """The greatest force or power in a segment, or share of the motor's curve of torque over speed."""
-    taken = along(drive, placed.piece, (placed.start, placed.stop))
-    if kind is Kind.POWER:
-        return max(taken.powers), None
-    if kind is Kind.FORCE:
-        return taken.peak_force
-    return taken.parts.greatest(taken.use)
 
 
 def _of_whole(plan: Plan, limited: Cycle) -> Iterator[LimitTaken]:

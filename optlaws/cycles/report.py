@@ -193,21 +193,17 @@ class CycleReport:
         return motion_panel(self.plan.pieces, nu, unit or self.unit(nu), extremes, limits)
 
     def _driven(self, function: Callable[[Array], Array]) -> Series:
-        """Force or power through the peak of the force, and its kinks."""
+        """Force or power through the peak of the force, and its kinks, at times as for a derivative."""
         plan = self.plan
-        times, values = self._samples_of_drive(function, _EACH)
-        marks = np.array([plan.effort.peak_force_at])
-        times, (values,) = refined(times, [values], [lambda inside: np.asarray(function(inside))], marks)
-        return Series(times, values)
-
-    def _samples_of_drive(self, function: Callable[[Array], Array], count: int) -> tuple[Array, Array]:
-        """Times and values of the drive's force or power, in the same form as for a derivative."""
-        pieces = self.plan.pieces
-        times = [times_in(piece, count) for piece in pieces]
+        times = [times_in(piece, _EACH) for piece in plan.pieces]
         # the end of a piece has its values, not those of the next
-        ends = [piece.stop - INSIDE_PIECE * self.plan.duration for piece in pieces]
+        ends = [piece.stop - INSIDE_PIECE * plan.duration for piece in plan.pieces]
         values = [function(np.minimum(inside, end)) for inside, end in zip(times, ends, strict=True)]
-        return np.concatenate(times), np.concatenate(values)
+        marks = np.array([plan.effort.peak_force_at])
+        at, (drawn,) = refined(
+            np.concatenate(times), [np.concatenate(values)], [lambda inside: np.asarray(function(inside))], marks
+        )
+        return Series(at, drawn)
 
     @kept_property
     def data(self) -> dict[str, Any]:
