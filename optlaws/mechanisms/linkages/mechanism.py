@@ -184,16 +184,14 @@ class Mechanism(Declared, title="a mechanism"):
     def _check_over(self, low: float, high: float) -> None:
         """Refuse formulas without a finite value between two positions, and an inertia that is below 0 there."""
         for what, formula in (("inertia", self.inertia_formula), ("load", self.load_formula)):
-            pole = without_value(formula, low, high)
-            if pole is not None:
+            if (pole := without_value(formula, low, high)) is not None:
                 place = self._shown(pole)
                 raise InputError(
                     f"the {what} has no finite value at {place}: take a range in over= without that position"
                 )
-        if sign_over(self.inertia_formula, low, high)[0] > 0:
-            return
-        known = extremes_over(self.inertia_formula, low, high)
-        if known.least < -VALUE_ROUNDING * known.peak:
+        is_positive = sign_over(self.inertia_formula, low, high)[0] > 0
+        known = None if is_positive else extremes_over(self.inertia_formula, low, high)
+        if known is not None and known.least < -VALUE_ROUNDING * known.peak:
             raise InputError(
                 f"the inertia must be at least 0, and it is {known.least:.6g} at {self._shown(known.least_at)}: check "
                 "its signs"

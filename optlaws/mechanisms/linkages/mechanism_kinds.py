@@ -6,7 +6,7 @@ Functions, files, forms and errors are made from the entries of a kind.
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import KW_ONLY, dataclass
 from functools import wraps
 from importlib import import_module
@@ -294,13 +294,11 @@ class MechanismKind(Kinded, ABC, title="a mechanism"):
 
     @classmethod
     def kinds(cls) -> dict[str, type[Self]]:
-        """The kinds of mechanisms by their names in problem files, those of linkages among them."""
         import_module(f"{__package__}.plane_linkages")
         return dict(sorted(super().kinds().items()))
 
     @classmethod
     def form(cls) -> dict[str, Any]:
-        """Its entries as a form shows them, friction last."""
         shown = super().form()
         if cls.kind:
             shown["entries"].sort(key=lambda each: each["name"] in {"coulomb", "viscous"})
@@ -313,15 +311,14 @@ class MechanismKind(Kinded, ABC, title="a mechanism"):
 
     def _mechanism(
         self,
-        inertia: Iterable[Formula],
-        load: Iterable[Formula],
+        inertia: list[Formula],
+        load: list[Formula],
         over: tuple[float, float] | None,
         linkage: LinkGeometry,
     ) -> Mechanism:
         """A mechanism whose input turns, of the terms of its inertia and load."""
         friction, name = {"coulomb": self.coulomb, "viscous": self.viscous}, self.kind.replace(" ", "-")
-        terms = added(list(inertia)), added(list(load))
-        return Mechanism(*terms, **friction, over=over, axis="angle", name=name, linkage=linkage)
+        return Mechanism(added(inertia), added(load), **friction, over=over, axis="angle", name=name, linkage=linkage)
 
 
 class MechanismTable(Mechanism, MechanismKind, kind="table"):

@@ -48,7 +48,7 @@ _ENTRIES = ("dimension", "unit", "move", "drive_limit")
 _DIGITS = 6
 
 
-def _source(value: Any) -> Any:
+def _driven(value: Any) -> Any:
     if not isinstance(value, tuple(MOVED.values())):
         raise InputError(f"it must be a mechanism or a drive, got {shortened(value)}")
     return value
@@ -70,7 +70,7 @@ class LimitedMove(Declared, title="a move with its limits"):
 
     writes_defaults = True
 
-    driven: Any = entry(ReadBy(_source, "a mechanism or a drive", lambda moved: moved.to_dict()), "What moves.")
+    driven: Any = entry(ReadBy(_driven, "a mechanism or a drive", lambda moved: moved.to_dict()), "What moves.")
     minimise: DriveObjective = entry(Choice(*get_args(DriveObjective)), "Of what a limit is computed.")
     start: float = entry(Number(), "Where the input begins.")
     stroke: float = entry(Number(), "How far it moves.")
@@ -108,18 +108,12 @@ class LimitedMove(Declared, title="a move with its limits"):
 
     @classmethod
     def json_schema(cls) -> dict[str, Any]:
-        """The JSON Schema of the move, and of a mechanism or a drive that moves."""
         schema = super().json_schema()
-        moved = schema["properties"].pop("driven")
-        properties = {**dict.fromkeys(MOVED, moved), **schema["properties"]}
-        return {
-            **schema,
-            "properties": properties,
-            "required": [name for name in schema["required"] if name != "driven"],
-        }
+        schema["required"].remove("driven")
+        moved = dict.fromkeys(MOVED, schema["properties"].pop("driven"))
+        return {**schema, "properties": moved | schema["properties"]}
 
     def to_dict(self) -> dict[str, Any]:
-        """The move and what it moves as plain data."""
         plain = super().to_dict()
         moved = {self.kind: plain.pop("driven")}
         return moved | {name: value for name, value in plain.items() if name not in self._unused}
@@ -190,7 +184,6 @@ class MoveLimit(Declared, title="the limit of a move"):
         return f"{self.minimise} at least {self.value:.{_DIGITS}g} {self.dimension}"
 
     def to_dict(self) -> dict[str, Any]:
-        """The limit, its move and its certificate as plain data."""
         plain = {"dimension": self.dimension, "unit": self.unit, **super().to_dict()}
         return {name: plain[name] for name in _ENTRIES}
 
@@ -265,39 +258,24 @@ def limits_of_input(limits: Mapping[str, Any] | None, axis: InputAxis) -> dict[s
 
 
 class PhaseMove:
-    """A move without dimensions, within its limits and those of its motor.
-
-    Attributes
-    ----------
-    over
-        The torque over the stroke, with the units of its numbers; for the least time its duration is a unit alone.
-    most
-        The greatest velocity and acceleration of the mechanism's input, in SI units.
-    torques
-        Pairs of a torque at rest and by how much less it is with the velocity of the input.
-    windows
-        Bounds over parts of the way: what is bounded, from where to where as shares of the stroke, and the bound.
-    dimension
-        That of the torque, or force: "N m" or "N".
-
-    Raises
-    ------
-    InputError
-        If a limit is wrong, or the part of the way of one is not within the stroke.
-    """
+    """A move without dimensions, within its limits and those of its motor."""
 
     def __init__(self, move: LimitedMove) -> None:
         is_drive = move.kind == "drive"
         drive = move.driven if is_drive else MOVED["drive"].of_input(move.driven, move.recovered)
         self.minimise, self.heat = move.minimise, move.heat
+        #: for the least time its duration is a unit alone
         self.over: StrokeTorque = drive.dimensionless(
             move.start, move.stroke, duration_of(move.minimise, move.duration)
         )
         axis = drive.mechanism.axis
         self.dimension = "N m" if axis == "angle" else "N"
+        #: of the mechanism's input, in SI units
         self.most = {"velocity": drive.motor.greatest_speed / drive.ratio, "acceleration": inf}
         lines = [] if move.minimise == "peak torque" else drive.motor.peak_lines
+        #: pairs of a torque at rest and by how much less it is with the velocity of the input
         self.torques = [(top, fall * drive.ratio) for top, fall in lines]
+        #: what is bounded, from where to where as shares of the stroke, and the bound
         self.windows: list[tuple[str, float, float, float]] = []
         for name, of in limits_of_input(dict(move.limits), axis).items():
             if isinstance(of, list):
