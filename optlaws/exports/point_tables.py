@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from functools import partial
 from itertools import pairwise
 from math import inf, isfinite
-from typing import NamedTuple
 
 import numpy as np
 
@@ -242,28 +241,17 @@ def best(motion: Motion, make: Callable[[int], PointTable], least: int, most: in
     top = min(tried, key=lambda count: tried[count][0])
     near = np.linspace(max(least, top / _RATIO), min(most, top * _RATIO), 2 * _NEAR + 1)
     attempt({int(guess) for guess in near})
-    return tried[_fewest({count: rank for count, (rank, _) in tried.items()})][1]
+    # those that are as good as any, one criterion after the other
+    as_good = {count: rank for count, (rank, _) in tried.items()}
+    for criterion in range(3):
+        lowest = min(rank[criterion] for rank in as_good.values())
+        allowed = lowest * (1.0 + _AS_GOOD) if criterion < 2 else lowest + _AS_GOOD
+        as_good = {count: rank for count, rank in as_good.items() if rank[criterion] <= allowed}
+    return tried[min(as_good)][1]
 
 
-class Rank(NamedTuple):
-    """The quality of an executed motion; every value is at least the law's own.
-
-    How far it is off, over what it may be; its peak over the law's; what it jumps further, over the law's peak.
-    """
-
-    off: float
-    peak: float
-    jump: float
-
-
-def _fewest(ranks: dict[int, Rank]) -> int:
-    """The least number of points of those that are as good as any, one criterion after the other."""
-    nearest = min(rank.off for rank in ranks.values()) * (1.0 + _AS_GOOD)
-    near = {count: rank for count, rank in ranks.items() if rank.off <= nearest}
-    lowest = min(rank.peak for rank in near.values()) * (1.0 + _AS_GOOD)
-    low = {count: rank.jump for count, rank in near.items() if rank.peak <= lowest}
-    smoothest = min(low.values()) + _AS_GOOD
-    return min(count for count, jump in low.items() if jump <= smoothest)
+#: of a run: how far it is off over what it may be, its peak over the law's, and what it jumps further over that peak
+Rank = tuple[float, float, float]
 
 
 def _rank(motion: Motion, table: PointTable) -> Rank:
@@ -277,19 +265,17 @@ def _rank(motion: Motion, table: PointTable) -> Rank:
     slopes = np.asarray(np.polynomial.polynomial.polyder(powers, nu, axis=1), dtype=np.float64)
     sized = slopes * steps[:, None] ** np.arange(slopes.shape[1])
     first, last = slopes[:, 0], sized.sum(axis=1)
-    jump, at_ends = (
-        float(np.abs(first[1:] - last[:-1]).max(initial=0.0)),
-        _change(motion, float(first[0]), float(last[-1])),
-    )
+    jump = float(np.abs(first[1:] - last[:-1]).max(initial=0.0))
+    at_ends = _change(motion, float(first[0]), float(last[-1]))
     if nu == 1:
-        return Rank(off, 1.0 + max(jump, at_ends) / motion.peak(1), 0.0)
+        return off, 1.0 + max(jump, at_ends) / motion.peak(1), 0.0
     beyond = max(jump - motion.jump(2)[0], 0.0) + max(at_ends - _change(motion, *motion.ends(2)), 0.0)
     if powers.shape[1] <= 4:  # straight between points
         peak = float(max(np.abs(first).max(), np.abs(last).max()))
     else:
         control = bernstein.from_powers(sized)
         peak = bernstein.top(np.concatenate([control, -control])).value
-    return Rank(off, max(peak / highest, 1.0), beyond / highest)
+    return off, max(peak / highest, 1.0), beyond / highest
 
 
 def _change(motion: Motion, first: float, last: float) -> float:

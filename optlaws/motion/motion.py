@@ -175,7 +175,18 @@ def motion_of_law(
     master: Quantity | None = None,
     start: Quantity | None = None,
 ) -> Motion:
-    """The motion of a law with the stroke 1 from rest to rest, by quantities as `MotionLaw.export` takes them.
+    """The motion of a law with the stroke 1, a single stroke from rest to rest.
+
+    Parameters
+    ----------
+    stroke
+        How far the slave moves, such as "35 mm", "-20 deg": positions are in its unit.
+    duration
+        How long it takes, such as "0.1 s".
+    master
+        How far the master goes meanwhile, such as "120 deg"; without it the master is time in seconds.
+    start
+        Position of the slave at the start; 0 unless given.
 
     >>> from optlaws import smoothstep
     >>> motion_of_law(smoothstep(3), stroke="90 deg", duration="400 ms").peak(1)
