@@ -183,19 +183,11 @@ class PiecewiseMotion:
         return PiecewiseMotion(breaks, [row.tolist() for row in rows])
 
     def deviation(self, motion: Derivatives | PiecewiseMotion, nu: int = 0, breaks: Sequence[float] = ()) -> Extreme:
-        """The greatest magnitude of the difference to another motion, over the whole interval.
+        """The greatest magnitude of the difference of a derivative to another motion, over the whole interval.
 
-        Of two piecewise motions it is that of a polynomial, to rounding. Of a function it is an estimate: where series
-        through its values at places resolve it, nothing is proven of what it does between them.
-
-        Parameters
-        ----------
-        motion
-            Another piecewise motion over the same interval, or a function of places and of an order nu.
-        nu
-            Order of the derivative that is compared.
-        breaks
-            Where a function is not smooth, in addition to the breaks of this motion.
+        Of two piecewise motions it is that of a polynomial, to rounding. Of a function of places and of an order it is
+        an estimate: where series through its values at places resolve it, nothing is proven of what it does between
+        them; where it is not smooth, `breaks` say.
 
         Raises
         ------
@@ -280,23 +272,19 @@ class PiecewiseMotion:
     def _top(self, nu: int, sign: float) -> Extreme:
         table = self.powers(nu)
         control = bernstein.from_powers(table * self.lengths[:, None] ** np.arange(table.shape[1]))
-        highest = bernstein.top(sign * control)
-        low, length = self.breaks[highest.row], float(self.lengths[highest.row])
-        if highest.u in {0.0, 1.0}:
-            return Extreme(highest.value, self.breaks[highest.row + int(highest.u)])
-        return Extreme(highest.value, low + length * self._stationary(highest.row, highest.u * length, nu))
-
-    def _stationary(self, row: int, s: float, nu: int) -> float:
-        """The place near one found by halving where the derivative is stationary, as a share of the piece."""
+        value, _, row, u = bernstein.top(sign * control)
+        if u in {0.0, 1.0}:
+            return Extreme(value, self.breaks[row + int(u)])
+        # the place near that found by halving where the derivative is stationary
         length = float(self.lengths[row])
-        slope, bend = (self.powers(nu + further)[row] for further in (1, 2))
+        s, slope, bend = u * length, self.powers(nu + 1)[row], self.powers(nu + 2)[row]
         for _ in range(_STEPS):
             steepness, curvature = float(_horner(slope, s)), float(_horner(bend, s))
             step = steepness / curvature if curvature else 0.0
             if abs(step) > POLISHING_REACH * length or not 0.0 <= s - step <= length:
                 break
             s -= step
-        return s / length
+        return Extreme(value, self.breaks[row] + length * (s / length))
 
 
 def _horner(table: Array, x: Any) -> Any:
