@@ -40,13 +40,12 @@ from optlaws.tolerances import CLOSURE, INSIDE_PIECE, JUMP, STORED_VALUE
 
 TransitionKind = Literal["run-in", "run-out"]
 _POSITIVE, _NUMBER = Number(above=0.0), Number()
-_UNITS = {axis: unit for unit, axis in AXES.items()}
 _REST = State(0.0, 0.0)
 _DEGREE = 15  # of Z at least, as of the motions of cycles whose ends move
 
 
 def _axis(value: Any) -> str:
-    check_names([value], [*AXES, *_UNITS], "unit of positions")
+    check_names([value], [*AXES, *AXES.values()], "unit of positions")
     return str(AXES.get(value, value))
 
 
@@ -73,9 +72,7 @@ class TransitionCam(MovePlan, Declared, title="a transition cam"):
     kind: TransitionKind = entry(
         Choice(*get_args(TransitionKind)), "From rest into the cycle, or from the cycle to rest."
     )
-    axis: str = entry(
-        ReadBy(_axis, '"m" or "rad"', _UNITS.__getitem__), 'Positions are a "length" or an "angle".', name="unit"
-    )
+    axis: str = entry(ReadBy(_axis, '"m" or "rad"', unit_of), 'Positions are a "length" or an "angle".', name="unit")
     period: float = entry(_POSITIVE, "Of the cycle, s.")
     at: float = entry(_NUMBER, "The time in the cycle at which it meets the cycle, s.")
     rest: float = entry(_NUMBER, "The position of rest, m or rad.")
@@ -310,7 +307,7 @@ def transition_cam(
         end_jerk=sign * jerk if of_motion.order > 3 else 0.0,
     )
     least = least_time(move)
-    return cam(least.duration, least.solution, FastestMove(least, _UNITS[axis]))
+    return cam(least.duration, least.solution, FastestMove(least, unit_of(axis)))
 
 
 def _state(

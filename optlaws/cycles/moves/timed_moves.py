@@ -27,6 +27,7 @@ from optlaws.entries.declared import Declared, ValueOf, declared, entry
 from optlaws.entries.value_types import Either, Listed, Measured, Number, is_list
 from optlaws.errors import InputError
 from optlaws.mechanisms.drives.drive_train import Drive
+from optlaws.motion.piece import unit_of
 from optlaws.motion.quantities import Kind, either, quantity
 from optlaws.numbers import NumberOrQuantity, Quantity, listed
 from optlaws.sentences import sentence
@@ -200,25 +201,15 @@ def _timed(
     )
     forward = Kind.VELOCITY_ALONG in allowed or torque is not None
     space = replace(problem, monotone=True) if forward else problem
-    unit = next(unit for unit, axis in AXES.items() if axis == dimension)
     if DECELERATION in entries and is_list(entries.get("acceleration")):
         raise InputError("limits: the acceleration is a pair, so that deceleration is given twice")
-    return TimedMove(space, far, move_limits(sides(allowed, 1.0), 1.0, dimension), first, last, torque, residual), unit
+    return TimedMove(
+        space, far, move_limits(sides(allowed, 1.0), 1.0, dimension), first, last, torque, residual
+    ), unit_of(dimension)
 
 
 def move_limits(limits: Mapping[Side, float], direction: float, axis: str) -> MoveLimits:
-    """The limits of a move in a direction, of which that of the acceleration alone may have two sides.
-
-    Raises
-    ------
-    InputError
-        If another has.
-
-    Examples
-    --------
-    >>> move_limits({Side(Kind.ACCELERATION, -1.0, "acceleration"): 8.0, Side(Kind.JERK): 300.0}, -1.0, "length")
-    MoveLimits(velocity=None, acceleration=8.0, deceleration=None, jerk=300.0, snap=None)
-    """
+    """The limits of a move in a direction; an `InputError` where one but that of the acceleration has two sides."""
     for key, most in limits.items():
         alone = key.kind in {Kind.ACCELERATION, Kind.VELOCITY_ALONG}
         if key.sign and not alone and greatest(limits, key.kind, -key.sign) != most:
