@@ -15,6 +15,7 @@ from optlaws.echo import shortened, unknown_key
 from optlaws.errors import InputError
 from optlaws.files.reading import entries_of, of_known_format
 from optlaws.laws import MotionLaw
+from optlaws.lazy import imported
 from optlaws.mechanisms.linkages.move_limit import MoveLimit
 from optlaws.numbers import listed, real
 from optlaws.synthesis.limits.drive_limits import DriveLimit
@@ -220,7 +221,16 @@ def _plan(data: Mapping[str, Any]) -> Verification:
         if not isinstance(solution, Mapping) or kind_of(solution) != "solution":
             raise InputError(f"{place} is no solution with its problem, its law and its certificate")
         check_keys(solution)
-    return plan_of_cycle(data, {place: _solution(solution) for place, solution in solutions.items()})
+    read = imported("optlaws.cycles.cycle").Plan.from_dict
+    return plan_of_cycle(lambda: read(data), lambda _: {place: _solution(each) for place, each in solutions.items()})
+
+
+def _fastest_cycle(data: Mapping[str, Any]) -> Verification:
+    read = imported("optlaws.cycles.fastest_cycle").FastestCycle.from_dict
+    checked = plan_of_cycle(lambda: read(data), lambda fastest: verify_all(fastest.claims()) if fastest else {})
+    detail = "that they are those of the cycle, in a millionth less than their times, is not computed again"
+    motions = Claim("the motions of the proofs", proven=False, detail=detail, checked=False)
+    return replace(checked, unchecked=(*checked.unchecked, motions))
 
 
 def _law_alone(data: Mapping[str, Any]) -> Verification:
@@ -472,6 +482,7 @@ _VERIFIED: Mapping[str | None, Callable[[Mapping[str, Any]], Verification]] = {
     "time front": _time_front,
     "overlap": overlap_of_axes,
     "plan": _plan,
+    "fastest cycle": _fastest_cycle,
     "solution": _solution,
     "law": _law_alone,
     "certificate": _certificate,

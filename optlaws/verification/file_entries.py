@@ -52,6 +52,7 @@ _KINDS = (
     ("time front", {"minimise", "fastest", "points"}),
     ("overlap", {"goal", "axes", "given"}),
     ("plan", {"cycle", "solutions"}),
+    ("fastest cycle", {"given", "cycle", "proofs"}),
     ("solution", {"problem", "law", "certificate"}),
     ("law", {"law", "constants"}),
     ("certificate", {"problem", "contacts"}),

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import pairwise
@@ -250,16 +250,17 @@ def _shown(value: Fraction | None) -> str:
     return "nothing" if value is None else repr(float(value))
 
 
-def plan_of_cycle(data: Mapping[str, Any], solutions: Mapping[str, Verification]) -> Verification:
-    """Check the laws of a plan, each by itself, and that they are those of its cycle, computed again from the cycle."""
+def plan_of_cycle(read: Callable[[], Any], parts: Callable[[Any], Mapping[str, Verification]]) -> Verification:
+    """Check the parts of a plan, each by itself, and that its laws are those of its cycle, computed again from it."""
+    plan = None
     try:
-        plan = imported("optlaws.cycles.cycle").Plan.from_dict(data)
-        wrong = plan.contradiction()
+        plan = read()
+        wrong = plan.solve().contradiction()
         detail = wrong or f"they meet its joints and keep its limits, in doubles; status {plan.status.value}"
     except OptlawsError as error:
         wrong = detail = str(error)
     claim = Claim("the laws of the cycle", proven=False, detail=detail, checked=bool(wrong))
-    named = [(f"{place}: ", each) for place, each in solutions.items()]
+    named = [(f"{place}: ", each) for place, each in parts(plan).items()]
     claims, unchecked = (
         [replace(claim, name=place + claim.name) for place, each in named for claim in getattr(each, kind)]
         for kind in ("claims", "unchecked")

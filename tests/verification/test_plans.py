@@ -59,3 +59,17 @@ def test_what_is_no_solution_of_a_plan_is_named(plan: dict[str, Any]) -> None:
         verify(changed(plan, ("solutions", 1), plan["cycle"]))
     fewer = verify(changed(plan, ("solutions",), plan["solutions"][:1]))
     assert "2 optimised motions, got 1 solutions" in str([claim for claim in fewer.claims if not claim.proven])
+
+
+def test_a_fastest_cycle_is_proven_by_its_certificates() -> None:
+    limits = {"acceleration": "20 m/s^2", "jerk": "2000 m/s^3"}
+    moves = [Rise("35 mm", "120 deg"), Dwell("60 deg"), Return()]
+    data = json.loads(Cycle(moves, speed="60 rpm", limits=limits).fastest().to_json())
+    verification = verify(data)
+    assert verification.proven
+    assert {claim.name.split(":")[0] for claim in verification.claims} == {f"{name}.proof" for name in data["proofs"]}
+    assert [claim.name for claim in verification.unchecked] == ["the laws of the cycle", "the motions of the proofs"]
+    (name, proof), *_ = data["proofs"].items()
+    weak = changed(data, ("proofs", name, "contacts"), proof["contacts"][1:])
+    for wrong in (changed(data, ("period",), 2.0 * data["period"]), weak):
+        assert not verify(wrong).proven
