@@ -309,7 +309,8 @@ def sign_over(formula: Formula, low: float, high: float) -> tuple[int, float]:
         starts, stops = ends[:-1].ravel(), ends[1:].ravel()
         middles = 0.5 * (starts + stops)
         cells = between(np.append(middles, starts), np.append(middles, stops))
-        value, slope = formula_jet(formula, "x", variable(cells, 1)).terms
+        with np.errstate(all="ignore"):
+            value, slope = formula_jet(formula, "x", variable(cells, 1)).terms
         count, steps = len(starts), between(starts, stops) - exact(middles)
         # of the mean value, and of the values themselves
         known = [value[:count] + slope[count:] * steps, value[count:]]
