@@ -14,7 +14,7 @@ from optlaws.cycles.moves.fastest_move import limit_row
 from optlaws.cycles.optimisation.objectives import check_rating
 from optlaws.cycles.placed import retimed_segments, segments_in_place
 from optlaws.cycles.specification.limits import FORCE_UNITS, amount, word_of
-from optlaws.entries.declared import Declared, ValueOf, declared, entry
+from optlaws.entries.declared import Declared, FrozenTable, ValueOf, declared, entry
 from optlaws.entries.value_types import Listed, Number, ReadBy, Switch, Table, Text
 from optlaws.errors import InputError
 from optlaws.files.reading import check_names
@@ -146,7 +146,7 @@ class FastestCycle(Answers, Declared, title="a fastest cycle"):
         Listed(Text()), "What has no time left, each with the limits that it takes to the full."
     )
     proofs: Mapping[str, Certificate] = entry(
-        Table(ValueOf(Certificate)),
+        Table(ValueOf(Certificate), keep=FrozenTable),
         "By the name of a motion: no law keeps its limits in a millionth less time than the motion has.",
     )
     _raised: Mapping[str, Callable[[], float]] | None = field(default=None, compare=False, repr=False)
