@@ -44,12 +44,12 @@ from .mechanisms.drives.effort import (
     SegmentEffort as SegmentEffort,
 )
 from .mechanisms.linkages.mechanism_kinds import DrivenLink as DrivenLink, LoadPlace as LoadPlace
-from .mechanisms.linkages.dimensionless import (
+from .mechanisms.linkages.mechanism_formulas import (
     LinearForce as LinearForce,
     StrokeTorque as StrokeTorque,
     Train as Train,
 )
-from .mechanisms.linkages.entries import InputAxis as InputAxis, TableKind as TableKind
+from .mechanisms.linkages.mechanism_formulas import InputAxis as InputAxis, TableKind as TableKind
 from .mechanisms.linkages.plane_linkages import FourBarBranch as FourBarBranch
 from .mechanisms.linkages.mechanism import LinkGeometry as LinkGeometry
 from .mechanisms.linkages.move_limit import LimitedMove as LimitedMove

@@ -18,7 +18,7 @@ from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.mechanisms.drives.effort import PieceEffort
-from optlaws.mechanisms.linkages.dimensionless import LinearForce
+from optlaws.mechanisms.linkages.mechanism_formulas import LinearForce
 from optlaws.motion.piece import Piece
 from optlaws.motion.quantities import TURN, either
 from optlaws.numbers import Array, Quantity, finite, number_or_array, real_times

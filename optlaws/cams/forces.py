@@ -25,8 +25,7 @@ from optlaws.formulas.arithmetic import pieces
 from optlaws.formulas.slopes import added, multiplied
 from optlaws.formulas.tree import Formula, Name, Table, number, rebuilt, table_places
 from optlaws.kept import kept_property
-from optlaws.mechanisms.linkages.dimensionless import LinearForce
-from optlaws.mechanisms.linkages.entries import TableKind, formula_of, rescaled, table_numbers
+from optlaws.mechanisms.linkages.mechanism_formulas import LinearForce, TableKind, formula_of, rescaled, table_numbers
 from optlaws.motion.quantities import TURN, in_degrees, positive_quantity, quantity
 from optlaws.motion.smooth_stretches import jet_of_parts
 from optlaws.numbers import Array, Quantity, number_or_array, real_times

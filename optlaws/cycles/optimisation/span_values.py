@@ -47,7 +47,7 @@ from optlaws.synthesis.solve import synthesize
 if TYPE_CHECKING:
     from optlaws.mechanisms.drives.drive_train import Drive
     from optlaws.mechanisms.drives.effort import PieceEffort
-    from optlaws.mechanisms.linkages.dimensionless import LinearForce, StrokeTorque
+    from optlaws.mechanisms.linkages.mechanism_formulas import LinearForce, StrokeTorque
 
 PEAKS = {Kind.VELOCITY: "B", Kind.ACCELERATION: "C", Kind.JERK: "J", Kind.SNAP: "snap"}
 _MEANS = {Kind.ACCELERATION: "rms_c", Kind.JERK: "rms_j", Kind.SNAP: "rms_snap"}
@@ -290,7 +290,7 @@ class DrivenSpan:
 
     def energy(self) -> SpanValue:
         """The energy: at least the work along the stroke, of which no more than a share comes back."""
-        from optlaws.mechanisms.linkages.dimensionless import recovering
+        from optlaws.mechanisms.linkages.mechanism_formulas import recovering
 
         drive, stroke = self.drive, self.span.stroke
         force = self.force  # a span that may turn back is refused as it is for forces

@@ -14,9 +14,16 @@ from optlaws.errors import InputError, located
 from optlaws.formulas.slopes import added, derivative, multiplied
 from optlaws.formulas.tree import Name, Table, number, substituted
 from optlaws.mechanisms.drives.drive_train import Drive
-from optlaws.mechanisms.linkages.dimensionless import LinearForce
-from optlaws.mechanisms.linkages.entries import DIMENSIONS, JOINED, OverPlace, TableKind, formula_of, rescaled
 from optlaws.mechanisms.linkages.mechanism import Mechanism, loaded
+from optlaws.mechanisms.linkages.mechanism_formulas import (
+    DIMENSIONS,
+    JOINED,
+    LinearForce,
+    OverPlace,
+    TableKind,
+    formula_of,
+    rescaled,
+)
 from optlaws.motion.quantities import TURN
 from optlaws.tolerances import CLOSURE
 

@@ -17,9 +17,8 @@ from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw, smoothstep
 from optlaws.mechanisms.drives.effort import BestRatio, DriveSheet, PieceEffort, TorqueByRatio
 from optlaws.mechanisms.drives.motor import NO_MOTOR, Motor
-from optlaws.mechanisms.linkages.dimensionless import LinearForce, StrokeTorque, Train
-from optlaws.mechanisms.linkages.entries import MOVED
 from optlaws.mechanisms.linkages.mechanism import Mechanism
+from optlaws.mechanisms.linkages.mechanism_formulas import MOVED, LinearForce, StrokeTorque, Train
 from optlaws.mechanisms.linkages.mechanism_kinds import MECHANISM
 from optlaws.motion.piece import Piece, named_law
 from optlaws.motion.quantities import check_scale, si_number

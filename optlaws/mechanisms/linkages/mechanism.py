@@ -20,13 +20,15 @@ from optlaws.formulas.branches import smooth_itself
 from optlaws.formulas.slopes import added
 from optlaws.formulas.tree import Formula, Name, Table
 from optlaws.kept import kept_property
-from optlaws.mechanisms.linkages.dimensionless import LinearForce, StrokeTorque, dimensionless
-from optlaws.mechanisms.linkages.entries import (
+from optlaws.mechanisms.linkages.mechanism_formulas import (
     DIMENSIONS,
     FORMULA,
     MOVED,
     InputAxis,
+    LinearForce,
     OverPlace,
+    StrokeTorque,
+    dimensionless,
     extremes_over,
     formula_of,
     line_of,

@@ -24,8 +24,8 @@ from optlaws.files.reading import check_names
 from optlaws.formulas.slopes import added, derivative, multiplied
 from optlaws.formulas.tracing import Traced, traced
 from optlaws.formulas.tree import Exponentiation, Formula, Name, Number, number, substituted
-from optlaws.mechanisms.linkages.entries import OverPlace, TableKind, formula_of
 from optlaws.mechanisms.linkages.mechanism import LinkGeometry, Mechanism
+from optlaws.mechanisms.linkages.mechanism_formulas import OverPlace, TableKind, formula_of
 from optlaws.motion.quantities import TURN, either, quantity, si_number
 from optlaws.numbers import NumberOrQuantity, Quantity, finite, not_negative
 from optlaws.tolerances import WAVE_ROUNDING

@@ -28,8 +28,7 @@ from optlaws.files.reading import entries_of
 from optlaws.formulas.reading import read
 from optlaws.formulas.slopes import scaled
 from optlaws.kept import kept_property
-from optlaws.mechanisms.linkages.dimensionless import StrokeTorque
-from optlaws.mechanisms.linkages.entries import DIMENSIONS, MOVED, InputAxis, duration_of
+from optlaws.mechanisms.linkages.mechanism_formulas import DIMENSIONS, MOVED, InputAxis, StrokeTorque, duration_of
 from optlaws.numbers import NumberOrQuantity, positive
 from optlaws.synthesis.limits.drive_limits import (
     LONG,

@@ -15,8 +15,8 @@ from optlaws.errors import InputError
 from optlaws.formulas.arithmetic import NUMPY, evaluate
 from optlaws.formulas.tracing import Traced
 from optlaws.formulas.tree import Formula, Name
-from optlaws.mechanisms.linkages.entries import extremes_over, sign_over
 from optlaws.mechanisms.linkages.mechanism import LinkGeometry, Mechanism
+from optlaws.mechanisms.linkages.mechanism_formulas import extremes_over, sign_over
 from optlaws.mechanisms.linkages.mechanism_kinds import (
     LENGTH,
     NO_LOADS,
