@@ -169,8 +169,18 @@ class TransitionCam(MovePlan, Declared, title="a transition cam"):
         >>> [f"{row.name} {row.text(5)} {row.unit}" for row in facts[:3]]
         ['master -30 to 90 deg', 'time 0.33333 s', 'status optimal ']
         """
+        data = {
+            "kind": self.kind,
+            "master": list(self.master),
+            "duration": self.duration,
+            "rest": self.rest,
+            "status": self.status.value,
+            "none_below": None if self.least is None else self.least.none_below,
+            **{name: self.peak(nu) for nu, name in enumerate(QUANTITIES) if nu},
+            "jumps": self.jumps,
+        }
         segments = (ReportSegment(self.kind, 0.0, self.duration),)
-        return PlainReport(self._facts(), (), panels_of(self.piece, self.axis, {}), self._data, segments)
+        return PlainReport(self._facts(), (), panels_of(self.piece, self.axis, {}), lambda: data, segments)
 
     def _facts(self) -> Summary:
         rows = [Row("master", self.master, "deg"), Row("time", self.duration, "s"), Row("status", self.status.value)]
@@ -189,18 +199,6 @@ class TransitionCam(MovePlan, Declared, title="a transition cam"):
         for nu, (name, jump) in enumerate(self.jumps.items()):
             rows.append(Row(f"jump of {name} where they meet", jump, unit_of(self.axis, nu)))
         return Summary(rows, "s")
-
-    def _data(self) -> dict[str, Any]:
-        return {
-            "kind": self.kind,
-            "master": list(self.master),
-            "duration": self.duration,
-            "rest": self.rest,
-            "status": self.status.value,
-            "none_below": None if self.least is None else self.least.none_below,
-            **{name: self.peak(nu) for nu, name in enumerate(QUANTITIES) if nu},
-            "jumps": self.jumps,
-        }
 
     def to_dict(self) -> dict[str, Any]:
         """Plain JSON-able dict in SI units, with the law and its proof."""
@@ -289,7 +287,7 @@ def transition_cam(
     limits = stretch(period, period).sides(of_motion.limits)
     if not limits:
         raise InputError("nothing limits the least time: give the cycle limits, or say the time or angle as `over`")
-    if any(key.kind.is_driven for key in limits):
+    if not all(key.kind.order for key in limits):
         raise InputError("the least time is sought within limits of the motion, not of a drive: give `over`")
     sign = 1.0 if moved > 0.0 else -1.0
     problem = Problem(
