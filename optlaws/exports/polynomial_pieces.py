@@ -290,16 +290,11 @@ def iec_heading(title: str, motion: Motion, run: PiecewiseMotion, notes: Sequenc
     return iec_comment((title, *program_heading(run, labels_of(motion, notes), []), MARK))
 
 
-def jumps_of_single(run: PiecewiseMotion) -> tuple[float, ...]:
-    """The greatest jumps of velocity, acceleration and jerk where polynomials meet, for the rounding of REAL32."""
-    return tuple(2.0 * bound for bound in error_bounds(run, SINGLE)[1:])
-
-
-def jumps_in_words(motion: Motion, jumps: tuple[float, ...]) -> str:
-    """The jumps of a motion in words."""
-    units = labels_of(motion)
+def jumps_of_single(motion: Motion, run: PiecewiseMotion) -> tuple[tuple[float, ...], str]:
+    """The greatest jumps of velocity, acceleration and jerk that REAL32 makes where polynomials meet, and in words."""
+    jumps, units = tuple(2.0 * bound for bound in error_bounds(run, SINGLE)[1:]), labels_of(motion)
     words = ", ".join(f"{rounded_up(jump)} {units.unit(nu)}" for nu, jump in enumerate(jumps, start=1))
-    return f"jumps at joints by at most {words} are roundings of REAL32"
+    return jumps, f"jumps at joints by at most {words} are roundings of REAL32"
 
 
 class Ends(NamedTuple):

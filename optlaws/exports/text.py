@@ -208,18 +208,22 @@ def iec_name(name: Any, target: str) -> str:
     Traceback (most recent call last):
     optlaws.errors.InputError: CODESYS takes no variable called 'press 1': letters, digits and single _ ...'press_1'
     """
-    why = _fault(name)
-    if why:
-        proposed = _proposed(name, _LONGEST)
-        raise InputError(f"{target} takes no variable called {shortened(name)}: {why}; take {proposed!r}")
-    return str(name)
+    if not isinstance(name, str) or not _PLAIN.fullmatch(name) or "__" in name or name.endswith("_"):
+        why = "letters, digits and single _ between them make a name, a digit does not begin it"
+    elif name.lower() in IEC_KEYWORDS:
+        why = "it is a keyword"
+    elif len(name) > _LONGEST:
+        why = f"it may have {_LONGEST} characters"
+    else:
+        return name
+    raise InputError(f"{target} takes no variable called {shortened(name)}: {why}; take {_proposed(name, _LONGEST)!r}")
 
 
 def c_name(name: Any) -> str:
     """The name of a function in C and C++, short enough for every compiler with what is added to it."""
     if isinstance(name, str) and _C_NAME.fullmatch(name) and name not in C_KEYWORDS and "__" not in name:
         return name
-    words = re.sub(r"[^A-Za-z0-9]+", "_", name if isinstance(name, str) else "").strip("_")
+    words = _RUNS.sub("_", name if isinstance(name, str) else "").strip("_")
     proposed = (words if words and words[0].isalpha() and words not in C_KEYWORDS else f"cam_{words}".rstrip("_"))[:31]
     raise InputError(
         f"C takes no name {shortened(name)}: letters, digits and single _, at most 31, no keyword; take {proposed!r}"
@@ -241,14 +245,6 @@ def variable_names(names: Iterable[str]) -> dict[str, str]:
         identifiers[name] = next(candidate for candidate in chain([plain], numbered) if candidate.lower() not in taken)
         taken.add(identifiers[name].lower())
     return identifiers
-
-
-def _fault(name: Any) -> str:
-    if not isinstance(name, str) or not _PLAIN.fullmatch(name) or "__" in name or name.endswith("_"):
-        return "letters, digits and single _ between them make a name, a digit does not begin it"
-    if name.lower() in IEC_KEYWORDS:
-        return "it is a keyword"
-    return f"it may have {_LONGEST} characters" if len(name) > _LONGEST else ""
 
 
 def _proposed(name: Any, longest: int) -> str:

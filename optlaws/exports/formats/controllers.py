@@ -19,7 +19,6 @@ from optlaws.exports.polynomial_pieces import (
     ends_of,
     iec_heading,
     jumping,
-    jumps_in_words,
     jumps_of_single,
     polynomials_for,
     refuse_jumps,
@@ -70,7 +69,7 @@ def _br(motion: Motion, request: Request) -> Written:
     slave = _br_period(scale * motion.advance, "slave", motion.units.slave, least=-_BR_LARGEST)
     fit = polynomials_for(motion, request, _BR_DEGREE, _BR_MOST)
     profile = _br_profile(fit.run, scale, master, slave)
-    roundings = jumps_of_single(fit.run)
+    roundings, rounded = jumps_of_single(motion, fit.run)
     # the motion that the drive runs, where the exact one lies and in its units
     powers = [[c / scale for c in row] for row in profile.coefficients]
     for row in powers:
@@ -78,7 +77,7 @@ def _br(motion: Motion, request: Request) -> Written:
     run = PiecewiseMotion([*(x + fit.run.start for x in profile.breaks[:-1]), fit.run.stop], powers)
     notes = (
         fit.in_words(motion.units.slave),
-        jumps_in_words(motion, roundings),
+        rounded,
         "powers of each polynomial count from where it begins, x is where it ends: compare a point before use",
         *(() if request.counts is None else (f"slave in increments, {request.counts} over the stroke",)),
     )

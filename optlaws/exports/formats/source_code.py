@@ -11,7 +11,6 @@ from optlaws.exports.error_bounds import DOUBLE, SINGLE, as_stored
 from optlaws.exports.format import Request, Written, file_format
 from optlaws.exports.polynomial_pieces import (
     exactly,
-    jumps_in_words,
     jumps_of_single,
     labels_of,
     polynomials_for,
@@ -179,7 +178,7 @@ _program("iec-st", target=_ST, contents="breaks and coefficients (LREAL)")(
 )
 def _real(motion: Motion, request: Request) -> Written:
     program = _written(motion, request, source=partial(function_block, single=True), model="polynomials in REAL")
-    roundings, stored = jumps_of_single(program.run), as_stored(program.run, SINGLE)
+    (roundings, words), stored = jumps_of_single(motion, program.run), as_stored(program.run, SINGLE)
     # the motion's own ends stay, which REAL32 may round
     run = PiecewiseMotion((program.run.start, *stored.breaks[1:-1], program.run.stop), stored.coefficients)
-    return replace(program, run=run, notes=(*program.notes, jumps_in_words(motion, roundings)), roundings=roundings)
+    return replace(program, run=run, notes=(*program.notes, words), roundings=roundings)
