@@ -423,6 +423,9 @@ def mechanism_of_motion(
 class SlideKind(MechanismKind):
     """A slide that moves in proportion to the angle of the input."""
 
+    #: the entry by which it moves, and with what angle
+    moved_by: ClassVar[tuple[str, float]] = ("radius", 1.0)
+
     _: KW_ONLY
     inertia: SINumber = entry(
         InSI("moment of inertia", least=0.0), "Of what turns with the input.", default=0.0, example="1e-4 kg m^2"
@@ -437,8 +440,10 @@ class SlideKind(MechanismKind):
         Span(InSI("angle")), "The range of x; without bound unless given.", default=None, example=["0 turn", "9 turn"]
     )
 
-    def _slide(self, ratio: float, mass: float) -> Mechanism:
-        """The mechanism whose slide is at the ratio times the input's angle."""
+    @property
+    def mechanism(self) -> Mechanism:
+        way, angle = self.moved_by
+        ratio, mass = getattr(self, way) / angle, vars(self)["mass"]
         position: Formula = multiplied([number(ratio), Name("x")])
         slide = DrivenLink("slide", position, number(ratio), "length")
         load = [number(-mass * self.loads.weight[0] * ratio), *self.loads.on(slide, "angle")]
@@ -459,10 +464,6 @@ class Rack(SlideKind, kind="rack"):
     radius: SINumber = entry(LENGTH, "Of the pitch circle of the pinion that drives.", example="20 mm")
     mass: SINumber = entry(MASS, "Of the slide and what it carries.", example="12 kg")
 
-    @property
-    def mechanism(self) -> Mechanism:
-        return self._slide(self.radius, self.mass)
-
 
 @declared
 class Belt(SlideKind, kind="belt"):
@@ -478,10 +479,6 @@ class Belt(SlideKind, kind="belt"):
     radius: SINumber = entry(LENGTH, "Of the driven pulley.", example="30 mm")
     mass: SINumber = entry(MASS, "Of the carriage and the belt.", example="8 kg")
 
-    @property
-    def mechanism(self) -> Mechanism:
-        return self._slide(self.radius, self.mass)
-
 
 @declared
 class Screw(SlideKind, kind="screw"):
@@ -494,12 +491,10 @@ class Screw(SlideKind, kind="screw"):
     (0.795775, 0.01)
     """
 
+    moved_by = ("lead", TURN)
+
     lead: SINumber = entry(LENGTH, "The way of the nut with a turn of the screw.", example="10 mm")
     mass: SINumber = entry(MASS, "Of the nut and what it carries.", example="80 kg")
-
-    @property
-    def mechanism(self) -> Mechanism:
-        return self._slide(self.lead / TURN, self.mass)
 
 
 rack, belt, screw = function_of(Rack), function_of(Belt), function_of(Screw)
