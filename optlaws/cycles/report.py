@@ -256,7 +256,7 @@ class FastestReport(CycleReport):
             "status": fastest.status.value,
             **{name: getattr(fastest, name) for name in ("speed", "rpm", "period", "lower_bound", "limit")},
             "gains": [vars(gain) for gain in fastest.gains],
-            "segments": [{**vars(each), "limits": list(each.limits)} for each in fastest.segments],
+            "segments": [each.to_dict() for each in fastest.segments],
         }
 
 
