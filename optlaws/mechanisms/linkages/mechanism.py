@@ -185,7 +185,8 @@ class Mechanism(Declared, title="a mechanism"):
 
     def _check_over(self, low: float, high: float) -> None:
         """Refuse formulas without a finite value between two positions, and an inertia that is below 0 there."""
-        for what, formula in (("inertia", self.inertia_formula), ("load", self.load_formula)):
+        known_by_place = {"inertia": self.inertia_formula} | ({} if self.varies else {"load": self.load_formula})
+        for what, formula in known_by_place.items():
             if (pole := without_value(formula, low, high)) is not None:
                 place = self._shown(pole)
                 raise InputError(

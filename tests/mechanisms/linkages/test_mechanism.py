@@ -264,6 +264,8 @@ def test_what_only_touches_its_bounds_is_taken() -> None:
     press = slider_crank(0.1, 0.1 + 1e-9, bodies={"crank": 0.2})
     assert press.inertia(1.0) == 0.2
     assert Mechanism("0.02 + 0.01*sin(x)^2").dimensionless(1e6, 2.0, 1.0).start == 1e6
+    moved_by_time = Mechanism("0.1", read("3*t*x", ("t", "x"))).with_friction(coulomb=1.0)
+    assert moved_by_time.torque(2.0, 1.0, 0.0, time=0.5) == 4.0
 
 
 @pytest.mark.parametrize("branch", ["open", "crossed"])
