@@ -14,11 +14,19 @@ from dataclasses import dataclass, replace
 from itertools import accumulate
 from math import copysign, exp, inf, log, sqrt
 from operator import itemgetter
-from typing import TypeAlias
 
 from optlaws.cycles.optimisation.objectives import SUMS, CycleObjective
 from optlaws.cycles.optimisation.optimal import solve, solved, span_problem, with_least_limit, with_share
-from optlaws.cycles.optimisation.span_values import SpanValue, bound_of, is_exact, size_of, span_bound, sum_along, total
+from optlaws.cycles.optimisation.span_values import (
+    Laws,
+    SpanValue,
+    bound_of,
+    is_exact,
+    size_of,
+    span_bound,
+    sum_along,
+    total,
+)
 from optlaws.cycles.specification.limits import DECELERATION, FORCES, SPEEDING_UP, Side, Sides, in_units, tightest
 from optlaws.cycles.specification.programme import LawSpan, Layout, State
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
@@ -33,7 +41,6 @@ from optlaws.tolerances import AGREEMENT, FEASIBILITY
 _ACCELERATION_KNOWN = 3
 _FORCE = Side(Kind.FORCE)
 
-Solved = tuple[tuple[Piece, Solution], ...]
 _LEAST_PEAK_SLACK = 1e-6  # of a least peak, given to problems that are not convex
 _PEAK_BRACKET = 1e-11  # of a peak: where a limit is met
 
@@ -44,8 +51,6 @@ _HIGHEST = 8.0
 _NONE = 1.0  # by how much a limit counts as missed where there is no law
 #: shares of a peak below which it is tried whether none is possible
 _BELOW = (2e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2)
-
-Laws: TypeAlias = tuple[tuple[Piece, Solution], ...]
 
 
 @dataclass(frozen=True)
@@ -121,9 +126,7 @@ def _ends(span: LawSpan, objective: CycleObjective) -> Iterator[_End]:
                 yield _End(limits or {}, where, times[j], positions[j], state, direction)
 
 
-def ties_broken(
-    layout: Layout, objective: CycleObjective, laws: Solved, period: float
-) -> tuple[Solved, tuple[str, ...]]:
+def ties_broken(layout: Layout, objective: CycleObjective, laws: Laws, period: float) -> tuple[Laws, tuple[str, ...]]:
     """The laws of least acceleration among laws of least peak, where the peak is at a joint or in a given segment.
 
     There no law changes the peak of the velocity or force, so that many take no more elsewhere. Beside the laws: a
@@ -144,14 +147,14 @@ def ties_broken(
         "those of least acceleration",
         objective.minimise, Amount(360.0 * time / period, "deg"),
     )  # fmt: skip
-    return tuple(_calmer(span, calm, law) for span, law in zip(layout.spans, laws, strict=True)), (remark,)
 
+    def calmer(span: LawSpan, law: tuple[Piece, Solution]) -> tuple[Piece, Solution]:
+        try:
+            return solve(span, calm)
+        except (InfeasibleProblem, SolverFailure):
+            return law
 
-def _calmer(span: LawSpan, calm: CycleObjective, law: tuple[Piece, Solution]) -> tuple[Piece, Solution]:
-    try:
-        return solve(span, calm)
-    except (InfeasibleProblem, SolverFailure):
-        return law
+    return tuple(map(calmer, layout.spans, laws)), (remark,)
 
 
 @dataclass(frozen=True)

@@ -25,7 +25,7 @@ from dataclasses import dataclass, replace
 from functools import reduce
 from itertools import pairwise
 from math import hypot, inf, sqrt
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 from optlaws.cycles.optimisation.objectives import SUMS, CycleObjective, curve_lines
 from optlaws.cycles.specification.limits import Side
@@ -53,7 +53,8 @@ PEAKS = {Kind.VELOCITY: "B", Kind.ACCELERATION: "C", Kind.JERK: "J", Kind.SNAP: 
 _MEANS = {Kind.ACCELERATION: "rms_c", Kind.JERK: "rms_j", Kind.SNAP: "rms_snap"}
 _NEAR_END = 0.02  # share of a move next to its ends where energies are small and say nothing
 
-Solved = Sequence[tuple[Piece, Solution]]
+#: laws of spans in their places, with their solutions
+Laws: TypeAlias = tuple[tuple[Piece, Solution], ...]
 
 
 @dataclass(frozen=True)
@@ -392,7 +393,7 @@ def _relaxed(
     return replace(problem, minimise=minimise, bounds=bounds, B=most, D=None)
 
 
-def bound_of(layout: Layout, solved: Solved, objective: CycleObjective, period: float) -> float | None:
+def bound_of(layout: Layout, solved: Laws, objective: CycleObjective, period: float) -> float | None:
     """The lower bound of a cycle in the same times, from bounds of optimised laws and values of the others."""
     kind, mean = objective.kind, objective.mean
     if kind is Kind.LOAD:

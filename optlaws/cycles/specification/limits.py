@@ -215,7 +215,6 @@ def load_output(name: str, load: Load) -> LoadOutput | None:
 
 
 def _both(kind: Kind, value: Any, axis: str, place: str) -> Limits:
-    """The least and the greatest value of a derivative."""
     low, high = (quantity(side, _dimension(kind, axis), place) for side in value)
     if kind is Kind.VELOCITY and low == 0.0 < high:
         return {kind: (-high, high), Kind.VELOCITY_ALONG: (0.0, inf)}
@@ -241,11 +240,7 @@ def of_segments(limits: Limits) -> Limits:
 
 
 def sides(limits: Limits, direction: float) -> Sides:
-    """The limited sides of a motion that goes in a direction.
-
-    >>> sides({Kind.VELOCITY: (-2.0, 2.0), Kind.JERK: (-9.0, 7.0)}, 1.0)[Side(Kind.JERK, -1.0, "jerk")]
-    9.0
-    """
+    """The limited sides of a motion that goes in a direction."""
     bounds: Sides = {}
     along, both = limits.get(Kind.ACCELERATION_ALONG), (-inf, inf)
     known = {**limits, Kind.ACCELERATION: limits.get(Kind.ACCELERATION, both)} if along else limits
@@ -267,11 +262,7 @@ def sides(limits: Limits, direction: float) -> Sides:
 
 
 def tightest(limits: Limits, others: Limits) -> Limits:
-    """Limits of both, whichever is less.
-
-    >>> tightest({Kind.VELOCITY: (-2.0, 2.0)}, {Kind.VELOCITY: (-3.0, 1.0)})
-    {<Kind.VELOCITY: 1>: (-2.0, 1.0)}
-    """
+    """Limits of both, whichever is less."""
     both = {**limits}
     for kind, (low, high) in others.items():
         least, most = both.get(kind, (-inf, inf))
@@ -281,14 +272,10 @@ def tightest(limits: Limits, others: Limits) -> Limits:
 
 def raised(limits: Limits, more: Mapping[str, float], axis: str) -> Limits:
     """Limits times factors of those that have these names."""
-    slower = {Kind.ACCELERATION_ALONG: DECELERATION}
-
-    def factor(name: str) -> float:
-        return more.get(name, 1.0)
-
     words = {kind: word_of(Side(kind), axis) for kind in limits if isinstance(kind, Kind)}
+    slower = {**words, Kind.ACCELERATION_ALONG: DECELERATION}
     return {
-        kind: (limits[kind][0] * factor(slower.get(kind, word)), limits[kind][1] * factor(word))
+        kind: (limits[kind][0] * more.get(slower[kind], 1.0), limits[kind][1] * more.get(word, 1.0))
         for kind, word in words.items()
     }
 
@@ -299,21 +286,13 @@ def along_motion(limits: Mapping[Side, float]) -> bool:
 
 
 def greatest(limits: Mapping[Side, float], kind: Kind, direction: float = 0.0) -> float:
-    """The greatest magnitude that a derivative may have in a direction, or with 0 in both; infinite without a limit.
-
-    >>> greatest({Side(Kind.VELOCITY, -1.0, "velocity"): 1.5}, Kind.VELOCITY, -1.0)
-    1.5
-    """
-    known = [most for key, most in limits.items() if (key.kind, key.sign) == (kind, direction)]
-    return min([limits.get(Side(kind), inf), *known])
+    """The greatest magnitude that a derivative may have in a direction, or with 0 in both; infinite without a limit."""
+    known = (most for key, most in limits.items() if key.kind is kind and key.sign in {0.0, direction})
+    return min(known, default=inf)
 
 
 def both_sides(limits: Mapping[Side, float]) -> dict[Kind, tuple[float, float]]:
-    """The least and greatest allowed value of each limited quantity, infinite without a limit.
-
-    >>> both_sides({Side(Kind.ACCELERATION, -1.0, "acceleration"): 8.0})
-    {<Kind.ACCELERATION: 2>: (-8.0, inf)}
-    """
+    """The least and greatest allowed value of each limited quantity, infinite without a limit."""
     kinds = dict.fromkeys(key.kind for key in limits if key.kind is not Kind.VELOCITY_ALONG)
     known: dict[Kind, tuple[float, float]] = {
         kind: (-greatest(limits, kind, -1.0), greatest(limits, kind, 1.0)) for kind in kinds
@@ -329,11 +308,7 @@ def _name(kind: Kind) -> str:
 
 
 def name_of(key: Side, axis: str) -> str:
-    """The name of a limited quantity.
-
-    >>> name_of(Side(Kind.JERK), "length"), name_of(Side(Kind.FORCE), "angle")
-    ('jerk', 'torque')
-    """
+    """The name of a limited quantity."""
     if key.sign:
         beyond = {-1.0: "lowest ", 1.0: "highest "}
         return f"{'' if key.name in _ALONG else beyond[key.sign]}{key.name}"
@@ -343,11 +318,7 @@ def name_of(key: Side, axis: str) -> str:
 
 
 def word_of(key: Side, axis: str) -> str:
-    """The key under which a limit was given.
-
-    >>> word_of(Side(Kind.ACCELERATION, 1.0, SPEEDING_UP), "length"), word_of(Side(Kind.FORCE), "angle")
-    ('acceleration', 'torque')
-    """
+    """The key under which a limit was given."""
     given = {
         Kind.CURVE: MOTOR,
         Kind.RMS_FORCE: f"rms {FORCES[axis]}",
@@ -361,11 +332,7 @@ def word_of(key: Side, axis: str) -> str:
 
 
 def in_units(key: Side, value: float, axis: str) -> str:
-    """A limit as text, in the unit that machines have it in.
-
-    >>> in_units(Side(Kind.VELOCITY), 0.616, "length"), in_units(Side(Kind.FORCE), 120.0, "length")
-    ('the velocity 616 mm/s', 'the force 120 N')
-    """
+    """A limit as text, in the unit that machines have it in."""
     return sentence("the {} {}", name_of(key, axis), amount(key, value, axis))
 
 

@@ -71,15 +71,7 @@ class Effort(PlainNumbers):
 
     @classmethod
     def of(cls, along: Sequence[PieceEffort], duration: float, **more: Any) -> Self:
-        """The force and power of a drive over a duration, from its values along each piece.
-
-        >>> from optlaws import Drive, Mechanism, Motor, smoothstep
-        >>> drive = Drive(Mechanism("2 kg m^2"), Motor(0.0))
-        >>> rise = Piece(0.0, 1.0, 0.0, 1.0, smoothstep(2))
-        >>> known = Effort.of([PieceEffort(drive, rise)], 1.0)
-        >>> round(known.peak_force, 9), round(known.motoring_energy, 9)
-        (12.0, 2.25)
-        """
+        """The force and power of a drive over a duration, from its values along each piece."""
         peak = max((each.peak_force for each in along), key=lambda greatest: greatest.value)
         given, taken = (max(powers) for powers in zip(*(each.powers for each in along), strict=True))
         driving, braking = (sum(energies) for energies in zip(*(each.energies for each in along), strict=True))
@@ -113,9 +105,8 @@ class PieceEffort:
 
     def force(self, times: Array) -> Array:
         """The force or torque."""
-        x, v, w = (self.piece.values(times, nu) for nu in range(3))
-        direction = self.piece.direction(times)
-        return np.asarray(self.drive.torque(x, v, w, direction=direction, time=times), dtype=np.float64)
+        motion, direction = (self.piece.values(times, nu) for nu in range(3)), self.piece.direction(times)
+        return np.asarray(self.drive.torque(*motion, direction=direction, time=times), dtype=np.float64)
 
     def power(self, times: Array) -> Array:
         """Force times velocity: at the motor, torque times its speed."""
@@ -142,8 +133,8 @@ class PieceEffort:
             return value
 
         def before_gear(times: Array) -> Array:
-            x, v, w = (piece.values(times, nu) for nu in range(3))
-            return np.asarray(self.drive.mechanism.torque(x, v, w, piece.direction(times), time=times))
+            motion = (piece.values(times, nu) for nu in range(3))
+            return np.asarray(self.drive.mechanism.torque(*motion, piece.direction(times), time=times))
 
         places = (piece.start + piece.duration * place for place in piece.law.breaks)
         breaks = [*places, *piece.turns, *table_places(load, "t")]
@@ -428,18 +419,11 @@ class TorqueByRatio:
         return np.asarray(_share(np.abs(self.torques(ratio)), motor.peak_at(speeds)).max(axis=-1))
 
     def best(self, motor: Motor) -> BestRatio:
-        """The ratio of the least root mean square torque, and the curve around it.
+        """The ratio of the least root mean square torque that the motor allows, and the curve around it.
 
         The mean square is convex in the logarithm of the ratio, as its powers are, whose factors are not below 0 but
         for those of dry friction.
         """
-        unlimited = self._unlimited()
-        ratios = unlimited * np.logspace(-_DECADES, _DECADES, _RATIOS)
-        best = self._within(motor, unlimited)
-        speeds = ratios * np.abs(self.speed).max()
-        return BestRatio(best, float(self.rms(best)), unlimited, ratios, self.rms(ratios), self.peak(ratios), speeds)
-
-    def _unlimited(self) -> float:
         from scipy.optimize import minimize_scalar
 
         squares = (self.turning**2 @ self.weights, self.load**2 @ self.weights + self.holding)
@@ -448,14 +432,16 @@ class TorqueByRatio:
                 "no ratio is best: without inertia of motor and gear a greater ratio is always better, and without "
                 "load a smaller one"
             )
-        near = float((squares[1] / squares[0]) ** 0.25)
-        if not self.dry.any():
-            return near
-        optimum = minimize_scalar(
-            lambda log: float(self.rms(near * np.exp(log))), bounds=(-_FAR, _FAR), method="bounded",
-            options={"xatol": AGREEMENT},
-        )  # fmt: skip
-        return near * float(np.exp(optimum.x))
+        unlimited = float((squares[1] / squares[0]) ** 0.25)
+        if self.dry.any():
+            optimum = minimize_scalar(
+                lambda log: float(self.rms(unlimited * np.exp(log))), bounds=(-_FAR, _FAR), method="bounded",
+                options={"xatol": AGREEMENT},
+            )  # fmt: skip
+            unlimited *= float(np.exp(optimum.x))
+        ratios, best = unlimited * np.logspace(-_DECADES, _DECADES, _RATIOS), self._within(motor, unlimited)
+        speeds = ratios * np.abs(self.speed).max()
+        return BestRatio(best, float(self.rms(best)), unlimited, ratios, self.rms(ratios), self.peak(ratios), speeds)
 
     def _within(self, motor: Motor, unlimited: float) -> float:
         """The ratio nearest to the best one, in its logarithm, at which speed and peak torque are the motor's."""
