@@ -72,9 +72,9 @@ class TimedSpan(Timed):
 
     @property
     def begin(self) -> float:
-        """The scale that no law is faster than, or the greatest at which a usual law takes a limit to the full."""
+        """Between rests the scale that no law is faster than, else the greatest at which a usual law takes a limit."""
         usual = ((_USUAL.get(limit.nu, 1.0) / limit.rate) ** (1.0 / (limit.nu or 2)) for limit in self.along)
-        return self.limit or max(usual)
+        return (self.limit if self.problem.boundary is None else None) or max(usual)
 
     @property
     def where(self) -> str:
