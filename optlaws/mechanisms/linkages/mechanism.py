@@ -192,7 +192,8 @@ class Mechanism(Declared, title="a mechanism"):
                 raise InputError(
                     f"the {what} has no finite value at {place}: take a range in over= without that position"
                 )
-        is_positive = sign_over(self.inertia_formula, low, high)[0] > 0
+        curved = line_of(self.inertia_formula) is None
+        is_positive = curved and sign_over(self.inertia_formula, low, high)[0] > 0
         known = None if is_positive else extremes_over(self.inertia_formula, low, high)
         if known is not None and known.least < -VALUE_ROUNDING * known.peak:
             raise InputError(

@@ -336,7 +336,7 @@ def without_value(formula: Formula, low: float, high: float) -> float | None:
     >>> without_value(read("1/(x - 0.5)", ("x",)), 0.0, 3.0), without_value(read("1/(x + 0.5)", ("x",)), 0.0, 3.0)
     (0.5, None)
     """
-    x = np.linspace(low, high, _LOOKS)
+    x = np.linspace(low, high, _LOOKS if formula.names() else 2)
     with np.errstate(all="ignore"):
         values = np.broadcast_to(evaluate(formula, {"x": x}, NUMPY), x.shape)
     if not np.isfinite(values).all():

@@ -248,8 +248,7 @@ def limits_of_input(limits: Mapping[str, Any] | None, axis: InputAxis) -> dict[s
         parts = Listed(Together(position, position, most, names=("from", "to", "bound")))
         return entry(Either(most, parts, which=is_list), "The greatest.", default=None, example=most.example)
 
-    known = [dimensions[name] for name in ("velocity", "acceleration", "load")]
-    names = dict(zip(("velocity", "acceleration", dimensions["load"]), known, strict=True))
+    names = {name: dimensions[name] for name in ("velocity", "acceleration")} | {dimensions["load"]: dimensions["load"]}
     table = TableOf("limit of a move", {name: bound(dimension) for name, dimension in names.items()})
     given = table.read(limits or {}, "limits")
     parts = {name: [[*sorted(part[:2]), part[2]] for part in of] for name, of in given.items() if isinstance(of, tuple)}
