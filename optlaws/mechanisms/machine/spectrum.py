@@ -21,8 +21,8 @@ from optlaws.laws.catalogue.reading import points_of
 from optlaws.laws.law import motion_law
 from optlaws.mechanisms.machine.drives import Forcing, forcings
 from optlaws.mechanisms.machine.transforms import legendre_from_chebyshev, moments, residual_phasor, roots
-from optlaws.motion.quantities import TURN, positive_quantity
-from optlaws.numbers import Array, Complex, Quantity, numbers, whole
+from optlaws.motion.quantities import TURN, si_number
+from optlaws.numbers import Array, Complex, NumberOrQuantity, numbers, positive, whole
 from optlaws.numerics import chebyshev
 from optlaws.shown.report import Panel, PlainReport, Report, ReportTable, Series
 from optlaws.shown.summary import Row, Summary
@@ -33,24 +33,12 @@ _PAIR = re.compile(r"\s*([^\s:,]+)\s*:\s*([^\s:,]+)\s*")
 
 
 class WeightPart(NamedTuple):
-    """An interval of frequencies over which a weight is linear: both ends, and the weights there.
-
-    Examples
-    --------
-    >>> WeightPart(10.0, 20.0, 1.0, 2.0).at(15.0)
-    1.5
-    """
+    """An interval of frequencies over which a weight is linear: both ends, and the weights there."""
 
     low: float
     high: float
     first: float
     last: float
-
-    def at(self, frequency: Any) -> Any:
-        """The weight at frequencies in the interval."""
-        if self.low == self.high:
-            return self.first + 0.0 * frequency
-        return self.first + (frequency - self.low) * ((self.last - self.first) / (self.high - self.low))
 
 
 Spectrum = tuple[tuple[float, float], ...]
@@ -59,20 +47,8 @@ Spectrum = tuple[tuple[float, float], ...]
 def spectrum_of(given: Any, frequency: tuple[float, float] | None = None) -> Spectrum:
     """A weight as pairs of a frequency nu and an amplitude, linear between them, over an interval where one is given.
 
-    Parameters
-    ----------
-    given
-        Pairs, a table of them, or text such as "{18: 0.5, 20: 1, 22: 0.5}".
-    frequency
-        The interval, within the pairs; all of them unless given.
+    It is `given` by pairs, a table of them, or text.
 
-    Raises
-    ------
-    InputError
-        If frequencies do not increase or are not above 0, an amplitude is below 0 or all are 0, or there are too many.
-
-    Examples
-    --------
     >>> spectrum_of("{18: 0.5, 20: 1, 22: 0.5}", (19.0, 22.0))
     ((19.0, 0.75), (20.0, 1.0), (22.0, 0.5))
     """
@@ -105,16 +81,15 @@ def weight_of(given: Any, duration: Any = None) -> Spectrum:
     >>> [(round(nu, 3), size) for nu, size in weight_of("{30: 0.2, 32: 1}", 0.1)]
     [(18.85, 0.2), (20.106, 1.0)]
     """
-    time = f"{duration!r} s" if isinstance(duration, int | float) and not isinstance(duration, bool) else duration
     file = given.strip().removeprefix("{").removesuffix("}").strip() if isinstance(given, str) else given
     if isinstance(file, Path) or (isinstance(file, str) and not _PAIR.fullmatch(file.split(",")[0])):
-        return read_spectrum(file, duration=time)
-    return spectrum_of([(_in_motion(time) * nu, size) for nu, size in spectrum_of(given)])
+        return read_spectrum(file, duration=duration)
+    return spectrum_of([(_in_motion(duration) * nu, size) for nu, size in spectrum_of(given)])
 
 
-def _in_motion(duration: Quantity | None) -> float:
+def _in_motion(duration: NumberOrQuantity | None) -> float:
     """Radians in the motion that a frequency of 1 is."""
-    return 1.0 if duration is None else TURN * positive_quantity(duration, "time", "duration")
+    return 1.0 if duration is None else TURN * positive(si_number(duration, ("time",), "duration"), "duration")
 
 
 def parts_of(spectrum: Spectrum) -> tuple[WeightPart, ...]:
@@ -135,20 +110,6 @@ def above(frequency: Any, amplitude: Any, points: int) -> Spectrum:
 
     The points stand where the original bends most; a linear program finds the least amplitudes there.
 
-    Parameters
-    ----------
-    frequency, amplitude
-        Shapes (n,), the frequencies increasing.
-    points
-        How many.
-
-    Raises
-    ------
-    InputError
-        If the shapes differ or frequencies do not increase.
-
-    Examples
-    --------
     >>> above([1, 2, 3, 4, 5], [0, 0, 1, 0, 0], 3)
     ((1.0, 0.0), (3.0, 1.0), (5.0, 0.0))
     """
@@ -206,7 +167,7 @@ def _least_above(frequencies: Array, sizes: Array, places: Array) -> Array:
 def read_spectrum(
     file: str | Path,
     *,
-    duration: Quantity | None = None,
+    duration: NumberOrQuantity | None = None,
     points: int | None = None,
     columns: Sequence[int | str] | None = None,
 ) -> tuple[tuple[float, float], ...]:
@@ -217,8 +178,8 @@ def read_spectrum(
     file
         Columns of frequency and amplitude, as `read_law` takes columns; the amplitude is at least 0.
     duration
-        Of the motion, such as "0.1 s", where frequencies are in Hz: nu is 2 pi times frequency and duration. Without it
-        they are nu, in radians in the motion.
+        Of the motion, "0.1 s" or seconds, where frequencies are in Hz: nu is 2 pi times frequency and duration. They
+        are nu, in radians in the motion, without it.
     points
         All of the file's unless given: else a file with more is replaced by a spectrum of so many that is nowhere below
         it.
@@ -287,18 +248,8 @@ FINEST = 4096
 SAMPLES = np.array([0.0, 0.25, 0.5, 0.75])
 
 
-def peak_accelerations(law: MotionLaw, frequencies: Array, w: Complex) -> Array:
-    """Greatest |a_m''| of the rise for each frequency nu and its root w = -n + i lambda, to about 1e-6."""
-    pieces = forcings(law)
-    peaks = np.empty(len(frequencies))
-    order = np.argsort(frequencies)
-    for low in range(0, len(order), CHUNK):
-        some = order[low : low + CHUNK]
-        peaks[some] = _peaks(pieces, frequencies[some], w[some])
-    return peaks
-
-
 def _peaks(pieces: tuple[Forcing, ...], frequency: Array, w: Complex) -> Array:
+    """Greatest |a_m''| of the rise for each frequency nu and its root w = -n + i lambda, to about 1e-6."""
     n, square, damped = -w.real, frequency * frequency, w.imag
     state = np.zeros(len(frequency), dtype=np.complex128)
     state -= pieces[0].derivative(np.zeros(1), 1)  # the mass is at rest, so that u' = -b
@@ -447,7 +398,11 @@ class ResponseSpectrum:
     def peak_acceleration(self) -> Array:
         """Greatest |a_m''| of the rise, shape (m,), to about 1e-6; computed at the first use."""
         _, w, _ = roots(self.frequency, self.damping)
-        return peak_accelerations(self.law, self.frequency, w)
+        pieces, order, peaks = forcings(self.law), np.argsort(self.frequency), np.empty(len(w))
+        for low in range(0, len(order), CHUNK):
+            some = order[low : low + CHUNK]
+            peaks[some] = _peaks(pieces, self.frequency[some], w[some])
+        return peaks
 
     def report(self) -> Report:
         """Residual and peak acceleration over the frequency, as curves and as a table, in units of the law's a''.
