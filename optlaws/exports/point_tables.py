@@ -76,6 +76,16 @@ class NumberFormat:
             float(np.spacing(np.float32(top))) if self.single else 0.0,
         )
 
+    def master(self, x: Array) -> Array:
+        """Ascending places of the master as the target stores them."""
+        stored = self.numbers(x)
+        if (np.diff(stored) <= 0.0).any():
+            raise InputError(
+                f"{len(x)} points of the master are closer than the digits can represent: take fewer points, more "
+                "digits, or a unit that is smaller"
+            )
+        return stored
+
     def positions(self, y: Array, motion: Motion) -> Array:
         """Positions as the target stores them."""
         step = motion.stroke / self.counts if self.counts else 0.0
@@ -102,12 +112,7 @@ def point_table(
     if interpolation in HERMITE:
         return hermite_table(motion, points, numbers, HERMITE[interpolation])
     exact = points if isinstance(points, np.ndarray) else places(motion, points, straight=interpolation == "linear")
-    x = numbers.numbers(exact)
-    if (np.diff(x) <= 0.0).any():
-        raise InputError(
-            f"{len(x)} points of the master are closer than the digits can represent: take fewer points, more digits, "
-            "or a unit that is smaller"
-        )
+    x = numbers.master(exact)
     y, resolution = numbers.positions(np.asarray(motion(exact)), motion), numbers.resolution(motion)
     if interpolation != "cubic":
         powers = linear_powers(x, y) if interpolation == "linear" else akima_powers(x, y)
@@ -148,7 +153,7 @@ def hermite_table(
         raise InputError(
             "the law's acceleration or jerk is infinite at a point: export positions alone, or another law"
         )
-    x = numbers.numbers(exact)
+    x = numbers.master(exact)
     derivatives = numbers.numbers(values[1:]) if with_derivatives else values[1:]
     values = np.vstack([numbers.positions(values[0], motion)[None], derivatives])
     return PointTable(x, values, hermite_powers(x, values), numbers.resolution(motion))

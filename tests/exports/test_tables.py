@@ -219,6 +219,8 @@ def test_a_law_whose_acceleration_jumps_keeps_its_jumps() -> None:
         ("csv", {"decimal": ":"}, ["decimal", "'.' or ','"]),
         ("csv", {"digits": -1}, ["digits"]),
         ("csv", {"digits": 0, "points": 361}, ["361 points", "more digits"]),
+        ("csv", {"digits": 0, "points": 361, "interpolation": "quintic"}, ["361 points", "more digits"]),
+        ("sew", {"digits": 0, "points": 361}, ["361 points", "more digits"]),
         ("isg", {"points": 361}, ["360", "361"]),
         ("technosoft", {"points": 8193}, ["8192"]),
         ("kas", {"points": 4}, ["5"]),
