@@ -310,7 +310,7 @@ class Axes(Declared, Mapping[str, Cycle], title="stored axes"):
         ...
         """
         interlocks = [interlock.to_dict() for interlock in self.rules]
-        return problem_file(title, {"period": f"{self.duration!r} s"}, self, {"interlocks": interlocks})
+        return problem_file(title, {"period": Exact(self.duration, "s")}, self, {"interlocks": interlocks})
 
     def to_pandas(self) -> Any:
         """A data frame with a row for each segment of each axis: start, duration, peaks, jumps; SI units.

@@ -102,7 +102,7 @@ class OldTable:
                 segments.append(Dwell(duration))
             else:
                 move = Rise if part.stroke > 0.0 else Return
-                segments.append(move(f"{abs(part.stroke)!r} {self.unit}", duration, law=part.law))
+                segments.append(move(Exact(abs(part.stroke), self.unit), duration, law=part.law))
         first, last = self.stretches[0], self.stretches[-1]
         if speed is None and period is None:
             if self.master in {"s", "ms"}:
@@ -110,9 +110,9 @@ class OldTable:
             elif self.rate is None:
                 raise InputError('speed: give the speed of the master, such as "200 rpm": the file has none')
             else:
-                speed = f"{self.rate!r} {self.master}/s"
-        advance = f"{last.high - first.low!r} {self.unit}" if last.high != first.low else None
-        return Cycle(segments, speed=speed, period=period, start=f"{first.low!r} {self.unit}", advance=advance)
+                speed = Exact(self.rate, f"{self.master}/s")
+        advance = Exact(last.high - first.low, self.unit) if last.high != first.low else None
+        return Cycle(segments, speed=speed, period=period, start=Exact(first.low, self.unit), advance=advance)
 
     def modernised(
         self,
