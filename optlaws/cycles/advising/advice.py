@@ -26,7 +26,7 @@ from optlaws.motion.quantities import Exact, positive_quantity, quantity, table
 from optlaws.numbers import bounded, chop, whole
 from optlaws.shown.report import Panel, PlainReport, Report, ReportTable, Series
 from optlaws.shown.summary import Row, Summary
-from optlaws.synthesis.least_time.move_limits import RESIDUAL
+from optlaws.synthesis.least_time.move_limits import RESIDUAL, RESIDUALS
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.tolerances import VALUE_ROUNDING
 
@@ -312,7 +312,7 @@ def advise(
         cycle says unless given, of a single move the acceleration.
     limits
         By name, such as velocity "616 mm/s", as of a `Cycle` and more than its own; with a follower of the "residual
-        acceleration" too. A move may have its own.
+        acceleration" or "residual displacement" too. A move may have its own.
     follower
         What the motion leaves vibrating: `{"frequency": ("27 Hz", "33 Hz"), "damping": 0.05}`, its natural frequency or
         the least and the greatest, and its damping ratio.
@@ -366,9 +366,14 @@ def standard_candidates(
 ) -> Candidates:
     """The standard laws of a motion with their demands, to which optimal ones can be added, as `advise` takes them."""
     most = dict(table(limits or {}, "limits", '{"velocity": "616 mm/s"}'))
-    residual, minimise = most.pop(RESIDUAL, None), entries.get("minimise")
+    minimise = entries.get("minimise")
+    limited = {name: most.pop(name) for name in RESIDUALS if name in most}
+    named = list(dict.fromkeys([*limited, *([minimise] if minimise in RESIDUALS else [])]))
+    if len(named) > 1:
+        raise InputError(f"{named[0]} and {named[1]} are of one vibration: name one of them")
+    left = named[0] if named else RESIDUAL
     given = {name: value for name, value in entries.items() if value is not None}
-    given |= {"minimise": "acceleration"} if minimise == RESIDUAL else {}
+    given |= {"minimise": "acceleration"} if minimise in RESIDUALS else {}
     if isinstance(motion, Cycle):
         cycle = replace(motion, **given, limits={**motion.limits, **most})
     elif isinstance(motion, Move):
@@ -379,10 +384,12 @@ def standard_candidates(
         raise InputError(
             f"advice is of a move such as Rise('35 mm', '0.1 s') or of a Cycle, got {shortened(motion)}{instead}"
         )
-    if follower is None and (residual is not None or minimise == RESIDUAL):
-        raise InputError(f"{RESIDUAL} is that of a follower: give follower={_FOLLOWER}")
-    vibrating = None if follower is None else read_follower(follower)
-    calm = inf if residual is None else positive_quantity(residual, AXES[cycle.axis][2], f"limits: {RESIDUAL}")
+    if follower is None and named:
+        raise InputError(f"{left} is that of a follower: give follower={_FOLLOWER}")
+    of = left.removeprefix("residual ")
+    vibrating = None if follower is None else replace(read_follower(follower), of=of)
+    dimension = cycle.axis if of == "displacement" else AXES[cycle.axis][2]
+    calm = positive_quantity(limited[left], dimension, f"limits: {left}") if limited else inf
     candidates = Candidates(cycle, minimise or cycle.minimise, vibrating, calm)
     _check(laws)
     first = [] if candidates.own_law is None else [candidates.own_law]

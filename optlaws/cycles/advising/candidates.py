@@ -30,9 +30,9 @@ from optlaws.errors import InputError, OptlawsError
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.motion.piece import Piece, factor, named_law, unit_of
-from optlaws.motion.quantities import Exact, Kind, quantity
+from optlaws.motion.quantities import Exact, Kind, in_small_units, quantity
 from optlaws.shown.report import Report
-from optlaws.synthesis.least_time.move_limits import RESIDUAL, FollowerResidual
+from optlaws.synthesis.least_time.move_limits import RESIDUALS, FollowerResidual
 from optlaws.synthesis.problem.constants import FUNCTIONALS, Functional
 from optlaws.synthesis.problem.expression import Maximum, leaves
 from optlaws.synthesis.problem.fields import CONSTANTS
@@ -46,7 +46,7 @@ from optlaws.tolerances import BOUND_SLACK, EQUALLY_GOOD, JUMP, SHOWN_DIGITS
 _FRONT_END = 0.01  # of what is exchanged: a front goes no further, as some of it can vanish
 
 #: what all laws can be bounded by from the start, as it is convex and quick; and what else is not to grow
-_OF_MOTION = ("velocity", "acceleration", "jerk", RESIDUAL)
+_OF_MOTION = ("velocity", "acceleration", "jerk", *RESIDUALS)
 _OF_DRIVE = ("force", "torque", "rms force", "rms torque")
 #: no law is looked for that is least in these beside the objective: power and sums have no lower bound
 _NOT_LEAST = ("power", "energy", "heat", "velocity")
@@ -189,9 +189,9 @@ class Candidates:
     """A cycle whose moves have one law after another, in the order of their computation."""
 
     cycle: Cycle  #: as it stands
-    minimise: str  #: an objective of a cycle, or the residual acceleration of the follower
+    minimise: str  #: an objective of a cycle, or the residual of the follower
     follower: FollowerResidual | None = None  #: what moves leave vibrating
-    calm: float = inf  #: the limit of the residual acceleration in SI units
+    calm: float = inf  #: the limit of the residual in SI units
     laws: dict[str, AdvisedLaw] = field(default_factory=dict)
     errors: dict[str, OptlawsError] = field(default_factory=dict)  #: why there is no law of a name
     usual: AdvisedLaw | None = None  #: the standard law that others are compared with; None where none fits
@@ -204,17 +204,26 @@ class Candidates:
         """Everything that laws are compared by, in SI units."""
         cycle, force = self.cycle, FORCES[self.cycle.axis]
         names = ["velocity", "acceleration", "jerk", "rms acceleration"]
-        names += [RESIDUAL] if self.follower is not None else []
+        names += [] if self.follower is None else [self.follower.name]
         if cycle.load is not None and not is_process(cycle.load):
             names += [f"{LOAD}{name}" for name in self._standing.load_motion.outputs]
         names += [force, f"rms {force}", "power", "energy"] if cycle.drive is not None else []
         return tuple(LawMeasure(name, self._unit(name)) for name in dict.fromkeys([*names, self.minimise]))
 
     @property
+    def _left(self) -> str:
+        return "" if self.follower is None else self.follower.name
+
+    @property
+    def _order(self) -> int:
+        """Of the derivative of the displacement that vibrates on."""
+        return 0 if self.follower is not None and self.follower.of == "displacement" else 2
+
+    @property
     def second(self) -> str:
         """The measure that decides between laws that are equally good: the residual, the jerk, or the acceleration."""
         names = [measure.name for measure in self.measures]
-        return next(name for name in (RESIDUAL, "jerk", "acceleration") if name in names and name != self.minimise)
+        return next(name for name in (self._left, "jerk", "acceleration") if name in names and name != self.minimise)
 
     @kept_property
     def own_law(self) -> str | None:
@@ -229,7 +238,7 @@ class Candidates:
             return {}
         limited = {name for each in (self.cycle, *self.cycle.segments) for name in getattr(each, "limits", ())}
         limited |= {"velocity", "torque", "rms torque"} if self.cycle.limits.get(MOTOR) else set()
-        limited |= {RESIDUAL} if self.calm < inf else set()
+        limited |= {self._left} if self.calm < inf else set()
         return {
             name: value
             for name, value in self.usual.values.items()
@@ -281,13 +290,13 @@ class Candidates:
                 law = self._add(name, partial(self._least, name, other, {}))
                 if law is not None and any(_is_equal(law, each) for each in self.laws.values() if each is not law):
                     del self.laws[name]
-        if RESIDUAL in others:
-            most = self.most(RESIDUAL, *_OF_DRIVE)
-            name = f"least {RESIDUAL}{beside if most else f' at twice the least {minimise}'}"
+        if (left := self._left) in others:
+            most = self.most(left, *_OF_DRIVE)
+            name = f"least {left}{beside if most else f' at twice the least {minimise}'}"
             if minimise in _OF_MOTION:
                 fits = self.usual is not None and self.usual.keeps_limits and bool(most)
                 most[minimise] = self.usual.values[minimise] if self.usual and fits else self._twice
-            self._add(name, partial(self._least, name, RESIDUAL, most))
+            self._add(name, partial(self._least, name, left, most))
 
     def front(self, points: int) -> tuple[AdvisedLaw, ...]:
         """Laws that exchange the minimised measure for the second one, from the least value of each.
@@ -334,7 +343,7 @@ class Candidates:
     def _standard(self, name: str) -> AdvisedLaw:
         """The cycle with a law of the catalogue in all its moves; refused where it does not fit."""
         advised = self._advised(name, "standard", self._known(self._segments(partial(_with_law, name))))
-        if self.minimise != RESIDUAL and not self._objective(advised) > 0.0:
+        if self.minimise != self._left and not self._objective(advised) > 0.0:
             raise InputError(
                 f"the {self.minimise} of {name} is 0 between its ends, where its velocity jumps, so that no law can be "
                 "compared with it: take a law from rest to rest"
@@ -354,15 +363,15 @@ class Candidates:
 
     def _least(self, name: str, minimise: str, most: Mapping[str, float]) -> AdvisedLaw:
         """The cycle whose laws are least in a measure and take no more of others, within all limits."""
-        of_cycle = self.cycle.minimise if minimise == RESIDUAL else minimise
+        of_cycle = self.cycle.minimise if minimise == self._left else minimise
         limits = dict(self.cycle.limits)
         for other, value in most.items():
-            if other != RESIDUAL:
+            if other != self._left:
                 limits |= self._tighter(limits, other, value)
         plan = replace(self.cycle, segments=self._segments(_optimal), minimise=of_cycle, limits=limits).solve()
         if self.follower is not None:
-            residual = min(self.calm, most.get(RESIDUAL, inf))
-            if minimise == RESIDUAL or self._residual(plan) > residual:
+            residual = min(self.calm, most.get(self._left, inf))
+            if minimise == self._left or self._residual(plan) > residual:
                 plan = plan.with_solutions(list(self._calmer(plan, minimise, residual)))
         return self._optimal(name, minimise, plan)
 
@@ -376,7 +385,7 @@ class Candidates:
             return self._optimal(name, minimise, cycle.solve())
         solutions = [
             synthesize(_least_near(solution, self._constant_of(minimise, piece)))
-            if minimise != RESIDUAL or _rests(piece)
+            if minimise != self._left or _rests(piece)
             else solution
             for _, piece, solution in best.motion.laws
         ]
@@ -406,30 +415,32 @@ class Candidates:
         values = {measure.name: self._value(plan, measure.name) for measure in self.measures}
         limits = limits_taken(plan, self.cycle)
         if self.calm < inf:
-            text = amount(Side(Kind.ACCELERATION), self.calm, plan.axis)
-            limits = (*limits, LimitTaken(RESIDUAL, "", values[RESIDUAL], self.calm, text))
+            of_motion = amount(Side(Kind.ACCELERATION), self.calm, plan.axis)
+            text = of_motion if self._order else in_small_units(self.calm, plan.axis)
+            limits = (*limits, LimitTaken(self._left, "", values[self._left], self.calm, text))
         return AdvisedLaw(name, kind, plan, values, limits, tuple(plan.solutions) if proof else (), proof)
 
     def _value(self, plan: Plan, name: str) -> float:
-        if name == RESIDUAL:
+        if name == self._left:
             return self._residual(plan)
         if name == "jerk" and any(joint["acceleration"] for joint in plan.joints):
             return inf  # the peaks of segments are those inside
         return plan.value(name)
 
     def _residual(self, plan: Plan) -> float:
-        """The greatest residual acceleration that a move from rest to rest leaves, each by itself."""
+        """The greatest residual that a move from rest to rest leaves, each by itself."""
         moves = [piece for piece in plan.pieces if _rests(piece)]
         if not moves:
             raise InputError("follower: no motion of the cycle is from rest to rest, after which it would vibrate on")
-        return max(
-            float(self._constant_of(RESIDUAL, piece).value(piece.law)) * abs(factor(piece.stroke, piece.duration, 2))
-            for piece in moves
-        )
+        return max(float(self._constant_of(self._left, piece).value(piece.law)) * self._size(piece) for piece in moves)
+
+    def _size(self, piece: Piece) -> float:
+        """Of a residual of 1 of the law of a piece."""
+        return abs(factor(piece.stroke, piece.duration, self._order))
 
     def _constant_of(self, minimise: str, piece: Piece) -> Functional:
         """The constant of a law whose least is that of a measure."""
-        if minimise == RESIDUAL and self.follower is not None:
+        if self.follower is not None and minimise == self._left:
             return self.follower.limit_in(piece.duration, abs(piece.stroke)).constant
         return FUNCTIONALS[{"acceleration": "C", "jerk": "J"}[minimise]]
 
@@ -438,21 +449,22 @@ class Candidates:
         for _, piece, solution in plan.laws:
             problem = solution.problem
             if _rests(piece):
-                constant = self._constant_of(RESIDUAL, piece)
+                constant = self._constant_of(self._left, piece)
                 if residual < inf:
-                    problem = _with_most(problem, constant, residual / abs(factor(piece.stroke, piece.duration, 2)))
-                if minimise == RESIDUAL:
+                    problem = _with_most(problem, constant, residual / self._size(piece))
+                if minimise == self._left:
                     problem = replace(problem, minimise=constant, symmetric=problem.symmetric and constant.even)
             yield solution if problem == solution.problem else synthesize(problem)
 
     def _optimal(self, name: str, minimise: str, plan: Plan) -> AdvisedLaw:
         """An optimal law with the proof that belongs to the objective of its solutions."""
         space, solutions = plan.search_space or "", plan.solutions
-        kind, mean = kind_of("acceleration" if minimise == RESIDUAL else minimise)
+        kind, mean = kind_of("acceleration" if minimise == self._left else minimise)
+        order = self._order if minimise == self._left else kind.order
         moves = [
-            (solution, abs(factor(piece.stroke, piece.duration, kind.order)))
+            (solution, abs(factor(piece.stroke, piece.duration, order)))
             for _, piece, solution in plan.laws
-            if minimise != RESIDUAL or _rests(piece)
+            if minimise != self._left or _rests(piece)
         ]
         if minimise == plan.minimise:
             # of a peak of the motion alone is known what no degree betters
@@ -466,7 +478,7 @@ class Candidates:
         return self._advised(name, "optimal", plan, proof)
 
     def _unit(self, name: str) -> str:
-        return unit_of(self.cycle.axis, 2) if name == RESIDUAL else objective_unit(self.cycle, name)
+        return unit_of(self.cycle.axis, self._order) if name == self._left else objective_unit(self.cycle, name)
 
     def _tighter(self, limits: Mapping[str, Any], name: str, most: float) -> dict[str, Any]:
         """Entries of limits by which a measure is no greater than a value in SI units, nor wider than they are."""

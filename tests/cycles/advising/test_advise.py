@@ -211,6 +211,28 @@ def test_a_limit_of_the_residual_is_kept_and_none_may_be_possible() -> None:
         advise(Rise("35 mm", "0.1 s"), follower=FOLLOWER, limits={"residual acceleration": "1 mm/s^2"}, degree=5)
 
 
+def test_a_limit_of_the_sway_is_kept_and_its_values_are_those_of_the_oscillator() -> None:
+    sway, omega, limits = "residual displacement", tau * 12.0, {"residual displacement": "1 mm"}
+    follower = {"frequency": "12 Hz", "damping": 0.0}
+    advice = advise(Rise("35 mm", "0.1 s"), follower=follower, limits=limits, points=0, degree=13)
+    k = np.linspace(0.0, 1.0, 20_001)
+    for law in advice:
+        wave = 0.035 * law.law.c(k) / 0.1**2 * np.exp(1j * omega * 0.1 * k)
+        amplitude = abs(np.trapezoid(wave, 0.1 * k)) / omega
+        assert law.values[sway] == pytest.approx(amplitude, rel=1e-5, abs=1e-9)
+        assert law.keeps_limits == (law.values[sway] <= 1e-3 * (1.0 + 1e-9))
+    least = advice["least acceleration"]
+    assert least.values[sway] == pytest.approx(1e-3, rel=1e-9)
+    assert sway not in advice.guarded
+    assert [taken.text for taken in advice["modified sine"].broken] == ["1 mm"]
+    calm = advise(Rise("35 mm", "0.1 s"), follower=follower, minimise=sway, points=0, degree=13)
+    calmest = calm[f"least {sway}, no worse than modified sine"]
+    assert calmest.proof is not None
+    assert calmest.values[sway] == pytest.approx(calmest.proof.lower_bound, rel=1e-6, abs=1e-12)
+    with pytest.raises(InputError, match="are of one vibration: name one"):
+        advise(Rise("35 mm", "0.1 s"), follower=follower, limits=limits, minimise="residual acceleration")
+
+
 def test_a_motor_is_asked_for_what_it_takes() -> None:
     motor = Motor("3e-4 kg m^2", rated_torque="2 N m", peak_torque="4 N m", greatest_speed="3000 rpm")
     drive = Drive(Mechanism("0.8 kg m^2"), motor, ratio=20)
