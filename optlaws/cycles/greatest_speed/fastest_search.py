@@ -310,7 +310,9 @@ class FastestSearch:
         limited = span_problem(slower(span, _SLOW), self.objective)
         several = span.turns or len(span.stretches) > 1 or span.via
         windows = (
-            [*joint_windows(span, self.objective.order), *forward_windows(span, self.objective)] if several else ()
+            [*joint_windows(span, self.objective.order), *forward_windows(span, span.sides(self.objective.limits))]
+            if several
+            else ()
         )
         return replace(unlimited(limited), windows=tuple(windows), minimise="C")
 

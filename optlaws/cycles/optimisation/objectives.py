@@ -57,12 +57,10 @@ class CycleObjective:
 
     @property
     def kind(self) -> Kind:
-        """The kind of the minimised quantity."""
         return kind_of(self.minimise)[0]
 
     @property
     def mean(self) -> bool:
-        """Whether its root mean square is minimised."""
         return kind_of(self.minimise)[1]
 
     @property
@@ -82,7 +80,6 @@ class CycleObjective:
 
     @property
     def loaded(self) -> dict[LoadOutput, float]:
-        """The limits of outputs of the load."""
         return {output: most for output, (_, most) in self.limits.items() if isinstance(output, LoadOutput)}
 
     @property

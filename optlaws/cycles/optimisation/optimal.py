@@ -353,7 +353,7 @@ def span_problem(span: LawSpan, objective: CycleObjective) -> Problem:
             _of_load(objective, output, span): Range(0.0, most / abs(span.stroke))
             for output, most in objective.loaded.items()
         }
-        joints, forward = joint_windows(span, objective.order), forward_windows(span, objective)
+        joints, forward = joint_windows(span, objective.order), forward_windows(span, of_each)
         return Problem(
             order=1 if span.turns else objective.order,
             basis=joined_basis(span, objective.order, objective.degree, minimised),
@@ -446,9 +446,9 @@ def _limits(  # noqa: C901 - kinds of limits, one after another
     return bounds, tuple(windows)
 
 
-def forward_windows(span: LawSpan, objective: CycleObjective) -> Iterator[Window]:
+def forward_windows(span: LawSpan, of_each: Sequence[Sides | None]) -> Iterator[Window]:
     """Windows in which motions that must not turn back go on."""
-    for limits, (_, start, stop) in zip(span.sides(objective.limits), span.timed, strict=True):
+    for limits, (_, start, stop) in zip(of_each, span.timed, strict=True):
         for key in limits or ():
             if key.kind is Kind.VELOCITY_ALONG:
                 low, high = (0.0, inf) if key.sign * span.stroke < 0.0 else (-inf, 0.0)

@@ -81,8 +81,9 @@ class _End:
 def check_limits_at_joints(layout: Layout, objective: CycleObjective, period: float) -> None:
     """Refuse a limit that no law keeps: of slowing down where it turns, of force less than a joint takes."""
     for span in layout.spans:
-        _check_direction(span, objective)
-        for end in _ends(span, objective):
+        of_each = span.sides(objective.limits)
+        _check_direction(span, of_each)
+        for end in _ends(span, of_each):
             needed = end.demand(objective, Kind.FORCE)
             most = end.limits.get(_FORCE, needed)
             if needed > most * (1.0 + AGREEMENT):
@@ -97,9 +98,9 @@ def check_limits_at_joints(layout: Layout, objective: CycleObjective, period: fl
                 )  # fmt: skip
 
 
-def _check_direction(span: LawSpan, objective: CycleObjective) -> None:
+def _check_direction(span: LawSpan, of_each: Sequence[Sides | None]) -> None:
     """Refuse a limit of slowing down where the velocities at the ends turn the motion back."""
-    keys = [key for limits in span.sides(objective.limits) for key in limits or ()]
+    keys = [key for limits in of_each for key in limits or ()]
     against = any(state.velocity * span.displacement < 0.0 for state in (span.first, span.last))
     if against and any(key.kind is Kind.VELOCITY_ALONG for key in keys):
         raise InfeasibleProblem(
@@ -112,14 +113,14 @@ def _check_direction(span: LawSpan, objective: CycleObjective) -> None:
         )
 
 
-def _ends(span: LawSpan, objective: CycleObjective) -> Iterator[_End]:
+def _ends(span: LawSpan, of_each: Sequence[Sides | None]) -> Iterator[_End]:
     """The ends of stretches of a span at which its motion is known."""
     inner = (None,) * (len(span.stretches) - 1)
     states = (*span.states, span.states[0]) if span.turns else (span.first, *inner, span.last)
     positions = list(accumulate((stretch.displacement for stretch in span.stretches), initial=span.offset))
     times = (*span.starts, span.stop)
     direction = 0.0 if span.may_turn else 1.0 if span.displacement > 0.0 else -1.0
-    for i, limits in enumerate(span.sides(objective.limits)):
+    for i, limits in enumerate(of_each):
         for j, name in ((i, "start"), (i + 1, "end")) if limits is not None else ():
             where, state = f"{span.stretches[i].where}: at its {name}", states[j]
             if state is not None:
@@ -136,7 +137,8 @@ def ties_broken(layout: Layout, objective: CycleObjective, laws: Laws, period: f
     if objective.mean or kind not in {Kind.VELOCITY, Kind.FORCE} or not laws:
         return laws, ()
     known = [(size_of(piece, kind, objective.drive), piece.start) for piece in layout.pieces]
-    known += [(end.demand(objective, kind), end.time) for span in layout.spans for end in _ends(span, objective)]
+    ends = (end for span in layout.spans for end in _ends(span, span.sides(objective.limits)))
+    known += [(end.demand(objective, kind), end.time) for end in ends]
     greatest, time = max(known, key=itemgetter(0), default=(0.0, 0.0))
     if max(size_of(piece, kind, objective.drive) for piece, _ in laws) > greatest * (1.0 + AGREEMENT):
         return laws, ()
@@ -229,7 +231,6 @@ class _SharedLimit:
 
     @property
     def left(self) -> float:
-        """The part of the limit that remains for the sought laws."""
         return self.most - self._given
 
     @kept_property
