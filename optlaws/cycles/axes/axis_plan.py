@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from math import inf, sqrt
 from typing import Any, Literal
 
@@ -45,15 +45,19 @@ class PlannedSegment:
     most: Extent | None = None
     binds: str = ""
     effort: float = 0.0
+    _found: dict[bytes, Array] = field(default_factory=dict, init=False, repr=False, compare=False)
 
     def shares(self, positions: Array) -> Array:
         """After which shares of its duration it is at positions; 0 or 1 where they are beyond its ends."""
+        if (known := self._found.get(positions.tobytes())) is not None:
+            return known
         heights = np.clip((positions - self.start) / (self.stop - self.start), 0.0, 1.0)
         inside = (heights > 0.0) & (heights < 1.0)
         shares, of = heights.copy(), heights[inside]
         if self.law is not None and of.size:
             law, ends = self.law, (np.zeros(of.size), np.ones(of.size))
             shares[inside] = bracketed_roots(lambda k: law.a(k) - of, ends, (-of, 1.0 - of))
+        self._found[positions.tobytes()] = shares
         return shares
 
     def positions(self, shares: Array) -> Array:
@@ -79,6 +83,10 @@ class AxisPlan:
         """Positions at the joints, both ends included."""
         return [*(segment.start for segment in self.segments), self.segments[-1].stop]
 
+    @kept_property
+    def _slack(self) -> float:
+        return INTERLOCK * (max(self.positions) - min(self.positions))
+
     def events(self, segment: int, shares: Array) -> Array:
         """The times after shares of a segment as rows over the unknowns."""
         rows = np.zeros((len(shares), self.count))
@@ -88,8 +96,7 @@ class AxisPlan:
 
     def beyond(self, joint: int, levels: Array, sign: float) -> NDArray[np.bool_]:
         """Whether a joint is above levels, or below them where the sign is -1; what touches them is."""
-        slack = INTERLOCK * (max(self.positions) - min(self.positions))
-        return np.asarray(sign * (self.positions[joint] - levels) >= -slack)
+        return np.asarray(sign * (self.positions[joint] - levels) >= -self._slack)
 
     def leaves(self, joint: int, levels: Array, sign: float, way: int) -> Array:
         """When the axis leaves levels, before or after a joint at which it is beyond them; NaN where it does not."""

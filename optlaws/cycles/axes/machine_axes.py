@@ -201,9 +201,7 @@ class Axes(Declared, Mapping[str, Cycle], title="stored axes"):
     def _overlap(self, goal: Literal["period", "acceleration"], longer: Sequence[str]) -> Overlap:
         from optlaws.cycles.axes import overlapping
 
-        known = (
-            overlapping.shortest(self._program) if goal == "period" else overlapping.gentlest(self, self.rules, longer)
-        )
+        known = self._program.shortest() if goal == "period" else overlapping.gentlest(self, self.rules, longer)
         program, unknowns, bound = known
         period, times, cycles = program.unit * float(unknowns[-2]), program.durations(unknowns), dict[str, Cycle]()
         for plan in program.plans:

@@ -77,7 +77,6 @@ class Requirement:
 
     @property
     def passing(self) -> PlannedSegment:
-        """The segment that passes."""
         return self.axis.segments[self.segment]
 
     @property
@@ -119,7 +118,7 @@ class Requirement:
         """
         side, joint = option
         levels = side.level(self.passing.positions(shares))
-        early, late = self.axis.events(self.segment, shares), self.axis.events(self.segment, shares)
+        early = late = self.axis.events(self.segment, shares)
         if self.passing.law is None:
             late = self.axis.events(self.segment, np.ones(len(shares)))
         before, after = (self.other.leaves(joint, levels, side.sign, way) for way in (-1, 1))
@@ -309,6 +308,11 @@ class Overlapping:
         # weak duality, whatever the prices are worth
         return np.asarray(answer.x), float(prices @ right + np.minimum(rest * low, rest * most).sum())
 
+    def shortest(self) -> tuple[Overlapping, Array, float]:
+        """The instants of least period, longer by what programs are solved to, so that limits are met; its bound."""
+        unknowns, bound = self.best()
+        return self, unknowns * (1.0 + _OVERLAP_GAP), bound * self.unit
+
     def durations(self, unknowns: Array) -> dict[str, list[float]]:
         """The durations of the segments of each axis in seconds."""
         ends = {plan.name: (plan.first, plan.first + len(plan.segments)) for plan in self.plans}
@@ -362,15 +366,6 @@ def program(
     # the answer may be far shorter than what was given, and programs are as exact as their unit
     unit = max(map(_least_period, plans.values())) or duration
     return Overlapping(list(plans.values()), demands, None, _LONGEST * (duration + least), unit)
-
-
-def shortest(given: Overlapping) -> tuple[Overlapping, Array, float]:
-    """A program, and its instants of least period, longer by what programs are solved to; and the bound of the period.
-
-    All limits are so met.
-    """
-    unknowns, bound = given.best()
-    return given, unknowns * (1.0 + _OVERLAP_GAP), bound * given.unit
 
 
 def gentlest(
