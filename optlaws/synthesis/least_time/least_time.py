@@ -174,8 +174,10 @@ class Multipliers:
 def proof_by(certificate: Certificate, move: Timed, shortest: float, longest: float) -> TimeProof:
     """The proof of an interval by the multipliers of an optimum, without multipliers of the share's parts."""
     problem = move.within(longest, shortest if shortest and move.residual is not None else None)
-    # rows of an amplitude are in units of its bound, where it has one
-    units = {constant.name: bound.high for constant, bound in problem.bounds.items() if constant.normalised}
+    # rows of an amplitude are in units of its bound, where it has one, and else of its scale
+    units = {
+        constant.name: bound.high / constant.scale for constant, bound in problem.bounds.items() if constant.normalised
+    }
     of_rows = [
         replace(contact, multiplier=contact.multiplier * units.get(contact.constraint, 1.0))
         for contact in certificate.contacts
