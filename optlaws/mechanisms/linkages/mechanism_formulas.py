@@ -369,7 +369,9 @@ def _needed(part: Formula) -> tuple[Formula, set[int]] | None:
         exponent = constant(part.exponent)
         whole = exponent is not None and exponent == int(exponent)
         above = exponent is not None and exponent > 0.0
-        return None if whole and above else (part.base, {1, -1} if whole else {0, 1} if above else {1})
+        # whatever is raised to 0 is 1, 0 too
+        everywhere = whole and (above or exponent == 0.0)
+        return None if everywhere else (part.base, {1, -1} if whole else {0, 1} if above else {1})
     return None
 
 

@@ -21,7 +21,7 @@ from optlaws.laws.catalogue.reading import points_of
 from optlaws.laws.law import motion_law
 from optlaws.mechanisms.machine.drives import Forcing, forcings
 from optlaws.mechanisms.machine.transforms import legendre_from_chebyshev, moments, residual_phasor, roots
-from optlaws.motion.quantities import TURN, si_number
+from optlaws.motion.quantities import TURN, check_scale, si_number
 from optlaws.numbers import Array, Complex, NumberOrQuantity, numbers, positive, whole
 from optlaws.numerics import chebyshev
 from optlaws.shown.report import Panel, PlainReport, Report, ReportTable, Series
@@ -89,7 +89,11 @@ def weight_of(given: Any, duration: Any = None) -> Spectrum:
 
 def _in_motion(duration: NumberOrQuantity | None) -> float:
     """Radians in the motion that a frequency of 1 is."""
-    return 1.0 if duration is None else TURN * positive(si_number(duration, ("time",), "duration"), "duration")
+    if duration is None:
+        return 1.0
+    seconds = positive(si_number(duration, ("time",), "duration"), "duration")
+    check_scale(seconds, "s", "duration", duration)
+    return TURN * seconds
 
 
 def parts_of(spectrum: Spectrum) -> tuple[WeightPart, ...]:

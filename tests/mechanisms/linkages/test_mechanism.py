@@ -256,6 +256,12 @@ def test_what_cannot_be_between_samples_is_refused(wrong: Callable[[], Any], mes
         wrong()
 
 
+@pytest.mark.parametrize("exponent", ["0", "1", "2", "4", "0.5", "1.5"])
+def test_a_power_has_a_value_where_its_base_vanishes(exponent: str) -> None:
+    inertia = Mechanism(f"1 + (x/2)^{exponent}", over=(0.0, 2.0))
+    assert inertia.inertia(0.0) == pytest.approx(1.0 + 0.0 ** float(exponent))
+
+
 def test_what_only_touches_its_bounds_is_taken() -> None:
     """An inertia that vanishes, a root of what is 0 at an end, and a rod that is hardly long enough."""
     assert Mechanism("0.1*(1 - cos(x))", over=(0.0, 7.0)).inertia(0.0) == 0.0
