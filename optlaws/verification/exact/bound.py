@@ -33,6 +33,8 @@ _CHARGED = Fraction(1, 10**10)
 #: of the greatest multiplier: what a repair changes no multiplier by more than
 _REPAIRED = Fraction(1, 10**6)
 _MORE_BITS = (1, 2, 4)
+#: more than what rounding of bounds of means makes of how fast they grow
+_WIDER = 1.0 + 2.0**-20
 #: how far from a contact its neighbours are, and how much of its multiplier each takes
 _NEAR, _SHARE = Fraction(1, 2**20), Fraction(1, 2**22)
 
@@ -260,8 +262,28 @@ def _charge(certificate: Certificate, rows: ExactRows, total: Vector, claim: flo
         for name, output in rows.outputs.items():
             if output.exact.both and isfinite(greatest.get(name, inf)):
                 worths.append(_worth([output.moments()], settled, ball(greatest[name]), slopes))
+    if not worths:
+        worths = list(_paid(certificate.problem, rows, settled, total))
     known = [worth for worth in worths if worth is not None]
     return charge + min(known, key=upper) if known else None
+
+
+def _paid(problem: Problem, rows: ExactRows, settled: Sequence[Vector], total: Vector) -> Iterator[arb | None]:
+    """The worth of slopes where a constant that bounds a mean in proportion, however great it is, outweighs them."""
+    terms, least = rows.space.terms, least_values(problem, rows)
+    for name, slope in zip(rows.names, total[terms:-1], strict=True):
+        if not bool(slope > 0) or least.get(name, 0) < 0:
+            continue
+        none, some, more = (means(problem, rows, {name: float(times)}) for times in range(3))
+        for nu in none.keys() & some.keys() & more.keys():
+            growth = (some[nu] - none[nu]) * _WIDER
+            # of several bounds the least is nowhere above a line that it touches at three places
+            line = bool(more[nu] - some[nu] <= growth) and bool(some[nu] - none[nu] <= (more[nu] - some[nu]) * _WIDER)
+            moments = rows.space.moments(nu)
+            still = _worth(moments, settled, none[nu], total[:terms]) if line else None
+            one_more = _worth(moments, settled, none[nu] + growth, total[:terms]) if still is not None else None
+            if still is not None and one_more is not None and bool(one_more - still <= slope):
+                yield still
 
 
 def _worth(pieces: Sequence[Sequence[Vector]], settled: Sequence[Vector], mean: arb, slopes: Vector) -> arb | None:

@@ -10,6 +10,7 @@ from math import inf, nextafter, sqrt
 from typing import Any
 
 import pytest
+from scipy.optimize import brentq
 
 from optlaws import (
     BoundaryConditions,
@@ -128,8 +129,37 @@ def test_a_charge_is_in_units_of_the_objective(times: int) -> None:
     assert charged(times) == pytest.approx((times * value, times * charge), rel=1e-9)
 
 
+@pytest.mark.parametrize("multiplier", [0.9, 0.99])
+@pytest.mark.parametrize("share", [0.3, 0.6, 1.01, 1.5, 3.0])
+def test_what_a_sum_leaves_of_a_constant_pays_for_the_law_it_bounds(multiplier: float, share: float) -> None:
+    # a velocity may be anything below 0, so that no claim says what C is; the moment of the free function is 2/7
+    left = share * (1.0 - multiplier) / 3.5
+    x = brentq(lambda x: multiplier * (5.0 * x**3 - 3.0 * x) + 1.0 / 8.0 - left, -1.0, -0.7)
+    contacts = (c_at(x, multiplier), Contact("value(b, at=0.5)", 1.0, 0.5, 1.0))
+    value = exact_bound(Certificate.of_leaf(small(minimise="C + value(b, at=0.5)"), contacts, ()))
+    if share > 1.0:
+        assert value is None
+    else:
+        assert float(value or 0) == pytest.approx(-6.0 * x * multiplier + 1.5, rel=1e-12)
+
+
+@pytest.mark.parametrize("multiplier", [0.9, 0.99])
+@pytest.mark.parametrize("share", [0.3, 0.49, 0.51, 0.9, 1.5, 3.0])
+def test_a_constant_of_one_sign_pays_twice_for_the_law_it_bounds(multiplier: float, share: float) -> None:
+    # what is above 0 and what is below are as large: the mean size of c is at most twice C_plus
+    left = share * (1.0 - multiplier) / 3.5
+    x = brentq(lambda x: multiplier * (5.0 * x**3 - 3.0 * x) + 1.0 / 8.0 - left, -1.0, -0.7)
+    highest = Contact("C_plus", 1.0, (1.0 + x) / 2.0, multiplier)
+    contacts = (highest, Contact("value(b, at=0.5)", 1.0, 0.5, 1.0))
+    value = exact_bound(Certificate.of_leaf(small(minimise="C_plus + value(b, at=0.5)"), contacts, ()))
+    if share > 0.5:
+        assert value is None
+    else:
+        assert float(value or 0) == pytest.approx(-6.0 * x * multiplier + 1.5, rel=1e-12)
+
+
 @pytest.mark.parametrize("minimise", ["C + value(b, at=0.5)", "C_plus + value(b, at=0.5)", "J + value(b, at=0.5)"])
-def test_where_no_claim_bounds_the_laws_multipliers_are_repaired(minimise: str) -> None:
+def test_where_no_claim_bounds_the_laws_the_optimum_is_proven(minimise: str) -> None:
     # a velocity may be anything below 0, so that no claim says what the others are
     solution = synthesize(small(minimise=minimise))
     rows = ExactRows(solution.certificate)
