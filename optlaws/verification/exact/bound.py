@@ -30,7 +30,7 @@ Vector = list[arb]
 
 #: of a bound: where more is charged a repair is tried
 _CHARGED = Fraction(1, 10**10)
-#: of the greatest multiplier: what a repair changes no multiplier by more than
+#: of the greatest multiplier: what a repair of what is proven by a charge too changes no multiplier by more than
 _REPAIRED = Fraction(1, 10**6)
 _MORE_BITS = (1, 2, 4)
 #: more than what rounding of bounds of means makes of how fast they grow
@@ -116,7 +116,8 @@ def _proof_at_work(certificate: Certificate, along: Along | None) -> Proof:
     charge = _charge(widest, rows, total, claim) if isfinite(claim) else None
     weights, value = leaf.weights, total[-1]
     if charge is None or upper(charge) > _CHARGED * abs(upper(value)):
-        repaired = leaf.repaired()
+        # what nothing bounds has no other proof, however far the multipliers are from it
+        repaired = leaf.repaired(_REPAIRED if charge is not None else Fraction(1))
         if repaired is not None and (charge is None or bool(repaired[1] > value - charge)):
             (weights, value), charge, claim = repaired, arb(0), inf
     if charge is None or not value.is_finite():
@@ -174,10 +175,10 @@ class _Leaf:
             raise InputError("the number changes more than right sides of rows: nothing is proven along it")
         return [(other[-1] - here[-1]) / ball(along.width) for here, other in pairs]
 
-    def repaired(self) -> tuple[Vector, arb] | None:
+    def repaired(self, most: Fraction) -> tuple[Vector, arb] | None:
         """Multipliers with which the sum depends on nothing, and its value; None where no small change is enough.
 
-        A change is small that the rounding of multipliers explains.
+        A change is small that is at most a share of the greatest multiplier, `most`.
 
         Each contact lends a little of its multiplier to neighbours, which stand for its place: place and multiplier
         together have as much freedom as the law.
@@ -192,7 +193,7 @@ class _Leaf:
         freedom = [*weights[:count], *[greatest] * (len(weights) - count), *beside]
         weights += beside
         changes = _changes(vectors, [weight * weight for weight in freedom], self._added(weights, vectors)[:-1])
-        if changes is None or not all(bool(abs(change) <= greatest * ball(_REPAIRED)) for change in changes):
+        if changes is None or not all(bool(abs(change) <= greatest * ball(most)) for change in changes):
             return None
         corrected = [weight + change for weight, change in zip(weights, changes, strict=True)]
         if not all(bool(weight >= 0) for weight in (*corrected[:count], *corrected[len(self.weights) :])):
