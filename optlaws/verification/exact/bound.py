@@ -8,11 +8,12 @@ as makes the sum depend on nothing, which balls enclose.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from math import inf, isfinite
+from typing import NamedTuple
 
 from flint import arb, arb_mat, ctx
 
@@ -73,8 +74,10 @@ def prove(certificate: Certificate) -> Proof:
     if certificate.peak:
         return Proof(None)
     best = _proof(certificate, None)
+    if certificate.program == VIOLATION:
+        return best
     least = least_objective(certificate.problem, ExactRows(certificate))
-    if certificate.program != VIOLATION and least is not None and (best.value is None or best.value <= least):
+    if least is not None and (best.value is None or best.value <= least):
         return replace(best, value=least, charge=0.0, by_rows=False)
     return best
 
@@ -257,21 +260,29 @@ def _charge(certificate: Certificate, rows: ExactRows, total: Vector, claim: flo
         return charge
     settled = [row.vector([]) for row in rows.equations if not row.constants]
     bounded = means(certificate.problem, rows, greatest)
-    worths = [_worth(rows.space.moments(nu), settled, mean, slopes) for nu, mean in bounded.items()]
+    known = [(rows.space.moments(nu), mean) for nu, mean in bounded.items()]
     if not bounded:
         # an output may determine the law where nothing else says how large it is
-        for name, output in rows.outputs.items():
-            if output.exact.both and isfinite(greatest.get(name, inf)):
-                worths.append(_worth([output.moments()], settled, ball(greatest[name]), slopes))
-    if not worths:
-        worths = list(_paid(certificate.problem, rows, settled, total))
-    known = [worth for worth in worths if worth is not None]
-    return charge + min(known, key=upper) if known else None
+        sized = [
+            name for name, output in rows.outputs.items() if output.exact.both and isfinite(greatest.get(name, inf))
+        ]
+        known = [([rows.outputs[name].moments()], ball(greatest[name])) for name in sized]
+    priced = [(_worth(moments, settled, slopes), mean) for moments, mean in known]
+    worths = [worth.known + worth.by_mean * mean for worth, mean in priced if worth is not None]
+    if not known:
+        worths = list(_paid(certificate.problem, rows, settled, total, least))
+    return charge + min(worths, key=upper) if worths else None
 
 
-def _paid(problem: Problem, rows: ExactRows, settled: Sequence[Vector], total: Vector) -> Iterator[arb | None]:
+def _paid(
+    problem: Problem,
+    rows: ExactRows,
+    settled: Sequence[Vector],
+    total: Vector,
+    least: Mapping[str, Fraction | float],
+) -> Iterator[arb]:
     """The worth of slopes where a constant that bounds a mean in proportion, however great it is, outweighs them."""
-    terms, least = rows.space.terms, least_values(problem, rows)
+    terms = rows.space.terms
     for name, slope in zip(rows.names, total[terms:-1], strict=True):
         if not bool(slope > 0) or least.get(name, 0) < 0:
             continue
@@ -280,15 +291,20 @@ def _paid(problem: Problem, rows: ExactRows, settled: Sequence[Vector], total: V
             growth = (some[nu] - none[nu]) * _WIDER
             # of several bounds the least is nowhere above a line that it touches at three places
             line = bool(more[nu] - some[nu] <= growth) and bool(some[nu] - none[nu] <= (more[nu] - some[nu]) * _WIDER)
-            moments = rows.space.moments(nu)
-            still = _worth(moments, settled, none[nu], total[:terms]) if line else None
-            one_more = _worth(moments, settled, none[nu] + growth, total[:terms]) if still is not None else None
-            if still is not None and one_more is not None and bool(one_more - still <= slope):
-                yield still
+            worth = _worth(rows.space.moments(nu), settled, total[:terms]) if line else None
+            if worth is not None and bool(worth.by_mean * growth <= slope):
+                yield worth.known + worth.by_mean * none[nu]
 
 
-def _worth(pieces: Sequence[Sequence[Vector]], settled: Sequence[Vector], mean: arb, slopes: Vector) -> arb | None:
-    """The most by which slopes in the coordinates can lower a sum, where a mean magnitude is bounded.
+class _Worth(NamedTuple):
+    """The most by which slopes can lower a sum: what is known, and how much for each unit of a mean magnitude."""
+
+    known: arb
+    by_mean: arb
+
+
+def _worth(pieces: Sequence[Sequence[Vector]], settled: Sequence[Vector], slopes: Vector) -> _Worth | None:
+    """What slopes in the coordinates are worth; None where the moments do not determine the law.
 
     Parameters
     ----------
@@ -296,8 +312,6 @@ def _worth(pieces: Sequence[Sequence[Vector]], settled: Sequence[Vector], mean: 
         Of each piece of the interval, moments of the function with functions that are at most 1 in magnitude.
     settled
         Rows that are 0 in every law: of what no moment sees.
-    mean
-        The bound of the function's mean magnitude over all pieces together.
     slopes
         One for each coordinate.
     """
@@ -309,11 +323,10 @@ def _worth(pieces: Sequence[Sequence[Vector]], settled: Sequence[Vector], mean: 
     except ZeroDivisionError:
         return None
     weights = (matrix * solution).entries()
-    charge, first, most = arb(0), 0, arb(0)
+    known, first, most = arb(0), 0, arb(0)
     for weight, row in zip(weights, rows, strict=True):
-        charge += weight * arb(row[-1])
+        known += weight * arb(row[-1])
     for piece in pieces:
         most = most.max(sum((abs(weight) for weight in weights[first : first + len(piece)]), arb(0)))
         first += len(piece)
-    charge += most * mean
-    return charge if charge.is_finite() else None
+    return _Worth(known, most) if known.is_finite() and most.is_finite() else None
