@@ -326,8 +326,6 @@ _ABOVE = (1e-5, 1e-7, 1e-9)
 _BENT = 2.0
 #: from this number on, points of convex problems are added in groups, in gaps half as important as the first
 _MANY, _SHARE, _EVEN = 16, 0.5, 4
-#: so few first points are guessed, more are computed
-_GUESSED = 32
 #: where laws are worse than others, so many times as many are looked for at most
 _AGAIN = 2
 
@@ -465,21 +463,14 @@ class _Curve:
         begun = 2 ** round(log2(count / _EVEN))
         values = [low * (high / low) ** (i / begun) for i in range(1, begun)]
         line = SolvedLine(self.problem, self.over[0], self._problem, low, high)
-        known: dict[float, Solution] = {}
-        guessed = line.guessed(np.array(values)) if len(values) < _GUESSED else None
-        points = _pairs(self.points)
-        ahead = [] if guessed is None else _ahead([*points, *zip(values, guessed.tolist(), strict=True)], count)
         while values:
-            new = {*values, *ahead} - known.keys()
-            known |= self._computed(line, np.array(sorted(new))) if new else {}
+            known = self._computed(line, np.array(values))
             there = [(value, known[value]) for value in values if value in known]
             self.points = sorted([*self.points, *there], key=lambda point: point[0])
             if len(there) < len(values):
                 # the others are looked at one by one
                 return
-            points = _pairs(self.points)
-            values = _wanting(points, count)
-            ahead = [] if known.keys() >= set(values) else _ahead(points, count)
+            values = _wanting(_pairs(self.points), count)
 
     def _computed(self, line: SolvedLine, values: Array) -> dict[float, Solution]:
         """Proven solutions at values of the first constant, whose constants are remembered."""
@@ -563,26 +554,6 @@ def _wanting(points: Sequence[tuple[float, float]], count: int) -> list[float]:
     wanting = np.flatnonzero(widths >= max(_SHARE * widths.max(), AGREEMENT))
     places = wanting[np.argsort(-widths[wanting])][: count - len(points)]
     return [sqrt(points[i][0] * points[i + 1][0]) for i in sorted(places.tolist())]
-
-
-def _ahead(points: Sequence[tuple[float, float]], count: int) -> list[float]:
-    """Where a front that has these points will probably have the others, by cubic interpolation between them."""
-    points = sorted(points)
-    low, high = points[0][0], points[-1][0]
-    given, objectives = np.array(points).T
-    # near its least value the objective falls like a square root
-    shares = np.sqrt((given - low) / (high - low))
-    slopes = np.gradient(objectives, shares, edge_order=2)
-    while values := _wanting(points, count):
-        at = np.sqrt((np.array(values) - low) / (high - low))
-        i = np.searchsorted(shares, at) - 1
-        width = shares[i + 1] - shares[i]
-        u = (at - shares[i]) / width
-        first, last = (1.0 + 2.0 * u) * (1.0 - u) ** 2, u * u * (3.0 - 2.0 * u)
-        bent = width * u * (1.0 - u) * ((1.0 - u) * slopes[i] - u * slopes[i + 1])
-        between = first * objectives[i] + last * objectives[i + 1] + bent
-        points = sorted([*points, *zip(values, between.tolist(), strict=True)])
-    return [value for value, _ in points[1:-1]]
 
 
 def _widths(points: Sequence[tuple[float, float]]) -> Array:

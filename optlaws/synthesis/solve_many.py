@@ -22,7 +22,7 @@ from optlaws.kept import kept_property
 from optlaws.numbers import Array, whole
 from optlaws.shown.steps import Steps
 from optlaws.synthesis.arrays.continuation import StructureSegment
-from optlaws.synthesis.arrays.continued_laws import guessed_objectives, laws_along, segments_of, with_stored_structures
+from optlaws.synthesis.arrays.continued_laws import laws_along, segments_of, with_stored_structures
 from optlaws.synthesis.arrays.lines import ProblemLine, along_velocities, form_of, least_count, lines_of
 from optlaws.synthesis.arrays.powers import least_power, on_global_branch, with_quick_bounds
 from optlaws.synthesis.arrays.problems import ProblemArray
@@ -217,16 +217,6 @@ class SolvedLine:
         rows = np.flatnonzero(laws.solved)
         parts = [SolvedPart(order[rows], self._path.model, laws.taken(rows).frozen())] if len(rows) else []
         return completed(problems, parts, {}, began)
-
-    def guessed(self, values: Array) -> Array | None:
-        """About what the objectives at ascending values are, of which nothing is proven; None where nothing is known.
-
-        >>> problem = Problem(order=4)
-        >>> SolvedLine(problem, "B", problem.at_velocity, 1.6, 1.8).guessed(np.array([1.62, 1.7])).round(4).tolist()
-        [5.1737, 4.8198]
-        """
-        t = (values - self.low) / (self.high - self.low)
-        return None if self._path is None else guessed_objectives(self._path, t)
 
     @kept_property
     def _path(self) -> Path | None:

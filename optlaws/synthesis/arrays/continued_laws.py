@@ -80,15 +80,6 @@ def with_stored_structures(path: Path, t: Array, laws: SolvedBatch) -> NDArray[n
     return alike
 
 
-def guessed_objectives(path: Path, t: Array) -> Array | None:
-    """Approximate objectives of the optima at some t, by structures that are stored; None where none are."""
-    known = _stored_along(path, t)
-    if known is None:
-        return None
-    guesses = [known.guess(i, t[j : j + 1])[1].x[0] for j, i in enumerate(known.nearest.tolist())]
-    return np.asarray(path.model.unit * (np.array(guesses) * path.numbers(t).cost).sum(axis=1))
-
-
 @dataclass(frozen=True, eq=False)
 class _StoredAlong:
     """The structures that are stored for problems of a path, which differ in B, and the nearest one at each t."""
