@@ -13,7 +13,10 @@ import pytest
 
 import optlaws
 import optlaws.typing
+from optlaws import InputError
 from tests.documents import ROOT
+from tests.internals.entries import Declared
+from tests.internals.mechanisms import MechanismKind
 
 
 def is_method(one: object) -> bool:
@@ -95,7 +98,7 @@ def refusal(function: Callable[..., Any]) -> str:
     """What is said of a keyword that there is not."""
     try:
         function(misspelt_keyword=1)
-    except TypeError as error:
+    except (TypeError, InputError) as error:
         return str(error)
     return "taken"
 
@@ -108,8 +111,32 @@ def test_a_misspelt_keyword_is_refused() -> None:
         if not (inspect.isclass(function) and inspect.isabstract(function)) and not styled(function)
     }
     reasons = {name: refusal(function) for name, function in asked.items()}
-    refused = re.compile("unexpected keyword|takes no (keyword )?arguments|no arguments")
+    refused = re.compile("unexpected keyword|takes no (keyword )?arguments|no arguments|unknown entry of .* known are")
     assert {name: text for name, text in reasons.items() if not refused.search(text)} == {}
+
+
+def makes_values(name: str, function: object) -> bool:
+    """Whether it takes the entries of a value: its class, or the function of a kind of mechanism."""
+    kinds = {kind.replace(" ", "_") for kind in MechanismKind.kinds()}
+    return name in kinds or (inspect.isclass(function) and issubclass(function, Declared) and function is not Declared)
+
+
+MAKERS = {name: one for name, one in CALLABLES.items() if makes_values(name, one) and not inspect.isabstract(one)}
+
+
+@pytest.mark.parametrize("name", MAKERS)
+def test_whatever_takes_entries_names_the_one_that_it_does_not_know_or_lacks(name: str) -> None:
+    with pytest.raises(InputError, match=r"unknown entry of .* 'misspelt_keyword'; known are "):
+        MAKERS[name](misspelt_keyword=1)
+    parameters = [each for each in inspect.signature(MAKERS[name]).parameters.values() if each.default is each.empty]
+    if parameters:
+        with pytest.raises(InputError, match=r" needs its \w+"):
+            MAKERS[name]()
+
+
+def test_the_name_of_a_link_is_one_of_its_bodies() -> None:
+    with pytest.raises(InputError, match="unknown entry of a slider crank 'slide'; did you mean 'bodies'"):
+        optlaws.slider_crank("30 mm", "100 mm", slide="2 kg")  # type: ignore[call-arg]
 
 
 @pytest.mark.parametrize("value", [optlaws.smoothstep(3), optlaws.synthesize(optlaws.Problem(B=1.7, order=3))])

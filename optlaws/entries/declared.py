@@ -7,11 +7,12 @@ import re
 import sys
 from collections.abc import Callable, Mapping
 from dataclasses import MISSING, dataclass, field, fields
+from functools import wraps
 from inspect import signature
 from textwrap import wrap
 from typing import Any, ClassVar, ForwardRef, NoReturn, Self, TypeVar, dataclass_transform, get_args, get_origin
 
-from optlaws.echo import shortened
+from optlaws.echo import shortened, unknown_key
 from optlaws.entries.value_types import AnyTable, Kept, ValueType
 from optlaws.errors import InputError, located
 from optlaws.files.reading import JsonText, check_names
@@ -143,6 +144,11 @@ class Entry:
         usual = "" if self.plain_default is None else f"; {self.default!r} unless given"
         return f"{self.type.words[:1].upper()}{self.type.words[1:]}{usual}."
 
+    def missing_of(self, what: str) -> InputError:
+        """The error of a value that needs it and has none."""
+        such = "" if self.example is None else f", such as {self.name} = {self.example!r}"
+        return InputError(f"{what} needs its {self.name}{such}")
+
     def read(self, value: Any) -> Any:
         """What is kept of a value; None where it may be absent and is."""
         if value is None and self.default is None and self.type.absent is None:
@@ -223,7 +229,28 @@ def declared(cls: type[DeclaredT]) -> type[DeclaredT]:
     for base in reversed(cls.__mro__):
         known |= vars(sys.modules[base.__module__])
     types |= {name: _given_type(text, known) for name, text in types.items()}
+    type.__setattr__(value, "__init__", _naming_entries(value))
     return value
+
+
+def _naming_entries(cls: type[DeclaredT]) -> Callable[..., None]:
+    """The constructor of a declared class, which names entries that it does not have, and those that it needs."""
+    make = cls.__init__
+    takes = [each for name, each in signature(make).parameters.items() if name != "self"]
+    names, least = {each.name for each in takes}, sum(each.default is each.empty for each in takes)
+
+    @wraps(make)
+    def constructor(self: DeclaredT, *args: Any, **given: Any) -> None:
+        known = entries_of(cls).values()
+        for name in given.keys() - names:
+            inner = {key: each.name for each in known for table in each.type.tables().values() for key in table}
+            raise InputError(unknown_key(name, names, f"entry of {cls.named}", words=inner))
+        if len(args) + len(given) < least:
+            needed = {each.name for each in takes[len(args) :] if each.default is each.empty} - given.keys()
+            raise next(each for each in known if each.field in needed).missing_of(cls.named)
+        make(self, *args, **given)
+
+    return constructor
 
 
 def _given_type(text: Any, known: Mapping[str, Any]) -> Any:
@@ -366,8 +393,7 @@ class Declared(JsonText):
         for name, each in known.items():
             absent = name not in given or (given[name] is None and each.type.absent is None)
             if each.needed and absent:
-                such = "" if each.example is None else f", such as {name} = {each.example!r}"
-                raise InputError(f"{cls.named} needs its {name}{such}")
+                raise each.missing_of(cls.named)
         takes = cls.__init__.__annotations__
         return cls(**{name if name in takes else known[name].field: value for name, value in given.items()})
 
