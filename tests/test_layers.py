@@ -101,7 +101,6 @@ SEVERAL = {
     "space",
     "splines",
     "study",
-    "sublevel_bounds",
     "summary",
     "table",
     "tables",

@@ -36,7 +36,7 @@ from optlaws.verification.enclosing.balls import at, enclosed, rational
 from optlaws.verification.enclosing.pieces import between, least_and_greatest
 from optlaws.verification.exact.bound import Proof, prove
 from optlaws.verification.exact.law import ExactLaw
-from optlaws.verification.exact.sublevel_bounds import exact_limit
+from optlaws.verification.exact.limit import exact_limit
 from optlaws.verification.file_entries import NO_FILE, FileEntry, check_keys, entries, is_entry, kind_of
 from optlaws.verification.fronts_and_times import least_time, overlap_of_axes, plan_of_cycle, proven_front, time_front
 from optlaws.verification.reading import built, number, read

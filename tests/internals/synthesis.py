@@ -79,7 +79,7 @@ from optlaws.synthesis.proof.power.formula_underestimators import FormulaRows, a
 from optlaws.synthesis.proof.power.rows import Anchors, PowerRows, rows_of, velocity_brackets
 from optlaws.synthesis.proof.power.search import Region, _points, searched
 from optlaws.synthesis.proof.power.shared_energy import secant_over_inverse, secant_over_root
-from optlaws.synthesis.proof.sublevel_bounds import greatest_values, least_values, means, means_by, spread
+from optlaws.synthesis.proof.sublevel_bounds import Sublevel, means_by, spread
 from optlaws.synthesis.search import LawSearch, attempt, from_symmetric
 from optlaws.synthesis.solve import _neighbours
 from optlaws.synthesis.solve_many import _together, solved

@@ -11,17 +11,9 @@ from optlaws.verification.enclosing.pieces import between, real_roots
 from optlaws.verification.exact.bound import prove
 from optlaws.verification.exact.law import ExactLaw
 from optlaws.verification.exact.least_times import least_time_of_any_law
+from optlaws.verification.exact.limit import exact_limit
 from optlaws.verification.exact.of_basis import exact_space
 from optlaws.verification.exact.rows import ExactRows
-from optlaws.verification.exact.sublevel_bounds import (
-    _spread,
-    exact_limit,
-    greatest_values,
-    least_objective,
-    least_values,
-    means,
-    never_negative,
-)
 from optlaws.verification.machines.floors import floor
 from optlaws.verification.machines.output_motion import cycle, followed, of_pieces, response
 from optlaws.verification.machines.residuals import ExactModeResidual

@@ -13,7 +13,7 @@ from optlaws.synthesis.arrays.programs import Numbers, Path
 from optlaws.synthesis.families.family import LinearFamily
 from optlaws.synthesis.program.writer import Model
 from optlaws.synthesis.proof.duality import product_with_rest
-from optlaws.synthesis.proof.sublevel_bounds import greatest_values, least_values, moments
+from optlaws.synthesis.proof.sublevel_bounds import Sublevel, moments
 from optlaws.tolerances import ROUNDOFF
 
 _SQUARED_SUMS = 2.0**-20  # of the roundings in a row: what sums of many are off by beyond them
@@ -126,7 +126,7 @@ def rounding_charge(model: Model, below: AprioriBounds, slope: Array, blur: Arra
 def bounds_below(model: Model, greatest: dict[str, float]) -> AprioriBounds:
     """A priori bounds of the variables, above and below, and of the coordinates, where constants are known above."""
     scales = model.in_scales
-    least = least_values(model.problem, model.space)
+    least = Sublevel.of(model).least_values()
     return scales(greatest), scales(least), moments(model, greatest)
 
 
@@ -137,7 +137,8 @@ def _below(path: Path, claim: float) -> AprioriBounds:
         greatest: dict[str, float] = {}
         for problem in path.problems:
             model: Model = replace(path.model, problem=problem)
-            for name, value in greatest_values(model, 0.0 if step is None else _CLAIMS**step * _ABOVE).items():
+            most = 0.0 if step is None else _CLAIMS**step * _ABOVE
+            for name, value in Sublevel.of(model).greatest_values(most).items():
                 greatest[name] = max(greatest.get(name, 0.0), value)
         path.bounds_below_claim[step] = bounds_below(path.model, greatest)
     below: AprioriBounds = path.bounds_below_claim[step]

@@ -20,7 +20,7 @@ from optlaws.synthesis.families.energy import EnergyFamily
 from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, NormFamily, Program
 from optlaws.synthesis.program.writer import Model
 from optlaws.synthesis.proof.nodes import Contact, Leaf
-from optlaws.synthesis.proof.sublevel_bounds import greatest_values, least_values, means_by, moments
+from optlaws.synthesis.proof.sublevel_bounds import Sublevel, means_by, moments
 from optlaws.tolerances import ROUNDOFF
 
 _WEIGHTED_ROUNDING = 9 * ROUNDOFF  # roundings in a row before it is weighted, and of the sum
@@ -195,8 +195,9 @@ def _halves(values: Array) -> tuple[Array, Array]:
 def rounding_error_bound(model: Model, total: RowSum, claim: float) -> float:
     """The greatest effect of rounding in the slope, over all laws that contradict the claim."""
     terms, slope = model.space.terms, total.slope
-    known = greatest_values(model, max(claim, 0.0))
-    greatest, least = model.in_scales(known), model.in_scales(least_values(model.problem, model.space))
+    sublevel = Sublevel.of(model)
+    known = sublevel.greatest_values(max(claim, 0.0))
+    greatest, least = model.in_scales(known), model.in_scales(sublevel.least_values())
     beyond = 0.0
     for name, place in model.places.items():
         # a positive slope can only help where the constant is at least 0

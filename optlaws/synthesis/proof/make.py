@@ -30,7 +30,7 @@ from optlaws.synthesis.program.writer import Model, relaxed, relaxed_power
 from optlaws.synthesis.proof.certificate import OBJECTIVE, RELAXED, VIOLATION, Certificate, weighted_rows
 from optlaws.synthesis.proof.duality import row_of, summed
 from optlaws.synthesis.proof.nodes import Contact
-from optlaws.synthesis.proof.sublevel_bounds import least_values, means_by
+from optlaws.synthesis.proof.sublevel_bounds import Sublevel, means_by
 from optlaws.synthesis.spaces.bases import PolynomialBasis
 from optlaws.tolerances import EMPTY_ROW, OPTIMALITY_GAP
 
@@ -184,7 +184,7 @@ def _touching(model: Model, contact: Contact, change: Array) -> Contact:
 def _leaving(model: Model, optimum: ActiveSet) -> Iterator[Certificate]:
     """Certificates of optima that leave a little of a constant's weight, with which rounding is paid."""
     program = model.program
-    least = least_values(model.problem, model.space)
+    least = Sublevel.of(model).least_values()
     pulled = np.zeros(program.size)
     for i, multiplier in zip(optimum.family, optimum.multipliers, strict=True):
         pulled += multiplier * program.families[i].slack
@@ -259,7 +259,7 @@ def _with_falling_peaks(model: Model, proof: Certificate) -> Certificate:
 
     Beside such a peak other constants may be as great as they like, and are not pulled by more than they cost.
     """
-    least = least_values(model.problem, model.space)
+    least = Sublevel.of(model).least_values()
     falling = [name for name in model.places if least.get(name) == -np.inf]
     if not falling or proof.program == VIOLATION:
         return proof

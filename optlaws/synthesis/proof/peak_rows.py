@@ -19,7 +19,7 @@ from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import Model, model_of
 from optlaws.synthesis.proof.duality import lines_of, sum_of_rows
 from optlaws.synthesis.proof.nodes import Leaf, Node, PlaceRange, Split, Tightening
-from optlaws.synthesis.proof.sublevel_bounds import greatest_values, moments
+from optlaws.synthesis.proof.sublevel_bounds import Sublevel, moments
 from optlaws.synthesis.spaces.bases import PolynomialBasis
 from optlaws.tolerances import VALUE_ROUNDING
 
@@ -63,7 +63,7 @@ class PeakRows:
         nothing = np.zeros(self.model.program.size)
         row = LinearFamily(CLAIM, nothing, most, (1.0,), (1.0, 1.0), unit=self.model.unit, series=objective)
         self._program = replace(self.model.program, families=(*self.model.program.families, row))
-        self._moments = moments(self.model, greatest_values(self.model, claim))
+        self._moments = moments(self.model, Sublevel.of(self.model).greatest_values(claim))
         self._curvatures: dict[float, list[float]] = {}
 
     def roots(self) -> list[PlaceRange]:

@@ -5,18 +5,21 @@ A law that contradicts the claim has a small objective, so small constants, and 
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from math import inf, isfinite
+from collections.abc import Callable, Container, Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+from math import inf, isfinite, sqrt
+from typing import Any
 
 import numpy as np
 
+from optlaws.kept import kept_property
 from optlaws.numbers import Array
 from optlaws.synthesis.families.names import VariableName
 from optlaws.synthesis.problem.constants import Functional, PeakConstant, PowerConstant
 from optlaws.synthesis.problem.expression import Expression, Maximum, Term, leaves
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import Model, maxima, relaxed_power
-from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
 from optlaws.synthesis.spaces.space import LawSpace
 from optlaws.tolerances import VALUE_ROUNDING
 
@@ -24,52 +27,169 @@ _SUBLEVEL_RANK = 1e-15  # of the greatest singular value: less is rounding
 
 _ACCELERATION = 2
 
-
-def greatest_constants(model: Model, claim: float) -> dict[str, float]:
-    """Upper bounds of the objective's constants, and of bounded ones, in laws below the claim."""
-    problem = model.problem
-    bounds: dict[str, float] = {}
-    if VariableName.VIOLATION not in model.places:
-        spread(problem.objective, claim, bounds, least_values(problem, model.space))
-    for name in ("B", *(constant.name for constant, _ in problem.bounded)):
-        limits = problem.range(name)
-        if limits is not None:
-            bounds[name] = min(bounds.get(name, inf), limits.high)
-    return bounds
+#: a float; or, where all is to be exact, a Fraction or an infinite float
+Number = Any
 
 
-def greatest_values(model: Model, claim: float) -> dict[str, float]:
-    """Greatest values of the program's variables in a law that contradicts the claim."""
-    problem, space = model.problem, model.space
-    bounds = greatest_constants(model, claim)
-    if VariableName.VIOLATION in model.places:
-        bounds[VariableName.VIOLATION] = 0.0
-    power = relaxed_power(problem)
-    if power is not None and power.name in bounds:
-        bounds[VariableName.POWER_ROOT] = bounds[power.name] ** 0.5
-    if "B" in model.places and not isfinite(bounds["B"]):
-        # b is nowhere further from its mean, the stroke, than the integral of |c|
-        bounds["B"] = abs(space.stroke) + _mean_of_acceleration(problem, space, bounds)
-    return bounds
+@dataclass(frozen=True, eq=False)
+class Sublevel:
+    """The laws of a problem that contradict a claim, in floats or in exact numbers.
+
+    Attributes
+    ----------
+    problem, variables
+        The problem, and the names of its program's variables.
+    sizes
+        Orders, factors and offsets of a constant: the mean of |a^(order)| is at most factor times it plus the offset.
+    floor
+        A lower bound of a constant.
+    number, root
+        A float as such a number, and the root of such a number, rounded up where it is to be exact.
+    """
+
+    problem: Problem
+    variables: Container[str]
+    sizes: Callable[[Functional], Iterable[tuple[int, Number, Number]]]
+    floor: Callable[[Functional], Number]
+    number: Callable[[float], Number] = float
+    root: Callable[[Number], Number] = sqrt
+
+    @classmethod
+    def of(cls, model: Model) -> Sublevel:
+        """In floats, with the variables of a program."""
+        space = model.space
+        return cls(model.problem, model.places, lambda c: c.sizes(space), lambda c: c.floor(space.boundary))
+
+    @kept_property
+    def ends(self) -> tuple[Number | None, Number | None, Number]:
+        """What every law has: b(0), b(1) - b(0), None where it is free, and the stroke."""
+        conditions = self.problem.conditions
+        start, end = ([self.number(value) for value in part] for part in (conditions.start, conditions.end))
+        if len(start) > 1:
+            return start[1], end[1] - start[1], end[0] - start[0]
+        return None, self.number(0.0) if self.problem.symmetric else None, end[0] - start[0]
+
+    def least_values(self) -> dict[str, Number]:
+        """Lower bounds of the objective's constants and maxima.
+
+        The mean of c is the change of the velocity, which c exceeds somewhere, and is below somewhere; where the order
+        leaves it free, what is less at a change of either sign may be anything.
+        """
+        objective, (_, change, _) = self.problem.objective, self.ends
+        terms = [*(leaf for _, leaf in leaves(objective)), *maxima(objective)]
+        if change is not None:
+            return {repr(term): self._least(term, change) for term in terms}
+        still = {term: self._least(term, self.number(0.0)) for term in terms}
+        falling = {term for term in terms if min(self._least(term, change) for change in (1.0, -1.0)) < still[term]}
+        return {repr(term): -inf if term in falling else low for term, low in still.items()}
+
+    def _least(self, term: Term, change: Number) -> Number:
+        """A lower bound of a term in laws whose velocity changes by `change`."""
+        if isinstance(term, Maximum):
+            parts = ([self.number(w) * self._least(inner, change) for w, inner in part.terms] for part in term.parts)
+            return max(sum(part, self.number(0.0)) for part in parts)
+        if isinstance(term, PeakConstant) and len(term.signs) == 1:
+            return self.number(term.signs[0]) * change if term.nu == _ACCELERATION else -inf
+        return self.floor(term) if isinstance(term, Functional) else self.number(0.0)
+
+    def greatest_values(self, claim: Number) -> dict[str, Number]:
+        """Upper bounds of the objective's constants, of bounded ones, and of the program's own variables."""
+        problem, greatest = self.problem, dict[str, Number]()
+        if VariableName.VIOLATION in self.variables:
+            greatest[VariableName.VIOLATION] = self.number(0.0)
+        else:
+            spread(problem.objective, claim, greatest, self.least_values(), self.number)
+        for name in ("B", *(constant.name for constant, _ in problem.bounded)):
+            limits = problem.range(name)
+            if limits is not None:
+                greatest[name] = min(greatest.get(name, inf), self.number(limits.high))
+        power = relaxed_power(problem)
+        if power is not None and VariableName.POWER_ROOT in self.variables and power.name in greatest:
+            greatest[VariableName.POWER_ROOT] = self.root(greatest[power.name])
+        if "B" in self.variables and not isfinite(greatest.get("B", inf)):
+            greatest["B"] = self.greatest_velocity(greatest)
+        return greatest
+
+    def greatest_velocity(self, greatest: Mapping[str, Number]) -> Number:
+        """A bound of |b|: it is nowhere further from b(0), nor from its mean, the stroke, than the integral of |c|.
+
+        As c is nowhere further from its mean than the integral of |j|.
+        """
+        known, (start, change, stroke) = self.means(greatest), self.ends
+        swing = known.get(2, inf)
+        if 3 in known and change is not None:
+            swing = min(swing, known[3] + abs(change))
+        return min(abs(stroke), inf if start is None else abs(start)) + swing
+
+    def means(self, greatest: Mapping[str, Number]) -> dict[int, Number]:
+        """Bounds of the integral of a derivative's magnitude, by order of derivative, in every such law."""
+        start, change, stroke = self.ends
+        # a peak of one side may be below 0: then nothing is above
+        sizes = {name: max(most, self.number(0.0)) for name, most in greatest.items() if isfinite(most)}
+        plain = ((2, "C"), (2, "rms_c"), (3, "J"), (3, "rms_j"), (4, "snap"))
+        known = [(nu, sizes[name]) for nu, name in plain if name in sizes]
+        if change is not None:
+            # what is above 0 less what is below is the change, and one of them is at most the peak
+            sides = (("C_plus", change), ("C_minus", -change))
+            known += [(2, 2 * sizes[name] - turn) for name, turn in sides if name in sizes]
+        elif sizes.keys() >= {"C_plus", "C_minus"}:
+            known.append((2, max(sizes["C_plus"], sizes["C_minus"])))
+        if "D" in sizes and start == 0:
+            # b² <= 2 D k from rest
+            known.append((1, self.root(sizes["D"])))
+        if "B" in sizes:
+            known.append((1, 2 * sizes["B"] - stroke))
+        if self.problem.monotone:
+            known.append((1, abs(stroke)))
+        for constant in self.problem.constants:
+            if constant.name in sizes:
+                size = sizes[constant.name]
+                size = self.root(size) if isinstance(constant, PowerConstant) else size
+                known += [(nu, factor * size + offset) for nu, factor, offset in self.sizes(constant)]
+        least: dict[int, Number] = {}
+        for nu, mean in known:
+            if isfinite(mean):
+                least[nu] = min(least.get(nu, inf), mean)
+        return least
+
+    def means_by(self, name: str, scale: float = 1.0) -> Iterator[tuple[int, Number, Number]]:
+        """Orders of derivatives whose mean a constant bounds in proportion: with the bound at 0, and how fast it grows.
+
+        Of several bounds the least is nowhere above a line that it touches at three places.
+        """
+        none, some, more = (self.means({name: self.number(times * scale)}) for times in (0.0, 1.0, 2.0))
+        for nu in none.keys() & some.keys() & more.keys():
+            growth, exact = some[nu] - none[nu], isinstance(more[nu], Fraction)
+            if abs(more[nu] - some[nu] - growth) <= (0 if exact else VALUE_ROUNDING) * abs(more[nu]):
+                yield nu, none[nu], growth
 
 
-def _mean_of_acceleration(problem: Problem, space: LawSpace, greatest: Mapping[str, float]) -> float:
-    """A bound of the integral of |c|: c differs from its mean by at most the integral of |j|."""
-    known = dict(means(problem, space, greatest))
-    if problem.conditions.order == 1:
-        return known.get(2, inf)
-    return min(known.get(2, inf), abs(space.velocity_change) + known.get(3, inf))
+def spread(
+    expression: Expression,
+    claim: Number,
+    greatest: dict[str, Number],
+    least: Mapping[str, Number],
+    number: Callable[[float], Number] = float,
+) -> None:
+    """Record in `greatest` the upper bounds of an expression's terms, from its value below the claim."""
+    lowest = [number(weight) * least[repr(term)] for weight, term in expression.terms]
+    for i, (weight, term) in enumerate(expression.terms):
+        name, others = repr(term), sum([*lowest[:i], *lowest[i + 1 :]], number(0.0))
+        most = max((claim - others) / number(weight), least[name])
+        greatest[name] = min(greatest.get(name, inf), most)
+        if isinstance(term, Maximum):
+            for part in term.parts:
+                spread(part, most, greatest, least, number)
 
 
-def moments(model: Model, greatest: Mapping[str, float]) -> list[tuple[Array, Array]]:
+def moments(model: Model, greatest: Mapping[str, Number]) -> list[tuple[Array, Array]]:
     """Bounds of the moments of a derivative relative to the base law's, one for each known constant.
 
     Beside each the matrix from a functional's values on the free functions to weights of these moments.
     """
     space = model.space
-    return [
-        (mean + _base_moments(space, nu), _extension(space, nu)) for nu, mean in means(model.problem, space, greatest)
-    ]
+    known = Sublevel.of(model).means(greatest).items()
+    return [(float(mean) + _base_moments(space, nu), _extension(space, nu)) for nu, mean in known]
 
 
 def means_by(model: Model, name: str) -> list[tuple[Array, Array, float]]:
@@ -78,82 +198,8 @@ def means_by(model: Model, name: str) -> list[tuple[Array, Array, float]]:
     For each derivative whose mean the constant bounds in proportion: bounds of its moments where the constant is 0,
     but for the base law, the matrix of `moments`, and by how much the bounds grow with the variable.
     """
-    scale, space = model.scales.get(name, 1.0), model.space
-    none, some, more = (dict(means(model.problem, space, {name: size})) for size in (0.0, scale, 2.0 * scale))
-    bounds = []
-    for nu in none.keys() & some.keys() & more.keys():
-        growth = some[nu] - none[nu]
-        if abs(more[nu] - some[nu] - growth) <= VALUE_ROUNDING * abs(more[nu]):
-            bounds.append((none[nu] + _base_moments(space, nu), _extension(space, nu), growth))
-    return bounds
-
-
-def _from_one_sign(problem: Problem, space: LawSpace, greatest: Mapping[str, float]) -> tuple[float, float]:
-    """Bounds of the integral of |c| from the peaks of one sign: what is above 0 less what is below is b(1) - b(0)."""
-    if problem.conditions.order == 1:
-        return (max(greatest.get("C_plus", inf), greatest.get("C_minus", inf)),) * 2
-    drop = abs(space.velocity_change)
-    return 2.0 * greatest.get("C_plus", inf) + drop, 2.0 * greatest.get("C_minus", inf) + drop
-
-
-def spread(expression: Expression, claim: float, bounds: dict[str, float], least: Mapping[str, float]) -> None:
-    """Record in `bounds` the upper bounds of an expression's constants, from its value below the claim."""
-    for weight, term in expression.terms:
-        name = repr(term)
-        others = sum(share * least[repr(other)] for share, other in expression.terms if other is not term)
-        most = (claim - others) / weight
-        bounds[name] = min(bounds.get(name, inf), most)
-        if isinstance(term, Maximum):
-            for part in term.parts:
-                spread(part, most, bounds, least)
-
-
-def least_values(problem: Problem, space: LawSpace) -> dict[str, float]:
-    """Lower bounds of the objective's constants and maxima: 0, except for one-sided peaks.
-
-    The mean of c is the change of the velocity, which c exceeds somewhere, and is below somewhere; where the order
-    leaves it free, what is positive at a change of either sign is at least 0.
-    """
-    terms = [*(leaf for _, leaf in leaves(problem.objective)), *maxima(problem.objective)]
-    if problem.symmetric or problem.order > 1:
-        change = 0.0 if problem.symmetric else space.velocity_change
-        return {repr(term): _at_least(term, change, space.boundary) for term in terms}
-    lows = {repr(term): min(_at_least(term, change, space.boundary) for change in (1.0, -1.0)) for term in terms}
-    return {name: 0.0 if low >= 0.0 else -inf for name, low in lows.items()}
-
-
-def _at_least(term: Term, change: float, ends: BoundaryConditions) -> float:
-    """A lower bound of a term in laws whose velocity changes by `change`."""
-    if isinstance(term, Maximum):
-        sums = (sum(weight * _at_least(inner, change, ends) for weight, inner in part.terms) for part in term.parts)
-        return max(sums)
-    if not isinstance(term, PeakConstant) or len(term.signs) != 1:
-        return term.floor(ends) if isinstance(term, Functional) else 0.0
-    return term.signs[0] * change if term.nu == _ACCELERATION else -inf
-
-
-def means(problem: Problem, space: LawSpace, greatest: Mapping[str, float]) -> list[tuple[int, float]]:
-    """Orders of derivatives whose mean magnitude is bounded, with the bound."""
-    known = [(2, greatest.get("C", inf)), (2, greatest.get("rms_c", inf)), (3, greatest.get("J", inf))]
-    known += [(2, mean) for mean in _from_one_sign(problem, space, greatest)]
-    known += [(3, greatest.get("rms_j", inf)), (4, greatest.get("snap", inf))]
-    stroke = abs(space.stroke)
-    if "D" in greatest and problem.order > 1 and space.start_velocity == 0.0:
-        # b² <= 2 D k from rest
-        known += [(1, greatest["D"] ** 0.5)]
-    known += [(1, 2.0 * greatest.get("B", inf) + stroke)]
-    if problem.monotone:
-        known += [(1, stroke)]
-    for constant in problem.constants:
-        size = greatest.get(constant.name, inf)
-        # a peak of one side may be below 0: then nothing is above
-        root = size**0.5 if isinstance(constant, PowerConstant) else max(size, 0.0)
-        known += [(nu, factor * root + offset) for nu, factor, offset in constant.sizes(space)]
-    least: dict[int, float] = {}
-    for nu, mean in known:
-        if isfinite(mean):
-            least[nu] = min(least.get(nu, inf), mean)
-    return list(least.items())
+    space, known = model.space, Sublevel.of(model).means_by(name, model.scales.get(name, 1.0))
+    return [(none + _base_moments(space, nu), _extension(space, nu), float(growth)) for nu, none, growth in known]
 
 
 def _base_moments(space: LawSpace, nu: int) -> Array:

@@ -22,7 +22,7 @@ from optlaws.synthesis.problem.named_constants import apart
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.evaluation import evaluate
 from optlaws.synthesis.program.writer import Model, model_of
-from optlaws.synthesis.proof.sublevel_bounds import greatest_values
+from optlaws.synthesis.proof.sublevel_bounds import Sublevel
 from optlaws.synthesis.proven.front import LazySequence, ProvenFront, weighted_value
 from optlaws.synthesis.proven.swept_parameter import SweptParameter, gap_bounds, lower_line
 from optlaws.synthesis.solution import Solution
@@ -291,7 +291,7 @@ def lower_lines(part: SolvedPart, values: Array, number: SweptParameter, ends: t
     slope, blur, plain, hidden = sharp_sums(model, cost, both, every, sizes)
     rise = -part.optima.equations[:, 0]
     claim = max(float((plain + rise * (end - values)).max()) for end in ends)
-    below = bounds_below(model, greatest_values(model, max(model.unit * claim, 0.0)))
+    below = bounds_below(model, Sublevel.of(model).greatest_values(max(model.unit * claim, 0.0)))
     lost = rounding_charge(model, below, slope, blur)
     return model.unit * np.column_stack([plain - hidden - lost, rise])
 

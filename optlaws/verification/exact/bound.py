@@ -22,10 +22,10 @@ from optlaws.synthesis.limits.rounding import rounded_up
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.proof.certificate import VIOLATION, Certificate
 from optlaws.synthesis.proof.nodes import Contact
+from optlaws.synthesis.proof.sublevel_bounds import Number, Sublevel
 from optlaws.verification.enclosing.balls import ball, lower, upper
 from optlaws.verification.exact.boxes import tree_holds
 from optlaws.verification.exact.rows import ExactRows
-from optlaws.verification.exact.sublevel_bounds import greatest_values, least_objective, least_values, means
 
 Vector = list[arb]
 
@@ -34,8 +34,6 @@ _CHARGED = Fraction(1, 10**10)
 #: of the greatest multiplier: what a repair of what is proven by a charge too changes no multiplier by more than
 _REPAIRED = Fraction(1, 10**6)
 _MORE_BITS = (1, 2, 4)
-#: more than what rounding of bounds of means makes of how fast they grow
-_WIDER = 1.0 + 2.0**-20
 #: how far from a contact its neighbours are, and how much of its multiplier each takes
 _NEAR, _SHARE = Fraction(1, 2**20), Fraction(1, 2**22)
 
@@ -76,8 +74,10 @@ def prove(certificate: Certificate) -> Proof:
     best = _proof(certificate, None)
     if certificate.program == VIOLATION:
         return best
-    least = least_objective(certificate.problem, ExactRows(certificate))
-    if least is not None and (best.value is None or best.value <= least):
+    values = ExactRows(certificate).sublevel.least_values()
+    terms = certificate.problem.objective.terms
+    least = sum((Fraction(weight) * values[repr(term)] for weight, term in terms), Fraction(0))
+    if isinstance(least, Fraction) and (best.value is None or best.value <= least):
         return replace(best, value=least, charge=0.0, by_rows=False)
     return best
 
@@ -115,8 +115,8 @@ def _proof_at_work(certificate: Certificate, along: Along | None) -> Proof:
     leaf = _Leaf(rows, certificate)
     total = leaf.sum()
     claim = along.claim if along is not None else rounded_up(upper(total[-1])) if total[-1].is_finite() else inf
-    widest = certificate if along is None else replace(certificate, problem=along.widest)
-    charge = _charge(widest, rows, total, claim) if isfinite(claim) else None
+    sublevel = rows.sublevel if along is None else replace(rows.sublevel, problem=along.widest)
+    charge = _charge(sublevel, rows, total, Fraction(claim)) if isfinite(claim) else None
     weights, value = leaf.weights, total[-1]
     if charge is None or upper(charge) > _CHARGED * abs(upper(value)):
         # what nothing bounds has no other proof, however far the multipliers are from it
@@ -244,14 +244,14 @@ def _changes(vectors: list[Vector], weights: Vector, slopes: Vector) -> Vector |
     return list((weighted * solution).entries())
 
 
-def _charge(certificate: Certificate, rows: ExactRows, total: Vector, claim: float) -> arb | None:
+def _charge(sublevel: Sublevel, rows: ExactRows, total: Vector, claim: Fraction) -> arb | None:
     """The most by which a sum's slopes can lower it in laws below the claim; None where nothing bounds it."""
-    greatest, least = greatest_values(certificate, rows, claim), least_values(certificate.problem, rows)
+    greatest, least = sublevel.greatest_values(claim), sublevel.least_values()
     terms, charge = rows.space.terms, arb(0)
     for name, slope in zip(rows.names, total[terms:-1], strict=True):
         # a rising slope lowers the sum most where the constant is least, a falling one where it is greatest
         low = Fraction(0) if bool(slope <= 0) else least.get(name, Fraction(0))
-        high = 0.0 if bool(slope >= 0) else greatest.get(name, inf)
+        high = Fraction(0) if bool(slope >= 0) else greatest.get(name, inf)
         if not (isfinite(low) and isfinite(high)):
             return None
         charge -= slope.max(arb(0)) * ball(low) + slope.min(arb(0)) * ball(high)
@@ -259,8 +259,8 @@ def _charge(certificate: Certificate, rows: ExactRows, total: Vector, claim: flo
     if all(slope.is_zero() for slope in slopes):
         return charge
     settled = [row.vector([]) for row in rows.equations if not row.constants]
-    bounded = means(certificate.problem, rows, greatest)
-    known = [(rows.space.moments(nu), mean) for nu, mean in bounded.items()]
+    bounded = sublevel.means(greatest)
+    known = [(rows.space.moments(nu), ball(mean)) for nu, mean in bounded.items()]
     if not bounded:
         # an output may determine the law where nothing else says how large it is
         sized = [
@@ -270,30 +270,21 @@ def _charge(certificate: Certificate, rows: ExactRows, total: Vector, claim: flo
     priced = [(_worth(moments, settled, slopes), mean) for moments, mean in known]
     worths = [worth.known + worth.by_mean * mean for worth, mean in priced if worth is not None]
     if not known:
-        worths = list(_paid(certificate.problem, rows, settled, total, least))
+        worths = list(_paid(sublevel, rows, settled, total, least))
     return charge + min(worths, key=upper) if worths else None
 
 
 def _paid(
-    problem: Problem,
-    rows: ExactRows,
-    settled: Sequence[Vector],
-    total: Vector,
-    least: Mapping[str, Fraction | float],
+    sublevel: Sublevel, rows: ExactRows, settled: Sequence[Vector], total: Vector, least: Mapping[str, Number]
 ) -> Iterator[arb]:
     """The worth of slopes where a constant that bounds a mean in proportion, however great it is, outweighs them."""
     terms = rows.space.terms
     for name, slope in zip(rows.names, total[terms:-1], strict=True):
-        if not bool(slope > 0) or least.get(name, 0) < 0:
-            continue
-        none, some, more = (means(problem, rows, {name: float(times)}) for times in range(3))
-        for nu in none.keys() & some.keys() & more.keys():
-            growth = (some[nu] - none[nu]) * _WIDER
-            # of several bounds the least is nowhere above a line that it touches at three places
-            line = bool(more[nu] - some[nu] <= growth) and bool(some[nu] - none[nu] <= (more[nu] - some[nu]) * _WIDER)
-            worth = _worth(rows.space.moments(nu), settled, total[:terms]) if line else None
-            if worth is not None and bool(worth.by_mean * growth <= slope):
-                yield worth.known + worth.by_mean * none[nu]
+        pays = bool(slope > 0) and least.get(name, 0) >= 0
+        for nu, none, growth in sublevel.means_by(name) if pays else ():
+            worth = _worth(rows.space.moments(nu), settled, total[:terms])
+            if worth is not None and bool(worth.by_mean * ball(growth) <= slope):
+                yield worth.known + worth.by_mean * ball(none)
 
 
 class _Worth(NamedTuple):

@@ -32,7 +32,6 @@ from optlaws.verification.enclosing.ball_formulas import BALLS
 from optlaws.verification.enclosing.balls import ball
 from optlaws.verification.exact.law import known
 from optlaws.verification.exact.rows import ExactRows
-from optlaws.verification.exact.sublevel_bounds import greatest_values, never_negative
 from optlaws.verification.machines.floors import floor
 
 Vector = list[arb]
@@ -73,8 +72,8 @@ class BoxSteps(ABC):
             raise ZeroDivisionError
         self.inverse = arb_mat([row[:-1] for row in velocities]).inv()
         self.base = arb_mat(len(velocities), 1, [row[-1] for row in velocities])
-        sublevel = greatest_values(certificate, self.rows, self.claim)
-        self.greatest = {name: Fraction(most) for name, most in sublevel.items() if isfinite(most)}
+        sublevel = self.rows.sublevel.greatest_values(Fraction(self.claim))
+        self.greatest = {name: most for name, most in sublevel.items() if isinstance(most, Fraction)}
         start, change, stroke = self.rows.space.bounds
         self.stroke = abs(arb(stroke))
         self.ends = [
@@ -174,13 +173,14 @@ def tree_holds(certificate: Certificate) -> bool:
     for constant in sorted(certificate.problem.constants, key=repr):
         known(constant)
     kind = _kind(certificate.problem)
-    # of a sum the nodes count on constants of at least 0
-    alone = len(list(leaves(certificate.problem.objective))) == 1
-    if kind is None or not (alone or never_negative(certificate.problem)):
+    if kind is None:
         return False
     with ctx.workprec(_BITS):
         try:
-            return kind(certificate).holds()
+            steps = kind(certificate)
+            least = steps.rows.sublevel.least_values().values()
+            # of a sum the nodes count on constants of at least 0
+            return (len(least) == 1 or min(least) >= 0) and steps.holds()
         except ZeroDivisionError:
             # the points do not determine the law
             return False

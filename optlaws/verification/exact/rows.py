@@ -17,7 +17,7 @@ from optlaws.formulas.branches import switches
 from optlaws.formulas.of_motion import MotionFormula
 from optlaws.formulas.tree import ORDERS
 from optlaws.kept import kept_property
-from optlaws.mechanisms.machine.output_constants import OutputPeak, OutputRms
+from optlaws.mechanisms.machine.output_constants import OutputConstant, OutputPeak, OutputRms
 from optlaws.mechanisms.machine.residual import Residual
 from optlaws.synthesis.families import names
 from optlaws.synthesis.families.names import RowName, VariableName
@@ -33,9 +33,10 @@ from optlaws.synthesis.problem.windows import Window
 from optlaws.synthesis.program.writer import relaxed_power
 from optlaws.synthesis.proof.certificate import RELAXED, VIOLATION, Certificate
 from optlaws.synthesis.proof.nodes import Contact
+from optlaws.synthesis.proof.sublevel_bounds import Number, Sublevel
 from optlaws.synthesis.spaces.of_basis import space_of
 from optlaws.synthesis.spaces.space import LawSpace
-from optlaws.verification.enclosing.balls import ball
+from optlaws.verification.enclosing.balls import ball, upper
 from optlaws.verification.exact.law import ExactLaw, OfFormula, OfMachine, known
 from optlaws.verification.exact.motion_formulas import (
     formula_columns,
@@ -52,10 +53,13 @@ from optlaws.verification.machines.certificate_rows import (
     UpperLimit,
     residual_cones,
 )
+from optlaws.verification.machines.floors import floor
 from optlaws.verification.machines.output_motion import of_space
 from optlaws.verification.machines.outputs import OutputRows
 
 _NEAR = Fraction(1, 10**9)
+#: what makes up for the rounding of a few operations in doubles
+_ROUNDED = 1 + Fraction(1, 2**40)
 
 Place = Callable[[Fraction], list[arb]]
 
@@ -98,12 +102,25 @@ class ExactRows:
         if self.power is not None and _is_bounded(self.power, problem):
             self.names.append(VariableName.POWER_ROOT)
         self.names = list(dict.fromkeys(self.names))
+        violated = [VariableName.VIOLATION] if certificate.program == VIOLATION else []
+        #: bounds of laws below a claim
+        self.sublevel = Sublevel(problem, [*self.names, *violated], self._sizes, self._floor, _exact, _root)
         self._constraints()
 
     @kept_property
     def _solved(self) -> LawSpace:
         """The laws in the coordinates in which they were sought, where a certificate's units come from."""
         return space_of(self.problem.basis, self.problem.conditions, symmetric=self.problem.symmetric)
+
+    def _sizes(self, constant: Functional) -> Iterator[tuple[int, Fraction, Fraction]]:
+        for nu, *sizes in () if isinstance(constant, OutputConstant) else constant.sizes(self._solved):
+            factor, offset = (Fraction(size) * _ROUNDED for size in sizes)
+            yield nu, factor, offset
+
+    def _floor(self, constant: Functional) -> Number:
+        value = floor(constant, self.problem.conditions)
+        # above 0 doubles say it, unless it is an exact one
+        return value if isinstance(value, Fraction) else min(_exact(value), Fraction(0))
 
     def row(self, contact: Contact, k: Fraction | None = None) -> BallRow | None:
         """The row of a contact, or of a similar one at another k; None if the problem has no such constraint."""
@@ -382,6 +399,14 @@ class ExactRows:
 
         for sign in (1.0, -1.0):
             self._add(names.window_side(name, sign), make, (sign,))
+
+
+def _exact(value: float) -> Number:
+    return Fraction(value) if isfinite(value) else value
+
+
+def _root(square: Number) -> Number:
+    return upper(ball(square).sqrt()) if isfinite(square) else square
 
 
 def parts(window: Window, *, symmetric: bool) -> Iterator[WindowPart]:

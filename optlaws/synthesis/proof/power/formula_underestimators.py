@@ -30,7 +30,7 @@ from optlaws.synthesis.program.writer import Model, model_of
 from optlaws.synthesis.proof.nodes import Contact
 from optlaws.synthesis.proof.power.box import Box, BoxRows, Places
 from optlaws.synthesis.proof.power.integral_underestimators import ConvexUnderestimator
-from optlaws.synthesis.proof.sublevel_bounds import greatest_constants, means
+from optlaws.synthesis.proof.sublevel_bounds import Sublevel
 from optlaws.synthesis.spaces.polynomial_space import PolynomialSpace
 from optlaws.tolerances import BENEATH_ROUNDING, TINY
 
@@ -71,13 +71,9 @@ def _bent(family: ConstraintFamily) -> bool:
 
 def _greatest(model: Model, claim: float) -> dict[str, float]:
     """Greatest values of the constants in laws below the claim, with a bound of |b|."""
-    bounds = greatest_constants(model, claim)
-    for order, mean in means(model.problem, model.space, bounds):
-        # b is nowhere further from its mean, the stroke, than the mean of |c|, nor c from its own than that of |j|
-        mean_of_c = mean if order == 2 else abs(model.space.velocity_change) + mean if order == 3 else inf
-        most = abs(model.space.stroke) + mean_of_c
-        if most < bounds.get("B", inf):
-            bounds["B"] = most
+    sublevel = Sublevel.of(model)
+    bounds = sublevel.greatest_values(claim)
+    bounds["B"] = min(bounds.get("B", inf), sublevel.greatest_velocity(bounds))
     return {name: bound for name, bound in bounds.items() if isfinite(bound)}
 
 

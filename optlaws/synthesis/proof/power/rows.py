@@ -21,7 +21,7 @@ from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import Model, model_of
 from optlaws.synthesis.proof.power import formula_underestimators, shared_energy
 from optlaws.synthesis.proof.power.box import Box, BoxRows, Places
-from optlaws.synthesis.proof.sublevel_bounds import greatest_constants
+from optlaws.synthesis.proof.sublevel_bounds import Sublevel
 from optlaws.synthesis.spaces.polynomial_space import PolynomialSpace
 from optlaws.tolerances import AWAY_FROM_REST
 
@@ -41,7 +41,7 @@ def applies(problem: Problem) -> bool:
 
 def greatest(model: Model, claim: float) -> dict[str, float]:
     """Greatest values of the constants in a law whose objective is below the claim."""
-    bounds = greatest_constants(model, claim)
+    bounds = Sublevel.of(model).greatest_values(claim)
     if "D" in bounds:
         ends = (model.space.start_velocity, model.space.start_velocity + model.space.velocity_change)
         bounds["B"] = min(bounds.get("B", inf), sqrt(max(map(abs, ends)) ** 2 + bounds["D"]))

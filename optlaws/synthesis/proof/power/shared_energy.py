@@ -23,7 +23,7 @@ from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import model_of
 from optlaws.synthesis.proof.nodes import Contact
 from optlaws.synthesis.proof.power.box import Box, BoxRows, Places
-from optlaws.synthesis.proof.sublevel_bounds import greatest_constants
+from optlaws.synthesis.proof.sublevel_bounds import Sublevel
 from optlaws.tolerances import AWAY_FROM_REST
 
 _FLAT_SECANT = 1e-12  # of a range: one that is narrower has the secant of a point
@@ -129,7 +129,7 @@ def applies(problem: Problem) -> bool:
     known = [family for family in shared if len(family.factors) > 1]
     if not known or not problem.monotone or not isinstance(problem.B, float):
         return False
-    bounds = greatest_constants(model, 1.0)
+    bounds = Sublevel.of(model).greatest_values(1.0)
     names = {family.name for family in shared}
     return all(constant.convex or constant.name in names for constant in problem.constants) and all(
         isfinite(bounds.get(name, inf)) for name in model.places
@@ -148,7 +148,7 @@ class EnergyRows(BoxRows):
         self.shared = [family for family in self.model.program.families if isinstance(family, EnergyFamily)]
         self.peaks = {family.name: family for family in self.shared if len(family.factors) > 1}
         self.energy: Energy = self.shared[0].energy
-        self.greatest = greatest_constants(self.model, claim)
+        self.greatest: dict[str, float] = Sublevel.of(self.model).greatest_values(claim)
         self.least = {constant.name: float(constant.limit(problem) or 0.0) for constant in problem.constants}
 
     @property
