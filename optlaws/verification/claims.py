@@ -33,7 +33,7 @@ from optlaws.synthesis.stored_solutions import read_solutions
 from optlaws.tolerances import COEFFICIENT_ROUNDING, OPTIMALITY_GAP, STATED_BOUND
 from optlaws.verification.conditions import excesses
 from optlaws.verification.enclosing.balls import at, enclosed, rational
-from optlaws.verification.enclosing.pieces import between, least_and_greatest
+from optlaws.verification.enclosing.taylor_models import between, least_and_greatest
 from optlaws.verification.exact.bound import Proof, prove
 from optlaws.verification.exact.law import ExactLaw
 from optlaws.verification.exact.limit import exact_limit

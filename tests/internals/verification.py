@@ -7,7 +7,7 @@ pytest.importorskip("flint")
 from optlaws.verification.claims import near
 from optlaws.verification.enclosing.ball_formulas import BALLS
 from optlaws.verification.enclosing.balls import ball, enclosed, enclosure, lower, upper
-from optlaws.verification.enclosing.pieces import between, real_roots
+from optlaws.verification.enclosing.taylor_models import between, real_roots
 from optlaws.verification.exact.bound import prove
 from optlaws.verification.exact.law import ExactLaw
 from optlaws.verification.exact.least_times import least_time_of_any_law

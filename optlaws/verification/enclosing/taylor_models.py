@@ -1,23 +1,23 @@
-"""Extremes and integrals of functions with every error enclosed: Taylor polynomials with their remainders on cells."""
+"""Extremes and integrals of polynomials, and of functions by Taylor polynomials on cells, with every error enclosed."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from fractions import Fraction
 from functools import reduce
+from itertools import pairwise
 from typing import Any
 
-from flint import arb, arb_mat, arb_poly, arb_series, ctx, fmpq_poly
+from flint import arb, arb_mat, arb_poly, arb_series, ctx, fmpq, fmpq_poly, fmpz_poly
 
 from optlaws.tolerances import TAYLOR_REST
-from optlaws.verification.enclosing.balls import Extremes, ball, series_length
+from optlaws.verification.enclosing.balls import Extremes, at, ball, series_length
 
-_GREATEST_ENCLOSED = 2.0**-70  # of a greatest value: how narrow its ball must be
-_GREATEST_NEGLIGIBLE = 2.0**-110  # of what a function is made of: a greatest value that is less is enclosed well enough
-
-#: bits with which the greatest value is searched, and how short a part is cut no further
-_BITS, _SHORTEST = 192, Fraction(1, 2**60)
-_WHOLE = (Fraction(-1), Fraction(1))
+_ONWARD = fmpz_poly([1, 1])
+#: what a step leaves of the width of a ball that the precision at work still lets narrow
+_NARROWER = 0.9
+#: bits with which greatest values of polynomials with coefficients in balls are enclosed
+_BITS = 192
 #: terms of Taylor polynomials; how short a cell is cut no further, and after how many none is
 _TERMS, _LEAST, _MOST = 24, Fraction(1, 2**70), 1 << 12
 
@@ -26,6 +26,77 @@ Smooth = Callable[[arb_series], arb_series]
 Ends = tuple[Fraction, Fraction]
 #: coefficients of a polynomial, and how far a function is off it at most
 Taylor = tuple[list[Any], arb]
+
+
+def real_roots(polynomial: fmpq_poly, low: fmpq, high: fmpq) -> list[arb]:
+    """Balls that contain all real roots in a range; even and odd polynomials are solved in y².
+
+    >>> [round(float(root), 9) for root in real_roots(fmpq_poly([0, -2, 0, 1]), fmpq(-1), fmpq(2))]
+    [0.0, -1.414213562, 1.414213562]
+    """
+    numerator = polynomial.numer()
+    first, *others = [n for n, value in enumerate(numerator.coeffs()) if value != 0] or [0]
+    if not others:
+        return [arb(0)] if first else []
+    roots = [arb(0)] if first else []
+    if any((n - first) % 2 for n in others):
+        return roots + _between(fmpz_poly(numerator.coeffs()[first:]), low, high)
+    furthest = max(low * low, high * high)
+    squares = _between(fmpz_poly(numerator.coeffs()[first::2]), fmpq(0), furthest)
+    return roots + [sign * square.sqrt() for square in squares for sign in (-1, 1)]
+
+
+def _between(polynomial: fmpz_poly, low: fmpq, high: fmpq) -> list[arb]:
+    """The roots of a polynomial that does not vanish at 0."""
+    _, factors = polynomial.factor_squarefree()
+    return [root for factor, _ in factors for root in _isolated(factor, low, high)]
+
+
+def _isolated(polynomial: fmpz_poly, low: fmpq, high: fmpq) -> Iterator[arb]:
+    """The roots of a polynomial that has none twice, each in a ball of its own."""
+    if polynomial(high) == 0:
+        yield arb(high)
+    # of cells from `start` to `start + width`, the polynomial by the share of the way along them
+    cells = [(fmpq_poly(polynomial)(fmpq_poly([low, high - low])).numer(), low, high - low)]
+    while cells:
+        cell, start, width = cells.pop()
+        if cell[0] == 0:
+            yield arb(start)
+            cell = fmpz_poly(cell.coeffs()[1:])
+        changes = _changes_of_sign(fmpz_poly(cell.coeffs()[::-1])(_ONWARD))
+        if changes == 1:
+            yield arb(start) + arb(width) * _enclosed(cell)
+        elif changes:
+            degree, half = cell.degree(), width / 2
+            left = fmpz_poly([value << (degree - n) for n, value in enumerate(cell.coeffs())])
+            cells += [(left, start, half), (left(_ONWARD), start + half, half)]
+
+
+def _changes_of_sign(polynomial: fmpz_poly) -> int:
+    signs = [value > 0 for value in polynomial.coeffs() if value != 0]
+    return sum(left != right for left, right in pairwise(signs))
+
+
+def _enclosed(polynomial: fmpz_poly) -> arb:
+    """The single root between 0, which is no root, and 1, as narrow as the working precision permits."""
+    slope, rises = polynomial.derivative(), polynomial[0] < 0
+    middle, half = fmpq(1, 2), fmpq(1, 2)
+    # a ball may reach a little beyond what it is to hold: in one where the slope has a sign no other root is near
+    while slope(root := arb(middle, arb(half).upper())).contains(0):
+        value, half = polynomial(middle), half / 2
+        if value == 0:
+            return arb(middle)
+        middle += half if (value < 0) == rises else -half
+    before = arb.pos_inf()
+    while root.rad() < _NARROWER * before:
+        before, centre = root.rad(), root.mid()
+        there, steepness = polynomial(centre), slope(root)
+        # a ball within one whose slope has a sign may be evaluated more roughly
+        if not steepness.contains(0):
+            root = root.intersection(centre - there / steepness)
+        if 2 * root.rad() > before and not there.contains(0):
+            root = root.intersection(centre.union(root.upper() if (there < 0) == rises else root.lower()))
+    return root
 
 
 def extremes(function: Smooth, start: Fraction, stop: Fraction) -> Extremes:
@@ -102,6 +173,30 @@ def _taylor(about: Any, around: Any, terms: int) -> Taylor:
     return [around[0].mid()], around[0].rad()
 
 
+def between(polynomial: fmpq_poly, start: fmpq, stop: fmpq) -> Extremes:
+    """Balls that hold the least and the greatest value of a polynomial between two places."""
+    ends = [ball(start), ball(stop)]
+    values = [at(polynomial, x) for x in ends]
+    for x in real_roots(polynomial.derivative(), start, stop):
+        if x < ends[0] or x > ends[1]:
+            continue
+        value = at(polynomial, x)
+        # a root that may lie beyond an end says no more than that end
+        for end, value_there in zip(ends, values[:2], strict=True):
+            if x.overlaps(end):
+                value = value.union(value_there)
+        values.append(value)
+    return least_and_greatest(values)
+
+
+def least_and_greatest(balls: list[arb]) -> Extremes:
+    """Balls that hold the least and the greatest of numbers in balls."""
+    least = greatest = balls[0]
+    for value in balls[1:]:
+        least, greatest = least.min(value), greatest.max(value)
+    return least, greatest
+
+
 def greatest_magnitude(parts: Sequence[tuple[arb_poly, arb]], signs: Sequence[float] = (1.0, -1.0)) -> arb:
     """A ball that holds the greatest magnitude of several functions on [-1, 1], or the greatest value of one sign.
 
@@ -121,53 +216,31 @@ def greatest_magnitude(parts: Sequence[tuple[arb_poly, arb]], signs: Sequence[fl
     >>> greatest_magnitude(waves[1:], (-1.0,))
     -0.250000000000000
     """
+
+    def counted(least: arb, greatest: arb) -> arb:
+        return reduce(arb.max, (greatest if sign > 0.0 else -least for sign in signs))
+
     with ctx.workprec(_BITS):
-        size = sum((sum(map(abs, polynomial.coeffs()), off) for polynomial, off in parts), arb(0))
-        climb = _BranchAndBound(signs, size.upper())
+        tops = []
         for polynomial, off in parts:
-            climb.seen(polynomial, off, [*_WHOLE, Fraction(0)])
-        for polynomial, off in parts:
-            climb.over(polynomial, off)
-        return climb.least.union(climb.greatest.max(climb.least))
+            centre, *others = polynomial.coeffs() or [arb(0)]
+            width = sum(map(abs, others), off)
+            tops.append(counted(centre - width, centre + width).upper())
+        if not all(top.is_finite() for top in tops):
+            return arb.nan()
+        greatest = arb.neg_inf()
+        for top, (polynomial, off) in sorted(zip(tops, parts, strict=True), key=lambda part: -float(part[0])):
+            if top < greatest:
+                break
+            middles = fmpq_poly([_dyadic(value.mid()) for value in polynomial.coeffs()])
+            away = sum((value.rad() for value in polynomial.coeffs()), off).upper()
+            greatest = greatest.max(counted(*between(middles, fmpq(-1), fmpq(1))) + arb(0, away))
+        return greatest
 
 
-class _BranchAndBound:
-    """Bounds of the greatest value so far, from below and from above."""
-
-    def __init__(self, signs: Sequence[float], size: arb) -> None:
-        self.signs, self.nothing = signs, size * _GREATEST_NEGLIGIBLE
-        self.least = self.greatest = -size
-
-    def _counted(self, value: arb) -> arb:
-        """The greatest of a value, its opposite or both."""
-        return reduce(arb.max, (value if sign > 0.0 else -value for sign in self.signs))
-
-    def seen(self, polynomial: arb_poly, off: arb, places: Sequence[Fraction]) -> list[arb]:
-        """Values at places, lower bounds of the greatest value."""
-        counted = [self._counted(polynomial(ball(place))) for place in places]
-        self.least = reduce(arb.max, ((value - off).lower() for value in counted), self.least)
-        return counted
-
-    def over(self, polynomial: arb_poly, off: arb) -> None:
-        """Take one more function into account."""
-        left = [_WHOLE]
-        while left:
-            low, high = left.pop()
-            middle, half = (low + high) / 2, (high - low) / 2
-            centre, *others = polynomial(arb_poly([ball(middle), ball(half)])).coeffs() or [arb(0)]
-            sizes = [abs(value) for value in others]
-            width = sum(sizes, arb(0))
-            top = (self._counted(centre) + width + off).upper()
-            if top < self.least:
-                continue
-            ends = self.seen(polynomial, off, [low, high])
-            if others and sizes[0] > sum((m * size for m, size in enumerate(sizes[1:], 2)), arb(0)):
-                # it rises or falls throughout
-                self.greatest = reduce(arb.max, ((end + off).upper() for end in ends), self.greatest)
-            elif width < (_GREATEST_ENCLOSED * abs(self.least)).max(self.nothing) or half < _SHORTEST or not others:
-                self.greatest = self.greatest.max(top)
-            else:
-                left += [(low, middle), (middle, high)]
+def _dyadic(value: arb) -> fmpq:
+    mantissa, exponent = value.man_exp()
+    return fmpq(mantissa) * fmpq(2) ** int(exponent)
 
 
 #: functions of k by their Taylor series; coefficients beyond what they are smooth to are not finite

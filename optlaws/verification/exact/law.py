@@ -25,7 +25,8 @@ from optlaws.synthesis.problem.constants import PeakConstant, PeakJerk, PowerCon
 from optlaws.synthesis.problem.expression import Expression, Maximum, Term
 from optlaws.synthesis.problem.named_constants import is_named
 from optlaws.verification.enclosing.balls import Extremes, ball, enclosed, rational
-from optlaws.verification.enclosing.pieces import ExactPiece, PolynomialPiece, PowerPiece, SinePiece, least_and_greatest
+from optlaws.verification.enclosing.pieces import ExactPiece, PolynomialPiece, PowerPiece, SinePiece
+from optlaws.verification.enclosing.taylor_models import least_and_greatest
 from optlaws.verification.exact.motion_formulas import extremes_of, integral_of
 from optlaws.verification.machines.outputs import ExactOutput
 from optlaws.verification.machines.residuals import exact_residual
