@@ -22,8 +22,7 @@ from optlaws.mechanisms.linkages.mechanism_formulas import LinearForce
 from optlaws.motion.piece import Piece
 from optlaws.motion.quantities import TURN, either
 from optlaws.numbers import Array, Quantity, finite, number_or_array, real_times
-from optlaws.numerics.branch_and_bound import Extremes, extremes
-from optlaws.numerics.integral import integral
+from optlaws.numerics.branch_and_bound import Extremes, extremes, integral
 from optlaws.numerics.interval import Interval
 from optlaws.numerics.taylor import Jet
 from optlaws.tolerances import AGREEMENT

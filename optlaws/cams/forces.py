@@ -29,8 +29,7 @@ from optlaws.mechanisms.linkages.mechanism_formulas import LinearForce, TableKin
 from optlaws.motion.quantities import TURN, in_degrees, positive_quantity, quantity
 from optlaws.motion.smooth_stretches import jet_of_parts
 from optlaws.numbers import Array, Quantity, number_or_array, real_times
-from optlaws.numerics.branch_and_bound import Extremes, Function, extremes
-from optlaws.numerics.integral import integral
+from optlaws.numerics.branch_and_bound import Extremes, Function, extremes, integral
 from optlaws.numerics.interval import Interval, exact, highest, middle
 from optlaws.numerics.roots import bisect
 from optlaws.numerics.taylor import Jet, variable

@@ -27,8 +27,7 @@ from optlaws.mechanisms.linkages.mechanism import Mechanism
 from optlaws.motion.quantities import TURN, in_degrees, positive_quantity, quantity
 from optlaws.motion.smooth_parts import RealFunction, SmoothParts
 from optlaws.numbers import Array, Quantity, finite
-from optlaws.numerics.branch_and_bound import Extremes, Function, extremes_of_each
-from optlaws.numerics.integral import integral
+from optlaws.numerics.branch_and_bound import Extremes, Function, extremes_of_each, integral
 from optlaws.numerics.interval import Interval, chosen
 from optlaws.numerics.roots import bisect
 from optlaws.numerics.taylor import Jet, variable

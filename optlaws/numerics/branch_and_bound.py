@@ -1,4 +1,4 @@
-"""Extremes of functions over whole intervals by branch and bound: Taylor's formula with its remainder bounds each cell.
+"""Extremes and integrals of functions over whole intervals: Taylor's formula with its remainder bounds each cell.
 
 In a cell of the half width h around m a function is f(m) + f'(m) t + F t²/2, where F is what f'' may be anywhere in the
 cell. Cells that cannot hold more than what is reached somewhere are done; where the slope has one sign, so are all but
@@ -119,7 +119,14 @@ def extremes(
     >>> round(enclosure.most, 9), round(enclosure.most_at, 6), 0.0 <= enclosure.high - enclosure.most < 1e-8
     (1.0, 1.570796, True)
     """
-    return _answered(_enclosing(edges, share, parts, order, enough, magnitude=magnitude), function)
+    search = _enclosing(edges, share, parts, order, enough, magnitude=magnitude)
+    request = next(search)
+    while True:
+        try:
+            request = search.send(function(*request))
+        except StopIteration as done:
+            result: Extremes = done.value
+            return result
 
 
 def extremes_of_each(
@@ -152,9 +159,7 @@ def extremes_of_each(
     results: dict[int, Extremes] = {}
     while requests:
         counts = [len(places.middle) for places, _ in requests.values()]
-        places = Interval(
-            *(np.concatenate(ends) for ends in zip(*(_ends(at) for at, _ in requests.values()), strict=True))
-        )
+        places = _joined([at for at, _ in requests.values()])
         terms = function(places, max(order for _, order in requests.values()), np.repeat(list(requests), counts)).terms
         known = [_as_interval(term, sum(counts)) for term in terms]
         stop = 0
@@ -168,18 +173,11 @@ def extremes_of_each(
     return [results[i] for i in range(len(edges))]
 
 
-def _answered(search: _Asking[_Result], function: Function) -> _Result:
-    request = next(search)
-    while True:
-        try:
-            request = search.send(function(*request))
-        except StopIteration as done:
-            result: _Result = done.value
-            return result
-
-
-def _ends(places: Interval) -> tuple[Array, Array]:
-    return places.middle, places.radius
+def _joined(several: Sequence[Interval]) -> Interval:
+    return Interval(
+        np.concatenate([each.middle.ravel() for each in several]),
+        np.concatenate([each.radius.ravel() for each in several]),
+    )
 
 
 def _enclosing(
@@ -239,9 +237,7 @@ class _Search:
 
     def look(self, low: Array, high: Array) -> _Asking[_Cells]:
         """The bounds of the function in cells; extremes that it reaches in them are stored."""
-        count, middle = len(low), 0.5 * (low + high)
-        half = np.maximum(high - middle, middle - low) * (1.0 + 4.0 * ROUNDOFF)
-        places = Interval(np.concatenate([middle, middle]), np.concatenate([np.zeros(count), half]))
+        count, (middle, half, places) = len(low), _middles_and_cells(low, high)
         terms = [_as_interval(term, 2 * count) for term in (yield places, self.order).terms]
         value, rate, at, slope = terms[0], terms[1], terms[0][:count], terms[1][:count]
         bend, swing = _bends([term[:count] for term in terms[2:-1]] + [terms[-1][count:]], half)
@@ -249,12 +245,7 @@ class _Search:
             turn = middle - 0.5 * slope.middle / terms[2].middle[:count]
         inside = np.array([np.where((low < turn) & (turn < high), turn, middle), low, high])
         moved = _moved(at, slope, bend, middle, inside)
-        self._reached(
-            np.concatenate([middle, inside.ravel()]),
-            Interval(
-                *(np.concatenate([ends[0], ends[1].ravel()]) for ends in zip(_ends(at), _ends(moved), strict=True))
-            ),
-        )
+        self._reached(np.concatenate([middle, inside.ravel()]), _joined([at, moved]))
         with np.errstate(invalid="ignore", over="ignore"):
             turn = 2.0 * half * np.maximum(np.abs(swing.low), np.abs(swing.high))
             turn = turn + ROUNDOFF * (8.0 * turn + 4.0 * np.abs(slope.middle))
@@ -378,6 +369,13 @@ class _Search:
         return least, most
 
 
+def _middles_and_cells(low: Array, high: Array) -> tuple[Array, Array, Interval]:
+    """Middles and half widths of cells; and as intervals first the middles, then the cells."""
+    middle = 0.5 * (low + high)
+    half = np.maximum(high - middle, middle - low) * (1.0 + 4.0 * ROUNDOFF)
+    return middle, half, Interval(np.concatenate([middle, middle]), np.concatenate([np.zeros(len(low)), half]))
+
+
 def _as_interval(term: Any, count: int) -> Interval:
     interval = term if isinstance(term, Interval) else exact(term)
     if interval.middle.shape == (count,):
@@ -442,3 +440,79 @@ def _first(known: list[tuple[Array, Array]], most: float, whole: float) -> Value
     same = places <= places.min() + _EXTREME_WIDTH * whole
     lowest = int(np.argmin(np.where(same, values, np.inf)))
     return float(values[lowest]), float(places[lowest])
+
+
+_INTEGRAL_ORDER, _DEEPEST, _MOST_PARTS = 6, 60, 200_000
+
+
+def integral(function: Function, edges: Any, *, share: float = 1e-9) -> tuple[float, float]:
+    """Between which values the integral of a function is, from the first of some edges to the last.
+
+    Parameters
+    ----------
+    function
+        As for `extremes`: Taylor terms in intervals of places.
+    edges
+        Increasing, shape (n + 1,); at inner ones it may jump.
+    share
+        By how much cells may be off, relative to the mean magnitude.
+
+    Examples
+    --------
+    >>> from optlaws.numerics.taylor import variable
+    >>> low, high = integral(lambda x, order: variable(x, order).magnitude(), [-1.0, 2.0])
+    >>> low <= 2.5 <= high, high - low < 1e-7
+    (True, True)
+    """
+    places = np.asarray(edges, dtype=np.float64)
+    low, high, whole = places[:-1], places[1:], float(places[-1] - places[0])
+    total, size = Interval(np.zeros(1), np.zeros(1)), 0.0
+    for _ in range(_DEEPEST):
+        part, rounding = _of_cells(function, low, high)
+        sizes = np.abs(part.middle)
+        size += float(sizes[np.isfinite(part.radius)].sum())
+        with np.errstate(invalid="ignore"):
+            near = np.maximum(0.5 * share * max(size / whole, SMALLEST_SIZE), _BLUR * rounding)
+            open_ones = ~(part.radius <= near * (high - low))
+        total = total + Interval(*(np.array([values[~open_ones].sum()]) for values in (part.middle, part.radius)))
+        total = total + Interval(np.zeros(1), len(low) * ROUNDOFF * sizes[~open_ones].sum(keepdims=True))
+        if not open_ones.any():
+            return float(total.low[0]), float(total.high[0])
+        size -= float(sizes[open_ones & np.isfinite(part.radius)].sum())
+        low, high = low[open_ones], high[open_ones]
+        middle = 0.5 * (low + high)
+        low, high = np.append(low, middle), np.append(middle, high)
+        if len(low) > _MOST_PARTS:
+            break
+    raise SolverFailure("a function to be integrated has no bound between the places where it may jump")
+
+
+def _of_cells(function: Function, low: Array, high: Array) -> tuple[Interval, Array]:
+    """The integral over each cell: by the Taylor polynomial, or the range of slope or value where that is less.
+
+    With what values are rounded, beyond which smaller cells are known no better.
+    """
+    count, (middle, half, places) = len(low), _middles_and_cells(low, high)
+    terms = [term + np.zeros(2 * count) for term in function(places, _INTEGRAL_ORDER).terms]
+    width = Interval(high - low, 2.0 * ROUNDOFF * (high - low))
+    # a middle is rounded, so that odd terms do not vanish in full
+    askew = 4.0 * ROUNDOFF * np.abs(middle) * np.abs(terms[1].middle[:count])
+    mean, power = terms[0][:count] + Interval(np.zeros(count), askew), Interval(np.ones(count), np.zeros(count))
+    square = Interval(half * half, 16.0 * ROUNDOFF * half * half)
+    polynomial = mean
+    for i in range(2, _INTEGRAL_ORDER, 2):
+        power = power * square
+        polynomial = polynomial + terms[i][:count] * power / (i + 1)
+    rest = terms[_INTEGRAL_ORDER][count:] * (power * square) / (_INTEGRAL_ORDER + 1)
+    # the mean of f is f(m) but for half of what the slope varies
+    slope = terms[1][count:]
+    ways = [
+        polynomial + rest,
+        Interval(mean.middle, mean.radius + 0.5 * slope.radius * half * (1.0 + 8.0 * ROUNDOFF)),
+        terms[0][count:],
+    ]
+    radii = np.array([np.where(np.isfinite(way.radius), way.radius, np.inf) for way in ways])
+    best = np.argmin(radii, axis=0)[None]
+    middles = np.take_along_axis(np.array([way.middle for way in ways]), best, 0)[0]
+    rounding = np.where(np.isfinite(mean.radius), mean.radius, 0.0)
+    return Interval(middles, np.take_along_axis(radii, best, 0)[0]) * width, rounding

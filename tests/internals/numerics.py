@@ -3,9 +3,9 @@
 from optlaws.numerics import bernstein, chebyshev, real_powers
 from optlaws.numerics.bernstein import greatest_difference
 from optlaws.numerics.branch_and_bound import extremes as extremes_of_branch_and_bound
+from optlaws.numerics.branch_and_bound import integral as integral_of_integral
 from optlaws.numerics.chebyshev import nodes
 from optlaws.numerics.exact import chebyshev_from_powers, powers_from_chebyshev
-from optlaws.numerics.integral import integral as integral_of_integral
 from optlaws.numerics.interval import Interval, bearing, between, dot, exact
 from optlaws.numerics.panels import Panels, equal, of_waves, resolved
 from optlaws.numerics.panels import integral as integral_of_panels
