@@ -24,7 +24,7 @@ from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import PolynomialSegment, Segment, Waves
 from optlaws.motion.piece import Piece, factor
 from optlaws.numbers import Array
-from optlaws.numerics import chebyshev, real_powers
+from optlaws.numerics import chebyshev
 from optlaws.numerics.interval import Interval, between, exact, stacked
 from optlaws.numerics.taylor import Jet
 from optlaws.tolerances import ROUNDOFF
@@ -197,7 +197,7 @@ def enclosed_power(segment: Segment, length: float, middle: Array, half: Array, 
     sums: list[Interval] = []
     for _ in range(order + 1):
         sums.append(_power_sum(powers, *_inside(segment, middle, half)))
-        powers = {exponent: rate * factor for exponent, factor in real_powers.derivative(powers).items()}
+        powers = powers.slope(rate)
     return Jet(tuple(value / factorial(nu) for nu, value in enumerate(sums)))
 
 

@@ -12,7 +12,7 @@ from optlaws.laws.making.trapezoids import from_half
 from optlaws.laws.report import law_panels
 from optlaws.laws.savin import alpha_range
 from optlaws.laws.segments.constant_power import PowerSegment
-from optlaws.laws.segments.fractional import FractionalSegment
+from optlaws.laws.segments.fractional import FractionalSegment, PowerSum
 from optlaws.laws.segments.segment import PolynomialSegment, Segment
 from optlaws.laws.segments.sine import HarmonicSegment, SineSegment
 from optlaws.laws.values import table_of_values

@@ -1,6 +1,6 @@
 """Internals of `optlaws.numerics` that tests look at by themselves."""
 
-from optlaws.numerics import bernstein, chebyshev, real_powers
+from optlaws.numerics import bernstein, chebyshev
 from optlaws.numerics.bernstein import greatest_difference
 from optlaws.numerics.branch_and_bound import extremes as extremes_of_branch_and_bound
 from optlaws.numerics.branch_and_bound import integral as integral_of_integral

@@ -9,8 +9,7 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 
 from optlaws import InputError, MotionLaw, PiecewiseLaw
-from tests.internals.laws import FractionalSegment, HarmonicSegment, Segment, SineSegment
-from tests.internals.numerics import real_powers
+from tests.internals.laws import FractionalSegment, HarmonicSegment, PowerSum, Segment, SineSegment
 
 mpf = mpmath.mpf
 CASES: list[tuple[Segment, Any]] = [  # a segment on [0, 1] and its velocity
@@ -109,7 +108,7 @@ def test_roots_of_sums_of_powers_are_all_found(roots: list[float], stretch: floa
     polynomial = np.polynomial.Polynomial.fromroots(roots)
     powers = {0.5 + stretch * i: float(q) for i, q in enumerate(polynomial.coef)}
     expected = [root ** (1.0 / stretch) for root in roots]
-    assert real_powers.roots(powers, 0.0, 1.0) == pytest.approx(expected, rel=1e-6)
+    assert PowerSum(powers).roots(0.0, 1.0) == pytest.approx(expected, rel=1e-6)
 
 
 @pytest.mark.parametrize(
