@@ -3,13 +3,14 @@
 import json
 from collections.abc import Callable
 from contextlib import suppress
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 import pytest
 
 from optlaws import Drive, InputError, Mechanism, Motor, Problem, fastest
-from optlaws.verification import verify, verify_all
+from optlaws.verification import Claim, verify, verify_all
 from tests.internals.synthesis import MoveLimits, TimedMove
 
 pytest.importorskip("flint")
@@ -83,14 +84,45 @@ def test_the_limit_of_all_laws_is_proven_in_every_unit_and_with_every_limit() ->
         assert known is None or float(proven or 0) == pytest.approx(known, rel=1e-13, abs=0.0), move
 
 
-def test_a_limit_within_a_torque_is_proven_only_where_the_motion_has_no_less() -> None:
+@pytest.fixture(scope="module")
+def table() -> Drive:
     motor = Motor("3e-4 kg m^2", peak_torque="4 N m", greatest_speed="900 rpm")
-    table = Drive(Mechanism("0.8 kg m^2", "20 N m"), motor, ratio=20)
-    turn = fastest(Problem(order=3), stroke="45 deg", limits={}, drive=table)
-    (claim,) = verify(json.loads(turn.to_json())).unchecked
-    assert claim.name == "the limit of all laws"
-    assert "phase plane" in claim.detail
-    slow = fastest(
-        Problem(order=3), stroke="45 deg", limits={"velocity": "0.5 rad/s", "jerk": "20 rad/s^3"}, drive=table
-    )
-    assert "the limit of all laws" in [claim.name for claim in verify(json.loads(slow.to_json())).claims]
+    return Drive(Mechanism("0.8 kg m^2", "20 N m"), motor, ratio=20)
+
+
+def limit_of_all_laws(data: dict[str, Any]) -> Claim:
+    known = verify(data)
+    (claim,) = (claim for claim in (*known.claims, *known.unchecked) if claim.name == "the limit of all laws")
+    return claim
+
+
+@pytest.mark.parametrize(
+    ("limits", "how"), [({}, "phase plane"), ({"velocity": "0.5 rad/s", "jerk": "20 rad/s^3"}, "segments")]
+)
+def test_a_limit_within_a_torque_is_proven_by_the_phase_plane_where_the_torque_binds(
+    table: Drive, limits: dict[str, str], how: str
+) -> None:
+    turn = fastest(Problem(order=3), stroke="45 deg", limits=limits, drive=table)
+    claim = limit_of_all_laws(json.loads(turn.to_json()))
+    assert claim.proven
+    assert claim.detail.endswith(how)
+
+
+def test_a_limit_above_what_the_potential_proves_is_not_proven(table: Drive) -> None:
+    data = json.loads(fastest(Problem(order=3), stroke="45 deg", limits={}, drive=table).to_json())
+    data["limit"] *= 1.0 + 5e-6
+    claim = limit_of_all_laws(data)
+    assert (claim.proven, claim.checked) == (False, False)
+    assert "conic program" in claim.detail
+
+
+def test_the_phase_plane_proves_no_more_than_the_motion_of_the_closed_form(table: Drive) -> None:
+    """Where inertia and load are constant, the fastest motion has the greatest torque one way, then the other."""
+    quick = replace(table, motor=replace(table.motor, greatest_speed="9000 rpm"))
+    turn = fastest(Problem(order=3), stroke="45 deg", limits={}, drive=quick)
+    inertia, up, down = 0.8 + 3e-4 * 400.0, 80.0 - 20.0, 80.0 + 20.0
+    far, (speeding, braking) = np.pi / 4.0, (up / inertia, down / inertia)
+    shortest = np.sqrt(2.0 * far * (1.0 / speeding + 1.0 / braking))
+    proven = float(limit_of_all_laws(json.loads(turn.to_json())).detail.split(" stated, ")[1].split()[0])
+    assert proven == pytest.approx(shortest, rel=1e-5)
+    assert proven <= shortest * (1.0 + 1e-12)

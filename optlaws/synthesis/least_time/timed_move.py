@@ -276,16 +276,21 @@ class TimedMove(Timed):
     @kept_property
     def limit(self) -> float | None:
         """The time that no law of any degree is faster than; within a torque, that no law which never turns back is."""
-        limits, known = self.limits, [0.0 if self.segments is None else self.segments.duration]
+        known = [0.0 if self.segments is None else self.segments.duration, self.limit_of_torque or 0.0]
         if self.at_rest:
-            known.append(time_of_any_law(self.stroke, limits, self.problem.order) or 0.0)
-        if self.torque is not None:
-            sides = [limit for limit in (limits.acceleration, limits.deceleration) if limit is not None]
-            # a bound of both ways is the greater one, so that none of the laws is left out
-            acceleration = max(sides) / self.stroke if len(sides) == 2 else inf
-            velocity = inf if limits.velocity is None else limits.velocity / self.stroke
-            known.append(self.torque.limit(velocity, acceleration) or 0.0)
+            known.append(time_of_any_law(self.stroke, self.limits, self.problem.order) or 0.0)
         return max(known) or None
+
+    @kept_property
+    def limit_of_torque(self) -> float | None:
+        """The time in the phase plane of the torque that no law is faster than; None where nothing is known."""
+        if self.torque is None:
+            return None
+        sides = [limit for limit in (self.limits.acceleration, self.limits.deceleration) if limit is not None]
+        # a bound of both ways is the greater one, so that none of the laws is left out
+        acceleration = max(sides) / self.stroke if len(sides) == 2 else inf
+        velocity = inf if self.limits.velocity is None else self.limits.velocity / self.stroke
+        return self.torque.limit(velocity, acceleration)
 
     @property
     def begin(self) -> float:
