@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import lru_cache, partial
+from functools import lru_cache
 from math import comb
 from typing import NamedTuple
 
@@ -155,36 +155,25 @@ def greatest_difference(first: Function, second: Function, places: Array) -> tup
     (True, 1.0)
     """
     low, high = places[:-1], places[1:]
-    control: list[Array] = []
-    lows: list[Array] = []
-    highs: list[Array] = []
+    parts: list[tuple[Array, Array, Array]] = []
     size, greatest = 0.0, 0.0  # of all that has been met: what is rounding beside them is resolved
     for _ in range(_CUTS):
-        values, met = _differences(first, second, low, high)
-        size, greatest = max(size, met), max(greatest, float(np.abs(values).max()))
+        x = low[:, None] + (high - low)[:, None] * (nodes(_NODES) + 1.0) / 2.0
+        theirs = np.asarray(second(x.ravel()), dtype=np.float64).reshape(x.shape)
+        if not np.isfinite(theirs).all():
+            raise InputError("the motion to compare with must have finite values on the whole interval")
+        values = first(x.ravel()).reshape(x.shape) - theirs
+        size, greatest = max(size, float(np.abs(theirs).max())), max(greatest, float(np.abs(values).max()))
         tail = np.abs(chebyshev.from_values(values.T)[-2:]).max(axis=0)
         done = tail <= max(_DIFFERENCE_ROUNDING * size, _DIFFERENCE_SHARE * greatest)
-        for gathered, fresh in ((control, from_values(values)), (lows, low), (highs, high)):
-            gathered.append(fresh[done])
+        parts.append((from_values(values)[done], low[done], high[done]))
         if done.all():
-            return _top(*map(partial(np.concatenate, axis=0), (control, lows, highs)))
+            table, start, stop = (np.concatenate(several) for several in zip(*parts, strict=True))
+            order = np.argsort(start)
+            highest = top(np.stack([table[order], -table[order]], axis=1).reshape(-1, _NODES))
+            row = order[highest.row // 2]
+            return highest.value, float(start[row] + (stop[row] - start[row]) * highest.u)
         low, high = low[~done], high[~done]
         middle = (low + high) / 2.0
         low, high = np.concatenate([low, middle]), np.concatenate([middle, high])
     raise InputError(f"the motion is not smooth near x = {float(low[0])!r}: name its breaks")
-
-
-def _differences(first: Function, second: Function, low: Array, high: Array) -> tuple[Array, float]:
-    """The differences at the nodes, a row for each part, and the magnitude of the second function."""
-    x = low[:, None] + (high - low)[:, None] * (nodes(_NODES) + 1.0) / 2.0
-    theirs = np.asarray(second(x.ravel()), dtype=np.float64).reshape(x.shape)
-    if not np.isfinite(theirs).all():
-        raise InputError("the motion to compare with must have finite values on the whole interval")
-    return first(x.ravel()).reshape(x.shape) - theirs, float(np.abs(theirs).max())
-
-
-def _top(table: Array, start: Array, stop: Array) -> tuple[float, float]:
-    order = np.argsort(start)
-    highest = top(np.stack([table[order], -table[order]], axis=1).reshape(-1, table.shape[1]))
-    row = order[highest.row // 2]
-    return highest.value, float(start[row] + (stop[row] - start[row]) * highest.u)

@@ -1,24 +1,96 @@
-"""Functions of one variable on panels, each a Chebyshev series: integrals and roots to rounding."""
+"""Functions of one variable on pieces, each a Chebyshev series: stationary places, roots and integrals to rounding."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from functools import partial
 from itertools import pairwise
 from math import ceil
 
 import numpy as np
 
+from optlaws.errors import InputError
 from optlaws.numbers import Array
 from optlaws.numerics import chebyshev
 from optlaws.numerics.peaks import polished
+from optlaws.tolerances import VALUE_ROUNDING
+
+_QUOTIENT_BLUR = 1e-8  # of the greatest value: quotients of small numbers are rounded more than others
+_DEEPEST = 12
+#: for parts so short that nothing is smooth on them
+_CLOSE = np.cos(np.linspace(0.0, np.pi, 129))
 
 Function = Callable[[Array], Array]
-#: whether a panel of this series and this length is short enough
-Short = Callable[[Array, float], bool]
 
 TERMS = 33
 RADIANS, WAVE_TERMS = 10.0, 41  # so many terms resolve so many radians of a sine, and of its square, to rounding
+
+
+def series_between(function: Function, ends: tuple[float, float], count: int | None = None) -> Array | None:
+    """Chebyshev series of a function in what runs from -1 to 1 between two places; None where it is not smooth.
+
+    >>> series_between(lambda x: x * x, (0.0, 2.0)).round(12)
+    array([1.5, 2. , 0.5])
+    """
+    low, high = ends
+
+    def of_local(x: Array) -> Array:
+        return function(low + (high - low) * (x + 1.0) / 2.0)
+
+    if count is not None:
+        return chebyshev.from_values(of_local(chebyshev.nodes(count)))
+    try:
+        return chebyshev.interpolated(of_local, "the function", _QUOTIENT_BLUR)
+    except InputError:
+        return None
+
+
+def candidates(function: Function, ends: tuple[float, float], count: int | None = None) -> Array:
+    """Places among which every stationary point of a function is; parts that are not smooth are cut in two.
+
+    >>> candidates(lambda x: (x - 0.25) ** 2, (0.0, 1.0)).round(12)
+    array([0.25])
+    """
+    places: list[Array] = []
+    for low, high, series in _parts(function, ends, count):
+        x = _CLOSE if series is None else chebyshev.real_parts_of_roots(chebyshev.derivative(series))
+        places += [low + (high - low) * (x + 1.0) / 2.0, np.array([high])]
+    return np.concatenate(places[:-1])
+
+
+def _parts(
+    function: Function, ends: tuple[float, float], count: int | None = None, depth: int = 0
+) -> Iterator[tuple[float, float, Array | None]]:
+    """Ends of parts in which a function is smooth, with its series there; None where no short part is smooth."""
+    series, (low, high) = series_between(function, ends, count), ends
+    if series is not None or depth >= _DEEPEST:
+        yield low, high, series
+        return
+    middle = (low + high) / 2.0
+    yield from _parts(function, (low, middle), None, depth + 1)
+    yield from _parts(function, (middle, high), None, depth + 1)
+
+
+def cut_at_roots(function: Callable[[float, float], Function], edges: list[float]) -> list[float]:
+    """The edges and, between them, the sign changes of functions, except for nearly coincident ones.
+
+    >>> cut_at_roots(lambda low, high: np.cos, [0.0, 2.0, 3.0])
+    [0.0, 1.570796..., 2.0, 3.0]
+    """
+    edge = edges[:1]
+    for low, high in pairwise(edges):
+        of, some = function(low, high), [low]
+        for start, stop, series in _parts(of, (low, high)):
+            x = np.empty(0) if series is None else chebyshev.real_parts_of_roots(series)
+            roots = start + (stop - start) * (x + 1.0) / 2.0
+            some += [*np.unique(roots[(roots > start) & (roots < stop)]).tolist(), stop]
+        places = np.array(some)
+        values = of((places[1:] + places[:-1]) / 2.0)
+        plain = np.flatnonzero(np.abs(values) > VALUE_ROUNDING * np.abs(values).max())
+        turns = np.sign(values[plain[1:]]) != np.sign(values[plain[:-1]])
+        edge += [*places[plain[1:]][turns].tolist(), high]
+    return edge
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,6 +102,8 @@ class Panels:
     True
     >>> round(waves.square(np.cos), 12) == round(1.5 + 0.25 * float(np.sin(6.0)), 12)
     True
+    >>> waves.integral(np.cos)(np.array([0.0, np.pi / 2.0])).round(12)
+    array([0., 1.])
     """
 
     edges: tuple[float, ...]
@@ -45,11 +119,7 @@ class Panels:
 
     def roots(self, f: Function, slope: Function) -> Array:
         """Every place among which is each root of f; `slope` is its derivative."""
-        return self.roots_of(self.series(f), f, slope)
-
-    def roots_of(self, series: Array, f: Function, slope: Function) -> Array:
-        """The roots where the series of f on every panel are known."""
-        roots = [chebyshev.real_parts_of_roots(column) for column in series.T]
+        roots = [chebyshev.real_parts_of_roots(column) for column in self.series(f).T]
         counts = [len(x) for x in roots]
         low, high = (np.repeat(np.array(edges), counts) for edges in (self.edges[:-1], self.edges[1:]))
 
@@ -66,33 +136,25 @@ class Panels:
             for (low, high), product in zip(pairwise(self.edges), self.series(f).T, strict=True)
         )
 
-
-@dataclass(frozen=True, slots=True)
-class Integral:
-    """The integral of a function from the first edge of its panels."""
-
-    edges: tuple[float, ...]
-    parts: tuple[tuple[float, ...], ...]
-
-    def __call__(self, t: Array) -> Array:
-        """The integral up to t."""
-        values = np.zeros(t.shape)
-        places = np.searchsorted(self.edges[1:-1], t, side="right")
-        for i, (low, high) in enumerate(pairwise(self.edges)):
-            here = places == i
-            if here.any():
-                x = np.clip(2.0 * (t[here] - low) / (high - low) - 1.0, -1.0, 1.0)
-                values[here] = chebyshev.value(np.array(self.parts[i]), x)
-        return values
+    def integral(self, f: Function) -> Function:
+        """The integral of f from the first edge on."""
+        total, parts = 0.0, []
+        for (low, high), values in zip(pairwise(self.edges), self.series(f).T, strict=True):
+            part = chebyshev.integral(values * (high - low), 0.0)
+            part[0] += total
+            total = float(part.sum())
+            parts.append(part)
+        return partial(_on_panels, self.edges, parts)
 
 
-def equal(low: float, high: float, count: int, terms: int = TERMS) -> Panels:
-    """A number of panels of equal length.
-
-    >>> equal(0.0, 1.0, 2).edges
-    (0.0, 0.5, 1.0)
-    """
-    return Panels(tuple(np.linspace(low, high, count + 1).tolist()), terms)
+def _on_panels(edges: tuple[float, ...], series: list[Array], t: Array) -> Array:
+    values = np.zeros(t.shape)
+    places = np.searchsorted(edges[1:-1], t, side="right")
+    for i, (low, high) in enumerate(pairwise(edges)):
+        here = places == i
+        if here.any():
+            values[here] = chebyshev.value(series[i], np.clip(2.0 * (t[here] - low) / (high - low) - 1.0, -1.0, 1.0))
+    return values
 
 
 def of_waves(frequency: float, length: float) -> Panels:
@@ -101,10 +163,11 @@ def of_waves(frequency: float, length: float) -> Panels:
     >>> of_waves(20.0, 1.0).edges
     (0.0, 0.5, 1.0)
     """
-    return equal(0.0, 1.0, max(1, ceil(frequency * length / RADIANS)), WAVE_TERMS)
+    count = max(1, ceil(frequency * length / RADIANS))
+    return Panels(tuple(np.linspace(0.0, 1.0, count + 1).tolist()), WAVE_TERMS)
 
 
-def resolved(f: Function, first: Panels, short: Short) -> tuple[Panels, Array]:
+def resolved(f: Function, first: Panels, short: Callable[[Array, float], bool]) -> tuple[Panels, Array]:
     """Panels halved until each is short enough for the series that f has there; and these series, a column each.
 
     >>> halves, series = resolved(np.exp, Panels((0.0, 4.0), 9), lambda series, length: length <= 1.0)
@@ -123,17 +186,6 @@ def resolved(f: Function, first: Panels, short: Short) -> tuple[Panels, Array]:
             middle = 0.5 * (low + high)
             waiting += [(middle, high), (low, middle)]
     return Panels(tuple(edges), first.terms), np.array(heights).T
-
-
-def integral(f: Function, on: Panels) -> Integral:
-    """The integral of f from the first edge on."""
-    total, parts = 0.0, []
-    for (low, high), values in zip(pairwise(on.edges), on.series(f).T, strict=True):
-        integral = chebyshev.integral(values * (high - low), 0.0)
-        integral[0] += total
-        total = float(integral.sum())
-        parts.append(tuple(integral.tolist()))
-    return Integral(on.edges, tuple(parts))
 
 
 def _places(low: Array, high: Array, x: Array) -> Array:

@@ -1,119 +1,23 @@
-"""Roots of functions: places where they may be extreme, change their sign or take a value; and bisection.
-
-Series of smooth parts have them all; bisection finds one between two places.
-"""
+"""Places where functions change their sign or take a value, and bisection."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from itertools import pairwise
+from collections.abc import Callable, Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
-from optlaws.errors import InputError
 from optlaws.numbers import Array
-from optlaws.numerics.chebyshev import derivative, from_values, interpolated, nodes, real_parts_of_roots, shortened
+from optlaws.numerics.chebyshev import derivative, from_values, nodes, real_parts_of_roots, shortened
 from optlaws.tolerances import EPSILON, ROUNDOFF, TOUCHING, VALUE_ROUNDING
 
 _NEAR_NOTHING = 0.5  # of the least value looked at beside it: a turning point nearer to 0 is looked at itself
-_QUOTIENT_BLUR = 1e-8  # of the greatest value: quotients of small numbers are rounded more than others
 
-_DEEPEST = 12
 #: how often parabolas lead to a turning point
 _TURNS = 3
 #: more than roots between places that are near each other need
 _CHANDRUPATLA = 100
 #: how near its ends, in shares of a bracket, the first place is
 _EDGE = 0.05
-#: for parts so short that nothing is smooth on them
-_CLOSE = np.cos(np.linspace(0.0, np.pi, 129))
-
-
-def series_between(
-    function: Callable[[Array], Array], ends: tuple[float, float], count: int | None = None
-) -> Array | None:
-    """Chebyshev series of a function in what runs from -1 to 1 between two places; None where it is not smooth.
-
-    >>> series_between(lambda x: x * x, (0.0, 2.0)).round(12)
-    array([1.5, 2. , 0.5])
-    """
-    low, high = ends
-
-    def of_local(x: Array) -> Array:
-        return function(low + (high - low) * (x + 1.0) / 2.0)
-
-    if count is not None:
-        return from_values(of_local(nodes(count)))
-    try:
-        return interpolated(of_local, "the function", _QUOTIENT_BLUR)
-    except InputError:
-        return None
-
-
-def candidates(function: Callable[[Array], Array], ends: tuple[float, float], count: int | None = None) -> Array:
-    """Places among which every stationary point of a function is; parts that are not smooth are cut in two.
-
-    >>> candidates(lambda x: (x - 0.25) ** 2, (0.0, 1.0)).round(12)
-    array([0.25])
-    """
-    places: list[Array] = []
-    for low, high, series in _parts(function, ends, count):
-        x = _CLOSE if series is None else real_parts_of_roots(derivative(series))
-        places += [low + (high - low) * (x + 1.0) / 2.0, np.array([high])]
-    return np.concatenate(places[:-1])
-
-
-def roots_between(function: Callable[[Array], Array], ends: tuple[float, float]) -> Array:
-    """Places strictly between two among which every change of sign of a function is; kinks are cut at.
-
-    >>> roots_between(lambda x: x * x - 0.25, (0.0, 2.0)).round(12)
-    array([0.5])
-    """
-    places: list[Array] = []
-    for low, high, series in _parts(function, ends):
-        x = np.empty(0) if series is None else real_parts_of_roots(series)
-        roots = low + (high - low) * (x + 1.0) / 2.0
-        places += [np.unique(roots[(roots > low) & (roots < high)]), np.array([high])]
-    return np.concatenate(places[:-1])
-
-
-def _parts(
-    function: Callable[[Array], Array], ends: tuple[float, float], count: int | None = None, depth: int = 0
-) -> Iterator[tuple[float, float, Array | None]]:
-    """Ends of parts in which a function is smooth, with its series there; None where no short part is smooth."""
-    series, (low, high) = series_between(function, ends, count), ends
-    if series is not None or depth >= _DEEPEST:
-        yield low, high, series
-        return
-    middle = (low + high) / 2.0
-    yield from _parts(function, (low, middle), None, depth + 1)
-    yield from _parts(function, (middle, high), None, depth + 1)
-
-
-def cut_at_roots(function: Callable[[float, float], Callable[[Array], Array]], edges: list[float]) -> list[float]:
-    """The edges and, between them, the sign changes of functions, except for nearly coincident ones.
-
-    >>> cut_at_roots(lambda low, high: np.cos, [0.0, 2.0, 3.0])
-    [0.0, 1.570796..., 2.0, 3.0]
-    """
-    edge = edges[:1]
-    for low, high in pairwise(edges):
-        of = function(low, high)
-        edge += [*_changes(of, np.array([low, *roots_between(of, (low, high)), high])), high]
-    return edge
-
-
-def cut_at_all(functions: Iterable[Callable[[Array], Array]], edges: list[float]) -> list[float]:
-    """The edges, and between them the places where any of several functions, smooth there, changes its sign.
-
-    >>> cut_at_all([np.cos, np.sin], [1.0, 4.0])
-    [1.0, 1.570796..., 3.141592..., 4.0]
-    """
-    places = {*edges}
-    for function in functions:
-        places.update(cut_at_roots(lambda low, high: function, edges))  # noqa: ARG005, B023 - it is called at once
-    return sorted(places)
 
 
 def sign_changes(functions: Callable[[Array], Array], edges: Sequence[float], count: int) -> Array:
@@ -246,14 +150,6 @@ def bracketed_root(function: Callable[[float], float], low: float, high: float) 
     return float(bracketed_roots(lambda x: np.array([function(float(x[0]))]), ends, values)[0])
 
 
-def _changes(function: Callable[[Array], Array], places: Array) -> list[float]:
-    """Inner places at which a function changes its sign by more than rounding."""
-    values = function((places[1:] + places[:-1]) / 2.0)
-    plain = np.flatnonzero(np.abs(values) > VALUE_ROUNDING * np.abs(values).max())
-    turns = np.sign(values[plain[1:]]) != np.sign(values[plain[:-1]])
-    return [float(place) for place in places[plain[1:]][turns]]
-
-
 def bisect(holds: Callable[[float], bool], inside: float, outside: float, halvings: int = 200) -> tuple[float, float]:
     """Neighbours after a number of halvings: a condition holds at the first and fails at the second.
 
@@ -292,21 +188,6 @@ def holds_throughout(holds: Callable[[float, float], bool], low: float, high: fl
     return True
 
 
-def bisect_each(
-    holds: Callable[[Array], NDArray[np.bool_]], inside: Array, outside: Array, halvings: int = 60
-) -> tuple[Array, Array]:
-    """Pairs of places many at once: a condition on arrays holds at the first of each pair, not at the second.
-
-    >>> bisect_each(lambda x: x * x <= np.array([2.0, 9.0]), np.zeros(2), np.full(2, 4.0))[0].round(12)
-    array([1.41421356, 3.        ])
-    """
-    for _ in range(halvings):
-        middle = 0.5 * (inside + outside)
-        within = holds(middle)
-        inside, outside = np.where(within, middle, inside), np.where(within, outside, middle)
-    return inside, outside
-
-
 def crossings(f: Callable[[float], float], places: Array, after: Array, before: Array, value: float) -> Array:
     """All places, ascending, where a function has a value; for a stretch of constant value, both ends.
 
@@ -334,10 +215,8 @@ def crossings(f: Callable[[float], float], places: Array, after: Array, before: 
     signs = np.where(np.abs(heights - value) <= TOUCHING * size, 0.0, np.sign(heights - value))
     touched = places[(signs == 0.0).any(axis=0)]
     passed = np.flatnonzero(signs[0, :-1] * signs[1, 1:] < 0.0)
-    crossed = [_crossing(f, float(places[i]), float(places[i + 1]), value, signs[0, i] > 0.0) for i in passed]
+    crossed = []
+    for i in passed:
+        falling = bool(signs[0, i] > 0.0)  # nothing is evaluated at the two ends
+        crossed.append(bisect(lambda k: (f(k) > value) == falling, float(places[i]), float(places[i + 1]))[0])  # noqa: B023
     return np.sort(np.concatenate([touched, crossed]))
-
-
-def _crossing(f: Callable[[float], float], left: float, right: float, value: float, falling: bool) -> float:  # noqa: FBT001
-    """The place where a monotone function passes a value; nothing is evaluated at its two ends."""
-    return bisect(lambda k: (f(k) > value) == falling, left, right)[0]

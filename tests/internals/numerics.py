@@ -7,8 +7,7 @@ from optlaws.numerics.branch_and_bound import integral as integral_of_integral
 from optlaws.numerics.chebyshev import nodes
 from optlaws.numerics.exact import chebyshev_from_powers, powers_from_chebyshev
 from optlaws.numerics.interval import Interval, bearing, between, dot, exact
-from optlaws.numerics.panels import Panels, equal, of_waves, resolved
-from optlaws.numerics.panels import integral as integral_of_panels
+from optlaws.numerics.panels import Panels, of_waves, resolved
 from optlaws.numerics.peaks import extremes as extremes_of_peaks
 from optlaws.numerics.peaks import highest, peak, polished
 from optlaws.numerics.roots import bisect, bracketed_root, bracketed_roots, sign_changes

@@ -15,7 +15,7 @@ from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.laws.segments.segment import Segment
 from optlaws.numbers import Array
-from optlaws.numerics import panels
+from optlaws.numerics.panels import TERMS, Function, Panels, resolved
 
 _PANEL_ROUNDING = 2e-15  # of the scale of a root: what its series leaves on a panel
 _LEAST_ROOT = 1e-9  # of its scale: a root that is smaller is known no worse
@@ -79,7 +79,7 @@ class LoaderStretch:
 
         least = 0.0 if self._deficit is None or self._deficit.deficit.step == 1.0 else 1e-6 * self.length
         edges = (least, *(t for t in self._panels.edges if t > least)) if self._panels.edges else (least, self.length)
-        return panels.Panels(edges).roots(slope, curvature)
+        return Panels(edges).roots(slope, curvature)
 
     def square(self, nu: int) -> float:
         """Integral over the stretch of the square of the derivative of order nu."""
@@ -101,12 +101,12 @@ class LoaderStretch:
         return -1.0 if self._deficit is None else self._deficit.deficit.reach
 
     @kept_property
-    def _panels(self) -> panels.Panels:
+    def _panels(self) -> Panels:
         return _panels_of_root(lambda t: self.value(t, 0), max(self._root_reach, 0.0), self.length, self.B)
 
     @kept_property
-    def _far_integral(self) -> panels.Integral:
-        return panels.integral(lambda t: self.value(t, 0), self._panels)
+    def _far_integral(self) -> Function:
+        return self._panels.integral(lambda t: self.value(t, 0))
 
     def _executive_at(self, t: float, nu: int) -> float:
         return float(self._executive(np.array([t]), nu)[0])
@@ -153,14 +153,14 @@ def _root(energy: list[Array]) -> Array:
     return g[-1]
 
 
-def _panels_of_root(f: panels.Function, low: float, high: float, scale: float) -> panels.Panels:
+def _panels_of_root(f: Function, low: float, high: float, scale: float) -> Panels:
     """Panels from low to high on which f = sqrt(scale² - b²) is resolved to rounding; none where low = high.
 
     Where f is small next to its scale, rounding of b is all the larger in it, and nothing finer is needed.
     """
     if not low < high:
-        return panels.Panels(())
-    if not np.isfinite(f(np.linspace(low, high, panels.TERMS))).all():
+        return Panels(())
+    if not np.isfinite(f(np.linspace(low, high, TERMS))).all():
         raise SolverFailure(f"the velocity of the loader is not finite between t = {low:g} and {high:g}")
 
     def short(series: Array, length: float) -> bool:
@@ -168,7 +168,7 @@ def _panels_of_root(f: panels.Function, low: float, high: float, scale: float) -
         rounding = _PANEL_ROUNDING * scale * max(1.0, scale / max(float(values[0]), _LEAST_ROOT * scale))
         return bool(values[-3:].max() <= rounding) or length < _SHORTEST_PANEL
 
-    return panels.resolved(f, panels.Panels((low, high)), short)[0]
+    return resolved(f, Panels((low, high)), short)[0]
 
 
 @dataclass(frozen=True)

@@ -12,7 +12,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, TypedDict, Unpack
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.cams.curves.approximations import DEGREES, Spline, arcs, polygon, spline
 from optlaws.cams.curves.plane_curve import Outline
@@ -26,7 +25,7 @@ from optlaws.files.writing import MARK
 from optlaws.lazy import process_lock
 from optlaws.motion.quantities import positive_quantity
 from optlaws.numbers import Array, Quantity
-from optlaws.numerics.roots import bisect_each
+from optlaws.numerics.roots import bracketed_roots
 
 if TYPE_CHECKING:
     from ezdxf.layouts.layout import Modelspace
@@ -148,12 +147,13 @@ def _met(outline: Outline, bearings: Array) -> Array:
     turns = np.mod(sign * (bearings - first), tau)
     which = np.clip(np.searchsorted(swept, turns, side="right") - 1, 0, _SAMPLES - 2)
 
-    def before(angle: Array) -> NDArray[np.bool_]:
+    def beyond(angle: Array) -> Array:
         x, y = outline(angle).T
-        return np.asarray(~(sign * (y * np.cos(bearings) - x * np.sin(bearings)) > 0.0))
+        return np.asarray(sign * (y * np.cos(bearings) - x * np.sin(bearings)))
 
-    low, high = bisect_each(before, angles[which], angles[which + 1])
-    return 0.5 * (low + high)
+    low, high = angles[which], angles[which + 1]
+    # a ray through a sample may pass it on the other side by rounding
+    return bracketed_roots(beyond, (low, high), (np.minimum(beyond(low), 0.0), np.maximum(beyond(high), 0.0)))
 
 
 def as_line_moves(outline: Outline, options: Cutting) -> str:

@@ -19,7 +19,8 @@ from optlaws.formulas.tree import Call, Exponentiation, Formula, Number, total
 from optlaws.kept import kept_property
 from optlaws.numbers import Array
 from optlaws.numerics.chebyshev import FEWEST, MOST, from_values, nodes
-from optlaws.numerics.roots import candidates, sign_changes
+from optlaws.numerics.panels import candidates
+from optlaws.numerics.roots import sign_changes
 from optlaws.synthesis.families.cone import SumOfSquares, sum_of_squares
 from optlaws.synthesis.families.family import LinearFamily, NonlinearFamily, RowJet, WholeLawFamily, last_result
 from optlaws.synthesis.families.formula_slopes import FactorTables, Slopes

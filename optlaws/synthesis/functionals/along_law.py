@@ -17,8 +17,8 @@ from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import PolynomialSegment
 from optlaws.numbers import Array
 from optlaws.numerics.chebyshev import gauss, value
+from optlaws.numerics.panels import candidates, cut_at_roots, series_between
 from optlaws.numerics.peaks import Peak, extremes
-from optlaws.numerics.roots import candidates, cut_at_all, cut_at_roots, series_between
 from optlaws.tolerances import BESIDE_BREAK
 
 _INTEGRAL_SETTLED = 1e-14  # of an integral: what twice as many places may change of the whole, where no cut is needed
@@ -64,7 +64,9 @@ def _smooth_edges(motion: MotionFormula, law: MotionLaw) -> list[float]:
     inner = {k for k in (*breaks, *motion.breaks) if motion.start < k < motion.stop}
     edges = sorted({motion.start, motion.stop, *inner})
     plain, bent = knots(motion.formula, ORDERS)
-    edges = cut_at_all((partial(_values, MotionFormula(switch), law) for switch in plain), edges)
+    if plain:
+        values = [partial(_values, MotionFormula(switch), law) for switch in plain]
+        edges = sorted({place for of in values for place in cut_at_roots(lambda *_: of, edges)})  # noqa: B023
     for switch in bent:
         edges = cut_at_roots(partial(_inside, MotionFormula(switch), law), edges)
     return edges
