@@ -7,10 +7,9 @@ from dataclasses import KW_ONLY, field, replace
 from typing import TYPE_CHECKING, Any
 
 from optlaws.cycles.answers import Answers, Solved
-from optlaws.cycles.optimisation.objectives import kind_of
 from optlaws.cycles.optimisation.optimal import span_problem
 from optlaws.cycles.optimisation.shared_limits import best_of
-from optlaws.cycles.placed import SegmentPeaks, refuse_beyond, retimed_segments
+from optlaws.cycles.placed import SegmentPeaks, refuse_beyond, retimed
 from optlaws.cycles.specification.limits import MOTOR
 from optlaws.cycles.specification.programme import period_of
 from optlaws.cycles.specified import Specification
@@ -20,7 +19,7 @@ from optlaws.errors import InputError, located
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.motion.piece import unit_of
-from optlaws.motion.quantities import TURN, Exact, Kind, positive_quantity
+from optlaws.motion.quantities import TURN, positive_quantity
 from optlaws.numbers import Quantity
 from optlaws.synthesis.solution import Solution
 
@@ -51,11 +50,7 @@ class CycleAnswers(Answers):
         (0.15, 4.0)
         """
         plan, period = self.solve(), period_of(speed, None)
-        segments = retimed_segments(self.peaks, plan.axis, period / plan.duration)
-        # laws that are known leave nothing of a load to look for
-        minimise = "acceleration" if kind_of(plan.minimise)[0] is Kind.LOAD else plan.minimise
-        known: dict[str, Any] = {"segments": segments, "minimise": minimise, "limits": {}}
-        return replace(plan.specification, speed=None, period=Exact(period, "s"), **known)
+        return retimed(plan.specification, self.peaks, period, period / plan.duration, limits={})
 
     def cam(self, period: Quantity, damping: float = 0.0) -> Cycle:
         """The cycle of the cam with which an elastic follower's mass executes this cycle (1.27).
@@ -94,8 +89,7 @@ class CycleAnswers(Answers):
             with located(each.stretch.where):
                 return polydyne(each.piece.law, TURN * each.duration / natural, damping)
 
-        segments = retimed_segments(self.peaks, cycle.axis, law=corrected)
-        return replace(cycle, segments=segments, speed=None, period=Exact(cycle.duration, "s"))
+        return retimed(cycle, self.peaks, cycle.duration, law=corrected)
 
     def with_motor(self, motor: Motor) -> Plan:
         """The same laws by a motor with other limits: torques and proofs stay, the margins of its sheet are new.

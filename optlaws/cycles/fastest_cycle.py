@@ -12,7 +12,7 @@ from optlaws.cycles.greatest_speed.fastest_search import FastestSearch
 from optlaws.cycles.greatest_speed.timed_spans import TimedSpan
 from optlaws.cycles.moves.fastest_move import limit_row
 from optlaws.cycles.optimisation.objectives import check_rating
-from optlaws.cycles.placed import retimed_segments, segments_in_place
+from optlaws.cycles.placed import retimed, segments_in_place
 from optlaws.cycles.specification.limits import FORCE_UNITS, amount, word_of
 from optlaws.entries.declared import Declared, FrozenTable, ValueOf, declared, entry
 from optlaws.entries.value_types import Listed, Number, ReadBy, Switch, Table, Text
@@ -20,7 +20,7 @@ from optlaws.errors import InputError
 from optlaws.files.reading import check_names
 from optlaws.kept import kept_property
 from optlaws.lazy import imported
-from optlaws.motion.quantities import TURN, Exact, Kind
+from optlaws.motion.quantities import TURN, Kind
 from optlaws.sentences import Amount, joined, sentence
 from optlaws.shown.report import Report
 from optlaws.shown.summary import Row, Summary
@@ -261,8 +261,7 @@ def fastest_cycle(cycle: Any) -> FastestCycle:
     check_rating(cycle.limits, objective.drive)
     search = FastestSearch(cycle.programme, objective, {})
     laws = search.laws()
-    known = retimed_segments(segments_in_place(search.programme, laws.starts, laws.pieces), cycle.axis)
-    limited = replace(cycle, segments=known, speed=None, period=Exact(search.period, "s"))
+    limited = retimed(cycle, segments_in_place(search.programme, laws.starts, laws.pieces), search.period)
     segments = tuple(_least_duration(search, span) for span in search.spans)
     proven = search.status, search.period, _binding(search, segments), search.proofs
     return FastestCycle(cycle, limited, segments, *proven, _raised(search), search.limit)

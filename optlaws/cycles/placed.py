@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from math import inf, isfinite
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias, TypeVar
 
+from optlaws.cycles.optimisation.objectives import kind_of
 from optlaws.cycles.optimisation.span_values import along
 from optlaws.cycles.specification.limits import (
     FORCE_UNITS,
@@ -22,6 +23,7 @@ from optlaws.cycles.specification.limits import (
 )
 from optlaws.cycles.specification.programme import Programme, TimedSegment, is_optimal
 from optlaws.cycles.specification.segments import ConstantVelocity, CycleSegment, Dwell, Free, Move
+from optlaws.cycles.specified import Specification
 from optlaws.errors import InfeasibleProblem, InputError
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
@@ -40,6 +42,7 @@ Cycle: TypeAlias = Any
 Plan: TypeAlias = Any
 
 Place = tuple[float, float]
+T = TypeVar("T", bound=Specification)
 _JERK = 3
 _OF_MOTOR = {"speed": "rad/s", "torque-speed curve": ""}
 
@@ -112,14 +115,31 @@ def segments_in_place(
     return tuple(placed)
 
 
-def retimed_segments(
+def with_laws(cycle: T, segments: Sequence[CycleSegment], period: float | None = None, **others: Any) -> T:
+    """The cycle with other segments, whose laws are known, and other entries; in another period if that is given.
+
+    Laws that are known leave nothing of a load to look for.
+    """
+    if kind_of(cycle.minimise)[0] is Kind.LOAD:
+        others["minimise"] = "acceleration"
+    if period is not None:
+        others |= {"speed": None, "period": Exact(period, "s")}
+    return replace(cycle, segments=segments, **others)
+
+
+def retimed(
+    cycle: T,
     placed: Sequence[SegmentPeaks],
-    axis: str,
+    period: float,
     share: float = 1.0,
     law: Callable[[SegmentPeaks], MotionLaw] | None = None,
-) -> list[CycleSegment]:
-    """The segments with durations multiplied by `share`, by their own laws, joint ones in parts, or by others."""
-    segments, same_time = list[CycleSegment](), SAME_TIME * placed[-1].stop
+    **others: Any,
+) -> T:
+    """The cycle in a period, with durations multiplied by `share`, by their own laws, joint ones in parts, or others.
+
+    Its limits are kept unless others are given.
+    """
+    axis, segments, same_time = cycle.axis, list[CycleSegment](), SAME_TIME * placed[-1].stop
     for each in placed:
         time, moved = Exact(each.duration * share, "s"), each.stretch.displacement
         if isinstance(each.stretch.given, Dwell):
@@ -133,7 +153,7 @@ def retimed_segments(
                 Move(Exact(way, unit_of(axis)), Exact(part * share, "s"), law=known, name=each.name)
                 for way, part, known in parts
             ]
-    return segments
+    return with_laws(cycle, segments, period, **others)
 
 
 def _parts(placed: SegmentPeaks, same_time: float) -> list[tuple[float, float, MotionLaw]]:

@@ -120,10 +120,7 @@ def _stored(cycle: Cycle) -> dict[str, Any]:
 
 def _beside(axes: Axes, overlap: Overlap | None, transitions: Sequence[AxisTransition]) -> dict[str, Any]:
     """What is known beside the axes for programs: clearances, what overlaps, run-ins and run-outs, if there are any."""
-    known = axes.report().data
-    if overlap is not None:
-        facts = {name: getattr(overlap, name) for name in ("goal", "objective", "lower_bound", "gain")}
-        known["overlap"] = {"status": overlap.status.value, **facts, "binding": list(overlap.binding)}
+    known = dict((axes if overlap is None else overlap).report().data)
     if transitions:
         known["transitions"] = {name: cam.report().data for name, _, cam in transitions}
     return known

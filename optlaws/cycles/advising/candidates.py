@@ -10,7 +10,7 @@ from typing import Any, Literal, NamedTuple
 
 from optlaws.cycles.cycle import Cycle, Plan
 from optlaws.cycles.optimisation.objectives import OBJECTIVES, kind_of
-from optlaws.cycles.placed import limits_taken
+from optlaws.cycles.placed import limits_taken, with_laws
 from optlaws.cycles.report import objective_unit
 from optlaws.cycles.specification.limits import (
     AXES,
@@ -403,9 +403,8 @@ class Candidates:
         return [changed(each) if i in self._compared else each for i, each in enumerate(self.cycle.segments)]
 
     def _known(self, segments: Sequence[CycleSegment]) -> Plan:
-        """A cycle of known laws, without limits and without an objective of the load."""
-        minimise = "acceleration" if kind_of(self.cycle.minimise)[0] is Kind.LOAD else self.cycle.minimise
-        return replace(self.cycle, segments=segments, minimise=minimise, limits={}).unchecked()
+        """A cycle of known laws, without limits."""
+        return with_laws(self.cycle, segments, limits={}).unchecked()
 
     @kept_property
     def _standing(self) -> Plan:

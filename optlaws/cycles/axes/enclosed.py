@@ -14,7 +14,7 @@ import numpy as np
 from optlaws.cycles.cycle import Cycle
 from optlaws.errors import InputError
 from optlaws.formulas.arithmetic import NUMPY, evaluate
-from optlaws.formulas.tree import Formula
+from optlaws.formulas.tree import Call, Formula, Name, Number, Table
 from optlaws.kept import kept_property
 from optlaws.motion.smooth_stretches import EnclosedStretch, jet_of_parts, smooth_parts
 from optlaws.numbers import Array
@@ -140,33 +140,23 @@ def least(
 
 
 @dataclass(frozen=True)
-class TableBound:
-    """Straight lines between places, constant beyond them."""
-
-    places: tuple[float, ...]
-    values: tuple[float, ...]
-
-    def __call__(self, x: Array) -> Array:
-        """Values of the bound at places."""
-        return np.interp(x, self.places, self.values)
-
-    def jet(self, x: Jet) -> Jet:
-        """The bound where x is a jet of intervals: a sum of ramps, each with its kinks."""
-        total = x * 0.0 + self.values[0]
-        for (low, high), (start, stop) in zip(pairwise(self.places), pairwise(self.values), strict=True):
-            slope = (stop - start) / (high - low)
-            ramp = x.clipped(low, high) + (-low)
-            total = total + ramp * Interval(np.array(slope), np.array(4.0 * ROUNDOFF * abs(slope)))
-        return total
-
-
-@dataclass(frozen=True)
-class FormulaBound:
-    """A formula of x with units: `size` is the unit of x and `scale` that of its value, both in SI."""
+class PositionBound:
+    """A formula of x with units as a bound: `size` is the unit of x and `scale` that of its value, both in SI."""
 
     formula: Formula
-    size: float
-    scale: float
+    size: float = 1.0
+    scale: float = 1.0
+
+    @classmethod
+    def through(cls, places: tuple[float, ...], values: tuple[float, ...]) -> PositionBound:
+        """Straight lines between places, constant beyond them."""
+        within = Call("max", (Call("min", (Name("x"), Number(places[-1]))), Number(places[0])))
+        return cls(Table(within, places, values))
+
+    @property
+    def bends(self) -> tuple[float, ...]:
+        """Positions at which straight lines meet."""
+        return self.formula.places if isinstance(self.formula, Table) else ()
 
     def __call__(self, x: Array) -> Array:
         """Values of the bound at places."""

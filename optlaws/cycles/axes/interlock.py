@@ -11,7 +11,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from optlaws.cycles.axes.enclosed import EnclosedAxis, FormulaBound, SimplePolygon, TableBound, Way, least
+from optlaws.cycles.axes.enclosed import EnclosedAxis, PositionBound, SimplePolygon, Way, least
 from optlaws.cycles.cycle import Cycle
 from optlaws.cycles.specification.limits import AXES
 from optlaws.cycles.specification.programme import time_of
@@ -385,24 +385,24 @@ class Clearance(Interlock, kind="clearance"):
             raise InputError("clearance: give a table as pairs, least=[('0 deg', '20 mm'), ...], not in a formula")
         return formula
 
-    def _in_si(self, first: Cycle, second: Cycle) -> TableBound | FormulaBound:
+    def _in_si(self, first: Cycle, second: Cycle) -> PositionBound:
         kinds = second.axis, first.axis
         if isinstance(self.given, str):
             units = zip(self.units or (), kinds, strict=True)
-            return FormulaBound(self.formula(), *(quantity(f"1 {unit}", kind, "unit") for unit, kind in units))
+            return PositionBound(self.formula(), *(quantity(f"1 {unit}", kind, "unit") for unit, kind in units))
         places, values = (
             tuple(quantity(value, kind, f"position of {name}") for value in side)
             for side, kind, name in zip(zip(*self.given, strict=True), kinds, (self.over, self.axis), strict=True)
         )
         if any(low >= high for low, high in pairwise(places)):
             raise InputError(f"positions of {self.over} must increase, got {shortened(self.given)}")
-        return TableBound(places, values)
+        return PositionBound.through(places, values)
 
     def room(self, cycles: Mapping[str, Any], times: Array) -> Array:
         first, second = (cycles[name](times) for name in self.axes)
         return np.asarray(self.sign * (first - self.in_si(cycles)(second)))
 
-    def _least(self, given: TableBound | FormulaBound, first: EnclosedAxis, second: EnclosedAxis) -> tuple[float, ...]:
+    def _least(self, given: PositionBound, first: EnclosedAxis, second: EnclosedAxis) -> tuple[float, ...]:
         def room(at: Interval, order: int) -> Jet:
             difference = first.jet(at, order) - given.jet(second.jet(at, order))
             return difference if self.sign > 0.0 else -difference

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import KW_ONLY, replace
-from typing import Any, Literal, TypeAlias, Unpack
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias, Unpack
 
 from optlaws.cycles.axes.interlock import INTERLOCKS, Interlock, LeastClearance
-from optlaws.cycles.axes.report import AxesReport
+from optlaws.cycles.axes.report import AxesReport, OverlapReport
 from optlaws.cycles.cycle import Cycle, Plan
 from optlaws.cycles.moves.fastest_move import limit_row
+from optlaws.cycles.placed import with_laws
 from optlaws.cycles.specification.programme import is_optimal, period_of
 from optlaws.cycles.specification.segments import CycleSegment, Dwell
 from optlaws.cycles.specified import problem_file
@@ -27,6 +28,10 @@ from optlaws.shown.summary import Row, Summary
 from optlaws.synthesis.status import Status
 from optlaws.tolerances import CLOSURE, CYCLE_OPTIMALITY
 
+if TYPE_CHECKING:
+    from optlaws.cycles.axes.overlapping import Overlapping
+
+Goal: TypeAlias = Literal["period", "acceleration"]
 #: what pictures of axes show
 AxesPicture: TypeAlias = Literal["motion", "timing", "plane", "clearance"]
 
@@ -46,63 +51,25 @@ def _plain_cycles(cycles: Mapping[str, Cycle]) -> dict[str, Any]:
     return {name: cycle.specification.to_dict() for name, cycle in cycles.items()}
 
 
-@declared
-class Axes(Declared, Mapping[str, Cycle], title="stored axes"):
-    """Axes that turn with one master: cycles by their names, all of the same duration.
+class AxesAnswers(Mapping[str, Cycle]):
+    """What axes, and axes that overlap, have of the cycles of their axes by their names."""
 
-    Raises
-    ------
-    InputError
-        If an axis is wrong, or its cycle has another duration; the error names the axis. If an interlock names an axis
-        that is not there or a position that it does not pass.
-
-    Examples
-    --------
-    >>> from optlaws import Dwell, Return, Rise
-    >>> table = {"segments": [Rise("45 deg", "400 ms"), Dwell()], "advance": "45 deg"}
-    >>> head = [Dwell("400 ms"), Rise("250 mm", "200 ms"), Dwell("1200 ms"), Return()]
-    >>> machine = Axes({"table": table, "weld head": head}, period="2 s")
-    >>> machine
-    Axes({'table': Cycle([Rise, Dwell]), 'weld head': Cycle([Dwell, Rise, Dwell, Return])}, period=2 s)
-    >>> machine.status.value, machine["table"].objective, machine.at_angle(90)["weld head"]
-    ('optimal', 21.313898, 0.125000)
-    """
-
-    __eq__, __hash__ = Mapping.__eq__, Mapping.__hash__
-
-    axes: Mapping[str, Sequence[CycleSegment] | Mapping[str, Any] | Cycle | Plan] = entry(
-        ReadBy(_named, "a table by the names of the axes", _plain_cycles, {"type": "object", "minProperties": 1}),
-        'What each axis does: a list of segments, a table of what `Cycle` takes (`{"segments": [...], "limits": '
-        "{...}}`), or a `Cycle` of the same duration or the `Plan` of one; where all are such neither speed nor period "
-        "is needed.",
-    )
-    _: KW_ONLY
-    speed: Quantity | None = same(Cycle, "speed", default=None)
-    period: Quantity | None = same(Cycle, "period", default=None)
-    interlocks: Sequence[Interlock | Mapping[str, Any]] = entry(
-        INTERLOCKS,
-        "Conditions between two axes: `After`, `Clearance`, `Forbidden`, `Synchronous`, or the plain data of such. "
-        "`clearances` states which are clear and where they are nearest.",
-        default=(),
-    )
-
-    def _check(self) -> None:
-        cycles = self._cycles  # errors of an axis are raised at once
-        for interlock in self.rules:
-            interlock.check(cycles)
+    def solve(self) -> Axes:
+        """The axes that answer."""
+        raise NotImplementedError
 
     def __getitem__(self, name: str) -> Cycle:
-        check_names([name], tuple(self._cycles), "axis")
-        return self._cycles[name]
+        check_names([name], tuple(self), "axis")
+        return self.solve().cycles[name]
 
     def __contains__(self, name: object) -> bool:
-        return name in self._cycles
+        return name in self.solve().cycles
 
     def __iter__(self) -> Iterator[str]:
-        return iter(self._cycles)
+        return iter(self.solve().cycles)
 
     def __len__(self) -> int:
-        return len(self._cycles)
+        return len(self.solve().cycles)
 
     def __call__(self, time: Any, nu: int = 0) -> dict[str, Any]:
         """Position (nu 0), velocity, acceleration, jerk of every axis at times in seconds, in SI units."""
@@ -118,113 +85,9 @@ class Axes(Declared, Mapping[str, Cycle], title="stored axes"):
         return next(iter(self.values())).duration
 
     @property
-    def status(self) -> Status:
-        """The worst status of the axes."""
-        return Status.worst(cycle.status for cycle in self.values())
-
-    def at(self, speed: Quantity) -> Axes:
-        """The same motions at another speed of the master, like `Cycle.at`."""
-        return Axes({name: cycle.at(speed) for name, cycle in self.items()}, interlocks=self.interlocks)
-
-    def fastest(self) -> Overlap:
-        """The least period that the interlocks allow: moves overlap as far as they can, each in its least time.
-
-        Laws that are given keep their shapes; a move without one takes its own fastest law, as of `Cycle.fastest`, from
-        rest to rest. A move with limits takes the least time under these; another one keeps its time, or its angle of
-        the master. Dwells last at least as long as they were given, or their `least`. The order of the segments of each
-        axis stays, and all axes rest when the cycle begins.
-
-        Raises
-        ------
-        InputError
-            If a segment is no move from rest to rest and no dwell, or a limit is of the whole cycle, as an rms torque.
-        InfeasibleProblem
-            If no instants of these laws keep all interlocks; the error names those that contradict each other.
-
-        Examples
-        --------
-        >>> from optlaws import Clearance, Dwell, Return, Rise
-        >>> law = {"law": "cycloidal"}
-        >>> move = [
-        ...     Rise("0.1 m", "0.2 s", **law),
-        ...     Dwell("0.4 s", least="0 s"),
-        ...     Return("0.1 m", "0.2 s", **law),
-        ...     Dwell(),
-        ... ]
-        >>> slide = {"segments": move, "limits": {"acceleration": "20 m/s^2"}}
-        >>> waits, acts = Dwell("0.2 s", least="0 s"), Dwell("0.1 s")
-        >>> tool = [waits, Rise("50 mm", "0.1 s", **law), acts, Return("50 mm", "0.1 s", **law), Dwell()]
-        >>> rule = Clearance("tool", over="slide", most=[("90 mm", "5 mm"), ("95 mm", "50 mm")])
-        >>> best = Axes({"slide": slide, "tool": tool}, period="1 s", interlocks=[rule]).fastest()
-        >>> best.status.value, round(best.objective, 6), best.axes.clearances[0].status
-        ('optimal', 0.51093, 'clear')
-        """
-        return self._overlap("period", tuple(self))
-
-    def gentlest(self, *of: str) -> Overlap:
-        """The least greatest acceleration in the same period: moves grow into the time that the interlocks leave.
-
-        Laws that are given keep their shapes; a move without one takes the law of least acceleration within its limits
-        in its time, from rest to rest.
-
-        Parameters
-        ----------
-        of
-            The axes whose moves may take longer, all unless given; moves of the others keep their times. Of several the
-            greatest share of what each has now is least.
-
-        Raises
-        ------
-        InputError
-            If an axis is unknown, or a segment is no move from rest to rest and no dwell.
-        InfeasibleProblem
-            If no instants of these laws keep all interlocks; the error names those that contradict each other.
-
-        Examples
-        --------
-        >>> from optlaws import After, Dwell, Return, Rise
-        >>> law, on = {"law": "cycloidal"}, Dwell("0.1 s")
-        >>> index = [Dwell("0.25 s"), Rise("15 deg", "0.5 s", **law), Dwell()]
-        >>> die = [on, Rise("50 mm", "0.15 s", **law), Dwell(), Return("50 mm", "0.15 s", **law), on]
-        >>> rules = [
-        ...     After("table", "0.1 deg", of="die", above="31 mm"),
-        ...     After("die", "31 mm", of="table", above="14.9 deg", way="down"),
-        ... ]
-        >>> axes = {"table": {"segments": index, "advance": "15 deg"}, "die": die}
-        >>> best = Axes(axes, period="1 s", interlocks=rules).gentlest("die")
-        >>> best.status.value, round(best.objective, 6)
-        ('optimal', 0.175878)
-        """
-        check_names(of, tuple(self), "axis")
-        return self._overlap("acceleration", of or tuple(self))
-
-    def _overlap(self, goal: Literal["period", "acceleration"], longer: Sequence[str]) -> Overlap:
-        from optlaws.cycles.axes import overlapping
-
-        known = self._program.shortest() if goal == "period" else overlapping.gentlest(self, self.rules, longer)
-        program, unknowns, bound = known
-        period, times, cycles = program.unit * float(unknowns[-2]), program.durations(unknowns), dict[str, Cycle]()
-        for plan in program.plans:
-            laws = (segment.law for segment in plan.segments)
-            cycles[plan.name] = _retimed(self[plan.name], zip(times[plan.name], laws, strict=True), period)
-        value = period if goal == "period" else 1.0 / float(unknowns[-1]) ** 2
-        axes = Axes(cycles, interlocks=self.rules)
-        overlap = Overlap(
-            goal=goal, objective=value, lower_bound=bound, of=tuple(longer), binding=(), axes=axes, given=self
-        )
-        return replace(overlap, binding=overlap.bound_by())
-
-    @kept_property
-    def _program(self) -> Any:
-        """The program of the instants of the fastest laws."""
-        from optlaws.cycles.axes.overlapping import program
-
-        return program(self, self.rules, "period", (), {})
-
-    @property
     def clearances(self) -> tuple[LeastClearance, ...]:
         """The least clearance of every interlock, its place and its margin, proven over the whole cycle."""
-        return self._report.clearances
+        return self.solve().drawn.clearances
 
     @property
     def broken(self) -> tuple[LeastClearance, ...]:
@@ -279,17 +142,6 @@ class Axes(Declared, Mapping[str, Cycle], title="stored axes"):
         formats = to if isinstance(to, Mapping) else dict.fromkeys(self, to)
         return export_axes(self, formats, {"master": master}, **options)
 
-    def to_dict(self) -> dict[str, Any]:
-        """The cycles of the axes and their interlocks, plain and JSON-able."""
-        return {"format": FORMAT, **super(Axes, replace(self, axes=dict(self), speed=None, period=None)).to_dict()}
-
-    @classmethod
-    def _from_earlier(cls, data: dict[str, Any]) -> dict[str, Any]:
-        stored = data.get("axes")
-        if not isinstance(stored, Mapping) or data.pop("format", FORMAT) != FORMAT:
-            raise InputError(f"stored axes have format {FORMAT!r} and a table of axes, got {shortened(data)}")
-        return {**data, "axes": {str(name): Cycle.from_dict(cycle) for name, cycle in stored.items()}}
-
     def to_toml(self, title: str = "Machine") -> str:
         """A problem file for `optlaws cycle` with all axes.
 
@@ -307,7 +159,7 @@ class Axes(Declared, Mapping[str, Cycle], title="stored axes"):
         period = "0.30000000000000004 s"
         ...
         """
-        interlocks = [interlock.to_dict() for interlock in self.rules]
+        interlocks = [interlock.to_dict() for interlock in self.solve().rules]
         return problem_file(title, {"period": Exact(self.duration, "s")}, self, {"interlocks": interlocks})
 
     def to_pandas(self) -> Any:
@@ -366,25 +218,172 @@ class Axes(Declared, Mapping[str, Cycle], title="stored axes"):
             return draw_axes(self, ax, nu=nu, **style)
         from optlaws.plots.interlocks import draw_interlocked
 
-        return draw_interlocked(self._report, ax, what, interlock, style)
+        return draw_interlocked(self.solve().drawn, ax, what, interlock, style)
 
     def report(self) -> Report:
         """The proven clearances, limits that axes break, and every position and clearance over the master."""
-        return self._report
+        return self.solve().drawn
+
+    def _repr_html_(self) -> str:
+        from optlaws.shown.showing import Html, page
+
+        return page(
+            type(self).__name__, *(Html(f"<h4>{name}</h4>{cycle._repr_html_()}") for name, cycle in self.items())
+        )
+
+
+@declared
+class Axes(AxesAnswers, Declared, title="stored axes"):
+    """Axes that turn with one master: cycles by their names, all of the same duration.
+
+    Raises
+    ------
+    InputError
+        If an axis is wrong, or its cycle has another duration; the error names the axis. If an interlock names an axis
+        that is not there or a position that it does not pass.
+
+    Examples
+    --------
+    >>> from optlaws import Dwell, Return, Rise
+    >>> table = {"segments": [Rise("45 deg", "400 ms"), Dwell()], "advance": "45 deg"}
+    >>> head = [Dwell("400 ms"), Rise("250 mm", "200 ms"), Dwell("1200 ms"), Return()]
+    >>> machine = Axes({"table": table, "weld head": head}, period="2 s")
+    >>> machine
+    Axes({'table': Cycle([Rise, Dwell]), 'weld head': Cycle([Dwell, Rise, Dwell, Return])}, period=2 s)
+    >>> machine.status.value, machine["table"].objective, machine.at_angle(90)["weld head"]
+    ('optimal', 21.313898, 0.125000)
+    """
+
+    __eq__, __hash__ = Mapping.__eq__, Mapping.__hash__
+
+    axes: Mapping[str, Sequence[CycleSegment] | Mapping[str, Any] | Cycle | Plan] = entry(
+        ReadBy(_named, "a table by the names of the axes", _plain_cycles, {"type": "object", "minProperties": 1}),
+        'What each axis does: a list of segments, a table of what `Cycle` takes (`{"segments": [...], "limits": '
+        "{...}}`), or a `Cycle` of the same duration or the `Plan` of one; where all are such neither speed nor period "
+        "is needed.",
+    )
+    _: KW_ONLY
+    speed: Quantity | None = same(Cycle, "speed", default=None)
+    period: Quantity | None = same(Cycle, "period", default=None)
+    interlocks: Sequence[Interlock | Mapping[str, Any]] = entry(
+        INTERLOCKS,
+        "Conditions between two axes: `After`, `Clearance`, `Forbidden`, `Synchronous`, or the plain data of such. "
+        "`clearances` states which are clear and where they are nearest.",
+        default=(),
+    )
+
+    def _check(self) -> None:
+        cycles = self.cycles  # errors of an axis are raised at once
+        for interlock in self.rules:
+            interlock.check(cycles)
+
+    def solve(self) -> Axes:
+        """The axes themselves, which answer."""
+        return self
+
+    @property
+    def status(self) -> Status:
+        """The worst status of the axes."""
+        return Status.worst(cycle.status for cycle in self.values())
+
+    def at(self, speed: Quantity) -> Axes:
+        """The same motions at another speed of the master, like `Cycle.at`."""
+        return Axes({name: cycle.at(speed) for name, cycle in self.items()}, interlocks=self.interlocks)
+
+    def fastest(self) -> Overlap:
+        """The least period that the interlocks allow: moves overlap as far as they can, each in its least time.
+
+        Laws that are given keep their shapes; a move without one takes its own fastest law, as of `Cycle.fastest`, from
+        rest to rest. A move with limits takes the least time under these; another one keeps its time, or its angle of
+        the master. Dwells last at least as long as they were given, or their `least`. The order of the segments of each
+        axis stays, and all axes rest when the cycle begins.
+
+        Raises
+        ------
+        InputError
+            If a segment is no move from rest to rest and no dwell, or a limit is of the whole cycle, as an rms torque.
+        InfeasibleProblem
+            If no instants of these laws keep all interlocks; the error names those that contradict each other.
+
+        Examples
+        --------
+        >>> from optlaws import Clearance, Dwell, Return, Rise
+        >>> law = {"law": "cycloidal"}
+        >>> move = [
+        ...     Rise("0.1 m", "0.2 s", **law),
+        ...     Dwell("0.4 s", least="0 s"),
+        ...     Return("0.1 m", "0.2 s", **law),
+        ...     Dwell(),
+        ... ]
+        >>> slide = {"segments": move, "limits": {"acceleration": "20 m/s^2"}}
+        >>> waits, acts = Dwell("0.2 s", least="0 s"), Dwell("0.1 s")
+        >>> tool = [waits, Rise("50 mm", "0.1 s", **law), acts, Return("50 mm", "0.1 s", **law), Dwell()]
+        >>> rule = Clearance("tool", over="slide", most=[("90 mm", "5 mm"), ("95 mm", "50 mm")])
+        >>> best = Axes({"slide": slide, "tool": tool}, period="1 s", interlocks=[rule]).fastest()
+        >>> best.status.value, round(best.objective, 6), best.axes.clearances[0].status
+        ('optimal', 0.51093, 'clear')
+        """
+        return _overlapped(self, "period", tuple(self))
+
+    def gentlest(self, *of: str) -> Overlap:
+        """The least greatest acceleration in the same period: moves grow into the time that the interlocks leave.
+
+        Laws that are given keep their shapes; a move without one takes the law of least acceleration within its limits
+        in its time, from rest to rest.
+
+        Parameters
+        ----------
+        of
+            The axes whose moves may take longer, all unless given; moves of the others keep their times. Of several the
+            greatest share of what each has now is least.
+
+        Raises
+        ------
+        InputError
+            If an axis is unknown, or a segment is no move from rest to rest and no dwell.
+        InfeasibleProblem
+            If no instants of these laws keep all interlocks; the error names those that contradict each other.
+
+        Examples
+        --------
+        >>> from optlaws import After, Dwell, Return, Rise
+        >>> law, on = {"law": "cycloidal"}, Dwell("0.1 s")
+        >>> index = [Dwell("0.25 s"), Rise("15 deg", "0.5 s", **law), Dwell()]
+        >>> die = [on, Rise("50 mm", "0.15 s", **law), Dwell(), Return("50 mm", "0.15 s", **law), on]
+        >>> rules = [
+        ...     After("table", "0.1 deg", of="die", above="31 mm"),
+        ...     After("die", "31 mm", of="table", above="14.9 deg", way="down"),
+        ... ]
+        >>> axes = {"table": {"segments": index, "advance": "15 deg"}, "die": die}
+        >>> best = Axes(axes, period="1 s", interlocks=rules).gentlest("die")
+        >>> best.status.value, round(best.objective, 6)
+        ('optimal', 0.175878)
+        """
+        check_names(of, tuple(self), "axis")
+        return _overlapped(self, "acceleration", of or tuple(self))
 
     @kept_property
-    def _report(self) -> AxesReport:
-        return AxesReport(self._cycles, self.rules)
+    def instants(self) -> Overlapping:
+        """The program of the instants of the fastest laws."""
+        from optlaws.cycles.axes.overlapping import program
+
+        return program(self, self.rules, "period", (), {})
+
+    def to_dict(self) -> dict[str, Any]:
+        """The cycles of the axes and their interlocks, plain and JSON-able."""
+        return {"format": FORMAT, **super(Axes, replace(self, axes=dict(self), speed=None, period=None)).to_dict()}
+
+    @classmethod
+    def _from_earlier(cls, data: dict[str, Any]) -> dict[str, Any]:
+        stored = data.get("axes")
+        if not isinstance(stored, Mapping) or data.pop("format", FORMAT) != FORMAT:
+            raise InputError(f"stored axes have format {FORMAT!r} and a table of axes, got {shortened(data)}")
+        return {**data, "axes": {str(name): Cycle.from_dict(cycle) for name, cycle in stored.items()}}
 
     def __repr__(self) -> str:
         shown = {name: ", ".join(segment.label for segment in cycle.segments) for name, cycle in self.items()}
         listed = ", ".join(f"{name!r}: Cycle([{labels}])" for name, labels in shown.items())
         return f"Axes({{{listed}}}, period={self.duration:.6g} s)"
-
-    def _repr_html_(self) -> str:
-        from optlaws.shown.showing import Html, page
-
-        return page("Axes", *(Html(f"<h4>{name}</h4>{cycle._repr_html_()}") for name, cycle in self.items()))
 
     @property
     def rules(self) -> tuple[Interlock, ...]:
@@ -392,7 +391,12 @@ class Axes(Declared, Mapping[str, Cycle], title="stored axes"):
         return self.interlocks  # type: ignore[return-value] # values since the axes were checked
 
     @kept_property
-    def _cycles(self) -> dict[str, Cycle]:
+    def drawn(self) -> AxesReport:
+        """The report, whose parts are computed once."""
+        return AxesReport(self.cycles, self.rules)
+
+    @kept_property
+    def cycles(self) -> dict[str, Cycle]:
         """Its cycles, or plans, which have what is looked at of a cycle."""
         clock: dict[str, Any] = {"speed": self.speed, "period": self.period}
         cycles = dict[str, Any]()
@@ -425,8 +429,10 @@ def _stored(axes: Axes) -> dict[str, Any]:
 
 
 @declared
-class Overlap(Declared, title="axes that overlap"):
-    """Axes with the best overlap of the search, and the bound that no other overlap passes.
+class Overlap(AxesAnswers, Declared, title="axes that overlap"):
+    """The plan of axes with the best overlap of the search, and the bound that no other overlap passes.
+
+    It answers what its `axes` answer, and is stored with the machine that was given.
 
     Examples
     --------
@@ -435,13 +441,15 @@ class Overlap(Declared, title="axes that overlap"):
     >>> best = Axes({"slide": [*moves, Dwell()]}, period="1 s").fastest()
     >>> Overlap.from_json(best.to_json()).objective == best.objective, round(best.objective, 6)
     (True, 0.4)
+    >>> round(best["slide"].peak(1), 6), [*best.report().facts][1].name
+    (1.0, 'least period')
     """
 
     writes_defaults = True
     __eq__, __hash__ = object.__eq__, object.__hash__
 
     _: KW_ONLY
-    goal: Literal["period", "acceleration"] = entry(Choice("period", "acceleration"), "What is least.")
+    goal: Goal = entry(Choice("period", "acceleration"), "What is least.")
     objective: float = entry(
         Number(above=0.0), "The period in seconds, or the greatest acceleration as a share of what it was."
     )
@@ -464,13 +472,17 @@ class Overlap(Declared, title="axes that overlap"):
     def _check(self) -> None:
         check_names(self.of, tuple(self.given), "axis")
 
+    def solve(self) -> Axes:
+        """The axes with their new durations."""
+        return self.axes
+
     @property
     def status(self) -> Status:
         """Optimal where all interlocks are proven clear and the bound is reached, local where there is a `gap`.
 
         Inaccurate where an interlock is not proven clear.
         """
-        if self.axes.broken:
+        if self.broken:
             return Status.INACCURATE
         near = self.objective <= self.lower_bound * (1.0 + CYCLE_OPTIMALITY)
         return Status.OPTIMAL if near else Status.LOCAL
@@ -498,6 +510,10 @@ class Overlap(Declared, title="axes that overlap"):
         rows = [*(Row(name, *value) for name, value in values.items()), limit_row(None, self.objective)]
         return Summary([Row("status", self.status.value), *rows, *(Row("bound by", name) for name in self.binding)])
 
+    def report(self) -> Report:
+        """What is proven of the overlap, and the report of its axes."""
+        return OverlapReport(self)
+
     @classmethod
     def from_dict(cls, data: Any) -> Overlap:
         """The overlap that `to_dict` wrote; its objective is computed again from its axes.
@@ -519,9 +535,9 @@ class Overlap(Declared, title="axes that overlap"):
 
     def contradiction(self) -> str:
         """What is stated that the axes do not have; empty where all of it agrees."""
-        if tuple(self.axes) != tuple(self.given) or self.axes.rules != self.given.rules:
+        if tuple(self) != tuple(self.given) or self.axes.rules != self.given.rules:
             return "its axes and interlocks are not those of the given machine"
-        for name, cycle in self.axes.items():
+        for name, cycle in self.items():
             if _retimed(self.given[name], self._moves(name), cycle.duration).to_dict() != cycle.to_dict():
                 return f"axis {name} makes other moves than the given one"
         try:
@@ -536,23 +552,23 @@ class Overlap(Declared, title="axes that overlap"):
 
     def _reached(self) -> float:
         """The objective of the axes, whose laws keep their limits."""
-        now = {name: cycle.peak(2) for name, cycle in self.axes.items()}
+        now = {name: cycle.peak(2) for name, cycle in self.items()}
         if self.goal == "period":
-            return self.axes.duration
+            return self.duration
         return max(now[name] / self.given[name].specification.unchecked().peak(2) for name in self.of)
 
     def bound_by(self, share: float = 1.0) -> tuple[str, ...]:
         """What leaves no room at the instants of the axes, to a share of what counts as none."""
         from optlaws.cycles.axes.overlapping import program
 
-        times = {name: [time for time, _ in self._moves(name)] for name in self.axes}
+        times = {name: [time for time, _ in self._moves(name)] for name in self}
         given, goal = self.given, self.goal
-        of_laws = given._program if goal == "period" else program(given, given.rules, goal, self.of, times)  # noqa: SLF001
-        return tuple(of_laws.binding(times, self.axes.duration, share))
+        of_laws = given.instants if goal == "period" else program(given, given.rules, goal, self.of, times)
+        return of_laws.binding(times, self.duration, share)
 
     def _moves(self, name: str) -> list[tuple[float, Any]]:
         """Of each given segment of an axis its duration now and its law; no time of dwells that are left out."""
-        cycle, moves = self.axes[name], []
+        cycle, moves = self[name], []
         now = [*zip(cycle.segments, cycle.durations, strict=True), (None, 0.0)][::-1]
         for segment in self.given[name].segments:
             timed, _ = now[-1]
@@ -563,23 +579,39 @@ class Overlap(Declared, title="axes that overlap"):
 
     def again(self) -> Overlap:
         """The overlap of the given machine, sought once more."""
-        return self.given._overlap(self.goal, self.of)  # noqa: SLF001 - of the same room
+        return _overlapped(self.given, self.goal, self.of)
 
     def __repr__(self) -> str:
         what = f"period={self.objective:.6g} s" if self.goal == "period" else f"acceleration={self.objective:.6g}"
         return f"Overlap({what}, {self.gain:.4g} times better, status={self.status.value!r}, bound by {self.binding})"
 
 
+def _overlapped(given: Axes, goal: Goal, longer: Sequence[str]) -> Overlap:
+    """The axes of a machine with the best overlap for a goal; of the acceleration of some axes."""
+    from optlaws.cycles.axes import overlapping
+
+    known = given.instants.shortest() if goal == "period" else overlapping.gentlest(given, given.rules, longer)
+    of_laws, unknowns, bound = known
+    period, times, cycles = of_laws.unit * float(unknowns[-2]), of_laws.durations(unknowns), dict[str, Cycle]()
+    for plan in of_laws.plans:
+        laws = (segment.law for segment in plan.segments)
+        cycles[plan.name] = _retimed(given[plan.name], zip(times[plan.name], laws, strict=True), period)
+    value = period if goal == "period" else 1.0 / float(unknowns[-1]) ** 2
+    axes = Axes(cycles, interlocks=given.rules)
+    overlap = Overlap(
+        goal=goal, objective=value, lower_bound=bound, of=tuple(longer), binding=(), axes=axes, given=given
+    )
+    return replace(overlap, binding=overlap.bound_by())
+
+
 def _retimed(cycle: Cycle, moves: Iterable[tuple[float, Any]], period: float) -> Cycle:
     """The cycle with other durations and laws of its moves; dwells of no time are left out."""
-    segments = list[CycleSegment]()
+    segments: list[Any] = []
     for segment, (time, law) in zip(cycle.segments, moves, strict=True):
         if time > CLOSURE * period or not isinstance(segment, Dwell):
             sought: dict[str, Any] = {} if law is None or not is_optimal(segment) else {"law": law}
             segments.append(replace(segment, duration=Exact(time, "s"), **sought))  # type: ignore[type-var]
-    minimise = "acceleration" if cycle.load is not None else cycle.minimise
-    known: dict[str, Any] = {"segments": segments, "speed": None, "period": Exact(period, "s"), "minimise": minimise}
-    return replace(cycle.specification, **known)
+    return with_laws(cycle.specification, segments, period)
 
 
 def _entries(given: Any) -> dict[str, Any]:
@@ -587,11 +619,9 @@ def _entries(given: Any) -> dict[str, Any]:
         return {"segments": given}
     if not isinstance(given, Mapping):
         raise InputError(f"its segments are a list such as [Rise('45 deg', '0.4 s'), Dwell()], got {shortened(given)}")
-    known = [name for name in Cycle.__dataclass_fields__ if name not in {"speed", "period"}]
-    for name in given:
-        if name in {"speed", "period"}:
-            raise InputError(f"all axes have one {name}: give it to Axes(..., {name}={shortened(given[name])})")
-        check_names([name], known, "key")
+    check_names(given, Cycle.__dataclass_fields__, "key")
+    for name in given.keys() & {"speed", "period"}:
+        raise InputError(f"all axes have one {name}: give it to Axes(..., {name}={shortened(given[name])})")
     if "segments" not in given:
         raise InputError("it has no segments: give them, such as {'segments': [Rise('45 deg', '0.4 s'), Dwell()]}")
     return dict(given)

@@ -206,3 +206,23 @@ class AxesReport:
         places, (values,) = refined(places, [edge(places)], [edge], np.empty(0))
         across, up = [*values, ends[side], ends[side]], [*places, places[-1], places[0]]
         return np.column_stack([across, up])[:, ::order]
+
+
+class OverlapReport(AxesReport):
+    """The report of axes that overlap: what is proven of that, before what their own has."""
+
+    def __init__(self, overlap: Any) -> None:
+        super().__init__(overlap.axes.cycles, overlap.axes.rules)
+        self.overlap = overlap
+
+    @property
+    def facts(self) -> Summary:
+        return Summary([*self.overlap.summary(), *super().facts], at="deg")
+
+    @kept_property
+    def data(self) -> dict[str, Any]:
+        """The overlap and the clearances for programs, in SI units."""
+        overlap = self.overlap
+        facts = {name: getattr(overlap, name) for name in ("goal", "objective", "lower_bound", "gain")}
+        known = {"status": overlap.status.value, **facts, "binding": list(overlap.binding)}
+        return {**super().data, "overlap": known}

@@ -218,3 +218,25 @@ def contradicting() -> Axes:
 def test_what_cannot_overlap_is_named(make: Any, error: type[Exception], says: str) -> None:
     with pytest.raises(error, match=says):
         make()
+
+
+def test_an_overlap_answers_what_its_axes_answer() -> None:
+    machine = die_and_table()
+    best = machine.gentlest("die")
+    assert best.solve() is best.axes
+    assert list(best) == list(best.axes) == ["table", "die"]
+    assert best["die"] is best.axes["die"]
+    assert best(0.3, 1) == best.axes(0.3, 1)
+    assert best.at_angle(90.0) == best.axes.at_angle(90.0)
+    exported = best.export("csv", points=37)
+    assert {name: each.text for name, each in exported.items()} == {
+        name: cycle.export("csv", points=37, name=name).text for name, cycle in best.axes.items()
+    }
+    assert best.to_toml("Press") == best.axes.to_toml("Press")
+    report, names = best.report(), [row.name for row in best.report().facts]
+    assert names[: len(list(best.summary()))] == [row.name for row in best.summary()]
+    assert names[len(list(best.summary())) :] == [row.name for row in best.axes.report().facts]
+    assert report.data["overlap"]["objective"] == best.objective
+    assert report.data["interlocks"] == best.axes.report().data["interlocks"]
+    with pytest.raises(InputError, match="unknown axis 'dye'; did you mean 'die'"):
+        best["dye"]
