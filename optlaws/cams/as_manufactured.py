@@ -21,7 +21,7 @@ from optlaws.errors import InputError
 from optlaws.files.reading import check_names
 from optlaws.kept import kept_property
 from optlaws.laws.storage import PlainNumbers
-from optlaws.motion.quantities import positive_quantity, quantity
+from optlaws.motion.quantities import quantity
 from optlaws.numbers import Array, Quantity
 from optlaws.numerics.branch_and_bound import extremes_of_each
 from optlaws.numerics.interval import Interval
@@ -389,7 +389,7 @@ def with_profile_error(cam: DiscCam, error: Quantity, waves: Any) -> AsMade:
 
 def profile_errors(cam: DiscCam, error: Quantity, waves: Sequence[Any]) -> list[AsMade | None]:
     """What `with_profile_error` finds of so many waves each; None where the follower does not reach all of the cam."""
-    amplitude = positive_quantity(error, "length", "error")
+    amplitude = quantity(error, "length", "error", above=0.0)
     curves = (WavyCurve(cam.profile, amplitude, WAVES.read(count, "waves"), 0.0) for count in waves)
     return [_peaks(cam, curve, shifts=_SHIFTS, jumps=False) for curve in curves]
 

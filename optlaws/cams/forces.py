@@ -26,7 +26,7 @@ from optlaws.formulas.slopes import added, multiplied
 from optlaws.formulas.tree import Formula, Name, Table, number, rebuilt, table_places
 from optlaws.kept import kept_property
 from optlaws.mechanisms.linkages.mechanism_formulas import LinearForce, TableKind, formula_of, rescaled, table_numbers
-from optlaws.motion.quantities import TURN, in_degrees, positive_quantity, quantity
+from optlaws.motion.quantities import TURN, in_degrees, quantity
 from optlaws.motion.smooth_stretches import jet_of_parts
 from optlaws.numbers import Array, Quantity, number_or_array, real_times
 from optlaws.numerics.branch_and_bound import Extremes, Function, extremes, integral
@@ -97,7 +97,7 @@ class Surfaces(Declared, title="forces"):
         yielding = sum(
             (1.0 - material.poisson**2) / quantity(material.young, "pressure", "young") for material in materials
         )
-        width = positive_quantity(self.width, "length", "width")
+        width = quantity(self.width, "length", "width", above=0.0)
         return LineContact(width, 1.0 / yielding, 1.0 / roller if roller else 0.0)
 
 
@@ -178,7 +178,7 @@ class CamForces:
     def rate(self) -> float:
         """The cam's angular velocity, rad/s."""
         if self.speed is not None:
-            return positive_quantity(self.speed, "angular velocity", "speed")
+            return quantity(self.speed, "angular velocity", "speed", above=0.0)
         if not isinstance(self.cam.motion, Cycle | Plan):
             raise InputError("forces need the cam's speed: give one, such as speed='300 rpm'")
         return TURN / self.cam.motion.duration

@@ -24,7 +24,7 @@ from optlaws.formulas.tree import table_places
 from optlaws.kept import kept_property
 from optlaws.laws.storage import PlainNumbers
 from optlaws.mechanisms.linkages.mechanism import Mechanism
-from optlaws.motion.quantities import TURN, in_degrees, positive_quantity, quantity
+from optlaws.motion.quantities import TURN, in_degrees, quantity
 from optlaws.motion.smooth_parts import RealFunction, SmoothParts
 from optlaws.numbers import Array, Quantity, finite
 from optlaws.numerics.branch_and_bound import Extremes, Function, extremes_of_each, integral
@@ -486,7 +486,7 @@ def energy_fluctuation(
         raise InputError("machine: the mechanism's input makes no whole turn from 0 to 360 deg")
     if speed is None:
         raise InputError("speed is missing: give that of the mechanism's input, such as speed='60 rpm'")
-    known = positive_quantity(speed, "angular velocity", "speed")
+    known = quantity(speed, "angular velocity", "speed", above=0.0)
     kinks = (table_places(part, "x") for part in (machine.inertia_formula, machine.load_formula))
     inner = sorted({place for places in kinks for place in places if 0.0 < place < TURN})
     edges = np.array([0.0, *inner, TURN])

@@ -19,7 +19,7 @@ from optlaws.errors import InputError, located
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.motion.piece import unit_of
-from optlaws.motion.quantities import TURN, positive_quantity
+from optlaws.motion.quantities import TURN, quantity
 from optlaws.numbers import Quantity
 from optlaws.synthesis.solution import Solution
 
@@ -79,7 +79,7 @@ class CycleAnswers(Answers):
         """
         from optlaws.mechanisms.machine.polydyne import polydyne
 
-        cycle, natural = self.solve().specification, positive_quantity(period, "time", "follower: period")
+        cycle, natural = self.solve().specification, quantity(period, "time", "follower: period", above=0.0)
         if len(self.pieces) != len(self.peaks):
             raise InputError(
                 "the cam of an elastic follower is computed move by move: use moves in place of adjacent free motions"

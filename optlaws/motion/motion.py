@@ -17,7 +17,7 @@ from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.laws.law import ExportOptions
 from optlaws.motion.piece import Piece, factor, of_stroke_one, values_of_pieces
-from optlaws.motion.quantities import Given, check_scale, given_quantity, positive_quantity, quantity
+from optlaws.motion.quantities import Given, check_scale, given_quantity, quantity
 from optlaws.numbers import Quantity, derivative, number_or_array, real_times
 from optlaws.tolerances import JUMP
 
@@ -200,7 +200,7 @@ def motion_of_law(
         raise InputError(
             "say how long the motion takes, duration='0.1 s', or how far its master goes, master='120 deg'"
         )
-    seconds = None if duration is None else positive_quantity(duration, "time", "duration")
+    seconds = None if duration is None else quantity(duration, "time", "duration", above=0.0)
     span = _span(master, seconds)
     rate = None if seconds is None else span.number / seconds
     offset = 0.0 if start is None else moved.same_unit(start, "start")

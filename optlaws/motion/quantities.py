@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from enum import Enum
 from fractions import Fraction
 from functools import lru_cache
-from math import isfinite, pi
+from math import inf, isfinite, pi
 from typing import Any, NamedTuple, Self
 
 from optlaws.echo import shortened
@@ -113,7 +113,9 @@ class Exact(str):
         return self.number, self.unit
 
 
-def quantity(value: Any, dimension: str, name: str) -> float:
+def quantity(
+    value: Any, dimension: str | tuple[str, ...], name: str, *, above: float = -inf, bare: bool = False
+) -> float:
     """A quantity such as "616 mm/s" as a float in SI units; errors call it `name`.
 
     Parameters
@@ -123,25 +125,36 @@ def quantity(value: Any, dimension: str, name: str) -> float:
         numbers: 45 deg, 0.5 rad, 1 turn. An angular velocity in 1/min or cpm is one in turns. In an acceleration g is
         that of gravity, elsewhere a gram.
     dimension
-        The required dimension, one of `DIMENSIONS`.
+        The required dimension, one of `DIMENSIONS`, or several of which it may have any.
     name
         What an error calls it.
+    above
+        What it must be above, in SI units.
+    bare
+        Whether what has no unit is taken as it is: a number, or an array of numbers, in SI units.
 
     Raises
     ------
     InputError
         If there is no unit, it is not known, or it is one of another dimension; the error names both dimensions, and
-        the units that are known.
+        the units that are known. If it is not above what it must be.
 
     Examples
     --------
     >>> quantity("616 mm/s", "velocity", "limit"), round(quantity("200 rpm", "angular velocity", "speed"), 6)
     (0.616, 20.943951)
+    >>> quantity("60 deg", ("angle", "time"), "swing", bare=True), quantity(1.5, "angle", "swing", bare=True)
+    (1.047198, 1.5)
     >>> quantity("35 mm", "velocity", "limit")
     Traceback (most recent call last):
     optlaws.errors.InputError: limit must be a velocity such as '616 mm/s', but '35 mm' is a length
     """
-    return given_quantity(value, (dimension,), name).size
+    if bare and not isinstance(value, str) and not hasattr(value, "units"):
+        return value  # type: ignore[no-any-return] # as it is
+    number = given_quantity(value, (dimension,) if isinstance(dimension, str) else dimension, name).size
+    if not number > above:
+        raise InputError(f"{name} must be above {above:g}, got {shortened(value)}")
+    return number
 
 
 def check_scale(number: float, unit: str, name: str, value: Any) -> None:
@@ -149,14 +162,6 @@ def check_scale(number: float, unit: str, name: str, value: Any) -> None:
     if number and not 1.0 / MOST_SCALE <= abs(number) <= MOST_SCALE:
         ends = f"{1.0 / MOST_SCALE:g} to {MOST_SCALE:g} {unit}".rstrip()
         raise InputError(f"{name} must be from {ends}, got {shortened(value)}")
-
-
-def positive_quantity(value: Any, dimension: str, name: str) -> float:
-    """A quantity above 0 as a float in SI units, as `quantity` reads it."""
-    number = quantity(value, dimension, name)
-    if not number > 0.0:
-        raise InputError(f"{name} must be above 0, got {shortened(value)}")
-    return number
 
 
 def either(value: Any, dimensions: tuple[str, ...], name: str) -> tuple[str, float]:
@@ -182,15 +187,6 @@ def read_stroke(value: Any, back: str = "") -> tuple[str, float]:
         remedy = back if size < 0.0 else "nothing moves: leave it out, or take a Dwell"
         raise InputError(f"stroke must be above 0, got {shortened(value)}{'; ' if remedy else ''}{remedy}")
     return dimension, size
-
-
-def si_number(value: Any, dimensions: tuple[str, ...], name: str) -> Any:
-    """A quantity with one of several dimensions as a float in SI units; bare numbers are not changed.
-
-    >>> si_number("60 deg", ("angle",), "swing"), si_number(1.5, ("angle",), "swing")
-    (1.047198, 1.5)
-    """
-    return either(value, dimensions, name)[1] if isinstance(value, str) or hasattr(value, "units") else value
 
 
 def table(entries: Any, name: str, example: str) -> Mapping[str, Any]:

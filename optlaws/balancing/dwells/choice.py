@@ -18,7 +18,7 @@ from optlaws.balancing.dwells.mechanism import (
 )
 from optlaws.echo import keywords_of, shortened
 from optlaws.errors import InfeasibleProblem, InputError
-from optlaws.motion.quantities import si_number
+from optlaws.motion.quantities import quantity
 from optlaws.numbers import real
 from optlaws.numerics.peaks import is_kept
 
@@ -93,7 +93,7 @@ def compare_dwell_mechanisms(
     """
     make = partial(dwell_mechanism, **entries)
     upper, lower = entries["dwell"], entries.get("lower_dwell")
-    dwells = [si_number(angle, ("angle",), "dwell") for angle in (upper, upper if lower is None else lower)]
+    dwells = [quantity(angle, "angle", "dwell", bare=True) for angle in (upper, upper if lower is None else lower)]
     return _compared(make, most_torque, most_size, _by_rule(*dwells))
 
 

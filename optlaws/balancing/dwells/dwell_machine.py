@@ -18,7 +18,7 @@ from optlaws.entries.value_types import Number
 from optlaws.errors import InputError
 from optlaws.laws import MotionLaw
 from optlaws.motion.piece import Piece
-from optlaws.motion.quantities import Exact, positive_quantity, quantity
+from optlaws.motion.quantities import Exact, quantity
 from optlaws.numbers import Quantity
 
 _DWELL = ("run-out", "reverse", "run-up")
@@ -211,18 +211,18 @@ def dwell_machine(
     >>> slow.mechanism, round(slow.balanced_torque, 6), round(slow.residual_torque, 6)
     (DwellMechanism(III, a=1.59434, b=0.15, S1=0, S2=0.666667), 0.668101, 0.100215)
     """
-    rate = positive_quantity(speed, "angular velocity", "speed")
+    rate = quantity(speed, "angular velocity", "speed", above=0.0)
     known = {
-        "inertia": positive_quantity(inertia, "moment of inertia", "inertia"),
-        "loader_inertia": positive_quantity(loader_inertia, "moment of inertia", "loader_inertia"),
-        "arm": positive_quantity(arm, "length", "arm"),
-        "prime_radius": positive_quantity(prime_radius, "length", "prime_radius"),
+        "inertia": quantity(inertia, "moment of inertia", "inertia", above=0.0),
+        "loader_inertia": quantity(loader_inertia, "moment of inertia", "loader_inertia", above=0.0),
+        "arm": quantity(arm, "length", "arm", above=0.0),
+        "prime_radius": quantity(prime_radius, "length", "prime_radius", above=0.0),
     }
     time = quantity(clutch_time, "time", "clutch_time")
     if time < 0.0:
         raise InputError(f"clutch_time must be at least 0, got {shortened(clutch_time)}")
     angles = {"dwell": dwell, "rise": rise, "swing": swing}
-    turned: dict[str, Any] = {name: positive_quantity(angle, "angle", name) for name, angle in angles.items()}
+    turned: dict[str, Any] = {name: quantity(angle, "angle", name, above=0.0) for name, angle in angles.items()}
     mechanism = dwell_mechanism(
         kind,
         law=law,

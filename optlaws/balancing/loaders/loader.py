@@ -15,7 +15,7 @@ from optlaws.files.reading import JsonText, entries_of
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.laws.law import motion_law
-from optlaws.motion.quantities import si_number
+from optlaws.motion.quantities import quantity
 from optlaws.numbers import NumberOrQuantity, bounded, real
 from optlaws.tolerances import AGREEMENT
 
@@ -237,7 +237,7 @@ def _sizes(**given: NumberOrQuantity) -> list[float]:
     sizes = []
     for name, value in given.items():
         kinds = ("length", "angle") if name.endswith("stroke") else ("mass", "moment of inertia")
-        number = real(si_number(value, kinds, name))
+        number = real(quantity(value, kinds, name, bare=True))
         if number is None or not 0.0 < number < inf:
             raise InputError(f"{name} must be positive and finite, got {shortened(value)}")
         sizes.append(number)

@@ -23,7 +23,7 @@ from optlaws.files import writing
 from optlaws.files.reading import check_names
 from optlaws.files.writing import MARK
 from optlaws.lazy import process_lock
-from optlaws.motion.quantities import positive_quantity
+from optlaws.motion.quantities import quantity
 from optlaws.numbers import Array, Quantity
 from optlaws.numerics.roots import bracketed_roots
 
@@ -76,12 +76,12 @@ class Cutting(Declared, title="a file for cutting"):
 
     @property
     def metres(self) -> float:
-        return positive_quantity(self.tolerance, "length", "tolerance")
+        return quantity(self.tolerance, "length", "tolerance", above=0.0)
 
     @property
     def feed_rate(self) -> float:
         """The feed in mm a minute; 0 where none is given."""
-        return 0.0 if self.feed is None else 60e3 * positive_quantity(self.feed, "velocity", "feed")
+        return 0.0 if self.feed is None else 60e3 * quantity(self.feed, "velocity", "feed", above=0.0)
 
     @property
     def line(self) -> str:

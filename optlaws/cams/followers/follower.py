@@ -13,7 +13,7 @@ from typing import Any, ClassVar, Self
 from optlaws.cams.followers.contact import FollowerContact
 from optlaws.entries.declared import Kinded
 from optlaws.errors import InputError
-from optlaws.motion.quantities import positive_quantity, quantity
+from optlaws.motion.quantities import quantity
 from optlaws.numbers import Quantity
 from optlaws.sentences import Amount
 
@@ -79,7 +79,7 @@ class CamFollower(Kinded, ABC, title="a follower"):
 
 def positive(value: Any, name: str) -> float:
     """A length above 0, in metres."""
-    return positive_quantity(value, "length", name)
+    return quantity(value, "length", name, above=0.0)
 
 
 def roller_radius(value: Any, place: Place) -> float:

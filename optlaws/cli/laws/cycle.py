@@ -157,11 +157,11 @@ def _old_cam(
     """Answer for the table of an old cam, read `how` the options say, with a better one and files as `cam` says."""
     from optlaws.cycles.old_tables.table import OldTableReport
     from optlaws.exports.format import format_of
-    from optlaws.motion.quantities import positive_quantity
+    from optlaws.motion.quantities import quantity
 
     speed, export, save = cam["speed"], cam["export"], cam["save"]
     if speed is not None:
-        positive_quantity(speed, "angular velocity", "--speed")
+        quantity(speed, "angular velocity", "--speed", above=0.0)
     if save is not None and save.suffix != ".toml":
         raise InputError(f"--save takes a problem file, whose name ends in .toml, got {save}")
     chosen = None if export is None else format_of(export)

@@ -22,7 +22,7 @@ from optlaws.laws.catalogue.reading import read_law
 from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.mechanisms.linkages.mechanism import Mechanism
 from optlaws.motion.piece import unit_of
-from optlaws.motion.quantities import Exact, positive_quantity, quantity, table
+from optlaws.motion.quantities import Exact, quantity, table
 from optlaws.numbers import bounded, chop, whole
 from optlaws.shown.report import Panel, PlainReport, Report, ReportTable, Series
 from optlaws.shown.summary import Row, Summary
@@ -389,7 +389,7 @@ def standard_candidates(
     of = left.removeprefix("residual ")
     vibrating = None if follower is None else replace(read_follower(follower), of=of)
     dimension = cycle.axis if of == "displacement" else AXES[cycle.axis][2]
-    calm = positive_quantity(limited[left], dimension, f"limits: {left}") if limited else inf
+    calm = quantity(limited[left], dimension, f"limits: {left}", above=0.0) if limited else inf
     candidates = Candidates(cycle, minimise or cycle.minimise, vibrating, calm)
     _check(laws)
     first = [] if candidates.own_law is None else [candidates.own_law]
@@ -427,7 +427,7 @@ def _of_move(move: Move, entries: Mapping[str, Any]) -> Cycle:
     axis = axis_of([move])
     if move.duration is None or isinstance(move.duration, list | tuple):
         raise InputError("a single move has one duration, such as '0.1 s'")
-    seconds = positive_quantity(move.duration, "time", "duration of a single move")
+    seconds = quantity(move.duration, "time", "duration of a single move", above=0.0)
     far = quantity(move.to if move.by is None else move.by, axis, "by")
     advance = Exact(-far if isinstance(move, Return) else far, unit_of(axis))
     return Cycle([move], period=Exact(seconds, "s"), advance=advance, **entries)

@@ -21,7 +21,7 @@ from optlaws.mechanisms.drives.effort import DriveSheet, PieceEffort
 from optlaws.motion.derivative_panel import DERIVATIVES, display_unit, motion_panel
 from optlaws.motion.motion import Exportable, Motion, motion_of_pieces
 from optlaws.motion.piece import Piece, unit_of
-from optlaws.motion.quantities import DEGREES, QUANTITIES, Exact, positive_quantity
+from optlaws.motion.quantities import DEGREES, QUANTITIES, Exact, quantity
 from optlaws.numbers import Array, Quantity, derivative, number_or_array, positive, real_times
 from optlaws.shown.curve_points import refined
 from optlaws.shown.report import Panel, PanelLimit, Report, ReportSegment, ReportTable, Series
@@ -188,7 +188,7 @@ class FastestMove(LawExport, MovePlan, JsonText):  # type: ignore[misc] # its ex
         >>> round(slower.objective * move.stroke / 0.3**2, 6)
         4.202626
         """
-        time = positive_quantity(duration, "time", "duration")
+        time = quantity(duration, "time", "duration", above=0.0)
         if time < self.duration * (1.0 - SAME_TIME):
             raise InputError(
                 f"duration must be at least the least time, {self.duration:.9g} s, got {shortened(duration)}"

@@ -26,7 +26,7 @@ from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.motion.piece import unit_of
-from optlaws.motion.quantities import Exact, Kind, positive_quantity
+from optlaws.motion.quantities import Exact, Kind, quantity
 from optlaws.numbers import NumberOrQuantity, Quantity, bounded, listed, positive, real
 from optlaws.synthesis.least_time.move_limits import RESIDUAL, RESIDUALS, power
 from optlaws.synthesis.least_time.timed_move import AT_MOTOR, OBJECTIVES, MoveObjective, TimedMove
@@ -170,7 +170,7 @@ class TimeFront(JsonText):
             If the time is beyond the ends, or between points where nothing is known.
         """
         given = real(duration)
-        time = positive_quantity(duration, "time", "duration") if given is None else given
+        time = quantity(duration, "time", "duration", above=0.0) if given is None else given
         if not self.durations[0] <= time <= self.durations[-1]:
             first, last = self.durations[0], self.durations[-1]
             raise InputError(f"the front goes from {first:.9g} s to {last:.9g} s, got {shortened(duration)}")
@@ -375,7 +375,7 @@ def time_front(
         raise InputError(f"a front over the time is that of a FastestMove, got {type(move).__name__}")
     objective = _objective(minimise, move, drive, start, follower)
     least = move.duration * (1.0 + LEAST_TIME_GAP)
-    last = _LONGEST * move.duration if longest is None else positive_quantity(longest, "time", "longest")
+    last = _LONGEST * move.duration if longest is None else quantity(longest, "time", "longest", above=0.0)
     if not last > least * (1.0 + LEAST_TIME_GAP):
         raise InputError(f"longest must be above the least time, {move.duration:.9g} s, got {shortened(longest)}")
     durations = tuple(np.geomspace(least, last, _POINTS.read(points, "points")).tolist())

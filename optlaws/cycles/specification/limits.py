@@ -11,7 +11,7 @@ from optlaws.entries.declared import FrozenTable, TableOf, entry
 from optlaws.entries.value_types import Either, Listed, Measured, ReadBy, Switch, is_list
 from optlaws.errors import InputError
 from optlaws.motion.piece import unit_of
-from optlaws.motion.quantities import Kind, in_small_units, positive_quantity, quantity, written
+from optlaws.motion.quantities import Kind, in_small_units, quantity, written
 from optlaws.numerics.peaks import is_kept
 from optlaws.sentences import Amount, sentence
 
@@ -184,7 +184,9 @@ def read_limits(entries: Mapping[str, Any], axis: str, where: str, load: Load = 
             most = load.limit(value, output.output, f"{where}, {name}")
             limits = {**limits, output: (-most, most)}
         elif name == DECELERATION:
-            limits = tightest(limits, {Kind.ACCELERATION_ALONG: (-positive_quantity(value, AXES[axis][2], place), inf)})
+            limits = tightest(
+                limits, {Kind.ACCELERATION_ALONG: (-quantity(value, AXES[axis][2], place, above=0.0), inf)}
+            )
         elif kind is None:
             continue
         elif kind in limits and name in OF_WHOLE:
@@ -192,7 +194,7 @@ def read_limits(entries: Mapping[str, Any], axis: str, where: str, load: Load = 
         elif isinstance(value, list | tuple):
             limits = tightest(limits, _both(kind, value, axis, place))
         else:
-            most = positive_quantity(value, _dimension(kind, axis), place)
+            most = quantity(value, _dimension(kind, axis), place, above=0.0)
             apart = name == "acceleration" and DECELERATION in entries
             limits = tightest(limits, {Kind.ACCELERATION_ALONG: (-inf, most)} if apart else {kind: (-most, most)})
     if "energy" in entries and (Kind.RMS_FORCE in limits or MOTOR in entries):

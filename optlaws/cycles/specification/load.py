@@ -13,7 +13,7 @@ from optlaws.entries.declared import Declared, declared, entry
 from optlaws.entries.value_types import Measured, Number
 from optlaws.errors import InputError, located
 from optlaws.motion.piece import Piece, factor
-from optlaws.motion.quantities import positive_quantity, quantity
+from optlaws.motion.quantities import quantity
 from optlaws.numbers import Quantity, positive
 from optlaws.synthesis.problem.constants import Functional
 
@@ -98,7 +98,7 @@ class Load:
     def limit(self, value: Any, output: str, name: str) -> float:
         """A limit of an output in SI units: with its unit where that is known, else a number."""
         known = self.dimensions.get(output)
-        return positive(value, name) if known is None else positive_quantity(value, known, name)
+        return positive(value, name) if known is None else quantity(value, known, name, above=0.0)
 
 
 def read_load(given: Any, axis: str) -> Load | None:

@@ -27,7 +27,7 @@ from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw, smoothstep
 from optlaws.motion.piece import Piece, factor, named_law
-from optlaws.motion.quantities import TURN, Kind, check_scale, either, in_small_units, positive_quantity, quantity
+from optlaws.motion.quantities import TURN, Kind, check_scale, either, in_small_units, quantity
 from optlaws.sentences import Amount, sentence
 from optlaws.tolerances import CLOSURE, SAME_TIME
 
@@ -96,8 +96,8 @@ def period_of(speed: Any, period: Any) -> float:
     if (speed is None) == (period is None):
         raise InputError('a cycle has either a speed such as "200 rpm" or a period such as "0.3 s"')
     if speed is None:
-        return positive_quantity(period, "time", "period")
-    turn = TURN / positive_quantity(speed, "angular velocity", "speed")
+        return quantity(period, "time", "period", above=0.0)
+    turn = TURN / quantity(speed, "angular velocity", "speed", above=0.0)
     check_scale(turn, "s", "speed: a turn", speed)
     return turn
 

@@ -24,7 +24,7 @@ from optlaws.explorer.views.panel_data import drawn, fact_sentences, over_time, 
 from optlaws.explorer.views.requests import check_size, without_files
 from optlaws.jobs.cycle_entries import AxisEntries, CycleProblemFile
 from optlaws.jobs.fastest import FastestProblemFile, MoveEntries, arguments_of, front_of
-from optlaws.motion.quantities import MILLI, Exact, si_number
+from optlaws.motion.quantities import MILLI, Exact, quantity
 from optlaws.numbers import Array, Quantity, bounded
 from optlaws.sentences import Amount
 from optlaws.shown.summary import Row
@@ -139,7 +139,7 @@ def _of_move(move: MoveEntries, entries: str) -> _Search:
     given, strokes = arguments_of(move, _WHERE), move.stroke if isinstance(move.stroke, tuple) else (move.stroke,)
     least = fastest(space, stroke=strokes[0], **given)
     drive, minimise = given.get("drive"), None if move.front is None else move.front.minimise[0]
-    start = 0.0 if drive is None else float(si_number(given["start"], ("angle",), "start"))
+    start = 0.0 if drive is None else float(quantity(given["start"], "angle", "start", bare=True))
 
     def line(longest: Quantity | None, points: int) -> TimeFront:
         return front_of(least, move, minimise or "", given, (longest, points))

@@ -29,7 +29,7 @@ from optlaws.explorer.views.requests import (
 from optlaws.mechanisms.machine.residual import BandResidual
 from optlaws.mechanisms.machine.spectrum import Spectrum, weight_of
 from optlaws.motion.piece import factor
-from optlaws.motion.quantities import UNITS, either, positive_quantity
+from optlaws.motion.quantities import UNITS, either, quantity
 from optlaws.numbers import bounded
 from optlaws.sentences import Amount
 from optlaws.synthesis.limits.of_problem import limited_laws
@@ -221,7 +221,7 @@ _INERTIAS = {"length": ("mass", "N"), "angle": ("moment of inertia", "N m")}
 
 def in_machine_units(request: LawsRequest) -> dict[str, Any]:
     """Peaks of the active law in the units of a machine, by the constant that each comes of."""
-    of, time = law_of(request.law).constants, positive_quantity(request.time, "time", "time")
+    of, time = law_of(request.law).constants, quantity(request.time, "time", "time", above=0.0)
     axis, stroke = either(request.stroke, ("length", "angle"), "stroke")
     sizes = {"B": (of.B.value, 1), "C": (of.C.value, 2), "J": (of.J.value, 3), "rms_c": (of.rms_c, 2)}
     inertia, force = _INERTIAS[axis]
@@ -230,7 +230,7 @@ def in_machine_units(request: LawsRequest) -> dict[str, Any]:
     cells = {name: Amount(abs(peak * units[name][1]), units[name][0], 5) for name, peak in peaks.items()}
     rows = [{"name": f"{request.stroke} in {request.time}", "cells": cells}]
     if request.mass:
-        mass = positive_quantity(request.mass, inertia, inertia)
+        mass = quantity(request.mass, inertia, inertia, above=0.0)
         power = of.D.value * factor(stroke, time, 1) * factor(stroke, time, 2)
         forces = {"C": (peaks["C"], force), "D": (power, "W"), "rms_c": (peaks["rms_c"], force)}
         moved = {name: Amount(mass * abs(size), unit, 5) for name, (size, unit) in forces.items()}
@@ -289,4 +289,4 @@ def _greatest(law: MotionLaw, constant: BandResidual | None) -> dict[str, Any] |
 def spectrum(request: LawsRequest) -> dict[str, Any]:
     """The duration of the motion in seconds where one is given, for a spectrum that can weigh a band."""
     weight_of(request.spectrum or (), request.duration)
-    return {"seconds": None if request.duration is None else positive_quantity(request.duration, "time", "duration")}
+    return {"seconds": None if request.duration is None else quantity(request.duration, "time", "duration", above=0.0)}

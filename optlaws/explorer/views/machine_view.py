@@ -25,7 +25,7 @@ from optlaws.jobs.cycle_entries import AxisEntries, CycleProblemFile, cycle_of
 from optlaws.mechanisms.drives.effort import over_speed
 from optlaws.mechanisms.linkages.mechanism import INPUTS, MechanismReport
 from optlaws.mechanisms.linkages.mechanism_kinds import MechanismKind
-from optlaws.motion.quantities import MILLI, RPM, si_number
+from optlaws.motion.quantities import MILLI, RPM, quantity
 from optlaws.numbers import Array, bounded
 from optlaws.shown.summary import Row
 
@@ -266,7 +266,7 @@ def _parts(report: MechanismReport, x: Array, entries: Mapping[str, Any]) -> dic
     if mechanism.name == "cam":
         return {"kind": "cam", "dimensions": [], **drawing(CamAtShaft.from_dict(entries).cam)}
     if mechanism.name in _ROUND:
-        size = float(si_number(entries[_ROUND[mechanism.name]], ("length",), "size"))
+        size = float(quantity(entries[_ROUND[mechanism.name]], "length", "size", bare=True))
         slide = drawn(MILLI * np.asarray(mechanism.driven_position("slide", x)), 4)
         return {"kind": mechanism.name, "size": MILLI * size, "slide": slide}
     return {"kind": "table"}

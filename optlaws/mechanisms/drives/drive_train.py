@@ -21,7 +21,7 @@ from optlaws.mechanisms.linkages.mechanism import Mechanism
 from optlaws.mechanisms.linkages.mechanism_formulas import MOVED, LinearForce, StrokeTorque, Train
 from optlaws.mechanisms.linkages.mechanism_kinds import MECHANISM
 from optlaws.motion.piece import Piece, named_law
-from optlaws.motion.quantities import check_scale, si_number
+from optlaws.motion.quantities import check_scale, quantity
 from optlaws.numbers import Array, NumberOrQuantity, positive
 from optlaws.tolerances import CLOSURE
 
@@ -375,7 +375,7 @@ class Drive(Declared, title="a drive"):
         period: NumberOrQuantity | None,
     ) -> tuple[Piece, float]:
         moved = self.mechanism.dimensionless(start, stroke, duration)
-        time = moved.duration if period is None else positive(si_number(period, ("time",), "period"), "period")
+        time = moved.duration if period is None else positive(quantity(period, "time", "period", bare=True), "period")
         if time < moved.duration * (1.0 - CLOSURE):
             raise InputError(f"period must be at least the duration of the move, {moved.duration:g} s, got {time:g} s")
         piece = Piece(0.0, moved.duration, moved.start, moved.stroke, named_law(law, "drive"))

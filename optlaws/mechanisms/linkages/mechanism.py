@@ -37,7 +37,7 @@ from optlaws.mechanisms.linkages.mechanism_formulas import (
     slope_of,
     without_value,
 )
-from optlaws.motion.quantities import DEGREES, MILLI, TURN, check_scale, either, in_small_units, si_number
+from optlaws.motion.quantities import DEGREES, MILLI, TURN, check_scale, either, in_small_units, quantity
 from optlaws.numbers import Array, NumberOrQuantity, derivative, finite, positive, real_times
 from optlaws.shown.report import Panel, Series
 from optlaws.tolerances import CLOSURE, VALUE_ROUNDING
@@ -172,7 +172,7 @@ class Mechanism(Declared, title="a mechanism"):
         inertia = formula_of(self.inertia_formula, (kind, known["inertia"]), "inertia")
         load = formula_of(self.load_formula, (kind, known["load"]), "load", interpolation="lines")
         friction = {"coulomb": known["load"], "viscous": known["viscous"]}
-        numbers = {name: float(si_number(getattr(self, name), (of,), name)) for name, of in friction.items()}
+        numbers = {name: float(quantity(getattr(self, name), of, name, bare=True)) for name, of in friction.items()}
         over = _range({"inertia": inertia, "load": load}, ends, kind)
         vars(self).update(inertia_formula=inertia, load_formula=load, over=over, axis=kind, **numbers)
         if any(isinstance(part, Table) and not smooth_itself(part) for part in inertia.walk()):
@@ -237,7 +237,7 @@ class Mechanism(Declared, title="a mechanism"):
         InputError
             If it is not; the error names the range.
         """
-        at = real_times(si_number(x, (self.axis,), "position"))
+        at = real_times(quantity(x, self.axis, "position", bare=True))
         low, high = self.over
         slack = CLOSURE * (high - low) if self.has_end else 0.0
         if np.any((at < low - slack) | (at > high + slack)):
@@ -302,8 +302,8 @@ class Mechanism(Declared, title="a mechanism"):
         """
         known = DIMENSIONS[self.axis]
         x = self.position(position)
-        v = real_times(si_number(velocity, (known["velocity"],), "velocity"))
-        w = real_times(si_number(acceleration, (known["acceleration"],), "acceleration"))
+        v = real_times(quantity(velocity, known["velocity"], "velocity", bare=True))
+        w = real_times(quantity(acceleration, known["acceleration"], "acceleration", bare=True))
         inertia, slope_of_inertia, load = self._of_torque.values({"x": x, "t": time}, NUMPY)
         inertial, turning = inertia * w, slope_of_inertia * v * v / 2.0
         way = np.sign(v) if direction is None else direction
@@ -348,9 +348,9 @@ class Mechanism(Declared, title="a mechanism"):
         >>> round(rms(moved.torque).value(smoothstep(3)) * moved.unit, 6)
         7.979021
         """
-        first = finite(si_number(start, (self.axis,), "start"), "start")
-        way = finite(si_number(stroke, (self.axis,), "stroke"), "stroke")
-        time = positive(si_number(duration, ("time",), "duration"), "duration")
+        first = finite(quantity(start, self.axis, "start", bare=True), "start")
+        way = finite(quantity(stroke, self.axis, "stroke", bare=True), "stroke")
+        time = positive(quantity(duration, "time", "duration", bare=True), "duration")
         check_scale(time, "s", "duration", duration)
         if way == 0.0:
             raise InputError(

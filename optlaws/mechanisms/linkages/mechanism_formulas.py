@@ -36,7 +36,7 @@ from optlaws.formulas.tree import (
 )
 from optlaws.lazy import Registry
 from optlaws.motion.piece import factor
-from optlaws.motion.quantities import quantity, si_number, written
+from optlaws.motion.quantities import quantity, written
 from optlaws.numbers import NumberOrQuantity, finite, real
 from optlaws.numerics.branch_and_bound import Extremes, extremes
 from optlaws.numerics.interval import Interval, between, exact
@@ -161,7 +161,7 @@ def formula_of(
             if isinstance(part, Table) and part.kind == "spline":
                 _check_shape(part, name)
         return formula
-    return number(finite(si_number(given, (dimensions[1],), name), name))
+    return number(finite(quantity(given, dimensions[1], name, bare=True), name))
 
 
 def _check_shape(table: Table, name: str) -> None:

@@ -26,7 +26,7 @@ from optlaws.formulas.tracing import Traced, traced
 from optlaws.formulas.tree import Exponentiation, Formula, Name, Number, number, substituted
 from optlaws.mechanisms.linkages.mechanism import LinkGeometry, Mechanism
 from optlaws.mechanisms.linkages.mechanism_formulas import OverPlace, TableKind, formula_of
-from optlaws.motion.quantities import TURN, either, quantity, si_number
+from optlaws.motion.quantities import TURN, either, quantity
 from optlaws.numbers import NumberOrQuantity, Quantity, finite, not_negative
 from optlaws.tolerances import WAVE_ROUNDING
 
@@ -141,8 +141,8 @@ class Loads(Declared, title="loads"):
         forces = ("force", "stiffness") if link.axis == "length" else ("torque", "torsional stiffness")
         variable, axis = ("s", link.axis) if self.over == "driven" else ("x", input_axis)
         force = formula_of(self.force, (axis, forces[0]), "force", variable=variable, interpolation=self.interpolation)
-        stiffness = not_negative(si_number(self.stiffness, (forces[1],), "stiffness"), "stiffness")
-        free = finite(si_number(self.free, (link.axis,), "free"), "free")
+        stiffness = not_negative(quantity(self.stiffness, forces[1], "stiffness", bare=True), "stiffness")
+        free = finite(quantity(self.free, link.axis, "free", bare=True), "free")
         if link.position is None:
             if stiffness or "s" in force.names():
                 raise InputError(

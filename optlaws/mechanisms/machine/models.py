@@ -13,7 +13,7 @@ from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.files.reading import check_names
 from optlaws.mechanisms.machine.state_space import StateSpace
-from optlaws.motion.quantities import either, si_number
+from optlaws.motion.quantities import either, quantity
 from optlaws.numbers import Array, NumberOrQuantity, not_negative, numbers, positive
 from optlaws.tolerances import SAME_ROOT
 
@@ -55,8 +55,8 @@ class Link:
             _check_name(name)
         if first == second:
             raise InputError(f"a link joins two different masses, got {shortened(first)} twice")
-        elastic = si_number(stiffness, ("stiffness", "torsional stiffness"), "stiffness")
-        viscous = si_number(damping, ("viscous friction", "rotary viscous friction"), "damping")
+        elastic = quantity(stiffness, ("stiffness", "torsional stiffness"), "stiffness", bare=True)
+        viscous = quantity(damping, ("viscous friction", "rotary viscous friction"), "damping", bare=True)
         numbers = {"stiffness": not_negative(elastic, "stiffness"), "damping": not_negative(viscous, "damping")}
         for name, value in {"first": first, "second": second, **numbers}.items():
             object.__setattr__(self, name, value)
@@ -118,7 +118,7 @@ def assembly(masses: Any, links: Any, drive: Any) -> MachineModel:
         raise InputError(f"drive must be a mass, moved against another one or the ground, got {shortened(drive)}")
     checked = {}
     for name, mass in masses.items():
-        number = si_number(mass, ("mass", "moment of inertia"), f"the mass {name}")
+        number = quantity(mass, ("mass", "moment of inertia"), f"the mass {name}", bare=True)
         checked[name] = (not_negative if name == driven else positive)(number, f"the mass {name}")
     reached, more = set[str](), {driven, base}
     while more:

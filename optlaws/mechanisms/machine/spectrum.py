@@ -21,7 +21,7 @@ from optlaws.laws.catalogue.reading import points_of
 from optlaws.laws.law import motion_law
 from optlaws.mechanisms.machine.drives import Forcing, forcings
 from optlaws.mechanisms.machine.transforms import legendre_from_chebyshev, moments, residual_phasor, roots
-from optlaws.motion.quantities import TURN, check_scale, si_number
+from optlaws.motion.quantities import TURN, check_scale, quantity
 from optlaws.numbers import Array, Complex, NumberOrQuantity, numbers, positive, whole
 from optlaws.numerics import chebyshev
 from optlaws.shown.report import Panel, PlainReport, Report, ReportTable, Series
@@ -91,7 +91,7 @@ def _in_motion(duration: NumberOrQuantity | None) -> float:
     """Radians in the motion that a frequency of 1 is."""
     if duration is None:
         return 1.0
-    seconds = positive(si_number(duration, ("time",), "duration"), "duration")
+    seconds = positive(quantity(duration, "time", "duration", bare=True), "duration")
     check_scale(seconds, "s", "duration", duration)
     return TURN * seconds
 

@@ -23,7 +23,7 @@ from optlaws.entries.value_types import Kept, ReadBy, Text, ValueType
 from optlaws.errors import InputError
 from optlaws.files.reading import check_names, json_text
 from optlaws.kept import kept_property
-from optlaws.motion.quantities import si_number
+from optlaws.motion.quantities import quantity
 from optlaws.numbers import MAGNITUDE_LIMIT, Array, Complex, NumberOrQuantity, positive, real_times
 from optlaws.numerics import chebyshev
 from optlaws.tolerances import SAME_ROOT, SAME_TIME, VIBRATING
@@ -476,8 +476,8 @@ class StateSpace(Declared, title="a machine"):
         inputs, outputs
             As of `Machine`.
         """
-        T = positive(si_number(duration, ("time",), "duration"), "duration")
-        h = positive(si_number(stroke, ("length", "angle"), "stroke"), "stroke")
+        T = positive(quantity(duration, "time", "duration", bare=True), "duration")
+        h = positive(quantity(stroke, ("length", "angle"), "stroke", bare=True), "stroke")
         _check_inputs(inputs)
         if not (0.0 < T * T < inf and isfinite(h / (T * T))):
             raise InputError(f"duration must be a time in s that machines take, got {shortened(duration)}")
