@@ -19,7 +19,6 @@ from optlaws.lazy import imported
 from optlaws.mechanisms.linkages.move_limit import MoveLimit
 from optlaws.numbers import listed, real
 from optlaws.synthesis.limits.drive_limits import DriveLimit
-from optlaws.synthesis.limits.of_problem import known_limit
 from optlaws.synthesis.limits.rounding import rounded_down, rounded_up
 from optlaws.synthesis.problem.constants import FUNCTIONALS, present_name
 from optlaws.synthesis.problem.problem import Problem
@@ -64,20 +63,10 @@ def stated_numbers(
     if "objective" in data:
         yield near("the objective", number(data, "objective"), objective, problem.objective.scale)
     if data.get("limit") is not None:
-        yield _limit(number(data, "limit"), problem)
+        stated, scale = number(data, "limit"), problem.objective.scale
+        yield at_most("the limit", stated, exact_limit(problem), scale, " by its closed form")
     if data.get("z") is not None:
         yield _of_z(data["z"], problem, law)
-
-
-def _limit(value: float, problem: Problem) -> Claim:
-    """The claim that a limit for laws of any degree has an exact closed form, or agrees with one in doubles."""
-    scale = problem.objective.scale
-    claim = at_most("the limit", value, exact_limit(problem), scale, " by its closed form")
-    known = known_limit(problem)
-    if claim.proven or known is None:
-        return claim
-    agrees = value <= known + STATED_BOUND * max(scale, known)
-    return Claim("the limit", proven=False, detail=f"{value!r} stated, {known!r} in doubles", checked=not agrees)
 
 
 def stated_constants(data: Mapping[str, Any], law: ExactLaw) -> Iterator[Claim]:

@@ -476,8 +476,8 @@ def test_a_front_is_written_as_functions_of_a_controller(capsys: Capture, tmp_pa
 def test_verify_says_in_its_exit_code_what_is_partly_checked(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    file = tmp_path / "jerk.json"
-    file.write_text(optlaws.synthesize(optlaws.Problem(B=1.8, order=2, minimise="J")).to_json(), encoding="utf8")
+    file = tmp_path / "laws.json"
+    file.write_text(optlaws.synthesize_array(optlaws.ProblemArray(B=[1.6, 1.8], order=4)).to_json(), encoding="utf8")
     assert exit_code(["verify", str(file)]) == 3
     assert "not checked" in capsys.readouterr().err
 

@@ -189,13 +189,13 @@ def test_another_status_limit_or_z_is_not_believed(problem: Problem) -> None:
 
 
 @pytest.mark.parametrize(
-    ("minimise", "order", "word"),
-    [("C", 3, "proven"), ("D", 3, "proven"), ("J", 3, "proven"), ("rms_c", 3, "proven"), ("J", 2, "not checked")],
+    ("minimise", "order", "bounds"),
+    [("C", 3, {}), ("C", 3, {"J": (0, 90)}), ("D", 3, {}), ("J", 3, {}), ("rms_c", 3, {}), ("J", 2, {})],
 )
-def test_a_limit_in_doubles_is_not_called_proven(minimise: str, order: int, word: str) -> None:
-    data = data_of(Problem(B=1.8, order=order, basis=Chebyshev(5), minimise=minimise))
+def test_limits_are_proven_by_their_closed_forms(minimise: str, order: int, bounds: dict[str, Any]) -> None:
+    data = data_of(Problem(B=1.8, order=order, basis=Chebyshev(5), minimise=minimise, **bounds))
     lines = [line for line in str(verify(data)).splitlines() if " the limit: " in line]
-    assert [line.partition(" the limit")[0].strip() for line in lines] == [word]
-    assert bool(verify(data).results()["unchecked"]) == (word == "not checked")
+    assert [line.partition(" the limit")[0].strip() for line in lines] == ["proven"]
+    assert not verify(data).results()["unchecked"]
     above = verify({**data, "limit": 1.001 * data["limit"]})
     assert [claim.name for claim in above.claims if not claim.proven] == ["the limit"]

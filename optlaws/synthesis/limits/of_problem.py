@@ -28,11 +28,7 @@ def known_limit(problem: Problem) -> float | None:
     """
     if problem.boundary is not None:
         return None
-    (weight, term), *others = problem.objective.terms
-    if weight == 1.0 and not others:
-        part = _of_term(problem, term)
-        return None if part is None else rounded_down(part)
-    total = _of_sum(problem, problem.objective)
+    total = limit_of_sum(problem, problem.objective)
     return None if total is None else rounded_down(total)
 
 
@@ -49,28 +45,34 @@ def limited_laws(problem: Problem) -> str:
     return f"law of order {problem.order}{'' if problem.B is None else ' with this B'}"
 
 
-def _of_sum(problem: Problem, expression: Expression) -> Fraction | None:
-    total = Fraction(0)
+def limit_of_sum(problem: Problem, expression: Expression, *, exact: bool = False) -> Fraction | None:
+    """The sum of the limits of an expression's parts, None where one is unknown.
+
+    Where `exact`, the closed forms alone count, and all else is at least 0.
+    """
+    known: list[Fraction] = []
     for weight, term in expression.terms:
-        part = _of_term(problem, term)
-        if part is None:
+        part = _of_term(problem, term, exact=exact)
+        if part is not None:
+            known.append(part if weight == 1.0 else Fraction(weight) * part)
+        elif not exact:
             return None
-        total += Fraction(weight) * part
-    return total
+    return known[0] if len(known) == 1 else sum(known, Fraction(0))
 
 
-def _of_term(problem: Problem, term: Term) -> Fraction | None:
+def _of_term(problem: Problem, term: Term, *, exact: bool) -> Fraction | None:
     if isinstance(term, Maximum):
-        parts = [_of_sum(problem, part) for part in term.parts]
-        known = [part for part in parts if part is not None]
-        return max(known) if known else None
+        parts = [limit_of_sum(problem, part, exact=exact) for part in term.parts]
+        return max((part for part in parts if part is not None), default=None)
     if not isinstance(term, Functional):
         return None
     if term in (C_plus, C_minus) and problem.symmetric:
         return _of_constant(problem, "C")
     if isinstance(term, Combined):
         return Fraction(term.least(problem.order))
-    return _of_constant(problem, _NAMES[term.name]) if term.name in _NAMES else term.limit(problem)
+    if term.name in _NAMES:
+        return _of_constant(problem, _NAMES[term.name])
+    return None if exact else term.limit(problem)
 
 
 def _of_constant(problem: Problem, constant: str) -> Fraction | None:
