@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from fractions import Fraction
 from functools import reduce
 from itertools import pairwise
@@ -164,49 +165,9 @@ class ExactLaw:
         peaks = {"B": self.peak(1), "C": self.peak(2), "D": self.power, "J": self.peak(3)}
         return {**peaks, "rms_c": self.rms(2)}
 
-    def combined_peak(self, constant: CombinedPeak) -> arb:
-        """A ball that holds the peak of a combination of derivatives."""
-        nu, weights = constant.nu, constant.weights
-        if self._impulses(nu + len(weights) - 1):
-            return arb.pos_inf()
-        with ctx.workprec(self.precision):
-            extremes = [value for piece in self.polynomials for value in piece.combined(nu, weights)]
-            least, greatest = least_and_greatest(extremes)
-            return reduce(arb.max, (greatest if sign > 0 else -least for sign in constant.signs))
-
-    def combined_power(self, constant: CombinedPower) -> arb:
-        """A ball that holds the peak of the power of a combination of derivatives."""
-        weights = constant.weights
-        if self._impulses(len(weights) + 1):
-            return arb.pos_inf()
-        with ctx.workprec(self.precision):
-            products = [value for piece in self.polynomials for value in piece.combined_power(weights)]
-            return self.magnitude(least_and_greatest(products))
-
     def enclosures(self) -> dict[str, tuple[float, float]]:
         """Floats below and above these."""
         return {name: enclosed(value) for name, value in self.constants().items()}
-
-    def of_machine(self, constant: OfMachine) -> arb:
-        """A ball that contains a machine's constant: the residual of a follower or a mode, or an output's constant."""
-        with ctx.workprec(2 * self.precision):
-            if isinstance(constant, Residual):
-                return exact_residual(constant).peak(self.polynomials)
-            exact = ExactOutput(constant)
-            if exact.impulsive and self._impulses(2):
-                return arb.pos_inf()
-            return (exact.rms if isinstance(constant, OutputRms) else exact.peak)(self.polynomials)
-
-    def of_formula(self, constant: OfFormula) -> arb:
-        """A ball that holds a constant of a formula."""
-        motion = constant.motion
-        if self._impulses(max(motion.orders, default=0)):
-            return arb.pos_inf()
-        with ctx.workprec(self.precision):
-            if isinstance(constant, FormulaRms | FormulaIntegral):
-                return self._integral(constant)
-            signs = constant.counted if isinstance(constant, FormulaPeak) else (1.0,)
-            return reduce(arb.max, [self.greatest_of(motion, sign) for sign in signs])
 
     def greatest_of(self, motion: MotionFormula, sign: float) -> arb:
         """A ball that holds the greatest value of a formula, times a sign, over its part."""
@@ -217,41 +178,55 @@ class ExactLaw:
                 tops.append(greatest if branch.sign > 0 else -least)
             return reduce(arb.max, tops)
 
-    def _integral(self, constant: FormulaRms | FormulaIntegral) -> arb:
-        if isinstance(constant, FormulaIntegral):
-            return integral_of(constant.motion, self.polynomials)
-        whole = ball(Fraction(constant.motion.stop) - Fraction(constant.motion.start))
-        return (integral_of(squared(constant.motion), self.polynomials) / whole).sqrt()
-
     def term(self, term: Term) -> arb:
         """A ball that holds the value of a constant or a maximum."""
-        if isinstance(term, Maximum):
-            with ctx.workprec(self.precision):
+        with ctx.workprec(self.precision):
+            if isinstance(term, Maximum):
                 return reduce(arb.max, map(self.sum, term.parts))
-        return self._constant(known(term))
+            constant = known(term)
+            if isinstance(constant, OfMachine):
+                return self._of_machine(constant)
+            return self._of_formula(constant) if isinstance(constant, OfFormula) else self._of_derivatives(constant)
 
-    def _constant(self, constant: Known) -> arb:
-        if isinstance(constant, CombinedPeak):
-            return self.combined_peak(constant)
-        if isinstance(constant, CombinedPower):
-            return self.combined_power(constant)
-        if isinstance(constant, OfFormula):
-            return self.of_formula(constant)
-        if isinstance(constant, OfMachine):
-            return self.of_machine(constant)
-        return self._of_derivative(constant)
+    def _of_machine(self, constant: OfMachine) -> arb:
+        with ctx.workprec(2 * self.precision):
+            if isinstance(constant, Residual):
+                return exact_residual(constant).peak(self.polynomials)
+            exact = ExactOutput(constant)
+            if exact.impulsive and self._impulses(2):
+                return arb.pos_inf()
+            return (exact.rms if isinstance(constant, OutputRms) else exact.peak)(self.polynomials)
 
-    def _of_derivative(self, constant: PeakConstant | PowerConstant | RootMeanSquare) -> arb:
+    def _of_formula(self, constant: OfFormula) -> arb:
+        motion = constant.motion
+        if self._impulses(max(motion.orders, default=0)):
+            return arb.pos_inf()
+        if isinstance(constant, FormulaIntegral):
+            return integral_of(motion, self.polynomials)
+        if isinstance(constant, FormulaRms):
+            whole = ball(Fraction(motion.stop) - Fraction(motion.start))
+            return (integral_of(squared(motion), self.polynomials) / whole).sqrt()
+        signs = constant.counted if isinstance(constant, FormulaPeak) else (1.0,)
+        return reduce(arb.max, [self.greatest_of(motion, sign) for sign in signs])
+
+    def _of_derivatives(self, constant: PeakConstant | PowerConstant | RootMeanSquare | CombinedPeak) -> arb:
+        if isinstance(constant, CombinedPeak | CombinedPower):
+            return self._combined(constant)
         if isinstance(constant, PowerConstant):
             return self.power
-        return self.rms(constant.nu) if isinstance(constant, RootMeanSquare) else self._signed_peak(constant)
+        if isinstance(constant, RootMeanSquare):
+            return self.rms(constant.nu)
+        return arb.pos_inf() if self._impulses(constant.nu) else _peak(self.extremes(constant.nu), constant.signs)
 
-    def _signed_peak(self, constant: PeakConstant) -> arb:
-        if len(constant.signs) == 2 or self._impulses(constant.nu):
-            return self.peak(constant.nu)
-        least, greatest = self.extremes(constant.nu)
-        with ctx.workprec(self.precision):
-            return greatest if constant.signs[0] > 0 else -least
+    def _combined(self, constant: CombinedPeak | CombinedPower) -> arb:
+        nu, weights = constant.nu if isinstance(constant, CombinedPeak) else 2, constant.weights
+        if self._impulses(nu + len(weights) - 1):
+            return arb.pos_inf()
+        if isinstance(constant, CombinedPeak):
+            values = [value for piece in self.polynomials for value in piece.combined(nu, weights)]
+            return _peak(least_and_greatest(values), constant.signs)
+        products = [value for piece in self.polynomials for value in piece.combined_power(weights)]
+        return self.magnitude(least_and_greatest(products))
 
     def sum(self, expression: Expression) -> arb:
         """A ball that holds the value of an objective."""
@@ -268,6 +243,10 @@ class ExactLaw:
 
     def _impulses(self, nu: int) -> bool:
         return any(self.law.jumps(lower) for lower in range(1, nu))
+
+
+def _peak(extremes: Extremes, signs: Sequence[float]) -> arb:
+    return reduce(arb.max, (extremes[1] if sign > 0 else -extremes[0] for sign in signs))
 
 
 def _piece(segment: Segment, start: Fraction, stop: Fraction) -> ExactPiece:

@@ -2,22 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from fractions import Fraction
-from functools import partial
+from functools import cache, partial
 from math import isfinite
 from operator import mul
 
-from flint import arb
+from flint import acb, arb
 
 from optlaws.errors import InputError
 from optlaws.formulas.branches import switches
 from optlaws.formulas.of_motion import MotionFormula
 from optlaws.formulas.tree import ORDERS
 from optlaws.kept import kept_property
-from optlaws.mechanisms.machine.output_constants import OutputConstant, OutputPeak, OutputRms
+from optlaws.mechanisms.machine.output_constants import OutputConstant, OutputRms
 from optlaws.mechanisms.machine.residual import Residual
 from optlaws.synthesis.families import names
 from optlaws.synthesis.families.names import RowName, VariableName
@@ -26,11 +26,11 @@ from optlaws.synthesis.functionals.curved_rows import Branch, split, squared
 from optlaws.synthesis.functionals.kinds import FormulaIntegral, FormulaPeak, FormulaRms, boxes_of
 from optlaws.synthesis.problem.combined import Combined, CombinedPeak, facing
 from optlaws.synthesis.problem.constants import B, Functional, PeakConstant, PowerConstant, RootMeanSquare
-from optlaws.synthesis.problem.expression import Expression, Maximum, leaves
+from optlaws.synthesis.problem.expression import Expression, leaves
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.problem.ranges import Range
 from optlaws.synthesis.problem.windows import Window
-from optlaws.synthesis.program.writer import relaxed_power
+from optlaws.synthesis.program.writer import maxima, relaxed_power
 from optlaws.synthesis.proof.certificate import RELAXED, VIOLATION, Certificate
 from optlaws.synthesis.proof.nodes import Contact
 from optlaws.synthesis.proof.sublevel_bounds import Number, Sublevel
@@ -46,22 +46,49 @@ from optlaws.verification.exact.motion_formulas import (
     tangent_integral,
 )
 from optlaws.verification.exact.of_basis import exact_space
-from optlaws.verification.machines.certificate_rows import (
-    BallRow,
-    Maker,
-    Names,
-    UpperLimit,
-    residual_cones,
-)
 from optlaws.verification.machines.floors import floor
 from optlaws.verification.machines.output_motion import of_space
 from optlaws.verification.machines.outputs import OutputRows
+from optlaws.verification.machines.residuals import exact_residual
 
 _NEAR = Fraction(1, 10**9)
 #: what makes up for the rounding of a few operations in doubles
 _ROUNDED = 1 + Fraction(1, 2**40)
 
 Place = Callable[[Fraction], list[arb]]
+Names = Mapping[str, float | arb]
+
+
+@dataclass(frozen=True, eq=False)
+class BallRow:
+    """functions . (z, 1) + sum of constants + right; at most 0, or 0 for an equation, in every law of the problem."""
+
+    functions: list[arb]
+    constants: Names = field(default_factory=dict)
+    right: arb | float = 0.0
+
+    def vector(self, variables: list[str]) -> list[arb]:
+        """Coefficients of z and of the named constants, then what is constant."""
+        *free, base = self.functions
+        return [*free, *(arb(self.constants.get(name, 0.0)) for name in variables), base + self.right]
+
+
+@dataclass(frozen=True, eq=False)
+class UpperLimit:
+    """A sum of named constants, their signs turned, and a number, which a function of the law is at most."""
+
+    constants: Names = field(default_factory=dict)
+    high: float | arb = 0.0
+
+    def row(self, functions: Iterable[arb], unit: arb | None = None) -> BallRow:
+        """The row of a function of the law, in a unit if one is given."""
+        if unit is None:
+            return BallRow(list(functions), self.constants, -arb(self.high))
+        constants = {name: arb(value) / unit for name, value in self.constants.items()}
+        return BallRow([value / unit for value in functions], constants, -arb(self.high) / unit)
+
+
+Maker = Callable[[Contact, Fraction], BallRow]
 
 
 @dataclass(frozen=True, eq=False)
@@ -137,13 +164,13 @@ class ExactRows:
     def _objective(self, expression: Expression) -> None:
         self.cost = expression.weights()
         constants = list(dict.fromkeys(leaf for _, leaf in leaves(expression)))
-        maxima = list(dict.fromkeys(_maxima(expression)))
-        self.names += [repr(term) for term in (*constants, *maxima)]
+        largest = list(dict.fromkeys(maxima(expression)))
+        self.names += [repr(term) for term in (*constants, *largest)]
         for leaf in constants:
             if not isinstance(leaf, Functional) or [repr(other) for other in constants].count(repr(leaf)) > 1:
                 raise InputError(f"there are no exact rows for {leaf!r}: it is no constant, or shares its name")
             self._bounded(leaf, UpperLimit({leaf.name: -1.0}))
-        for term in maxima:
+        for term in largest:
             for i, part in enumerate(term.parts, 1):
                 self._single(names.maximum_part(i, repr(term)), {**part.weights(), repr(term): -1.0}, 0.0)
 
@@ -280,14 +307,9 @@ class ExactRows:
         return limit.row(sum(map(mul, weights, column), arb(0)) for column in columns)
 
     def _of_machine(self, constant: OfMachine, limit: UpperLimit) -> None:
-        if not isinstance(constant, Residual):
-            self._output(constant, limit)
+        if isinstance(constant, Residual):
+            self._residual(constant, limit)
             return
-        for name, maker in residual_cones(constant, of_space(self.space), self._solved, limit).items():
-            self.cones.add(name)
-            self._add(name, maker)
-
-    def _output(self, constant: OutputPeak | OutputRms, limit: UpperLimit) -> None:
         output = self.outputs[constant.name] = OutputRows(constant, self.space)
         unit = ball(constant.unit(self._solved))
         if not isinstance(constant, OutputRms):
@@ -301,6 +323,22 @@ class ExactRows:
             return limit.row(output.beside(ExactLaw(law).polynomials), unit)
 
         self._add(constant.name, beside_another_law)
+
+    def _residual(self, constant: Residual, limit: UpperLimit) -> None:
+        """On each edge a direction times a complex amplitude: at most its magnitude."""
+        exact, drives, sought = exact_residual(constant), of_space(self.space), bool(limit.constants)
+
+        def make(unit: arb, amplitudes: Callable[[Fraction], list[acb]], contact: Contact, k: Fraction) -> BallRow:
+            if len(contact.direction) != 2:
+                raise LookupError
+            real, imaginary = (ball(value) for value in contact.direction)
+            length = (real**2 + imaginary**2).sqrt().max(arb(1))
+            return limit.row(((value.real * real + value.imag * imaginary) / length for value in amplitudes(k)), unit)
+
+        for i, name in enumerate(constant.part_names):
+            unit = ball(constant.unit(self._solved, i, float(limit.high), sought=sought))
+            self.cones.add(name)
+            self._add(name, partial(make, unit, cache(partial(exact.rows, drives, i))))
 
     def _constraints(self) -> None:
         problem = self.problem
@@ -429,14 +467,6 @@ def _is_bounded(power: PowerConstant, problem: Problem) -> bool:
     """Whether the constant is bounded from above, by the objective or a number: only then rows contain its root."""
     high = (constant for constant, limits in problem.bounded if isfinite(limits.high))
     return any(constant == power for constant in (*(leaf for _, leaf in leaves(problem.objective)), *high))
-
-
-def _maxima(expression: Expression) -> Iterator[Maximum]:
-    for _, term in expression.terms:
-        if isinstance(term, Maximum):
-            yield term
-            for part in term.parts:
-                yield from _maxima(part)
 
 
 def _clamped(k: Fraction, start: Fraction, stop: Fraction) -> Fraction:
