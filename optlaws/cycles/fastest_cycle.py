@@ -15,9 +15,8 @@ from optlaws.cycles.optimisation.objectives import check_rating
 from optlaws.cycles.placed import retimed, segments_in_place
 from optlaws.cycles.specification.limits import FORCE_UNITS, amount, word_of
 from optlaws.entries.declared import Declared, FrozenTable, ValueOf, declared, entry
-from optlaws.entries.value_types import Listed, Number, ReadBy, Switch, Table, Text
+from optlaws.entries.value_types import Choice, Listed, Number, ReadBy, Switch, Table, Text
 from optlaws.errors import InputError
-from optlaws.files.reading import check_names
 from optlaws.kept import kept_property
 from optlaws.lazy import imported
 from optlaws.motion.quantities import TURN, Kind
@@ -99,11 +98,6 @@ def _cycle(value: Any) -> Any:
     return value if isinstance(value, of) else of.from_dict(value)
 
 
-def _status(value: Any) -> Status:
-    check_names([value], [*Status], "status")
-    return Status(value)
-
-
 @declared
 class FastestCycle(Answers, Declared, title="a fastest cycle"):
     """The greatest speed of the master at which a cycle keeps its limits, as `Cycle.fastest` finds it, and its plan.
@@ -137,7 +131,7 @@ class FastestCycle(Answers, Declared, title="a fastest cycle"):
         Listed(ValueOf(LeastDuration)), "The least time of every motion that a limit bounds."
     )
     status: Status = entry(
-        ReadBy(_status, "a status", lambda status: status.value),
+        ReadBy(lambda value: Status(Choice(*Status).read(value, "status")), "a status", str),
         "Optimal where no law of the search space keeps the limits in a period that is shorter by a millionth, proven "
         "by `proofs` or, of laws that are given, by their closed form; else local.",
     )

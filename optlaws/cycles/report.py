@@ -63,9 +63,7 @@ class CycleReport:
     def tables(self) -> tuple[ReportTable, ...]:
         """The segments with their ends and their peaks, and the whole cycle."""
         plan, (unit, factor), rows = self.plan, self.units[0], list[list[Any]]()
-        position = plan.programme.start
-        for each in plan.peaks:
-            position += each.stretch.displacement
+        for each, position in zip(plan.peaks, plan.programme.offsets[1:], strict=True):
             size = factor * max(abs(position), abs(plan.peak(0)))
             times = [MILLI * each.start, MILLI * each.duration, TURN_DEG * each.duration / plan.duration]
             peaks = [each.peak(nu) * self.unit(nu)[1] for nu in self.orders[1:]]

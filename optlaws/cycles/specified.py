@@ -11,7 +11,7 @@ from optlaws.cycles.optimisation.objectives import OBJECTIVES, CycleObjective, c
 from optlaws.cycles.optimisation.shared_limits import check_limits_at_joints
 from optlaws.cycles.specification.limits import LIMITS_OF_CYCLE, both_sides
 from optlaws.cycles.specification.load import ElasticLoad, Load, is_process, read_load
-from optlaws.cycles.specification.programme import Layout, Programme, State, is_optimal, layout, period_of, programme
+from optlaws.cycles.specification.programme import REST, Layout, Programme, is_optimal, layout, period_of, programme
 from optlaws.cycles.specification.segments import SEGMENTS, CycleSegment, Dwell
 from optlaws.echo import shortened
 from optlaws.entries.declared import Declared, FrozenTable, ValueOf, declared, entries_of, entry, frozen, thawed
@@ -28,7 +28,6 @@ if TYPE_CHECKING:
 FORMAT = "optlaws cycle 1"
 CLOCK = ("speed", "period")
 _JERK = 3
-_REST = State(0.0, 0.0)
 _SHOWN = 6  # segments in a line
 
 
@@ -259,7 +258,7 @@ class Specification(Declared, title="a stored cycle"):
         greatest = 0.0
         for span in self.layout.spans:
             bounded = any(side.kind.order >= _JERK for side in span.stretches[0].sides(self.in_si.limits))
-            if bounded or span.via or len(span.stretches) > 1 or (span.first, span.last) != (_REST, _REST):
+            if bounded or span.via or len(span.stretches) > 1 or (span.first, span.last) != (REST, REST):
                 return None
             jerk = catalogue["modified sine"].law.constants.J.value * abs(span.displacement) / span.duration**_JERK
             greatest = max(greatest, jerk)

@@ -15,7 +15,7 @@ from optlaws.cycles.moves.timed_moves import move_limits
 from optlaws.cycles.optimisation.objectives import CycleObjective
 from optlaws.cycles.optimisation.optimal import solved, span_problem
 from optlaws.cycles.specification.limits import along_motion, of_segments
-from optlaws.cycles.specification.programme import LawSpan, Programme, State, TimedSegment, time_of
+from optlaws.cycles.specification.programme import REST, LawSpan, Programme, State, TimedSegment, time_of
 from optlaws.cycles.specification.segments import Move, Transition
 from optlaws.entries.declared import Declared, ValueOf, declared, entry
 from optlaws.entries.value_types import Choice, Number, ReadBy, Together
@@ -40,7 +40,6 @@ from optlaws.tolerances import CLOSURE, INSIDE_PIECE, JUMP, STORED_VALUE
 
 TransitionKind = Literal["run-in", "run-out"]
 _POSITIVE, _NUMBER = Number(above=0.0), Number()
-_REST = State(0.0, 0.0)
 _DEGREE = 15  # of Z at least, as of the motions of cycles whose ends move
 
 
@@ -268,7 +267,7 @@ def transition_cam(
         if moved == 0.0 and velocity == 0.0:
             raise InputError(f"the cycle is in the place of rest at {shown}, and rests: it needs no {kind}")
         last, timed = State(velocity, acceleration), stretch(duration, duration)
-        span = LawSpan((timed,), (0.0,), duration, rest, moved, _REST, last, ())
+        span = LawSpan((timed,), (0.0,), duration, rest, moved, REST, last, ())
         stroke, count = span.stroke, of_motion.order - 1
         rates = [rate / factor(stroke, duration, nu) for nu, rate in enumerate((velocity, acceleration, jerk), start=1)]
         ends = (*rates, *(0.0,) * count)[:count]

@@ -73,6 +73,11 @@ def factor(stroke: float, duration: float, nu: int) -> float:
     return stroke / duration**nu
 
 
+def moves_at(law: MotionLaw, *sides: int) -> bool:
+    """Whether a law is in motion at its start (side 0) or its end (side 1), by more than rounding."""
+    return any(abs(law.b(float(side))) > JUMP * law.peak(1).value for side in sides)
+
+
 def unit_of(axis: str, nu: int = 0) -> str:
     """The SI unit of a derivative by time of a length or an angle."""
     return {"length": "m", "angle": "rad"}[axis] + ("", "/s", "/s²", "/s³", "/s⁴")[nu]
@@ -125,7 +130,7 @@ class Piece:
 
     def leaves(self, side: int) -> bool:
         """Whether it is in motion at its start (side 0) or its end (side 1), by more than rounding."""
-        return abs(self.law.b(float(side))) > JUMP * self.law.peak(1).value
+        return moves_at(self.law, side)
 
     def jump(self, time: float, nu: int) -> float:
         """The jump of the derivative of order nu at a time inside."""

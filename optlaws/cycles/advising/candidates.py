@@ -29,7 +29,7 @@ from optlaws.cycles.specification.segments import OPTIMAL, CycleSegment, Free, M
 from optlaws.errors import InputError, OptlawsError
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
-from optlaws.motion.piece import Piece, factor, named_law, unit_of
+from optlaws.motion.piece import Piece, factor, moves_at, named_law, unit_of
 from optlaws.motion.quantities import Exact, Kind, in_small_units, quantity
 from optlaws.shown.report import Report
 from optlaws.synthesis.least_time.move_limits import RESIDUALS, FollowerResidual
@@ -41,7 +41,7 @@ from optlaws.synthesis.problem.ranges import Range
 from optlaws.synthesis.solution import Solution
 from optlaws.synthesis.solve import synthesize
 from optlaws.synthesis.status import Status
-from optlaws.tolerances import BOUND_SLACK, EQUALLY_GOOD, JUMP, SHOWN_DIGITS
+from optlaws.tolerances import BOUND_SLACK, EQUALLY_GOOD, SHOWN_DIGITS
 
 _FRONT_END = 0.01  # of what is exchanged: a front goes no further, as some of it can vanish
 
@@ -498,7 +498,9 @@ class Candidates:
 
 def _may_change(segment: CycleSegment) -> bool:
     """Whether a segment's law may be replaced: it is optimised, or goes from rest to rest."""
-    return is_optimal(segment) or (isinstance(segment, Move) and _is_at_rest(named_law(segment.law, segment.label)))
+    return is_optimal(segment) or (
+        isinstance(segment, Move) and not moves_at(named_law(segment.law, segment.label), 0, 1)
+    )
 
 
 def _with_law(law: str, segment: CycleSegment) -> CycleSegment:
@@ -518,12 +520,7 @@ def _optimal(segment: CycleSegment) -> CycleSegment:
 
 def _rests(piece: Piece) -> bool:
     """Whether a piece moves from rest to rest."""
-    return bool(piece.stroke) and _is_at_rest(piece.law)
-
-
-def _is_at_rest(law: MotionLaw) -> bool:
-    """Whether a law's velocity is 0 at both ends, up to rounding."""
-    return max(abs(float(law.b(end))) for end in (0.0, 1.0)) <= JUMP * law.peak(1).value
+    return bool(piece.stroke) and not moves_at(piece.law, 0, 1)
 
 
 def _is_equal(law: AdvisedLaw, other: AdvisedLaw) -> bool:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from itertools import accumulate, pairwise
+from itertools import pairwise
 from math import hypot, sqrt
 from typing import Any, ClassVar
 
@@ -294,7 +294,7 @@ def _passed(value: Any, cycle: Cycle, axis: str, *, rest: bool = False) -> float
     """A position within the stroke of an axis, in SI units; positions at rest are refused where not allowed."""
     position = quantity(value, cycle.axis, f"position of {axis}")
     stretches = cycle.programme.stretches
-    joints = list(accumulate((stretch.displacement for stretch in stretches), initial=cycle.programme.start))
+    joints = cycle.programme.offsets
     low, high = min(joints), max(joints)
     slack = INTERLOCK * (high - low)
     shown = in_small_units(position, cycle.axis)

@@ -33,7 +33,7 @@ from optlaws.cycles.specification.segments import Dwell, Move
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure, located
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
-from optlaws.motion.piece import named_law
+from optlaws.motion.piece import moves_at, named_law
 from optlaws.numbers import Array
 from optlaws.numerics.roots import bracketed_roots
 from optlaws.tolerances import INTERLOCK
@@ -160,12 +160,13 @@ def planned(name: str, cycle: Cycle, way: Way, times: Sequence[float] | None) ->
                 "a limit of its whole cycle cannot be kept while the period is sought: leave out that of the energy, "
                 "of a root mean square or of a load, and look at what the result has"
             )
-        search, position, segments = FastestSearch(cycle.programme, objective, {}), cycle.programme.start, []
+        search, offsets = FastestSearch(cycle.programme, objective, {}), cycle.programme.offsets
+        segments = list[PlannedSegment]()
         for i, stretch in enumerate(cycle.programme.stretches):
-            given, stop = stretch.given, position + stretch.displacement
+            given = stretch.given
             if not isinstance(given, Move | Dwell):
                 raise _refused(stretch)
-            segment = PlannedSegment(position, stop)
+            segment = PlannedSegment(offsets[i], offsets[i + 1])
             if isinstance(given, Dwell) or stretch.displacement == 0.0:
                 # as given or allowed, of two the first; nothing where none is
                 least: Any = getattr(given, "least", None) or given.duration or "0 s"
@@ -177,14 +178,13 @@ def planned(name: str, cycle: Cycle, way: Way, times: Sequence[float] | None) ->
             if segment.binds:
                 segment = replace(segment, binds=f"{segment.binds} of axis {name}: {stretch.where}")
             law: Any = segment.law
-            if max(abs(law.b(0.0)), abs(law.b(1.0))) > INTERLOCK:
+            if moves_at(law, 0, 1):
                 raise _refused(stretch)
             if way == "gentlest":
                 # limits bind the laws in the times that are sought
                 share = law.peak(2).value * abs(stretch.displacement) / cycle.specification.unchecked().peak(2)
                 segment = replace(segment, effort=sqrt(share))
             segments.append(segment)
-            position = stop
         return segments
 
 

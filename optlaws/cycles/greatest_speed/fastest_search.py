@@ -193,10 +193,8 @@ class FastestSearch:
 
     def alone(self, i: int) -> LawSpan:
         """A move by itself, from rest to rest whatever is beside it."""
-        stretch, start, stop = self.programme.stretches[i], self._layout.starts[i], self._layout.starts[i + 1]
-        offset = self.programme.start + sum(each.displacement for each in self.programme.stretches[:i])
-        rest = State(0.0, 0.0)
-        return LawSpan((stretch,), (start,), stop, offset, stretch.displacement, rest, rest, ())
+        starts = self._layout.starts
+        return LawSpan.of(self.programme.stretches[i], starts[i], starts[i + 1], self.programme.offsets[i])
 
     def of_law(self, span: LawSpan, law: MotionLaw) -> TimedSpan:
         """A span with a law within its limits."""
@@ -267,9 +265,8 @@ class FastestSearch:
             if abs(start - piece.start) <= SAME_TIME * self.programme.period
         )
         stretch = self.programme.stretches[i]
-        moving = abs(factor(piece.stroke, piece.duration, 1)) * CLOSURE
-        first, last = (State(v if abs(v) > moving else 0.0, 0.0) for v in (piece.end(1, 0), piece.end(1, 1)))
-        span = LawSpan((stretch,), (piece.start,), piece.stop, piece.offset, piece.stroke, first, last, ())
+        first, last = (State(piece.end(1, side) if piece.leaves(side) else 0.0, 0.0) for side in (0, 1))
+        span = LawSpan.of(stretch, piece.start, piece.stop, piece.offset, first, last)
         still = isinstance(stretch.given, Dwell) or piece.stroke == 0.0
         if not still:
             self._check_way(stretch, piece)

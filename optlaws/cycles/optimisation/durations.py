@@ -18,23 +18,22 @@ import numpy as np
 from optlaws.cycles.optimisation.objectives import CycleObjective
 from optlaws.cycles.optimisation.optimal import span_problem, unlimited
 from optlaws.cycles.specification.limits import greatest
-from optlaws.cycles.specification.programme import LawSpan, Programme, State, TimedSegment, is_optimal
+from optlaws.cycles.specification.programme import LawSpan, Programme, TimedSegment, is_optimal
 from optlaws.cycles.specification.segments import ConstantVelocity, Dwell, Free, Move
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.laws import MotionLaw
-from optlaws.motion.piece import factor, named_law
+from optlaws.motion.piece import factor, moves_at, named_law
 from optlaws.motion.quantities import Kind
 from optlaws.numbers import Array
 from optlaws.numerics.roots import bisect
 from optlaws.synthesis.problem.constants import FUNCTIONALS
 from optlaws.synthesis.solution import Solution
 from optlaws.synthesis.solve import synthesize
-from optlaws.tolerances import AGREEMENT, CLOSURE, DURATION_STEP, SAME_TIME
+from optlaws.tolerances import AGREEMENT, DURATION_STEP, SAME_TIME
 
 _SHORTEST_MOVE = 1e-6  # of a period: no shorter move is tried
 _SAME_SHAPE = 1e-10  # of a mean square: so near to that of the same law in another duration
 
-_REST = State(0.0, 0.0)
 _ROUNDS = 60
 _TOO_FAST = "no durations of the free moves keep the limits: slow the cycle down or widen limits"
 
@@ -77,7 +76,7 @@ def _moves(stretch: TimedSegment, side: int) -> bool:
         return False
     if is_optimal(given):
         return (given.start_velocity, given.end_velocity)[side] is not None
-    return abs(float(named_law(given.law, stretch.where).b(float(side)))) > CLOSURE
+    return moves_at(named_law(given.law, stretch.where), side)
 
 
 @dataclass
@@ -131,8 +130,7 @@ class _FreeMove:
         stretch = self.stretch
         if isinstance(stretch.given, Move) and not is_optimal(stretch.given):
             return named_law(stretch.given.law, stretch.where)
-        offset = self.programme.start + sum(other.displacement for other in self.programme.stretches[: self.i])
-        span = LawSpan((stretch,), (0.0,), duration, offset, stretch.displacement, _REST, _REST, ())
+        span = LawSpan.of(stretch, 0.0, duration, self.programme.offsets[self.i])
         problem = span_problem(span, self.objective)
         self.best = self.best or synthesize(unlimited(problem)).law
         limits = [*problem.bounded, (FUNCTIONALS["B"], problem.range("B"))]

@@ -90,6 +90,11 @@ class Programme:
         """How far a cycle is beyond the one before."""
         return sum(stretch.displacement for stretch in self.stretches)
 
+    @kept_property
+    def offsets(self) -> tuple[float, ...]:
+        """The positions where segments begin, and where the last one ends."""
+        return tuple(accumulate((stretch.displacement for stretch in self.stretches), initial=self.start))
+
 
 def period_of(speed: Any, period: Any) -> float:
     """Duration of a cycle in seconds, from the master's speed or given."""
@@ -227,6 +232,9 @@ class State(NamedTuple):
     acceleration: float
 
 
+REST = State(0.0, 0.0)
+
+
 @dataclass(frozen=True)
 class LawSpan:
     """The segments that one optimal law covers, with their times: a single segment, or consecutive free ones.
@@ -245,6 +253,13 @@ class LawSpan:
     via: tuple[tuple[float, float], ...]
     states: tuple[State | None, ...] = ()
     absolute: bool = False
+
+    @classmethod
+    def of(
+        cls, stretch: TimedSegment, start: float, stop: float, offset: float, first: State = REST, last: State = REST
+    ) -> LawSpan:
+        """The span of a single segment, from rest to rest unless states are given."""
+        return cls((stretch,), (start,), stop, offset, stretch.displacement, first, last, ())
 
     @property
     def origin(self) -> float:
@@ -320,13 +335,12 @@ def layout(programme: Programme, durations: Sequence[float], *, whole: bool = Fa
     positions if it is to be `absolute`.
     """
     starts = tuple(accumulate(durations, initial=0.0))
-    offsets = tuple(accumulate((stretch.displacement for stretch in programme.stretches), initial=programme.start))
-    pieces = dict[int, Piece]()
+    offsets, pieces = programme.offsets, dict[int, Piece]()
     for i, stretch in enumerate(programme.stretches):
         if not is_optimal(stretch.given):
             law = named_law(stretch.given.law, stretch.where) if isinstance(stretch.given, Move) else UNIFORM
             pieces[i] = Piece(starts[i], durations[i], offsets[i], stretch.displacement, law)
-    placed = _Placed(programme, starts, offsets, pieces)
+    placed = _Placed(programme, starts, pieces)
     joints = [placed.joint(i) for i in range(len(programme.stretches))]
     if whole or joints[0] is None:
         return Layout(starts, (), (placed.whole(joints, absolute=absolute),))
@@ -339,7 +353,6 @@ class _Placed:
 
     programme: Programme
     starts: tuple[float, ...]
-    offsets: tuple[float, ...]
     pieces: dict[int, Piece]
 
     def joint(self, i: int) -> State | None:
@@ -351,7 +364,7 @@ class _Placed:
         if ended is not None or begun is not None:
             return begun if ended is None or (begun is not None and before not in self.pieces) else ended
         free = all(isinstance(self.programme.stretches[j].given, Free) for j in (before, i))
-        return None if free else State(0.0, 0.0)
+        return None if free else REST
 
     def _known(self, i: int, side: int) -> State | None:
         if i in self.pieces:
@@ -398,8 +411,7 @@ class _Placed:
                     f"{stretch.where}: give it law='optimal': the cycle is sought as one law; or begin it where "
                     "velocity and acceleration are known, after a Dwell, a ConstantVelocity or a Move"
                 )
-        rest = State(0.0, 0.0)
-        return replace(self._span(0, len(joints), rest, rest), states=tuple(joints), absolute=absolute)
+        return replace(self._span(0, len(joints), REST, REST), states=tuple(joints), absolute=absolute)
 
     def spans(self, joints: Sequence[State | None]) -> Iterator[LawSpan]:
         """The spans of stretches whose law is optimised, from one known joint to the next."""
@@ -416,7 +428,7 @@ class _Placed:
             i = stop
 
     def _span(self, i: int, stop: int, first: State, last: State) -> LawSpan:
-        stretches, starts, offsets = self.programme.stretches, self.starts, self.offsets
+        stretches, starts, offsets = self.programme.stretches, self.starts, self.programme.offsets
         via = [
             (starts[j], offsets[j])
             for j in range(i + 1, stop)
