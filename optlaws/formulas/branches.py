@@ -166,21 +166,6 @@ def _chosen(formula: Formula, choices: Sequence[int]) -> Formula:
     return built[-1]
 
 
-def together(formula: Formula) -> Formula:
-    """A formula with the highest degree among its smooth branches.
-
-    >>> from optlaws.formulas.reading import read
-    >>> together(read("max(b^2, c) + abs(k)"))
-    b^2 + c + k
-    """
-    parts = [together(part) for part in formula.parts]
-    if isinstance(formula, Table):
-        return Exponentiation(parts[0], Number(max((3.0 if formula.smooth else 1.0) - formula.order, 0.0)))
-    if smooth_itself(formula):
-        return rebuilt(formula, parts) if parts else formula
-    return added(parts)
-
-
 def _in_powers(coefficients: Sequence[float], of: Formula) -> Formula:
     """The polynomial with these coefficients, ascending."""
     powers = [Number(1.0), of, *(Exponentiation(of, Number(float(m))) for m in range(2, len(coefficients)))]

@@ -329,23 +329,26 @@ def affine(formula: Formula, names: Collection[str]) -> Affine | None:
     return Affine(tuple((key[0], factor) for key, factor in form.items() if key), form.get((), Number(0.0)))
 
 
-def degree(formula: Formula, names: Mapping[str, int]) -> int | None:
+def degree(formula: Formula, names: Mapping[str, int], *, between_kinks: bool = False) -> int | None:
     """The greatest degree that a formula can have where its names are polynomials of these degrees.
 
-    Tables, and sizes and maxima of what depends on k alone, count as what they are on each of their pieces. None where
-    the formula is no polynomial.
+    Tables, and sizes and maxima of what depends on k alone, count as what they are on each of their pieces; between
+    kinks those of all names. None where the formula is no polynomial.
 
     >>> from optlaws.formulas.reading import read
     >>> degree(read("k^2*c + b"), {"k": 1, "c": 5, "b": 6}), degree(read("sin(k)"), {"k": 1})
     (7, None)
+    >>> degree(read("max(b^2, c) + abs(k)"), {"k": 1, "c": 5, "b": 6}, between_kinks=True)
+    12
     """
+    in_pieces = {*names, "pi"} if between_kinks else {"k"}
     degrees: list[int | None] = []
     for part, places, _ in formula.steps:
-        degrees.append(_degree(part, [degrees[place] for place in places], names))
+        degrees.append(_degree(part, [degrees[place] for place in places], names, in_pieces))
     return degrees[-1]
 
 
-def _degree(formula: Formula, parts: list[int | None], names: Mapping[str, int]) -> int | None:
+def _degree(formula: Formula, parts: list[int | None], names: Mapping[str, int], in_pieces: set[str]) -> int | None:
     if not formula.names() & names.keys():
         return 0
     if isinstance(formula, Name):
@@ -361,10 +364,11 @@ def _degree(formula: Formula, parts: list[int | None], names: Mapping[str, int])
         return max(known)
     if isinstance(formula, Product):
         return sum(known)
-    if isinstance(formula, Table) and formula.names() <= {"k"}:
-        return known[0] * (max(3 - formula.order, 0) if formula.smooth else 1)
-    kinks = isinstance(formula, Call) and formula.function in {"abs", "max", "min"} and formula.names() <= {"k"}
-    return max(known) if kinks else None
+    if not formula.names() <= in_pieces:
+        return None
+    if isinstance(formula, Table):
+        return known[0] * max((3 if formula.smooth else 1) - formula.order, 0)
+    return max(known) if isinstance(formula, Call) and formula.function in {"abs", "max", "min"} else None
 
 
 _PARTS = 256

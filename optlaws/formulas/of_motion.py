@@ -116,9 +116,9 @@ class MotionFormula:
             return None
         return {nu: value for nu, value in constants.items() if value is not None}, rest
 
-    def degree(self, orders: Mapping[str, int]) -> int | None:
-        """The degree in k where a, b, c, j have these; None where it is no polynomial."""
-        return degree(self.formula, {**orders, "k": 1})
+    def degree(self, orders: Mapping[str, int], *, between_kinks: bool = False) -> int | None:
+        """The degree in k where a, b, c, j have these; None where it is no polynomial, between its kinks if asked."""
+        return degree(self.formula, {**orders, "k": 1}, between_kinks=between_kinks)
 
     @property
     def breaks(self) -> tuple[float, ...]:
@@ -238,17 +238,27 @@ def checked(motion: MotionFormula, text: str) -> MotionFormula:
     k = np.linspace(motion.start, motion.stop, 1025)
     still = [part for part in motion.formula.different() if not part.names() & {*ORDERS, "d"}]
     for part in still:
-        if isinstance(part, Call) and part.function == "tan":
-            beneath = MotionFormula(Call("cos", part.arguments)).values({"k": k})
-            if (np.diff(np.sign(beneath)) != 0.0).any():
-                raise refused(f"{part} has no finite value within k = {motion.start:g}..{motion.stop:g}", text, part)
+        beneath = divisor(part)
+        below = None if beneath is None else MotionFormula(beneath).values({"k": k})
+        if below is None or not ((below == 0.0).any() or np.min(below) < 0.0 < np.max(below)):
+            continue
+        where = f" within k = {motion.start:g}..{motion.stop:g}" if "k" in part.names() else ""
         if isinstance(part, Reciprocal):
-            below = MotionFormula(part.of).values({"k": k})
-            if (below == 0.0).any() or np.min(below) < 0.0 < np.max(below):
-                where = f" within k = {motion.start:g}..{motion.stop:g}" if "k" in part.names() else ""
-                raise refused(f"{part.of} is 0{where}, and it is divided by", text, part)
+            raise refused(f"{part.of} is 0{where}, and it is divided by", text, part)
+        raise refused(f"{part} has no finite value{where}", text, part)
     for part in still:
         values = np.broadcast_to(MotionFormula(part).values({"k": k}), k.shape)
         if not np.isfinite(values).all():
             raise refused(f"{part} has no finite value at k = {k[~np.isfinite(values)][0]:.4g}", text, part)
     return replace(motion, formula=substituted(motion.formula, {"d": _POWER}))
+
+
+def divisor(part: Formula) -> Formula | None:
+    """What a part divides by, itself or in a tangent; None where it divides by nothing.
+
+    >>> divisor(read("tan(a)")), divisor(Reciprocal(Name("b")))
+    (cos(a), b)
+    """
+    if isinstance(part, Reciprocal):
+        return part.of
+    return Call("cos", part.arguments) if isinstance(part, Call) and part.function == "tan" else None

@@ -182,3 +182,14 @@ def test_exact_numbers_are_points() -> None:
     point = exact(np.array([1.0, -2.0]))
     assert (point.radius == 0.0).all()
     assert (point.low < point.high).all()
+
+
+def test_of_extremes_as_high_as_one_another_the_first_is_named_however_cells_lie() -> None:
+    """Both flanks of a symmetric cam are as steep: a report names the first, not the one nearer to a sample."""
+    numbers = np.random.default_rng(0)
+    for _ in range(40):
+        frequency, shift = float(numbers.integers(2, 6)), numbers.random()
+        edges = np.sort([0.0, *(2.0 * np.pi * numbers.random(3)), 2.0 * np.pi])
+        found = extremes(lambda x, order: ((variable(x, order) + shift) * frequency).waves()[0], edges)  # noqa: B023
+        first = (np.pi / 2.0 - shift * frequency) % (2.0 * np.pi) / frequency
+        assert found.most_at == pytest.approx(first, abs=1e-6)

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from optlaws.formulas.branches import switches, together
+from optlaws.formulas.branches import switches
 from optlaws.formulas.convexity import Judge, quadratic
 from optlaws.formulas.of_motion import MotionFormula
 from optlaws.formulas.tree import ORDERS, Call, Exponentiation, Formula, Name, Negative, Number, number, product, total
@@ -120,7 +120,7 @@ def _kinked(space: LawSpace, motion: MotionFormula, plain: IntegralFamily) -> Ki
         return np.array([space.widened(columns, len(plain.slack)) for columns in several])
 
     given = {field.name: getattr(plain, field.name) for field in fields(plain)}
-    length = rule_length(space, replace(motion, formula=together(motion.formula)))
+    length = rule_length(space, motion, between_kinks=True)
     edges = tuple(_known_edges(space, motion))
     return KinkedIntegralFamily(**given, rows=rows, units=np.ones(len(plain.slack) + 1), edges=edges, length=length)
 
@@ -137,10 +137,10 @@ def _degrees(space: LawSpace, motion: MotionFormula) -> dict[str, int]:
     return {name: space.degree_of(nu) for name, nu in ORDERS.items() if name in motion.formula.names()}
 
 
-def rule_length(space: LawSpace, motion: MotionFormula) -> int:
+def rule_length(space: LawSpace, motion: MotionFormula, *, between_kinks: bool = False) -> int:
     """How many places a piece needs."""
     degrees = _degrees(space, motion)
-    degree = motion.degree(degrees)
+    degree = motion.degree(degrees, between_kinks=between_kinks)
     return _SPARE + max(degrees.values(), default=0) if degree is None else degree // 2 + 1
 
 

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.errors import InputError
-from optlaws.formulas.of_motion import MotionFormula
+from optlaws.formulas.of_motion import MotionFormula, divisor
 from optlaws.formulas.reading import FormulaError, read
 from optlaws.formulas.slopes import constant
 from optlaws.formulas.tree import ORDERS, SMOOTH_FUNCTIONS, Call, Exponentiation, Formula, Reciprocal
@@ -96,14 +96,8 @@ def _between(formula: Formula, motion: MotionFormula) -> tuple[float, float]:
 def _nowhere(part: Formula, names: Mapping[str, Array]) -> NDArray[np.bool_]:
     """Ascending values at which a part has no value, or none before the next one."""
     nowhere = ~np.isfinite(MotionFormula(part).values(names))
-    divisor = _divisor(part)
-    if divisor is not None:
-        below = MotionFormula(divisor).values(names)
+    beneath = divisor(part)
+    if beneath is not None:
+        below = MotionFormula(beneath).values(names)
         nowhere |= np.append(below[:-1] * below[1:] < 0.0, [False])
     return nowhere
-
-
-def _divisor(part: Formula) -> Formula | None:
-    if isinstance(part, Reciprocal):
-        return part.of
-    return Call("cos", part.arguments) if isinstance(part, Call) and part.function == "tan" else None
