@@ -75,7 +75,7 @@ class ChordSelection:
         return places, reached
 
     def _gap(self, first: int, last: int) -> float:
-        """The greatest gap of the chord between two laws: at a corner of what is proven below."""
+        # of the chord between two laws: greatest at a corner of what is proven below
         t = self.values
         low, high = np.searchsorted(self.corners, [t[first], t[last]])
         at = slice(low, high + 1)
@@ -94,7 +94,6 @@ class ChordSelection:
         return places, reached
 
     def _reached(self, points: int) -> float:
-        """A gap that is reached with a given number of laws."""
         low, high = 0.0, 1.0
         for _ in range(_STEPS):
             middle = 0.5 * (low + high)
@@ -118,7 +117,6 @@ def proven_ends(problem: Problem, first: MotionLaw, last: MotionLaw, gap: float)
 
 
 def _least(problem: Problem, name: str) -> float:
-    """A proven bound of a constant from below; 0 where the search has none."""
     try:
         return synthesize(replace(problem, minimise=name)).lower_bound
     except OptlawsError:

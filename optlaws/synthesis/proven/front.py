@@ -25,7 +25,7 @@ from optlaws.synthesis.program.evaluation import evaluate
 from optlaws.synthesis.proof.certificate import OBJECTIVE, Certificate
 from optlaws.synthesis.proof.data import StatedContact, brief_sum_of, contacts_of, problem_of, stated
 from optlaws.synthesis.proof.nodes import Contact
-from optlaws.synthesis.proven.swept_parameter import AT_MOST, SweptParameter, gap_bounds, lower_line
+from optlaws.synthesis.proven.swept_parameter import AT_MOST, SweptParameter, bounds_beside, gap_bounds
 from optlaws.synthesis.status import measure
 from optlaws.tolerances import OPERATIONS_ROUNDING
 
@@ -247,19 +247,8 @@ class ProvenFront(JsonText):
     @kept_property
     def sides(self) -> Array:
         """Upper and lower values of the least objective at each certified law, with the slope there."""
-        problems = [proof.problem for proof in self.certificates]
-        tops = np.array([evaluate(problem, law).objective for problem, law in zip(problems, self.laws, strict=True)])
-        slopes = np.array([weighted_value(self.number, law) for law in self.laws]) if self.number.concave else None
-        claims = np.full(len(tops), -np.inf)
-        if slopes is not None:
-            reach = np.subtract.outer(np.array(self.between), np.array(self.values))
-            claims = np.max(tops + slopes * reach, axis=0)
-        lines_of_sides = [
-            lower_line(certificate, at, self.number, self.between, claim)
-            for certificate, at, claim in zip(self.certificates, self.values, claims.tolist(), strict=True)
-        ]
-        lines = np.array(lines_of_sides)
-        return np.column_stack([tops, lines[:, 0], lines[:, 1] if slopes is None else slopes])
+        each = zip(self.values, self.laws, self.certificates, strict=True)
+        return np.array([bounds_beside(self.number, self.between, *known) for known in each])
 
     @kept_property
     def gaps(self) -> Array:
@@ -472,25 +461,18 @@ class ProvenFront(JsonText):
         InputError
             If an entry is missing or wrong.
         """
-        return front_of(stated(data, StatedFront, "proven front"))
-
-
-def front_of(stated_front: StatedFront) -> ProvenFront:
-    """The front that was stated."""
-    number = SweptParameter(problem_of(stated_front.problem), stated_front.runs)
-    proofs = [
-        Certificate.of_leaf(number.at(point.at), contacts_of(point.contacts), point.equations)
-        for point in stated_front.points
-    ]
-    laws = tuple(MotionLaw.from_dict(point.law) for point in stated_front.points)
-    front = ProvenFront(number, tuple(point.at for point in stated_front.points), laws, tuple(proofs))
-    with np.errstate(over="ignore", invalid="ignore"):
-        nothing = np.flatnonzero(~np.isfinite(front.sides).all(axis=1))
-    if len(nothing):
-        raise InputError(f"the law or the certificate at {number.name} = {front.values[nothing[0]]!r} proves nothing")
-    return front
-
-
-def weighted_value(number: SweptParameter, law: MotionLaw) -> float:
-    """The value in a law of the term whose weight varies, before it is weighted."""
-    return evaluate(replace(number.problem, minimise=number.weighted), law).objective
+        entries = stated(data, StatedFront, "proven front")
+        number = SweptParameter(problem_of(entries.problem), entries.runs)
+        proofs = (
+            Certificate.of_leaf(number.at(point.at), contacts_of(point.contacts), point.equations)
+            for point in entries.points
+        )
+        laws = tuple(MotionLaw.from_dict(point.law) for point in entries.points)
+        front = cls(number, tuple(point.at for point in entries.points), laws, tuple(proofs))
+        with np.errstate(over="ignore", invalid="ignore"):
+            nothing = np.flatnonzero(~np.isfinite(front.sides).all(axis=1))
+        if len(nothing):
+            raise InputError(
+                f"the law or the certificate at {number.name} = {front.values[nothing[0]]!r} proves nothing"
+            )
+        return front

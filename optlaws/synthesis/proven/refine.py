@@ -20,11 +20,10 @@ from optlaws.synthesis.problem.constants import FUNCTIONALS
 from optlaws.synthesis.problem.fields import CONSTANTS
 from optlaws.synthesis.problem.named_constants import apart
 from optlaws.synthesis.problem.problem import Problem
-from optlaws.synthesis.program.evaluation import evaluate
 from optlaws.synthesis.program.writer import Model, model_of
 from optlaws.synthesis.proof.sublevel_bounds import Sublevel
-from optlaws.synthesis.proven.front import LazySequence, ProvenFront, weighted_value
-from optlaws.synthesis.proven.swept_parameter import SweptParameter, gap_bounds, lower_line
+from optlaws.synthesis.proven.front import LazySequence, ProvenFront
+from optlaws.synthesis.proven.swept_parameter import SweptParameter, bounds_beside, gap_bounds
 from optlaws.synthesis.solution import Solution
 from optlaws.synthesis.solution_array import SolutionArray, SolvedPart
 from optlaws.synthesis.solve import synthesize
@@ -158,7 +157,7 @@ class _Refined:
         self.values, self.known = together[order], np.concatenate([self.known, known])[order]
 
     def _solved(self, values: Array, most: float) -> tuple[list[_Law], Array]:
-        """Laws at some values, with their known bounds; from arrays where their gap is small enough."""
+        # laws at some values, with their known bounds; from arrays where their gap is small enough
         laws: list[_Law] = []
         known = np.full((len(values), 3), np.nan)
         for begin in range(0, len(values), _CHUNK):
@@ -175,7 +174,7 @@ class _Refined:
         return laws, known
 
     def _alone(self, value: float, law: _Law) -> Solution:
-        """The solution at a value, solved again without a neighbour that may have led it astray."""
+        # solved again without a neighbour that may have led it astray
         solution = law if isinstance(law, Solution) else law[0].result(law[1])
         if isinstance(solution, Solution) and solution.status is Status.OPTIMAL:
             return solution
@@ -189,28 +188,17 @@ class _Refined:
             ) from error
 
     def _known(self, value: float, law: _Law) -> tuple[float, float, float]:
-        """Bounds of the least objective, above and below, and the slope of the line from there."""
         assert isinstance(law, Solution)  # noqa: S101 - as it came from `_alone`
-        top, claim, slope = evaluate(law.problem, law.law).objective, -inf, 0.0
-        if self.number.concave:
-            slope = weighted_value(self.number, law.law)
-            claim = max(top + slope * (end - value) for end in self.ends)
-        line = lower_line(law.certificate, value, self.number, self.ends, claim)
-        return top, line.value, slope if self.number.concave else line.slope
+        return bounds_beside(self.number, self.ends, value, law.law, law.certificate)
 
     @property
     def _scale(self) -> float:
         return self.number.problem.objective.scale
 
-    @property
-    def own_gaps(self) -> Array:
-        """Refuse a gap below the certified laws' own gaps, which further laws could not reduce."""
-        top, bottom, _ = self.known.T
-        return np.asarray((top - bottom) / measure(top, self._scale))
-
     def _check(self, gap: float) -> None:
-        """Refuse a gap below the certified laws' own gaps, which further laws could not reduce."""
-        gaps = self.own_gaps
+        """Refuse a gap below those of the certified laws, which further laws could not reduce."""
+        top, bottom, _ = self.known.T
+        gaps = np.asarray((top - bottom) / measure(top, self._scale))
         worst = int(np.argmax(gaps))
         narrow = np.diff(self.values).min() <= _NARROWEST * float(np.ptp(self.values))
         if gaps[worst] <= gap and not narrow:
@@ -250,7 +238,6 @@ def _where_it_pays(number: SweptParameter) -> tuple[float, float]:
 
 
 def _least(number: SweptParameter) -> float:
-    """The least value of the number that has a law."""
     if number.name in CONSTANTS:
         return least_value(number.problem, number.name)
     return synthesize(replace(number.problem, minimise=number.constant)).objective
@@ -297,7 +284,7 @@ def lower_lines(part: SolvedPart, values: Array, number: SweptParameter, ends: t
 
 
 def _rows(part: SolvedPart, model: Model, further: Array) -> Array:
-    """The rows of the contacts and of the equations, with the opposites of their right sides; of no contact 0."""
+    # of the contacts and of the equations, with the opposites of their right sides; of no contact 0
     laws, contacts, size = part.optima, part.optima.u.shape[1], part.model.program.size
     rows = np.zeros((len(further), contacts + len(model.program.right), size + 1))
     for i, family in enumerate(part.model.program.families):

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from math import inf, isfinite
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -17,6 +17,7 @@ from optlaws.echo import unknown_key
 from optlaws.errors import InputError
 from optlaws.files.reading import check_names
 from optlaws.kept import kept_property
+from optlaws.laws import MotionLaw
 from optlaws.numbers import Array
 from optlaws.synthesis.problem.constants import ALIASES, FUNCTIONALS, MAKERS, Functional
 from optlaws.synthesis.problem.expression import Expression, Term
@@ -24,6 +25,7 @@ from optlaws.synthesis.problem.fields import CONSTANTS
 from optlaws.synthesis.problem.named_constants import named
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.problem.ranges import Range
+from optlaws.synthesis.program.evaluation import evaluate
 from optlaws.synthesis.proof.certificate import Certificate, weighted_rows
 from optlaws.synthesis.proof.duality import rounding_error_bound, summed
 from optlaws.synthesis.status import measure
@@ -70,10 +72,10 @@ class SweptParameter:
     name: str
 
     def __post_init__(self) -> None:
-        if self.concave:
-            self._weighted(1.0)
-        else:
-            self._check_free()
+        known = None if self.concave else self.problem.range(self.constant)
+        if known is not None:
+            given = getattr(self.problem, self.constant) if self.constant in CONSTANTS else known
+            raise InputError(f"{self.constant} runs: leave it out of the problem, got {given!r}")
         _check_convex(self.at(2.0))
 
     @property
@@ -84,7 +86,9 @@ class SweptParameter:
     def at(self, value: float) -> Problem:
         """The problem at a value of the number."""
         if self.concave:
-            return replace(self.problem, minimise=self._weighted(value))
+            changed = list(self.problem.objective.terms)
+            changed[self._place] = (value, self.weighted)
+            return replace(self.problem, minimise=Expression(tuple(changed)))
         if self.name == "B":
             return self._at_two.at_velocity(value)
         if self._constant.name == "B":
@@ -117,12 +121,6 @@ class SweptParameter:
             raise InputError(unknown_key(self.name, (*known, *MAKERS), "constant"))
         return known[self.name]
 
-    def _check_free(self) -> None:
-        name = self._constant.name
-        if self.problem.range(name) is not None:
-            given = getattr(self.problem, name) if name in CONSTANTS else self.problem.range(name)
-            raise InputError(f"{name} runs: leave it out of the problem, got {given!r}")
-
     @property
     def _place(self) -> int:
         name = self.name.removeprefix(WEIGHT)
@@ -131,12 +129,6 @@ class SweptParameter:
             raise InputError(f"a weight runs in an objective of several terms, got {self.problem.objective!r}")
         check_names([name], known, "term of the objective")
         return known.index(name)
-
-    def _weighted(self, weight: float) -> Expression:
-        """The objective with another weight of the term."""
-        changed = list(self.problem.objective.terms)
-        changed[self._place] = (weight, self.weighted)
-        return Expression(tuple(changed))
 
 
 def _check_convex(problem: Problem) -> None:
@@ -160,44 +152,39 @@ def _check_convex(problem: Problem) -> None:
         )
 
 
-class LowerLine(NamedTuple):
-    """An affine function of the swept number: its value where the certificate was computed, and its slope."""
+def bounds_beside(
+    number: SweptParameter, ends: Ends, value: float, law: MotionLaw, certificate: Certificate
+) -> tuple[float, float, float]:
+    """The least objective at a value by a law and its certificate: above, below, and the slope of the line there.
 
-    value: float
-    slope: float
-
-
-def lower_line(
-    certificate: Certificate, at: float, number: SweptParameter, ends: Ends, claim: float = -inf
-) -> LowerLine:
-    """An affine lower bound of the least objective between two values of the swept number.
-
-    Of a weight it is a bound at the certificate's own problem, with slope 0. What rounding hides is charged as much as
-    it can be worth anywhere between the ends: it grows with every bound, with the objective that is claimed, and as a
-    weight falls.
+    Of a number on right sides the line is below, affine between the ends; of a weight it is above, and what is below
+    holds at the value alone. What rounding hides is charged as much as it can be worth anywhere between the ends: it
+    grows with every bound, with the objective that is claimed, and as a weight falls.
 
     Parameters
     ----------
-    certificate, at
-        A certificate, and the value of the running number in its problem.
     number, ends
         The number, and between which values.
-    claim
-        The greatest objective of interest; the value of the line itself unless that is less.
+    value, law, certificate
+        A value, with a law and a certificate of the problem there.
     """
+    top, claim, rise = evaluate(certificate.problem, law).objective, -inf, 0.0
+    if number.concave:
+        rise = evaluate(replace(number.problem, minimise=number.weighted), law).objective
+        claim = max(top + rise * (end - value) for end in ends)
     model, lines = weighted_rows(certificate)
     there = [weighted_rows(replace(certificate, problem=number.at(end))) for end in ends]
     total, weights = summed(model, lines), np.array([weight for weight, _, _ in lines])
     rates, rounding = _rates(number, ends, *(rows for _, rows in there))
-    value, slope = model.unit * total.value, -float(model.unit * (weights @ rates))
-    most = max(claim, *(value + slope * (end - at) for end in ends))
+    low, slope = model.unit * total.value, -float(model.unit * (weights @ rates))
+    most = max(claim, *(low + slope * (end - value) for end in ends))
     hidden = max(rounding_error_bound(moved, total, most) for moved, _ in there)
     lost = model.unit * (hidden + float(np.abs(weights) @ rounding))
-    return LowerLine(value - lost if isfinite(lost) else -inf, slope)
+    return top, low - lost if isfinite(lost) else -inf, rise if number.concave else slope
 
 
 def _rates(number: SweptParameter, ends: Ends, *rows: list[tuple[float, Array, float]]) -> tuple[Array, Array]:
-    """How fast each row's right side runs, and what rounding does to it between the ends."""
+    # how fast each row's right side runs, and what rounding does to it between the ends
     first, last = rows
     if number.concave:
         return np.zeros(len(first)), np.zeros(len(first))
