@@ -111,6 +111,7 @@ def values(jumping: Solution) -> dict[str, Any]:
         "FollowerResidual": FollowerResidual(95.0, 105.0, 0.05, most=0.4),
         "MotorTorque": MotorTorque("1 + 0.3*a", 0.1, "0.2", 2.0, peak=3.0),
         "MoveLimits": fastest.least.move.limits,
+        "TimedMove": fastest.least.move,
         "TimeProof": fastest.least.proofs[0],
         "FrontPoint": proven(1.605),
         "ProvenFront": proven,

@@ -137,7 +137,7 @@ class FastestMove(LawExport, MovePlan, JsonText):  # type: ignore[misc] # its ex
     stroke = kept_property[float](lambda move: move.least.move.stroke)
     law = kept_property[MotionLaw](lambda move: move.least.law)
     limit = kept_property[float | None](lambda move: move.least.limit)
-    limit_breaks = kept_property[tuple[float, ...]](lambda move: move.least.limit_breaks)
+    limit_breaks = kept_property[tuple[float, ...]](lambda move: move.least.move.limit_breaks)
     price = kept_property[float | None](lambda move: move.least.price)
     none_below = kept_property[float](lambda move: move.least.none_below)
     gap = kept_property[float](lambda move: move.least.gap)

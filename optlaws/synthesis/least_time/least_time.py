@@ -22,23 +22,21 @@ from optlaws.errors import InputError, SolverFailure
 from optlaws.files.reading import JsonText, entries_of, of_known_format
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
-from optlaws.numbers import finite, listed, positive, real
+from optlaws.numbers import listed, positive, real
 from optlaws.numerics.roots import bisect
 from optlaws.synthesis.families import names
-from optlaws.synthesis.least_time.motor_torque import MotorTorque
-from optlaws.synthesis.least_time.move_limits import FollowerResidual, MoveLimits, power
+from optlaws.synthesis.least_time.move_limits import power
 from optlaws.synthesis.least_time.timed_move import Timed, TimedMove, TimedT, control_point, powers_of
 from optlaws.synthesis.problem.constants import meant
 from optlaws.synthesis.proof.certificate import VIOLATION, Certificate
-from optlaws.synthesis.proof.data import problem_of
-from optlaws.synthesis.proof.nodes import Contact
 from optlaws.synthesis.solution import Solution
 from optlaws.synthesis.status import Status
-from optlaws.tolerances import AGREEMENT, BOUND_FEASIBILITY, LEAST_TIME_GAP, MIRROR, PHASE_GAP, STORED_VALUE
+from optlaws.tolerances import AGREEMENT, BOUND_FEASIBILITY, LEAST_TIME_GAP, PHASE_GAP, STORED_VALUE
 
 #: how much of the overlap of two intervals is left to the one before
 _OVERLAP = 0.25
-_DOUBLINGS = 1000
+_DOUBLINGS, _MOST_PROOFS = 1000, 100
+_LIMIT_REACHED = 1e-6  # of a limit of a move: where no more of it is left, the law reaches it
 
 
 @declared
@@ -101,7 +99,14 @@ class Multipliers:
     def of(cls, move: Timed, duration: float, solution: Solution) -> Multipliers:
         """The multipliers of the least greatest share of the limits in a time."""
         proof, bound, powers = solution.certificate, solution.lower_bound, powers_of(duration)
-        weights = _weights(move, duration, proof.contacts)
+        shares = [1.0 if len(move.rates) == 1 else 0.0] * len(move.rates)
+        for contact in proof.contacts:
+            part = names.part_number(contact.constraint)
+            if part is not None and len(shares) > 1:
+                shares[part - 1] += contact.multiplier
+        weights = tuple(
+            (limit.nu, share / power(duration, limit.nu)) for limit, share in zip(move.rates, shares, strict=True)
+        )
         ends, constant = [], bound
         for i in (i for i, rates in enumerate(move.moving) if any(rates)):
             doubled = tuple(2.0 * each if i == j else each for j, each in enumerate(powers))
@@ -160,7 +165,6 @@ class Multipliers:
         return sorted((root for root in beyond if self.above(root) <= 0.0), key=lambda root: sign * root)
 
     def _crossing(self, inside: float, outside: float) -> float:
-        """The last time at which f is above 0, between a time where it is and one where it is not."""
         return bisect(lambda time: self.above(time) > 0.0, inside, outside, _DOUBLINGS)[0]
 
     def above_between(self, shortest: float, longest: float) -> bool:
@@ -190,13 +194,7 @@ def proof_by(certificate: Certificate, move: Timed, shortest: float, longest: fl
 
 
 def covering(move: Timed, known: Sequence[tuple[float, Multipliers]], duration: float) -> tuple[TimeProof, ...]:
-    """Few proofs that cover every time that is conceivable and shorter than a duration, the shortest times first.
-
-    Raises
-    ------
-    SolverFailure
-        If they leave times between them.
-    """
+    """Few proofs that cover every time that is conceivable and shorter than a duration, the shortest times first."""
     least = move.least_conceivable()
     ranges = [(each.shortest(at), each.longest(at), each) for at, each in known]
     proofs: list[TimeProof] = []
@@ -216,41 +214,11 @@ def covering(move: Timed, known: Sequence[tuple[float, Multipliers]], duration: 
 
 
 def _in_parts(multipliers: Multipliers, move: Timed, shortest: float, longest: float) -> list[TimeProof]:
-    """The proofs of an interval, the longest times first: a single proof, or several for its parts."""
     middle = 0.5 * (shortest + longest)
     if move.concave or multipliers.above_between(shortest, longest) or not shortest < middle < longest:
         return [proof_by(multipliers.certificate, move, shortest, longest)]
     parts = ((middle, longest), (shortest, middle))
     return [proof for low, high in parts for proof in _in_parts(multipliers, move, low, high)]
-
-
-def _weights(move: Timed, duration: float, contacts: Sequence[Contact]) -> tuple[tuple[int, float], ...]:
-    """Weights of the limits: multipliers of the greatest share's parts, over powers of the time."""
-    rates = move.rates
-    if len(rates) == 1:
-        return ((rates[0].nu, 1.0 / power(duration, rates[0].nu)),)
-    shares = [0.0] * len(rates)
-    for contact in contacts:
-        part = names.part_number(contact.constraint)
-        if part is not None:
-            shares[part - 1] += contact.multiplier
-    return tuple((limit.nu, share / power(duration, limit.nu)) for limit, share in zip(rates, shares, strict=True))
-
-
-def covers(move: Timed, proofs: Sequence[TimeProof], duration: float) -> bool:
-    """Whether proofs cover every time shorter than a duration, up to the allowed gap."""
-    least = duration * (1.0 - LEAST_TIME_GAP)
-    if not proofs:
-        # with a torque nothing is claimed but the limit of all laws
-        return not move.without_residual.of_rates or least <= move.least_conceivable()
-    first = 0.0 if move.at_rest else move.least_conceivable()
-    joined = all(proof.longest == after.shortest for proof, after in pairwise(proofs))
-    return joined and proofs[0].shortest <= first and proofs[-1].longest >= least
-
-
-_LIMIT_REACHED = 1e-6  # of a limit of a move: where no more of it is left, the law reaches it
-
-_MOST_PROOFS = 100
 
 
 @dataclass(frozen=True)
@@ -312,14 +280,6 @@ class LeastTime(JsonText, Generic[TimedT]):
         return self.move.limit
 
     @property
-    def limit_breaks(self) -> tuple[float, ...]:
-        """Breaks of pieces of degree 3 that reach the limit, 1/2 among them; empty where no segments are known."""
-        segments = self.move.segments
-        if segments is None or not segments.are_reached or self.move.torque is not None:
-            return ()
-        return tuple(sorted([0.5, *(k for k in segments.breaks if abs(k - 0.5) > MIRROR)]))
-
-    @property
     def price(self) -> float | None:
         """The share by which laws of the problem's space are slower than all laws; None without a limit."""
         return None if self.limit is None else self.duration / self.limit - 1.0
@@ -356,24 +316,13 @@ class LeastTime(JsonText, Generic[TimedT]):
 
     def to_dict(self: LeastTime[TimedMove]) -> dict[str, Any]:
         """Plain JSON-able dict: law and proofs in one, which `optlaws verify` checks."""
-        move = self.move
-        timed = {"torque": move.torque, "residual": move.residual}
-        ends = {name: getattr(move, name) for name in _MOVING if getattr(move, name)}
-        return (
-            {name: limit.to_dict() for name, limit in timed.items() if limit is not None}
-            | ends
-            | {
-                "stroke": move.stroke,
-                "limits": move.limits.to_dict(),
-                "start_velocity": move.start_velocity,
-                "end_velocity": move.end_velocity,
-                "duration": self.duration,
-                "limit": self.limit,
-                "space": move.problem.to_dict(),
-                "solution": self.solution.to_dict(),
-                "proofs": [proof.to_dict() for proof in self.proofs],
-            }
-        )
+        plain = self.move.to_dict() | {
+            "duration": self.duration,
+            "limit": self.limit,
+            "solution": self.solution.to_dict(),
+            "proofs": [proof.to_dict() for proof in self.proofs],
+        }
+        return {name: plain[name] for name in (*TimedMove.newer, *KEYS) if name in plain}
 
     @classmethod
     def from_dict(cls, data: Mapping[str, Any]) -> Self:
@@ -386,20 +335,10 @@ class LeastTime(JsonText, Generic[TimedT]):
         """
         entries = entries_of(data, KEYS, cls._json_name)
         data = of_known_format(data, cls._json_name)
-        torque, residual = data.get("torque"), data.get("residual")
-        ends = {name: finite(data[name], name) for name in _MOVING if name in data}
-        if len(data) > len(KEYS) + (torque is not None) + (residual is not None) + len(ends):
+        if data.keys() - {*KEYS, *TimedMove.newer}:
             raise InputError(f"{cls._json_name} has the entries {', '.join(KEYS)} and no other")
-        move: Any = TimedMove(
-            problem_of(entries["space"]),
-            positive(entries["stroke"], "stroke"),
-            MoveLimits.from_dict(entries["limits"]),
-            finite(entries["start_velocity"], "start_velocity"),
-            finite(entries["end_velocity"], "end_velocity"),
-            None if torque is None else MotorTorque.from_dict(torque),
-            None if residual is None else FollowerResidual.from_dict(residual),
-            **ends,
-        )
+        of_move = TimedMove.tables()[""]
+        move: Any = TimedMove.from_dict({name: value for name, value in data.items() if name in of_move})
         proofs = tuple(map(TimeProof.from_dict, listed(entries["proofs"], "proofs", _MOST_PROOFS)))
         with meant():
             solution = Solution.from_dict(entries["solution"])
@@ -416,7 +355,7 @@ class LeastTime(JsonText, Generic[TimedT]):
             raise InputError("a proof that no law is faster does not show that of its times")
         known, stated = self.limit, real(limit)
         # that in the phase plane is a conic program's
-        share = STORED_VALUE if self.move.torque is None else PHASE_GAP
+        share = PHASE_GAP if isinstance(self.move, TimedMove) and self.move.torque is not None else STORED_VALUE
         same = limit is None if known is None else stated is not None and abs(stated - known) <= share * known
         # none was known of ends that move
         same = same or (limit is None and not self.move.at_rest)
@@ -430,13 +369,19 @@ class LeastTime(JsonText, Generic[TimedT]):
             return f"the law is not of the move in {self.duration!r} s"
         if not self.solution.objective <= 1.0 + BOUND_FEASIBILITY:
             return f"the law exceeds a limit {self.solution.objective!r} times"
-        claimed = self.duration if self.move.residual is None else self.none_below
-        if not covers(self.move, self.proofs, claimed):
-            return f"the proofs leave out times that are shorter than the least by more than {LEAST_TIME_GAP:g}"
-        return ""
+        move, proofs, conceivable = self.move, self.proofs, self.move.least_conceivable()
+        claimed = (self.duration if move.residual is None else self.none_below) * (1.0 - LEAST_TIME_GAP)
+        if proofs:
+            joined = all(proof.longest == after.shortest for proof, after in pairwise(proofs))
+            first = proofs[0].shortest <= (0.0 if move.at_rest else conceivable)
+            covered = joined and first and proofs[-1].longest >= claimed
+        else:
+            # with a torque nothing is claimed but the limit of all laws
+            covered = not move.without_residual.of_rates or claimed <= conceivable
+        if covered:
+            return ""
+        return f"the proofs leave out times that are shorter than the least by more than {LEAST_TIME_GAP:g}"
 
 
-#: of a file, where the end moves so
-_MOVING = ("end_acceleration", "end_jerk")
 #: of a file
 KEYS = ("stroke", "limits", "start_velocity", "end_velocity", "duration", "limit", "space", "solution", "proofs")

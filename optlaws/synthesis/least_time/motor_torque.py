@@ -28,7 +28,6 @@ CURVE_LIMIT = "motor's curve"
 _PASSING = smoothstep(2)
 _MOST_LINES = 100
 
-
 _NOT_NEGATIVE = Number(least=0.0)
 
 
@@ -111,9 +110,13 @@ class MotorTorque(Declared, title="the torque of a move"):
         if not self.lines and self.rms is None:
             raise InputError("the torque of a move needs a limit: of its peak or its root mean square")
         most = min((torque for torque, _ in self.lines), default=inf)
-        if self.static >= most:
+        load = self.load if self.gear is None else replace(self.gear, inertia=0.0, friction=0.0).text(self.load, 1.0)
+        known = constant(read(load, ("a",)))
+        # in an infinitely slow motion
+        static = self.unit * (abs(known) if known is not None else peak(load).value(_PASSING))
+        if static >= most:
             raise InputError(
-                f"the static torque at the motor reaches {self.static:.6g} N m, and the limit of the torque is "
+                f"the static torque at the motor reaches {static:.6g} N m, and the limit of the torque is "
                 f"{most:.6g} N m: no time keeps it"
             )
 
@@ -122,36 +125,19 @@ class MotorTorque(Declared, title="the torque of a move"):
         """The limit of the peak and the lines of the motor's curve: a torque at rest, and its decrease with b."""
         return (*(() if self.peak is None else ((self.peak, 0.0),)), *self.curve)
 
-    @property
-    def static(self) -> float:
-        """The greatest magnitude of the torque in an infinitely slow motion, N m."""
-        load = self.load if self.gear is None else replace(self.gear, inertia=0.0, friction=0.0).text(self.load, 1.0)
-        known = constant(read(load, ("a",)))
-        return self.unit * (abs(known) if known is not None else peak(load).value(_PASSING))
-
     def check_mean(self) -> None:
-        """Refuse a limit of the root mean square that the mean alone exceeds, in however long a time.
-
-        Raises
-        ------
-        InputError
-            If no time keeps the limit.
-        """
-        if self.rms is not None and self.mean >= self.rms:
+        """Refuse a limit of the root mean square that the mean alone exceeds, in however long a time."""
+        load = constant(read(self.load, ("a",)))
+        # a lower bound of the mean over a move
+        mean = 0.0 if load is None or self._inertia is None or self.gear is not None else self.unit * max(load, 0.0)
+        if self.rms is not None and mean >= self.rms:
             raise InputError(
-                f"the torque at the motor is {self.mean:.6g} N m in the mean, and the limit of the rms torque is "
+                f"the torque at the motor is {mean:.6g} N m in the mean, and the limit of the rms torque is "
                 f"{self.rms:.6g} N m: no time keeps it"
             )
 
     @property
-    def mean(self) -> float:
-        """A lower bound of the mean torque over a move, N m; 0 unless inertia and load are constant."""
-        load = constant(read(self.load, ("a",)))
-        return 0.0 if load is None or self._inertia is None or self.gear is not None else self.unit * max(load, 0.0)
-
-    @property
     def _inertia(self) -> float | None:
-        """The inertia of the load or of the whole drive, if it is constant."""
         return constant(read(self.inertia, ("a",)))
 
     @property
@@ -191,7 +177,7 @@ class MotorTorque(Declared, title="the torque of a move"):
         return load if self.gear is None else self.gear.text(load, duration)
 
     def _behind(self, duration: float) -> str:
-        """The torque of the load behind a gear with losses, or of the whole drive without one."""
+        # the torque of the load behind a gear with losses, or of the whole drive without one
         load = read(self.load, ("a",))
         weighed = "0" if constant(load) == 0.0 else f"{duration * duration!r}*({self.load})"
         return drive_torque(inertia=self.inertia, friction=repr(self.friction * duration), load=weighed)
@@ -216,7 +202,6 @@ class MotorTorque(Declared, title="the torque of a move"):
         return tuple(limits)
 
     def _greatest(self, lines: Sequence[tuple[float, float]], duration: float) -> Functional:
-        """The greatest share of lines of torque over velocity, driving and braking."""
         behind = self._behind(duration)
         driving = (behind,) if self.gear is None else self.gear.branches(behind, duration)
         shares = [
@@ -240,7 +225,6 @@ class MotorTorque(Declared, title="the torque of a move"):
 def _in_phase_plane(
     torque: str, velocity: float, acceleration: float, lines: tuple[tuple[float, float], ...]
 ) -> float | None:
-    """The least time in the phase plane within lines of torque over velocity; None where nothing is known."""
     try:
         form = phase_torque(torque)
         limits = tuple(

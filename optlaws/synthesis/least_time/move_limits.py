@@ -138,15 +138,13 @@ class MoveLimits(Declared, title="limits of a move"):
 
 
 #: the least peak of the fourth derivative from rest to rest, of laws of order 4 and more: 3! 4³
-_SNAP = 384.0
-_SMOOTH_SNAP = 4
+_SNAP, _SMOOTH_SNAP = 384.0, 4
 #: the order from which laws are at rest at their ends; above it they have no acceleration there
 _AT_REST = 2
 
-
 #: the times of the segments by which a velocity is gained, jerk, constant acceleration and jerk, and what they cover
 #: beside that with the first velocity
-Phase = tuple[tuple[float, float, float], float]
+Phase = tuple[tuple[Any, Any, Any], Any]
 
 
 @dataclass(frozen=True)
@@ -170,10 +168,8 @@ class LimitSegments:
         >>> segment_times(1.0, MoveLimits(jerk=1.0), 3).breaks
         (0.0, 0.25, 0.5, 0.75, 1.0)
         """
-        duration = self.duration
-        ends = [end / duration for end in accumulate(self.times)][:-1]
         inside = [0.0]
-        for end in ends:
+        for end in [end / self.duration for end in accumulate(self.times)][:-1]:
             if inside[-1] + VALUE_ROUNDING < end < 1.0 - VALUE_ROUNDING:
                 inside.append(end)
         return (*inside, 1.0)
@@ -206,7 +202,7 @@ def segment_times(
         jerk = inf
     if jerk == up == down == velocity == inf:
         return None
-    times, straight = _phase(abs(ends[1] - ends[0]), up if ends[1] > ends[0] else down, jerk, order)
+    times, straight = phase(abs(ends[1] - ends[0]), up if ends[1] > ends[0] else down, jerk, order)
     slow = min(ends) * sum(times)
     if slow + straight - stroke > OPERATIONS_ROUNDING * (stroke + abs(slow) + straight):
         # too fast at an end for so short a way, it is slower between, or goes back: its image is faster
@@ -215,10 +211,10 @@ def segment_times(
 
     def phases(above: float) -> tuple[Phase, Phase]:
         first, last = (max(ends) - end + above for end in ends)
-        return _phase(first, up, jerk, order), _phase(last, down, jerk, order)
+        return phase(first, up, jerk, order), phase(last, down, jerk, order)
 
     def covered(above: float) -> float:
-        return sum(end * sum(times) + far for end, (times, far) in zip(ends, phases(above), strict=True))
+        return float(sum(end * sum(times) + far for end, (times, far) in zip(ends, phases(above), strict=True)))
 
     most = velocity - max(ends)
     above = most if jerk == up == down == inf or covered(most) <= stroke else _crossing(covered, stroke)
@@ -282,28 +278,30 @@ def _crossing(covered: Callable[[float], float], stroke: float) -> float:
     return bisect(lambda above: covered(above) < stroke, low, high)[1]
 
 
-def _phase(gain: float, limit: float, jerk: float, order: int) -> Phase:
-    """The fastest segments from a standstill to a velocity at which the acceleration is 0."""
+def phase(gain: Any, limit: Any, jerk: Any, order: int, root: Callable[[Any], Any] = sqrt) -> Phase:
+    """The fastest segments from a standstill to a velocity at which the acceleration is 0, in floats or in fractions.
+
+    Times and ways are no less than they are where roots are none less, and no more where these are none more.
+    """
+    none = type(gain)(0)
     if jerk == inf:
-        return (0.0, gain / limit, 0.0), 0.5 * gain * gain / limit
+        return (none, none if limit == inf else gain / limit, none), none if limit == inf else gain * gain / 2 / limit
     if order > _AT_REST:
         if gain < limit * (limit / jerk):
-            ramp = sqrt(gain / jerk)
-            return (ramp, 0.0, ramp), gain * ramp
+            ramp = root(gain / jerk)
+            return (ramp, none, ramp), gain * ramp
         ramp, total = limit / jerk, gain / limit + limit / jerk
-        return (ramp, max(total - 2.0 * ramp, 0.0), ramp), 0.5 * gain * total
+        return (ramp, max(total - 2 * ramp, none), ramp), gain * total / 2
     # the acceleration may begin with its greatest value
-    if 2.0 * gain < limit * (limit / jerk):
-        ramp = sqrt(2.0 * gain / jerk)
-        return (0.0, 0.0, ramp), jerk * ramp * ramp * ramp / 3.0
-    ramp, steady = limit / jerk, gain / limit - 0.5 * limit / jerk
-    return (0.0, steady, ramp), limit * (0.5 * steady * steady + steady * ramp + ramp * ramp / 3.0)
+    if 2 * gain < limit * (limit / jerk):
+        ramp = root(2 * gain / jerk)
+        return (none, none, ramp), jerk * ramp * ramp * ramp / 3
+    ramp, steady = limit / jerk, gain / limit - limit / jerk / 2
+    return (none, steady, ramp), limit * (steady * steady / 2 + steady * ramp + ramp * ramp / 3)
 
 
 #: the names of the limits
-RESIDUAL = "residual acceleration"
-RESIDUAL_DISPLACEMENT = "residual displacement"
-RESIDUALS = (RESIDUAL, RESIDUAL_DISPLACEMENT)
+RESIDUALS = RESIDUAL, RESIDUAL_DISPLACEMENT = "residual acceleration", "residual displacement"
 
 
 @declared

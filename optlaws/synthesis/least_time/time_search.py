@@ -36,16 +36,7 @@ _UNBOUNDED = (
 def law_in_time(move: Timed, duration: float, warm: ActiveSet | None, shortest: float | None = None) -> Solution:
     """The law whose greatest share of the limits in a time is least, begun from the contacts of a time near by.
 
-    With a shortest time the limits are those of all times between.
-
-    Raises
-    ------
-    InfeasibleProblem
-        If no law keeps the problem's own windows and bounds.
-    InputError
-        If every time satisfies the limits.
-    SolverFailure
-        If the search fails.
+    With a shortest time the limits are those of all times between. It raises what `least_time` does.
     """
     problem = move.shares(duration, shortest=shortest)
     search = LawSearch(model_of(problem), warm=warm)
@@ -67,8 +58,7 @@ def law_in_time(move: Timed, duration: float, warm: ActiveSet | None, shortest: 
     return solution
 
 
-def unsettled(move: Timed, duration: float) -> SolverFailure:
-    """The error of a search that ends without a time."""
+def _unsettled(move: Timed, duration: float) -> SolverFailure:
     return SolverFailure(
         f"the steps of the time did not settle, the last at {duration:.9g} s; another degree or order helps",
         problem=move.problem,
@@ -113,13 +103,7 @@ class _Trials:
         return log(self.solution(exp(logarithm)).objective)
 
     def root(self, logarithm: float, low: float = -inf, high: float = inf) -> float:
-        """The least time tried in which a law keeps the limits, by secants from a time, between two if these are known.
-
-        Raises
-        ------
-        SolverFailure
-            If there is none far and wide.
-        """
+        """The least time tried in which a law keeps the limits, by secants from a time, perhaps between two others."""
         begin, before = logarithm, None
         for _ in range(_STEPS):
             excess = self.excess(logarithm)
@@ -133,7 +117,7 @@ class _Trials:
             logarithm = following
             if abs(logarithm - begin) > _WIDEST:
                 break
-        raise unsettled(self.move, exp(logarithm))
+        raise _unsettled(self.move, exp(logarithm))
 
     def _slope(self, logarithm: float) -> float:
         """The exponent with which the greatest share of a law falls with the time, by that law alone."""
@@ -177,7 +161,7 @@ def _of_vibration(move: TimedT, without: LeastTime[Timed]) -> LeastTime[TimedT]:
     while trials.excess(high) > log(1.0 + FEASIBILITY):
         low, high = high, high + _UPWARD
         if high - least > _WIDEST:
-            raise unsettled(move, exp(high))
+            raise _unsettled(move, exp(high))
     duration = trials.root(high, low) if low < high else exp(high)
     if proofs and low < high and move.stays_possible and move.shares(duration).convex:
         duration = _exclude(trials, proofs, duration)
@@ -269,7 +253,7 @@ def _from_either_side(move: TimedT, near: LeastTime[TimedT] | None) -> tuple[flo
         # where the multipliers say no more, the law says how long it takes
         duration = proven if proves_more and abs(gap) > LEAST_TIME_MET else duration * solution.objective
     if isinstance(move, TimedMove):
-        raise unsettled(move, duration)
+        raise _unsettled(move, duration)
     # of a span of a cycle, which is not stored: the fastest of the laws, and no proof
     needed = [
         (time * max(limit.at(time).share(each.law) ** (1.0 / limit.nu) for limit in move.rates), each)
@@ -307,4 +291,4 @@ def _from_below(move: Timed) -> tuple[float, Solution, _Known]:
                 break
             later = duration * solution.objective
         duration = later
-    raise unsettled(move, duration)
+    raise _unsettled(move, duration)

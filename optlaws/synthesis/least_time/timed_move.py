@@ -3,18 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from math import comb, factorial, inf, nextafter
 from typing import Any, TypeVar
 
 from optlaws.echo import shortened
 from optlaws.entries.declared import Declared, ValueOf, declared, entry
-from optlaws.entries.value_types import Choice, Number
+from optlaws.entries.value_types import Choice, Number, ReadBy
 from optlaws.errors import InputError
 from optlaws.formulas.reading import read
 from optlaws.formulas.slopes import constant
 from optlaws.kept import kept_property
-from optlaws.numbers import finite, positive
 from optlaws.numerics.roots import bisect
 from optlaws.synthesis.functionals.makers import integral, peak, rms
 from optlaws.synthesis.least_time.motor_torque import MotorTorque
@@ -33,7 +32,9 @@ from optlaws.synthesis.problem.constants import B, C, C_minus, C_plus, Functiona
 from optlaws.synthesis.problem.expression import Expression, maximum
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.problem.ranges import Range, at_most
+from optlaws.synthesis.proof.data import problem_of
 from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
+from optlaws.tolerances import MIRROR
 
 _EXAMPLE = "{'velocity': 1.0, 'acceleration': 12.0}"
 _HIGHEST = 4
@@ -65,16 +66,6 @@ class Timed:
     @property
     def limit(self) -> float | None:
         """The time that no law of any degree is faster than; None where it is not known."""
-        return None
-
-    @property
-    def segments(self) -> LimitSegments | None:
-        """The motion that no law of any degree is faster than; None where none is known."""
-        return None
-
-    @property
-    def torque(self) -> MotorTorque | None:
-        """At the motor, with its limits; None without one, or where they are among those along the motion."""
         return None
 
     @property
@@ -186,26 +177,13 @@ class Timed:
         return self.problem.boundary
 
 
-@dataclass(frozen=True)
-class TimedMove(Timed):
-    """A move of which the time is sought: the space of its laws, its stroke, its limits and its motion at the ends.
+def _space(value: Any) -> Problem:
+    return value if isinstance(value, Problem) else problem_of(value)
 
-    Attributes
-    ----------
-    problem
-        Order, basis, windows and shape of the laws; it bounds none of the limited constants.
-    stroke
-        How far, in units of which the limits are.
-    limits
-        What the move must keep.
-    start_velocity, end_velocity
-        Velocities at the ends, in units of the stroke a second.
-    end_acceleration, end_jerk
-        Of a move that begins at rest, at its end; the order is 3 or 4 at least for them.
-    torque
-        At the motor, with its limits; only for laws from rest to rest that never turn back. None without a motor.
-    residual
-        The vibration that is left in a follower, with its limit; only from rest to rest. None without a follower.
+
+@declared
+class TimedMove(Timed, Declared, title="a move"):
+    """A move of which the time is sought: the space of its laws, its stroke, its limits and its motion at the ends.
 
     Raises
     ------
@@ -213,22 +191,37 @@ class TimedMove(Timed):
         If the problem has limits, an objective or ends of its own or is not convex, or a number is out of range.
     """
 
-    problem: Problem
-    stroke: float
-    limits: MoveLimits
-    start_velocity: float = 0.0
-    end_velocity: float = 0.0
-    torque: MotorTorque | None = None
-    residual: FollowerResidual | None = None
-    end_acceleration: float = 0.0
-    end_jerk: float = 0.0
+    writes_defaults = True
+    newer = ("torque", "residual", "end_acceleration", "end_jerk")
 
-    def __post_init__(self) -> None:
+    problem: Problem = entry(
+        ReadBy(_space, "a `Problem`", Problem.to_dict),
+        "Order, basis, windows and shape of the laws; it bounds none of the limited constants.",
+        name="space",
+    )
+    stroke: float = entry(Number(above=0.0), "How far, in units of which the limits are.")
+    limits: MoveLimits = entry(ValueOf(MoveLimits), "What the move must keep.")
+    start_velocity: float = entry(Number(), "In units of the stroke a second.", default=0.0)
+    end_velocity: float = entry(Number(), "In these units.", default=0.0)
+    torque: MotorTorque | None = entry(
+        ValueOf(MotorTorque),
+        "At the motor, with its limits; only for laws from rest to rest that never turn back.",
+        default=None,
+    )
+    residual: FollowerResidual | None = entry(
+        ValueOf(FollowerResidual),
+        "The vibration that is left in a follower, with its limit; only from rest to rest.",
+        default=None,
+    )
+    end_acceleration: float = entry(
+        Number(), "Of a move that begins at rest, at its end; the order is 3 at least.", default=0.0
+    )
+    end_jerk: float = entry(Number(), "As the acceleration; the order is 4 at least.", default=0.0)
+
+    def _check(self) -> None:
         if not self.limits.to_dict() and self.torque is None:
             raise InputError(f"limits must name one at least, as in {_EXAMPLE}")
-        object.__setattr__(self, "stroke", positive(self.stroke, "stroke"))
         for name in ("start_velocity", "end_velocity"):
-            object.__setattr__(self, name, finite(getattr(self, name), name))
             most = self.limits.velocity
             if most is not None and abs(getattr(self, name)) > most:
                 raise InputError(f"{name} is beyond the limit of the velocity: no move keeps it, however long it takes")
@@ -248,12 +241,10 @@ class TimedMove(Timed):
             )
 
     def _check_end(self) -> None:
-        """Refuse an acceleration and a jerk at the end that the start, the order or a limit does not allow."""
         limits = self.limits
         sides = limits.deceleration if self.end_acceleration < 0.0 else limits.acceleration
         for name, least, most in (("end_acceleration", 3, sides), ("end_jerk", 4, limits.jerk)):
-            value = finite(getattr(self, name), name)
-            object.__setattr__(self, name, value)
+            value = getattr(self, name)
             if value and self.start_velocity:
                 raise InputError(f"{name} is that of a move which begins at rest: give no start_velocity")
             if value and self.problem.order < least:
@@ -272,6 +263,14 @@ class TimedMove(Timed):
             return None
         ends = self.start_velocity, self.end_velocity
         return segment_times(self.stroke, self.limits, self.problem.order, ends, forward=self.problem.monotone)
+
+    @property
+    def limit_breaks(self) -> tuple[float, ...]:
+        """Breaks of pieces of degree 3 that reach the limit, 1/2 among them; empty where no segments are known."""
+        segments = self.segments
+        if segments is None or not segments.are_reached or self.torque is not None:
+            return ()
+        return tuple(sorted([0.5, *(k for k in segments.breaks if abs(k - 0.5) > MIRROR)]))
 
     @kept_property
     def limit(self) -> float | None:
@@ -329,7 +328,7 @@ class TimedMove(Timed):
         return (*self.without_residual.limits_in(longest), *((left,) if left.bound < inf else ()))
 
     def _sizes_in(self, duration: float) -> tuple[float, float]:
-        """A priori bounds of laws within the limits in a time: the integrals of |k - 1/2| |b| and of |k - 1/2| |c|."""
+        # a priori bounds of laws within the limits: the integrals of |k - 1/2| |b| and of |k - 1/2| |c|
         most = {limit.constant: limit.bound for limit in self.without_residual.limits_in(duration)}
         smooth = getattr(self.problem.basis, "continuity", 2) >= 2
         velocity, jerk = 0.25 * most.get(B, inf), most.get(J, inf) if smooth else inf
@@ -380,10 +379,8 @@ class TimedMove(Timed):
         return bisect(too_short, 0.0 if start else nextafter(high, 0.0), high)[1]
 
 
-def _checked(problem: Any, *, even: bool) -> Problem:
-    """The problem that gives the space of laws; where limits or ends differ, its laws need not be symmetric."""
-    if not isinstance(problem, Problem):
-        raise InputError(f"the least time is sought of a Problem, got {type(problem).__name__}")
+def _checked(problem: Problem, *, even: bool) -> Problem:
+    # where limits or ends differ, its laws need not be symmetric
     given = [name for name in ("B", "C", "D", "J") if getattr(problem, name) is not None]
     given += [constant.name for constant in problem.bounds if constant in {C_plus, C_minus, snap}]
     if given:

@@ -9,9 +9,11 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from fractions import Fraction
+from functools import partial
 from math import inf, isqrt
 from typing import NamedTuple
 
+from optlaws.synthesis.least_time.move_limits import phase
 from optlaws.synthesis.least_time.timed_move import TimedMove
 
 _BITS = 128
@@ -49,7 +51,7 @@ def least_time_of_any_law(move: TimedMove) -> Fraction | None:
         ends = (Fraction(move.start_velocity), Fraction(move.end_velocity))
         known.append(_by_segments(stroke, ends, _Sides(up, down, jerk), velocity, order))
     if move.at_rest and order >= _SMOOTH and isinstance(snap, Fraction):
-        known.append(_root(_root(_SNAP * stroke / snap)[0])[0])
+        known.append(_root(_root(_SNAP * stroke / snap)))
     return max(known, default=None)
 
 
@@ -99,26 +101,13 @@ def _below_crossing(covered: Callable[[Fraction], Fraction], stroke: Fraction) -
 
 def _phase(gain: Fraction, limit: Limit, jerk: Limit, order: int) -> tuple[Bounds, Bounds]:
     """The time of the fastest gain of a velocity from a standstill, and what it covers."""
-    if not isinstance(jerk, Fraction):
-        time = gain / limit if isinstance(limit, Fraction) else Fraction(0)
-        return (time, time), (gain * time / 2, gain * time / 2)
-    jumps = order == _AT_REST
-    if (2 if jumps else 1) * gain * jerk < limit * limit:
-        ramps = _root((2 if jumps else 1) * gain / jerk)
-        times = ramps if jumps else (2 * ramps[0], 2 * ramps[1])
-        return times, tuple(jerk * ramp**3 / 3 if jumps else gain * ramp for ramp in ramps)  # type: ignore[return-value]
-    assert isinstance(limit, Fraction)  # noqa: S101 - as it is below what jerks reach
-    ramp = limit / jerk
-    if not jumps:
-        time = gain / limit + ramp
-        return (time, time), (gain * time / 2, gain * time / 2)
-    steady = gain / limit - ramp / 2
-    far = limit * (steady * steady / 2 + steady * ramp + ramp * ramp / 3)
-    return (steady + ramp, steady + ramp), (far, far)
+    known = (phase(gain, limit, jerk, order, partial(_root, above=above)) for above in (0, 1))
+    (fewest, near), (most, far) = known
+    return (sum(fewest, Fraction(0)), sum(most, Fraction(0))), (near, far)
 
 
-def _root(square: Fraction) -> Bounds:
-    """Fractions below and above a root, which differ in the last of many bits."""
+def _root(square: Fraction, above: int = 0) -> Fraction:
+    """A fraction below a root, or above it, which differs in the last of many bits."""
     shift = max(0, _BITS + square.denominator.bit_length() - square.numerator.bit_length())
     whole = isqrt((square.numerator << 2 * shift) // square.denominator)
-    return Fraction(whole, 1 << shift), Fraction(whole + 1, 1 << shift)
+    return Fraction(whole + above, 1 << shift)

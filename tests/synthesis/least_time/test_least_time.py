@@ -323,7 +323,7 @@ def test_pieces_with_the_breaks_of_the_limit_reach_it(seed: int) -> None:
     assert found.limit is not None
     assert found.price is not None
     assert found.price > -1e-9
-    space = replace(move.problem, basis=Pieces(found.limit_breaks, **CUBIC))
+    space = replace(move.problem, basis=Pieces(move.limit_breaks, **CUBIC))
     assert least_time(replace(move, problem=space)).duration == pytest.approx(found.limit, rel=1e-9)
 
 
