@@ -15,7 +15,8 @@ from optlaws.cycles.moves.timed_moves import move_limits
 from optlaws.cycles.optimisation.objectives import CycleObjective
 from optlaws.cycles.optimisation.optimal import solved, span_problem
 from optlaws.cycles.specification.limits import along_motion, of_segments
-from optlaws.cycles.specification.programme import REST, LawSpan, Programme, State, TimedSegment, time_of
+from optlaws.cycles.specification.periods import extent
+from optlaws.cycles.specification.programme import REST, LawSpan, Programme, State, TimedSegment
 from optlaws.cycles.specification.segments import Move, Transition
 from optlaws.entries.declared import Declared, ValueOf, declared, entry
 from optlaws.entries.value_types import Choice, Number, ReadBy, Together
@@ -241,7 +242,7 @@ def transition_cam(
 ) -> TransitionCam:
     """The cam from rest into a cycle, or out of it to rest, in a given time or the least within its limits."""
     period, axis = programme.period, programme.axis
-    at = time_of(given.at, period, "at")
+    at = extent(given.at, "at").at(period)
     if not 0.0 <= at <= period:
         raise InputError(f"at must be within the cycle, from 0 to 360 deg, got {given.at!r}")
     state = _state(kind, programme, pieces, at)
@@ -263,7 +264,7 @@ def transition_cam(
     stretch = partial(TimedSegment, 1, Move(name=kind), displacement=moved if kind == "run-in" else -moved)
     cam = partial(TransitionCam, kind, axis, period, at, rest, state)
     if given.over is not None:
-        duration = time_of(given.over, period, "over")
+        duration = extent(given.over, "over").at(period)
         if moved == 0.0 and velocity == 0.0:
             raise InputError(f"the cycle is in the place of rest at {shown}, and rests: it needs no {kind}")
         last, timed = State(velocity, acceleration), stretch(duration, duration)

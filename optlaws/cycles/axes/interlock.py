@@ -14,7 +14,7 @@ import numpy as np
 from optlaws.cycles.axes.enclosed import EnclosedAxis, PositionBound, SimplePolygon, Way, least
 from optlaws.cycles.cycle import Cycle
 from optlaws.cycles.specification.limits import AXES
-from optlaws.cycles.specification.programme import time_of
+from optlaws.cycles.specification.periods import extent
 from optlaws.cycles.specification.segments import Dwell, Move
 from optlaws.echo import shortened, unknown_key
 from optlaws.entries.declared import Kinded, ValueOf, declared, entry
@@ -535,7 +535,7 @@ class Synchronous(Interlock, kind="synchronous", title="a synchronous motion"):
 
     def window(self, period: float) -> tuple[float, float]:
         """Begin and end of the window, in seconds."""
-        start, stop = (time_of(place, period, f"interlock {self.label}: during") for place in self.during)
+        start, stop = (extent(place, f"interlock {self.label}: during").at(period) for place in self.during)
         if not 0.0 <= start < stop <= period:
             raise InputError(f"interlock {self.label}: during is two places of one cycle, the earlier one first")
         return start, stop

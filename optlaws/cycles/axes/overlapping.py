@@ -24,10 +24,10 @@ from optlaws.cycles.axes.enclosed import SimplePolygon
 from optlaws.cycles.axes.interlock import After, Clearance, Forbidden, Interlock
 from optlaws.cycles.cycle import Cycle
 from optlaws.cycles.greatest_speed.fastest_search import FastestSearch
-from optlaws.cycles.greatest_speed.periods import Extent, extent
 from optlaws.cycles.greatest_speed.timed_spans import slower
 from optlaws.cycles.optimisation.optimal import solve
 from optlaws.cycles.specification.limits import word_of
+from optlaws.cycles.specification.periods import Extent, extent
 from optlaws.cycles.specification.programme import TimedSegment, is_optimal
 from optlaws.cycles.specification.segments import Dwell, Move
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure, located

@@ -18,7 +18,6 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from math import inf, isfinite, log, sqrt
 
-from optlaws.cycles.greatest_speed.periods import DurationRange, duration_ranges, durations_at, least_period
 from optlaws.cycles.greatest_speed.timed_spans import (
     TimedSpan,
     falling_root,
@@ -29,7 +28,7 @@ from optlaws.cycles.greatest_speed.timed_spans import (
 )
 from optlaws.cycles.optimisation.objectives import CycleObjective
 from optlaws.cycles.optimisation.optimal import forward_windows, joint_windows, solve, span_problem, unlimited
-from optlaws.cycles.optimisation.span_values import span_bound
+from optlaws.cycles.optimisation.span_values import known_drive, span_bound
 from optlaws.cycles.specification.limits import (
     FORCES,
     Sides,
@@ -38,6 +37,7 @@ from optlaws.cycles.specification.limits import (
     raised,
     word_of,
 )
+from optlaws.cycles.specification.periods import DurationRange, duration_ranges, durations_at, least_period
 from optlaws.cycles.specification.programme import LawSpan, Layout, Programme, State, TimedSegment, layout
 from optlaws.cycles.specification.segments import Dwell
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
@@ -136,7 +136,7 @@ class FastestSearch:
         return max(turned, least_period(self.ranges, self._alone(scales))), turned
 
     def _alone(self, scales: Sequence[float]) -> tuple[float, ...]:
-        """The least duration of each segment in seconds, by its own limits; 0 without any."""
+        # the least duration of each segment in seconds, by its own limits; 0 without any
         timed = zip(self.spans, scales, strict=True)
         alone = {span.places[0]: span.duration * scale for span, scale in timed if len(span.places) == 1}
         return tuple(alone.get(i, 0.0) for i in range(len(self.ranges)))
@@ -258,7 +258,6 @@ class FastestSearch:
         return replace(placed, spans=tuple(map(_at_rest, placed.spans)))
 
     def _of_piece(self, piece: Piece) -> TimedSpan:
-        """A motion by a law that is given, or of constant velocity."""
         i = next(
             i
             for i, start in enumerate(self._layout.starts)
@@ -285,7 +284,6 @@ class FastestSearch:
         return timed
 
     def _check_way(self, stretch: TimedSegment, piece: Piece) -> None:
-        """Refuse a given law that goes back where its velocity must not."""
         (low, _), (high, _) = piece.extremes(1, piece.start, piece.stop)
         for key in stretch.sides(self.objective.limits):
             back = high if key.sign > 0.0 else -low
@@ -303,7 +301,6 @@ class FastestSearch:
         return tuple(limits_of_span(span, limits, self.objective))
 
     def _base(self, span: LawSpan) -> Problem:
-        """The problem of a span without its limits."""
         limited = span_problem(slower(span, _SLOW), self.objective)
         several = span.turns or len(span.stretches) > 1 or span.via
         windows = (
@@ -320,7 +317,6 @@ class FastestSearch:
         return all(self.ranges[i].fixed and not self.ranges[i].turns for i in span.places)
 
     def _check(self, span: TimedSpan) -> None:
-        """Refuse motions with moving ends in cycles whose segments are not all angles, and motions without a time."""
         if self.turning:
             return
         if len(span.places) > 1 and not self._turns(span):
@@ -338,7 +334,7 @@ class FastestSearch:
 
 
 def _at_rest(span: LawSpan) -> LawSpan:
-    """The span with end states of exact rest where they differ from rest by rounding only: proofs assume rest."""
+    # end states that differ from rest by rounding only are exact rest: proofs assume it
     way = abs(span.stroke) * SAME_TIME
     first, last = (
         State(*(0.0 if abs(value) <= factor(way, span.duration, nu) else value for nu, value in enumerate(state, 1)))
@@ -353,11 +349,9 @@ class ForceRating:
 
     search: FastestSearch
 
-    @kept_property
+    @property
     def drive(self) -> Drive:
-        if self.search.objective.drive is None:
-            raise InputError("limits: an rms force or torque is of a drive: give one, such as drive={'mass': '2 kg'}")
-        return self.search.objective.drive
+        return known_drive(self.search.objective.drive)
 
     @property
     def name(self) -> str:
@@ -422,6 +416,5 @@ class ForceRating:
         return replace(objective, minimise="rms force", limits=limits)
 
     def _over(self, period: float) -> float:
-        """The logarithm of the ratio of the root mean square to its limit."""
         pieces = [*self.search.placed(period).pieces, *self.laws(period)]
         return log(sqrt(self.square(pieces) / period) / self.most)

@@ -208,15 +208,7 @@ def slower(span: LawSpan, scale: float) -> LawSpan:
 
 
 def limits_of_span(span: LawSpan, limits: Sequence[Sides], objective: CycleObjective) -> list[SpanLimit]:
-    """The limits of a span, from the limits of each of its segments.
-
-    Raises
-    ------
-    InputError
-        If segments that are one law have several limits of a drive, or there is no drive.
-    InfeasibleProblem
-        If the static force is beyond a limit, so that no speed keeps it.
-    """
+    """The limits of a span, from the limits of each of its segments."""
     parts = list[tuple[tuple[float, float], Sides]]()
     for given, of_part in groupby(zip(limits, span.timed, strict=True), key=itemgetter(0)):
         times = [time for _, (_, *ends) in of_part for time in ends]
@@ -233,27 +225,23 @@ def limits_of_span(span: LawSpan, limits: Sequence[Sides], objective: CycleObjec
                 raise InputError(f"{span.where} are one law: give the force or power of all of them the same limit")
             rows += _of_drive(key, first, span, known_drive(objective.drive), objective.axis)
             continue
-        known = limited_value(span, objective.drive, key)
-        of_law = [] if alike else [(_of_part(key, span, ends), most) for ends, most in limited]
+        known, nu = limited_value(span, objective.drive, key), key.kind.order
+        side: PeakSide = "both" if not key.sign else "high" if key.sign * span.stroke > 0.0 else "low"
+        # those of the snap are of whole spans
+        of_law = [
+            (peak("abcj"[nu], side=side, start=start, stop=stop), most)
+            for (start, stop), most in ([] if alike else limited)
+        ]
         if everywhere:
             # beside those of parts it says nothing new, but bounds laws as wholes, without which nothing is proven
             of_law.append((known.constants[0], max(most for _, most in limited)))
-        nu = key.kind.order
         rows += [
             derivative_limit(name_of(key, objective.axis), most, of, nu, most / known.unit, key) for of, most in of_law
         ]
     return rows
 
 
-def _of_part(key: Side, span: LawSpan, ends: tuple[float, float]) -> Functional:
-    if not 1 <= key.kind.order <= 3:
-        raise AssertionError  # those of the snap and of forces are of whole spans
-    side: PeakSide = "both" if not key.sign else "high" if key.sign * span.stroke > 0.0 else "low"
-    return peak("abcj"[key.kind.order], side=side, start=ends[0], stop=ends[1])
-
-
 def _of_drive(key: Side, most: float, span: LawSpan, drive: Drive, axis: str) -> list[SpanLimit]:
-    """A drive limit along a span, as one limit for each constant that it involves."""
     if key.kind in {Kind.FORCE, Kind.CURVE}:
         position, force = static_force(span, drive)
         allowed_at_rest = most * (torque_at_rest(drive) if key.kind is Kind.CURVE else 1.0)

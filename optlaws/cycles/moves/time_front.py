@@ -28,7 +28,7 @@ from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.motion.piece import unit_of
 from optlaws.motion.quantities import Exact, Kind, quantity
 from optlaws.numbers import NumberOrQuantity, Quantity, bounded, listed, positive, real
-from optlaws.synthesis.least_time.move_limits import RESIDUAL, RESIDUALS, power
+from optlaws.synthesis.least_time.move_limits import RESIDUAL, RESIDUALS, TimedLimit, power
 from optlaws.synthesis.least_time.timed_move import AT_MOTOR, OBJECTIVES, MoveObjective, TimedMove
 from optlaws.synthesis.problem.constants import meant
 from optlaws.synthesis.problem.problem import Problem
@@ -169,10 +169,10 @@ class TimeFront(JsonText):
         InputError
             If the time is beyond the ends, or between points where nothing is known.
         """
-        given = real(duration)
-        time = quantity(duration, "time", "duration", above=0.0) if given is None else given
-        if not self.durations[0] <= time <= self.durations[-1]:
-            first, last = self.durations[0], self.durations[-1]
+        time = real(duration)
+        time = quantity(duration, "time", "duration", above=0.0) if time is None else time
+        first, last = self.durations[0], self.durations[-1]
+        if not first <= time <= last:
             raise InputError(f"the front goes from {first:.9g} s to {last:.9g} s, got {shortened(duration)}")
         i = bisect_right(self.durations, time) - 1
         before = self[i]
@@ -190,15 +190,16 @@ class TimeFront(JsonText):
     @kept_property
     def points(self) -> tuple[TimePoint, ...]:
         """The points, their values recomputed from the laws."""
-        known, unit = zip(self.durations, self.solutions, strict=True), self.objective.in_time
         return tuple(
-            self._point(time, each.law, each.lower_bound / unit(time, self.fastest.stroke).bound)
-            for time, each in known
+            self._point(time, each.law, each.lower_bound / self._unit(time).bound)
+            for time, each in zip(self.durations, self.solutions, strict=True)
         )
 
+    def _unit(self, duration: float) -> TimedLimit:
+        return self.objective.in_time(duration, self.fastest.stroke)
+
     def _point(self, duration: float, law: MotionLaw, bound: float) -> TimePoint:
-        """The point of a law, with its bound in SI units."""
-        least = self.objective.in_time(duration, self.fastest.stroke)
+        least = self._unit(duration)
         value = least.share(law)
         gap = (value - bound) / measure(value, least.constant.scale / least.bound)
         return TimePoint(duration, law, value, bound, gap)
@@ -247,15 +248,9 @@ class TimeFront(JsonText):
 
     def to_dict(self) -> dict[str, Any]:
         """Plain JSON-able dict in SI units: laws and proofs in one, which `optlaws verify` checks."""
-        points = [
-            {
-                "duration": point.duration,
-                "value": point.value,
-                "lower_bound": bounded(point.lower_bound),
-                "solution": solution.to_dict(),
-            }
-            for point, solution in zip(self, self.solutions, strict=True)
-        ]
+        rows = [(point.duration, point.value, bounded(point.lower_bound)) for point in self]
+        solutions = [solution.to_dict() for solution in self.solutions]
+        points = [dict(zip(_POINT_KEYS, (*row, each), strict=True)) for row, each in zip(rows, solutions, strict=True)]
         return {"minimise": self.objective.to_dict(), "fastest": self.fastest.to_dict(), "points": points}
 
     @classmethod
@@ -281,10 +276,9 @@ class TimeFront(JsonText):
             solutions,
         )
         for i, (row, point) in enumerate(zip(rows, front, strict=True)):
-            least = front.objective.in_time(point.duration, front.fastest.stroke)
+            least = front._unit(point.duration)
             size = max(abs(point.value), least.constant.scale / least.bound)
-            for name in ("value", "lower_bound"):
-                known = getattr(point, name)
+            for name, known in (("value", point.value), ("lower_bound", point.lower_bound)):
                 stated = -inf if row[name] is None and name == "lower_bound" else real(row[name])
                 if stated is None or (stated != known and abs(stated - known) > STORED_VALUE * size):
                     raise InputError(f"points[{i}]: {name} is {shortened(row[name])}, but its law gives {known!r}")
@@ -379,7 +373,17 @@ def time_front(
     if not last > least * (1.0 + LEAST_TIME_GAP):
         raise InputError(f"longest must be above the least time, {move.duration:.9g} s, got {shortened(longest)}")
     durations = tuple(np.geomspace(least, last, _POINTS.read(points, "points")).tolist())
-    return TimeFront(move, objective, durations, tuple(_least_in(move, objective, time) for time in durations))
+    solutions = list[Solution]()
+    for time in durations:
+        try:
+            with meant():
+                solutions.append(synthesize(objective.problem(move.least.move, time)))
+        except (InfeasibleProblem, SolverFailure) as error:
+            raise SolverFailure(
+                f"no law of the least {objective.name} was found in {time:.9g} s: {error.args[0]}",
+                problem=move.least.move.problem,
+            ) from None
+    return TimeFront(move, objective, durations, tuple(solutions))
 
 
 def front_of_cycle(cycle: Any, minimise: str, *, follower: Any, **options: Any) -> TimeFront:
@@ -409,22 +413,9 @@ def front_of_cycle(cycle: Any, minimise: str, *, follower: Any, **options: Any) 
     return time_front(least, minimise, follower=follower if minimise in RESIDUALS else None, **at_motor, **options)
 
 
-def _least_in(move: FastestMove, objective: MoveObjective, duration: float) -> Solution:
-    """The law of the least objective in a time."""
-    try:
-        with meant():
-            return synthesize(objective.problem(move.least.move, duration))
-    except (InfeasibleProblem, SolverFailure) as error:
-        raise SolverFailure(
-            f"no law of the least {objective.name} was found in {duration:.9g} s: {error.args[0]}",
-            problem=move.least.move.problem,
-        ) from None
-
-
 def _objective(
     name: str, move: FastestMove, drive: Drive | None, start: NumberOrQuantity, follower: Mapping[str, Any] | None
 ) -> MoveObjective:
-    """The objective of a move; drive and follower default to the move's own."""
     if name not in OBJECTIVES:
         raise InputError(f"minimise: {unknown_key(name, OBJECTIVES, 'objective of a move')}")
     if drive is not None and name not in AT_MOTOR:
@@ -450,7 +441,6 @@ def _objective(
 
 
 def _at_motor(name: str, move: TimedMove, drive: Drive | None, start: NumberOrQuantity) -> MoveObjective:
-    """The torque or the energy at the motor of a move."""
     torque = move.torque if drive is None else motor_torque(drive, start, move.stroke, {Kind.RMS_FORCE: (-1.0, 1.0)})
     if torque is None or (drive is None and name == "energy"):
         raise InputError(f"minimise: the {name} is that of a motor: give its drive")

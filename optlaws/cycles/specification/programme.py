@@ -8,10 +8,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import accumulate
-from math import inf
 from typing import Any, NamedTuple
 
 from optlaws.cycles.specification.limits import AXES, Limits, Sides, read_limits, sides, tightest
+from optlaws.cycles.specification.periods import duration_range, extent
 from optlaws.cycles.specification.segments import (
     OPTIMAL,
     ConstantVelocity,
@@ -147,12 +147,6 @@ def programme(segments: Sequence[CycleSegment], period: float, start: Any, advan
     return Programme(period, axis, tuple(stretches), first)
 
 
-def time_of(value: Any, period: float, name: str) -> float:
-    """A time, or an angle of the master as a time."""
-    kind, number = either(value, ("angle", "time"), name)
-    return number / TURN * period if kind == "angle" else number
-
-
 def _durations(segments: Sequence[CycleSegment], names: Sequence[str], period: float) -> list[tuple[float, float]]:
     bounds = [_bounds(segment, period, f"{name}: duration") for segment, name in zip(segments, names, strict=True)]
     low, high = (sum(side) for side in zip(*bounds, strict=True))
@@ -180,12 +174,7 @@ def _durations(segments: Sequence[CycleSegment], names: Sequence[str], period: f
 
 
 def _bounds(segment: CycleSegment, period: float, name: str) -> tuple[float, float]:
-    if segment.duration is None:
-        return 0.0, inf
-    if isinstance(segment.duration, list | tuple):
-        least, most = (time_of(value, period, name) for value in segment.duration)
-    else:
-        least = most = time_of(segment.duration, period, name)
+    least, most = (end.at(period) for end in duration_range(segment.duration, name))
     if not 0.0 < least <= most and not (least == 0.0 < most):
         raise InputError(f"{name} must be above 0, the least first, got {shortened(segment.duration)}")
     if most <= SAME_TIME * period:
@@ -448,7 +437,7 @@ class _Placed:
         stretch, (start, stop) = self.programme.stretches[j], self.starts[j : j + 2]
         for i, point in enumerate(stretch.given.via if isinstance(stretch.given, Free) else (), 1):
             name = f"{stretch.where}: via {i}"
-            place = start + time_of(point[0], self.programme.period, f"{name}, when")
+            place = start + extent(point[0], f"{name}, when").at(self.programme.period)
             if not start < place < stop:
                 raise InputError(
                     f"{name} must be within the segment, which takes {stop - start:.9g} s, got {shortened(point[0])}"

@@ -1,4 +1,4 @@
-"""The least period of a cycle from the least times of its motions: angles, fixed times and free durations."""
+"""When, in a cycle: angles of the master, times and free durations, and the least period that they leave."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from optlaws.tolerances import SAME_TIME
 
 
 class Extent(NamedTuple):
-    """A duration, or a bound of a duration: a share of the period and a time in seconds, one of which is 0."""
+    """A duration or an instant, or a bound of one: a share of the period and a time in seconds, one of which is 0."""
 
     share: float
     time: float
@@ -48,7 +48,7 @@ def duration_ranges(segments: Sequence[CycleSegment]) -> tuple[DurationRange, ..
     >>> [given.least.share for given in duration_ranges([Rise("35 mm", "90 deg"), Dwell("180 deg"), Return()])]
     [0.25, 0.5, 0.25]
     """
-    ranges = [_range(segment.duration) for segment in segments]
+    ranges = [duration_range(segment.duration) for segment in segments]
     free = [i for i, given in enumerate(ranges) if not given.fixed]
     if len(free) == 1 and all(given.turns for i, given in enumerate(ranges) if i != free[0]):
         left = Extent(1.0 - sum(given.least.share for i, given in enumerate(ranges) if i != free[0]), 0.0)
@@ -56,17 +56,17 @@ def duration_ranges(segments: Sequence[CycleSegment]) -> tuple[DurationRange, ..
     return tuple(ranges)
 
 
-def _range(duration: Any) -> DurationRange:
+def duration_range(duration: Any, name: str = "duration") -> DurationRange:
+    """The range of a duration as a person gives it: one, two between which it is free, or None."""
     if duration is None:
         return DurationRange(Extent(0.0, 0.0), Extent(inf, 0.0))
-    ends = duration if isinstance(duration, list | tuple) else (duration, duration)
-    least, most = (extent(end) for end in ends)
-    return DurationRange(least, most)
+    least, most = duration if isinstance(duration, list | tuple) else (duration, duration)
+    return DurationRange(extent(least, name), extent(most, name))
 
 
-def extent(value: Any) -> Extent:
-    """A duration, or a bound of one, as a person gives it."""
-    kind, number = either(value, ("angle", "time"), "duration")
+def extent(value: Any, name: str = "duration") -> Extent:
+    """A duration or an instant as a person gives it, an angle of the master or a time; errors call it `name`."""
+    kind, number = either(value, ("angle", "time"), name)
     return Extent(number / TURN, 0.0) if kind == "angle" else Extent(0.0, number)
 
 
