@@ -5,7 +5,8 @@ It needs python-flint (``pip install "optlaws[verify]"``), which is imported at 
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from fractions import Fraction
 from importlib.util import find_spec
 from pathlib import Path
@@ -47,10 +48,9 @@ def verify(source: Mapping[str, Any] | Path | str) -> Verification:
     >>> verification.proven, round(verification.bound, 9), abs(verification.gap) < 1e-12
     (True, 4.647776025, True)
     """
-    _need_flint()
-    from optlaws.verification import claims
+    with _exact_numbers():
+        from optlaws.verification import claims
 
-    with _precision:
         return claims.verify(source)
 
 
@@ -72,10 +72,9 @@ def verify_all(source: Mapping[str, Any] | Path | str) -> dict[str, Verification
     >>> [(place, answer.proven) for place, answer in verification.items()]
     [('printed[0]', True)]
     """
-    _need_flint()
-    from optlaws.verification import claims
+    with _exact_numbers():
+        from optlaws.verification import claims
 
-    with _precision:
         return claims.verify_all(source)
 
 
@@ -96,10 +95,9 @@ def exact_bound(certificate: Certificate) -> Fraction | None:
     >>> abs(float(exact_bound(solution.certificate)) - solution.certificate.bound) < 1e-9
     True
     """
-    _need_flint()
-    from optlaws.verification.exact import bound
+    with _exact_numbers():
+        from optlaws.verification.exact import bound
 
-    with _precision:
         return bound.prove(certificate).value
 
 
@@ -119,16 +117,18 @@ def enclosures(law: MotionLaw) -> dict[str, tuple[float, float]]:
     >>> enclosures(smoothstep(2))["D"]
     (3.464101615137754, 3.464101615137755)
     """
-    _need_flint()
-    from optlaws.verification.exact.law import ExactLaw
+    with _exact_numbers():
+        from optlaws.verification.exact.law import ExactLaw
 
-    with _precision:
         return ExactLaw(law).enclosures()
 
 
-def _need_flint() -> None:
+@contextmanager
+def _exact_numbers() -> Iterator[None]:
     if find_spec("flint") is None:
         raise InputError('exact verification needs python-flint: pip install "optlaws[verify]"')
+    with _precision:
+        yield
 
 
 def __getattr__(name: str) -> Any:

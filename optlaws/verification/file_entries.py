@@ -7,7 +7,7 @@ entries. Any other entry is refused, because nothing would prove it.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from math import prod
 from typing import Any
 
@@ -19,7 +19,6 @@ from optlaws.numbers import finite, real
 from optlaws.synthesis.proof.certificate import Certificate
 from optlaws.synthesis.proof.data import problem_of
 from optlaws.synthesis.proof.no_law import ground_of
-from optlaws.synthesis.stored_rows import StatedSolution
 from optlaws.synthesis.stored_solutions import StatedSolutions
 from optlaws.tolerances import OPTIMALITY_GAP
 
@@ -53,7 +52,7 @@ _KINDS = (
     ("overlap", {"goal", "axes", "given"}),
     ("plan", {"cycle", "solutions"}),
     ("fastest cycle", {"given", "cycle", "proofs"}),
-    ("solution", {"problem", "law", "certificate"}),
+    ("solution", {"law", "certificate"}),
     ("law", {"law", "constants"}),
     ("certificate", {"problem", "contacts"}),
     ("certificate", {"problem", "steps"}),
@@ -62,14 +61,8 @@ _KINDS = (
 
 _ANY = ReadBy(lambda value: value, "anything")
 _TABLES = Listed(Table(_ANY))
-#: what entries and the tables around them may have by their kinds, with the types of what nothing else reads
+#: what stands around entries, by its kind and its keys, and the types of what nothing else reads
 _KNOWN: dict[str, dict[str, ValueType]] = {
-    "the solution": {
-        **dict.fromkeys((*StatedSolution.__struct_fields__, "value"), _ANY),
-        "status": Choice("optimal", "local", "inaccurate"),
-    },
-    "the law": dict.fromkeys(("law", "constants", "about"), _ANY),
-    "the time front": dict.fromkeys(("minimise", "fastest", "points", "about"), _ANY),
     "the row": {
         **dict.fromkeys(("solution", "asked", "proof"), _ANY),
         "status": Choice("optimal", "local", "inaccurate", "infeasible", *_NO_CLAIM),
@@ -89,26 +82,17 @@ _KNOWN: dict[str, dict[str, ValueType]] = {
     },
 }
 
-_NEEDED = {"the solution": ("problem", "law", "certificate"), "the front": ("over", "values", "points")}
-
 
 @dataclass(frozen=True)
-class Around:
-    """Statements of the objects around an entry."""
+class FileEntry:
+    """A solution, certificate, law or array, with what the objects around it state; without data, that alone."""
 
+    data: Data
     status: str | None = None  #: the status of its row
     problem: Any = None  #: the problem of its row, as plain data
     B: float | None = None  #: the peak velocity of its row
     values: Mapping[str, float] = field(default_factory=dict)  #: constants by name, in a front
-    above: float | None = None  #: what the entry's bound has to exceed, if its row is to have no law
-
-
-@dataclass(frozen=True)
-class FileEntry:
-    """A solution, certificate, law or array, with the entries around it; without data, the entries alone."""
-
-    data: Data
-    around: Around = Around()
+    above: float | None = None  #: what its bound has to exceed, if its row is to have no law
 
 
 def entries(data: Data) -> dict[str, FileEntry]:
@@ -120,7 +104,27 @@ def entries(data: Data) -> dict[str, FileEntry]:
     Traceback (most recent call last):
     optlaws.errors.InputError: ...rows[1].limit claims something without a certificate: 4.0
     """
-    return dict(_walk(data, "", Around()))
+    return dict(_walk(data, "", FileEntry({})))
+
+
+def _inside(data: object, path: str = "") -> Iterator[tuple[str, Any]]:
+    """The values of an object or a list, each with its place."""
+    if isinstance(data, Mapping):
+        yield from ((_place(path, name), value) for name, value in data.items())
+    elif isinstance(data, list):
+        yield from ((f"{path}[{i}]", value) for i, value in enumerate(data))
+
+
+def _place(path: str, name: str) -> str:
+    return f"{path}.{name}" if path else name
+
+
+def _objects(data: object, path: str = "") -> Iterator[tuple[str, Data]]:
+    """Every object, however deep, with its place."""
+    if isinstance(data, Mapping):
+        yield path, data
+    for place, value in _inside(data, path):
+        yield from _objects(value, place)
 
 
 def holds_proof(data: object) -> bool:
@@ -129,41 +133,32 @@ def holds_proof(data: object) -> bool:
     >>> holds_proof({"moves": [{"solution": {"certificate": {}}}]}), holds_proof({"moves": [{"limit": 4.0}]})
     (True, False)
     """
-    if isinstance(data, Mapping):
-        solved = is_entry(data) and not {"law", "constants"} <= data.keys()
-        return solved or bool(_OF_PROOFS & data.keys()) or any(map(holds_proof, data.values()))
-    return isinstance(data, list) and any(map(holds_proof, data))
+    return any(_OF_PROOFS & table.keys() or kind_of(table) not in {None, "array", "law"} for _, table in _objects(data))
 
 
-def laws_within(data: object, path: str = "") -> Iterator[tuple[str, Data]]:
+def laws_within(data: object) -> Iterator[tuple[str, Data]]:
     """Laws with their constants, however deep and whatever stands beside them, by place.
 
     >>> dict(laws_within({"cams": [{"law": {}, "constants": {}, "radius": 0.1}]}))
     {'cams[0]': {'law': {}, 'constants': {}}}
     """
-    if isinstance(data, Mapping):
-        if {"law", "constants"} <= data.keys():
-            yield path, {name: data[name] for name in ("law", "constants")}
-        for name, value in data.items():
-            yield from laws_within(value, f"{path}.{name}" if path else name)
-    elif isinstance(data, list):
-        for i, value in enumerate(data):
-            yield from laws_within(value, f"{path}[{i}]")
+    names = ("law", "constants")
+    return ((path, {name: table[name] for name in names}) for path, table in _objects(data) if {*names} <= table.keys())
 
 
 #: pairs of which the first is never above the second in results without proofs
 _ORDERED = (("low", "high"), ("lower_bound", "objective"), ("too_small", "radius"), ("radius", "too_large"))
 
 
-def contradictions(data: object, path: str = "") -> Iterator[tuple[str, str]]:
+def contradictions(data: object) -> Iterator[tuple[str, str]]:
     """What contradicts itself in results without proofs, by place: bounds above what they are bounds of, no numbers.
 
     >>> list(contradictions({"best": {"lower_bound": 2.0, "objective": 1.0}}))
     [('best', 'lower_bound 2.0 is above objective 1.0')]
     """
-    if isinstance(data, Mapping):
+    for path, table in _objects(data):
         for less, more in _ORDERED:
-            low, high = data.get(less), data.get(more)
+            low, high = table.get(less), table.get(more)
             if low is None or high is None or isinstance(high, str):  # a spring names its objective
                 continue
             pair = real(low), real(high)
@@ -171,11 +166,6 @@ def contradictions(data: object, path: str = "") -> Iterator[tuple[str, str]]:
                 yield path, f"{less} {shortened(low)} and {more} {shortened(high)} are to be numbers"
             elif pair[0] > pair[1] + OPTIMALITY_GAP * max(abs(pair[0]), abs(pair[1])):
                 yield path, f"{less} {low!r} is above {more} {high!r}"
-        for name, value in data.items():
-            yield from contradictions(value, f"{path}.{name}" if path else name)
-    elif isinstance(data, list):
-        for i, value in enumerate(data):
-            yield from contradictions(value, f"{path}[{i}]")
 
 
 def is_entry(data: Data) -> bool:
@@ -192,62 +182,50 @@ def kind_of(data: Data) -> str | None:
     return next((kind for kind, keys in _KINDS if keys <= data.keys()), None)
 
 
-def check_keys(data: Data) -> None:
-    """Refuse an entry with keys that no entry of its kind has."""
-    name = "the solution" if "certificate" in data else f"the {kind_of(data)}"
-    if name in _KNOWN:
-        _stated(data, name)
-
-
-def _stated(data: Data, kind: str, path: str = "") -> dict[str, Any]:
+def _stated(data: Data, title: str, path: str) -> dict[str, Any]:
     """The entries of a table, of which none is unknown, and each of its type where it is given."""
-    name, types = path or kind, _KNOWN[kind]
+    name, types = path or title, _KNOWN[title]
     for key in data:
         if key not in types:
             raise InputError(f"{name}: {unknown_key(key, types, 'entry')}; leave out what is not checked")
-    given = {key: value for key, value in data.items() if value is not None}
-    if missing := [key for key in _NEEDED.get(kind, ()) if key not in given]:
-        raise InputError(f"{name} needs {', '.join(missing)}")
     with located(name):
-        return dict.fromkeys(types) | {key: types[key].read(value, key) for key, value in given.items()}
+        return {key: None if data.get(key) is None else kind.read(data[key], key) for key, kind in types.items()}
 
 
-def _walk(data: object, path: str, around: Around) -> Iterator[tuple[str, FileEntry]]:
-    data = of_known_format(data, path or "the file") if isinstance(data, Mapping) else data
-    if isinstance(data, list):
-        for i, value in enumerate(data):
-            yield from _walk(value, f"{path}[{i}]", around)
-    elif not isinstance(data, Mapping):
+def _walk(data: object, path: str, around: FileEntry) -> Iterator[tuple[str, FileEntry]]:
+    if not isinstance(data, Mapping | list):
         if data is not None:
             raise InputError(f"{NO_FILE}: {path or 'it'} claims something without a certificate: {data!r:.40}")
-    elif is_entry(data):
-        yield path, FileEntry(data, around)
-    elif {"solution", "asked"} & data.keys():
-        yield from _row(_stated(data, "the row", path), path, around)
-    elif kind_of(data) == "array":
-        yield from _array(_stated(data, "the array of solutions", path), data, path)
-    elif "over" in data:
-        yield from _front(_stated(data, "the front", path), path)
-    elif "B" in data:
-        yield from _of_velocity(data, path)
+        return
+    entries = of_known_format(data, path or "the file") if isinstance(data, Mapping) else {}
+    if is_entry(entries):
+        yield path, replace(around, data=entries)
+    elif {"solution", "asked"} & entries.keys():
+        yield from _row(_stated(entries, "the row", path), path, around)
+    elif kind_of(entries) == "array":
+        yield from _array(_stated(entries, "the array of solutions", path), entries, path)
+    elif "over" in entries:
+        yield from _front(_stated(entries, "the front", path), path)
+    elif "B" in entries:
+        yield from _of_velocity(entries, path)
     else:
-        yield from _members(data, path, around)
+        yield from _members(entries if isinstance(data, Mapping) else data, path, around)
 
 
-def _members(data: Data, path: str, around: Around) -> Iterator[tuple[str, FileEntry]]:
-    for key, value in data.items():
-        if key != "about" or not isinstance(value, str):
-            yield from _walk(value, f"{path}.{key}" if path else key, around)
+def _members(data: Data | list[Any], path: str, around: FileEntry) -> Iterator[tuple[str, FileEntry]]:
+    for place, value in _inside(data, path):
+        if place != _place(path, "about") or not isinstance(value, str):
+            yield from _walk(value, place, around)
 
 
-def _row(row: Data, path: str, around: Around) -> Iterator[tuple[str, FileEntry]]:
+def _row(row: Data, path: str, around: FileEntry) -> Iterator[tuple[str, FileEntry]]:
     if row["asked"] is not None:
         with located(f"{path}.asked"):
             problem_of(row["asked"])
-    context = Around(row["status"], row["asked"], around.B, around.values)
-    inside = [entry for name in ("solution", "proof") for entry in _walk(row[name], f"{path}.{name}", context)]
+    context = replace(around, status=row["status"], problem=row["asked"])
+    inside = [entry for name in ("solution", "proof") for entry in _walk(row[name], _place(path, name), context)]
     if not inside and row["status"] not in {None, *_NO_CLAIM}:
-        inside = [(path, FileEntry({}, context))]
+        inside = [(path, context)]
     yield from inside
 
 
@@ -255,9 +233,7 @@ def _array(array: Data, data: Data, path: str) -> Iterator[tuple[str, FileEntry]
     rows, shape = array["solutions"] or (), array["shape"] or ()
     if prod(shape) != len(rows):
         raise InputError(f"{path or 'the array'}: {len(rows)} solutions are not of shape {list(shape)}")
-    inside = f"{path}." if path else ""
-    for i, row in enumerate(rows):
-        place = f"{inside}solutions[{i}]"
+    for place, row in _inside(list(rows), _place(path, "solutions")):
         if is_entry(row):
             yield place, FileEntry(row)
         elif row.get("status") == "infeasible":
@@ -265,41 +241,40 @@ def _array(array: Data, data: Data, path: str) -> Iterator[tuple[str, FileEntry]
         elif {"error", "status"} != row.keys() - {"problem", "tried"} or row["status"] not in _NO_CLAIM:
             raise InputError(f"{NO_FILE}: {place} is neither a solution nor an error")
     if any(array[name] is not None for name in ("parts", "alone", "problems")):
-        yield f"{inside}parts", FileEntry(data)
+        yield _place(path, "parts"), FileEntry(data)
 
 
 def _no_law(row: Data, path: str) -> Iterator[tuple[str, FileEntry]]:
     """The proof that the problem of a row has no law, converted to that problem from any other."""
-    proof = row.get("proof")
-    if not isinstance(proof, Mapping):
-        yield path, FileEntry({}, Around(status="infeasible"))
-        return
-    with located(f"{path}.problem"):
-        problem = problem_of(row.get("problem", {}))
-    ground = ground_of(problem, Certificate.from_dict(proof))
+    proof: Any = row.get("proof")
+    ground = None
+    if isinstance(proof, Mapping):
+        with located(f"{path}.problem"):
+            problem = problem_of(row.get("problem", {}))
+        ground = ground_of(problem, Certificate.from_dict(proof))
     if ground is None:
-        yield path, FileEntry({}, Around(status="infeasible"))
-        return
-    moved = {**proof, "problem": ground.problem.to_dict()}
-    yield f"{path}.proof", FileEntry(moved, Around(status="infeasible", above=ground.above))
+        yield path, FileEntry({}, status="infeasible")
+    else:
+        moved = {**proof, "problem": ground.problem.to_dict()}
+        yield f"{path}.proof", FileEntry(moved, status="infeasible", above=ground.above)
 
 
 def _front(front: Data, path: str) -> Iterator[tuple[str, FileEntry]]:
+    if missing := [key for key in ("over", "values", "points") if front[key] is None]:
+        raise InputError(f"{path or 'the front'} needs {', '.join(missing)}")
     over, values_of_points, points = front["over"], front["values"], front["points"]
     if len(values_of_points) != len(points) or any(len(row) != len(over) for row in values_of_points):
         raise InputError(f"{path or 'the front'}: values must be as many as points, one for each of {list(over)}")
     if len(set(over)) < len(over):
         raise InputError(f"{path or 'the front'}: it is over the same constant twice: {list(over)}")
-    for i, (values, point) in enumerate(zip(values_of_points, points, strict=True)):
-        context = Around(values=dict(zip(over, values, strict=True)))
-        place = f"{path}.points[{i}]" if path else f"points[{i}]"
-        inside = list(_walk(point, place, context))
+    for values, (place, point) in zip(values_of_points, _inside(list(points), _place(path, "points")), strict=True):
+        inside = list(_walk(point, place, FileEntry({}, values=dict(zip(over, values, strict=True)))))
         if not inside:
             raise InputError(f"{NO_FILE}: {place} has no law, but its values claim one")
         yield from inside
-    for i, row in enumerate(front["errors"] or ()):
+    for place, row in _inside(list(front["errors"] or ()), _place(path, "errors")):
         if row.get("status") not in _NO_CLAIM:
-            yield from _no_law(row, f"{path}.errors[{i}]" if path else f"errors[{i}]")
+            yield from _no_law(row, place)
 
 
 def _of_velocity(data: Data, path: str) -> Iterator[tuple[str, FileEntry]]:
@@ -310,7 +285,7 @@ def _of_velocity(data: Data, path: str) -> Iterator[tuple[str, FileEntry]]:
         B = finite(float(printed) if isinstance(printed, str) else printed, f"{path}.B")
     except ValueError:
         raise InputError(f"{path}.B must be a number, got {printed!r:.40}") from None
-    inside = list(_members({key: value for key, value in data.items() if key != "B"}, path, Around(B=B)))
+    inside = list(_members({key: value for key, value in data.items() if key != "B"}, path, FileEntry({}, B=B)))
     if not any("problem" in entry.data for _, entry in inside):
         raise InputError(f"{NO_FILE}: {path}.B claims something without a certificate: {B!r}")
     yield from inside

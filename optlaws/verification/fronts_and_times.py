@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
 from fractions import Fraction
 from itertools import pairwise
 from operator import itemgetter
 from typing import Any
 
-from optlaws.errors import OptlawsError
+from optlaws.errors import InputError, OptlawsError
 from optlaws.files.reading import check_names, entries_of
 from optlaws.lazy import imported
-from optlaws.numbers import real
+from optlaws.numbers import listed, real
 from optlaws.synthesis.least_time.least_time import LeastTime
 from optlaws.synthesis.least_time.timed_move import MoveObjective, TimedMove
 from optlaws.synthesis.limits.rounding import rounded_up
@@ -25,10 +25,14 @@ from optlaws.verification.enclosing.balls import enclosed
 from optlaws.verification.exact.bound import Along, Proof, prove, prove_along
 from optlaws.verification.exact.law import ExactLaw
 from optlaws.verification.exact.least_times import least_time_of_any_law
+from optlaws.verification.file_entries import kind_of
 from optlaws.verification.reading import built, number
-from optlaws.verification.result import Claim, Verification
+from optlaws.verification.result import Claim, Verification, every_claim, with_claims
+from optlaws.verification.stated_solutions import solution, stated_bound
+from optlaws.verification.statements import Data, compare
 
 _STATED_GAP = 1e-12  # by how much a gap that was computed in doubles may be below the proven one
+_MOST_POINTS = 1000
 
 
 @dataclass(frozen=True)
@@ -43,19 +47,20 @@ class _Known:
     worst: float
 
 
-def proven_front(front: ProvenFront, stated: float) -> Verification:
+def proven_front(data: Data) -> Verification:
     """Check every law and certificate of a front, and its gap at every value between."""
-    number, (low, high) = front.number, front.between
+    front, stated = built(ProvenFront.from_dict, data, "the proven front"), number(data, "gap")
+    parameter, (low, high) = front.number, front.between
     points = list(front)
     laws = [ExactLaw(point.law) for point in points]
     claim = 2.0 * float(front.sides[:, 0].max())
     known = [_known(front, point, law, claim) for point, law in zip(points, laws, strict=True)]
-    gap = _gap(known, number)
-    claims = [*_laws(number, known), *_certificates(number, known)]
-    where = f"the gap at every {number.name} from {low!r} to {high!r}"
+    gap = _gap(known, parameter)
+    claims = [*_laws(parameter, known), *_certificates(parameter, known)]
+    where = f"the gap at every {parameter.name} from {low!r} to {high!r}"
     shown = "not known" if gap is None else f"{gap:.3e}"
     claims.append(Claim(where, gap is not None and gap <= stated + _STATED_GAP, f"{stated:.3e} stated, {shown} proven"))
-    return Verification(problem=number.at(low), bound=None, gap=gap, claims=tuple(claims))
+    return Verification(problem=parameter.at(low), bound=None, gap=gap, claims=tuple(claims))
 
 
 def _known(front: ProvenFront, point: FrontPoint, law: ExactLaw, claim: float) -> _Known:
@@ -134,17 +139,14 @@ def _between(point: _Known, other: _Known, number: SweptParameter) -> Fraction |
     return max(gaps) / (least if least > Fraction(NO_OBJECTIVE) * scale else scale)
 
 
-def least_time(data: Mapping[str, Any], of_law: Verification) -> Verification:
-    """Check the time, the limits that its law keeps and the proofs; `of_law` is what is known of its solution."""
-    least = _stated(data)
-    of_all = list(_limit(least, data))
-    claims = (*of_law.claims, *_limits(least), *_proofs(least), *(claim for claim in of_all if claim.checked))
-    return replace(
-        of_law, claims=claims, unchecked=(*of_law.unchecked, *(claim for claim in of_all if not claim.checked))
-    )
+def least_time(data: Data) -> Verification:
+    """Check the time, the limits that its law keeps and the proofs."""
+    least, of_law = _stated(data), solution(data["solution"])
+    claims = [*every_claim(of_law), *_limits(least), *_proofs(least, data), *_limit(least, data)]
+    return with_claims(of_law, claims)
 
 
-def _stated(data: Mapping[str, Any]) -> LeastTime[TimedMove]:
+def _stated(data: Data) -> LeastTime[TimedMove]:
     check_names([data["unit"]] if "unit" in data else (), ("m", "rad"), "unit")
     stated = {key: value for key, value in data.items() if key not in {"unit", "about"}}
     return built(LeastTime.from_dict, stated, "the least time")
@@ -162,12 +164,12 @@ def _limits(least: LeastTime[TimedMove]) -> Iterator[Claim]:
     yield Claim("the law in the least time", not broken, detail or "it keeps every condition of the move")
 
 
-def _proofs(least: LeastTime[TimedMove]) -> Iterator[Claim]:
+def _proofs(least: LeastTime[TimedMove], data: Data) -> Iterator[Claim]:
     """The claim that no law satisfies the limits in any shorter time."""
     wrong = least.contradiction
     if wrong:
         yield Claim("the least time", proven=False, detail=wrong)
-    for proof in least.proofs:
+    for proof, entries in zip(least.proofs, data["proofs"], strict=True):
         shown = [prove(certificate) for certificate in proof.certificates(least.move)]
         stands = bool(shown) and all(each.value is not None and each.value > 0 for each in shown)
         times = (
@@ -175,9 +177,11 @@ def _proofs(least: LeastTime[TimedMove]) -> Iterator[Claim]:
         )
         how = "the multipliers contradict the limits" if stands else "the multipliers do not contradict the limits"
         yield Claim(f"no law in a time {times}", stands, how)
+        if shown:
+            yield from stated_bound(shown[0], proof.certificate, entries["certificate"], f"the certificate {times}")
 
 
-def _limit(least: LeastTime[TimedMove], data: Mapping[str, Any]) -> Iterator[Claim]:
+def _limit(least: LeastTime[TimedMove], data: Data) -> Iterator[Claim]:
     """The claim that no law of any degree is faster: by the segments, or by a potential of the torque's phase plane.
 
     A file with another value than these is refused.
@@ -197,38 +201,25 @@ def _limit(least: LeastTime[TimedMove], data: Mapping[str, Any]) -> Iterator[Cla
 _KEYS = ("duration", "value", "lower_bound", "solution")
 
 
-def time_front(data: Mapping[str, Any], of_least: Verification, of_points: Sequence[Verification]) -> Verification:
-    """Check that each law is of the move in its time, and its numbers in SI units; the rest is known already.
-
-    Parameters
-    ----------
-    data
-        The file's entry.
-    of_least, of_points
-        What is known of the least time, and of the solution of each point.
-    """
-    least = _stated(data["fastest"])
+def time_front(data: Data) -> Verification:
+    """Check the least time, each solution, that its law is of the move in its time, and its numbers in SI units."""
+    listed_rows = listed(data["points"], "points", _MOST_POINTS)
+    rows = [entries_of(row, _KEYS, f"points[{i}]", alone=True) for i, row in enumerate(listed_rows)]
+    solutions = [solution(row["solution"]) for row in rows]
+    of_least, least = least_time(data["fastest"]), _stated(data["fastest"])
     objective = built(MoveObjective.from_dict, data["minimise"], "what is least")
-    rows = [entries_of(row, _KEYS, f"points[{i}]", alone=True) for i, row in enumerate(data["points"])]
     durations = [number(row, "duration") for row in rows]
     ascending = bool(rows) and durations[0] >= least.duration and all(low < high for low, high in pairwise(durations))
     detail = "they ascend, none below the least time" if ascending else "they do not ascend from the least time on"
-    claims = [Claim("the times of the points", ascending, detail), *of_least.claims]
-    for duration, row, known in zip(durations, rows, of_points, strict=True):
-        where = f"at {duration:.9g} s"
-        claims += [replace(claim, name=f"{where}: {claim.name}") for claim in known.claims]
-        claims += [replace(claim, name=f"{where}: {claim.name}") for claim in _point(least, objective, row, known)]
-    unchecked = [
-        replace(claim, name=f"at {duration:.9g} s: {claim.name}")
-        for duration, known in zip(durations, of_points, strict=True)
-        for claim in known.unchecked
-    ]
-    return replace(of_least, claims=tuple(claims), unchecked=(*of_least.unchecked, *unchecked))
+    claims = [Claim("the times of the points", ascending, detail), *every_claim(of_least)]
+    for duration, row, known in zip(durations, rows, solutions, strict=True):
+        of_move = with_claims(known, [*every_claim(known), *_point(least, objective, row, known)])
+        claims += every_claim(of_move, f"at {duration:.9g} s: ")
+    nothing = dict.fromkeys(("minimise", "fastest", "points", "about"))
+    return with_claims(of_least, [*claims, *compare(data, nothing, "the time front")])
 
 
-def _point(
-    least: LeastTime[TimedMove], objective: MoveObjective, row: Mapping[str, Any], known: Verification
-) -> Iterator[Claim]:
+def _point(least: LeastTime[TimedMove], objective: MoveObjective, row: Data, known: Verification) -> Iterator[Claim]:
     """The claim that a law belongs to the move in its time, with its objective and its lower bound, in SI units."""
     duration, move = number(row, "duration"), least.move
     with meant():
@@ -251,26 +242,33 @@ def _shown(value: Fraction | None) -> str:
     return "nothing" if value is None else repr(float(value))
 
 
-def plan_of_cycle(read: Callable[[], Any], parts: Callable[[Any], Mapping[str, Verification]]) -> Verification:
+def plan(data: Data) -> Verification:
+    """Check the solutions of a plan, each by itself, and that they are those of its cycle."""
+    rows = {f"solutions[{i}]": each for i, each in enumerate(listed(data["solutions"], "solutions", _MOST_POINTS))}
+    for place, each in rows.items():
+        if not isinstance(each, Mapping) or kind_of(each) != "solution":
+            raise InputError(f"{place} is no solution with its problem, its law and its certificate")
+    return of_cycle(
+        lambda: imported("optlaws.cycles.cycle").Plan.from_dict(data),
+        lambda _: {place: solution(each) for place, each in rows.items()},
+    )
+
+
+def of_cycle(read: Callable[[], Any], parts: Callable[[Any], Mapping[str, Verification]]) -> Verification:
     """Check the parts of a plan, each by itself, and that its laws are those of its cycle, computed again from it."""
-    plan = None
+    solved = None
     try:
-        plan = read()
-        wrong = plan.solve().contradiction()
-        detail = wrong or f"they meet its joints and keep its limits, in doubles; status {plan.status.value}"
+        solved = read()
+        wrong = solved.solve().contradiction()
+        detail = wrong or f"they meet its joints and keep its limits, in doubles; status {solved.status.value}"
     except OptlawsError as error:
         wrong = detail = str(error)
+    every = [claim for place, each in parts(solved).items() for claim in every_claim(each, f"{place}: ")]
     claim = Claim("the laws of the cycle", proven=False, detail=detail, checked=bool(wrong))
-    named = [(f"{place}: ", each) for place, each in parts(plan).items()]
-    claims, unchecked = (
-        [replace(claim, name=place + claim.name) for place, each in named for claim in getattr(each, kind)]
-        for kind in ("claims", "unchecked")
-    )
-    (claims if claim.checked else unchecked).append(claim)
-    return Verification(problem=None, bound=None, claims=tuple(claims), unchecked=tuple(unchecked))
+    return with_claims(Verification(), [*every, claim])
 
 
-def overlap_of_axes(data: Mapping[str, Any]) -> Verification:
+def overlap_of_axes(data: Data) -> Verification:
     """Check the objective, the interlocks and the bound of axes that overlap, all computed again from the machine."""
     overlap = built(imported("optlaws.cycles.axes.machine_axes").Overlap.stated, data, "the axes that overlap")
     wrong = built(lambda stated: stated.contradiction(), overlap, "the axes that overlap")
@@ -278,12 +276,7 @@ def overlap_of_axes(data: Mapping[str, Any]) -> Verification:
     claims = [Claim(f"the {overlap.goal}", proven=False, detail=detail, checked=bool(wrong))]
     if not wrong:
         claims += [*_interlocks(overlap), _bound(overlap), _binding(overlap)]
-    return Verification(
-        problem=None,
-        bound=None,
-        claims=tuple(claim for claim in claims if claim.checked),
-        unchecked=tuple(claim for claim in claims if not claim.checked),
-    )
+    return with_claims(Verification(), claims)
 
 
 def _interlocks(overlap: Any) -> Iterator[Claim]:

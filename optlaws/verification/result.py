@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from collections.abc import Iterable
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 from optlaws.numbers import bounded
@@ -71,8 +72,8 @@ class Verification:
     0.0
     """
 
-    problem: Problem | None
-    bound: float | None
+    problem: Problem | None = None
+    bound: float | None = None
     infeasible: bool = False
     objective: tuple[float, float] | None = None
     gap: float | None = None
@@ -115,6 +116,18 @@ class Verification:
             lines.append(f"gap          at most {self.gap:.2e}")
         lines += [f"{name:<12} in [{low!r}, {high!r}]" for name, (low, high) in self.constants.items()]
         return "\n".join([*lines, *map(str, (*self.claims, *self.unchecked))])
+
+
+def every_claim(verification: Verification, place: str = "") -> list[Claim]:
+    """All claims, whether checked or not; of a part their names begin with its place."""
+    return [replace(claim, name=place + claim.name) for claim in (*verification.claims, *verification.unchecked)]
+
+
+def with_claims(known: Verification, claims: Iterable[Claim]) -> Verification:
+    """A verification with claims, those that are checked and those that are not, in place of its own."""
+    every = tuple(claims)
+    checked, unchecked = (tuple(claim for claim in every if claim.checked is kind) for kind in (True, False))
+    return replace(known, claims=checked, unchecked=unchecked)
 
 
 def _pair(pair: tuple[float, float]) -> list[float | None]:

@@ -19,7 +19,6 @@ import numpy as np
 
 from optlaws import (
     Axes,
-    BSplines,
     Certificate,
     Chebyshev,
     Clearance,
@@ -33,7 +32,6 @@ from optlaws import (
     MotionLaw,
     MoveLimit,
     OptlawsError,
-    Pieces,
     Problem,
     ProblemArray,
     ProvenFront,
@@ -60,7 +58,7 @@ from tests.internals.mechanisms import move_limit
 from tests.internals.studies import Serial
 from tests.internals.synthesis import LONG, least_time, limit_of_plane
 from tests.mechanisms.drives.test_move_limit_files import MADE
-from tests.verification.tampering import Data, Path, changed, overstated, value_at, wrong_constants
+from tests.verification.tampering import SOLUTIONS, Data, Path, changed, overstated, value_at, wrong_constants
 
 #: by how much a number may be off that rounding explains
 CLOSE = 2e-9
@@ -140,6 +138,8 @@ class Format:
         Whether `verify` takes it.
     wrong_proven
         What is false of a changed file whose every claim is proven.
+    wrong_verified
+        What is false of a changed file that is verified, proven or not.
     """
 
     data: Data
@@ -147,6 +147,7 @@ class Format:
     wrong: Callable[[Data, Any], list[str]] = lambda _, __: []
     verified: bool = True
     wrong_proven: Callable[[Data, dict[str, Verification]], list[str]] = lambda _, __: []
+    wrong_verified: Callable[[Data, dict[str, Verification]], list[str]] = lambda _, __: []
 
 
 def outcome(form: Format, data: Data) -> tuple[str, list[str]]:
@@ -165,6 +166,7 @@ def outcome(form: Format, data: Data) -> tuple[str, list[str]]:
         except OptlawsError:
             pass
         else:
+            wrong = [*wrong, *form.wrong_verified(data, verifications)]
             if all(one.proven for one in verifications.values()):
                 verdict, wrong = "harmless", [*wrong, *form.wrong_proven(data, verifications)]
     return verdict, wrong
@@ -188,7 +190,7 @@ def close(first: object, second: object) -> bool:
 def solution(problem: Problem, bound: Bound = "quick") -> Format:
     data = plain(synthesize(problem, bound=bound).to_dict())
     (true,) = verify_all(data).values()
-    return Format(data, wrong_proven=lambda stored, _: overstated(stored, true))
+    return Format(data, wrong_verified=lambda stored, known: overstated(stored, true, *known.values()))
 
 
 def array(problems: ProblemArray, places_of: Sequence[int], bound: Bound = "quick") -> Format:
@@ -594,10 +596,7 @@ def formats() -> dict[str, Callable[[], Format]]:
     limited = Cycle([Rise("35 mm", "180 deg"), Return()], speed="60 rpm", limits={"acceleration": "20 m/s^2"}, degree=3)
     in_array = {"order": 3, "basis": Chebyshev(3)}
     return {
-        "solution": lambda: solution(plain_problem),
-        "solution in splines": lambda: solution(Problem(B=1.75, order=2, basis=BSplines(2, 3))),
-        "solution of pieces": lambda: solution(Problem(B=1.75, order=2, basis=Pieces(4, 3, 1))),
-        "solution with a tight bound": lambda: solution(power, "tight"),
+        **{name: partial(solution, *given) for name, given in SOLUTIONS.items()},
         "array": lambda: array(ProblemArray(B=np.linspace(1.02, 2.0, 60), **in_array), [2, 30, 50]),
         "array, solved alone": lambda: array(ProblemArray(B=np.array([1.05, 1.6, 0.5]), **in_array), [0, 1, 2]),
         "array of least power": lambda: array(

@@ -7,7 +7,8 @@ from functools import cache
 from math import inf
 from typing import Any
 
-from optlaws import Problem, synthesize
+from optlaws import BSplines, Chebyshev, Pieces, Problem, Window, between, synthesize
+from optlaws.typing import Bound
 from optlaws.verification import Verification, verify
 
 Data = dict[str, Any]
@@ -17,15 +18,29 @@ Path = tuple[str | int, ...]
 ROOM = 2e-9
 #: what is said of the search and not of the law
 IDLE = {"seconds", "iterations", "versions", "starts"}
+#: problems of which files are changed, with their bounds
+SOLUTIONS: dict[str, tuple[Problem, Bound]] = {
+    "solution": (Problem(B=1.859, order=3, basis=Chebyshev(5)), "quick"),
+    "solution of pieces": (Problem(B=1.75, order=2, basis=Pieces(4, 4, 2), minimise="max(C/4, J/40)"), "quick"),
+    "solution in splines": (Problem(B=1.75, order=2, basis=BSplines(4, 3)), "quick"),
+    "solution that need not be symmetric": (
+        Problem(B=1.8, order=3, basis=Chebyshev(7), minimise="rms_c", symmetric=False),
+        "quick",
+    ),
+    "solution with a window": (
+        Problem(B=between(1.2, 1.9), order=3, basis=Chebyshev(7), J=80, windows=(Window("c", -6.0, 2.0, 0.3, 0.6),)),
+        "quick",
+    ),
+    "solution with a tight bound": (Problem(B=1.6, order=2, basis=Chebyshev(3), minimise="D"), "tight"),
+}
 
 
 @cache
-def text_of(problem: Problem, bound: str = "quick") -> str:
-    solution = synthesize(problem, bound="tight") if bound == "tight" else synthesize(problem)
-    return json.dumps(solution.to_dict(), allow_nan=False)
+def text_of(problem: Problem, bound: Bound = "quick") -> str:
+    return json.dumps(synthesize(problem, bound=bound).to_dict(), allow_nan=False)
 
 
-def data_of(problem: Problem, bound: str = "quick") -> Data:
+def data_of(problem: Problem, bound: Bound = "quick") -> Data:
     data: Data = json.loads(text_of(problem, bound))
     return data
 
@@ -57,17 +72,13 @@ def changed(data: Data, path: Path, value: object) -> Data:
 
 
 def numbers(data: Data) -> list[Path]:
-    found = []
-    for path in places(data):
-        value = value_at(data, path)
-        if isinstance(value, int | float) and not isinstance(value, bool):
-            found.append(path)
-    return found
+    """Every number."""
+    return [path for path in places(data) if type(value_at(data, path)) in {int, float}]
 
 
-def overstated(tampered: Data, true: Verification) -> list[str]:
-    """What is wrong with calling a file proven, if `true` is what holds of the untampered one."""
-    verification = verify(tampered)
+def overstated(tampered: Data, true: Verification, known: Verification | None = None) -> list[str]:
+    """What is wrong with what is `known` of a changed file, if `true` is what holds of the unchanged one."""
+    verification = verify(tampered) if known is None else known
     assert true.objective is not None
     low, high = true.objective
     wrong = []
@@ -99,7 +110,7 @@ def overstated(tampered: Data, true: Verification) -> list[str]:
 def wrong_constants(tampered: Data, true: Verification) -> list[str]:
     """Constants of a law that a file states otherwise than they are."""
     wrong = []
-    for name, one in tampered.get("constants", {}).items():
+    for name, one in (tampered.get("constants") or {}).items():
         value = one.get("value", one) if isinstance(one, dict) else one
         low, high = true.constants[name]
         # without a value a constant has no bound

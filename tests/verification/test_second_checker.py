@@ -33,12 +33,12 @@ from optlaws import (
     synthesize,
     via,
 )
+from optlaws.typing import Bound
 from optlaws.verification import exact_bound, verify
 from tests.check_proofs import RESULTS, certificates, run
 from tests.documents import ROOT
 from tests.internals.verification import ExactRows
-from tests.verification.tampering import changed, data_of, numbers, places, value_at
-from tests.verification.test_tampered import FILES, PLAIN
+from tests.verification.tampering import SOLUTIONS, changed, data_of, numbers, places, value_at
 
 POWER = Problem(B=1.6, order=2, basis=Chebyshev(3), minimise="D")
 
@@ -315,11 +315,13 @@ def _tampered(data: Any) -> Iterator[Any]:
 @pytest.mark.parametrize(
     ("problem", "bound", "every"),
     [
-        (PLAIN, "quick", 6),
-        *(pytest.param(problem, bound, 1, marks=pytest.mark.long) for problem, bound in FILES),
+        (*SOLUTIONS["solution"], 6),
+        *(pytest.param(*given, 1, marks=pytest.mark.long) for given in SOLUTIONS.values()),
     ],
 )
-def test_what_is_proven_of_a_tampered_file_both_prove(problem: Problem, bound: str, every: int, tmp_path: Path) -> None:
+def test_what_is_proven_of_a_tampered_file_both_prove(
+    problem: Problem, bound: Bound, every: int, tmp_path: Path
+) -> None:
     data = {key: entry for key, entry in data_of(problem, bound).items() if key != "state"}
     files = list(_tampered(data))[::every]
     verdicts: dict[int, set[str]] = {i: set() for i in range(len(files))}

@@ -102,12 +102,14 @@ function leafChecked(certificate) {
   const { bound, contradiction, charge, unbounded } = provenBy(certificate);
   const stated = certificate.bound ?? null;
   const room = STATED.times(greatest(bound?.magnitude() ?? ZERO, scaleOf(parsed(certificate.problem.minimise))));
-  const holds = bound !== null && (contradiction ? bound.sign > 0 : stated === null || !bound.plus(room).below(exact(stated)));
+  const contradicts = contradiction && bound !== null && bound.sign > 0;
+  const holds = bound !== null && (contradicts || !contradiction) && (stated === null || !bound.plus(room).below(exact(stated)));
   if (!holds && unbounded) {
     return { verdict: "not checked", detail: "this program does not know how little the rounding of the multipliers takes: nothing bounds the laws", bound };
   }
   if (contradiction) {
-    return { verdict: holds ? "proven" : "not proven", detail: holds ? "no law of the problem exists" : "the rows do not contradict each other", bound: null };
+    const why = contradicts ? `${stated} is stated, the rows contradict each other by ${bound.toNumber()}` : "the rows do not contradict each other";
+    return { verdict: holds ? "proven" : "not proven", detail: holds ? "no law of the problem exists" : why, bound: null };
   }
   if (stated === null) return { verdict: "proven", detail: "no bound is stated", bound };
   if (bound === null) return { verdict: "not proven", detail: `${stated} is stated, and nothing is proven`, bound };
