@@ -154,5 +154,5 @@ def _nearest(name: str, names: list[str], words: Mapping[str, str]) -> str | Non
     folded = name.casefold()
     same = [known for known in names if known.casefold() == folded]
     meant = [known for word, known in words.items() if word in folded.split("_") and known in names]
-    near = (words.get(each, each) for each in get_close_matches(name, [*names, *words], n=3))
+    near = (each if each in names else words[each] for each in get_close_matches(name, [*names, *words], n=3))
     return next((each for each in [*same, *meant, *near] if each in names), None)

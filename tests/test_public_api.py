@@ -126,12 +126,13 @@ MAKERS = {name: one for name, one in CALLABLES.items() if makes_values(name, one
 
 @pytest.mark.parametrize("name", MAKERS)
 def test_whatever_takes_entries_names_the_one_that_it_does_not_know_or_lacks(name: str) -> None:
-    with pytest.raises(InputError, match=r"unknown entry of .* 'misspelt_keyword'; known are "):
+    with pytest.raises(InputError, match=r"unknown entry of .* 'misspelt_keyword'; known are ") as wrong:
         MAKERS[name](misspelt_keyword=1)
-    parameters = [each for each in inspect.signature(MAKERS[name]).parameters.values() if each.default is each.empty]
-    if parameters:
+    assert isinstance(wrong.value, TypeError)
+    parameters = inspect.signature(MAKERS[name]).parameters
+    for needed in (each.name for each in parameters.values() if each.default is each.empty):
         with pytest.raises(InputError, match=r" needs its \w+"):
-            MAKERS[name]()
+            MAKERS[name](**dict.fromkeys(parameters.keys() - {needed}))
 
 
 def test_the_name_of_a_link_is_one_of_its_bodies() -> None:

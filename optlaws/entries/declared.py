@@ -144,10 +144,10 @@ class Entry:
         usual = "" if self.plain_default is None else f"; {self.default!r} unless given"
         return f"{self.type.words[:1].upper()}{self.type.words[1:]}{usual}."
 
-    def missing_of(self, what: str) -> InputError:
-        """The error of a value that needs it and has none."""
+    def missing_in(self, what: str) -> str:
+        """What an error says of a value that needs it and has none."""
         such = "" if self.example is None else f", such as {self.name} = {self.example!r}"
-        return InputError(f"{what} needs its {self.name}{such}")
+        return f"{what} needs its {self.name}{such}"
 
     def read(self, value: Any) -> Any:
         """What is kept of a value; None where it may be absent and is."""
@@ -233,21 +233,24 @@ def declared(cls: type[DeclaredT]) -> type[DeclaredT]:
     return value
 
 
+class _CallError(InputError, TypeError):
+    """An entry that a constructor does not know or lacks, which is a mistake of the call too."""
+
+
 def _naming_entries(cls: type[DeclaredT]) -> Callable[..., None]:
     """The constructor of a declared class, which names entries that it does not have, and those that it needs."""
     make = cls.__init__
-    takes = [each for name, each in signature(make).parameters.items() if name != "self"]
-    names, least = {each.name for each in takes}, sum(each.default is each.empty for each in takes)
+    takes = {name: each for name, each in signature(make).parameters.items() if name != "self"}
+    names, needed = tuple(takes), {name for name, each in takes.items() if each.default is each.empty}
 
     @wraps(make)
     def constructor(self: DeclaredT, *args: Any, **given: Any) -> None:
-        known = entries_of(cls).values()
-        for name in given.keys() - names:
+        known, called = entries_of(cls).values(), cls.named.replace("stored ", "")
+        for name in given.keys() - takes:
             inner = {key: each.name for each in known for table in each.type.tables().values() for key in table}
-            raise InputError(unknown_key(name, names, f"entry of {cls.named}", words=inner))
-        if len(args) + len(given) < least:
-            needed = {each.name for each in takes[len(args) :] if each.default is each.empty} - given.keys()
-            raise next(each for each in known if each.field in needed).missing_of(cls.named)
+            raise _CallError(unknown_key(name, names, f"entry of {called}", words=inner))
+        if lacking := needed.difference(names[: len(args)], given):
+            raise _CallError(next(each for each in known if each.field in lacking).missing_in(called))
         make(self, *args, **given)
 
     return constructor
@@ -393,7 +396,7 @@ class Declared(JsonText):
         for name, each in known.items():
             absent = name not in given or (given[name] is None and each.type.absent is None)
             if each.needed and absent:
-                raise each.missing_of(cls.named)
+                raise InputError(each.missing_in(cls.named))
         takes = cls.__init__.__annotations__
         return cls(**{name if name in takes else known[name].field: value for name, value in given.items()})
 
