@@ -408,7 +408,7 @@ class Verdict:
     """The curvature of a formula, the rule that shows it, and the part to which the rule applies.
 
     >>> from optlaws.formulas.reading import read
-    >>> verdict = judge(read("c^2 + b*c"), "bc")
+    >>> verdict = Judge(frozenset("bc")).verdict(read("c^2 + b*c"))
     >>> verdict.curvature.value, verdict.why, verdict.part
     ('not known to be convex', 'b*c is a product of parts that both vary', b*c)
     """
@@ -420,7 +420,12 @@ class Verdict:
 
 @dataclass(frozen=True)
 class Judge:
-    """The rules for formulas in some names, the other name `k` being between two values."""
+    """The rules for formulas in some names, the other name `k` being between two values.
+
+    >>> from optlaws.formulas.reading import read
+    >>> Judge(frozenset("bc")).verdict(read("c^2 + b*c + b^2")).why
+    'c^2 + b*c + b^2 is a convex quadratic form at every k'
+    """
 
     names: frozenset[str]  #: in which the curvature is asked
     #: start, stop: between which values k is
@@ -554,16 +559,6 @@ class Judge:
         kind, sign = self.by_rules(part).curvature, self.sign(part)
         plain = kind in {Curvature.AFFINE, Curvature.CONSTANT}
         return plain or (kind.convex and sign > 0) or (kind.concave and sign < 0)
-
-
-def judge(formula: Formula, names: Collection[str]) -> Verdict:
-    """The verdict on a formula in some of its names, k being between 0 and 1.
-
-    >>> from optlaws.formulas.reading import read
-    >>> judge(read("c^2 + (1 + k)*b^2"), "bc").curvature, judge(read("c^2 + b*c + b^2"), "bc").why
-    (<Curvature.CONVEX: 'convex'>, 'c^2 + b*c + b^2 is a convex quadratic form at every k')
-    """
-    return Judge(frozenset(names)).verdict(formula)
 
 
 def _unknown(why: str, part: Formula) -> Verdict:

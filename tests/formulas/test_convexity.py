@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from tests.formulas.trees import convex_text
-from tests.internals.formulas import NUMPY, Curvature, Judge, evaluate, judge, read
+from tests.internals.formulas import NUMPY, Curvature, Judge, evaluate, read
 
 RULES = Judge(frozenset("bc"))
 
@@ -52,7 +52,7 @@ RULES = Judge(frozenset("bc"))
     ],
 )
 def test_what_is_known_is_said(written: str, kind: str) -> None:
-    verdict = judge(read(written), "abc")
+    verdict = Judge(frozenset("abc")).verdict(read(written))
     assert verdict.curvature.value == kind, verdict.why
     assert str(verdict.part) in verdict.why
 

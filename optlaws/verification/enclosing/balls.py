@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import contextmanager
 from fractions import Fraction
-from math import ceil, floor, inf
+from math import ceil, inf
 from typing import Any
 
 from flint import arb, ctx, fmpq, fmpq_poly
@@ -29,16 +29,17 @@ def ball(value: float | Fraction | fmpq) -> arb:
     return arb(value if isinstance(value, fmpq) else rational(value))
 
 
-def lower(value: arb) -> Fraction:
-    """A lower bound of the ball, with 128 bits."""
-    mantissa, exponent = (int(part) for part in _end(value).man_exp())
-    return Fraction(floor(Fraction(mantissa) * Fraction(2) ** (exponent + _PLACES)), 2**_PLACES)
-
-
 def upper(value: arb) -> Fraction:
     """An upper bound of the ball, with 128 bits."""
-    mantissa, exponent = (int(part) for part in _end(value, upper=True).man_exp())
+    with ctx.workprec(_EXACT):  # every operation on a ball rounds to the precision at work, this one too
+        mantissa, exponent = (int(part) for part in value.upper().man_exp())
     return Fraction(ceil(Fraction(mantissa) * Fraction(2) ** (exponent + _PLACES)), 2**_PLACES)
+
+
+def lower(value: arb) -> Fraction:
+    """A lower bound of the ball, with 128 bits."""
+    with ctx.workprec(_EXACT):
+        return -upper(-value)
 
 
 def enclosure(value: arb) -> tuple[float, float]:
@@ -73,9 +74,3 @@ def series_length(count: int) -> Iterator[None]:
         yield
     finally:
         ctx.cap = before
-
-
-def _end(value: arb, *, upper: bool = False) -> arb:
-    # every operation on a ball rounds to the precision at work, this one too
-    with ctx.workprec(_EXACT):
-        return value.upper() if upper else value.lower()

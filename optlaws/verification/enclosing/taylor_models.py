@@ -34,22 +34,14 @@ def real_roots(polynomial: fmpq_poly, low: fmpq, high: fmpq) -> list[arb]:
     >>> [round(float(root), 9) for root in real_roots(fmpq_poly([0, -2, 0, 1]), fmpq(-1), fmpq(2))]
     [0.0, -1.414213562, 1.414213562]
     """
-    numerator = polynomial.numer()
-    first, *others = [n for n, value in enumerate(numerator.coeffs()) if value != 0] or [0]
-    if not others:
-        return [arb(0)] if first else []
-    roots = [arb(0)] if first else []
-    if any((n - first) % 2 for n in others):
-        return roots + _between(fmpz_poly(numerator.coeffs()[first:]), low, high)
-    furthest = max(low * low, high * high)
-    squares = _between(fmpz_poly(numerator.coeffs()[first::2]), fmpq(0), furthest)
-    return roots + [sign * square.sqrt() for square in squares for sign in (-1, 1)]
-
-
-def _between(polynomial: fmpz_poly, low: fmpq, high: fmpq) -> list[arb]:
-    """The roots of a polynomial that does not vanish at 0."""
-    _, factors = polynomial.factor_squarefree()
-    return [root for factor, _ in factors for root in _isolated(factor, low, high)]
+    coefficients = polynomial.numer().coeffs()
+    first, *others = [n for n, value in enumerate(coefficients) if value != 0] or [0]
+    step = 1 if any((n - first) % 2 for n in others) else 2
+    ends = (low, high) if step == 1 else (fmpq(0), max(low * low, high * high))
+    _, factors = fmpz_poly(coefficients[first::step]).factor_squarefree()
+    isolated = [root for factor, _ in factors for root in _isolated(factor, *ends)]
+    roots = isolated if step == 1 else [sign * square.sqrt() for square in isolated for sign in (-1, 1)]
+    return [arb(0), *roots] if first else roots
 
 
 def _isolated(polynomial: fmpz_poly, low: fmpq, high: fmpq) -> Iterator[arb]:
