@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import re
 import sys
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import MISSING, dataclass, field, fields
 from functools import wraps
 from inspect import signature
@@ -245,15 +245,21 @@ def _naming_entries(cls: type[DeclaredT]) -> Callable[..., None]:
 
     @wraps(make)
     def constructor(self: DeclaredT, *args: Any, **given: Any) -> None:
-        known, called = entries_of(cls).values(), cls.named.replace("stored ", "")
-        for name in given.keys() - takes:
-            inner = {key: each.name for each in known for table in each.type.tables().values() for key in table}
-            raise _CallError(unknown_key(name, names, f"entry of {called}", words=inner))
-        if lacking := needed.difference(names[: len(args)], given):
-            raise _CallError(next(each for each in known if each.field in lacking).missing_in(called))
+        unknown, lacking = given.keys() - takes, needed.difference(names[: len(args)], given)
+        if unknown or lacking:
+            raise _CallError(_mistake(cls, unknown, lacking, names))
         make(self, *args, **given)
 
     return constructor
+
+
+def _mistake(cls: type[Declared], unknown: set[str], lacking: set[str], names: Sequence[str]) -> str:
+    """What an error says of entries that a constructor does not know, or lacks."""
+    known, called = entries_of(cls).values(), cls.named.replace("stored ", "")
+    if not unknown:
+        return next(each for each in known if each.field in lacking).missing_in(called)
+    inner = {key: each.name for each in known for table in each.type.tables().values() for key in table}
+    return unknown_key(min(unknown), names, f"entry of {called}", words=inner)
 
 
 def _given_type(text: Any, known: Mapping[str, Any]) -> Any:
