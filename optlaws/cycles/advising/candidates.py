@@ -394,7 +394,11 @@ class Candidates:
     @kept_property
     def _compared(self) -> tuple[int, ...]:
         """The numbers of the segments whose laws are compared: all moves except moves that end in motion."""
-        numbers = tuple(i for i, segment in enumerate(self.cycle.segments) if _may_change(segment))
+        numbers = tuple(
+            i
+            for i, each in enumerate(self.cycle.segments)
+            if is_optimal(each) or (isinstance(each, Move) and not moves_at(named_law(each.law, each.label), 0, 1))
+        )
         if not numbers:
             raise InputError("the cycle has no move whose law could be another: laws are compared from rest to rest")
         return numbers
@@ -494,13 +498,6 @@ class Candidates:
             else:
                 tighter[each] = Exact(most, unit) if given is None or known(given) > most else given
         return tighter
-
-
-def _may_change(segment: CycleSegment) -> bool:
-    """Whether a segment's law may be replaced: it is optimised, or goes from rest to rest."""
-    return is_optimal(segment) or (
-        isinstance(segment, Move) and not moves_at(named_law(segment.law, segment.label), 0, 1)
-    )
 
 
 def _with_law(law: str, segment: CycleSegment) -> CycleSegment:

@@ -381,7 +381,7 @@ class Clearance(Interlock, kind="clearance"):
     def formula(self) -> Formula:
         """The bound as a formula of x."""
         formula = read(self.given, names="x")
-        if _has_table(formula):
+        if any(isinstance(part, Table) for part in formula.walk()):
             raise InputError("clearance: give a table as pairs, least=[('0 deg', '20 mm'), ...], not in a formula")
         return formula
 
@@ -409,10 +409,6 @@ class Clearance(Interlock, kind="clearance"):
 
         known = least(room, (first, second), CLEARANCE_SHARE)
         return known.least, known.low, known.least_at, first.stroke
-
-
-def _has_table(formula: Formula) -> bool:
-    return isinstance(formula, Table) or any(map(_has_table, formula.parts))
 
 
 @declared

@@ -47,10 +47,6 @@ def _named(given: Any) -> dict[str, Any]:
     return dict(given)
 
 
-def _plain_cycles(cycles: Mapping[str, Cycle]) -> dict[str, Any]:
-    return {name: cycle.specification.to_dict() for name, cycle in cycles.items()}
-
-
 class AxesAnswers(Mapping[str, Cycle]):
     """What axes, and axes that overlap, have of the cycles of their axes by their names."""
 
@@ -257,7 +253,12 @@ class Axes(AxesAnswers, Declared, title="stored axes"):
     __eq__, __hash__ = Mapping.__eq__, Mapping.__hash__
 
     axes: Mapping[str, Sequence[CycleSegment] | Mapping[str, Any] | Cycle | Plan] = entry(
-        ReadBy(_named, "a table by the names of the axes", _plain_cycles, {"type": "object", "minProperties": 1}),
+        ReadBy(
+            _named,
+            "a table by the names of the axes",
+            lambda cycles: {name: cycle.specification.to_dict() for name, cycle in cycles.items()},
+            {"type": "object", "minProperties": 1},
+        ),
         'What each axis does: a list of segments, a table of what `Cycle` takes (`{"segments": [...], "limits": '
         "{...}}`), or a `Cycle` of the same duration or the `Plan` of one; where all are such neither speed nor period "
         "is needed.",

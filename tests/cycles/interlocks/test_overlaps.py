@@ -11,11 +11,13 @@ from optlaws import (
     After,
     Axes,
     Clearance,
+    Cycle,
     Dwell,
     Forbidden,
     Free,
     InfeasibleProblem,
     InputError,
+    Mechanism,
     Return,
     Rise,
     Synchronous,
@@ -240,3 +242,15 @@ def test_an_overlap_answers_what_its_axes_answer() -> None:
     assert report.data["interlocks"] == best.axes.report().data["interlocks"]
     with pytest.raises(InputError, match="unknown axis 'dye'; did you mean 'die'"):
         best["dye"]
+
+
+@pytest.mark.parametrize("goal", ["fastest", "gentlest"])
+def test_an_axis_with_a_process_keeps_what_it_minimises(goal: str) -> None:
+    """Of known laws nothing is looked for but what a load vibrates with."""
+    ways = [Rise("45 deg", "0.2 s", **LAW), Dwell("0.1 s", least="0 s"), Return("45 deg", "0.2 s", **LAW), Dwell()]
+    load = {"torque": {"0 deg": "0 N m", "360 deg": "-4 N m"}, "over": "master"}
+    cycle = Cycle(ways, period="0.8 s", minimise="rms torque", drive=Mechanism("0.8 kg m^2"), load=load)
+    best = getattr(Axes({"table": cycle}), goal)()
+    assert best["table"].minimise == "rms torque"
+    assert best["table"].objective == pytest.approx(best["table"].effort.rms_force, rel=1e-12)
+    assert type(best).from_json(best.to_json()).status == best.status == "optimal"
