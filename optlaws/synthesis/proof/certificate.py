@@ -24,7 +24,7 @@ from optlaws.synthesis.problem.constants import present_name
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import Model, least_violation, model_of, relaxed
 from optlaws.synthesis.proof.duality import Line, by_bends, lines_of, row_of, sum_of_rows
-from optlaws.synthesis.proof.nodes import Contact, Leaf, Node
+from optlaws.synthesis.proof.nodes import Contact, Leaf, Node, closes
 
 if TYPE_CHECKING:
     from optlaws.synthesis.proof.peak_rows import PeakRows
@@ -79,9 +79,6 @@ def farkas_margin(rows: Array, right: Array, multipliers: Array, count: int) -> 
             return value - float(moved @ np.abs(right))
     return value - _GREATEST * float(np.abs(rest).sum())
 
-
-_NEIGHBOUR_DISTANCE = 2.0**-12  # of u: how far from a contact its neighbours are
-_NEIGHBOUR_SHARE = 2.0**-14  # of a contact's multiplier: how much of it each neighbour takes
 
 OBJECTIVE, RELAXED, VIOLATION = "objective", "relaxed", "violation"
 
@@ -222,16 +219,8 @@ class Certificate(JsonText):
             return self.bound > -inf
         if self.claim == inf:
             return excess(self) > 0.0
-        rows = self._regions()
-        if rows is None:
-            return False
-        regions: list[Any] = [*rows.roots()]
-        for node in self.tree:
-            left = rows.after(regions.pop(), node) if regions else None
-            if left is None:
-                return False
-            regions += left
-        return not regions
+        rows: Any = self._regions()
+        return rows is not None and closes(self.tree, rows.roots(), rows.after)
 
     @property
     def proves_infeasible(self) -> bool:
@@ -322,12 +311,11 @@ def _contradiction(certificate: Certificate, model: Model) -> float:
     program = model.program
     rows, right, multipliers = [], [], []
     for contact in certificate.contacts:
-        for k, share in _neighbourhood(contact):
-            row, most = row_of(program, replace(contact, k=k))
-            if contact.multiplier > 0.0 and row.any():
-                rows.append(row)
-                right.append(most)
-                multipliers.append(share * contact.multiplier)
+        row, most = row_of(program, contact)
+        if contact.multiplier > 0.0 and row.any():
+            rows.append(row)
+            right.append(most)
+            multipliers.append(contact.multiplier)
     count = len(rows)
     equations = list(certificate.equations)[: len(program.right)]
     together = np.vstack([np.empty((0, program.size)), *rows, program.equalities[: len(equations)]])
@@ -339,15 +327,3 @@ def _contradiction(certificate: Certificate, model: Model) -> float:
         np.array([*multipliers, *program.multipliers_of_equations(equations)]),
         count,
     )
-
-
-def _neighbourhood(contact: Contact) -> list[tuple[float, float]]:
-    """A contact's place, and two beside it that take a little of its multiplier: where it is need not be exact."""
-    k = contact.k
-    if contact.direction or not _NEIGHBOUR_DISTANCE < k < 1.0 - _NEIGHBOUR_DISTANCE:
-        return [(k, 1.0)]
-    return [
-        (k, 1.0 - 2.0 * _NEIGHBOUR_SHARE),
-        (k - _NEIGHBOUR_DISTANCE, _NEIGHBOUR_SHARE),
-        (k + _NEIGHBOUR_DISTANCE, _NEIGHBOUR_SHARE),
-    ]

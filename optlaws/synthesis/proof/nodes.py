@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from math import isfinite
-from typing import NamedTuple
+from typing import NamedTuple, TypeVar
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError
@@ -106,6 +107,21 @@ class Split:
 
 
 Node = Leaf | Split
+Region = TypeVar("Region")
+
+
+def closes(tree: Iterable[Node], roots: Iterable[Region], after: Callable[[Region, Node], list[Region] | None]) -> bool:
+    """Whether a tree leaves no region, where each node is applied to the region that was cut off last.
+
+    `after` gives what remains of a region after a node, and None where it is no node of such regions.
+    """
+    regions = [*roots]
+    for node in tree:
+        left = after(regions.pop(), node) if regions else None
+        if left is None:
+            return False
+        regions += left
+    return not regions
 
 
 class PlaceRange(NamedTuple):
@@ -136,3 +152,8 @@ class PlaceRange(NamedTuple):
     def parts(self, at: float) -> list[PlaceRange]:
         """The part of the range above a place, then the part below it."""
         return [self._replace(low=at), self._replace(high=at)]
+
+    def after(self, node: Node) -> list[PlaceRange] | None:
+        """The parts between which a split divides the range; None if it is none of them."""
+        split = isinstance(node, Split) and node.variable == 0 and self.low < node.at < self.high
+        return self.parts(node.at) if isinstance(node, Split) and split else None

@@ -18,7 +18,7 @@ from optlaws.synthesis.problem.constants import FUNCTIONALS, PeakConstant
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import Model, model_of
 from optlaws.synthesis.proof.duality import lines_of, sum_of_rows
-from optlaws.synthesis.proof.nodes import Leaf, Node, PlaceRange, Split, Tightening
+from optlaws.synthesis.proof.nodes import Leaf, Node, PlaceRange
 from optlaws.synthesis.proof.sublevel_bounds import Sublevel, moments
 from optlaws.synthesis.spaces.bases import PolynomialBasis
 from optlaws.tolerances import VALUE_ROUNDING
@@ -72,11 +72,9 @@ class PeakRows:
 
     def after(self, here: PlaceRange, node: Node) -> list[PlaceRange] | None:
         """The ranges that remain of a range after a node; None if it is no node of places."""
-        if isinstance(node, Split):
-            return here.parts(node.at) if node.variable == 0 and here.low < node.at < here.high else None
-        if isinstance(node, Tightening):
-            return None
-        return [] if self.excluded(here, node) else [here]
+        if type(node) is Leaf:
+            return [] if self.excluded(here, node) else [here]
+        return here.after(node)
 
     def excluded(self, here: PlaceRange, leaf: Leaf) -> bool:
         """Whether a leaf shows that no law below the claim has the peak within a range."""
