@@ -56,6 +56,7 @@ _KINDS = (
     ("law", {"law", "constants"}),
     ("certificate", {"problem", "contacts"}),
     ("certificate", {"problem", "steps"}),
+    ("certificate", {"problem", "cells"}),
 )
 
 

@@ -8,12 +8,11 @@ as makes the sum depend on nothing, which balls enclose.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from math import inf, isfinite
-from typing import NamedTuple
 
 from flint import arb, arb_mat, ctx
 
@@ -22,12 +21,11 @@ from optlaws.synthesis.limits.rounding import rounded_up
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.proof.certificate import VIOLATION, Certificate
 from optlaws.synthesis.proof.nodes import Contact
-from optlaws.synthesis.proof.sublevel_bounds import Number, Sublevel
 from optlaws.verification.enclosing.balls import ball, lower, upper
 from optlaws.verification.exact.boxes import tree_holds
+from optlaws.verification.exact.charge import Vector, charge, summed
+from optlaws.verification.exact.places import places_hold
 from optlaws.verification.exact.rows import ExactRows
-
-Vector = list[arb]
 
 #: of a bound: where more is charged a repair is tried
 _CHARGED = Fraction(1, 10**10)
@@ -57,9 +55,7 @@ class Proof:
 
 
 def prove(certificate: Certificate) -> Proof:
-    """The bound that a certificate proves: of one leaf its sum less the charge, of boxes its claim.
-
-    Places of a peak are not checked: such a tree proves nothing here.
+    """The bound that a certificate proves: of one leaf its sum less the charge, of boxes and of places its claim.
 
     >>> from optlaws import Chebyshev, Problem, synthesize
     >>> solution = synthesize(Problem(B=1.859, order=4, basis=Chebyshev(9)))
@@ -70,7 +66,7 @@ def prove(certificate: Certificate) -> Proof:
     if certificate.points is not None:
         return Proof(Fraction(certificate.claim or 0) if tree_holds(certificate) else None)
     if certificate.peak:
-        return Proof(None)
+        return Proof(Fraction(certificate.claim or 0) if places_hold(certificate, _bits(certificate)) else None)
     best = _proof(certificate, None)
     if certificate.program == VIOLATION:
         return best
@@ -99,14 +95,16 @@ def prove_along(certificate: Certificate, along: Along) -> Proof:
 
 
 def _proof(certificate: Certificate, along: Along | None) -> Proof:
-    basis = certificate.problem.basis
-    bits = 384 + 16 * (2 * certificate.problem.order + int(getattr(basis, "degree", 0)))
     for times in _MORE_BITS:
-        with ctx.workprec(bits * times):
+        with ctx.workprec(_bits(certificate) * times):
             proof = _proof_at_work(certificate, along)
         if proof.value is not None:
             break
     return proof
+
+
+def _bits(certificate: Certificate) -> int:
+    return 384 + 16 * (2 * certificate.problem.order + int(getattr(certificate.problem.basis, "degree", 0)))
 
 
 def _proof_at_work(certificate: Certificate, along: Along | None) -> Proof:
@@ -116,22 +114,22 @@ def _proof_at_work(certificate: Certificate, along: Along | None) -> Proof:
     total = leaf.sum()
     claim = along.claim if along is not None else rounded_up(upper(total[-1])) if total[-1].is_finite() else inf
     sublevel = rows.sublevel if along is None else replace(rows.sublevel, problem=along.widest)
-    charge = _charge(sublevel, rows, total, Fraction(claim)) if isfinite(claim) else None
+    beyond = charge(sublevel, rows, total, Fraction(claim)) if isfinite(claim) else None
     weights, value = leaf.weights, total[-1]
-    if charge is None or upper(charge) > _CHARGED * abs(upper(value)):
+    if beyond is None or upper(beyond) > _CHARGED * abs(upper(value)):
         # what nothing bounds has no other proof, however far the multipliers are from it
-        repaired = leaf.repaired(_REPAIRED if charge is not None else Fraction(1))
-        if repaired is not None and (charge is None or bool(repaired[1] > value - charge)):
-            (weights, value), charge, claim = repaired, arb(0), inf
-    if charge is None or not value.is_finite():
+        repaired = leaf.repaired(_REPAIRED if beyond is not None else Fraction(1))
+        if repaired is not None and (beyond is None or bool(repaired[1] > value - beyond)):
+            (weights, value), beyond, claim = repaired, arb(0), inf
+    if beyond is None or not value.is_finite():
         return Proof(None, 0.0, leaf.negative, leaf.unknown)
     # a law either contradicts the claim, and then the charge covers it, or it does not
-    proven = lower(value - charge)
+    proven = lower(value - beyond)
     if along is None and isfinite(claim):
         proven = min(proven, Fraction(claim))
     slope = sum((m * rate for m, rate in zip(weights, leaf.rates(along), strict=False)), arb(0))
     bounds = (lower(slope), upper(slope))
-    return Proof(proven, rounded_up(upper(charge)) + 0.0, leaf.negative, leaf.unknown, bounds)
+    return Proof(proven, rounded_up(upper(beyond)) + 0.0, leaf.negative, leaf.unknown, bounds)
 
 
 class _Leaf:
@@ -162,10 +160,8 @@ class _Leaf:
 
     def _added(self, weights: Sequence[arb], vectors: Sequence[Vector]) -> Vector:
         cost = [ball(self.rows.cost.get(name, 0.0)) for name in self.rows.names]
-        total = [*[arb(0)] * self.rows.space.terms, *cost, arb(0)]
-        for weight, vector in zip(weights, vectors, strict=True):
-            total = [entry + weight * value for entry, value in zip(total, vector, strict=True)]
-        return total
+        start = [*[arb(0)] * self.rows.space.terms, *cost, arb(0)]
+        return summed([arb(1), *weights], [start, *vectors])
 
     def rates(self, along: Along | None) -> Vector:
         """The rate of each row's constant with respect to the swept number."""
@@ -242,82 +238,3 @@ def _changes(vectors: list[Vector], weights: Vector, slopes: Vector) -> Vector |
     except ZeroDivisionError:
         return None
     return list((weighted * solution).entries())
-
-
-def _charge(sublevel: Sublevel, rows: ExactRows, total: Vector, claim: Fraction) -> arb | None:
-    """The most by which a sum's slopes can lower it in laws below the claim; None where nothing bounds it."""
-    greatest, least = sublevel.greatest_values(claim), sublevel.least_values()
-    terms, charge = rows.space.terms, arb(0)
-    for name, slope in zip(rows.names, total[terms:-1], strict=True):
-        # a rising slope lowers the sum most where the constant is least, a falling one where it is greatest
-        low = Fraction(0) if bool(slope <= 0) else least.get(name, Fraction(0))
-        high = Fraction(0) if bool(slope >= 0) else greatest.get(name, inf)
-        if not (isfinite(low) and isfinite(high)):
-            return None
-        charge -= slope.max(arb(0)) * ball(low) + slope.min(arb(0)) * ball(high)
-    slopes = total[:terms]
-    if all(slope.is_zero() for slope in slopes):
-        return charge
-    settled = [row.vector([]) for row in rows.equations if not row.constants]
-    bounded = sublevel.means(greatest)
-    known = [(rows.space.moments(nu), ball(mean)) for nu, mean in bounded.items()]
-    if not bounded:
-        # an output may determine the law where nothing else says how large it is
-        sized = [
-            name for name, output in rows.outputs.items() if output.exact.both and isfinite(greatest.get(name, inf))
-        ]
-        known = [([rows.outputs[name].moments()], ball(greatest[name])) for name in sized]
-    priced = [(_worth(moments, settled, slopes), mean) for moments, mean in known]
-    worths = [worth.known + worth.by_mean * mean for worth, mean in priced if worth is not None]
-    if not known:
-        worths = list(_paid(sublevel, rows, settled, total, least))
-    return charge + min(worths, key=upper) if worths else None
-
-
-def _paid(
-    sublevel: Sublevel, rows: ExactRows, settled: Sequence[Vector], total: Vector, least: Mapping[str, Number]
-) -> Iterator[arb]:
-    """The worth of slopes where a constant that bounds a mean in proportion, however great it is, outweighs them."""
-    terms = rows.space.terms
-    for name, slope in zip(rows.names, total[terms:-1], strict=True):
-        pays = bool(slope > 0) and least.get(name, 0) >= 0
-        for nu, none, growth in sublevel.means_by(name) if pays else ():
-            worth = _worth(rows.space.moments(nu), settled, total[:terms])
-            if worth is not None and bool(worth.by_mean * ball(growth) <= slope):
-                yield worth.known + worth.by_mean * ball(none)
-
-
-class _Worth(NamedTuple):
-    """The most by which slopes can lower a sum: what is known, and how much for each unit of a mean magnitude."""
-
-    known: arb
-    by_mean: arb
-
-
-def _worth(pieces: Sequence[Sequence[Vector]], settled: Sequence[Vector], slopes: Vector) -> _Worth | None:
-    """What slopes in the coordinates are worth; None where the moments do not determine the law.
-
-    Parameters
-    ----------
-    pieces
-        Of each piece of the interval, moments of the function with functions that are at most 1 in magnitude.
-    settled
-        Rows that are 0 in every law: of what no moment sees.
-    slopes
-        One for each coordinate.
-    """
-    rows = [row for piece in pieces for row in piece] + list(settled)
-    matrix = arb_mat([row[:-1] for row in rows])
-    try:
-        # the plain elimination loses balls that are narrow enough by far
-        solution = (matrix.transpose() * matrix).solve(arb_mat(len(slopes), 1, slopes), algorithm="precond")
-    except ZeroDivisionError:
-        return None
-    weights = (matrix * solution).entries()
-    known, first, most = arb(0), 0, arb(0)
-    for weight, row in zip(weights, rows, strict=True):
-        known += weight * arb(row[-1])
-    for piece in pieces:
-        most = most.max(sum((abs(weight) for weight in weights[first : first + len(piece)]), arb(0)))
-        first += len(piece)
-    return _Worth(known, most) if known.is_finite() and most.is_finite() else None

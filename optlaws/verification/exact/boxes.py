@@ -24,7 +24,7 @@ from optlaws.synthesis.problem.constants import Functional
 from optlaws.synthesis.problem.expression import leaves
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.proof.certificate import Certificate
-from optlaws.synthesis.proof.nodes import Contact, Leaf, Split, Tightening
+from optlaws.synthesis.proof.nodes import Contact, Leaf, Node, Split, Tightening, closes
 from optlaws.synthesis.proof.power import formula_underestimators
 from optlaws.synthesis.proof.power.formula_underestimators import PEAKS, Way
 from optlaws.synthesis.proof.power.rows import POWER_ROWS, applies
@@ -100,19 +100,16 @@ class BoxSteps(ABC):
 
     def holds(self) -> bool:
         """Whether the tree leaves no box."""
-        boxes = [self.root()]
-        for node in self.tree:
-            if not boxes:
-                return False
-            if isinstance(node, Split | Tightening) and not 0 <= node.variable < len(boxes[-1].low):
-                return False
-            box = boxes.pop()
-            if isinstance(node, Split):
-                at = ball(node.at)
-                boxes += [box.cut(node.variable, low=at), box.cut(node.variable, high=at)]
-            else:
-                boxes += self.moved(box, node)
-        return not boxes
+        return closes(self.tree, [self.root()], self.after)
+
+    def after(self, box: BallBox, node: Node) -> list[BallBox] | None:
+        """The boxes that remain of a box after a node; None if it is no node of such boxes."""
+        if isinstance(node, Split | Tightening) and not 0 <= node.variable < len(box.low):
+            return None
+        if isinstance(node, Split):
+            at = ball(node.at)
+            return [box.cut(node.variable, low=at), box.cut(node.variable, high=at)]
+        return self.moved(box, node)
 
     def root(self) -> BallBox:
         """The box of all laws of the problem whose objective is below the claim."""
