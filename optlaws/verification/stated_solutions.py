@@ -33,8 +33,17 @@ from optlaws.verification.exact.bound import Proof, prove
 from optlaws.verification.exact.law import ExactLaw
 from optlaws.verification.exact.limit import exact_limit
 from optlaws.verification.reading import built, number
-from optlaws.verification.result import Claim, Verification, with_claims
-from optlaws.verification.statements import Data, Proven, at_most, compare, near, of_number
+from optlaws.verification.result import (
+    Claim,
+    Data,
+    Proven,
+    Verification,
+    at_most,
+    compare,
+    near,
+    of_number,
+    with_claims,
+)
 
 _STATED_PLACE = 1e-7  # of a constant: what its value may be less at a place that was computed in doubles
 _NEGATIVE_MULTIPLIER = 1e-9  # of the greatest multiplier: one so little below 0 is none
