@@ -34,24 +34,12 @@ _NORM_OFFSET = 1e-24  # keeps the slope of a norm finite where it vanishes
 
 @dataclass(frozen=True)
 class Arithmetic:
-    """The operations on numbers of a kind: how they are built, and the functions that take them.
+    """The operations on numbers of a kind: how they are built, and the functions that take them."""
 
-    Attributes
-    ----------
-    number
-        From a float.
-    functions
-        By name: sin, cos, ..., of one number, and max, min, norm of two.
-    power
-        Of a base and an exponent.
-    table
-        Of a table and the number at which it is evaluated; None where there are none.
-    """
-
-    number: Callable[[float], Any]
-    functions: Mapping[str, Callable[..., Any]]
-    power: Callable[[Any, Any], Any]
-    table: Callable[[Table, Any], Any] | None = None
+    number: Callable[[float], Any]  #: from a float
+    functions: Mapping[str, Callable[..., Any]]  #: by name: sin, cos, ..., of one number, and max, min, norm of two
+    power: Callable[[Any, Any], Any]  #: of a base and an exponent
+    table: Callable[[Table, Any], Any] | None = None  #: of a table and where it is evaluated; None where there are none
 
 
 def evaluate(formula: Formula, names: Mapping[str, Any], arithmetic: Arithmetic) -> Any:
@@ -161,10 +149,7 @@ def _numpy_power(base: Any, exponent: Any) -> Any:
 def _table(table: Table, at: Any) -> Any:
     coefficients, places = pieces(table), np.array(table.places)
     piece = np.clip(np.searchsorted(places, at, side="right") - 1, 0, len(places) - 2)
-    s, values = np.asarray(at) - places[piece], np.zeros(np.shape(at))
-    for column in coefficients.T[::-1]:
-        values = column[piece] + s * values
-    return values
+    return horner(list(coefficients.T[:, piece]), np.asarray(at) - places[piece])
 
 
 def pieces(table: Table) -> Array:

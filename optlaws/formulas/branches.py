@@ -6,6 +6,7 @@ from collections.abc import Callable, Collection, Mapping, Sequence
 from functools import reduce
 from itertools import combinations, pairwise
 from itertools import product as every
+from math import prod
 
 import numpy as np
 from numpy.typing import NDArray
@@ -245,10 +246,7 @@ class _Branches:
     def _sum(self, formula: Sum, *, greatest: bool) -> list[Formula] | None:
         terms = [self.of(term, greatest=greatest) for term in formula.terms]
         known = [term for term in terms if term is not None]
-        count = 1
-        for term in known:
-            count *= len(term)
-        if len(known) < len(terms) or count > _MOST:
+        if len(known) < len(terms) or prod(map(len, known)) > _MOST:
             return None
         return [added(list(choice)) for choice in every(*known)]
 

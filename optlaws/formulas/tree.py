@@ -13,24 +13,12 @@ from optlaws.kept import kept_property
 
 @dataclass(frozen=True)
 class SmoothFunction:
-    """A function of one number that is smooth wherever it has a value.
+    """A function of one number that is smooth wherever it has a value."""
 
-    Attributes
-    ----------
-    numpy
-        Its values on arrays; CasADi and balls have it under its name.
-    rising
-        Whether it rises everywhere.
-    curvature
-        "convex" or "concave" if it is so everywhere.
-    from_zero
-        Whether it has values from 0 on alone.
-    """
-
-    numpy: Callable[..., Any]
-    rising: bool = False
-    curvature: Literal["convex", "concave"] | None = None
-    from_zero: bool = False
+    numpy: Callable[..., Any]  #: its values on arrays; CasADi and balls have it under its name
+    rising: bool = False  #: whether it rises everywhere
+    curvature: Literal["convex", "concave"] | None = None  #: if it is so everywhere
+    from_zero: bool = False  #: whether it has values from 0 on alone
 
 
 SMOOTH_FUNCTIONS = {
@@ -268,7 +256,6 @@ class Exponentiation(Formula):
 
     @property
     def parts(self) -> tuple[Formula, ...]:
-        """The base and the exponent."""
         return self.base, self.exponent
 
     def __str__(self) -> str:
@@ -315,7 +302,6 @@ class Table(OfOnePart):
 
     @property
     def data(self) -> tuple[Any, ...]:
-        """The places and values, how they are joined, and the order."""
         return self.places, self.values, self.kind, self.order
 
     def __str__(self) -> str:

@@ -272,7 +272,7 @@ class PiecewiseMotion:
     def _top(self, nu: int, sign: float) -> Extreme:
         table = self.powers(nu)
         control = bernstein.from_powers(table * self.lengths[:, None] ** np.arange(table.shape[1]))
-        value, _, row, u = bernstein.top(sign * control)
+        value, row, u = bernstein.top(sign * control)
         if u in {0.0, 1.0}:
             return Extreme(value, self.breaks[row + int(u)])
         # the place near that found by halving where the derivative is stationary

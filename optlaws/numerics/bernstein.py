@@ -24,10 +24,9 @@ _ROUNDS = 20
 
 
 class GreatestValue(NamedTuple):
-    """The greatest value of polynomials on [0, 1]: between `value`, which is taken, and `above`; its row and place."""
+    """The greatest value of polynomials on [0, 1], its row and its place."""
 
     value: float
-    above: float
     row: int
     u: float
 
@@ -57,29 +56,25 @@ def top(control: Array) -> GreatestValue:
     the first is returned.
 
     >>> top(from_powers(np.array([[0.0, 1.0, -1.0]])))
-    GreatestValue(value=0.25, above=0.25, row=0, u=0.5)
+    GreatestValue(value=0.25, row=0, u=0.5)
     """
     scale = float(np.abs(control).max())
     rows, lows, width = np.arange(len(control)), np.zeros(len(control)), 1.0
-    best, above = -np.inf, -np.inf
+    best = -np.inf
     met: list[Array] = []
     for _ in range(_ROUNDS):
         best = max(best, float(control[:, [0, -1]].max()))
         for side, u in ((0, lows), (-1, lows + width)):
             near = control[:, side] >= best - TIE * scale
             met.append(np.stack([rows[near], u[near], control[near, side]]))
-        height = control.max(axis=1)
-        higher = height > best + OPERATIONS_ROUNDING * scale
-        above = max(above, float(height[~higher].max(initial=-np.inf)))
+        higher = control.max(axis=1) > best + OPERATIONS_ROUNDING * scale
         if not higher.any():
             break
         width /= PARTS
         control = in_parts(control[higher])
         rows, lows = np.repeat(rows[higher], PARTS), (lows[higher, None] + width * np.arange(PARTS)).ravel()
-    else:
-        above = max(above, float(control.max()))
     which, place = _first(np.concatenate(met, axis=1), best - TIE * scale)
-    return GreatestValue(best, max(above, best), which, place)
+    return GreatestValue(best, which, place)
 
 
 def in_parts(control: Array) -> Array:

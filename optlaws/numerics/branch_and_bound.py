@@ -50,12 +50,7 @@ _BLUR = 4.0
 class Extremes(NamedTuple):
     """Least and greatest value of a function: attained values, and proven bounds.
 
-    Attributes
-    ----------
-    least, most
-        At `least_at` it is at most `least`, at `most_at` it is at least `most`.
-    low, high
-        It is nowhere below `low` and nowhere above `high`.
+    At `least_at` it is at most `least`, at `most_at` at least `most`; nowhere is it below `low` or above `high`.
     """
 
     least: float

@@ -6,7 +6,7 @@ pytest.importorskip("flint")
 
 from optlaws.verification.claims import verified
 from optlaws.verification.enclosing.ball_formulas import BALLS
-from optlaws.verification.enclosing.balls import ball, enclosed, enclosure, lower, upper
+from optlaws.verification.enclosing.balls import ball, enclosed, lower, upper
 from optlaws.verification.enclosing.taylor_models import between, real_roots
 from optlaws.verification.exact.bound import prove
 from optlaws.verification.exact.law import ExactLaw

@@ -32,9 +32,7 @@ def test_a_top_is_enclosed_and_found_where_it_is() -> None:
         powers = np.array([[2.0 - place**2, 2.0 * place, -1.0, 0.0], [0.0, 0.0, 0.0, 1.9]])  # 2 - (u - place)²
         highest = bernstein.top(bernstein.from_powers(powers))
         assert highest.row == 0
-        assert highest.value <= 2.0 + 1e-15
-        assert highest.above >= 2.0 - 1e-15
-        assert highest.above - highest.value <= 1e-14
+        assert highest.value == pytest.approx(2.0, rel=0, abs=1e-15)
         assert highest.u == pytest.approx(place, abs=1e-7)
 
 

@@ -42,15 +42,10 @@ def lower(value: arb) -> Fraction:
         return -upper(-value)
 
 
-def enclosure(value: arb) -> tuple[float, float]:
-    """Floats below and above the ball."""
-    return rounded_down(lower(value)), rounded_up(upper(value))
-
-
 def enclosed(value: arb) -> tuple[float, float]:
     """The two doubles that enclose a ball, which may be infinite."""
     if value.is_finite():
-        return enclosure(value)
+        return rounded_down(lower(value)), rounded_up(upper(value))
     return (inf, inf) if value == arb.pos_inf() else (-inf, inf)
 
 

@@ -19,7 +19,7 @@ from tests.internals.synthesis import (  # noqa: E402
 )
 from tests.internals.verification import (  # noqa: E402
     ExactLaw,
-    enclosure,
+    enclosed,
     lower,
     upper,
 )
@@ -104,8 +104,8 @@ def test_no_value_is_outside_the_extremes(series: list[float], first: float, las
     assert rounded_down(lower(least)) <= values.min() + size
     assert rounded_up(upper(greatest)) >= values.max() - size
     inside = law.extrema(2, within=(start, stop))
-    assert enclosure(least)[0] == pytest.approx(inside[0].value, abs=100.0 * size)
-    assert enclosure(greatest)[1] == pytest.approx(inside[1].value, abs=100.0 * size)
+    assert enclosed(least)[0] == pytest.approx(inside[0].value, abs=100.0 * size)
+    assert enclosed(greatest)[1] == pytest.approx(inside[1].value, abs=100.0 * size)
 
 
 def test_rounding_goes_outward() -> None:
