@@ -33,7 +33,7 @@ from optlaws.synthesis.spaces.polynomial_space import PolynomialSpace
 from optlaws.synthesis.spaces.space import LawSpace
 from optlaws.synthesis.spaces.splines import PiecewiseBasis
 from optlaws.synthesis.status import Status, measure, status_of
-from optlaws.synthesis.stored_rows import check_status, plain_error, plain_state
+from optlaws.synthesis.stored_rows import plain_error, plain_state
 from optlaws.synthesis.stored_solutions import read_solutions
 from optlaws.tolerances import OPTIMALITY_GAP
 
@@ -425,14 +425,8 @@ class SolutionArray(JsonText):
         >>> SolutionArray.from_dict(laws.to_dict())[1] == laws[1]
         True
         """
-        stored = read_solutions(data)
-        parts = tuple(SolvedPart(*part) for part in stored.parts)
-        laws = cls(stored.problems, parts, stored.others, stored.seconds)
-        for place, status in enumerate(stored.statuses):
-            result = laws.result(place)
-            if isinstance(result, Solution):
-                check_status(status, result.problem, result.objective, result.lower_bound, f"solutions[{place}]")
-        return laws
+        problems, parts, others, seconds = read_solutions(data)
+        return cls(problems, tuple(SolvedPart(*part) for part in parts), others, seconds)
 
     def summary(self) -> Summary:
         """How many laws of each status there are, and between what objectives and gaps lie, as rows.

@@ -6,7 +6,7 @@ what the proofs beside them prove, and a problem has no law only where its proof
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import fields
 from functools import lru_cache
 from math import inf, isfinite
@@ -34,6 +34,7 @@ from optlaws.synthesis.spaces.splines import PiecewiseBasis
 from optlaws.synthesis.status import Status, status_of
 from optlaws.tolerances import STORED_VALUE
 
+_PROOFS = ("certificate", "power_certificate", "peak_certificate")
 _STORED_COEFFICIENT = 1e-11  # of a law's coefficient: what another machine may round otherwise
 
 Plain = dict[str, Any]
@@ -129,80 +130,63 @@ def read_row(data: object) -> Plain:
 
 
 def attributes(row: StatedSolution, state: StatedState, problem: Problem) -> Plain:
-    """The attributes of the solution of a row.
-
-    Raises
-    ------
-    InputError
-        If one does not follow from the problem, the law and the proofs.
-    """
+    """The attributes of the solution of a row; refused where one does not follow from problem, law and proofs."""
     law = MotionLaw.from_dict(row.law)
-    check_numbers(row, problem, law)
+    of_law = claims_of(row, problem, law)
     _check_z(state.z_series, problem, law)
-    check_status(row.status, problem, row.objective, bound_of(row), "the solution")
-    return {
+    return of_law | {
         "problem": problem,
         "law": law,
         "z_series": tuple(state.z_series),
-        "objective": row.objective,
-        "certificate": Certificate.from_dict(row.certificate),
-        "lower_bound": bound_of(row),
-        "limit": known_limit(problem),
-        "status": row.status,
         "iterations": row.iterations,
         "seconds": row.seconds,
         "starts": row.starts,
-        "power_certificate": _read(Certificate.from_dict, row.power_certificate),
-        "peak_certificate": _read(Certificate.from_dict, row.peak_certificate),
-        "drive_limit": _read(DriveLimit.from_dict, row.drive_limit),
         "active_set": _active_set(state.active_set, model_of(problem).program),
     }
 
 
-def check_status(status: Status, problem: Problem, objective: float, bound: float, name: str) -> None:
-    """Refuse a status that a solution cannot have; a law raised to a lower bound is only partly proven.
+def claims_of(row: StatedSolution, problem: Problem, law: MotionLaw) -> Plain:
+    """The numbers and proofs that a row states of a law.
 
     Raises
     ------
     InputError
-        If it is another's; `name` is what the error calls the solution.
+        If the law breaks its problem, the objective is not the law's, nothing proves the bound, or another status
+        follows from both.
     """
-    velocity = problem.range("B")
-    raised = any(limits.low > 0.0 for _, limits in problem.bounded) or (velocity is not None and velocity.low > 0.0)
-    ways = {True: [True, False] if raised else [True], False: [False]}[problem.convex]
-    possible = [status_of(objective, bound, problem.objective.scale, proven=proven) for proven in ways]
-    if status not in possible:
-        raise InputError(f"the status of {name} is {status.value!r}, but it is {' or '.join(possible)}")
-
-
-def check_numbers(row: StatedSolution, problem: Problem, law: MotionLaw) -> None:
-    """Refuse an objective that is not the law's, a law that breaks its problem, and a bound that nothing proves."""
+    proofs = {name: _read(Certificate.from_dict, getattr(row, name)) for name in _PROOFS}
+    drive, limit = _read(DriveLimit.from_dict, row.drive_limit), known_limit(problem)
     value, size = evaluate(problem, law), _size(problem)
     if not value.sound or shortfalls(problem, law):
         raise InputError("its law does not keep the constraints of its problem")
     if not abs(row.objective - value.objective) <= STORED_VALUE * max(abs(value.objective), size):
         raise InputError(f"the objective is {row.objective!r}, but that of its law {value.objective!r}")
-    bound, proven = bound_of(row), max(_proven(row, problem), default=-inf)
+    if any(proof is not None and proof.problem != problem for proof in proofs.values()):
+        raise InputError("a proof beside its law is of another problem")
+    if drive is not None and not drive.is_of(problem):
+        raise InputError("the limit of a drive beside its law is of another problem")
+    bound = -inf if row.lower_bound is None else row.lower_bound
+    proven = max([-inf if limit is None else limit, *(each.bound for each in (*proofs.values(), drive) if each)])
     if not (bound == -inf or bound <= proven + STORED_VALUE * max(abs(proven), size)):
         raise InputError(f"the lower bound is {bound!r}, but what is proven beside it {proven!r}")
+    possible = [status_of(row.objective, bound, problem.objective.scale, proven=way) for way in _ways(problem)]
+    if row.status not in possible:
+        raise InputError(f"the status of the solution is {row.status.value!r}, but it is {' or '.join(possible)}")
+    return {
+        **proofs,
+        "objective": row.objective,
+        "lower_bound": bound,
+        "limit": limit,
+        "status": row.status,
+        "drive_limit": drive,
+    }
 
 
-def _proven(row: StatedSolution, problem: Problem) -> Iterator[float]:
-    """Bounds that the row's proofs prove of its problem in double precision."""
-    for data in (row.certificate, row.power_certificate, row.peak_certificate):
-        proof = _read(Certificate.from_dict, data)
-        if proof is not None and proof.problem != problem:
-            raise InputError("a proof beside its law is of another problem")
-        if proof is not None:
-            yield proof.bound
-    drive = _read(DriveLimit.from_dict, row.drive_limit)
-    if drive is not None:
-        if not drive.is_of(problem):
-            raise InputError("the limit of a drive beside its law is of another problem")
-        yield drive.bound
-    limit = known_limit(problem)
-    if limit is not None:
-        yield limit
+def _ways(problem: Problem) -> list[bool]:
+    """Whether a bound meets the objective: a law raised to a lower bound is only partly proven."""
+    velocity = problem.range("B")
+    raised = any(limits.low > 0.0 for _, limits in problem.bounded) or (velocity is not None and velocity.low > 0.0)
+    return [*([True] if problem.convex else []), *([False] if raised or not problem.convex else [])]
 
 
 def _size(problem: Problem) -> float:
@@ -214,11 +198,6 @@ def _size(problem: Problem) -> float:
 @lru_cache(maxsize=256)
 def _of_plain_law(problem: Problem) -> float:
     return abs(evaluate(problem, smoothstep(min(problem.order, 10))).objective)
-
-
-def bound_of(row: StatedSolution) -> float:
-    """The lower bound of a row; minus infinity where none is proven."""
-    return -inf if row.lower_bound is None else row.lower_bound
 
 
 def _check_z(series: list[float], problem: Problem, law: MotionLaw) -> None:

@@ -6,9 +6,10 @@ what the proofs beside them prove, and a problem has no law only where its proof
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields, replace
+from dataclasses import fields, replace
+from functools import partial
 from math import inf, prod
-from typing import Any
+from typing import Any, NamedTuple
 
 import msgspec
 import numpy as np
@@ -17,23 +18,21 @@ from numpy.typing import NDArray
 from optlaws.errors import InputError, OptlawsError, located
 from optlaws.synthesis.arrays.problems import ProblemArray
 from optlaws.synthesis.arrays.programs import FOLLOWING, NO_CONTACT, SolvedBatch
+from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.family import Program
-from optlaws.synthesis.limits.of_problem import known_limit
 from optlaws.synthesis.problem.plain_entries import read_entries
 from optlaws.synthesis.problem.problem import Problem, differ_in_numbers
 from optlaws.synthesis.program.writer import Model, model_of
-from optlaws.synthesis.proof.certificate import Certificate
 from optlaws.synthesis.proof.data import as_json, problem_of, stated
+from optlaws.synthesis.proof.nodes import Leaf
 from optlaws.synthesis.solution import Solution
-from optlaws.synthesis.status import Status
 from optlaws.synthesis.stored_rows import (
     Plain,
     StatedError,
     StatedSolution,
     StatedState,
     attributes,
-    bound_of,
-    check_numbers,
+    claims_of,
     equal_data,
     plainly,
     read_error,
@@ -75,18 +74,13 @@ class StatedSolutions(msgspec.Struct, forbid_unknown_fields=True):
     about: str = ""
 
 
-@dataclass(frozen=True, eq=False)
-class StoredSolutions:
-    """Stored solutions: the problems, optima solved together by place and program, and those solved singly.
-
-    `statuses` has the status that each row states.
-    """
+class StoredSolutions(NamedTuple):
+    """Stored solutions: the problems, optima solved together by place and program, and those solved singly."""
 
     problems: ProblemArray
     parts: list[tuple[NDArray[np.intp], Model, SolvedBatch]]
     others: dict[int, Solution | OptlawsError]
     seconds: float
-    statuses: list[Status]
 
 
 def read_solutions(data: object) -> StoredSolutions:
@@ -102,56 +96,45 @@ def read_solutions(data: object) -> StoredSolutions:
     if min(shape, default=0) < 0 or size != len(entries.solutions):
         raise InputError(f"an array of solutions of shape {shape} has {size} solutions, got {len(entries.solutions)}")
     together = {place for part in entries.parts for place in part.places}
-    alone = {str(place) for place in range(size)} - set(map(str, together))
     if sum(len(part.places) for part in entries.parts) != len(together) or not together <= set(range(size)):
         raise InputError("the parts of an array of solutions name a place twice, or one that it does not have")
-    if not entries.alone.keys() <= alone:
+    alone = sorted(set(range(size)) - together)
+    if not entries.alone.keys() <= set(map(str, alone)):
         raise InputError("an array of solutions lists a law as found singly that is not among its laws")
-    return plainly(lambda: _Reading(entries, shape).stored(), "this is no array of solutions")
+    return plainly(lambda: _stored(entries, shape, alone), "this is no array of solutions")
 
 
-@dataclass(frozen=True)
-class _Reading:
-    """An array of solutions that is read: what its file states, and the shape of its problems."""
+def _stored(entries: StatedSolutions, shape: tuple[int, ...], alone: list[int]) -> StoredSolutions:
+    rows = [_row(row, f"solutions[{place}]") for place, row in enumerate(entries.solutions)]
+    problems = _problems(entries, shape)
+    for place, row in enumerate(rows):
+        if row.problem is not None and row.problem != as_json(problems.problem(place).to_dict()):
+            raise InputError(f"the problem of solutions[{place}] is another than that of the arrays")
+    parts = [_part(part, problems, rows) for part in entries.parts]
+    others: dict[int, Solution | OptlawsError] = {}
+    for place in alone:
+        row, state = rows[place], entries.alone.get(str(place))
+        with located(f"solutions[{place}]"):
+            if isinstance(row, StatedError):
+                others[place] = read_error(row, partial(problems.problem, place))
+            elif state is None:
+                raise InputError("the arrays say nothing of its law")
+            else:
+                others[place] = Solution(**attributes(row, state, problems.problem(place)))
+    return StoredSolutions(problems, parts, others, entries.seconds)
 
-    entries: StatedSolutions
-    shape: tuple[int, ...]
 
-    def stored(self) -> StoredSolutions:
-        """The stored solutions, checked."""
-        entries = self.entries
-        rows = [_row(row, f"solutions[{place}]") for place, row in enumerate(entries.solutions)]
-        problems = self._problems()
-        for place, row in enumerate(rows):
-            if row.problem is not None and row.problem != as_json(problems.problem(place).to_dict()):
-                raise InputError(f"the problem of solutions[{place}] is another than that of the arrays")
-        others: dict[int, Solution | OptlawsError] = {}
-        parts = [_part(part, problems, rows) for part in entries.parts]
-        for place in sorted(set(range(len(rows))) - {place for part in entries.parts for place in part.places}):
-            with located(f"solutions[{place}]"):
-                others[place] = self._alone(place, rows[place], problems)
-        return StoredSolutions(problems, parts, others, entries.seconds, [row.status for row in rows])
-
-    def _problems(self) -> ProblemArray:
-        entries, shape = self.entries, self.shape
-        if entries.problems is None:
-            given = [problem_of(row["problem"]) if "problem" in row else None for row in entries.solutions]
-            return ProblemArray.of(given, shape)
-        array = ProblemArray(**read_entries(entries.problems))
-        if array.shape == shape:
-            return array
-        if array.size != 1:
-            raise InputError(f"problems of shape {array.shape} are no array of solutions of shape {shape}")
-        # entries without arrays may have been taken many times
-        return array.taken(np.zeros(shape, dtype=np.intp))
-
-    def _alone(self, place: int, row: StatedSolution | StatedError, problems: ProblemArray) -> Solution | OptlawsError:
-        if isinstance(row, StatedError):
-            return read_error(row, lambda: problems.problem(place))
-        entries = self.entries.alone.get(str(place))
-        if entries is None:
-            raise InputError("the arrays say nothing of its law")
-        return Solution(**attributes(row, entries, problems.problem(place)))
+def _problems(entries: StatedSolutions, shape: tuple[int, ...]) -> ProblemArray:
+    if entries.problems is None:
+        given = [problem_of(row["problem"]) if "problem" in row else None for row in entries.solutions]
+        return ProblemArray.of(given, shape)
+    array = ProblemArray(**read_entries(entries.problems))
+    if array.shape == shape:
+        return array
+    if array.size != 1:
+        raise InputError(f"problems of shape {array.shape} are no array of solutions of shape {shape}")
+    # entries without arrays may have been taken many times
+    return array.taken(np.zeros(shape, dtype=np.intp))
 
 
 def _row(data: Plain, name: str) -> StatedSolution | StatedError:
@@ -207,25 +190,25 @@ def _check_row(row: StatedSolution, problem: Problem, model: Model, laws: Solved
     law = model.law(laws.x[i])
     if not equal_data(as_json(law.to_dict()), row.law):
         raise InputError("its law is another than that of the arrays' coordinates")
-    check_numbers(row, problem, law)
-    bound, limit = float(laws.bound[i]), known_limit(problem)
-    if max(bound, -inf if limit is None else limit) != bound_of(row):
+    claims, bound = claims_of(row, problem, law), float(laws.bound[i])
+    if max(bound, -inf if claims["limit"] is None else claims["limit"]) != claims["lower_bound"]:
         raise InputError(f"its lower bound is {row.lower_bound!r}, but that of the arrays {bound!r}")
     if problem.convex:
-        _check_contacts(Certificate.from_dict(row.certificate), model.program, laws, i)
+        _check_contacts(claims["certificate"].leaf, model.program, laws.active_set(i))
 
 
-def _check_contacts(proof: Certificate, program: Program, laws: SolvedBatch, i: int) -> None:
+def _check_contacts(leaf: Leaf, program: Program, optimum: ActiveSet) -> None:
     """Refuse contacts and multipliers of the arrays that differ from the row's certificate."""
-    contacts = [int(j) for family in range(len(program.families)) for j in np.flatnonzero(laws.family[i] == family)]
-    kinds = [program.families[laws.family[i, j]] for j in contacts]
-    same = [kind.name for kind in kinds] == [contact.constraint for contact in proof.contacts]
-    places = [float(kind.k(laws.u[i, j : j + 1])[0]) for kind, j in zip(kinds, contacts, strict=True)]
-    arrays: list[tuple[Any, list[float]]] = [
-        (laws.sign[i, contacts], [contact.sign for contact in proof.contacts]),
-        (np.clip(places, 0.0, 1.0), [contact.k for contact in proof.contacts]),
-        (laws.multiplier[i, contacts], [contact.multiplier for contact in proof.contacts]),
-        (laws.equations[i], list(proof.equations)),
+    order = np.argsort(optimum.family, kind="stable")
+    families = [program.families[family] for family in optimum.family[order]]
+    places = [float(family.k(optimum.u[j : j + 1])[0]) for family, j in zip(families, order, strict=True)]
+    names = ("constraint", "sign", "k", "multiplier")
+    columns: list[list[Any]] = [[getattr(contact, name) for contact in leaf.contacts] for name in names]
+    arrays: list[list[Any]] = [
+        [family.name for family in families],
+        optimum.s[order].tolist(),
+        np.clip(places, 0.0, 1.0).tolist(),
+        optimum.multipliers[order].tolist(),
     ]
-    if not same or not all(equal_data(list(map(float, first)), second) for first, second in arrays):
+    if not equal_data([*arrays, optimum.equality_multipliers.tolist()], [*columns, list(leaf.equations)]):
         raise InputError("its certificate is another than that of the arrays' contacts and multipliers")
