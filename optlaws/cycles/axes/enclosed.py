@@ -14,7 +14,7 @@ import numpy as np
 from optlaws.cycles.cycle import Cycle
 from optlaws.errors import InputError
 from optlaws.formulas.arithmetic import NUMPY, evaluate
-from optlaws.formulas.tree import Call, Formula, Name, Number, Table
+from optlaws.formulas.tree import Formula
 from optlaws.kept import kept_property
 from optlaws.motion.smooth_stretches import EnclosedStretch, jet_of_parts, smooth_parts
 from optlaws.numbers import Array
@@ -22,7 +22,7 @@ from optlaws.numerics.branch_and_bound import Extremes, extremes
 from optlaws.numerics.interval import Interval, exact
 from optlaws.numerics.taylor import Jet
 from optlaws.synthesis.limits.formula_jets import formula_jet
-from optlaws.tolerances import INTERLOCK, PASS_WIDTH, ROUNDOFF
+from optlaws.tolerances import INTERLOCK, PASS_WIDTH
 
 _SECTION_WIDTH = 1e-12  # of a polygon: sides that are narrower are upright
 
@@ -139,34 +139,11 @@ def least(
     return extremes(function, [start, *breaks, stop], share=share, parts=2)
 
 
-@dataclass(frozen=True)
-class PositionBound:
-    """A formula of x with units as a bound: `size` is the unit of x and `scale` that of its value, both in SI."""
-
-    formula: Formula
-    size: float = 1.0
-    scale: float = 1.0
-
-    @classmethod
-    def through(cls, places: tuple[float, ...], values: tuple[float, ...]) -> PositionBound:
-        """Straight lines between places, constant beyond them."""
-        within = Call("max", (Call("min", (Name("x"), Number(places[-1]))), Number(places[0])))
-        return cls(Table(within, places, values))
-
-    @property
-    def bends(self) -> tuple[float, ...]:
-        """Positions at which straight lines meet."""
-        return self.formula.places if isinstance(self.formula, Table) else ()
-
-    def __call__(self, x: Array) -> Array:
-        """Values of the bound at places."""
-        return np.asarray(evaluate(self.formula, {"x": np.asarray(x) / self.size}, NUMPY)) * self.scale + 0.0 * x
-
-    def jet(self, x: Jet) -> Jet:
-        """The bound where x is a jet of intervals."""
-        share = 1.0 / self.size
-        value = formula_jet(self.formula, "x", x * Interval(np.array(share), np.array(2.0 * ROUNDOFF * share)))
-        return value * Interval(np.array(self.scale), np.array(ROUNDOFF * self.scale))
+def at_positions(formula: Formula, x: Any) -> Any:
+    """A formula of x where x is positions, or a jet of intervals of them."""
+    if isinstance(x, Jet):
+        return formula_jet(formula, "x", x)
+    return np.asarray(evaluate(formula, {"x": x}, NUMPY)) + 0.0 * x
 
 
 @dataclass(frozen=True)

@@ -11,7 +11,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from optlaws.cycles.axes.enclosed import EnclosedAxis, PositionBound, SimplePolygon, Way, least
+from optlaws.cycles.axes.enclosed import EnclosedAxis, SimplePolygon, Way, at_positions, least
 from optlaws.cycles.cycle import Cycle
 from optlaws.cycles.specification.limits import AXES
 from optlaws.cycles.specification.periods import extent
@@ -21,7 +21,8 @@ from optlaws.entries.declared import Kinded, ValueOf, declared, entry
 from optlaws.entries.value_types import Choice, Either, Listed, Measured, Number, Text, Together
 from optlaws.errors import InputError, located
 from optlaws.formulas.reading import read
-from optlaws.formulas.tree import Formula, Table
+from optlaws.formulas.tree import Call, Formula, Name, Table, number
+from optlaws.mechanisms.linkages.mechanism_formulas import rescaled, times
 from optlaws.motion.piece import unit_of
 from optlaws.motion.quantities import UNITS, in_small_units, quantity
 from optlaws.numbers import Array, Quantity
@@ -385,27 +386,33 @@ class Clearance(Interlock, kind="clearance"):
             raise InputError("clearance: give a table as pairs, least=[('0 deg', '20 mm'), ...], not in a formula")
         return formula
 
-    def _in_si(self, first: Cycle, second: Cycle) -> PositionBound:
+    def _in_si(self, first: Cycle, second: Cycle) -> Formula:
+        """The bound as a formula of x in SI units; straight lines through pairs, constant beyond them."""
         kinds = second.axis, first.axis
         if isinstance(self.given, str):
             units = zip(self.units or (), kinds, strict=True)
-            return PositionBound(self.formula(), *(quantity(f"1 {unit}", kind, "unit") for unit, kind in units))
+            size, scale = (quantity(f"1 {unit}", kind, "unit") for unit, kind in units)
+            return times(rescaled(self.formula(), "x", "x", (0.0, 1.0 / size)), scale)
         places, values = (
             tuple(quantity(value, kind, f"position of {name}") for value in side)
             for side, kind, name in zip(zip(*self.given, strict=True), kinds, (self.over, self.axis), strict=True)
         )
         if any(low >= high for low, high in pairwise(places)):
             raise InputError(f"positions of {self.over} must increase, got {shortened(self.given)}")
-        return PositionBound.through(places, values)
+        within = Call("max", (Call("min", (Name("x"), number(places[-1]))), number(places[0])))
+        return Table(within, places, values)
+
+    def _between(self, given: Formula, first: Any, second: Any) -> Any:
+        """How far the position of the first axis is beyond the bound, for positions and for jets of them."""
+        difference = first - at_positions(given, second)
+        return difference if self.sign > 0.0 else -difference
 
     def room(self, cycles: Mapping[str, Any], times: Array) -> Array:
-        first, second = (cycles[name](times) for name in self.axes)
-        return np.asarray(self.sign * (first - self.in_si(cycles)(second)))
+        return np.asarray(self._between(self.in_si(cycles), *(cycles[name](times) for name in self.axes)))
 
-    def _least(self, given: PositionBound, first: EnclosedAxis, second: EnclosedAxis) -> tuple[float, ...]:
+    def _least(self, given: Formula, first: EnclosedAxis, second: EnclosedAxis) -> tuple[float, ...]:
         def room(at: Interval, order: int) -> Jet:
-            difference = first.jet(at, order) - given.jet(second.jet(at, order))
-            return difference if self.sign > 0.0 else -difference
+            return self._between(given, first.jet(at, order), second.jet(at, order))  # type: ignore[no-any-return]
 
         known = least(room, (first, second), CLEARANCE_SHARE)
         return known.least, known.low, known.least_at, first.stroke

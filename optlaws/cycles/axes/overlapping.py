@@ -20,7 +20,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.cycles.axes.enclosed import SimplePolygon
+from optlaws.cycles.axes.enclosed import SimplePolygon, at_positions
 from optlaws.cycles.axes.interlock import After, Clearance, Forbidden, Interlock
 from optlaws.cycles.cycle import Cycle
 from optlaws.cycles.greatest_speed.fastest_search import FastestSearch
@@ -31,6 +31,7 @@ from optlaws.cycles.specification.periods import Extent, extent
 from optlaws.cycles.specification.programme import TimedSegment, is_optimal
 from optlaws.cycles.specification.segments import Dwell, Move
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure, located
+from optlaws.formulas.tree import Table
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.motion.piece import moves_at, named_law
@@ -366,7 +367,8 @@ def requirements(
         if isinstance(rule, After):
             ends, sides = (given[0], given[0]), (LevelSide(rule.sign, partial(np.full_like, fill_value=given[1])),)
         elif isinstance(rule, Clearance):
-            axis, other, sides = other, axis, (LevelSide(rule.sign, given, given.bends),)
+            bends = given.places if isinstance(given, Table) else ()
+            axis, other, sides = other, axis, (LevelSide(rule.sign, partial(at_positions, given), bends),)
         elif isinstance(rule, Forbidden):
             bends = tuple(x for x, _ in given.corners)
             ends = min(bends), max(bends)

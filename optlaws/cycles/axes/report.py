@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from optlaws.cycles.axes.enclosed import at_positions
 from optlaws.cycles.axes.interlock import (
     SMALL_UNITS,
     After,
@@ -200,7 +201,7 @@ class AxesReport:
             return np.array(wall)[:, ::order]
 
         def edge(places: Array) -> Array:
-            return np.asarray(given(places / second) * first)
+            return np.asarray(at_positions(given, places / second) * first)
 
         places = np.linspace(*along, _PLACES)
         places, (values,) = refined(places, [edge(places)], [edge], np.empty(0))
