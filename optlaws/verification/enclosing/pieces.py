@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
 from fractions import Fraction
 from math import prod
-from typing import TypeVar
+from typing import TypeAlias, TypeVar
 
 from flint import acb, arb, arb_series, fmpq, fmpq_poly, fmpz_poly
 
@@ -16,30 +15,7 @@ from optlaws.verification.enclosing.balls import Extremes, ball, rational
 from optlaws.verification.enclosing.taylor_models import between, extremes, least_and_greatest
 
 
-class ExactPiece(ABC):
-    """A law between two k, at the precision at work."""
-
-    def __init__(self, start: Fraction, stop: Fraction) -> None:
-        self.start, self.stop = start, stop
-
-    @abstractmethod
-    def value(self, nu: int, k: Fraction) -> arb:
-        """A ball that holds the derivative of order nu at k; for nu = 0 the displacement since the start."""
-
-    @abstractmethod
-    def extremes(self, nu: int, start: Fraction, stop: Fraction) -> Extremes:
-        """Balls that hold the least and the greatest value of the derivative of order nu between two k."""
-
-    @abstractmethod
-    def power(self) -> Extremes:
-        """Balls that hold the least and the greatest value of b c."""
-
-    @abstractmethod
-    def square(self, nu: int) -> arb:
-        """A ball that holds the integral over k of the square of the derivative of order nu."""
-
-
-class PolynomialPiece(ExactPiece):
+class PolynomialPiece:
     """A polynomial in y from -1 at the start to 1 at the end, with rational coefficients.
 
     >>> piece = PolynomialPiece(Fraction(0), Fraction(1), PolynomialSegment([0.0, -6.0]))
@@ -48,7 +24,7 @@ class PolynomialPiece(ExactPiece):
     """
 
     def __init__(self, start: Fraction, stop: Fraction, segment: PolynomialSegment) -> None:
-        super().__init__(start, stop)
+        self.start, self.stop = start, stop
         #: as they are stored: what rounding is judged by
         self.stored = segment.acceleration
         self.rate = rational(2 / (stop - start))
@@ -81,6 +57,7 @@ class PolynomialPiece(ExactPiece):
         return self.derivative(nu)(self.local(k))
 
     def value(self, nu: int, k: Fraction) -> arb:
+        """A ball that holds the derivative of order nu at k; for nu = 0 the displacement since the start."""
         return arb(self.exact(nu, k))
 
     def extremes(self, nu: int, start: Fraction, stop: Fraction) -> Extremes:
@@ -112,11 +89,11 @@ class PolynomialPiece(ExactPiece):
 Ball = TypeVar("Ball", arb, acb, arb_series)
 
 
-class SinePiece(ExactPiece):
+class SinePiece:
     """A sum of sine segments."""
 
     def __init__(self, start: Fraction, stop: Fraction, sines: tuple[SineSegment, ...]) -> None:
-        super().__init__(start, stop)
+        self.start, self.stop = start, stop
         self.sines = sines
 
     def at(self, nu: int, s: Ball) -> Ball:
@@ -124,6 +101,7 @@ class SinePiece(ExactPiece):
         return sum((_sine(sine, nu, s) for sine in self.sines), s * 0)
 
     def value(self, nu: int, k: Fraction) -> arb:
+        """The derivative of order nu at k, by sines in balls."""
         return self.at(nu, ball(k - self.start))
 
     def extremes(self, nu: int, start: Fraction, stop: Fraction) -> Extremes:
@@ -169,11 +147,11 @@ def _factor(i: int, nu: int) -> Fraction:
     return Fraction(1, i + 1) if nu == 1 else Fraction(1, (i + 1) * (i + 2))
 
 
-class PowerPiece(ExactPiece):
+class PowerPiece:
     """A segment of constant power; c is infinite where b is 0."""
 
     def __init__(self, start: Fraction, stop: Fraction, segment: PowerSegment) -> None:
-        super().__init__(start, stop)
+        self.start, self.stop = start, stop
         self.first, self.last = Fraction(segment.b0) ** 2, Fraction(segment.b1) ** 2
         self.rate = (self.last - self.first) / (stop - start)
         self.sign = 1 if segment.b0 + segment.b1 > 0 else -1
@@ -215,3 +193,7 @@ class PowerPiece(ExactPiece):
         if m == 1:
             return factor * ball(self.last / self.first).log()
         return factor * (ball(self.last) ** (2 - 2 * m) - ball(self.first) ** (2 - 2 * m)) / (2 - 2 * m)
+
+
+#: a law between two k, at the precision at work
+ExactPiece: TypeAlias = PolynomialPiece | SinePiece | PowerPiece
