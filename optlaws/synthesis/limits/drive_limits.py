@@ -259,11 +259,16 @@ def phase_torque(torque: str) -> AnyTorque:
 def planes_of_proof(plane: PhasePlane, limit: DriveLimit) -> list[PhasePlane]:
     """The planes of which a limit may be that of a move in a plane, or the proof that it is impossible there."""
     if limit.minimise == "time":
-        return [replace(plane, squared=None, maxima=(), peak=None, holding=None).slowed(limit.unit)]
-    slow = replace(plane, squared=None, maxima=(), peak=None, limits=(), holding=None).slowed(LONG)
-    whole = [bound for bound in plane.limits if bound.everywhere and not bound.side]
-    beyond = [replace(slow, peak=bound.torque.slowed(LONG)) for bound in whole]
-    return [plane, *(beyond if limit.minimise == "peak torque" else [])]
+        return [plane.slowed(limit.unit)]
+    return [plane, *(free for _, free in _without_limits(plane) if limit.minimise == "peak torque")]
+
+
+def _without_limits(plane: PhasePlane) -> Iterator[tuple[TorqueLimit, PhasePlane]]:
+    """The limits of torques in the whole stroke, and planes of LONG times the time in which these have a least peak."""
+    slow = replace(plane, limits=()).slowed(LONG)
+    for limit in plane.limits:
+        if limit.everywhere and not limit.side:
+            yield limit, replace(slow, peak=limit.torque.slowed(LONG))
 
 
 def limit_of_plane(plane: PhasePlane, minimise: DriveObjective, unit: float = 1.0) -> DriveLimit:
@@ -297,34 +302,17 @@ def unreachable(plane: PhasePlane, unit: float) -> DriveLimit | None:
 
     The torque's mean from the first position on, or up to the last, is that of the load and of friction.
     """
-    for bound in plane.limits:
-        if not bound.everywhere or bound.side:
-            continue
-        slow = replace(plane, squared=None, maxima=(), peak=None, limits=(), holding=None).slowed(LONG)
-        torque = bound.torque.slowed(LONG)
-        free = replace(slow, peak=torque)
+    for bound, free in _without_limits(plane):
+        assert free.peak is not None  # noqa: S101 - its least is looked for
         for sign, ends, means in _mean_loads(bound.torque):
             beyond = np.flatnonzero(means >= 0.5 * (bound.at_rest + np.max(means)))
             if np.max(means) <= bound.at_rest:
                 continue
             most = int(beyond[-1])
-            potential = even_price(free, torque, sign, *ends[most].tolist())
-            edges, rows = tuple(potential.edges.tolist()), tuple(map(tuple, potential.coefficients.tolist()))
-            limit = DriveLimit(
-                *(
-                    "peak torque",
-                    0.0,
-                    inf,
-                    free,
-                    unit,
-                    _PHASE_WEIGHT * bound.at_rest,
-                    edges,
-                    rows,
-                    (0.25, 0.75),
-                    (1.0, 1.0),
-                ),
-                near=float(means[most]),
-            )
+            potential = even_price(free, free.peak, sign, *ends[most].tolist())
+            weight, near = _PHASE_WEIGHT * bound.at_rest, float(means[most])
+            parts = (*potential.to_data(), (0.25, 0.75), (1.0, 1.0))
+            limit = DriveLimit("peak torque", 0.0, inf, free, unit, weight, *parts, near=near)
             limit = replace(limit, value=_bound(limit))
             if limit.value > bound.at_rest * unit:
                 return replace(limit, attained=_attained(limit))
@@ -353,7 +341,7 @@ def _refuse(plane: PhasePlane) -> None:
     """Raise an error with its proof if the least time within the bounds is more than there is."""
     if not plane.bounds:
         return
-    shortest = _least_time(replace(plane, squared=None, maxima=(), peak=None, holding=None))
+    shortest = _least_time(plane)
     if shortest.value > 1.0:
         raise InfeasibleProblem(
             f"no motion keeps the bounds in the time 1: the least time within them is {shortest.value:.6g}",
@@ -402,10 +390,9 @@ def _limit(standing: Standing, minimise: DriveObjective, unit: float, motion: Ph
     near = max(motion.objective, 0.0) if plane.kind == "peak" else 0.0
     best = None
     for potential, weight, price, is_last in _certificates(standing, motion):
-        edges, rows = tuple(potential.edges.tolist()), tuple(map(tuple, potential.coefficients.tolist()))
         level = standing.level if plane.kind == "mean" or price else 0.0
-        parts = (rows, s, b, level, price, near)
-        limit = DriveLimit(minimise, 0.0, attained, plane, unit, weight, edges, *parts)
+        parts = (*potential.to_data(), s, b, level, price, near)
+        limit = DriveLimit(minimise, 0.0, attained, plane, unit, weight, *parts)
         limit = replace(limit, value=_bound(limit))
         if best is None or limit.value > best.value:
             best = limit

@@ -73,6 +73,10 @@ class Potential:
         ]
         return Jet((*terms, *(0.0 * terms[0] for _ in range(order - degree))))
 
+    def to_data(self) -> tuple[tuple[float, ...], tuple[tuple[float, ...], ...]]:
+        """The ends and the rows of coefficients."""
+        return tuple(self.edges.tolist()), tuple(map(tuple, self.coefficients.tolist()))
+
     def steeper(self, by: float) -> Potential:
         """The potential with a little more fall: by (1 - 2 s) more, divided by sin(pi s)."""
         degree = self.coefficients.shape[1] - 1
@@ -243,15 +247,12 @@ class ProofCells:
 
     def bounds(self) -> CellBounds:
         """Bounds of the inner minimum in every cell."""
-        known, last = self._in_cells(), len(self.entries) - 1
-        squared = [i for i, entry in enumerate(self.entries) if entry.role == "squared" and len(self.plane.limits) > 1]
-        for i in dict.fromkeys([*squared, last]):
-            unknown = ~np.isfinite(known.least)
-            if unknown.any():
-                self.follows = np.where(unknown, i, self.follows)
-                again = self._in_cells()
-                weak = np.minimum(known.weak, again.weak)
-                known = again.where(again.least > known.least, known)._replace(weak=weak)
+        known = self._in_cells()
+        if (unknown := ~np.isfinite(known.least)).any():
+            self.follows = np.where(unknown, len(self.entries) - 1, self.follows)
+            again = self._in_cells()
+            weak = np.minimum(known.weak, again.weak)
+            known = again.where(again.least > known.least, known)._replace(weak=weak)
         return known
 
     def _paid(self, terms: _Terms, prices: _Prices) -> Array:

@@ -151,7 +151,6 @@ class InnerMinimum:
             side = entry.side * np.clip(entry.side * price, 0.0, self.steep)
             prices[i] = price if entry.side == 0 else np.where(active, side, prices[i])
             follows, open_ones = np.where(active, i, follows), open_ones & ~active
-        self._at_vertices(b, c, prices)
         return Prices(prices, shares, follows, beside)
 
     def _shares(self, b: Array, c: Array, follows: Array, rest: Array) -> tuple[list[Array], Array, Array]:
@@ -174,30 +173,6 @@ class InnerMinimum:
         if entry.side:
             return np.asarray(np.abs(self._beyond(entry, b, c)) <= _PHASE_TIE * entry.torque.size)
         return np.asarray(np.abs(self._torque(entry.torque, b, c)) >= self._most(entry, b) * (1.0 - _PHASE_TIE))
-
-    def _at_vertices(self, b: Array, c: Array, prices: list[Array]) -> None:
-        """Prices of a two-sided and a one-sided bound that are active together, so that no other velocity is better."""
-        if self.squared is not None or self.maxima:
-            return
-        for j in (j for j, entry in enumerate(self.entries) if entry.side):
-            other = self.entries[j]
-            for i in (i for i, entry in enumerate(self.entries) if not entry.side):
-                entry = self.entries[i]
-                both = self._is_active(entry, b, c) & self._is_active(other, b, c) & (prices[i] != 0.0)
-                sign = np.sign(self._torque(entry.torque, b, c))
-                inertia, second = self.factors[entry.torque][0], self.factors[other.torque][0]
-                rate, rate_of_other = self._rate(entry, b, sign), self._rate(other, b, other.side)
-                right = 2.0 * self.slope * b + self.weight / b**2 - self.drag_of_mean
-                with np.errstate(all="ignore"):
-                    price = (2.0 * self.q * rate_of_other - right * second) / (inertia * rate_of_other - second * rate)
-                    beside = (2.0 * self.q - price * inertia) / second
-                    both &= np.isfinite(beside) & (price * sign >= 0.0) & (beside * other.side >= 0.0)
-                prices[i], prices[j] = np.where(both, price, prices[i]), np.where(both, beside, prices[j])
-
-    def _rate(self, entry: PricedTorque, b: Array, sign: Array | float) -> Array:
-        """The slope of a bounded torque with respect to the velocity, at its bound."""
-        _, square, drag, _ = self.factors[entry.torque]
-        return np.asarray(2.0 * square * b + drag + sign * entry.fall)
 
     def _beyond(self, entry: PricedTorque, b: Array, c: Array) -> Array:
         """The excess of a torque over its bound on one side."""

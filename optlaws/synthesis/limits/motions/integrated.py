@@ -13,7 +13,7 @@ forms change places. Other parts have a constant acceleration.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cache, partial
 from math import exp, inf, isfinite, nan, sqrt
 from typing import Any, NamedTuple, TypeAlias
@@ -75,7 +75,7 @@ class _Arcs(NamedTuple):
     in_parts: Callable[[NDArray[np.intp]], Array]  #: the squared velocities at the ends of parts of cells
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class MotionCells:
     """Cells of s over which motions of a phase plane are integrated.
 
@@ -93,6 +93,9 @@ class MotionCells:
     edges: tuple[float, ...]
     s: tuple[float, ...]
     b: tuple[float, ...]
+    _factors: dict[AnyTorque, list[tuple[Array, Array, Array, Array]]] = field(default_factory=dict)
+    #: what `_Sides` finds of a torque's forms in cells
+    in_halves: dict[AnyTorque, dict[int, list[list[list[float]]]]] = field(default_factory=dict)
 
     @kept_property
     def elements(self) -> Elements:
@@ -159,18 +162,6 @@ class MotionCells:
         if torque not in self._factors:
             self._factors[torque] = [branch.values(self.a) for branch in torque.branches]
         return self._factors[torque]
-
-    def in_halves_of_parts(self, torque: AnyTorque) -> dict[int, list[list[list[float]]]]:
-        """What `_Sides` finds of a torque's forms in cells."""
-        return self._in_halves.setdefault(torque, {})
-
-    @kept_property
-    def _in_halves(self) -> dict[AnyTorque, dict[int, list[list[list[float]]]]]:
-        return {}
-
-    @kept_property
-    def _factors(self) -> dict[AnyTorque, list[tuple[Array, Array, Array, Array]]]:
-        return {}
 
     def motion(self, scale: float, bounds: tuple[TorqueLimit, ...]) -> _Motion | None:
         """The fastest motion below the scaled cap within bounds; None where there is none.
@@ -339,7 +330,7 @@ class _Sides:
         ]
         self.falls = [bound.fall for bound in bounds]
         #: the factors of forms at the ends and in the middles of the parts of cells, where they were asked for
-        self.in_halves = [cells.in_halves_of_parts(bound.torque) for bound in bounds]
+        self.in_halves = [cells.in_halves.setdefault(bound.torque, {}) for bound in bounds]
 
     def in_middles(self, cells: NDArray[np.intp], parts: Array, *, ahead: bool) -> Array:
         """The greatest acceleration in the middles of parts of cells, or the least."""
