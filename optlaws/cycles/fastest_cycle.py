@@ -281,8 +281,8 @@ def _least_duration(search: FastestSearch, span: TimedSpan) -> LeastDuration:
 
 
 def _binding(search: FastestSearch, segments: Sequence[LeastDuration]) -> tuple[str, ...]:
-    rating = search.rating
-    if rating is not None and rating.binds:
+    rating = search.binding_rating
+    if rating is not None:
         most = Amount(rating.most, FORCE_UNITS[search.programme.axis])
         return (sentence("the whole cycle: {} {}", rating.name, most),)
     return tuple(sentence("{}: {}", each.name, joined(", ", each.limits)) for each in segments if each.binding)

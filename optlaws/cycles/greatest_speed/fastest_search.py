@@ -107,6 +107,12 @@ class FastestSearch:
         return ForceRating(self)
 
     @kept_property
+    def binding_rating(self) -> ForceRating | None:
+        """That limit where the cycle is slower by it than by its other limits."""
+        slower_by_it = self.rating is not None and self.rating.period > self.unrated * (1.0 + AGREEMENT)
+        return self.rating if slower_by_it else None
+
+    @kept_property
     def unrated(self) -> float:
         """The least period by the limits of the segments, in seconds."""
         period, turned = self._summed([span.scale for span in self.spans])
@@ -123,9 +129,7 @@ class FastestSearch:
     @property
     def limit(self) -> float | None:
         """A period that no laws of any degree beat, in seconds; None where it is not known of a motion that binds."""
-        if self.rating is not None and self.rating.binds:
-            return None
-        if any(span.limit is None for span in self.binding):
+        if self.binding_rating is not None or any(span.limit is None for span in self.binding):
             return None
         return self._summed([span.limit or 0.0 for span in self.spans])[0]
 
@@ -168,8 +172,8 @@ class FastestSearch:
         """
         if not all(row.scales for span in self.spans for row in span.along):
             return Status.LOCAL
-        if self.rating is not None and self.rating.binds:
-            return Status.OPTIMAL if self.rating.scales and self.rating.proofs is not None else Status.LOCAL
+        if (rating := self.binding_rating) is not None:
+            return Status.OPTIMAL if rating.scales and rating.proofs is not None else Status.LOCAL
         binding = self.binding
         proven = [span.problem is None or span.proof is not None for span in binding]
         turning = any(self._turns(span) and known for span, known in zip(binding, proven, strict=True))
@@ -178,16 +182,16 @@ class FastestSearch:
     @property
     def binding_limits(self) -> tuple[str, ...]:
         """The keys of the limits by which the speed is greatest."""
-        if self.rating is not None and self.rating.binds:
-            return (self.rating.name,)
+        if self.binding_rating is not None:
+            return (self.binding_rating.name,)
         rows = (row for span in self.binding for row in span.binding)
         return tuple(dict.fromkeys(word_of(row.key, self.programme.axis) for row in rows))
 
     @property
     def proofs(self) -> dict[str, Certificate]:
         """The certificates that the motions have no laws a little faster, by their names."""
-        if self.rating is not None and self.rating.binds:
-            return self.rating.proofs or {}
+        if self.binding_rating is not None:
+            return self.binding_rating.proofs or {}
         known = ((span.where, span.proof) for span in self.binding if span.proof is not None)
         return {where + ("" if proof.program == VIOLATION else ", least power"): proof for where, proof in known}
 
@@ -212,8 +216,7 @@ class FastestSearch:
 
     def laws(self) -> Layout:
         """The laws at the least period: the fastest where there is no time left, else the best within the limits."""
-        placed, rating = self.placed(self.period), self.rating
-        rated = rating is not None and rating.binds
+        placed, rating, rated = self.placed(self.period), self.rating, self.binding_rating
         pieces = [] if rated else [*placed.pieces, *map(self._law, placed.spans)]
         if rating is not None and (rated or rating.square(pieces) > rating.most**2 * self.period * (1.0 + AGREEMENT)):
             # the best laws share the limit as the fastest cycle does: each takes least of it
@@ -373,11 +376,6 @@ class ForceRating:
                 "allow more, or change the drive's spring, preload, gravity or friction"
             )
         return period * (1.0 + 2.0 * LEAST_SCALE_MET)
-
-    @property
-    def binds(self) -> bool:
-        """Whether the cycle is slower by it than by its other limits."""
-        return self.period > self.search.unrated * (1.0 + AGREEMENT)
 
     def square(self, pieces: Sequence[Piece]) -> float:
         """The integral of the squared force over pieces."""

@@ -204,14 +204,8 @@ def least_time(move: TimedT, near: LeastTime[TimedT] | None = None) -> LeastTime
     From rest to rest the search may begin near that of another stroke in the same space: its multipliers say of this
     stroke too which times are too short; its contacts are those to begin with where a torque is limited.
 
-    Raises
-    ------
-    InfeasibleProblem
-        If no law keeps the problem's own windows and bounds, however long it takes.
-    InputError
-        If every time satisfies the limits.
-    SolverFailure
-        If the steps do not settle.
+    It is an `InfeasibleProblem` where no law keeps the problem's own windows and bounds, however long it takes, an
+    `InputError` where every time satisfies the limits, and a `SolverFailure` where the steps do not settle.
     """
     with meant():
         if move.residual is not None:

@@ -19,14 +19,7 @@ _STEPS = 24
 class ChordSelection:
     """Certified laws above, the corners of all that is proven below, and chords that leave laws out.
 
-    Parameters
-    ----------
-    values
-        Of the number that runs, in which the objective is convex, ascending.
-    sides
-        At each what is known above and below, and the slope of the line below, as `ProvenFront.sides`.
-    scale
-        Of the objective.
+    The values are of a number in which the objective, of some scale, is convex; the sides are `ProvenFront.sides`.
 
     Examples
     --------
@@ -51,13 +44,7 @@ class ChordSelection:
         self.below = np.concatenate([low, below])[order]
 
     def fewest(self, gap: float, points: int | None = None) -> tuple[list[int], float]:
-        """Places of laws, each as far from its predecessor as the gap allows, and the greatest gap between them.
-
-        Raises
-        ------
-        InputError
-            If certified laws are not as near to each other, or more of them are needed than `points`.
-        """
+        """Places of laws, each as far from its predecessor as the gap allows, and the greatest gap between them."""
         greatest = positive(gap, "gap")
         most = None if points is None else whole(points, "points", least=2)
         finest = self._places(0.0)[1]

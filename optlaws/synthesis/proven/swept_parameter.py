@@ -160,13 +160,6 @@ def bounds_beside(
     Of a number on right sides the line is below, affine between the ends; of a weight it is above, and what is below
     holds at the value alone. What rounding hides is charged as much as it can be worth anywhere between the ends: it
     grows with every bound, with the objective that is claimed, and as a weight falls.
-
-    Parameters
-    ----------
-    number, ends
-        The number, and between which values.
-    value, law, certificate
-        A value, with a law and a certificate of the problem there.
     """
     top, claim, rise = evaluate(certificate.problem, law).objective, -inf, 0.0
     if number.concave:
@@ -195,20 +188,11 @@ def _rates(number: SweptParameter, ends: Ends, *rows: list[tuple[float, Array, f
     return rates, np.where(rates == 0.0, 0.0, _PRODUCT_ROUNDING * np.maximum(np.abs(low), np.abs(high)))
 
 
-def gap_bounds(t: Array, known: Array, scale: float | Array, *, concave: bool) -> Array:
-    """The greatest gap in each interval: between a chord and two lines, the difference is greatest where these cross.
+def gap_bounds(t: Array, known: Array, scale: float, *, concave: bool) -> Array:
+    """The greatest gap between each two values t: between a chord and two lines, it is greatest where these cross.
 
-    Parameters
-    ----------
-    t
-        Values.
-    known
-        At each value what is known above and below the least objective, and a slope: of the line through the lower
-        value or, where the objective is concave, through the upper one.
-    scale
-        Of the objective; one number, or one for each interval.
-    concave
-        Whether it is.
+    At each value `known` are what is above and below the least objective, and the slope of the line through the lower
+    value or, where the objective is concave, through the upper one.
     """
     top, bottom, slopes = known.T
     width = np.diff(t)
