@@ -240,7 +240,7 @@ class ProofCells:
         """Bounds over a part of the stroke have no price in cells that are not wholly in it."""
         last, (low, high) = len(self.entries) - 1, self._positions()
         for i, entry in enumerate(self.entries):
-            if (entry.start, entry.stop) != (0.0, 1.0):
+            if not entry.everywhere:
                 inside = (low >= entry.start) & (high <= entry.stop)
                 self.prices[i] = np.where(inside, self.prices[i], 0.0)
                 self.follows = np.where((self.follows == i) & ~inside, last, self.follows)

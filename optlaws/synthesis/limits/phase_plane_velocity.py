@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import inf
 from typing import Literal, NamedTuple
 
@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from optlaws.numbers import Array
 from optlaws.synthesis.limits.motions.standing import Standing
-from optlaws.synthesis.limits.phase_plane import PhasePlane
+from optlaws.synthesis.limits.phase_plane import PhasePlane, TorqueLimit
 from optlaws.synthesis.limits.phase_torque import PhaseTorque
 
 _PHASE_TIE = 1e-7  # of a bound or of two torques: nearer values are equal, and the potential says at what price
@@ -24,19 +24,12 @@ _STEEP = 8.0  # of the price of a torque: what a load is priced at most on the s
 
 
 @dataclass(frozen=True)
-class PricedTorque:
-    """A torque that has a price: squared, minimised by its peak, or bounded by at_rest - fall * b.
-
-    A bound of one side, 1 above and -1 below, has a price of the same sign.
-    """
+class PricedTorque(TorqueLimit):
+    """A torque of one form with a price: squared, minimised by its peak, or bounded; on one side with its sign."""
 
     torque: PhaseTorque
-    role: Literal["squared", "peak", "bound"]
     at_rest: float = inf
-    fall: float = 0.0
-    side: Literal[-1, 0, 1] = 0
-    start: float = 0.0
-    stop: float = 1.0
+    role: Literal["squared", "peak", "bound"] = "bound"
 
 
 def entries_of(plane: PhasePlane) -> list[PricedTorque]:
@@ -47,12 +40,12 @@ def entries_of(plane: PhasePlane) -> list[PricedTorque]:
     ['squared', 'bound']
     """
     bounds = [
-        PricedTorque(bound.torque.branches[0], "bound", bound.at_rest, bound.fall, bound.side, bound.start, bound.stop)
+        PricedTorque(bound.torque.branches[0], bound.at_rest, bound.fall, bound.side, bound.start, bound.stop)
         for bound in plane.bounds
     ]
     entries = [entry for entry in bounds if entry.side != 0]
-    entries += [] if plane.squared is None else [PricedTorque(plane.squared.branches[0], "squared")]
-    entries += [] if plane.peak is None else [PricedTorque(plane.peak.branches[0], "peak")]
+    entries += [] if plane.squared is None else [PricedTorque(plane.squared.branches[0], role="squared")]
+    entries += [] if plane.peak is None else [PricedTorque(plane.peak.branches[0], role="peak")]
     return entries + [entry for entry in bounds if entry.side == 0]
 
 
@@ -80,15 +73,12 @@ class InnerMinimum:
         self.q, self.slope = potential
         self.of_mean, self.drag_of_mean, waiting = standing.values(side, a)
         self.weight = weight + waiting  # of the time
-        self.entries = [
-            PricedTorque(entry.torque, entry.role, peak) if entry.role == "peak" else entry
-            for entry in entries_of(plane)
-        ]
+        self.entries = [replace(entry, at_rest=peak) if entry.role == "peak" else entry for entry in entries_of(plane)]
         self.most_velocity = plane.velocity_bound(a, a)
         self.outside = {
             entry: np.where((a >= entry.start) & (a <= entry.stop), 0.0, inf)
             for entry in self.entries
-            if (entry.start, entry.stop) != (0.0, 1.0)
+            if not entry.everywhere
         }
         self.maxima = [(first.branches[0], second.branches[0]) for first, second in plane.maxima]
         torques = dict.fromkeys([entry.torque for entry in self.entries] + [t for ts in self.maxima for t in ts])
