@@ -31,7 +31,7 @@ from optlaws import (
     synthesize,
 )
 from tests.internals.mechanisms import output_peak, output_rms
-from tests.internals.synthesis import means, named, space_of
+from tests.internals.synthesis import Sublevel, model_of, named, space_of
 from tests.sampling import sampled
 from tests.synthesis.judge import Judged
 
@@ -257,7 +257,7 @@ def test_peaks_of_one_side_below_0_do_not_make_laws_small() -> None:
     for _ in range(10):
         law = space.law(rng.normal(size=space.terms))
         assert peak.value(law) < 0.0
-        ((order, mean),) = means(problem, space, {peak.name: peak.value(law)})
+        ((order, mean),) = Sublevel.of(model_of(problem)).means({peak.name: peak.value(law)}).items()
         assert np.abs(law(GRID, order)).mean() <= mean
     solution = synthesize(problem)
     assert solution.status.value == "optimal"
