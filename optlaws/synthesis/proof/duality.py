@@ -93,13 +93,13 @@ def row_of(program: Program, contact: Contact) -> tuple[Array, float]:
         if isinstance(family, LinearFamily):
             rows, right = family.rows(u, np.array([contact.sign]))
             return rows[0] * share, float(right[0]) * share
-        row = tangent_row(program, family, contact, u)
+        row = _tangent(program, family, contact, u)
         if row is not None:
             return share * (row[:-1] - family.slack), share * (family.bound - float(row[-1]))
     return np.zeros(program.size), 0.0
 
 
-def tangent_row(program: Program, family: ConstraintFamily, contact: Contact, u: Array) -> Array | None:
+def _tangent(program: Program, family: ConstraintFamily, contact: Contact, u: Array) -> Array | None:
     """A row below a nonlinear family, by the contact's direction; None where it has no meaning."""
     if isinstance(family, NormFamily) and len(contact.direction) == len(family.matrix):
         return _at_most_one(contact.direction) @ family.matrix

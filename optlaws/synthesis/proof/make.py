@@ -1,8 +1,8 @@
 """Certificates from an optimum's multipliers, with the best bound that can be proven.
 
-At a law in which a formula with kinks vanishes along a stretch, or an RMS or an amplitude vanishes, or nearly does, the
-slope jumps: one tangent leaves a slope that rounding, or a kink, hides. Tangents on all sides of the law, weighted by a
-linear program, have the slope that the optimum requires, exactly.
+At a law in which a formula with kinks vanishes along a stretch, or nearly does, the slope of its integral jumps: one
+tangent leaves a slope that rounding, or a kink, hides. Tangents on all sides of the law, weighted by a linear program,
+have the slope that the optimum requires, exactly.
 """
 
 from __future__ import annotations
@@ -16,9 +16,10 @@ import numpy as np
 from optlaws.numbers import Array
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.cone import ConeFamily
-from optlaws.synthesis.families.curved import FormulaFamily
+from optlaws.synthesis.families.curved import FormulaFamily, IntegralFamily
 from optlaws.synthesis.families.energy import EnergyFamily
 from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, NormFamily, Points
+from optlaws.synthesis.families.kinked import KinkedIntegralFamily
 from optlaws.synthesis.families.names import RowName, VariableName, velocity_at_peak
 from optlaws.synthesis.method.discretised.grids import first_points, with_extrema
 from optlaws.synthesis.method.exchange import solve
@@ -27,14 +28,16 @@ from optlaws.synthesis.problem.constants import D
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import Model, relaxed, relaxed_power
 from optlaws.synthesis.proof.certificate import OBJECTIVE, RELAXED, VIOLATION, Certificate, weighted_rows
-from optlaws.synthesis.proof.duality import row_of, summed, tangent_row
+from optlaws.synthesis.proof.duality import row_of, summed
 from optlaws.synthesis.proof.nodes import Contact
 from optlaws.synthesis.proof.sublevel_bounds import Sublevel, means_by
 from optlaws.synthesis.spaces.bases import PolynomialBasis
-from optlaws.tolerances import OPTIMALITY_GAP
+from optlaws.tolerances import EMPTY_ROW, OPTIMALITY_GAP
 
 _CUTS_ENOUGH = 2e-9  # of an objective: what cuts may leave
 _LEFT_SHARES = (1e-12, 1e-11, 1e-10, 1e-9)  # of a constant's weight: what a proof leaves of it to pay for rounding
+_DIRECTIONS_BALANCED = 1e-13  # a slope that is less is balanced
+_DIRECTIONS_RANK = 1e-10  # of the greatest singular value of pulls: less is rounding
 _APEX = 1e-11  # of the sum of magnitudes: a norm that is less is 0 but for rounding
 _PROOF_WEIGHTLESS = 1e-14  # of the greatest multiplier of a proof: what is less is left out
 _PROOF_ENOUGH = 5e-9  # of an objective: a bound that leaves no more needs no other proof
@@ -43,6 +46,7 @@ _TANGENTS = 4
 _PLACES = 256
 _NEAR = 0.9
 _MORE = 2.0  # times as much as rounding lets go
+_SETTLINGS = 3
 
 
 def certify(model: Model, optimum: ActiveSet, objective: float, limit: float | None) -> Certificate:
@@ -92,14 +96,89 @@ def _of_convex(model: Model, optimum: ActiveSet, objective: float) -> Certificat
     proof = certificate(model, optimum, OBJECTIVE)
     if objective - proof.bound <= _PROOF_ENOUGH * max(abs(objective), _PROOF_ENOUGH):
         return proof
+    bent = any(isinstance(family, FormulaFamily | NormFamily | ConeFamily) for family in model.program.families)
+    if bent or objective - proof.bound > OPTIMALITY_GAP * abs(objective):
+        proof = _settled(model, optimum, proof)
     # constants that are nowhere below 0 bound their sum without a contact
     proof = max(proof, Certificate.of_leaf(model.problem), key=lambda known: known.bound)
     if proof.bound == -np.inf:
         proof = max((proof, *_leaving(model, optimum)), key=lambda known: known.bound)
-    if all(isinstance(family, LinearFamily) for family in model.program.families):
-        return proof
-    several = _Tangents(model, optimum).certificate(objective)
+    several = _Tangents(model, optimum).certificate(objective) if _needs_tangents(model) else None
+    several = None if several is None else _with_falling_peaks(model, several)
     return several if several is not None and several.bound > proof.bound else proof
+
+
+def _settled(model: Model, optimum: ActiveSet, proof: Certificate) -> Certificate:
+    """The certificate with multipliers, directions and places of tangents changed by as little as balances it."""
+    for _ in range(_SETTLINGS):
+        better = _shifted(model, optimum, proof)
+        if better is None or better.bound <= proof.bound:
+            return proof
+        proof = better
+    return proof
+
+
+def _shifted(model: Model, optimum: ActiveSet, proof: Certificate) -> Certificate | None:
+    """A single step of the correction; None where nothing can be changed."""
+    program, contacts = model.program, proof.contacts
+    equations = program.multipliers_of_equations(proof.equations)
+    rows = [row_of(program, contact)[0] for contact in contacts]
+    pulls = [max(contact.multiplier, 0.0) * row[None] for contact, row in zip(contacts, rows, strict=True)]
+    slope = summed(model, weighted_rows(proof)[1]).slope
+    shifts = [_shifts(model, optimum, contact) for contact in contacts]
+    changes = [contact.multiplier * shift for contact, shift in zip(contacts, shifts, strict=True)]
+    length = np.maximum(np.linalg.norm(program.equalities, axis=1), EMPTY_ROW)
+    matrix = np.vstack([*pulls, program.equalities / length[:, None], *changes])
+    if not len(contacts):
+        return None
+    change = np.linalg.lstsq(matrix.T, -slope, rcond=_DIRECTIONS_RANK)[0]
+    count = len(contacts)
+    share, pull, rest = np.split(change, [count, count + len(equations)])
+    parts = np.split(rest, np.cumsum([len(part) for part in changes])[:-1])
+    if (share <= -1.0).any():
+        return None
+    moved = [
+        _touching(model, replace(contact, multiplier=contact.multiplier * (1.0 + grown)), part)
+        for contact, grown, part in zip(contacts, share.tolist(), parts, strict=True)
+    ]
+    stated = program.stated_multipliers(equations + pull / length).tolist()
+    return _with_falling_peaks(model, proof.with_leaf(contacts=moved, equations=stated))
+
+
+def _shifts(model: Model, optimum: ActiveSet, contact: Contact) -> Array:
+    """Derivatives of a contact's row by the parameters of its tangent, shape (parameters, variables)."""
+    program = model.program
+    wide = np.zeros((0, program.size))
+    image = _image(model, contact)
+    if image is None:
+        family = _formula_of(model, contact)
+        if family is None:
+            return wide
+        u = np.clip(family.u(np.array([contact.k])), *family.domain)
+        image = family.hessian(optimum.x, u, np.array([contact.sign]))
+        return wide if image is None else np.asarray(image * (family.unit / model.unit))
+    return np.hstack([image, np.zeros((len(image), program.size - image.shape[1]))])
+
+
+def _formula_of(model: Model, contact: Contact) -> FormulaFamily | None:
+    """The family of a formula that a contact is of, if it weighs."""
+    for family in model.program.families:
+        if family.name == contact.constraint and contact.multiplier > 0.0 and isinstance(family, FormulaFamily):
+            return family
+    return None
+
+
+def _touching(model: Model, contact: Contact, change: Array) -> Contact:
+    """The contact with its tangent elsewhere: in another direction, or at another law."""
+    if not len(change):
+        return contact
+    family = _formula_of(model, contact)
+    if family is None:
+        return _with_direction(contact, np.array(contact.direction) + change)
+    u = float(np.clip(family.u(np.array([contact.k])), *family.domain)[0])
+    nothing = np.zeros_like(change)
+    moved = np.subtract(family.touching(change, u), family.touching(nothing, u))
+    return replace(contact, direction=tuple((np.array(contact.direction) + moved).tolist()))
 
 
 def _leaving(model: Model, optimum: ActiveSet) -> Iterator[Certificate]:
@@ -149,27 +228,22 @@ def certificate(model: Model, optimum: ActiveSet, program: str, tangent: float =
     contacts = []
     for i, family in enumerate(model.program.families):
         places = np.flatnonzero(optimum.family == i)
-        for j in places.tolist():
+        direction: tuple[float, ...] = ()
+        if isinstance(family, NormFamily):
+            direction = _direction(family, np.append(optimum.x, 1.0))
+        for j, k in zip(places, family.k(optimum.u[places]), strict=True):
+            if isinstance(family, ConeFamily):
+                direction = family.direction(optimum.x, float(optimum.u[j]))
+            if isinstance(family, FormulaFamily):
+                direction = family.touching(optimum.x, float(optimum.u[j]))
+            if isinstance(family, EnergyFamily):
+                direction = tuple(model.coordinates(optimum.x).tolist())
             multiplier = float(optimum.multipliers[j]) * (model.unit / family.unit)
-            contact = _touching(model, family, optimum.x, float(optimum.u[j]))
-            contacts.append(replace(contact, sign=float(optimum.s[j]), multiplier=multiplier))
+            place = float(min(max(k, 0.0), 1.0))
+            contacts.append(Contact(family.name, float(optimum.s[j]), place, multiplier, direction))
     equations = model.program.stated_multipliers(optimum.equality_multipliers).tolist()
-    return _with_falling_peaks(model, Certificate.of_leaf(model.problem, contacts, equations, program, tangent))
-
-
-def _touching(model: Model, family: ConstraintFamily, x: Array, u: float) -> Contact:
-    """A contact whose tangent, where the family is curved, touches it at a law."""
-    direction: tuple[float, ...] = ()
-    if isinstance(family, NormFamily):
-        direction = _direction(family, np.append(x, 1.0))
-    elif isinstance(family, ConeFamily):
-        direction = family.direction(x, u)
-    elif isinstance(family, FormulaFamily):
-        direction = family.touching(x, u)
-    elif isinstance(family, EnergyFamily):
-        direction = tuple(model.coordinates(x).tolist())
-    k = float(min(max(family.k(np.array([u]))[0], 0.0), 1.0))
-    return Contact(family.name, 1.0, k, 1.0, direction)
+    proof = _with_falling_peaks(model, Certificate.of_leaf(model.problem, contacts, equations, program, tangent))
+    return _with_falling_peaks(model, _balanced(model, proof))
 
 
 def _direction(family: NormFamily, x: Array) -> tuple[float, ...]:
@@ -247,6 +321,54 @@ def lower_bound(proof: Certificate, limit: float | None) -> float:
     return max(proof.bound, -np.inf if limit is None else limit) + 0.0
 
 
+def _balanced(model: Model, proof: Certificate) -> Certificate:
+    """The certificate with the least change of its directions that balances it; the better of both."""
+    if not any(contact.direction for contact in proof.contacts):
+        return proof
+    images = [_image(model, contact) for contact in proof.contacts]
+    slope = _slope(model, proof)
+    if all(image is None for image in images) or np.abs(slope).max(initial=0.0) <= _DIRECTIONS_BALANCED:
+        return proof
+    pulls = [c.multiplier * image for c, image in zip(proof.contacts, images, strict=True) if image is not None]
+    change = np.linalg.lstsq(np.vstack(pulls).T, -slope, rcond=_DIRECTIONS_RANK)[0]
+    parts = iter(np.split(change, np.cumsum([len(pull) for pull in pulls])[:-1]))
+    contacts = tuple(
+        contact if image is None else _with_direction(contact, np.array(contact.direction) + next(parts))
+        for contact, image in zip(proof.contacts, images, strict=True)
+    )
+    better = proof.with_leaf(contacts=contacts)
+    return better if better.bound > proof.bound else proof
+
+
+def _image(model: Model, contact: Contact) -> Array | None:
+    """The matrix from a contact's direction to the coordinates; None if it has no direction."""
+    terms = model.space.terms
+    for family in model.program.families:
+        if family.name == contact.constraint and contact.multiplier > 0.0:
+            share = family.unit / model.unit
+            if isinstance(family, NormFamily):
+                return family.matrix[:, :terms] * share
+            if isinstance(family, ConeFamily):
+                columns = family.columns(np.clip(family.u(np.array([contact.k])), *family.domain))[0, 0, :terms] * share
+                return np.vstack([columns.real, columns.imag])
+    return None
+
+
+def _slope(model: Model, proof: Certificate) -> Array:
+    """The remainder of the slopes of objective and contacts with respect to the coordinates."""
+    slope = model.program.objective.copy()
+    for contact in proof.contacts:
+        slope += max(contact.multiplier, 0.0) * row_of(model.program, contact)[0]
+    slope += model.program.equalities.T @ model.program.multipliers_of_equations(proof.equations)
+    return np.asarray(slope[: model.space.terms])
+
+
+def _with_direction(contact: Contact, direction: Array) -> Contact:
+    """A contact whose direction is scaled to length 1, with a greater multiplier."""
+    length = max(float(np.linalg.norm(direction)), 1.0)
+    return replace(contact, multiplier=contact.multiplier * length, direction=tuple((direction / length).tolist()))
+
+
 _ROUNDS = 24
 #: how far beside the law tangents touch at first, in times the greatest variable, and shares of the way to a vertex
 _BESIDE = (1e-2, 1e-5, 1e-8)
@@ -256,47 +378,45 @@ _AROUND = 10.0
 _MOST_TANGENTS = 600
 
 
+def _needs_tangents(model: Model) -> bool:
+    """Whether the program has convex integrals with kinks, and else rows that are straight."""
+    families = model.program.families
+    kinked = [family for family in families if isinstance(family, KinkedIntegralFamily)]
+    others = [family for family in families if not isinstance(family, KinkedIntegralFamily | LinearFamily)]
+    return bool(kinked) and not others and all(family.convex for family in kinked)
+
+
 class _Tangents:
     def __init__(self, model: Model, optimum: ActiveSet) -> None:
         self.model, self.x = model, optimum.x
         program = model.program
+        self.straight = [family for family in program.families if isinstance(family, LinearFamily)]
+        self.kinked = [family for family in program.families if isinstance(family, KinkedIntegralFamily)]
         several = with_extrema(program, first_points(program), optimum.x)
-        self.straight: list[LinearFamily] = []
-        self.points: list[Points] = []
-        #: curved families, each with the points at which tangents touch it
-        self.curved: list[tuple[ConstraintFamily, Points]] = []
-        for i, (family, points) in enumerate(zip(program.families, several, strict=True)):
-            here = Points(optimum.u[optimum.family == i], optimum.s[optimum.family == i])
-            if isinstance(family, LinearFamily):
-                self.straight.append(family)
-                self.points.append(points.joined(here))
-            else:
-                # what has no contact may be bound once the others are balanced
-                inner = here if len(here.u) else Points(np.array(family.domain[1:]), np.ones(1))
-                self.curved.append((family, inner))
+        self.points = [
+            points.joined(Points(optimum.u[optimum.family == i], optimum.s[optimum.family == i]))
+            for i, (family, points) in enumerate(zip(program.families, several, strict=True))
+            if isinstance(family, LinearFamily)
+        ]
         self.size = max(1.0, float(np.abs(optimum.x).max()))
-        self.rows: list[tuple[LinearFamily, Contact]] = []
+        self.rows: list[tuple[IntegralFamily, tuple[float, ...], Array]] = []
+        self._touch(self.x)
+        for way in np.eye(model.space.terms, program.size):
+            for reach in _BESIDE:
+                for sign in (1.0, -1.0):
+                    self._touch(self.x + sign * reach * self.size * way)
 
     def _touch(self, x: Array) -> None:
-        for family, points in self.curved:
-            for u, s in zip(points.u.tolist(), points.s.tolist(), strict=True):
-                contact = replace(_touching(self.model, family, x, u), sign=s)
-                row = tangent_row(self.model.program, family, contact, np.array([u]))
-                if row is not None and np.isfinite(row).all():
-                    straight = LinearFamily(
-                        family.name, family.slack, family.bound, (1.0,), (1.0, 1.0), unit=family.unit, series=row[None]
-                    )
-                    self.rows.append((straight, contact))
+        for family in self.kinked:
+            point = family.touching(x, 1.0)
+            row = family.tangent_row(1.0, 1.0, point)
+            if row is not None and np.isfinite(row).all():
+                self.rows.append((family, point, row))
 
     def certificate(self, objective: float) -> Certificate | None:
         """The best certificate of vertices, each of which shows where the next tangents touch; None where none is."""
         from optlaws.synthesis.method.discretised.linear import LinearTable, vertex_on_points
 
-        self._touch(self.x)
-        for way in np.eye(self.model.space.terms, self.model.program.size):
-            for reach in _BESIDE:
-                for sign in (1.0, -1.0):
-                    self._touch(self.x + sign * reach * self.size * way)
         best: Certificate | None = None
         for _ in range(_ROUNDS):
             families, points = self._families()
@@ -305,7 +425,7 @@ class _Tangents:
             if vertex is None:
                 return best
             *weights, equations = LinearTable(program, points).sharp(vertex, points).multipliers
-            proof = _with_falling_peaks(self.model, self._stated(weights, equations))
+            proof = self._stated(weights, points, equations)
             best = proof if best is None or proof.bound > best.bound else best
             if (
                 best.bound >= objective - _CUTS_ENOUGH * max(abs(objective), _CUTS_ENOUGH)
@@ -320,36 +440,28 @@ class _Tangents:
 
     def _families(self) -> tuple[tuple[ConstraintFamily, ...], list[Points]]:
         """The straight families, a row for each tangent, and a box that is none of the certificate's."""
-        size, bound = self.model.program.size, _AROUND * self.size
-        families = [*self.straight, *(straight for straight, _ in self.rows)]
+        once, families, points = np.ones(1), [*self.straight], [*self.points]
+        size = self.model.program.size
+        for kinked, _, row in self.rows:
+            families.append(LinearFamily(kinked.name, kinked.slack, kinked.bound, (1.0,), (1.0, 1.0), series=row[None]))
+            points.append(Points(once, once))
         for way in np.eye(size):
             for sign in (1.0, -1.0):
                 row = np.append(sign * way, -sign * float(way @ self.x))[None]
+                bound = _AROUND * self.size
                 families.append(LinearFamily("box", np.zeros(size), bound, (1.0,), (1.0, 1.0), series=row))
-        once = Points(np.ones(1), np.ones(1))
-        return tuple(families), [*self.points, *[once] * (len(families) - len(self.straight))]
+                points.append(Points(once, once))
+        return tuple(families), points
 
-    def _stated(self, weights: list[Array], equations: Array) -> Certificate:
-        of_families: list[list[tuple[LinearFamily, Contact]]] = []
-        for family, points in zip(self.straight, self.points, strict=True):
-            places = zip(points.u.tolist(), points.s.tolist(), strict=True)
-            touched = (replace(_touching(self.model, family, self.x, u), sign=s) for u, s in places)
-            of_families.append([(family, contact) for contact in touched])
-        lengths = {family.name for family, _ in self.curved if isinstance(family, NormFamily | ConeFamily)}
-        contacts: dict[object, Contact] = {}
-        for rows, several in zip([*of_families, *([row] for row in self.rows)], weights, strict=False):
-            for (family, contact), weight in zip(rows, several.tolist(), strict=True):
+    def _stated(self, weights: list[Array], points: list[Points], equations: Array) -> Certificate:
+        contacts, unit = [], self.model.unit
+        for family, touching, weights_there in zip(self.straight, points, weights, strict=False):
+            for u, s, weight in zip(touching.u, touching.s, weights_there, strict=True):
                 if weight > 0.0:
-                    weighed = replace(contact, multiplier=weight * (self.model.unit / family.unit))
-                    # tangents of a length are linear in the direction: opposite ones cancel
-                    key = (contact.constraint, contact.k) if contact.constraint in lengths else len(contacts)
-                    contacts[key] = _together(contacts[key], weighed) if key in contacts else weighed
+                    k = float(min(max(family.k(np.array([u]))[0], 0.0), 1.0))
+                    contacts.append(Contact(family.name, float(s), k, float(weight) * (unit / family.unit)))
+        for (kinked, point, _), weights_there in zip(self.rows, weights[len(self.straight) :], strict=False):
+            if weights_there[0] > 0.0:
+                contacts.append(Contact(kinked.name, 1.0, 0.0, float(weights_there[0]) * (unit / kinked.unit), point))
         stated = self.model.program.stated_multipliers(np.asarray(equations))
-        return Certificate.of_leaf(self.model.problem, tuple(contacts.values()), stated.tolist())
-
-
-def _together(first: Contact, other: Contact) -> Contact:
-    """One contact in the place of two with different directions."""
-    whole = first.multiplier + other.multiplier
-    pull = first.multiplier * np.array(first.direction) + other.multiplier * np.array(other.direction)
-    return replace(first, multiplier=whole, direction=tuple((pull / whole).tolist()))
+        return Certificate.of_leaf(self.model.problem, contacts, stated.tolist())
