@@ -239,6 +239,7 @@ class LeastTime(JsonText, Generic[TimedT]):
         That no law keeps the limits in a time that is shorter by a millionth or more.
 
     >>> from optlaws import Problem
+    >>> from optlaws.synthesis.least_time.move_limits import MoveLimits
     >>> from optlaws.synthesis.least_time.time_search import least_time
     >>> least = least_time(TimedMove(Problem(order=3), 1.0, MoveLimits(jerk=1.0)))
     >>> round(least.duration, 6), round(least.limit, 6), least.binding

@@ -247,12 +247,15 @@ class ProofCells:
 
     def bounds(self) -> CellBounds:
         """Bounds of the inner minimum in every cell."""
-        known = self._in_cells()
-        if (unknown := ~np.isfinite(known.least)).any():
-            self.follows = np.where(unknown, len(self.entries) - 1, self.follows)
-            again = self._in_cells()
-            weak = np.minimum(known.weak, again.weak)
-            known = again.where(again.least > known.least, known)._replace(weak=weak)
+        known, last = self._in_cells(), len(self.entries) - 1
+        squared = [i for i, entry in enumerate(self.entries) if entry.role == "squared" and len(self.plane.limits) > 1]
+        for i in dict.fromkeys([*squared, last]):
+            unknown = ~np.isfinite(known.least)
+            if unknown.any():
+                self.follows = np.where(unknown, i, self.follows)
+                again = self._in_cells()
+                weak = np.minimum(known.weak, again.weak)
+                known = again.where(again.least > known.least, known)._replace(weak=weak)
         return known
 
     def _paid(self, terms: _Terms, prices: _Prices) -> Array:
