@@ -86,6 +86,7 @@ nitpick_ignore = [
     ("py:class", "optlaws.synthesis.least_time.timed_move.TimedMove"),
     ("py:class", "optlaws.synthesis.least_time.timed_move.TimedT"),
     ("py:class", "optlaws.synthesis.least_time.move_limits.LimitSegments"),
+    ("py:class", "optlaws.laws.segments.fractional.PowerSum"),
     ("py:class", "optlaws.motion.quantities.Kind"),
     ("py:class", "optlaws.synthesis.least_time.motor_torque.LossyGear"),
     ("py:class", "optlaws.motion.piece.Piece"),
