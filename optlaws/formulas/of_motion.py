@@ -117,7 +117,7 @@ class MotionFormula:
         return {nu: value for nu, value in constants.items() if value is not None}, rest
 
     def degree(self, orders: Mapping[str, int], *, between_kinks: bool = False) -> int | None:
-        """The degree in k where a, b, c, j have these; None where it is no polynomial, between its kinks if asked."""
+        """The degree in k where a, b, c, j have these, everywhere or between kinks; None where it is no polynomial."""
         return degree(self.formula, {**orders, "k": 1}, between_kinks=between_kinks)
 
     @property

@@ -412,7 +412,8 @@ class Clearance(Interlock, kind="clearance"):
 
     def _least(self, given: Formula, first: EnclosedAxis, second: EnclosedAxis) -> tuple[float, ...]:
         def room(at: Interval, order: int) -> Jet:
-            return self._between(given, first.jet(at, order), second.jet(at, order))  # type: ignore[no-any-return]
+            between: Jet = self._between(given, first.jet(at, order), second.jet(at, order))
+            return between
 
         known = least(room, (first, second), CLEARANCE_SHARE)
         return known.least, known.low, known.least_at, first.stroke

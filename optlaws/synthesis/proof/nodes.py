@@ -155,5 +155,6 @@ class PlaceRange(NamedTuple):
 
     def after(self, node: Node) -> list[PlaceRange] | None:
         """The parts between which a split divides the range; None if it is none of them."""
-        split = isinstance(node, Split) and node.variable == 0 and self.low < node.at < self.high
-        return self.parts(node.at) if isinstance(node, Split) and split else None
+        if isinstance(node, Split) and node.variable == 0 and self.low < node.at < self.high:
+            return self.parts(node.at)
+        return None

@@ -35,7 +35,6 @@ def charge(sublevel: Sublevel, rows: ExactRows, total: Vector, claim: Fraction) 
     slopes = total[:terms]
     if all(slope.is_zero() for slope in slopes):
         return beyond
-    settled = [row.vector([]) for row in rows.equations if not row.constants]
     bounded = sublevel.means(greatest)
     known = [(rows.space.moments(nu), ball(mean)) for nu, mean in bounded.items()]
     if not bounded:
@@ -44,22 +43,20 @@ def charge(sublevel: Sublevel, rows: ExactRows, total: Vector, claim: Fraction) 
             name for name, output in rows.outputs.items() if output.exact.both and isfinite(greatest.get(name, inf))
         ]
         known = [([rows.outputs[name].moments()], ball(greatest[name])) for name in sized]
-    priced = [(worth(moments, settled, slopes), mean) for moments, mean in known]
+    priced = [(worth(moments, rows.settled, slopes), mean) for moments, mean in known]
     worths = [value.known + value.by_mean * mean for value, mean in priced if value is not None]
     if not known:
-        worths = list(_paid(sublevel, rows, settled, total, least))
+        worths = list(_paid(sublevel, rows, total, least))
     return beyond + min(worths, key=upper) if worths else None
 
 
-def _paid(
-    sublevel: Sublevel, rows: ExactRows, settled: Sequence[Vector], total: Vector, least: Mapping[str, Number]
-) -> Iterator[arb]:
+def _paid(sublevel: Sublevel, rows: ExactRows, total: Vector, least: Mapping[str, Number]) -> Iterator[arb]:
     """The worth of slopes where a constant that bounds a mean in proportion, however great it is, outweighs them."""
     terms = rows.space.terms
     for name, slope in zip(rows.names, total[terms:-1], strict=True):
         pays = bool(slope > 0) and least.get(name, 0) >= 0
         for nu, none, growth in sublevel.means_by(name) if pays else ():
-            value = worth(rows.space.moments(nu), settled, total[:terms])
+            value = worth(rows.space.moments(nu), rows.settled, total[:terms])
             if value is not None and bool(value.by_mean * ball(growth) <= slope):
                 yield value.known + value.by_mean * ball(none)
 

@@ -7,6 +7,7 @@ from math import factorial
 
 from flint import arb, ctx
 
+from optlaws.synthesis.problem.constants import PeakConstant
 from optlaws.synthesis.proof.certificate import Certificate
 from optlaws.synthesis.proof.nodes import Leaf, Node, PlaceRange, closes
 from optlaws.synthesis.proof.peak_rows import CLAIM, peak_of, roots_of
@@ -18,9 +19,8 @@ from optlaws.verification.exact.rows import BallRow, ExactRows
 class PlaceSteps:
     """The nodes of a certificate's tree, applied again."""
 
-    def __init__(self, certificate: Certificate) -> None:
-        self.rows = ExactRows(certificate)
-        self.peak, limits = peak_of(certificate.problem, certificate.peak), certificate.problem.range(certificate.peak)
+    def __init__(self, certificate: Certificate, peak: PeakConstant) -> None:
+        self.rows, self.peak, limits = ExactRows(certificate), peak, certificate.problem.range(peak.name)
         self.claim, self.low = Fraction(certificate.claim or 0), Fraction(0 if limits is None else limits.low)
         self.means = self.rows.sublevel.means(self.rows.sublevel.greatest_values(self.claim))
 
@@ -49,7 +49,6 @@ class PlaceSteps:
 
     def remainder(self, here: PlaceRange) -> arb:
         """Most by which a peak in the range, where the slope is 0, can be above the value in its middle: by Taylor."""
-        assert self.peak is not None  # noqa: S101 - without it there is no range
         reach, highest = ball((Fraction(here.high) - Fraction(here.low)) / 2), self.rows.space.degree_of(0)
         if here.low == here.high:
             return arb(0)
@@ -60,21 +59,21 @@ class PlaceSteps:
         return sum(sizes, arb(0)) * reach * reach / 2
 
     def _values(self, further: int, here: PlaceRange) -> list[arb]:
-        assert self.peak is not None  # noqa: S101
         return self.rows.space.values(self.peak.nu + further, (Fraction(here.low) + Fraction(here.high)) / 2)
 
     def _magnitude(self, row: list[arb]) -> arb:
         """Most that the magnitude of a function of the law, a row of its coordinates, can be below the claim."""
-        settled = [row.vector([]) for row in self.rows.equations if not row.constants]
-        known = [(worth(self.rows.space.moments(nu), settled, row[:-1]), ball(mean)) for nu, mean in self.means.items()]
+        space, settled = self.rows.space, self.rows.settled
+        known = [(worth(space.moments(nu), settled, row[:-1]), ball(mean)) for nu, mean in self.means.items()]
         sizes = [abs(row[-1] - value.known) + value.by_mean * mean for value, mean in known if value is not None]
         return min(sizes, key=lambda size: float(size.upper()), default=arb.pos_inf())
 
 
 def places_hold(certificate: Certificate, bits: int) -> bool:
     """Whether the tree of a certificate over the places of a peak leaves none with every rounding enclosed."""
-    roots = roots_of(certificate.problem, certificate.peak)
-    if not roots:
+    peak = peak_of(certificate.problem, certificate.peak)
+    if peak is None:
         return False
     with ctx.workprec(bits):
-        return closes(certificate.tree, roots, PlaceSteps(certificate).after)
+        roots = roots_of(certificate.problem, peak.name)
+        return closes(certificate.tree, roots, PlaceSteps(certificate, peak).after)

@@ -161,6 +161,11 @@ class ExactRows:
         for sign in signs:
             self._makers.setdefault((name, sign), []).append(maker)
 
+    @kept_property
+    def settled(self) -> list[list[arb]]:
+        """Coefficients of z, and what is constant, of the equations of the law alone: what no moment sees."""
+        return [row.vector([]) for row in self.equations if not row.constants]
+
     def _objective(self, expression: Expression) -> None:
         self.cost = expression.weights()
         constants = list(dict.fromkeys(leaf for _, leaf in leaves(expression)))
