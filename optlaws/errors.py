@@ -82,7 +82,7 @@ class NoisyTable(UserWarning):
     """
 
 
-class InfeasibleProblem(OptlawsError):  # noqa: N818
+class InfeasibleProblem(OptlawsError):  # noqa: N818 - a public name of 1.0
     """No law meets the conditions of the problem.
 
     Parameters
@@ -115,7 +115,7 @@ class InfeasibleProblem(OptlawsError):  # noqa: N818
         return _report(self.args[0], self.tried, self.problem)
 
 
-class SolverFailure(OptlawsError, RuntimeError):  # noqa: N818
+class SolverFailure(OptlawsError, RuntimeError):  # noqa: N818 - a public name of 1.0
     """The solver has no answer that passes its checks, although the problem may have a solution.
 
     Parameters

@@ -86,7 +86,7 @@ def _shown_module(module: str, name: str) -> str:
     return "" if isclass(value) and len(rooms) > _PUBLIC else f"{module}."
 
 
-def skip(_app: Sphinx, what: str, name: str, _obj: object, skipped: bool, options: object) -> bool | None:  # noqa: FBT001
+def skip(_app: Sphinx, what: str, name: str, _obj: object, skipped: bool, options: object) -> bool | None:  # noqa: FBT001 - as Sphinx calls it
     """Leave out what a list of members does not name: inherited members of classes bring all of a module else."""
     listed = getattr(options, "members", None)
     return True if what == "module" and isinstance(listed, list) and name not in listed else skipped or None

@@ -76,7 +76,7 @@ def head_of(file: Path, name: str) -> tuple[str, str]:
 app = application()
 
 
-class NotProven(OptlawsError):  # noqa: N818
+class NotProven(OptlawsError):  # noqa: N818 - a public name of 1.0
     """A file claims something that is false or not proven; the message names the claim."""
 
     code = NOT_PROVEN

@@ -69,7 +69,7 @@ def explore(start: dict[str, Any], port: int | None = None, *, browser: bool = T
     serving = server(start)
     with opened(port) as listening:
         address = f"http://{ADDRESS}:{listening.getsockname()[1]}/"
-        print(f"optlaws explorer: {address}  (Ctrl-C ends it)", flush=True)  # noqa: T201
+        print(f"optlaws explorer: {address}  (Ctrl-C ends it)", flush=True)  # noqa: T201 - the address
         if browser:
             # the socket listens already, so that the browser may come before the server does
             Thread(target=webbrowser.open, args=(address,), daemon=True).start()

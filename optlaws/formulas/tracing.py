@@ -184,7 +184,7 @@ def traced(function: Callable[[Any], Any], name: str = "x") -> dict[str, Formula
     >>> traced(lambda x: x if x > 0 else 0.0)
     Traceback (most recent call last):
     optlaws.errors.InputError: the function cannot be written down as a formula: it compares a value with another; write it without that, or give a table of its values
-    """  # noqa: E501
+    """  # noqa: E501 - a line of output
     try:
         given = function(Traced(Name(name)))
     except InputError:

@@ -67,7 +67,7 @@ class StoredLaw(JsonText, ABC):
         if law is None or not issubclass(law, cls):
             known = sorted(name for name, heir in cls.kinds.items() if issubclass(heir, cls))
             raise InputError(f"kind of law {shortened(kind)} is unknown; known are {', '.join(known)}")
-        return law._read(known_fields(law, fields, f"a {kind} law"))  # noqa: SLF001
+        return law._read(known_fields(law, fields, f"a {kind} law"))  # noqa: SLF001 - of the same kind
 
     @classmethod
     def _read(cls, fields: dict[str, Any]) -> Self:

@@ -218,5 +218,6 @@ def crossings(f: Callable[[float], float], places: Array, after: Array, before: 
     crossed = []
     for i in passed:
         falling = bool(signs[0, i] > 0.0)  # nothing is evaluated at the two ends
-        crossed.append(bisect(lambda k: (f(k) > value) == falling, float(places[i]), float(places[i + 1]))[0])  # noqa: B023
+        low, high = float(places[i]), float(places[i + 1])
+        crossed.append(bisect(lambda k: (f(k) > value) == falling, low, high)[0])  # noqa: B023 - called at once
     return np.sort(np.concatenate([touched, crossed]))

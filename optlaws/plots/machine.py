@@ -110,7 +110,7 @@ def draw_mechanism(mechanism: Mechanism, axes: Any = None, **style: Any) -> list
         return artists + _curves(mechanism, panels, style)
 
 
-def _new_panels(linked: bool) -> list[Axes]:  # noqa: FBT001
+def _new_panels(linked: bool) -> list[Axes]:  # noqa: FBT001 - called by position
     if not linked:
         return list(np.ravel(new_figure(7.2, 6.0).subplots(3, 1, sharex=True)))
     figure = new_figure(10.4, 5.4)

@@ -95,10 +95,10 @@ class PartSegment(Segment, kind="part"):
             return np.asarray(self.scale * (values - self.law.a(self.start)))
         return np.asarray(self.scale * (span / length) ** nu * values)
 
-    def candidates(self, length: float, nu: int) -> Array:  # noqa: ARG002
+    def candidates(self, length: float, nu: int) -> Array:  # noqa: ARG002 - what others of its kind need
         return self._places(np.array([extreme.k for extreme in self.law.extrema(nu, (self.start, self.end))]))
 
-    def power_candidates(self, length: float) -> Array:  # noqa: ARG002
+    def power_candidates(self, length: float) -> Array:  # noqa: ARG002 - what others of its kind need
         return self._places(np.array([extreme.k for extreme in self.law.power_extrema((self.start, self.end))]))
 
     def scaled(self, length: float, scale: float, drift: float = 0.0) -> Segment:

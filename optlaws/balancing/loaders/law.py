@@ -127,7 +127,7 @@ class LoaderLaw(MotionLaw, kind="loader"):
     # each hook is that of the pieces, but for d, which is -Y² times that of the executive law and finite where c is not
 
     def _before_breaks(self, nu: int) -> Array:
-        return self.piecewise._before_breaks(nu)  # noqa: SLF001
+        return self.piecewise._before_breaks(nu)  # noqa: SLF001 - of the same kind
 
     def _derivative(self, k: Array, nu: int) -> Array:
         return np.asarray(self.piecewise(k, nu))
@@ -139,14 +139,14 @@ class LoaderLaw(MotionLaw, kind="loader"):
         return values if known.all() else np.where(known, values, -(self.Y**2) * np.asarray(self.executive.d(k)))
 
     def _sides(self, nu: int) -> Sides:
-        return self.piecewise._sides(nu)  # noqa: SLF001
+        return self.piecewise._sides(nu)  # noqa: SLF001 - of the same kind
 
     def _power_sides(self) -> Sides:
-        k, values = self.executive._whole_power()  # noqa: SLF001
+        k, values = self.executive._whole_power()  # noqa: SLF001 - of the same kind
         return k, -(self.Y**2) * values
 
     def _mean_square(self, nu: int) -> float:
-        return self.piecewise._mean_square(nu)  # noqa: SLF001
+        return self.piecewise._mean_square(nu)  # noqa: SLF001 - of the same kind
 
     def _summary(self) -> str:
         return f"Y={self.Y:g}"

@@ -197,7 +197,7 @@ class LoaderSegment(Segment, kind="loader"):
         if not isinstance(given, MotionLaw):
             object.__setattr__(self, "executive", MotionLaw.from_dict(given))
 
-    def derivative(self, u: Array, length: float, nu: int) -> Array:  # noqa: ARG002
+    def derivative(self, u: Array, length: float, nu: int) -> Array:  # noqa: ARG002 - what others of its kind need
         flat = np.atleast_1d(u)
         if nu == 0:
             from_origin = self._stretch.integral(self._times(flat))
@@ -208,13 +208,13 @@ class LoaderSegment(Segment, kind="loader"):
                 values = -values
         return np.asarray(self.scale * values.reshape(np.shape(u)))
 
-    def candidates(self, length: float, nu: int) -> Array:  # noqa: ARG002
+    def candidates(self, length: float, nu: int) -> Array:  # noqa: ARG002 - what others of its kind need
         return self._places(self._stretch.roots(nu)) if nu else np.empty(0)
 
-    def power_candidates(self, length: float) -> Array:  # noqa: ARG002
+    def power_candidates(self, length: float) -> Array:  # noqa: ARG002 - what others of its kind need
         return self._places(self._stretch.power_roots())
 
-    def square(self, length: float, nu: int) -> float:  # noqa: ARG002
+    def square(self, length: float, nu: int) -> float:  # noqa: ARG002 - what others of its kind need
         return self.scale**2 * self._stretch.square(nu - 1)
 
     @property

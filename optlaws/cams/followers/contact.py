@@ -230,11 +230,11 @@ class FollowerContact(ABC):
         lines = [] if pressure is None else self.pressure_limits(piece, pressure, angle, below=below)
         return lines if radius is None else [*lines, *self.radius_limits(piece, radius, angle)]
 
-    def pressure_limits(self, piece: Piece, limit: float, angle: float, *, below: bool) -> list[LinearLimit]:  # noqa: ARG002
+    def pressure_limits(self, piece: Piece, limit: float, angle: float, *, below: bool) -> list[LinearLimit]:  # noqa: ARG002 - as others
         """The greatest tangent of the pressure angle as linear limits of a law; none unless there are such."""
         return []
 
-    def radius_limits(self, piece: Piece, limit: float, angle: float) -> list[LinearLimit]:  # noqa: ARG002
+    def radius_limits(self, piece: Piece, limit: float, angle: float) -> list[LinearLimit]:  # noqa: ARG002 - as others
         """The least radius of curvature as linear limits of a law; none unless there are such."""
         return []
 

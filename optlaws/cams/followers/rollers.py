@@ -196,7 +196,7 @@ class SlidingRoller(RollerContact):
     def components(self, s: Jet) -> Pair:
         return s.slope() - self.turning * self.offset, s + (self.level - self.lowest)
 
-    def rate(self, s: Jet) -> float:  # noqa: ARG002
+    def rate(self, s: Jet) -> float:  # noqa: ARG002 - what others of its kind need
         return 1.0
 
     def curvature_terms(self, displacement: str, slope: str) -> CurvatureTerms:

@@ -195,7 +195,7 @@ def slower(span: LawSpan, scale: float) -> LawSpan:
         for state in (span.first, span.last, *span.states)
     )
     assert first is not None  # noqa: S101 - both are known
-    assert last is not None  # noqa: S101
+    assert last is not None  # noqa: S101 - as above
     return replace(
         span,
         starts=tuple(start * scale for start in span.starts),

@@ -60,10 +60,10 @@ class PowerSegment(Segment, kind="power"):
         """Kinetic power d = b c at u, the same everywhere and finite where c is not."""
         return np.full(np.shape(u), self._power(length))
 
-    def candidates(self, length: float, nu: int) -> Array:  # noqa: ARG002
+    def candidates(self, length: float, nu: int) -> Array:  # noqa: ARG002 - what others of its kind need
         return np.empty(0)
 
-    def power_candidates(self, length: float) -> Array:  # noqa: ARG002
+    def power_candidates(self, length: float) -> Array:  # noqa: ARG002 - what others of its kind need
         return np.empty(0)
 
     def square(self, length: float, nu: int) -> float:
@@ -86,7 +86,7 @@ class PowerSegment(Segment, kind="power"):
             return PolynomialSegment((), scale * self.b0 + drift)
         return self.fractional(length).scaled(length, scale, drift)
 
-    def backwards(self, length: float) -> Segment:  # noqa: ARG002
+    def backwards(self, length: float) -> Segment:  # noqa: ARG002 - what others of its kind need
         return PowerSegment(self.b1, self.b0)
 
     def times(self, length: float, y: Array) -> Segment:

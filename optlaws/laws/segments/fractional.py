@@ -161,11 +161,11 @@ class FractionalSegment(Segment, kind="fractional"):
         low, high = sorted((self.first, self.last))
         return powers.times(powers).integral(low, high) * length / (high - low)
 
-    def scaled(self, length: float, scale: float, drift: float = 0.0) -> Segment:  # noqa: ARG002
+    def scaled(self, length: float, scale: float, drift: float = 0.0) -> Segment:  # noqa: ARG002 - others need it
         coefficients = tuple(scale * coefficient for coefficient in self.coefficients)
         return replace(self, coefficients=coefficients, steady=scale * self.steady + drift)
 
-    def backwards(self, length: float) -> Segment:  # noqa: ARG002
+    def backwards(self, length: float) -> Segment:  # noqa: ARG002 - what others of its kind need
         return replace(
             self,
             first=self.last,
@@ -173,7 +173,7 @@ class FractionalSegment(Segment, kind="fractional"):
             coefficients=tuple(-coefficient for coefficient in self.coefficients),
         )
 
-    def times(self, length: float, y: Array) -> Segment:  # noqa: ARG002
+    def times(self, length: float, y: Array) -> Segment:  # noqa: ARG002 - what others of its kind need
         # x = 2u - 1 is straight in v: x = (2v - first - last) / (last - first)
         span = self.last - self.first
         place = np.polynomial.Polynomial([-(self.first + self.last) / span, 2.0 / span])

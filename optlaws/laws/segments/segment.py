@@ -215,20 +215,20 @@ class PolynomialSegment(Segment, kind="polynomial"):
         return np.asarray(length ** (2.0 - nu) * self._law(length)(u, nu), dtype=np.float64)
 
     def derivatives(self, u: Array, length: float, count: int) -> Array:
-        series = self._law(length)._all_series(count)  # noqa: SLF001
+        series = self._law(length)._all_series(count)  # noqa: SLF001 - of the same kind
         scales = length ** (2.0 - np.arange(count))
         return scales.reshape(-1, *(1,) * u.ndim) * chebyshev.values(series, 2.0 * u - 1.0)
 
     def candidates(self, length: float, nu: int) -> Array:
-        return self._law(length)._candidates(nu)  # noqa: SLF001
+        return self._law(length)._candidates(nu)  # noqa: SLF001 - of the same kind
 
     def power_candidates(self, length: float) -> Array:
-        return self._law(length)._power_candidates()  # noqa: SLF001
+        return self._law(length)._power_candidates()  # noqa: SLF001 - of the same kind
 
     def square(self, length: float, nu: int) -> float:
         return length ** (5 - 2 * nu) * self._law(length).rms(nu) ** 2
 
-    def scaled(self, length: float, scale: float, drift: float = 0.0) -> Segment:  # noqa: ARG002
+    def scaled(self, length: float, scale: float, drift: float = 0.0) -> Segment:  # noqa: ARG002 - others need it
         return PolynomialSegment(
             tuple(scale * coefficient for coefficient in self.acceleration), scale * self.b0 + drift
         )
@@ -237,7 +237,7 @@ class PolynomialSegment(Segment, kind="polynomial"):
         turned = (coefficient if n % 2 else -coefficient for n, coefficient in enumerate(self.acceleration))
         return PolynomialSegment(tuple(turned), self.velocity(length, last=True))
 
-    def times(self, length: float, y: Array) -> Segment:  # noqa: ARG002
+    def times(self, length: float, y: Array) -> Segment:  # noqa: ARG002 - what others of its kind need
         product = chebyshev.product(np.array(self.acceleration or (0.0,)), y)
         return PolynomialSegment(tuple(product.tolist()), self.b0)
 
@@ -250,7 +250,7 @@ class PolynomialSegment(Segment, kind="polynomial"):
         total[: len(s)] += twice * s
         return PolynomialSegment(tuple(total.tolist()), self._velocity_plus(length, once, twice))
 
-    def waves(self, length: float) -> Waves:  # noqa: ARG002
+    def waves(self, length: float) -> Waves:  # noqa: ARG002 - what others of its kind need
         return Waves(self.acceleration or (0.0,), self.b0)
 
     def _law(self, length: float) -> PolynomialLaw:

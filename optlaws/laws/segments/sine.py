@@ -122,7 +122,7 @@ class SineSegment(SwingingSegment, kind="sine"):
         inside: Array = u[u < 1.0]
         return inside
 
-    def scaled(self, length: float, scale: float, drift: float = 0.0) -> Segment:  # noqa: ARG002
+    def scaled(self, length: float, scale: float, drift: float = 0.0) -> Segment:  # noqa: ARG002 - others need it
         powers = tuple(scale * power for power in self.powers)
         return replace(self, amplitude=scale * self.amplitude, b0=scale * self.b0 + drift, powers=powers)
 
@@ -210,7 +210,7 @@ class HarmonicSegment(SwingingSegment, kind="harmonics"):
     def _fastest(self) -> float:
         return max(self.frequencies)
 
-    def scaled(self, length: float, scale: float, drift: float = 0.0) -> Segment:  # noqa: ARG002
+    def scaled(self, length: float, scale: float, drift: float = 0.0) -> Segment:  # noqa: ARG002 - others need it
         amplitudes = tuple(scale * amplitude for amplitude in self.amplitudes)
         return replace(self, amplitudes=amplitudes, b0=scale * self.b0 + drift)
 
@@ -228,7 +228,7 @@ class HarmonicSegment(SwingingSegment, kind="harmonics"):
             b0=self._velocity_plus(length, once, twice),
         )
 
-    def waves(self, length: float) -> Waves:  # noqa: ARG002
+    def waves(self, length: float) -> Waves:  # noqa: ARG002 - what others of its kind need
         return Waves((0.0,), self.b0, self._waves)
 
     @property

@@ -261,7 +261,7 @@ class FourBar(LinkageKind, kind="four bar"):
     >>> four_bar("0.2 m", "0.3 m", "0.1 m", "0.35 m", bodies={}, over=("0 rad", "1 rad"))
     Traceback (most recent call last):
     optlaws.errors.InputError: the crank reaches no angle from -28.955 to 28.955 deg: coupler and rocker are in line, ...
-    """  # noqa: E501
+    """  # noqa: E501 - a line of output
 
     crank: SINumber = entry(LENGTH, "Its length between pins.", example="100 mm")
     coupler: SINumber = entry(LENGTH, "Its length between pins.", example="300 mm")

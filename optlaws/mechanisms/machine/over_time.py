@@ -265,7 +265,7 @@ class MachineMotion:
         course = around(drives.of_law(cycle.rise), fall, (high, low), pauses)
         falling = [(back + cycle.fall_duration * k, -b / cycle.fall_duration) for k, b in jumps(cycle.fall)]
         motion = cls(dynamics, outputs, course, jumps=[*jumps(cycle.rise), *falling], radians=radians)
-        motion.panels  # noqa: B018
+        motion.panels  # noqa: B018 - what is in resonance is refused at once
         return motion
 
     @property

@@ -340,7 +340,7 @@ class IntegralFamily(WholeLawFamily, FormulaFamily):
         """Values of the names at the nodes in a law, one name after the other."""
         return tuple((self.columns @ np.append(x, 1.0)).ravel().tolist())
 
-    def tangent_row(self, u: float, sign: float, point: tuple[float, ...]) -> Array | None:  # noqa: ARG002
+    def tangent_row(self, u: float, sign: float, point: tuple[float, ...]) -> Array | None:  # noqa: ARG002 - as others
         """The affine function that touches f where the names are as given, the constant last."""
         if not self.convex or len(point) != self.columns[:, :, 0].size:
             return None

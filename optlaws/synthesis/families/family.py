@@ -259,7 +259,7 @@ class LinearFamily(SeriesFamily):
         bend = np.einsum("nmp,mn->mp", polynomials[counted].reshape(len(counted), *u.shape), point @ series.T)
         return value, slope, bend
 
-    def hessian(self, x: Array, u: Array, weights: Array) -> Array | None:  # noqa: ARG002
+    def hessian(self, x: Array, u: Array, weights: Array) -> Array | None:  # noqa: ARG002 - others need it
         """No Hessian (None), because f is affine."""
         return None
 
@@ -397,7 +397,7 @@ class ProductFamily(NonlinearFamily):
         """The columns of both factors with two derivatives by the place."""
         return [factor.columns(u.reshape(-1)).reshape(3, *u.shape, -1) for factor in (self.first, self.second)]
 
-    def hessians(self, u: Array, point: Array, weights: Array) -> Array:  # noqa: ARG002
+    def hessians(self, u: Array, point: Array, weights: Array) -> Array:  # noqa: ARG002 - what others of its kind need
         """The weighted sum of products of the factors' rows, as second derivatives."""
         g, h = (columns[0, :, :, :-1] for columns in self._columns(u))
         half = np.matmul((g * weights[:, :, None]).transpose(0, 2, 1), h)
@@ -432,7 +432,7 @@ class WholeLawFamily(NonlinearFamily):
     def value(self, x: Array, u: Array) -> Array:
         return np.full(len(u), self.greatest(np.append(x, 1.0)[None])[0])
 
-    def stationary(self, x: Array) -> Array:  # noqa: ARG002
+    def stationary(self, x: Array) -> Array:  # noqa: ARG002 - what others of its kind need
         """No places: there are none."""
         return np.empty(0)
 

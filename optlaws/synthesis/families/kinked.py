@@ -199,7 +199,7 @@ class KinkedIntegralFamily(IntegralFamily):
         """The variables of the law."""
         return tuple(x.tolist())
 
-    def tangent_row(self, u: float, sign: float, point: tuple[float, ...]) -> Array | None:  # noqa: ARG002
+    def tangent_row(self, u: float, sign: float, point: tuple[float, ...]) -> Array | None:  # noqa: ARG002 - as others
         if not self.convex or len(point) != len(self.slack):
             return None
         split = self.split(np.array(point))

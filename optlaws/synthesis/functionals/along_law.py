@@ -66,7 +66,8 @@ def _smooth_edges(motion: MotionFormula, law: MotionLaw) -> list[float]:
     plain, bent = knots(motion.formula, ORDERS)
     if plain:
         values = [partial(_values, MotionFormula(switch), law) for switch in plain]
-        edges = sorted({place for of in values for place in cut_at_roots(lambda *_: of, edges)})  # noqa: B023
+        cut = (cut_at_roots(lambda *_: of, edges) for of in values)  # noqa: B023 - called at once
+        edges = sorted({place for places in cut for place in places})
     for switch in bent:
         edges = cut_at_roots(partial(_inside, MotionFormula(switch), law), edges)
     return edges

@@ -99,7 +99,7 @@ class OfFormula(Functional):
         known = space.cached(("size", self.name), lambda: np.array(self._size(space) or ()))
         return ((int(known[0]), float(known[1]), float(known[2])),) if len(known) else ()
 
-    def _size(self, space: LawSpace) -> SizeBound | None:  # noqa: ARG002
+    def _size(self, space: LawSpace) -> SizeBound | None:  # noqa: ARG002 - what others of its kind need
         """The a priori bound of laws; None where the constant does not bound them."""
         return None
 
@@ -118,15 +118,15 @@ class OfFormula(Functional):
             return (*families, least)
         return families
 
-    def branches(self, *, symmetric: bool) -> list[Branch]:  # noqa: ARG002
+    def branches(self, *, symmetric: bool) -> list[Branch]:  # noqa: ARG002 - what others of its kind need
         """The smooth formulas whose rows hold the constant; none where other rows do."""
         return []
 
-    def beneath(self, boxes: Boxes, *, symmetric: bool) -> list[Branch]:  # noqa: ARG002
+    def beneath(self, boxes: Boxes, *, symmetric: bool) -> list[Branch]:  # noqa: ARG002 - what others of its kind need
         """Convex lower bounds of the constant's formula while derivatives are in their boxes."""
         return []
 
-    def floor(self, conditions: BoundaryConditions) -> float:  # noqa: ARG002
+    def floor(self, conditions: BoundaryConditions) -> float:  # noqa: ARG002 - what others of its kind need
         """Zero where the formula is nonnegative or both signs count, else minus infinity."""
         return 0.0 if self.of_magnitude or self.sign > 0 else -inf
 

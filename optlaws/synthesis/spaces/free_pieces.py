@@ -206,7 +206,7 @@ class PieceSpace(PiecewiseSpace):
             breaks += [1.0 - k for k in breaks[-2::-1]]
         return PiecewiseLaw(breaks, segments, float(self.boundary.start[0]))
 
-    def z_series(self, coordinates: Array) -> Array:  # noqa: ARG002
+    def z_series(self, coordinates: Array) -> Array:  # noqa: ARG002 - what others of its kind need
         """Empty: the law is not written with a Z."""
         return np.empty(0)
 

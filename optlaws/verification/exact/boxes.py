@@ -224,7 +224,7 @@ class _PowerProof(BoxSteps):
             low = below if low is None else low.max(below)
             high = above if high is None else high.min(above)
         assert low is not None  # noqa: S101 - both ends are there
-        assert high is not None  # noqa: S101
+        assert high is not None  # noqa: S101 - as above
         return (low.max(arb(0)) if self.problem.monotone else low), high.min(self.B)
 
     def curved(self, contact: Contact, box: BallBox) -> Vector | None:
