@@ -89,13 +89,16 @@ def _in_context(entry: FileEntry, verification: Verification) -> Iterator[Claim]
         yield Claim("the row's problem", stated == problem, f"{stated!r}")
     if entry.B is not None and problem is not None:
         yield Claim("the row's B", entry.B == problem.B, f"{entry.B!r} stated, {problem.B!r} in the problem")
-    if entry.values and "law" not in entry.data:
+    if not entry.values:
+        return
+    if "law" not in entry.data:
         raise InputError("values of a front claim something of a point without a law")
+    law = exact_law(entry.data["law"])
     for name, value in entry.values.items():
         constant = FUNCTIONALS.get(present_name(name))
         if constant is None:
             raise InputError(unknown_key(name, FUNCTIONALS, "constant"))
-        yield near(f"the front's {name}", value, enclosed(exact_law(entry.data["law"]).term(constant)))
+        yield near(f"the front's {name}", value, enclosed(law.term(constant)))
 
 
 class _Known(NamedTuple):
