@@ -249,6 +249,23 @@ def test_tables_of_other_run_times(tmp_path: Path) -> None:
     assert table.cycle(speed="60 rpm").duration == pytest.approx(1.0)
 
 
+def test_comments_behind_the_keywords_of_isg(tmp_path: Path) -> None:
+    """As the manual of the ISG kernel prints its cam tables: a comment behind every line."""
+    law, k = catalogue["cycloidal"].law, np.linspace(0.0, 1.0, 25)
+    rows = "\n".join(f"{round(1.2e6 * x)} {round(35e4 * float(law(x)))}  # point" for x in k)
+    head = "Tablename = Rise # name\nTabletype = 7 # type\nFunction type = 1 # kind\n{} # count\nBegintable # begin\n"
+    file = tmp_path / "rise.txt"
+    file.write_text(f"{head.format('Lines = 25')}{rows}\nEndTable # end of table\n")
+    (rise,) = read_cycle_table(file).stretches
+    assert (rise.law, rise.start, rise.stop, rise.stroke) == ("cycloidal", 0.0, 120.0, 35.0)
+    file.write_text(f"{head.format('Lines = 24')}{rows}\nEndTable # end of table\n")
+    with pytest.raises(InputError, match="states 24 points and contains 25"):
+        read_cycle_table(file)
+    file.write_text(f"{head.format('Lines = 25')}{rows}\n")
+    with pytest.raises(InputError, match="no EndTable"):
+        read_cycle_table(file)
+
+
 def lines_of(name: str) -> list[str]:
     return exported(name).text.splitlines()
 

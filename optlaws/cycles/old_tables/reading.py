@@ -121,15 +121,16 @@ def _of_columns(
 def _columns_layout(content: str, points: TablePoints) -> tuple[str, float]:
     """The layout of columns, and the factors of their numbers; refuses a table that states another number of points."""
     lines = [line.strip() for line in content.splitlines() if line.strip()]
+    keywords = {line.split()[0].lower() for line in lines}  # a comment may follow
     first, count = lines[0], points.lines[-1] - points.lines[0] + 1
     count -= sum(not line.strip() for line in content.splitlines()[points.lines[0] - 1 : points.lines[-1]])
     if any(line.startswith("TABLE_BEGIN") for line in lines):
         if not any(line.startswith("TABLE_END") for line in lines):
             raise InputError("the table has no TABLE_END: its end is missing")
         return "Kollmorgen KAS", 1.0
-    if any(line.startswith("Begintable") for line in lines):
-        stated = re.search(r"^Lines\s*=\s*(\d+)", content, re.MULTILINE)
-        if "EndTable" not in lines:
+    if "begintable" in keywords:
+        stated = re.search(r"^\s*Lines\s*=\s*(\d+)", content, re.MULTILINE | re.IGNORECASE)
+        if "endtable" not in keywords:
             raise InputError("the table has no EndTable: its end is missing")
         _compare(int(stated[1]) if stated else count, count)
         return "ISG and TwinCAT CNC", 1e-4
