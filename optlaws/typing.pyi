@@ -96,6 +96,7 @@ from .synthesis.proof.nodes import Node as Node
 from .synthesis.proven.front import LazySequence as LazySequence
 from .synthesis.proven.swept_parameter import SweptParameter as SweptParameter
 from .synthesis.solution_array import SolvedPart as SolvedPart
+from .synthesis.method.exchange import Method as Method
 from .synthesis.solve import Bound as Bound
 from .synthesis.solve_many import Errors as Errors, Result as Result
 from .synthesis.spaces.bases import PolynomialBasis as PolynomialBasis

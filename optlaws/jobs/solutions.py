@@ -18,6 +18,7 @@ from optlaws.results import Results
 from optlaws.shown.report import ReportTable
 from optlaws.studies.problem_entries import gap, problem, record, shown
 from optlaws.synthesis import FUNCTIONALS, Certificate, Problem, Solution, Status, synthesize
+from optlaws.synthesis.method.exchange import Method
 from optlaws.synthesis.problem.fields import CONSTANTS
 from optlaws.synthesis.problem.problem import ENTRIES, PROBLEM, SWEPT
 from optlaws.synthesis.solve import Bound
@@ -68,6 +69,7 @@ class SolutionsProblemFile(ProblemFile, title="a problem file"):
         example=[{"B": [1.6, 1.8, "free"]}],
     )
     bound: Bound = entry(Choice("quick", "tight"), "That of `synthesize`.", default="quick")
+    method: Method = entry(Choice("auto", "ipopt"), "That of `synthesize`.", default="auto")
     columns: tuple[str, ...] = entry(
         _NAMES, "Constants of the law, or of what was found.", default=(*CONSTANTS, *tuple(RESULTS)[1:])
     )
@@ -89,7 +91,10 @@ def run(results: Results) -> None:
     entries = list(swept_entries(spec))
     beside = _beside(spec, results.file, entries)
     problems = [_problems(spec, i, entry) for i, entry in enumerate(entries, 1)]
-    rows = [(_tried(first, spec.bound), [_tried(other)[1] for other in others]) for first, *others in problems]
+    rows = [
+        (_tried(first, spec.bound, spec.method), [_tried(other, method=spec.method)[1] for other in others])
+        for first, *others in problems
+    ]
     table = _table(spec, entries, rows, beside)
     results.table("table", *table)
     results.page("table").text(spec.text).table(*table)
@@ -127,10 +132,10 @@ def _problems(spec: SolutionsProblemFile, number: int, entries: Mapping[str, Any
     return [problem(row, spec.problem, entries), *others_stated]
 
 
-def _tried(stated: Problem, bound: Bound = "quick") -> Tried:
+def _tried(stated: Problem, bound: Bound = "quick", method: Method = "auto") -> Tried:
     """The solution of a problem; None where there is none, with the proof of that if it is one of this problem."""
     try:
-        solution = synthesize(stated, bound=bound)
+        solution = synthesize(stated, bound=bound, method=method)
     except (InfeasibleProblem, SolverFailure) as error:
         proof = getattr(error, "proof", None)
         proves = isinstance(proof, Certificate) and proof.problem == stated

@@ -15,7 +15,7 @@ from optlaws.laws import MotionLaw
 from optlaws.numbers import Array
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.limits.of_problem import known_limit
-from optlaws.synthesis.method.exchange import ROUNDS, Outcome, solve
+from optlaws.synthesis.method.exchange import IPOPT, ROUNDS, Method, Outcome, solve
 from optlaws.synthesis.method.stored_structures import stored_guess
 from optlaws.synthesis.method.without_interior import fallbacks_without_interior, on_equations
 from optlaws.synthesis.problem.constants import Functional, PeakConstant
@@ -63,6 +63,7 @@ class LawSearch:
     model: Model
     tight: bool = False  #: whether to search for a tight bound where the problem is not convex
     warm: ActiveSet | None = None  #: the optimum of a neighbouring problem
+    method: Method = "auto"  #: how the programs of its starts are solved
     outcomes: list[Outcome] = field(default_factory=list)  #: how each start ended
     candidates: list[Candidate] = field(default_factory=list)  #: the laws that starts led to, the best first
     power: Certificate | None = None  #: the proof of a tight bound with D
@@ -96,7 +97,7 @@ class LawSearch:
         """
         from optlaws.synthesis.method import starts
 
-        first = self._try(None, next(starts.points(self.model), None))
+        first = self._try(None, next(starts.points(self.model, self.method), None))
         if first is None or abs(first.objective - known) > AGREEMENT * known:
             self._try_starts(stored=False)
         return self.candidates[0].objective if self.candidates else None
@@ -115,7 +116,7 @@ class LawSearch:
         first = self._try_drive() if self.warm is None else None
         if first is not None and self._near_limit(first):
             return
-        guess = stored_guess(self.model) if stored else None
+        guess = stored_guess(self.model) if stored and self.method != IPOPT else None
         last = self._try(self.warm or guess, None)
         if self.problem.convex or self.warm is not None or _agree(first, last):
             return
@@ -124,7 +125,7 @@ class LawSearch:
         from optlaws.synthesis.method import starts
 
         first = first or last
-        for point in starts.points(self.model):
+        for point in starts.points(self.model, self.method):
             if _agree(first, self._try(None, point)):
                 return
 
@@ -143,7 +144,7 @@ class LawSearch:
         return limit is not None and law.objective <= limit.value * (1.0 + _NEAR_LIMIT)
 
     def _try(self, warm: ActiveSet | None, point: Array | None, *, near: bool = False) -> Candidate | None:
-        outcome, candidate = attempt(self.model, warm, point, near=near)
+        outcome, candidate = attempt(self.model, warm, point, near=near, method=self.method)
         self.outcomes.append(outcome)
         if candidate is not None:
             self.candidates = sorted([*self.candidates, candidate], key=lambda law: law.objective)
@@ -158,7 +159,7 @@ class LawSearch:
         better, scales = [best], self.model.variable_scales
 
         def explore(x: Array) -> bool:
-            _, tried = attempt(self.model, None, x / scales)
+            _, tried = attempt(self.model, None, x / scales, method=self.method)
             if tried is not None and tried.objective < better[-1].objective * (1.0 - OPTIMALITY_GAP):
                 better.append(tried)
                 return True
@@ -281,6 +282,8 @@ def best_available(search: LawSearch) -> Solution | None:
 def _of_any_way(search: LawSearch) -> Solution | None:
     """The problem's own answer or, where it is missing, unproven or too good, the answer of an alternative strategy."""
     solution, problem = search.answer(), search.problem
+    if search.method == IPOPT:
+        return solution
     if solution is None or (problem.convex and search.outcomes[0].optimum is None):
         unfolded = from_symmetric(search) if problem.mirrored else None
         around = unfolded or (solved_without_interior(search) or _from_vertices(search) if problem.convex else None)
@@ -304,7 +307,7 @@ def _from_vertices(search: LawSearch) -> Solution | None:
     """The best law of a linear program by its vertices, where interior points led to no law."""
     if search.model.program.curved or not (search.outcomes[0].tried or search.outcomes[0].optimum):
         return None
-    optimum = solve(search.model.program, vertices=True).optimum
+    optimum = solve(search.model.program, method="vertices").optimum
     return None if optimum is None else LawSearch(search.model, warm=optimum, began=search.began).answer()
 
 
@@ -383,7 +386,7 @@ def _agree(first: Candidate | None, last: Candidate | None) -> bool:
 
 
 def attempt(
-    model: Model, warm: ActiveSet | None, point: Array | None, *, near: bool = False
+    model: Model, warm: ActiveSet | None, point: Array | None, *, near: bool = False, method: Method = "auto"
 ) -> tuple[Outcome, Candidate | None]:
     """The local optimum reached from a neighbour's optimum or a start."""
     claim, laws = model.program.objective * model.unit, _Laws(model)
@@ -396,7 +399,9 @@ def attempt(
         # a constant that is minimised is a variable, which may have to be above the law's own
         return exact and not shortfalls(model.problem, law)
 
-    outcome = solve(model.program, warm, start=point, holds=holds, rounds=0 if near else ROUNDS)
+    if method == IPOPT and warm is not None:
+        point, warm = warm.x, None
+    outcome = solve(model.program, warm, start=point, holds=holds, rounds=0 if near else ROUNDS, method=method)
     led = outcome.tried if outcome.optimum is None else (outcome.optimum,)
     candidates = (laws.candidate(state.at(on_equations(model.program, state.x))) for state in led)
     best = min((law for law in candidates if law is not None), key=lambda law: law.objective, default=None)

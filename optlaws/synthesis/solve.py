@@ -9,6 +9,8 @@ from typing import Literal, get_args
 from optlaws.errors import InfeasibleProblem, InputError, OptlawsError
 from optlaws.files.reading import check_names
 from optlaws.synthesis.families.active_set import ActiveSet
+from optlaws.synthesis.families.kinked import KinkedIntegralFamily
+from optlaws.synthesis.method.exchange import IPOPT, METHODS, Method
 from optlaws.synthesis.problem.constants import warn_of_mixture
 from optlaws.synthesis.problem.problem import Problem, differ_in_numbers
 from optlaws.synthesis.program.writer import Model, model_of
@@ -22,7 +24,9 @@ TIGHT: Bound = "tight"
 BOUNDS = get_args(Bound)
 
 
-def synthesize(problem: Problem, *, start: Solution | None = None, bound: Bound = "quick") -> Solution:
+def synthesize(
+    problem: Problem, *, start: Solution | None = None, bound: Bound = "quick", method: Method = "auto"
+) -> Solution:
     """Find the law that minimises the problem's objective, with a proof of its optimality or a bound of its gap.
 
     Parameters
@@ -37,6 +41,10 @@ def synthesize(problem: Problem, *, start: Solution | None = None, bound: Bound 
         "tight" by a search over all laws, or over all places of the peak, which takes from a tenth of a second to some
         seconds, usually meets the objective and finds better laws if there are any. Other problems are proven either
         way.
+    method
+        How programs are solved: "auto" by what suits their rows, or "ipopt" each as a nonlinear program of CasADi by
+        IPOPT, to judge the other by. Contacts, proof and status follow from either in the same way, and so does the
+        law in which a peak is raised to its lower bound. Integrals of formulas with kinks need "auto".
 
     Returns
     -------
@@ -58,6 +66,7 @@ def synthesize(problem: Problem, *, start: Solution | None = None, bound: Bound 
     (5.08070242, True)
     """
     _check_types(problem, start, bound)
+    check_names([method], METHODS, "method")
     warn_of_mixture(problem.objective, problem.order)
     if problem.windows:
         from optlaws.synthesis.proof.infeasible import beyond_known_value
@@ -66,7 +75,12 @@ def synthesize(problem: Problem, *, start: Solution | None = None, bound: Bound 
         if excluded is not None:
             raise excluded
     model = model_of(problem)
-    search = LawSearch(model, tight=bound == TIGHT, warm=_warm(model, start))
+    if method == IPOPT and any(isinstance(family, KinkedIntegralFamily) for family in model.program.families):
+        raise InputError(
+            'method "ipopt" needs second derivatives, which the integral of a formula with kinks does not have: '
+            'solve this problem by method "auto"'
+        )
+    search = LawSearch(model, tight=bound == TIGHT, warm=_warm(model, start), method=method)
     solution = best_available(search)
     if solution is not None:
         return solution

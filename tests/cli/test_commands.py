@@ -448,6 +448,15 @@ def test_what_the_least_acceleration_alone_costs_is_said(capsys: Capture) -> Non
     assert "modified sine" not in out
 
 
+def test_ipopt_solves_what_is_given_to_it(capsys: Capture) -> None:
+    _, usual, _ = called(capsys, *SOLVE, "--json")
+    _, other, _ = called(capsys, *SOLVE, "--method", "ipopt", "--json")
+    assert json.loads(other)["objective"] == pytest.approx(json.loads(usual)["objective"], rel=1e-9)
+    assert json.loads(other)["iterations"] > 0
+    fastest = ["--fastest", "--stroke", "100 mm", "--limit", "velocity=1 m/s"]
+    assert "--method is of a single problem" in refused(capsys, *SOLVE, "--method", "ipopt", *fastest)
+
+
 # --- front ---
 
 

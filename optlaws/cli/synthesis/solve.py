@@ -37,6 +37,7 @@ def solve(
     entries: dict[str, Any],
     *,
     bound: Literal["quick", "tight"] = "quick",
+    method: Literal["auto", "ipopt"] = "auto",
     fastest: bool = False,
     move: Mapping[str, Any],
     output: Written = None,
@@ -47,6 +48,8 @@ def solve(
     ----------
     bound
         Where D is in the problem: tight searches all laws, for a bound that usually meets the objective.
+    method
+        How programs are solved: auto by what suits their rows, ipopt each as a nonlinear program of CasADi.
     fastest
         Find the least time of a move within limits, and the law that takes it; with --stroke and --limit.
     output
@@ -56,8 +59,10 @@ def solve(
         raise InputError('--fastest needs --stroke, such as "100 mm", and --limit, such as "jerk=300 m/s^3"')
     for name in () if fastest else given(move):
         raise InputError(f"{_MOVE[name].name} goes with --fastest")
+    if fastest and method != "auto":
+        raise InputError("--method is of a single problem: --fastest finds its least time in its own way")
     problem = optlaws.Problem.from_dict(entries)
-    result = optlaws.fastest(problem, **move) if fastest else optlaws.synthesize(problem, bound=bound)
+    result = optlaws.fastest(problem, **move) if fastest else optlaws.synthesize(problem, bound=bound, method=method)
     whole = cache(result.to_dict)  # with proofs, which takes a tenth of a second
     if output is not None:
         save(output, whole())

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal, TypeAlias, get_args
 
 import numpy as np
 from numpy.typing import NDArray
@@ -108,6 +108,14 @@ def _excess(family: ConeFamily, x: Array) -> float:
     return max(float(family.extremes(x)[2].max()) + right - least, 0.0)
 
 
+#: how programs are solved: by what suits their rows, or every one as a nonlinear program of CasADi by IPOPT
+Method: TypeAlias = Literal["auto", "ipopt"]
+METHODS = get_args(Method)
+IPOPT: Method = "ipopt"
+_VERTICES = "vertices"
+#: the same of one program, or at vertices alone
+_Method: TypeAlias = Method | Literal["vertices"]
+
 ROUNDS = 12
 _DIVERGING = "Diverging_Iterates"
 _CONTINUED = "continued from a neighbour"
@@ -147,21 +155,21 @@ def solve(
     start: Array | None = None,
     holds: Callable[[Array], bool] | None = None,
     rounds: int = ROUNDS,
-    vertices: bool = False,
+    method: _Method = "auto",
 ) -> Outcome:
     """Solve a semi-infinite program; a neighbour's optimum as `warm` is tried before IPOPT, which begins at `start`.
 
     `holds` may decide from x alone, and more quickly than the families do, whether every constraint holds. With no
     `rounds` of interior points quadratic programs lead on from a start, which they do not leave for a worse law.
-    With `vertices` a linear program is solved by them alone: where contacts lie close together interior points may end
-    near an optimum without showing it. Of very many families those that bind are found by exchange: a law that none of
-    the others excludes is the optimum of all.
+    At `vertices` a linear program is solved where contacts lie close together: interior points may end near an optimum
+    without showing it. Of very many families those that bind are found by exchange: a law that none of the others
+    excludes is the optimum of all.
     """
     few = binding_few(program)
     if few is None:
-        return _in_units(program, warm, start, holds, rounds, vertices=vertices)
+        return _in_units(program, warm, start, holds, rounds, method)
     while True:
-        outcome = _in_units(few.program, few.inward(warm), start, None, rounds, vertices=vertices)
+        outcome = _in_units(few.program, few.inward(warm), start, None, rounds, method)
         warm = None if outcome.optimum is None else few.outward(outcome.optimum)
         more = None if warm is None else few.joined_beyond(warm.x)
         if more is None:
@@ -175,20 +183,19 @@ def _in_units(
     start: Array | None,
     holds: Callable[[Array], bool] | None,
     rounds: int,
-    *,
-    vertices: bool,
+    method: _Method,
 ) -> Outcome:
     """The solution of a program in units in which its numbers are near 1."""
     units = units_of(program)
     if units is None:
-        return _in_own_units(program, warm, start, holds, rounds, vertices=vertices)
+        return _in_own_units(program, warm, start, holds, rounds, method)
     outcome = _in_own_units(
         units.program,
         None if warm is None else units.inward(warm),
         None if start is None else start / units.variables,
         None if holds is None else lambda x: holds(x * units.variables),
         rounds,
-        vertices=vertices,
+        method,
     )
     return outcome.mapped(units.outward)
 
@@ -199,17 +206,22 @@ def _in_own_units(
     start: Array | None,
     holds: Callable[[Array], bool] | None,
     rounds: int,
-    *,
-    vertices: bool = False,
+    method: _Method,
 ) -> Outcome:
     """The solution of a program whose numbers are near 1."""
     if warm is not None:
         optimum = polished(program, warm, holds)
         if optimum is not None:
             return Outcome(optimum, 0, 0, _CONTINUED)
+
+    def solved(independently: Program) -> Outcome:
+        if method == IPOPT:
+            return _by_ipopt(independently, start, holds)
+        return _solved(independently, start, holds, rounds, method)
+
     chosen = independent(program.equalities)
     if chosen.all():
-        return _solved(program, start, holds, rounds, vertices=vertices)
+        return solved(program)
     if contradiction(program.equalities, program.right) is not None:
         return Outcome(None, 0, 0, "equations that contradict each other")
     fewer = replace(program, equalities=program.equalities[chosen], right=program.right[chosen])
@@ -219,11 +231,21 @@ def _in_own_units(
         multipliers[chosen] = state.equality_multipliers
         return replace(state, equality_multipliers=multipliers)
 
-    return _solved(fewer, start, holds, rounds, vertices=vertices).mapped(of_all)
+    return solved(fewer).mapped(of_all)
+
+
+def _by_ipopt(program: Program, start: Array | None, holds: Callable[[Array], bool] | None) -> Outcome:
+    """The solution by nonlinear programs of CasADi alone."""
+    from optlaws.synthesis.method.strategies.interior_points import ByInteriorPoints
+
+    points = first_points(program)
+    if start is None and program.curved:
+        start = initial_guess(program, points)
+    return _by_interior_points(ByInteriorPoints(program, start, holds, ROUNDS, only_ipopt=True), points)
 
 
 def _solved(
-    program: Program, start: Array | None, holds: Callable[[Array], bool] | None, rounds: int, *, vertices: bool
+    program: Program, start: Array | None, holds: Callable[[Array], bool] | None, rounds: int, method: _Method
 ) -> Outcome:
     """The solution of a program whose equations are independent."""
     # what knows its contacts needs none of them
@@ -245,9 +267,9 @@ def _solved(
         stepwise = ByQuadratics(program, start, holds, straight=False)
         optimum, count = cutting_plane_loop(stepwise, points)
         return Outcome(optimum, stepwise.iterations, count, "quadratic programs")
-    if vertices or many_pieces(program):
+    if method == _VERTICES or many_pieces(program):
         optimum, count = cutting_plane_loop(ByVertices(program, holds), points)
-        if optimum is not None or vertices:
+        if optimum is not None or method == _VERTICES:
             return Outcome(optimum, 0, count, "vertices")
     if bends_both_ways(program):
         stepwise = ByQuadratics(program, initial_guess(program, points) if start is None else start, holds)
@@ -265,7 +287,7 @@ def _by_interior_points(way: ByInteriorPoints, points: list[Points]) -> Outcome:
     if way.vanished:
 
         def without_cones(others: Program) -> ActiveSet | None:
-            return _in_own_units(others, None, start, None, rounds).optimum
+            return _in_own_units(others, None, start, None, rounds, IPOPT if way.only_ipopt else "auto").optimum
 
         optimum = at_apex(program, way.vanished, without_cones)
         if optimum is not None:
@@ -275,7 +297,7 @@ def _by_interior_points(way: ByInteriorPoints, points: list[Points]) -> Outcome:
     tried += way.tried
     if optimum is None and way.status == _DIVERGING:
         bounded = grounded(program)
-        way = type(way)(bounded, start, None, rounds)
+        way = type(way)(bounded, start, None, rounds, only_ipopt=way.only_ipopt)
         optimum, _ = cutting_plane_loop(way, first_points(bounded))
         # the row that held the objective up is none of the program's
         optimum = None if optimum is None or (optimum.family == len(program.families)).any() else optimum

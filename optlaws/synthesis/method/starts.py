@@ -11,7 +11,7 @@ import numpy as np
 from optlaws.numbers import Array
 from optlaws.synthesis.functionals.curved_rows import columns_of
 from optlaws.synthesis.limits.drive_limits import DriveLimit
-from optlaws.synthesis.method.exchange import solve
+from optlaws.synthesis.method.exchange import Method, solve
 from optlaws.synthesis.problem.constants import PowerConstant
 from optlaws.synthesis.program.writer import Model, model_of
 from optlaws.synthesis.spaces.polynomial_space import PolynomialSpace
@@ -22,18 +22,19 @@ _SPREAD = 0.3
 _AMPLE = 1.2
 
 
-def points(model: Model) -> Iterator[Array]:
+def points(model: Model, method: Method = "auto") -> Iterator[Array]:
     """Coordinates of the laws of least RMS of c, of least C, and some around them; D follows from the law."""
     problem = model.problem
     convex: list[Array] = []
     bounds = {name: limits for name, limits in problem.bounds.items() if name.convex}
     for constant in ("rms_c", "C"):
-        optimum = solve(model_of(replace(problem, minimise=constant, D=None, bounds=bounds)).program).optimum
+        smooth = model_of(replace(problem, minimise=constant, D=None, bounds=bounds))
+        optimum = solve(smooth.program, method=method).optimum
         if optimum is not None:
             convex.append(model.coordinates(optimum.x))
             yield _completed(model, convex[-1])
     if not problem.symmetric and problem.boundary is None and problem.inflexion is None:
-        for lifted in _from_symmetric(model):
+        for lifted in _from_symmetric(model, method):
             convex.append(lifted)
             yield _completed(model, lifted)
     if not convex:
@@ -64,12 +65,12 @@ def in_phase_plane(model: Model, limit: DriveLimit) -> Array:
     return _completed(model, least + free @ moved)
 
 
-def _from_symmetric(model: Model) -> list[Array]:
+def _from_symmetric(model: Model, method: Method) -> list[Array]:
     """Coordinates of the best symmetric law that the default start leads to: it belongs to the problem too."""
     if not isinstance(model.space, PolynomialSpace):
         return []
     half = model_of(replace(model.problem, symmetric=True))
-    optimum = solve(half.program).optimum
+    optimum = solve(half.program, method=method).optimum
     if optimum is None or not isinstance(half.space, PolynomialSpace):
         return []
     lifted = np.zeros(model.space.terms)

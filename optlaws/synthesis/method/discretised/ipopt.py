@@ -10,7 +10,7 @@ import numpy as np
 from optlaws.lazy import casadi_lock
 from optlaws.numbers import Array
 from optlaws.synthesis.families.cone import ConeFamily
-from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, Points, Program
+from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, NormFamily, Points, Program
 from optlaws.synthesis.method.discretised.expressions import CONES, RowShape, order_of, shape_and_numbers
 from optlaws.tolerances import EMPTY_ROW
 
@@ -113,8 +113,8 @@ def solve_on_points(program: Program, points: list[Points], start: Array | None,
         start[-1] = 10.0
     shape = _Shapes(program.size, len(rows), tuple(shapes), fine)
     result = _solved(shape, x0=start, p=parameters, lbg=lower, ubg=upper)
-    if any(family.right_side(result.x) < 0.0 for family in curved if isinstance(family, ConeFamily)):
-        # the square of an amplitude does not tell its bound from the opposite
+    if any(family.right_side(result.x) < 0.0 for family in curved if isinstance(family, ConeFamily | NormFamily)):
+        # the square of an amplitude does not tell its bound from the opposite, and a norm nearly vanishes there
         least = _least_of_variables(curved, program.size)
         result = _solved(shape, x0=np.maximum(start, least), p=parameters, lbg=lower, ubg=upper, lbx=least)
     weights = result.weights
@@ -132,7 +132,7 @@ def _least_of_variables(families: list[ConstraintFamily], size: int) -> Array:
     """Lower bounds of variables that keep the right sides of cones at least 0, if a single variable decides that."""
     least = np.full(size, -np.inf)
     for family in families:
-        if isinstance(family, ConeFamily) and np.count_nonzero(family.slack) == 1:
+        if isinstance(family, ConeFamily | NormFamily) and np.count_nonzero(family.slack) == 1:
             [place] = np.flatnonzero(family.slack > 0.0).tolist() or [0]
             if family.slack[place] > 0.0:
                 least[place] = max(least[place], -family.bound / family.slack[place])

@@ -53,6 +53,8 @@ class ByInteriorPoints(Strategy[list[Points], ActiveSet]):
         Checks from x alone, faster than the families do, whether every constraint holds.
     rounds
         How many at most; a linear program is given fewer.
+    only_ipopt
+        Whether IPOPT solves conic programs too, and no vertices are computed.
     units
         Of the program: where its objective is small, rounds that show no optimum are followed by ones in its units.
     count, iterations, status
@@ -75,6 +77,7 @@ class ByInteriorPoints(Strategy[list[Points], ActiveSet]):
     start: Array | None
     holds: Callable[[Array], bool] | None
     rounds: int
+    only_ipopt: bool = False
     apex: bool = True
     vanished: tuple[int, ...] = ()
     units: ProgramUnits | None = None
@@ -108,7 +111,7 @@ class ByInteriorPoints(Strategy[list[Points], ActiveSet]):
             optimum = self._by_vertices(points)
         if optimum is not None:
             return optimum, None
-        if self.apex and (self.count == _COARSE or not conic(self.program)):
+        if self.apex and (lost or self.count == _COARSE or not conic(self.program)):
             self.vanished = tuple(amplitudes(self.program) if lost else nearly_vanished(self.program, answer.x))
             if self.vanished:
                 return None, None
@@ -165,7 +168,7 @@ class ByInteriorPoints(Strategy[list[Points], ActiveSet]):
 
     def _answer(self, program: Program, points: list[Points]) -> Answer:
         """Clarabel's solution of a conic program; IPOPT's of any other, or if Clarabel ends short of its accuracy."""
-        quick = optimum_on_points(program, points) if conic(program) else None
+        quick = optimum_on_points(program, points) if conic(program) and not self.only_ipopt else None
         if quick is not None and quick.status == SOLVED:
             return self._noted(quick)
         fine = self.count > 1 and _only(program, LinearFamily, ConeFamily, EnergyFamily)
@@ -185,6 +188,8 @@ class ByInteriorPoints(Strategy[list[Points], ActiveSet]):
 
     def _vertices_help(self, *, lost: bool) -> bool:
         """Whether vertices are computed on the same points."""
+        if self.only_ipopt:
+            return False
         large = not self.program.curved and self.program.size > _LARGE
         return (not self.program.curved or conic(self.program)) and (large or lost or self.count == self.rounds)
 
