@@ -67,7 +67,7 @@ def test_the_lowest_versions_that_are_allowed_install_and_pass(tmp_path: Path) -
     from uv import find_uv_bin
 
     uv, python = find_uv_bin(), tmp_path / "bin" / "python"
-    extras = "cad,control,explore,studies,test,verify"
+    extras = "cad,control,studies,test"
     for command in (
         [uv, "venv", "--quiet", "--python", sys.executable, str(tmp_path)],
         [

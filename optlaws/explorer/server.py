@@ -6,12 +6,13 @@ import os
 import socket
 import webbrowser
 from threading import Thread
-from typing import TYPE_CHECKING, Any
+from typing import Any
+
+import uvicorn
 
 from optlaws.errors import InputError
-
-if TYPE_CHECKING:
-    import uvicorn
+from optlaws.explorer.application import application
+from optlaws.explorer.workers import Workers
 
 ADDRESS = "127.0.0.1"
 #: the explorer's default port, the same every day, so that links stay valid
@@ -39,15 +40,6 @@ def opened(port: int | None) -> socket.socket:
 
 def server(start: dict[str, Any]) -> uvicorn.Server:
     """The server, ready to run on a socket."""
-    try:
-        import uvicorn
-
-        from optlaws.explorer.application import application
-        from optlaws.explorer.workers import Workers
-    except ModuleNotFoundError as error:
-        raise InputError(
-            f"the explorer needs {error.name}, which is not installed: pip install 'optlaws[explore]'"
-        ) from None
     workers = Workers()
 
     class Server(uvicorn.Server):

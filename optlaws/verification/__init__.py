@@ -1,18 +1,15 @@
 """Proofs checked with every rounding enclosed, without a solver: the claims of a file, and the proven ones.
 
-It needs python-flint (``pip install "optlaws[verify]"``), which is imported at the first use.
+python-flint computes; it is imported at the first use.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Mapping
 from fractions import Fraction
-from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from optlaws.errors import InputError
 from optlaws.lazy import imported, process_lock
 
 if TYPE_CHECKING:
@@ -38,7 +35,7 @@ def verify(source: Mapping[str, Any] | Path | str) -> Verification:
     Raises
     ------
     InputError
-        If it is neither, something in it is of an unknown kind or no finite number, or python-flint is missing.
+        If it is neither, or something in it is of an unknown kind or no finite number.
 
     Examples
     --------
@@ -48,7 +45,7 @@ def verify(source: Mapping[str, Any] | Path | str) -> Verification:
     >>> verification.proven, round(verification.bound, 9), abs(verification.gap) < 1e-12
     (True, 4.647776025, True)
     """
-    with _exact_numbers():
+    with _precision:
         from optlaws.verification import claims
 
         return claims.verify(source)
@@ -72,7 +69,7 @@ def verify_all(source: Mapping[str, Any] | Path | str) -> dict[str, Verification
     >>> [(place, answer.proven) for place, answer in verification.items()]
     [('printed[0]', True)]
     """
-    with _exact_numbers():
+    with _precision:
         from optlaws.verification import claims
 
         return claims.verify_all(source)
@@ -86,7 +83,7 @@ def exact_bound(certificate: Certificate) -> Fraction | None:
     Raises
     ------
     InputError
-        If its laws or one of its constants are of an unknown kind, or python-flint is missing.
+        If its laws or one of its constants are of an unknown kind.
 
     Examples
     --------
@@ -95,7 +92,7 @@ def exact_bound(certificate: Certificate) -> Fraction | None:
     >>> abs(float(exact_bound(solution.certificate)) - solution.certificate.bound) < 1e-9
     True
     """
-    with _exact_numbers():
+    with _precision:
         from optlaws.verification.exact import bound
 
         return bound.prove(certificate).value
@@ -109,7 +106,7 @@ def enclosures(law: MotionLaw) -> dict[str, tuple[float, float]]:
     Raises
     ------
     InputError
-        If the law does not consist of polynomials, sines and constant power, or python-flint is missing.
+        If the law does not consist of polynomials, sines and constant power.
 
     Examples
     --------
@@ -117,18 +114,10 @@ def enclosures(law: MotionLaw) -> dict[str, tuple[float, float]]:
     >>> enclosures(smoothstep(2))["D"]
     (3.464101615137754, 3.464101615137755)
     """
-    with _exact_numbers():
+    with _precision:
         from optlaws.verification.exact.law import ExactLaw
 
         return ExactLaw(law).enclosures()
-
-
-@contextmanager
-def _exact_numbers() -> Iterator[None]:
-    if find_spec("flint") is None:
-        raise InputError('exact verification needs python-flint: pip install "optlaws[verify]"')
-    with _precision:
-        yield
 
 
 def __getattr__(name: str) -> Any:

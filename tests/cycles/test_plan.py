@@ -1,7 +1,6 @@
 """A cycle asks and its plan answers: what is forwarded, stored, and taken in place of a cycle."""
 
 from dataclasses import replace
-from importlib.util import find_spec
 from typing import Any
 
 import numpy as np
@@ -153,7 +152,6 @@ def test_axes_with_a_plan_beyond_a_limit_are_infeasible() -> None:
     assert Axes({"x": Cycle(moves, period="0.25 s"), "y": shown}).status is Status.INFEASIBLE
 
 
-@pytest.mark.skipif(find_spec("flint") is None, reason="needs the extra verify")
 def test_a_fastest_cycle_is_a_plan_that_is_stored(monkeypatch: pytest.MonkeyPatch) -> None:
     fastest = CYCLES["moves"].fastest()
     assert (fastest.peak(2), fastest(0.01, 1)) == (fastest.cycle.peak(2), fastest.cycle(0.01, 1))

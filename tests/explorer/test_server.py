@@ -3,7 +3,6 @@
 import json
 import re
 import socket
-import sys
 from typing import Any
 from unittest.mock import patch
 from urllib.parse import urljoin
@@ -14,7 +13,7 @@ from hypothesis import strategies as st
 
 from optlaws import InputError
 from tests.explorer.talk import OPTIMAL, Server
-from tests.internals.explorer import MOST_BYTES, QUESTIONS, opened, page, server
+from tests.internals.explorer import MOST_BYTES, QUESTIONS, opened, page
 from tests.sampling import examples
 
 ANSWERS = {200, 400, 413, 422}
@@ -123,14 +122,6 @@ def test_the_usual_port_gives_way_to_any_free_one() -> None:
 def test_answers_are_sent_at_once() -> None:
     with opened(0) as listening, socket.create_connection(listening.getsockname()), listening.accept()[0] as accepted:
         assert accepted.getsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY)
-
-
-def test_without_the_extra_the_remedy_is_told() -> None:
-    with (
-        patch.dict(sys.modules, {"uvicorn": None}),
-        pytest.raises(InputError, match=r"pip install 'optlaws\[explore\]'"),
-    ):
-        server({})
 
 
 def test_the_first_page_is_small_where_it_is_packed(served: Server) -> None:

@@ -36,7 +36,6 @@ def text_of(kind: str, size: int) -> str:
 
 @pytest.mark.parametrize("read", READERS)
 def test_a_file_of_99_mb_is_not_even_read(tmp_path: Path, read: Callable[[Path], Any]) -> None:
-    pytest.importorskip("flint")
     file = tmp_path / "study.json"
     with file.open("wb") as stream:
         stream.truncate(99_000_000)

@@ -1,9 +1,5 @@
 """Internals of `optlaws.verification` that tests look at by themselves."""
 
-import pytest
-
-pytest.importorskip("flint")
-
 from optlaws.verification.claims import verified
 from optlaws.verification.enclosing.ball_formulas import BALLS
 from optlaws.verification.enclosing.balls import ball, enclosed, lower, upper

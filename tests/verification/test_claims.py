@@ -13,8 +13,6 @@ from optlaws.verification import verify, verify_all
 from tests.internals.cli import exit_code
 from tests.verification.tampering import Data, changed, data_of
 
-pytest.importorskip("flint")
-
 CONVEX = Problem(B=1.859, order=4, basis=Chebyshev(5))
 LOCAL = Problem(B=1.4, order=4, basis=Chebyshev(5), minimise="D")
 OF_PIECES = Problem(B=1.75, order=2, basis=Pieces(4, 4, 2), minimise="max(C/4, J/40)")

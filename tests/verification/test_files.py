@@ -12,8 +12,6 @@ from optlaws.verification import verify
 from tests.internals.cli import NotProven
 from tests.internals.cli import verify as command
 
-pytest.importorskip("flint")
-
 
 @pytest.fixture(scope="module")
 def text() -> str:

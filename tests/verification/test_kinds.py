@@ -28,8 +28,6 @@ from tests.internals.synthesis import ConstraintFamily, LawSpace
 from tests.sampling import examples
 from tests.verification.tampering import data_of
 
-pytest.importorskip("flint")
-
 DEGREE_9 = Chebyshev(9)
 KINDS = [
     Problem(B=1.5, order=1, basis=DEGREE_9),

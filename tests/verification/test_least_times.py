@@ -12,9 +12,6 @@ import pytest
 from optlaws import Drive, InputError, Mechanism, Motor, Problem, fastest
 from optlaws.verification import Claim, verify, verify_all
 from tests.internals.synthesis import MoveLimits, TimedMove
-
-pytest.importorskip("flint")
-
 from tests.internals.verification import least_time_of_any_law
 
 LIMITS = {"velocity": "1 m/s", "acceleration": ("-8 m/s^2", "12 m/s^2"), "jerk": "300 m/s^3"}

@@ -12,8 +12,6 @@ from tests.internals.cli import verify as command
 from tests.verification.tampered_formats import drawn_axes
 from tests.verification.tampering import changed
 
-pytest.importorskip("flint")
-
 
 @pytest.mark.parametrize("goal", ["period", "acceleration"])
 def test_an_overlap_is_read_again_and_partly_checked(goal: str, tmp_path: Path) -> None:

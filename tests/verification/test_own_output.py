@@ -26,7 +26,6 @@ from tests.sampling import examples
 from tests.synthesis.random_general import random_problems
 from tests.synthesis.random_options import every_option
 
-pytest.importorskip("flint")
 pytestmark = pytest.mark.filterwarnings("ignore::optlaws.errors.NotNormalised")
 
 

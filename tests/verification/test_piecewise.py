@@ -25,8 +25,6 @@ from optlaws.verification import exact_bound, verify
 from tests.sampling import examples
 from tests.verification.tampering import Data, data_of
 
-pytest.importorskip("flint")
-
 MOVING = BoundaryConditions((0, 0.3), (1, 0.1))
 PROBLEMS = [
     Problem(B=1.75, order=4, basis=Pieces(4)),

@@ -13,8 +13,6 @@ from tests.internals.cli import PartlyChecked
 from tests.internals.cli import verify as command
 from tests.verification.tampering import changed
 
-pytest.importorskip("flint")
-
 
 @pytest.fixture(scope="module")
 def plan() -> dict[str, Any]:

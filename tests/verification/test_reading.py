@@ -14,8 +14,6 @@ from tests.internals.cli import exit_code
 from tests.internals.verification import built, exact_space, number, read
 from tests.verification.tampering import data_of, text_of
 
-pytest.importorskip("flint")
-
 PROBLEM = Problem(B=1.859, order=3, basis=Chebyshev(5))
 
 

@@ -18,9 +18,6 @@ from tests.verification.tampered_formats import (
 )
 from tests.verification.tampering import value_at
 
-pytest.importorskip("flint")
-
-
 NAMES = [pytest.param(name, marks=[pytest.mark.long] if name in SLOW else []) for name in formats()]
 
 

@@ -13,11 +13,8 @@ from optlaws import InputError
 from optlaws.verification import Verification
 from tests.check_proofs import certificates
 from tests.documents import ROOT
-from tests.verification.tampering import Data, Path, changed, places, value_at
-
-pytest.importorskip("flint")
-
 from tests.internals.verification import FileEntry, entries, read, verified
+from tests.verification.tampering import Data, Path, changed, places, value_at
 
 FILES = [
     file

@@ -16,8 +16,6 @@ from optlaws import Cycle, Dwell, Return, Rise, Solution
 from optlaws.verification import verify_all
 from tests.internals.cli import verify as command
 
-pytest.importorskip("flint")
-
 MOVES = [Rise("35 mm", "120 deg"), Dwell("60 deg"), Return()]
 LIMITS = {"acceleration": "20 m/s^2", "jerk": "2000 m/s^3"}
 

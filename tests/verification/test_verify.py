@@ -25,13 +25,10 @@ from optlaws import (
     Window,
     at_most,
     synthesize,
-    verification,
     via,
 )
-from optlaws.verification import Verification, enclosures, exact_bound, verify
+from optlaws.verification import Verification, exact_bound, verify
 from tests.sampling import examples
-
-pytest.importorskip("flint")
 
 MOVING = BoundaryConditions((0, 0.3), (1, 0.1))
 CONVEX = [
@@ -249,14 +246,6 @@ def test_numbers_must_be_numbers() -> None:
         verify(data | {"objective": "4.6"})
     with pytest.raises(InputError, match="constants must be"):
         verify(data | {"constants": 3})
-
-
-def test_without_python_flint_the_extra_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(verification, "find_spec", lambda _: None)
-    with pytest.raises(InputError, match=r"optlaws\[verify\]"):
-        verify({})
-    with pytest.raises(InputError, match=r"optlaws\[verify\]"):
-        enclosures(synthesize(FIRST).law)
 
 
 def test_no_solver_takes_part(tmp_path: Path) -> None:

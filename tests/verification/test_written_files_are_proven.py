@@ -16,8 +16,6 @@ from tests.check_proofs import run
 from tests.internals.cli import exit_code
 from tests.internals.jobs import JOBS
 
-pytest.importorskip("flint")
-
 Numbers: TypeAlias = np.random.Generator
 Entries: TypeAlias = "dict[str, Any]"
 

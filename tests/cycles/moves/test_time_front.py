@@ -193,7 +193,6 @@ def test_the_table_the_picture_and_the_file_say_the_same(front: TimeFront) -> No
 
 
 def test_a_front_is_verified(turn: FastestMove) -> None:
-    pytest.importorskip("flint")
     data: dict[str, Any] = json.loads(time_front(turn, "rms torque", points=2).to_json())
     verification = verify(data)
     assert verification.proven

@@ -16,8 +16,6 @@ from optlaws import (
 )
 from optlaws.verification import exact_bound
 
-pytest.importorskip("flint")
-
 WINDOWS = [
     Window("a", low=0.3, high=0.3),
     Window("a", low=-20.0, high=0.0, start=0.5),

@@ -2,6 +2,7 @@
 
 from fractions import Fraction
 
+import flint
 import numpy as np
 import pytest
 from hypothesis import given
@@ -10,14 +11,11 @@ from mpmath import mp, mpf  # type: ignore[import-untyped]
 
 from optlaws import Chebyshev, PolynomialLaw, Problem, smoothstep, synthesize
 from optlaws.verification import enclosures
-
-flint = pytest.importorskip("flint")
-
-from tests.internals.synthesis import (  # noqa: E402
+from tests.internals.synthesis import (
     rounded_down,
     rounded_up,
 )
-from tests.internals.verification import (  # noqa: E402
+from tests.internals.verification import (
     ExactLaw,
     enclosed,
     lower,

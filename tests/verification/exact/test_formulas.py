@@ -12,11 +12,9 @@ from optlaws import Chebyshev, Problem, integral, peak, smoothstep, synthesize
 from optlaws.verification import verify
 from tests.formulas.mpmath_numbers import MPMATH
 from tests.internals.formulas import Formula, Table, evaluate, horner, of_text, pieces
+from tests.internals.verification import ExactLaw, exact_limit
 from tests.sampling import sampled
 from tests.verification.tampering import overstated
-
-pytest.importorskip("flint")
-from tests.internals.verification import ExactLaw, exact_limit
 
 TABLE = "table(k, 0:1, 0.3:2, 0.7:1, 1:3)"
 SPLINE = "spline(a, 0:0, 0.3:0.1, 0.6:0.5, 1:1.2)"

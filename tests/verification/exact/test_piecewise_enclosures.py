@@ -19,8 +19,6 @@ from tests.internals.laws import (
     SineSegment,
 )
 
-pytest.importorskip("flint")
-
 Function = Callable[[mpf], mpf]
 
 
