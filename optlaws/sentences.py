@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from math import isfinite
 from typing import Any, Self
 
@@ -119,3 +120,15 @@ def parts_of(text: object) -> Any:
         raise TypeError(f"{type(text).__name__} is no sentence")
     parts = [part.to_dict() if isinstance(part, Amount) else part for part in text.parts]
     return parts if any(isinstance(part, dict) for part in parts) else "".join(text.parts)
+
+
+def listed(names: Sequence[str], word: str = "and") -> str:
+    """Names in a sentence.
+
+    Examples
+    --------
+    >>> listed(["velocity", "jerk", "force"], "or")
+    'velocity, jerk or force'
+    """
+    *first, last = names
+    return sentence("{} {} {}", joined(", ", first), word, last) if first else last

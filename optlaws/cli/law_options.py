@@ -109,14 +109,14 @@ def named(text: str, alpha: float | None, B: float | None, by: str) -> str:
     return text if family is None else f"{family}({f'B={B!r}' if alpha is None else repr(alpha)})"
 
 
-def read_axes(file: Path, axis: str | None) -> dict[str, Cycle]:
-    """The axes of a problem file of the job "cycle" by their names, or a single one."""
+def read_axes(file: Path, axis: str | None, *jobs: str) -> dict[str, Cycle]:
+    """The axes of a problem file of the job "cycle" by their names, or one; with the job "cam" a cam's follower too."""
     from optlaws.echo import unknown_key
-    from optlaws.jobs.cycle_entries import read
+    from optlaws.jobs import cam, cycle_entries
     from optlaws.jobs.job import problem_of_job
 
-    source, _, entries = problem_of_job(file, "cycle")
-    _, cycles = read(entries, source)
+    source, _, entries = problem_of_job(file, "cycle", *jobs)
+    cycles = cam.motion_of(entries, source) if entries.get("job") == "cam" else cycle_entries.read(entries, source)[1]
     if axis is not None and axis not in cycles:
         raise InputError(f"--axis: {source}: {unknown_key(axis, list(cycles), 'axis')}")
     return dict(cycles) if axis is None else {axis: cycles[axis]}

@@ -198,9 +198,20 @@ def run(results: Results) -> None:
             results.add(name, partial(write, cam.outline(each.curve, each.cutter_radius)))
 
 
+def _entries(data: Mapping[str, Any], file: Path) -> CamProblemFile | BarrelProblemFile:
+    return (BarrelProblemFile if "barrel" in data else CamProblemFile).read(data, file)
+
+
+def motion_of(data: Mapping[str, Any], file: Path) -> dict[str, Cycle]:
+    """The motion of a file's follower by its name; an error names the file."""
+    spec = _entries(data, file)
+    with located(str(file)):
+        return {spec.motion.name: spec.cycle}
+
+
 def read(data: Mapping[str, Any], file: Path) -> CamResult | BarrelResult:
     """The result of a file's entries; an error names the file."""
-    spec = (BarrelProblemFile if "barrel" in data else CamProblemFile).read(data, file)
+    spec = _entries(data, file)
     with located(str(file)):
         if isinstance(spec, CamProblemFile):
             return CamResult.of_file(spec)

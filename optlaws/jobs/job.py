@@ -70,8 +70,8 @@ def _job_of(entries: Mapping[str, Any], file: Path) -> str:
     return name
 
 
-def problem_of_job(given: Path, job: str) -> tuple[Path, Path | None, dict[str, Any]]:
-    """A problem file of one job, which it need not name; the folder for its results, as `problem_file` finds both.
+def problem_of_job(given: Path, job: str, *others: str) -> tuple[Path, Path | None, dict[str, Any]]:
+    """A problem file of a job, which it need not name, or of others; the folder for results as `problem_file` does.
 
     >>> problem_of_job(Path("cam_press"), "cycle")
     Traceback (most recent call last):
@@ -80,7 +80,7 @@ def problem_of_job(given: Path, job: str) -> tuple[Path, Path | None, dict[str, 
     file, results = problem_file(given)
     entries = reading.toml(file)
     named = _job_of({"job": job, **entries}, given)
-    if named != job:
+    if named not in (job, *others):
         raise InputError(f"{given} is of the job {named!r}, not {job!r}: `optlaws run {given}` does it")
     return file, results, entries
 

@@ -9,6 +9,7 @@ import numpy as np
 
 from optlaws.motion.quantities import MILLI
 from optlaws.plots.style import BLUES, GREY, WARM, name_point, new_axes
+from optlaws.sentences import listed
 from optlaws.synthesis.report import axis_label
 
 if TYPE_CHECKING:
@@ -26,6 +27,7 @@ _BESIDE_POINT = 1e-6  # of the time between two points of a front: so near to on
 _BETWEEN = 8
 #: values that are further apart are drawn by their logarithms
 _WIDE = 10.0
+_NAMES = 0.22  # of the width, for names beside points at the right
 
 
 def draw_front(front: Front | ProvenFront, axes: Axes | None = None, **style: Any) -> list[Artist]:
@@ -74,27 +76,43 @@ def draw_time_front(front: TimeFront, axes: Axes | None = None, **style: Any) ->
 
 
 def draw_advice(advice: Advice, axes: Axes | None = None, **style: Any) -> list[Artist]:
-    """Draw what is minimised over the second measure: the front, what no law is below, all laws; return the artists."""
+    """Draw what is minimised over the second measure: the front, what no law is below, all laws; return the artists.
+
+    Laws that take more of a third measure than the usual one, so that the bound is not of them, are hollow.
+    """
+    from optlaws.cycles.advising.advice import more_than_usual
+
     axes = axes or new_axes()
     x, y = ({law.name: law.values[name] for law in advice} for name in (advice.second, advice.minimise))
     units = {measure.name: measure.heading for measure in advice.measures}
     artists = [artist for panel in advice.report().panels for artist in _front_of_advice(panel, axes, style)]
-    chosen = advice.recommendation.law.name
-    for kind, colour, marker in (("given", GREY, "D"), ("standard", GREY, "s"), ("optimal", BLUES[3], "o")):
-        names = [law.name for law in advice if law.kind == kind and np.isfinite(x[law.name] * y[law.name])]
-        known: Any = {"color": colour, "marker": marker, "linewidth": 0.0, "markersize": 5.0, "label": f"{kind} laws"}
-        artists += axes.plot([x[name] for name in names], [y[name] for name in names], **known) if names else []
-        for name in (name for name in names if name != chosen and "," not in name):
-            near: Any = {"xytext": (6.0, -3.0), "textcoords": "offset points", "fontsize": 7.5, "color": colour}
-            axes.annotate(name, (x[name], y[name]), **near)
-    ring: Any = {"color": WARM, "marker": "o", "markersize": 11.0, "fillstyle": "none", "linewidth": 0.0, "zorder": 5}
-    artists += axes.plot(x[chosen], y[chosen], label="to take", **ring)
-    name_point(axes, f"{y[chosen]:.4g}", (x[chosen], y[chosen]), (-8.0, -12.0))
+    chosen, usual = advice.recommendation.law.name, advice.recommendation.usual
+    more = {law.name: more_than_usual(law, usual, advice.guarded, advice.second) for law in advice}
     known_x = [value for value in x.values() if np.isfinite(value) and value > 0.0]
     far = max(known_x) > _WIDE * min(known_x)
     axes.set(xscale="log" if far else "linear", xlabel=units[advice.second], ylabel=units[advice.minimise])
-    axes.margins(x=0.12)
-    axes.legend(fontsize=8.0)
+    hollow: dict[str, Any] = {"linewidth": 0.0, "markersize": 5.0, "fillstyle": "none"}
+    for kind, colour, marker in (("given", GREY, "D"), ("standard", GREY, "s"), ("optimal", BLUES[3], "o")):
+        names = [law.name for law in advice if law.kind == kind and np.isfinite(x[law.name] * y[law.name])]
+        full = [name for name in names if not more[name]]
+        known: Any = {"color": colour, "marker": marker, "linewidth": 0.0, "markersize": 5.0, "label": f"{kind} laws"}
+        artists += axes.plot([x[name] for name in full], [y[name] for name in full], **known) if names else []
+        beyond = [name for name in names if more[name]]
+        axes.plot([x[name] for name in beyond], [y[name] for name in beyond], color=colour, marker=marker, **hollow)
+        for name in (name for name in names if name != chosen and "," not in name):
+            name_point(axes, name, (x[name], y[name]), (6.0, -3.0), color=colour, fontsize=7.5)
+    if usual is not None and any(more.values()):
+        of = [each for each in advice.guarded if any(each in exceeded for exceeded in more.values())]
+        label = f"hollow: more {listed(of, 'or')} than {usual.name}"
+        artists += axes.plot([], [], color=GREY, marker="s", label=label, **hollow)
+    ring: Any = {"color": WARM, "marker": "o", "markersize": 11.0, "fillstyle": "none", "linewidth": 0.0, "zorder": 5}
+    artists += axes.plot(x[chosen], y[chosen], label="law to take", **ring)
+    name_point(axes, f"{y[chosen]:.4g}", (x[chosen], y[chosen]), (-8.0, -14.0))
+    # room for the names at the right
+    axes.margins(x=0.06)
+    low, high = axes.get_xlim()
+    axes.set_xlim(low, high * (high / low) ** _NAMES if far else high + _NAMES * (high - low))
+    axes.legend(fontsize=7.5, loc="upper center", bbox_to_anchor=(0.5, -0.15), ncols=2)
     return artists
 
 
@@ -104,5 +122,6 @@ def _front_of_advice(panel: Panel, axes: Axes, style: dict[str, Any]) -> list[Ar
     colour = style.pop("color", BLUES[3])
     line = {"color": colour, "marker": "o", "markersize": 3.0, "linewidth": 0.0, "label": front.name, **style}
     points = axes.plot(front.at, front.values, **line)
-    between = axes.fill_between(reached.at, below.values, reached.values, color=colour, alpha=0.15, linewidth=0.0)
+    shade: Any = {"color": colour, "alpha": 0.15, "linewidth": 0.0, "label": "whether laws are here is not known"}
+    between = axes.fill_between(reached.at, below.values, reached.values, **shade)
     return [*points, between, *axes.plot(below.at, below.values, color=GREY, linewidth=0.8, label=below.name)]

@@ -134,13 +134,15 @@ def shades(count: int) -> list[str]:
     return [BLUES[last - round((last - 1) * place / max(1, count - 1))] for place in range(count)][::-1]
 
 
-def name_point(axes: Axes, text: str, point: tuple[float, float], at: tuple[float, float] = (6.0, 4.0)) -> Artist:
+def name_point(
+    axes: Axes, text: str, point: tuple[float, float], at: tuple[float, float] = (6.0, 4.0), **given: Any
+) -> Artist:
     """A small text beside a point, legible over lines; `at` is its offset in points."""
     from matplotlib.patheffects import withStroke
 
     style: dict[str, Any] = {"color": WARM, "fontsize": 8.0, "zorder": 6, "ha": "right" if at[0] < 0.0 else "left"}
     style["path_effects"] = [withStroke(linewidth=2.5, foreground="white")]
-    return axes.annotate(text, point, xytext=at, textcoords="offset points", **style)
+    return axes.annotate(text, point, xytext=at, textcoords="offset points", **style | given)
 
 
 def save_picture(drawing: Figure, place: Path) -> Path:

@@ -57,6 +57,29 @@ def test_an_axis_of_a_problem_file_is_chosen(capsys: Capture) -> None:
     assert advice["die"]["recommendation"]["law"] in [law["name"] for law in advice["die"]["laws"]]
 
 
+def test_a_cam_is_advised_by_its_own_file_and_by_its_degrees_and_speed(capsys: Capture, tmp_path: Path) -> None:
+    file = tmp_path / "feed.toml"
+    file.write_text(
+        'job = "cam"\ntitle = "Feed"\nspeed = "180 rpm"\n[follower]\nkind = "translating roller"\nradius = "12 mm"\n'
+        '[motion]\nname = "slide"\ndrive = { mass = "3 kg" }\n'
+        + "".join(f'[[motion.segment]]\nkind = "{kind}"\n' for kind in ("rise", "dwell", "return", "dwell"))
+        .replace('"rise"', '"rise"\nby = "40 mm"\nduration = "110 deg"')
+        .replace('"return"', '"return"\nduration = "110 deg"')
+        .replace('"dwell"', '"dwell"\nduration = "90 deg"', 1),
+        "utf-8",
+    )
+    code, out, err = called(capsys, file, "--points", 0, "--json")
+    assert (code, err) == (0, "")
+    cam = json.loads(out)["slide"]["recommendation"]
+    code, out, err = called(
+        capsys, "--stroke", "40mm", "--duration", "110deg", "--speed", "180rpm", "--points", 0, "--json"
+    )
+    assert (code, err) == (0, "")
+    move = json.loads(out)["recommendation"]
+    assert (cam["law"], cam["rule"], cam["sentences"][0]) == (move["law"], move["rule"], move["sentences"][0])
+    assert cam["gain"] == pytest.approx(move["gain"], rel=1e-6)
+
+
 @pytest.mark.parametrize(
     ("arguments", "code", "complaint"),
     [
@@ -64,6 +87,7 @@ def test_an_axis_of_a_problem_file_is_chosen(capsys: Capture) -> None:
         (("--stroke", "35mm"), 2, "give a problem file, or --stroke"),
         (("--stroke", "35kg", "--duration", "0.1s"), 2, "--stroke must be a length such as"),
         (("--stroke", "35mm", "--duration", "3mm"), 2, "--duration must be a time such as"),
+        (("--stroke", "35mm", "--duration", "110deg"), 2, "is an angle of the master: give its --speed too"),
         (("cycle_press", "--stroke", "35mm"), 2, "are of a single move"),
         (("cycle_press", "--axis", "nobody"), 2, "nobody"),
         (("lever_tables",), 2, "lever_tables"),

@@ -34,7 +34,7 @@ def changed(study: dict[str, Any], take: dict[str, Any]) -> Plan:
     axis = study["axis"][0]
     pairs = zip(axis["segment"], take["laws"], strict=True)
     segments = [segment if law is None else {**segment, "law": law} for segment, law in pairs]
-    others = {name: take[name] for name in ("minimise", "limits") if name in take}
+    others = {name: take[name] for name in ("minimise", "limits", "degree") if name in take}
     return known({**study, "axis": [{**axis, **others, "segment": segments}]}).unchecked()
 
 
@@ -66,7 +66,7 @@ def test_the_rows_are_the_library_s_and_each_law_can_be_taken(served: Server, fo
 def test_a_machine_is_advised_by_its_torque(served: Server) -> None:
     found = start(str(PROBLEMS / "cycle_geared_table.toml"))
     machine = found["machine"]
-    answer = served.ask("advice", {"study": machine, "axis": 0, "minimise": "acceleration"})
+    answer = served.ask("advice", {"study": machine, "axis": 0, "minimise": "acceleration", "points": 0})
     file = PROBLEMS / "cycle_geared_table.toml"
     cycles = dict(read_of_cycle_entries(tomllib.loads(file.read_text("utf-8")), file)[1])
     advice = advise(next(iter(cycles.values())), minimise="acceleration", points=0)

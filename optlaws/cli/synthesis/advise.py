@@ -29,7 +29,7 @@ _FOLLOWER: dict[str, Any] = {
     move=options("optlaws.motion.motion:motion_of_law", "stroke", "duration", group="A single move in place of a file"),
     wishes=options(
         "optlaws.cycles.advising.advice:advise",
-        *("minimise", "degree", "points"),
+        *("minimise", "degree", "points", "speed"),
         limits=LIMITS,
         laws={"name": "--law", "type": list[str], "default": None},
         follower=_FOLLOWER,
@@ -52,8 +52,8 @@ def advise(
     Parameters
     ----------
     file
-        A problem file whose job is "cycle", or the name of one that comes with optlaws, such as cycle_press; in its
-        place --stroke and --duration.
+        A problem file whose job is "cycle" or "cam", or the name of one that comes with optlaws, such as cycle_press;
+        in its place --stroke and --duration, which with --speed is an angle, such as 110deg.
     axis
         The axis of the file; all of them unless given.
     mass
@@ -71,7 +71,7 @@ def advise(
             advice = {"": _of_move(**move, mass=mass, wishes=wishes)}
         else:
             advice = {}
-            for name, cycle in read_axes(file, axis).items():
+            for name, cycle in read_axes(file, axis, "cam").items():
                 with located(f"{file}: axis {name}"):
                     advice[name] = optlaws.advise(cycle, **wishes)
     if output is not None:
@@ -96,10 +96,11 @@ def _drawn(advice: Mapping[str, Advice]) -> Any:
 def _of_move(stroke: str | None, duration: str | None, mass: str | None, wishes: Mapping[str, Any]) -> Advice:
     if stroke is None or duration is None:
         raise InputError("give a problem file, or --stroke such as 35mm and --duration such as 0.1s")
-    from optlaws.motion.quantities import either, quantity
+    from optlaws.motion.quantities import either
 
     dimension, _ = either(stroke, ("length", "angle"), "--stroke")
-    quantity(duration, "time", "--duration")
+    if either(duration, ("time", "angle"), "--duration")[0] == "angle" and "speed" not in wishes:
+        raise InputError(f"--duration {duration} is an angle of the master: give its --speed too, such as 180rpm")
     drive = None if mass is None else {"mass" if dimension == "length" else "inertia": mass}
     return optlaws.advise(optlaws.Rise(stroke, duration), drive=drive, **wishes)
 

@@ -9,12 +9,12 @@ from typing import Any
 
 import numpy as np
 
-from optlaws.cycles.advising.candidates import AdvisedLaw, Candidates, LawMeasure
+from optlaws.cycles.advising.candidates import AdvisedLaw, Candidates, LawMeasure, exceeded
 from optlaws.cycles.advising.recommendation import Recommendation, recommended
 from optlaws.cycles.cycle import Cycle
 from optlaws.cycles.moves.timed_moves import read_follower
 from optlaws.cycles.specification.limits import AXES
-from optlaws.cycles.specification.programme import axis_of
+from optlaws.cycles.specification.programme import axis_of, period_of
 from optlaws.cycles.specification.segments import Move, Return
 from optlaws.echo import shortened, unknown_key
 from optlaws.errors import InfeasibleProblem, InputError, OptlawsError, located, needed
@@ -22,8 +22,9 @@ from optlaws.laws.catalogue.reading import read_law
 from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.mechanisms.linkages.mechanism import Mechanism
 from optlaws.motion.piece import unit_of
-from optlaws.motion.quantities import Exact, quantity, table
-from optlaws.numbers import bounded, chop, whole
+from optlaws.motion.quantities import TURN, Exact, either, quantity, table
+from optlaws.numbers import Quantity, bounded, chop, whole
+from optlaws.sentences import listed
 from optlaws.shown.report import Panel, PlainReport, Report, ReportTable, Series
 from optlaws.shown.summary import Row, Summary
 from optlaws.synthesis.least_time.move_limits import RESIDUAL, RESIDUALS
@@ -33,7 +34,7 @@ from optlaws.tolerances import VALUE_ROUNDING
 #: the laws that most designers choose between, the usual one first
 STANDARD = ("modified sine", "modified trapezoid", "cycloidal", "3-4-5 polynomial", "4-5-6-7 polynomial")
 _MOST_LAWS, _MOST_POINTS = 40, 100
-#: of a single move's laws
+#: of the Z of optimal laws at least, so that a move has one advice, by itself or in a cycle
 _DEGREE = 21
 _FOLLOWER = '{"frequency": ("27 Hz", "33 Hz"), "damping": 0.05}'
 #: of why there is no law: formulas of machines are longer than anybody reads
@@ -252,10 +253,23 @@ def front_panels(
     # a law is one at every greater value too, and a bound one at every smaller one
     ends = np.repeat(at, 2)[1:-1]
     others = [name for name in guarded if name != x.name]
-    no_more = f", with no more {', '.join(others)} than {usual.name}" if usual is not None and others else ""
-    below = Series(ends, np.repeat(least[1:], 2), "limit", f"none below{no_more}")
+    no_more = f" with no more {listed(others, 'or')} than {usual.name}" if usual is not None and others else ""
+    below = Series(ends, np.repeat(least[1:], 2), "limit", f"no law{no_more} is below")
     curves = Series(at, values, 0, "front"), Series(ends, np.repeat(values[:-1], 2), 0, "reached"), below
     return [Panel(y.name, y.unit, curves, across=x.heading, per=1.0)]
+
+
+def more_than_usual(law: AdvisedLaw, usual: AdvisedLaw | None, guarded: Iterable[str], *but: str) -> list[str]:
+    """Of what a law takes more than the usual one, though it should not, but for some measures.
+
+    Examples
+    --------
+    >>> import optlaws
+    >>> advice = optlaws.advise(optlaws.Rise("35 mm", "0.1 s"), points=0)
+    >>> more_than_usual(advice["modified trapezoid"], advice.recommendation.usual, advice.guarded)
+    ['velocity']
+    """
+    return [] if usual is None else exceeded(law, {name: usual.values[name] for name in guarded if name not in but})
 
 
 def limits_in_words(law: AdvisedLaw) -> str:
@@ -291,6 +305,7 @@ def advise(
     limits: Mapping[str, Any] | None = None,
     follower: Mapping[str, Any] | None = None,
     drive: Mapping[str, Any] | Mechanism | Drive | None = None,
+    speed: Quantity | None = None,
     laws: Sequence[str] = STANDARD,
     degree: int | None = None,
     points: int = 7,
@@ -298,15 +313,17 @@ def advise(
     """Advice on the law of a motion: standard and optimal laws side by side, their costs, and a recommendation.
 
     Of the laws that keep every limit, and take no more than the usual law of what has no limit (peak velocity,
-    acceleration, jerk, residual vibration, peak and RMS torque), those within 1 % of the least objective are equally
-    good, and of these the one of least residual vibration, where there is a follower, or least jerk is recommended.
-    Every number is recomputed from the laws; every optimal law has its proof.
+    acceleration, jerk and residual vibration, the peak torque of a drive, and the RMS torque where a motor is rated by
+    it), those within 1 % of the least objective are equally good, and of these the one of least residual vibration,
+    where there is a follower, or least jerk is recommended. A mass alone changes nothing: its force is its
+    acceleration. Every number is recomputed from the laws; every optimal law has its proof.
 
     Parameters
     ----------
     motion
-        A single move from rest to rest in machine units, `Rise("35 mm", "0.1 s")`, or a `Cycle`, all of whose moves
-        have the laws in turn. Of `Rise("1 m", "1 s")` all numbers are those of laws without units.
+        A single move from rest to rest in machine units, `Rise("35 mm", "0.1 s")`, with a `speed` one by angles of the
+        master, `Rise("35 mm", "110 deg")`, or a `Cycle`, all of whose moves have the laws in turn. Of
+        `Rise("1 m", "1 s")` all numbers are those of laws without units.
     minimise
         What is to be least, as of a `Cycle`: "acceleration", "jerk", "rms torque", "residual acceleration"; what the
         cycle says unless given, of a single move the acceleration.
@@ -318,11 +335,14 @@ def advise(
         the least and the greatest, and its damping ratio.
     drive
         As of a `Cycle`: a mass, a `Mechanism` or a `Drive`, whose torque, power and energy are listed too.
+    speed
+        Speed of the master, such as "180 rpm": for a single move whose duration is an angle, or for a cycle in place of
+        its own.
     laws
         Names of the catalogue, members such as "III(7.2)", or files; the first is the usual one. Others are compared
         with it, unless the motion has a law already.
     degree
-        Degree of the optimal laws' Z; that of the cycle unless given, of a single move 21.
+        Degree of the optimal laws' Z; unless given 21, or that of the cycle if it is greater.
     points
         How many laws of the front between what is minimised and what decides between equally good laws; 0 for none.
 
@@ -350,7 +370,7 @@ def advise(
     ('optimal', 'modified sine', True)
     """
     count = whole(points, "points", least=0, most=_MOST_POINTS)
-    entries = {"minimise": minimise, "drive": drive, "degree": degree}
+    entries = {"minimise": minimise, "drive": drive, "speed": speed, "degree": degree}
     candidates = standard_candidates(motion, limits=limits, follower=follower, laws=laws, **entries)
     candidates.add_optimal()
     return advice_from(candidates, count)
@@ -375,9 +395,10 @@ def standard_candidates(
     given = {name: value for name, value in entries.items() if value is not None}
     given |= {"minimise": "acceleration"} if minimise in RESIDUALS else {}
     if isinstance(motion, Cycle):
+        given = {"degree": max(motion.degree, _DEGREE), **given} | ({"period": None} if "speed" in given else {})
         cycle = replace(motion, **given, limits={**motion.limits, **most})
     elif isinstance(motion, Move):
-        cycle = _of_move(motion, {"degree": _DEGREE, **given, "limits": most})
+        cycle = _of_move(motion, given.pop("speed", None), {"degree": _DEGREE, **given, "limits": most})
     else:
         # what this names could be given in the version before
         instead = ": Rise('1 m', '1 s', limits=...) says the same with units" if isinstance(motion, Problem) else ""
@@ -422,12 +443,21 @@ def _check(laws: Any) -> None:
             read_law(law)  # a name that is no law's is a mistake, no law that does not fit
 
 
-def _of_move(move: Move, entries: Mapping[str, Any]) -> Cycle:
+def _of_move(move: Move, speed: Quantity | None, entries: Mapping[str, Any]) -> Cycle:
     """A single move as a cycle that continues from its end."""
     axis = axis_of([move])
     if move.duration is None or isinstance(move.duration, list | tuple):
-        raise InputError("a single move has one duration, such as '0.1 s'")
-    seconds = quantity(move.duration, "time", "duration of a single move", above=0.0)
+        raise InputError("a single move has one duration, such as '0.1 s', or '110 deg' with a speed")
+    dimension = either(move.duration, ("time", "angle"), "duration of a single move")[0]
+    seconds = quantity(move.duration, dimension, "duration of a single move", above=0.0)
+    if dimension == "angle":
+        if speed is None:
+            raise InputError(
+                f"the duration of a single move, {move.duration}, is an angle of the master: give its speed too, such "
+                "as speed='180 rpm'"
+            )
+        seconds *= period_of(speed, None) / TURN
+        move = replace(move, duration=Exact(seconds, "s"))
     far = quantity(move.to if move.by is None else move.by, axis, "by")
     advance = Exact(-far if isinstance(move, Return) else far, unit_of(axis))
     return Cycle([move], period=Exact(seconds, "s"), advance=advance, **entries)

@@ -45,9 +45,8 @@ from optlaws.tolerances import BOUND_SLACK, EQUALLY_GOOD, SHOWN_DIGITS
 
 _FRONT_END = 0.01  # of what is exchanged: a front goes no further, as some of it can vanish
 
-#: what all laws can be bounded by from the start, as it is convex and quick; and what else is not to grow
+#: what all laws can be bounded by from the start, as it is convex and quick
 _OF_MOTION = ("velocity", "acceleration", "jerk", *RESIDUALS)
-_OF_DRIVE = ("force", "torque", "rms force", "rms torque")
 #: no law is looked for that is least in these beside the objective: power and sums have no lower bound
 _NOT_LEAST = ("power", "energy", "heat", "velocity")
 _ROUNDS = 3
@@ -242,8 +241,22 @@ class Candidates:
         return {
             name: value
             for name, value in self.usual.values.items()
-            if name not in {self.minimise, *limited, *but} and 0.0 < value < inf and name in (*_OF_MOTION, *_OF_DRIVE)
+            if name not in {self.minimise, *limited, *but} and 0.0 < value < inf and name in self._guards
         }
+
+    @kept_property
+    def _guards(self) -> tuple[str, ...]:
+        """The measures of which no law should take more than the usual one.
+
+        The force of a mass alone is its acceleration, which is one of them; an RMS counts where a motor is rated by it.
+        """
+        drive = self.cycle.in_si.drive
+        if drive is None:
+            return _OF_MOTION
+        force, linear = FORCES[self.cycle.axis], drive.linear
+        peak = () if linear is not None and not any(linear[1:]) else (force,)
+        mean = (f"rms {force}",) if drive.motor.rated_torque < inf or drive.motor.continuous else ()
+        return (*_OF_MOTION, *peak, *mean)
 
     def add_standard(self, names: Sequence[str]) -> None:
         """Add the motion's own laws and the laws of the catalogue.
@@ -275,7 +288,7 @@ class Candidates:
         most = self.most()
         if most and self.usual is not None:
             name = f"least {minimise}{beside}"
-            calm = self._add(name, partial(self._within, name, most))
+            calm = self._add(name, partial(self._within, name, minimise, most))
             best = calm or best
             # a law that breaks limits guards nothing where that would cost more than it takes itself
             bettered = calm is not None and self._objective(calm) <= self._objective(self.usual)
@@ -291,12 +304,12 @@ class Candidates:
                 if law is not None and any(_is_equal(law, each) for each in self.laws.values() if each is not law):
                     del self.laws[name]
         if (left := self._left) in others:
-            most = self.most(left, *_OF_DRIVE)
+            most = self.most(left)
             name = f"least {left}{beside if most else f' at twice the least {minimise}'}"
             if minimise in _OF_MOTION:
                 fits = self.usual is not None and self.usual.keeps_limits and bool(most)
                 most[minimise] = self.usual.values[minimise] if self.usual and fits else self._twice
-            self._add(name, partial(self._least, name, left, most))
+            self._add(name, partial(self._within, name, left, most))
 
     def front(self, points: int) -> tuple[AdvisedLaw, ...]:
         """Laws that exchange the minimised measure for the second one, from the least value of each.
@@ -304,10 +317,10 @@ class Candidates:
         None takes more of the others than the usual law, nor more than twice the least of what is minimised.
         """
         minimise, second = self.minimise, self.second
-        most = self.most(second, *_OF_DRIVE)
+        most = self.most(second)
         try:
             beside = {**most, minimise: self._twice} if minimise in _OF_MOTION else most
-            ends = [self._least(f"least {name}", name, limits) for name, limits in ((minimise, most), (second, beside))]
+            ends = [self._within(f"least {name}", name, less) for name, less in ((minimise, most), (second, beside))]
         except OptlawsError as error:
             self.errors["front"] = error
             return ()
@@ -318,7 +331,7 @@ class Candidates:
             value = high * (low / high) ** (i / (points - 1))
             name = f"least {minimise} at a {second} of {value:.4g}"
             try:
-                points_of_front.append(self._least(name, minimise, {**most, second: value}))
+                points_of_front.append(self._within(name, minimise, {**most, second: value}))
             except OptlawsError as error:
                 self.errors[name] = error
         return tuple(points_of_front)
@@ -350,11 +363,11 @@ class Candidates:
             )
         return advised
 
-    def _within(self, name: str, most: Mapping[str, float]) -> AdvisedLaw:
+    def _within(self, name: str, minimise: str, most: Mapping[str, float]) -> AdvisedLaw:
         """The least law without exceeding others; drive measures are bounded only if necessary."""
         bounds = {other: value for other, value in most.items() if other in _OF_MOTION}
         for _ in range(_ROUNDS):
-            law = self._least(name, self.minimise, bounds)
+            law = self._least(name, minimise, bounds)
             beyond = exceeded(law, most)
             if not beyond:
                 break

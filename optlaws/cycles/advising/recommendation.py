@@ -8,7 +8,7 @@ from math import isfinite
 
 from optlaws.cycles.advising.candidates import AdvisedLaw, Candidates, exceeded
 from optlaws.errors import InfeasibleProblem
-from optlaws.sentences import Amount, Sentence, joined, sentence
+from optlaws.sentences import Amount, Sentence, joined, listed, sentence
 from optlaws.synthesis.status import Status
 from optlaws.tolerances import AGREEMENT, EQUALLY_GOOD
 
@@ -93,7 +93,7 @@ class _Words:
     def no_more(self) -> str:
         """What the usual law guards, as in "no more jerk than modified sine"; nothing where it guards nothing."""
         usual = self.candidates.usual
-        return f"no more {_listed(self.most, 'or')} than {usual.name}" if usual is not None and self.most else ""
+        return f"no more {listed(self.most, 'or')} than {usual.name}" if usual is not None and self.most else ""
 
     @property
     def rule(self) -> str:
@@ -112,7 +112,7 @@ class _Words:
             for taken in law.limits
             if taken.text and taken.share >= 1.0 - _TELLING
         ]
-        to_full = sentence(" ({} to the full)", _listed(full)) if full else ""
+        to_full = sentence(" ({} to the full)", listed(full)) if full else ""
         limits = sentence("{}{}", ", and it keeps every limit" if law.limits else "", to_full)
         name = f'"{law.name}"' if law.kind == "optimal" else law.name
         start = sentence("Take {}: its {} is {}", name, minimise, self._with_unit(minimise, law))
@@ -168,7 +168,7 @@ class _Words:
         changes = [*self._changes(usual, "more", 1.0), *self._changes(usual, "less", -1.0)]
         if not changes:
             return f"nothing else differs by 1 % from {usual.name}"
-        return f"compared with {usual.name}, the law to take needs {_listed(changes)}"
+        return f"compared with {usual.name}, the law to take needs {listed(changes)}"
 
     @property
     def _exchange(self) -> str:
@@ -209,9 +209,3 @@ def _percent(share: float) -> str:
     ('9.9 %', '123 %')
     """
     return f"{100.0 * share:{'.0f' if share >= 1.0 else '.2g'}} %"
-
-
-def _listed(names: Sequence[str], word: str = "and") -> str:
-    """Names in a sentence."""
-    *first, last = names
-    return sentence("{} {} {}", joined(", ", first), word, last) if first else last

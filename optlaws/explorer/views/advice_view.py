@@ -15,6 +15,7 @@ from optlaws.cycles.advising.advice import (
     advice_from,
     front_panels,
     limits_in_words,
+    more_than_usual,
     proof_in_words,
     standard_candidates,
 )
@@ -82,7 +83,8 @@ def _side_by_side(
 ) -> dict[str, Any]:
     measures = {measure.name: measure for measure in candidates.measures}
     x, y = measures[candidates.second], measures[candidates.minimise]
-    curves = [panel_data(panel) for panel in front_panels(front, x, y, candidates.most(), candidates.usual)]
+    usual, guarded = candidates.usual, tuple(candidates.most())
+    curves = [panel_data(panel) for panel in front_panels(front, x, y, guarded, usual)]
     return {
         "measures": [measure._asdict() for measure in measures.values()],
         "rows": [
@@ -92,6 +94,7 @@ def _side_by_side(
                 "values": [bounded(law.values[name]) for name in measures],
                 "limits": limits_in_words(law),
                 "proof": proof_in_words(law),
+                "more": more_than_usual(law, usual, guarded, x.name),
                 "take": _entries(candidates, law),
             }
             for law in candidates.laws.values()
@@ -116,7 +119,8 @@ def _entries(advised: Candidates, law: AdvisedLaw) -> dict[str, Any] | None:
         return {"laws": [law.name if sought else None for sought in compared]}
     if advised.follower is None and proof.minimise == motion.minimise:
         laws = [OPTIMAL if sought else None for sought in compared]
-        return {"laws": laws, "minimise": motion.minimise, "limits": dict(motion.limits)}
+        entries = {name: getattr(motion.specification, name) for name in ("minimise", "degree")}
+        return {"laws": laws, **entries, "limits": dict(motion.limits)}
     known = {piece.start: json.dumps(piece.law.to_dict()) for piece in motion.pieces}
     taken = [
         known.get(peaks.start, "") if sought else None for sought, peaks in zip(compared, motion.peaks, strict=True)

@@ -220,6 +220,7 @@ export class View {
       });
       if (take.minimise) axis.minimise = take.minimise;
       if (take.limits) axis.limits = take.limits;
+      if (take.degree) axis.degree = take.degree;
       state.view = source;
     });
   }
@@ -233,7 +234,7 @@ function refusal({ word: title, reason, tried }) {
 function pictured({ picture: { x, y, front: [curves] }, measures, rows, chosen }) {
   const [across, up] = [x, y].map(({ unit }) => shownUnit(unit).factor);
   const [i, j] = [x, y].map(({ name }) => measures.findIndex((one) => one.name === name));
-  const known = rows.filter(({ values }) => values[i] !== null && values[j] !== null).map(({ name, kind, values }) => ({ name, kind, x: across * values[i], y: up * values[j] }));
+  const known = rows.filter(({ values }) => values[i] !== null && values[j] !== null).map(({ name, kind, values, more }) => ({ name, kind, more, x: across * values[i], y: up * values[j] }));
   const [front, reached, below] = (curves ?? []).map(({ at, values, name }) => ({ title: name, points: at.map((one, k) => [across * one, up * values[k]]) }));
   const xs = [...known.map((point) => point.x), ...(front?.points ?? []).map(([value]) => value)];
   const positive = xs.filter((value) => value > 0);
@@ -247,7 +248,7 @@ function pictured({ picture: { x, y, front: [curves] }, measures, rows, chosen }
     lines,
     marks: [
       ...(front?.points ?? []).map((at) => ({ at, name: "front-point", title: "a law of the front" })),
-      ...known.map((point) => ({ at: [point.x, point.y], name: `advised ${point.kind}${point.name === chosen ? " chosen" : ""}`, title: `${point.name}: ${word(point.y)}` })),
+      ...known.map((point) => ({ at: [point.x, point.y], name: `advised ${point.kind}${point.more.length ? " beyond" : ""}${point.name === chosen ? " chosen" : ""}`, title: `${point.name}: ${word(point.y)}${point.more.length ? `; more ${point.more.join(", ")} than the usual law` : ""}` })),
     ],
     labels: placed(known.map((point) => ({ ...point, of: point.name === chosen })), range, log),
     told: `${y.name} over ${x.name}: ${known.map((point) => `${point.name} ${word(point.y)} at ${word(point.x)}`).join(", ")}${best ? `; to take is ${best.name}` : ""}`,
