@@ -9,7 +9,7 @@ import numpy as np
 from optlaws.motion.piece import Piece, unit_of
 from optlaws.motion.quantities import QUANTITIES, UNITS
 from optlaws.numbers import Array, chop
-from optlaws.shown.curve_points import refined
+from optlaws.shown.curve_points import away_from, refined
 from optlaws.shown.report import Panel, PanelLimit, Series
 from optlaws.tolerances import CYCLE_ROUNDING
 
@@ -55,4 +55,5 @@ def motion_panel(
 def times_in(piece: Piece, count: int) -> Array:
     """Times at equal steps in a piece, and its breaks."""
     breaks = piece.start + piece.duration * np.array(piece.law.breaks)
-    return np.unique(np.concatenate([np.linspace(piece.start, piece.stop, count), breaks]))
+    even = np.linspace(piece.start, piece.stop, count)
+    return np.sort(np.concatenate([away_from(even, breaks), breaks]))

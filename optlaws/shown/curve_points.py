@@ -9,6 +9,7 @@ import numpy as np
 from optlaws.numbers import Array
 
 _DRAWN_DEVIATION = 2e-3  # of a curve's range: a line between two of its places is the curve to the eye
+_SAME = 1e-12  # of the range: two places that differ by less are one, moved by rounding
 
 _ROUNDS = 9
 _MOST = 4000
@@ -40,7 +41,7 @@ def _with(
     places: Array, values: Sequence[Array], functions: Sequence[Callable[[Array], Array]], more: Array
 ) -> tuple[Array, list[Array]]:
     """Curves with places in between, in their order."""
-    new = np.setdiff1d(more, places)
+    new = np.unique(away_from(more, places))
     if not new.size:
         return places, list(values)
     order = np.argsort(np.concatenate([places, new]), kind="stable")
@@ -68,3 +69,10 @@ def _added(places: Array, values: Array, function: Callable[[Array], Array]) -> 
             np.concatenate([at_middle[far], at_right[far]]),
         )
     return np.concatenate([np.empty(0), *added])
+
+
+def away_from(more: Array, places: Array) -> Array:
+    """Those that are none of the ordered places but for rounding, so that a curve in other units has as many places."""
+    right = np.searchsorted(places, more)
+    near = [np.abs(more - places[np.clip(right + side, 0, len(places) - 1)]) for side in (-1, 0)]
+    return np.asarray(more[np.minimum(*near) > _SAME * (places[-1] - places[0])])

@@ -34,6 +34,7 @@ _INFEASIBLE_WEIGHTLESS = 1e-9  # a weight of a proof of infeasibility that is le
 _DEEP_LAW_EXCESS = 1e-3  # by how much a law far below all of the field may miss a bound
 
 _FREE = 1e-15  # of a law's coordinate: what moves a value by less does not move it but for rounding
+_VALUE_ROUNDING = 1e-13  # of a value that all laws have: a bound that is nearer does not exclude it for certain
 
 _ROUNDS = 6
 _PLAIN = 2  # so few equations contradict each other whatever freedom the law has
@@ -106,24 +107,23 @@ def beyond_known_value(problem: Problem) -> InfeasibleProblem | None:
     >>> beyond_known_value(Problem(order=4, windows=(Window("a", low=0.3, high=0.3),))).proof.contacts[0].k
     0.0
     """
-    for window, contact, slopes in _excluded_values(problem):
-        equations = [0.0] * len(model_of(problem).program.right)
-        proof = Certificate.of_leaf(problem, (contact,), equations, VIOLATION)
-        # doubles charge for rounding without end where nothing bounds the laws, though none moves the value
-        if proof.proves_infeasible or not any(slopes):
-            at = contact.k if window.start <= contact.k <= window.stop else 1.0 - contact.k
-            return InfeasibleProblem(
-                f"no law of order {problem.order} keeps {window!r}: it excludes the value that every law of the "
-                f"problem has at k = {at:g}. Another interval or bound helps",
-                problem=problem,
-                proof=proof,
-                tried=_contradiction(proof),
-            )
-    return None
+    excluded = next(_excluded_values(problem), None)
+    if excluded is None:
+        return None
+    window, contact = excluded
+    proof = Certificate.of_leaf(problem, (contact,), [0.0] * len(model_of(problem).program.right), VIOLATION)
+    at = contact.k if window.start <= contact.k <= window.stop else 1.0 - contact.k
+    return InfeasibleProblem(
+        f"no law of order {problem.order} keeps {window!r}: it excludes the value that every law of the "
+        f"problem has at k = {at:g}. Another interval or bound helps",
+        problem=problem,
+        proof=proof,
+        tried=_contradiction(proof),
+    )
 
 
-def _excluded_values(problem: Problem) -> Iterator[tuple[Window, Contact, list[float]]]:
-    """Windows that exclude a value which no coordinate moves beyond rounding, with the contact there and slopes."""
+def _excluded_values(problem: Problem) -> Iterator[tuple[Window, Contact]]:
+    """Windows that exclude, by more than rounding, a value which no coordinate moves, each with the contact there."""
     space = space_of(problem.basis, problem.conditions, symmetric=problem.symmetric)
     for number, window in enumerate(problem.windows, 1):
         if window.motion is not None or window.value:
@@ -134,8 +134,9 @@ def _excluded_values(problem: Problem) -> Iterator[tuple[Window, Contact, list[f
         for part, name, k in ((part, name, k) for (part, name), k in places if part.start <= k <= part.stop):
             *slopes, value = space.row(part.nu, k).tolist()
             sign = 1.0 if value > part.high else -1.0
-            if all(abs(slope) <= _FREE for slope in slopes) and not part.low <= value <= part.high:
-                yield window, Contact(names.window_side(name, sign), sign, k, 1.0), slopes
+            excess = max(value - part.high, part.low - value)
+            if excess > _VALUE_ROUNDING * max(1.0, abs(value)) and all(abs(slope) <= _FREE for slope in slopes):
+                yield window, Contact(names.window_side(name, sign), sign, k, 1.0)
 
 
 def falls_for_ever(problem: Problem) -> bool:
