@@ -80,15 +80,14 @@ bench: $(DEV) ## run the benchmarks
 results: $(RUN) ## regenerate results/ from every problem file
 	@set -e; for problem in $(PROBLEMS); do echo "optlaws run $$problem"; $(BIN)/optlaws run --force "$$problem"; done
 
-# A run leaves every file that says the same as it is: what differs afterwards says something else.
-check-results: $(RUN) ## run every problem file on a copy of results/ and see that nothing in it changes
+# A run leaves every file that says the same as it is, but those that a machine follows, in which each digit counts.
+check-results: $(DEV) ## run every problem file on a copy of results/ and see that nothing in it changes
 	@set -e; top=$$(pwd); copy=$$(mktemp -d); trap 'rm -rf "$$copy"' EXIT; \
 	cp -R results "$$copy"; cd "$$copy"; rm -rf $(UNSTEADY:%=results/%); mkdir said; \
 	printf '%s\n' $(STEADY) | xargs -P 2 -I FILE sh -c \
 		'echo "optlaws run FILE"; "$$0" run --force FILE >said/FILE' "$$top/$(BIN)/optlaws"; \
 	grep -hx 'results/[^ ]*' said/* >written; \
-	LC_ALL=C sort written >made; find results -type f | LC_ALL=C sort >there; \
-	{ diff there made && diff -rq $(UNSTEADY:%=-x %) "$$top/results" results; } \
+	(cd "$$top" && $(BIN)/python -m tests.check_results results "$$copy/results" "$$copy/written" $(UNSTEADY)) \
 		|| { echo "results/ differs from what the problem files give (see above)" >&2; exit 1; }; \
 	echo "results/ agrees with the problem files"
 

@@ -34,6 +34,8 @@ _NUMBER = re.compile(r"(?<![\w#.])-?\d+(?:\.\d+)?(?:[eE][+-]?\d+)?(?!\w)")
 _PROOFS = {"certificate", "power_certificate"}
 # names that matplotlib makes of a digest of what they name
 _NAME = re.compile(r"\b[mp][0-9a-f]{10}\b")
+# a path of a picture that is straight between its places
+_LINES = re.compile(r' d="M ([-\d.e\s]+(?:L[-\d.e\s]+)+)"')
 # where each start of a search led: which of them were lost is rounding
 _WORKING = {"starts"}
 
@@ -43,7 +45,8 @@ def say_the_same(first: bytes, second: bytes, kind: str, digits: int | None = No
 
     In JSON numbers must be equal in eight digits, or as many as mean something, within a list in those of its greatest,
     and places of peaks may differ by 1e-6; a proof is the same if it proves the same, whatever the multipliers behind
-    it. In tables the last of six or more digits may differ by one, in pictures places by 0.05. Others must be equal.
+    it. In tables the last of six or more digits may differ by one, in pictures places by 0.05, and a line may have more
+    places on its way. Others must be equal.
 
     Examples
     --------
@@ -62,8 +65,38 @@ def say_the_same(first: bytes, second: bytes, kind: str, digits: int | None = No
     except ValueError:
         return False
     if kind == ".svg":
-        texts = [_renamed(text) for text in texts]
-    return _same_texts(*texts, picture=kind == ".svg", digits=digits)
+        return _same_pictures(*map(_renamed, texts))
+    return _same_texts(*texts, digits=digits)
+
+
+def _same_pictures(first: str, second: str) -> bool:
+    lines = [[_places(path[1]) for path in _LINES.finditer(text)] for text in (first, second)]
+    return (
+        len(lines[0]) == len(lines[1])
+        and all(_on_line(a, b) and _on_line(b, a) for a, b in zip(*lines, strict=True))
+        and _same_texts(*(_LINES.sub("", text) for text in (first, second)), picture=True)
+    )
+
+
+def _places(path: str) -> list[complex]:
+    return [complex(float(x), float(y)) for x, y in map(str.split, path.split("L"))]
+
+
+def _on_line(places: list[complex], line: list[complex]) -> bool:
+    """Whether places lie, one after the other, on the straight pieces between those of a line."""
+    piece = 0
+    for place in places:
+        while _distance(place, line[piece], line[min(piece + 1, len(line) - 1)]) > PICTURE:
+            piece += 1
+            if piece == len(line):
+                return False
+    return abs(places[0] - line[0]) <= PICTURE and abs(places[-1] - line[-1]) <= PICTURE
+
+
+def _distance(place: complex, start: complex, stop: complex) -> float:
+    along = stop - start
+    share = ((place - start) * along.conjugate()).real / abs(along) ** 2 if along else 0.0
+    return abs(place - start - min(max(share, 0.0), 1.0) * along)
 
 
 def _renamed(picture: str) -> str:

@@ -11,7 +11,7 @@ import numpy as np
 from optlaws.kept import kept_property
 from optlaws.numbers import Array
 from optlaws.numerics.chebyshev import gauss
-from optlaws.tolerances import BEFORE_BREAK, VALUE_ROUNDING
+from optlaws.tolerances import BEFORE_BREAK, EQUAL_EXTREMES, VALUE_ROUNDING
 
 _PANELS = 200
 _GAUSS = 10
@@ -28,6 +28,12 @@ class Greatest(NamedTuple):
 
     value: float
     place: float
+
+    @classmethod
+    def of(cls, values: Array, places: Array) -> Greatest:
+        """The greatest of values, and the first place of those that are equal to it but for rounding."""
+        greatest = float(values.max())
+        return cls(greatest, float(places[values >= greatest - EQUAL_EXTREMES * abs(greatest)].min()))
 
 
 @dataclass(frozen=True, eq=False)
@@ -91,14 +97,12 @@ class SmoothParts:
         sides = (edges[:-1] + BEFORE_BREAK * lengths, edges[1:] - BEFORE_BREAK * lengths)
         places = np.concatenate([*sides, self.places[0], edges])
         values = np.asarray(function(places))
-        best = int(np.argmax(values))
-        greatest = Greatest(float(values[best]), float(places[best]))
-        if values[best] == np.min(values):  # a constant, as in a rest
-            return greatest
+        if values.max() == values.min():  # a constant, as in a rest
+            return Greatest.of(values, places)
         inner = np.searchsorted(edges, places[np.argsort(values)[-_POLISHED:]], side="right") - 1
         best_parts = np.unique(np.clip(inner, 0, len(lengths) - 1))
-        polished = _polished(function, edges[best_parts], edges[best_parts + 1])
-        return max(greatest, polished, key=lambda each: each.value)
+        better, there = _polished(function, edges[best_parts], edges[best_parts + 1])
+        return Greatest.of(np.append(values, better), np.append(places, there))
 
 
 def _places(low: Array, high: Array) -> tuple[Array, Array]:
@@ -113,8 +117,8 @@ def _integrals(function: RealFunction, low: Array, high: Array) -> Array:
     return np.asarray((weights * function(places)).reshape(-1, _GAUSS).sum(axis=1))
 
 
-def _polished(function: RealFunction, low: Array, high: Array) -> Greatest:
-    """The greatest value between places: every part is cut, and its best place with both neighbours is cut again."""
+def _polished(function: RealFunction, low: Array, high: Array) -> tuple[Array, Array]:
+    """The greatest values between places, and where: a part is cut, and its best place with both neighbours again."""
     shares, parts = np.arange(1, _CUT)[:, None] / _CUT, np.arange(len(low))
     for _ in range(_ROUNDS):
         places = low + (high - low) * shares
@@ -122,8 +126,7 @@ def _polished(function: RealFunction, low: Array, high: Array) -> Greatest:
         best = np.argmax(values, axis=0)
         step = (high - low) / _CUT
         low, high = places[best, parts] - step, places[best, parts] + step
-    i = int(np.argmax(values.max(axis=0)))
-    return Greatest(float(values[best[i], i]), float(places[best[i], i]))
+    return values[best, parts], places[best, parts]
 
 
 def _crossings(function: RealFunction, places: Array) -> Array:

@@ -100,3 +100,18 @@ def test_what_cannot_be_read_is_not_the_same() -> None:
     for kind in (".json", ".csv", ".svg"):
         assert not say_the_same(b"\xff", b"{}", kind)
     assert not say_the_same(b"{", b"{}", ".json")
+
+
+@pytest.mark.parametrize(
+    ("other", "same"),
+    [
+        ("M 1 2 \nL 5 6 \nL 5 9 \n", True),
+        ("M 1 2 \nL 3.02 4 \nL 4 5 \nL 5 6 \nL 5 9 \n", True),
+        ("M 1 2 \nL 3.2 4 \nL 5 6 \nL 5 9 \n", False),
+        ("M 1 2 \nL 3 4 \nL 5 6 \n", False),
+    ],
+)
+def test_a_line_may_have_more_places_on_its_way(other: str, *, same: bool) -> None:
+    line, other = (f'<path d="{path}" class="line"/>' for path in ("M 1 2 \nL 3 4 \nL 5 6 \nL 5 9 \n", other))
+    assert say_the_same(line.encode(), other.encode(), ".svg") is same
+    assert say_the_same(other.encode(), line.encode(), ".svg") is same

@@ -72,7 +72,7 @@ class Effort(PlainNumbers):
     @classmethod
     def of(cls, along: Sequence[PieceEffort], duration: float, **more: Any) -> Self:
         """The force and power of a drive over a duration, from its values along each piece."""
-        peak = max((each.peak_force for each in along), key=lambda greatest: greatest.value)
+        peak = Greatest.of(*map(np.array, zip(*(each.peak_force for each in along), strict=True)))
         given, taken = (max(powers) for powers in zip(*(each.powers for each in along), strict=True))
         driving, braking = (sum(energies) for energies in zip(*(each.energies for each in along), strict=True))
         power, mean = max(given, taken), (driving - braking) / duration
