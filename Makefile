@@ -5,8 +5,8 @@ UV := $(or $(wildcard $(BIN)/uv),$(shell command -v uv 2>/dev/null))
 RUN := $(VENV)/.stamp-run
 DEV := $(VENV)/.stamp-dev
 PROBLEMS := $(sort $(patsubst problems/%.toml,%,$(wildcard problems/*.toml)))
-# where a search of kinks stops is decided by rounding, which no two kinds of processors share
-UNSTEADY := own_search
+# where a search of kinks or of boxes stops is decided by rounding, which no two kinds of processors share
+UNSTEADY := own_search loader_optimal
 STEADY := $(filter-out $(UNSTEADY),$(PROBLEMS))
 
 # More BLAS threads change the order of summation, and with it the last digits of a table.
