@@ -200,10 +200,10 @@ def covering(move: Timed, known: Sequence[tuple[float, Multipliers]], duration: 
     proofs: list[TimeProof] = []
     upper = duration
     while upper > least:
-        reaching = [(low, i) for i, (low, high, _) in enumerate(ranges) if low < upper <= high]
+        reaching = [(low, -high, i) for i, (low, high, _) in enumerate(ranges) if low < upper <= high]
         if not reaching:
             raise SolverFailure(f"no multipliers speak of the time {upper!r}", problem=move.problem)
-        low, i = min(reaching)
+        low, _, i = min(reaching)
         lower = 0.0 if move.at_rest else least
         if low > lower:
             before = max((high for start, high, _ in ranges if start < low), default=low)

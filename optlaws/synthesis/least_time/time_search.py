@@ -1,14 +1,15 @@
-"""The search for the least time of a move: Newton steps on the least greatest share of its limits.
+"""The search for the least time of a move: steps on the least greatest share of its limits.
 
-In each time the law is sought whose greatest share of the limits is least. Its multipliers say up to which time no law
-keeps the limits; that time is the next. From below the steps end at the first time in which a law keeps them.
+In each time the law is sought whose greatest share of the limits is least. Where all limits are of derivatives, its
+multipliers say up to which time no law keeps the limits; that time is the next. Elsewhere secants of the share over the
+time give it.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from math import copysign, exp, inf, log, sqrt
-from operator import itemgetter
+from math import exp, inf, log, sqrt
+from typing import Generic
 
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.synthesis.families.active_set import ActiveSet
@@ -58,21 +59,17 @@ def law_in_time(move: Timed, duration: float, warm: ActiveSet | None, shortest: 
     return solution
 
 
-def _unsettled(move: Timed, duration: float) -> SolverFailure:
-    return SolverFailure(
-        f"the steps of the time did not settle, the last at {duration:.9g} s; another degree or order helps",
-        problem=move.problem,
-    )
-
-
-#: of the logarithm of the time: by how much a bracket is widened where nothing says more, and how far at most
-_WIDER, _WIDEST = 0.1, 20.0
-#: of the logarithm of the least time, which two searches of one motion agree in
-_MET = 0.1 * LEAST_TIME_MET
+#: how much slower than all laws those of a space are that is tried first, so that the right limits bind at once
+_SLOWER = 1.02
+#: of the least time: by how much two searches of one motion differ without multipliers, whose sum is rounded by more
+_SECANT_MET = 0.1 * LEAST_TIME_MET
+#: by how much a time is changed where nothing says more, and by how much at most from the first
+_WIDER, _WIDEST = 1.1, exp(20.0)
 #: a slope below it is that of a force that is mostly static
 _LEVEL = 0.2
-#: by how much the logarithm of the time grows where a limit of vibrations is not kept
-_UPWARD = 0.01
+_STEPS = 60
+#: by how much a time is longer than the one before where a limit of vibrations is not kept
+_UPWARD = 1.01
 #: of the times not yet proven to be too short: the first box, the longest, the shortest; how boxes grow and shrink
 _FIRST_BOX, _MOST_BOX, _LEAST_BOX = 0.3, 0.9, 0.01
 _MORE, _LESS = 1.3, 0.5
@@ -82,120 +79,94 @@ _OF_GAP = 0.9
 
 
 @dataclass
-class _Trials:
-    """The laws of the least greatest share of the limits in the times that were tried."""
+class _Trials(Generic[TimedT]):
+    """The laws of the least greatest share of the limits in the times that were tried, and the multipliers that prove.
 
-    move: Timed
+    The first times are begun from contacts of another move, where there are some.
+    """
+
+    move: TimedT
+    warm: ActiveSet | None = None
     solutions: dict[float, Solution] = field(default_factory=dict)
-    first: Solution | None = None  #: of another move near by
+    known: list[tuple[float, Multipliers]] = field(default_factory=list)
 
     def solution(self, time: float) -> Solution:
         if time not in self.solutions:
             # where the problem is convex, the contacts of a time near by lead to the same optimum
-            near = min(self.solutions, key=lambda known: abs(known - time), default=None)
-            beside = self.first if near is None else self.solutions[near]
-            warm = None if beside is None or not beside.problem.convex else beside.active_set
+            near = self.solutions[min(self.solutions, key=lambda tried: abs(tried - time))] if self.solutions else None
+            warm = self.warm if near is None else near.active_set if near.problem.convex else None
             self.solutions[time] = law_in_time(self.move, time, warm)
         return self.solutions[time]
 
-    def excess(self, logarithm: float) -> float:
-        """The logarithm of the greatest share in a time, by its logarithm: above 0 where a limit is exceeded."""
-        return log(self.solution(exp(logarithm)).objective)
+    def excess(self, time: float) -> float:
+        """The logarithm of the greatest share in a time: above 0 where a limit is exceeded."""
+        return log(self.solution(time).objective)
 
-    def root(self, logarithm: float, low: float = -inf, high: float = inf) -> float:
-        """The least time tried in which a law keeps the limits, by secants from a time, perhaps between two others."""
-        begin, before = logarithm, None
+    def least(self, time: float, low: float = 0.0, high: float = inf) -> float:
+        """The least time in which a law keeps the limits, from one time on, perhaps between two others."""
+        first, before, proven, by_rates = time, None, low, self.move.of_rates
+        settled = LEAST_TIME_MET if by_rates else _SECANT_MET
         for _ in range(_STEPS):
-            excess = self.excess(logarithm)
-            low, high = (logarithm, high) if excess > _MET else (low, logarithm)
-            if high == logarithm and (excess >= -_MET or high - low <= _MET):
-                return min(time for time, solution in self.solutions.items() if log(solution.objective) <= _MET)
-            steep = self._slope(logarithm) if before is None else (before[1] - excess) / (logarithm - before[0])
-            before, following = (logarithm, excess), logarithm + excess / max(steep, _LEVEL)
-            if not low < following < high:
-                following = 0.5 * (low + high) if high - low < inf else logarithm + copysign(_WIDER, excess)
-            logarithm = following
-            if abs(logarithm - begin) > _WIDEST:
+            excess, known = self.excess(time), proven
+            proven = self._too_short(time, known) if by_rates else known
+            # a law may miss a limit by what the solver leaves where the multipliers prove no more
+            keeps = excess <= (BOUND_FEASIBILITY if by_rates and proven == known else settled)
+            low, high = (low, time) if keeps else (time, high)
+            low = max(low, proven)
+            nearest = excess >= -settled or 1.0 - low / high <= settled
+            if keeps and nearest and (not by_rates or proven >= time * (1.0 - LEAST_TIME_GAP)):
+                return time
+            following = proven if proven > known else time
+            if abs(following / time - 1.0) <= settled or following >= high:
+                # where the multipliers say no more, the law says how long it takes
+                following = time * exp(excess / self._steepness(time, before))
+                if not low < following < high:
+                    following = 0.5 * (low + high) if high < inf else time * _WIDER
+            before, time = time, following
+            if not 1.0 / _WIDEST < time / first < _WIDEST:
                 break
-        raise _unsettled(self.move, exp(logarithm))
+        raise self.unsettled(time)
 
-    def _slope(self, logarithm: float) -> float:
-        """The exponent with which the greatest share of a law falls with the time, by that law alone."""
-        law = self.solution(exp(logarithm)).law
-        before, after = (
-            max(limit.share(law) for limit in self.move.limits_in(exp(logarithm + step)))
+    def _too_short(self, time: float, known: float) -> float:
+        """The time up to which no law keeps the limits, by what is known and the multipliers of a time."""
+        multipliers = Multipliers.of(self.move, time, self.solution(time))
+        longest = multipliers.longest(time)
+        # an inaccurate solution may prove less than one before, or by rounding more than its own law allows
+        long_enough = time * exp(max(self.excess(time), 0.0)) * (1.0 + LEAST_TIME_GAP) if self.move.at_rest else inf
+        if not known < longest <= long_enough:
+            return known
+        self.known.append((min(time, longest), multipliers))
+        return longest
+
+    def _steepness(self, time: float, before: float | None) -> float:
+        """The exponent with which the greatest share falls with the time, from a time before or by the law alone."""
+        if self.move.of_rates:
+            return 1.0
+        if before is not None:
+            return max((self.excess(before) - self.excess(time)) / log(time / before), _LEVEL)
+        law = self.solution(time).law
+        shorter, longer = (
+            max(limit.share(law) for limit in self.move.limits_in(time * exp(step)))
             for step in (-DURATION_STEP, DURATION_STEP)
         )
-        return log(before / after) / (2.0 * DURATION_STEP)
+        return max(log(shorter / longer) / (2.0 * DURATION_STEP), _LEVEL)
 
+    def unsettled(self, time: float) -> SolverFailure:
+        return SolverFailure(
+            f"the steps of the time did not settle, the last at {time:.9g} s; another degree or order helps",
+            problem=self.move.problem,
+        )
 
-def _by_secants(move: TimedT, near: LeastTime[TimedT] | None = None) -> LeastTime[TimedT]:
-    """The least time by secants of the greatest share over the time, perhaps started near another.
-
-    Where laws that keep the limits keep them in every longer time, a certificate of one time proves the shorter ones.
-    """
-    if near is None or not (isinstance(move, TimedMove) and isinstance(near.move, TimedMove)):
-        trials, begin = _Trials(move), move.begin
-    else:
-        # a torque that accelerates alone takes times as the roots of the strokes
-        trials = _Trials(move, first=near.solution)
-        begin = near.duration * sqrt(move.stroke / near.move.stroke)
-    duration = trials.root(log(begin))
-    too_short = duration * (1.0 - LEAST_TIME_GAP)
-    proofs: tuple[TimeProof, ...] = ()
-    if move.stays_possible and move.shares(duration).convex:
-        proof = proof_by(trials.solution(too_short).certificate, move, 0.0, too_short)
-        proofs = (proof,) if proof.stands(move) else ()
-    return LeastTime(move, duration, trials.solutions[duration], proofs)
-
-
-def _of_vibration(move: TimedT, without: LeastTime[Timed]) -> LeastTime[TimedT]:
-    """The least time within a limit of the vibration that is left, from the least time without that limit.
-
-    Laws of a longer time may leave more again. The search goes up to a law; boxes of the times before are then proven
-    to be too short, and a law that they come upon is a faster one.
-    """
-    trials = _Trials(move)
-    proofs = [*without.proofs]
-    least = low = high = log(without.duration)
-    while trials.excess(high) > log(1.0 + FEASIBILITY):
-        low, high = high, high + _UPWARD
-        if high - least > _WIDEST:
-            raise _unsettled(move, exp(high))
-    duration = trials.root(high, low) if low < high else exp(high)
-    if proofs and low < high and move.stays_possible and move.shares(duration).convex:
-        duration = _exclude(trials, proofs, duration)
-    return LeastTime(move, duration, trials.solutions[duration], tuple(proofs))
-
-
-def _exclude(trials: _Trials, proofs: list[TimeProof], duration: float) -> float:
-    """Extend proofs by boxes of the times before a duration; the least time, which is less where a box has a law.
-
-    A box that is too long proves nothing: it is halved, and grows again with those that do.
-    """
-    share = _FIRST_BOX
-    while proofs[-1].longest < duration * (1.0 - LEAST_TIME_GAP) and len(proofs) < _MOST_BOXES and share > _LEAST_BOX:
-        shortest = proofs[-1].longest
-        longest = min(shortest + share * (duration - shortest), duration * (1.0 - _OF_GAP * LEAST_TIME_GAP))
-        solution = law_in_time(trials.move, longest, None, shortest)
-        proof = proof_by(solution.certificate, trials.move, shortest, longest) if solution.objective > 1.0 else None
-        if proof is not None and proof.stands(trials.move):
-            proofs.append(proof)
-            share = min(_MORE * share, _MOST_BOX)
-        elif trials.excess(log(longest)) <= log(1.0 + FEASIBILITY):
-            duration = trials.root(log(longest), log(shortest))
-        else:
-            share *= _LESS
-    return duration
-
-
-#: how much slower than all laws those of a space are that is tried first, so that the right limits bind at once
-_SLOWER = 1.02
-_STEPS = 60
-#: so many steps settle the time but for what rounding leaves
-_SETTLING = 12
-#: of the gap that is allowed, what a step may go beyond its multipliers
-_LITTLE = 0.1
+    def proofs(self, duration: float) -> tuple[TimeProof, ...]:
+        """That no law keeps the limits in a time that is shorter by more than the gap; empty where none is known."""
+        move, too_short = self.move, duration * (1.0 - LEAST_TIME_GAP)
+        if move.of_rates:
+            return covering(move, self.known, too_short)
+        if not (move.stays_possible and move.shares(duration).convex):
+            return ()
+        # where laws that keep the limits keep them in every longer time, one certificate proves all shorter ones
+        proof = proof_by(self.solution(too_short).certificate, move, 0.0, too_short)
+        return (proof,) if proof.stands(move) else ()
 
 
 def least_time(move: TimedT, near: LeastTime[TimedT] | None = None) -> LeastTime[TimedT]:
@@ -210,79 +181,74 @@ def least_time(move: TimedT, near: LeastTime[TimedT] | None = None) -> LeastTime
     with meant():
         if move.residual is not None:
             return _of_vibration(move, least_time(move.without_residual))
-        if not move.of_rates:
-            return _by_secants(move, near)
-        duration, solution, known = _from_either_side(move, near) if move.at_rest else _from_below(move)
-    proofs = covering(move, known, duration * (1.0 - LEAST_TIME_GAP)) if known or not move.at_rest else ()
-    return LeastTime(move, duration, solution, proofs)
-
-
-_Known = list[tuple[float, Multipliers]]
-
-
-def _from_either_side(move: TimedT, near: LeastTime[TimedT] | None) -> tuple[float, Solution, _Known]:
-    """Steps from rest to rest: the multipliers of any time prove an interval from zero up to the next time."""
-    duration, warm = _beside(move, near)
-    known: _Known = []
-    tried: list[tuple[float, Solution]] = []
-    for step in range(_STEPS):
+        trials, begin = _beginning(move, near)
         try:
-            solution = law_in_time(move, duration, warm)
+            # with ends that move no step skips a time with a law: the first is too short for any motion
+            duration = trials.least(begin, 0.0 if move.at_rest else begin)
         except SolverFailure:
-            if not tried:
+            if isinstance(move, TimedMove) or not (move.of_rates and trials.solutions):
                 raise
-            break
-        tried.append((duration, solution))
-        warm, multipliers = solution.active_set, Multipliers.of(move, duration, solution)
-        too_short, proven = multipliers.longest(duration), known[0][0] if known else 0.0
-        # an inaccurate solution may prove less than one before, or by rounding more than its own law allows
-        long_enough = duration * max(solution.objective, 1.0) * (1.0 + LEAST_TIME_GAP)
-        proves_more = proven < too_short <= long_enough
-        if proves_more:
-            proven, known = too_short, [(too_short, multipliers)]
-        gap = 1.0 - proven / duration
-        met = LEAST_TIME_MET if step < _SETTLING else 0.5 * LEAST_TIME_GAP
-        if solution.objective <= 1.0 + FEASIBILITY and gap <= met:
-            return duration, solution, known
-        # where the multipliers say no more, the law says how long it takes
-        duration = proven if proves_more and abs(gap) > LEAST_TIME_MET else duration * solution.objective
-    if isinstance(move, TimedMove):
-        raise _unsettled(move, duration)
-    # of a span of a cycle, which is not stored: the fastest of the laws, and no proof
-    needed = [
-        (time * max(limit.at(time).share(each.law) ** (1.0 / limit.nu) for limit in move.rates), each)
-        for time, each in tried
-    ]
-    return (*min(needed, key=itemgetter(0)), [])
+            # of a span of a cycle, which is not stored: the fastest of the laws, and no proof
+            durations = {
+                time * max(limit.at(time).share(each.law) ** (1.0 / limit.nu) for limit in move.rates): each
+                for time, each in trials.solutions.items()
+            }
+            return LeastTime(move, min(durations), durations[min(durations)], ())
+        return LeastTime(move, duration, trials.solutions[duration], trials.proofs(duration))
 
 
-def _beside(move: TimedT, near: LeastTime[TimedT] | None) -> tuple[float, ActiveSet | None]:
-    """A time slightly above that of all laws, or the one up to which the multipliers of another stroke prove."""
-    if not (near and isinstance(move, TimedMove) and isinstance(near.move, TimedMove)):
-        return _SLOWER * move.begin, None
+def _beginning(move: TimedT, near: LeastTime[TimedT] | None) -> tuple[_Trials[TimedT], float]:
+    """The trials and their first time: slightly above that of all laws, or by what another stroke says."""
+    if not move.at_rest:
+        return _Trials(move), move.least_conceivable()
+    begin = _SLOWER * move.begin if move.of_rates else move.begin
+    if near is None or not (isinstance(move, TimedMove) and isinstance(near.move, TimedMove)):
+        return _Trials(move), begin
+    ratio = move.stroke / near.move.stroke
+    if not move.of_rates:
+        # a torque that accelerates alone takes times as the roots of the strokes
+        warm = near.solution.active_set if near.solution.problem.convex else None
+        return _Trials(move, warm), near.duration * sqrt(ratio)
     if (near.move.problem, near.move.limits) != (move.problem, move.limits):
-        return _SLOWER * move.begin, None
-    multipliers = Multipliers.of(near.move, near.duration, near.solution).of_stroke(move.stroke / near.move.stroke)
-    return multipliers.longest(near.duration), near.solution.active_set
+        return _Trials(move), begin
+    multipliers = Multipliers.of(near.move, near.duration, near.solution).of_stroke(ratio)
+    return _Trials(move, near.solution.active_set), multipliers.longest(near.duration)
 
 
-def _from_below(move: Timed) -> tuple[float, Solution, _Known]:
-    """Steps from a time that is too short for any motion: no step skips a time with a law."""
-    duration, warm = move.least_conceivable(), None
-    known: _Known = []
-    for _ in range(_STEPS):
-        solution = law_in_time(move, duration, warm)
-        if solution.objective <= 1.0 + FEASIBILITY:
-            return duration, solution, known
-        warm, multipliers = solution.active_set, Multipliers.of(move, duration, solution)
-        known.append((duration, multipliers))
-        later = multipliers.longest(duration)
-        if not later > duration:
-            # the law misses a limit by what the solver leaves: within rounding it takes this time, else a little more
-            if solution.objective <= 1.0 + BOUND_FEASIBILITY:
-                return duration, solution, known
-            if solution.objective > 1.0 + _LITTLE * LEAST_TIME_GAP:
-                break
-            later = duration * solution.objective
-        duration = later
-    raise _unsettled(move, duration)
+def _of_vibration(move: TimedT, without: LeastTime[Timed]) -> LeastTime[TimedT]:
+    """The least time within a limit of the vibration that is left, from the least time without that limit.
+
+    Laws of a longer time may leave more again. The search goes up to a law; boxes of the times before are then proven
+    to be too short, and a law that they come upon is a faster one.
+    """
+    trials, proofs = _Trials(move), [*without.proofs]
+    low = high = without.duration
+    while trials.excess(high) > FEASIBILITY:
+        low, high = high, high * _UPWARD
+        if high > without.duration * _WIDEST:
+            raise trials.unsettled(high)
+    duration = trials.least(high, low) if low < high else high
+    if proofs and low < high and move.stays_possible and move.shares(duration).convex:
+        duration = _exclude(trials, proofs, duration)
+    return LeastTime(move, duration, trials.solutions[duration], tuple(proofs))
+
+
+def _exclude(trials: _Trials[TimedT], proofs: list[TimeProof], duration: float) -> float:
+    """Extend proofs by boxes of the times before a duration; the least time, which is less where a box has a law.
+
+    A box that is too long proves nothing: it is halved, and grows again with those that do.
+    """
+    share = _FIRST_BOX
+    while proofs[-1].longest < duration * (1.0 - LEAST_TIME_GAP) and len(proofs) < _MOST_BOXES and share > _LEAST_BOX:
+        shortest = proofs[-1].longest
+        longest = min(shortest + share * (duration - shortest), duration * (1.0 - _OF_GAP * LEAST_TIME_GAP))
+        solution = law_in_time(trials.move, longest, None, shortest)
+        proof = proof_by(solution.certificate, trials.move, shortest, longest) if solution.objective > 1.0 else None
+        if proof is not None and proof.stands(trials.move):
+            proofs.append(proof)
+            share = min(_MORE * share, _MOST_BOX)
+        elif trials.excess(longest) <= FEASIBILITY:
+            duration = trials.least(longest, shortest)
+        else:
+            share *= _LESS
+    return duration
