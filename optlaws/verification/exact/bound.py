@@ -8,8 +8,7 @@ as makes the sum depend on nothing, which balls enclose.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from contextlib import suppress
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from math import inf, isfinite
@@ -27,13 +26,7 @@ from optlaws.verification.exact.charge import Vector, charge, summed
 from optlaws.verification.exact.places import places_hold
 from optlaws.verification.exact.rows import ExactRows
 
-#: of a bound: where more is charged a repair is tried
-_CHARGED = Fraction(1, 10**10)
-#: of the greatest multiplier: what a repair of what is proven by a charge too changes no multiplier by more than
-_REPAIRED = Fraction(1, 10**6)
 _MORE_BITS = (1, 2, 4)
-#: how far from a contact its neighbours are, and how much of its multiplier each takes
-_NEAR, _SHARE = Fraction(1, 2**20), Fraction(1, 2**22)
 
 
 @dataclass(frozen=True)
@@ -116,10 +109,9 @@ def _proof_at_work(certificate: Certificate, along: Along | None) -> Proof:
     sublevel = rows.sublevel if along is None else replace(rows.sublevel, problem=along.widest)
     beyond = charge(sublevel, rows, total, Fraction(claim)) if isfinite(claim) else None
     weights, value = leaf.weights, total[-1]
-    if beyond is None or upper(beyond) > _CHARGED * abs(upper(value)):
-        # what nothing bounds has no other proof, however far the multipliers are from it
-        repaired = leaf.repaired(_REPAIRED if beyond is not None else Fraction(1))
-        if repaired is not None and (beyond is None or bool(repaired[1] > value - beyond)):
+    if beyond is None:
+        repaired = leaf.repaired()
+        if repaired is not None:
             (weights, value), beyond, claim = repaired, arb(0), inf
     if beyond is None or not value.is_finite():
         return Proof(None, 0.0, leaf.negative, leaf.unknown)
@@ -174,56 +166,19 @@ class _Leaf:
             raise InputError("the number changes more than right sides of rows: nothing is proven along it")
         return [(other[-1] - here[-1]) / ball(along.width) for here, other in pairs]
 
-    def repaired(self, most: Fraction) -> tuple[Vector, arb] | None:
-        """Multipliers with which the sum depends on nothing, and its value; None where no small change is enough.
-
-        A change is small that is at most a share of the greatest multiplier, `most`.
-
-        Each contact lends a little of its multiplier to neighbours, which stand for its place: place and multiplier
-        together have as much freedom as the law.
-        """
-        count, weights, beside, vectors = len(self.contacts), list(self.weights), [], list(self.vectors)
-        for i, contact in enumerate(self.contacts):
-            near = list(self._neighbours(contact))
-            beside += [self.weights[i] * ball(_SHARE)] * len(near)
-            weights[i] -= sum(beside[len(beside) - len(near) :], arb(0))
-            vectors += near
-        greatest = max((abs(weight) for weight in weights), default=arb(1), key=float)
-        freedom = [*weights[:count], *[greatest] * (len(weights) - count), *beside]
-        weights += beside
-        changes = _changes(vectors, [weight * weight for weight in freedom], self._added(weights, vectors)[:-1])
-        if changes is None or not all(bool(abs(change) <= greatest * ball(most)) for change in changes):
+    def repaired(self) -> tuple[Vector, arb] | None:
+        """Multipliers near these with which the sum depends on nothing, and its value; None where there are none."""
+        count = len(self.contacts)
+        greatest = max((abs(weight) for weight in self.weights), default=arb(1), key=float)
+        freedom = [*self.weights[:count], *[greatest] * (len(self.weights) - count)]
+        changes = _changes(self.vectors, [weight * weight for weight in freedom], self.sum()[:-1])
+        if changes is None:
             return None
-        corrected = [weight + change for weight, change in zip(weights, changes, strict=True)]
-        if not all(bool(weight >= 0) for weight in (*corrected[:count], *corrected[len(self.weights) :])):
+        corrected = [weight + change for weight, change in zip(self.weights, changes, strict=True)]
+        if not all(bool(weight >= 0) for weight in corrected[:count]):
             return None
-        value = sum((w * vector[-1] for w, vector in zip(corrected, vectors, strict=True)), arb(0))
+        value = summed(corrected, [[vector[-1]] for vector in self.vectors])[0]
         return (corrected, value) if value.is_finite() else None
-
-    def _neighbours(self, contact: Contact) -> Iterator[Vector]:
-        """Rows of neighbours of a contact's place, and of the direction of a complex number."""
-        k, cone = Fraction(contact.k), contact.constraint in self.rows.cones
-        near: list[tuple[Contact, Fraction]] = []
-        if cone and len(contact.direction) == 2:
-            real, imaginary = contact.direction
-            turns = (float(_NEAR), -float(_NEAR))
-            near += [(replace(contact, direction=(real - t * imaginary, imaginary + t * real)), k) for t in turns]
-        placed = cone or contact.constraint in self.rows.tangents or not contact.direction
-        if _NEAR < k < 1 - _NEAR and placed:
-            near += [
-                (contact, place)
-                for place in (k - _NEAR, k + _NEAR)
-                if cone or self._share_a_piece(contact.constraint, place, k)
-            ]
-        rows = (self.rows.row(moved, place) for moved, place in near)
-        yield from (row.vector(self.rows.names) for row in rows if row is not None)
-
-    def _share_a_piece(self, name: str, near: Fraction, k: Fraction) -> bool:
-        with suppress(LookupError):
-            if name in self.rows.outputs:
-                return self.rows.outputs[name].share_a_stretch(near, k)
-            return self.rows.space.piece(near) == self.rows.space.piece(k)
-        return False
 
 
 def _changes(vectors: list[Vector], weights: Vector, slopes: Vector) -> Vector | None:

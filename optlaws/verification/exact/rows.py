@@ -112,10 +112,6 @@ class ExactRows:
         self.relaxed = certificate.program == RELAXED
         #: the one power whose root is a variable
         self.power = relaxed_power(problem) if self.relaxed else None
-        #: constants that are magnitudes of complex numbers, whose contacts' k is no place of the law
-        self.cones: set[str] = set()
-        #: formulas that are not affine, whose contacts say where a tangent touches
-        self.tangents: set[str] = set()
         #: outputs of machines, whose contacts' k is a share of the time that counts
         self.outputs: dict[str, OutputRows] = {}
         self.names: list[str] = []
@@ -149,9 +145,9 @@ class ExactRows:
         # above 0 doubles say it, unless it is an exact one
         return value if isinstance(value, Fraction) else min(_exact(value), Fraction(0))
 
-    def row(self, contact: Contact, k: Fraction | None = None) -> BallRow | None:
-        """The row of a contact, or of a similar one at another k; None if the problem has no such constraint."""
-        place = Fraction(contact.k) if k is None else k
+    def row(self, contact: Contact) -> BallRow | None:
+        """The row of a contact; None if the problem has no such constraint."""
+        place = Fraction(contact.k)
         for make in self._makers.get((contact.constraint, contact.sign), ()):
             with suppress(LookupError):
                 return make(contact, place)
@@ -240,7 +236,6 @@ class ExactRows:
         def make(contact: Contact, k: Fraction) -> BallRow:
             return limit.row(tangent_columns(self.space, branch, contact.direction, _clamped(k, start, stop)))
 
-        self.tangents.add(branch.name)
         self._add(branch.name, make, (branch.sign,))
 
     def _integral(self, constant: FormulaRms | FormulaIntegral, limit: UpperLimit) -> None:
@@ -342,7 +337,6 @@ class ExactRows:
 
         for i, name in enumerate(constant.part_names):
             unit = ball(constant.unit(self._solved, i, float(limit.high), sought=sought))
-            self.cones.add(name)
             self._add(name, partial(make, unit, cache(partial(exact.rows, drives, i))))
 
     def _constraints(self) -> None:

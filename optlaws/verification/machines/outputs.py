@@ -101,21 +101,15 @@ class OutputRows:
         """Means of the output times functions that are at most 1 in magnitude: enough of them for all laws."""
         return moments(self._response, self.exact.start, self.exact.stop, 2 * self._response.laws)
 
-    def time(self, place: Fraction) -> Fraction:
-        """The time of a certificate's place, a share of all the time; LookupError where it does not count."""
+    def at(self, place: Fraction) -> list[arb]:
+        """The output of the free functions, then of the base law, at a certificate's place, a share of all the time.
+
+        LookupError where the time does not count.
+        """
         time = place * self.exact.stop
         if time < self.exact.start - NEAR:
             raise LookupError
-        return max(time, self.exact.start)
-
-    def at(self, place: Fraction) -> list[arb]:
-        """The output at a certificate's place: of the free functions, then of the base law."""
-        return self._response.row(self.time(place))
-
-    def share_a_stretch(self, place: Fraction, other: Fraction) -> bool:
-        """Whether nothing begins or ends between two places."""
-        times = sorted([self.time(place), self.time(other)])
-        return not any(times[0] < stretch.start <= times[1] for stretch in self._response.stretches)
+        return self._response.row(max(time, self.exact.start))
 
 
 #: by how much a place may be beyond an end
