@@ -16,6 +16,7 @@ from optlaws.cycles.moves.timed_moves import read_follower
 from optlaws.cycles.specification.limits import AXES
 from optlaws.cycles.specification.programme import axis_of, period_of
 from optlaws.cycles.specification.segments import Move, Return
+from optlaws.cycles.usual_law import USUAL
 from optlaws.echo import shortened, unknown_key
 from optlaws.errors import InfeasibleProblem, InputError, OptlawsError, located, needed
 from optlaws.laws.catalogue.reading import read_law
@@ -32,7 +33,7 @@ from optlaws.synthesis.problem.problem import Problem
 from optlaws.tolerances import VALUE_ROUNDING
 
 #: the laws that most designers choose between, the usual one first
-STANDARD = ("modified sine", "modified trapezoid", "cycloidal", "3-4-5 polynomial", "4-5-6-7 polynomial")
+STANDARD = (USUAL, "modified trapezoid", "cycloidal", "3-4-5 polynomial", "4-5-6-7 polynomial")
 _MOST_LAWS, _MOST_POINTS = 40, 100
 #: of the Z of optimal laws at least, so that a move has one advice, by itself or in a cycle
 _DEGREE = 21

@@ -25,11 +25,12 @@ from optlaws.cycles.specification.limits import (
 )
 from optlaws.cycles.specification.load import is_process
 from optlaws.cycles.specification.programme import is_optimal
-from optlaws.cycles.specification.segments import OPTIMAL, CycleSegment, Free, Move
+from optlaws.cycles.specification.segments import OPTIMAL, CycleSegment, Move
+from optlaws.cycles.usual_law import may_have_another_law, with_law
 from optlaws.errors import InputError, OptlawsError
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
-from optlaws.motion.piece import Piece, factor, moves_at, named_law, unit_of
+from optlaws.motion.piece import Piece, factor, moves_at, unit_of
 from optlaws.motion.quantities import Exact, Kind, in_small_units, quantity
 from optlaws.shown.report import Report
 from optlaws.synthesis.least_time.move_limits import RESIDUALS, FollowerResidual
@@ -355,7 +356,7 @@ class Candidates:
 
     def _standard(self, name: str) -> AdvisedLaw:
         """The cycle with a law of the catalogue in all its moves; refused where it does not fit."""
-        advised = self._advised(name, "standard", self._known(self._segments(partial(_with_law, name))))
+        advised = self._advised(name, "standard", self._known(self._segments(partial(with_law, name))))
         if self.minimise != self._left and not self._objective(advised) > 0.0:
             raise InputError(
                 f"the {self.minimise} of {name} is 0 between its ends, where its velocity jumps, so that no law can be "
@@ -407,11 +408,7 @@ class Candidates:
     @kept_property
     def _compared(self) -> tuple[int, ...]:
         """The numbers of the segments whose laws are compared: all moves except moves that end in motion."""
-        numbers = tuple(
-            i
-            for i, each in enumerate(self.cycle.segments)
-            if is_optimal(each) or (isinstance(each, Move) and not moves_at(named_law(each.law, each.label), 0, 1))
-        )
+        numbers = tuple(i for i, each in enumerate(self.cycle.segments) if may_have_another_law(each))
         if not numbers:
             raise InputError("the cycle has no move whose law could be another: laws are compared from rest to rest")
         return numbers
@@ -511,17 +508,6 @@ class Candidates:
             else:
                 tighter[each] = Exact(most, unit) if given is None or known(given) > most else given
         return tighter
-
-
-def _with_law(law: str, segment: CycleSegment) -> CycleSegment:
-    """A segment with a law of the catalogue."""
-    if isinstance(segment, Free):
-        if segment.via:
-            raise InputError(f"{segment.label}: a law of the catalogue passes no points that are given")
-        return Move(segment.by, segment.duration, to=segment.to, law=law, limits=segment.limits, name=segment.label)
-    if isinstance(segment, Move) and (segment.start_velocity, segment.end_velocity) != (None, None):
-        raise InputError(f"{segment.label}: a law of the catalogue has no velocity at its ends")
-    return replace(segment, law=law)  # type: ignore[type-var] # a dataclass
 
 
 def _optimal(segment: CycleSegment) -> CycleSegment:

@@ -12,6 +12,7 @@ from shlex import quote
 from textwrap import fill
 from typing import Any
 
+from optlaws.cycles.usual_law import USUAL
 from optlaws.entries.declared import Declared
 from optlaws.entries.reference import sentences
 from optlaws.entries.value_types import Measured, Number, Whole
@@ -33,7 +34,6 @@ Answers = dict[str, str | None]
 #: a place in a text: the name of its answer and, behind a bar, what stands there where the entry is left out
 _PLACE = re.compile(r"\$\{([\w-]+)(?:\|([^}]*))?\}")
 _FOLDER = Path(__file__).parent
-_USUAL = "modified sine"
 _DIGITS = 5
 
 
@@ -103,7 +103,7 @@ def _example(name: str, answers: Answers) -> str:
 
 
 def _usual(constant: str) -> float:
-    return float(getattr(catalogue[_USUAL].law.constants, constant).value)
+    return float(getattr(catalogue[USUAL].law.constants, constant).value)
 
 
 def _at_least(value: float) -> str:

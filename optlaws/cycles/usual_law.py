@@ -1,0 +1,61 @@
+"""The usual law: what a cycle does where nobody optimised it, beside which every result stands."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from optlaws.cycles.placed import with_laws
+from optlaws.cycles.specification.programme import is_optimal
+from optlaws.cycles.specification.segments import CycleSegment, Free, Move
+from optlaws.errors import InputError
+from optlaws.motion.piece import moves_at, named_law
+
+if TYPE_CHECKING:
+    from optlaws.cycles.cycle import Cycle
+
+#: the law that cams and servo axes have where nothing else is said
+USUAL = "modified sine"
+
+
+def usual_cycle(cycle: Cycle) -> Cycle | None:
+    """The cycle with modified sine in all its moves from rest to rest, without limits.
+
+    None where the moves have that law already, or one of them cannot: it ends in motion, or passes given points.
+
+    Examples
+    --------
+    >>> from optlaws import Cycle, Return, Rise
+    >>> cycle = Cycle([Rise("35 mm", "120 deg"), Return()], speed="200 rpm")
+    >>> usual = usual_cycle(cycle)
+    >>> round(usual.peak(2), 4), usual_cycle(usual) is None
+    (19.348, True)
+    """
+    moves = [i for i, each in enumerate(cycle.segments) if may_have_another_law(each)]
+    if all(getattr(cycle.segments[i], "law", None) == USUAL for i in moves):
+        return None
+    try:
+        segments = [with_law(USUAL, each) if i in moves else each for i, each in enumerate(cycle.segments)]
+        usual = with_laws(cycle, segments, limits={})
+        usual.unchecked()
+    except InputError:
+        return None
+    return usual
+
+
+def may_have_another_law(segment: CycleSegment) -> bool:
+    """Whether a segment is a motion that is optimised, or a move whose given law does not end in motion."""
+    return is_optimal(segment) or (
+        isinstance(segment, Move) and not moves_at(named_law(segment.law, segment.label), 0, 1)
+    )
+
+
+def with_law(law: str, segment: CycleSegment) -> CycleSegment:
+    """A segment with a law of the catalogue."""
+    if isinstance(segment, Free):
+        if segment.via:
+            raise InputError(f"{segment.label}: a law of the catalogue passes no points that are given")
+        return Move(segment.by, segment.duration, to=segment.to, law=law, limits=segment.limits, name=segment.label)
+    if isinstance(segment, Move) and (segment.start_velocity, segment.end_velocity) != (None, None):
+        raise InputError(f"{segment.label}: a law of the catalogue has no velocity at its ends")
+    return replace(segment, law=law)  # type: ignore[type-var] # a dataclass

@@ -1,0 +1,117 @@
+"""What a law gains and what it costs: its values beside those of the usual law, as rows that every output renders."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import isfinite
+from typing import Any, NamedTuple
+
+from optlaws.numbers import bounded
+from optlaws.shown.report import ReportTable, Section
+from optlaws.shown.summary import Row
+
+_SAME = 5e-4  # of a value: a difference below it is no whole tenth of a per cent
+
+
+class Difference(NamedTuple):
+    """A quantity with the usual law and with the chosen one.
+
+    Attributes
+    ----------
+    name, unit
+        The quantity, and the unit of both values.
+    usual, chosen
+        Its values with the two laws; None where there is none.
+
+    Examples
+    --------
+    >>> Difference("peak acceleration", "m/s²", 21.3, 19.0).text, Difference("peak jerk", "m/s³", 0.0, 2.0).text
+    ('-10.8 %', '')
+    """
+
+    name: str
+    unit: str
+    usual: float | None
+    chosen: float | None
+
+    @property
+    def change(self) -> float | None:
+        """By what share of the usual value the chosen one is greater; None where one is missing, 0 or not finite."""
+        if not self.usual or self.chosen is None or not isfinite(self.usual) or not isfinite(self.chosen):
+            return None
+        return self.chosen / self.usual - 1.0
+
+    @property
+    def text(self) -> str:
+        """The change in per cent; empty where there is none."""
+        change = self.change
+        if change is None:
+            return ""
+        return "same" if abs(change) < _SAME else f"{100.0 * change:+.1f} %"
+
+
+@dataclass(frozen=True)
+class Differences:
+    """The values of a result beside those of the same result with the usual law.
+
+    Attributes
+    ----------
+    usual
+        The name of the usual law, such as "modified sine".
+    values
+        The quantities, each with both values.
+
+    Examples
+    --------
+    >>> beside = Differences("modified sine", [Difference("peak acceleration", "m/s²", 21.3, 19.0)])
+    >>> beside.table.rows
+    [['peak acceleration', 21.3, 19.0, '-10.8 %', 'm/s²']]
+    >>> beside.rows[0].note
+    '-10.8 %: modified sine has 21.3 m/s²'
+    """
+
+    usual: str
+    values: Sequence[Difference]
+
+    @property
+    def rows(self) -> list[Row]:
+        """A row of facts for each quantity that has both values."""
+        return [
+            Row(each.name, each.chosen, each.unit, note=_note(each, self.usual))
+            for each in self.values
+            if each.chosen is not None and each.usual is not None
+        ]
+
+    @property
+    def table(self) -> ReportTable:
+        """The quantities with both values and the difference in per cent."""
+        rows = [[each.name, each.usual, each.chosen, each.text, each.unit] for each in self.values]
+        return ReportTable(["what", self.usual, "this law", "difference", "unit"], rows)
+
+    @property
+    def data(self) -> dict[str, Any]:
+        """For programs: the usual law, and of each quantity both values, in the units that stand beside them."""
+        values = [
+            {
+                "name": each.name,
+                "unit": each.unit,
+                "usual": None if each.usual is None else bounded(each.usual),
+                "chosen": None if each.chosen is None else bounded(each.chosen),
+                "change": each.change,
+            }
+            for each in self.values
+        ]
+        return {"usual_law": {"name": self.usual, "values": values}}
+
+    def section(self, note: str = "") -> Section:
+        """The part of a page that shows them; empty without values."""
+        if not self.values:
+            return Section()
+        heading = f"Compared with {self.usual}"
+        return Section(heading, self.rows, self.table, self.data, note=note, digits=5)
+
+
+def _note(each: Difference, usual: str) -> str:
+    known = f"{usual} has {each.usual:.5g} {each.unit}".strip()
+    return f"{each.text}: {known}" if each.text else known
