@@ -3,7 +3,7 @@
 import sys
 from pathlib import Path
 
-from optlaws.files.writing import say_the_same
+from tests.internals.files import say_the_same
 
 
 def differences(kept: Path, written: Path, names: set[str], unsteady: set[str]) -> list[str]:

@@ -17,7 +17,9 @@ from tests.internals.jobs import JOBS
 
 # What is executed or parsed (tests/documents.py), and what has nothing to execute.
 LANGUAGES = {"python", "pycon", "console", "toml", "text", "csv", "bibtex"}
-PAGES = sorted([*ROOT.glob("README.md"), *(ROOT / "docs").rglob("*.md")])
+PAGES = sorted(
+    [*(ROOT / name for name in ("README.md", "CONTRIBUTING.md", "SECURITY.md")), *(ROOT / "docs").rglob("*.md")]
+)
 FOLDERS = sorted(path.name for path in (ROOT / "optlaws").iterdir() if (path / "__init__.py").is_file())
 #: where users have files of their own under these names, pages name such as are not there
 LAYERS = "|".join(name for name in FOLDERS if name not in {"problems", "results"})
@@ -108,13 +110,13 @@ def test_every_job_and_every_command_has_a_section() -> None:
     assert sections("command-line.md") == sorted(COMMANDS)
 
 
-def test_the_contents_list_every_how_to_once_and_the_first_page_every_extra() -> None:
+def test_the_contents_list_every_how_to_once_and_the_page_on_installing_every_extra() -> None:
     contents = (ROOT / "docs" / "index.md").read_text("utf-8")
     for page in sorted((ROOT / "docs" / "how-to").glob("*.md")):
         assert len(re.findall(rf"^how-to/{page.stem}$", contents, re.MULTILINE)) == 1, page.stem
     extras = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]["optional-dependencies"]
-    first = (ROOT / "README.md").read_text("utf-8")
-    assert [name for name in extras if f"`{name}`" not in first] == []
+    installing = (ROOT / "docs" / "how-to" / "install.md").read_text("utf-8")
+    assert [name for name in extras if f"`{name}`" not in installing] == []
 
 
 def test_every_picture_of_a_script_is_stored_and_shown() -> None:
