@@ -215,6 +215,31 @@ def test_a_degenerate_optimum_is_proven(name: str) -> None:
         assert verify(solution.to_dict()).proven
 
 
+@pytest.mark.parametrize(
+    ("band", "limits"),
+    [
+        (
+            (32.72611819232943, 37.76090560653395),
+            (2.003278260968781, 8.026247581740208, 6.420998065392166, 128.63045838122724),
+        ),
+        ((33.48937768726719, 38.64158963915445), (2.05, 8.405, 6.723999999999998, 137.84199999999996)),
+    ],
+)
+def test_the_last_points_of_a_front_of_residuals_over_a_band_are_proven(
+    band: tuple[float, float], limits: tuple[float, float, float, float]
+) -> None:
+    # of results/fastest_pick: tangents alone leave gaps of 1e-8 and 3e-8
+    B, positive, negative, J = map(at_most, limits)
+    minimise = residual_vibration(frequency=band, damping=0.02)
+    bounds = {"C_plus": positive, "C_minus": negative}
+    problem = Problem(order=3, basis=Chebyshev(11), minimise=minimise, symmetric=False, B=B, J=J, bounds=bounds)
+    solution = synthesize(problem)
+    assert solution.status.value == "optimal"
+    assert 0.0 <= solution.gap <= 1e-9
+    assert broken(problem, solution.law) == []
+    assert verify(solution.to_dict()).proven
+
+
 @pytest.mark.long
 def test_an_amplitude_of_a_spread_that_nearly_vanishes_is_proven() -> None:
     problem = Problem(order=5, basis=BSplines(10, 3, 2), minimise=SLOW.residual(spread=0.05), symmetric=False)
