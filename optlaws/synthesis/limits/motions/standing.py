@@ -17,6 +17,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import reduce
 from math import fsum, inf, nextafter
 from typing import Any, NamedTuple
 
@@ -26,16 +27,17 @@ from optlaws.formulas.arithmetic import NUMPY, evaluate
 from optlaws.formulas.tree import Formula, Number, Product, Reciprocal
 from optlaws.kept import kept_property
 from optlaws.numbers import Array
-from optlaws.numerics.interval import Interval, between, exact
-from optlaws.numerics.taylor import variable
+from optlaws.numerics.branch_and_bound import extremes, integral
+from optlaws.numerics.interval import Interval, exact
+from optlaws.numerics.taylor import Jet, variable
 from optlaws.synthesis.limits.formula_jets import formula_jet
 from optlaws.synthesis.limits.phase_plane import PhasePlane
 from optlaws.synthesis.limits.phase_torque import AnyTorque, GearTorque, PhaseTorque
 from optlaws.tolerances import ROUNDOFF
 
-_HOLDING_ENCLOSED = 1e-9  # of the torque that holds a load nearest to 0: how narrow its enclosure is
+_ENCLOSED = 1e-12  # of a load's greatest magnitude: how near bounds of its least and of its work come
 
-_CELLS, _MOST_CELLS, _HALVINGS, _ORDER = 64, 1024, 24, 2
+_CELLS = 64
 _PLACES = np.linspace(0.0, 1.0, 1025)
 
 
@@ -194,37 +196,12 @@ def least_holding(plane: PhasePlane, sign: int) -> float:
 
 def _least(formulas: list[Formula], sign: int) -> float:
     """A lower bound of a sign times the greatest of several formulas, over all positions."""
-    low = np.linspace(0.0, 1.0, _CELLS + 1)[:-1]
-    high, done, top = np.append(low[1:], 1.0), inf, inf
-    for halving in range(_HALVINGS):
-        below, above = zip(*(_range(formula, sign, low, high) for formula in formulas), strict=True)
-        pick = np.max if sign > 0 else np.min  # minus the greatest is the least of those below 0
-        least, top = pick(below, axis=0), min(top, float(np.min(pick(above, axis=0))))
-        near = least < top - _HOLDING_ENCLOSED * abs(top)
-        if halving + 1 == _HALVINGS or 2 * np.count_nonzero(near) > _MOST_CELLS:
-            near = np.zeros_like(near)
-        done = min(done, float(np.min(least[~near], initial=inf)))
-        if not near.any():
-            break
-        middle = 0.5 * (low[near] + high[near])
-        low, high = np.concatenate([low[near], middle]), np.concatenate([middle, high[near]])
-    return done
 
+    def greatest(a: Interval, order: int) -> Jet:
+        return reduce(Jet.maximum, [formula_jet(formula, "a", variable(a, order)) for formula in formulas])
 
-def _range(formula: Formula, sign: int, low: Array, high: Array) -> tuple[Array, Array]:
-    """The least of a formula times a sign in cells, and its value in their middles, both from outside."""
-    middle, half = 0.5 * (low + high), 0.5 * (high - low)
-    over = formula_jet(formula, "a", variable(between(low, high), _ORDER)) * float(sign)
-    at = formula_jet(formula, "a", variable(exact(middle), 1)) * float(sign)
-    with np.errstate(invalid="ignore", over="ignore"):
-        steep = (exact(np.maximum(np.abs(at.terms[1].low), np.abs(at.terms[1].high))) * half).high
-        bent = (exact(np.maximum(np.abs(over.terms[2].low), np.abs(over.terms[2].high))) * half * half).high
-        by_slope = (at.terms[0] - steep * (1.0 + _HOLDING_ENCLOSED) - bent * (1.0 + _HOLDING_ENCLOSED)).low
-    return np.fmax(over.terms[0].low, np.where(np.isnan(by_slope), -inf, by_slope)), at.terms[0].high
-
-
-_WORK_CELLS = 1024
-_ROUNDING = 8.0 * ROUNDOFF  # cells are a little wider than they are
+    known = extremes(greatest, [0.0, 1.0], parts=_CELLS, share=_ENCLOSED)
+    return known.low if sign > 0 else -known.high
 
 
 def least_energy(plane: PhasePlane) -> float:
@@ -242,23 +219,22 @@ def least_energy(plane: PhasePlane) -> float:
 
 
 def _least_work(plane: PhasePlane, torque: PhaseTorque) -> float:
-    """A lower bound of the integral of a torque over the position, by Taylor's formula in cells."""
+    """A lower bound of the integral of a torque over the position: of its load, and of what b² and b may take off."""
     if torque == PhaseTorque(Number(0.0)):
         return 0.0
-    ends = np.unique(np.concatenate([np.linspace(0.0, 1.0, _WORK_CELLS + 1), plane.kinks]))
-    low, high = ends[:-1], ends[1:]
-    middle, half = 0.5 * (low + high), exact(0.5 * (high - low) * (1.0 + _ROUNDING))
-    cells, most = variable(between(low, high), 2), plane.greatest_velocity
-    at, over = formula_jet(torque.load, "a", variable(exact(middle), 1)), formula_jet(torque.load, "a", cells)
-    inertia, square, drag = (formula_jet(factor, "a", cells) for factor in torque.factors[:3])
-    rest = (square.terms[0] - inertia.terms[1] * 0.5).low
-    rubs = float(np.min(drag.terms[0].low))
-    with np.errstate(invalid="ignore", over="ignore"):
-        by_taylor = (at.terms[0] + over.terms[2] * half * half * (1.0 / 3.0)).low
-        load = np.fmax(np.where(np.isfinite(by_taylor), by_taylor, -inf), over.terms[0].low)
-        of_square = np.where(rest < 0.0, rest * most * most * (1.0 + _ROUNDING), 0.0)
-        parts = ((exact(load) + of_square) * half * 2.0).low
+    edges, most = [0.0, *plane.kinks, 1.0], plane.greatest_velocity
+
+    def load(a: Interval, order: int) -> Jet:
+        return formula_jet(torque.load, "a", variable(a, order))
+
+    def falling(a: Interval, order: int) -> Jet:
+        at = variable(a, order + 1)
+        rest = formula_jet(torque.square, "a", at).cut(order) - formula_jet(torque.inertia, "a", at).slope() * 0.5
+        return -(-rest).maximum(0.0)
+
+    rubs = extremes(lambda a, order: formula_jet(torque.drag, "a", variable(a, order)), edges).low
+    least, taken_off = (integral(part, edges, share=_ENCLOSED)[0] for part in (load, falling))
+    parts = [least, rubs if rubs >= 0.0 else rubs * most, taken_off * most * most if taken_off else 0.0]
     if not np.isfinite(parts).all():
         return -inf
-    rounding = _ROUNDING * fsum(np.abs(parts).tolist())
-    return nextafter(fsum(parts.tolist()) - rounding + (rubs if rubs >= 0.0 else rubs * most), -inf)
+    return nextafter(fsum(parts) - 4.0 * ROUNDOFF * fsum(map(abs, parts[1:])), -inf)
