@@ -6,7 +6,7 @@ from abc import abstractmethod
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache
-from math import inf, nan, pi, sqrt
+from math import inf, nan, pi
 from typing import Any, ClassVar
 
 import numpy as np
@@ -30,7 +30,6 @@ from optlaws.mechanisms.machine.state_space import (
     Panel,
     StateSpace,
     check_rest,
-    inverse_gain,
     machine_of,
     text_of,
     title_of,
@@ -38,7 +37,7 @@ from optlaws.mechanisms.machine.state_space import (
 from optlaws.numbers import Array, numbers, power_of_two
 from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, NormFamily
 from optlaws.synthesis.functionals.makers import PeakSide
-from optlaws.synthesis.functionals.sizes import Reach, by_norm, reach_of
+from optlaws.synthesis.functionals.sizes import size_bounds
 from optlaws.synthesis.problem.constants import MAKERS, Functional
 from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
 from optlaws.synthesis.spaces.piecewise_families import PieceFamily, PieceSeries
@@ -47,7 +46,6 @@ from optlaws.tolerances import CLOSURE, NEGLIGIBLE_TERM, SHORTEST_STRETCH, VALUE
 
 _LATEST = 100.0
 _RADIANS = 40.0  # of the fastest vibration on one piece of the rows
-_MOST_GAIN = 1e6
 _MOST_PANELS = 800  # of a cycle that repeats, some six vibrations long each
 _SMOOTH = 4  # the order of the law that scales are taken from
 _KNOWN = 3  # end conditions of which the acceleration is one
@@ -109,38 +107,8 @@ class OutputConstant(Functional):
     def where(self, k: float, part: int = 0) -> str:  # noqa: ARG002 - it has one
         return f"time {k * self.duration:.4g}"
 
-    @kept_property
-    def _gain(self) -> tuple[int, float] | None:
-        """An order, and the factor by which its mean can exceed the output's mean: the inverse machine's gain."""
-        whole = self.cycle is None and not self.steady and self.within[0] == 0.0 and self.within[1] >= 1.0
-        place = self.machine.place(self.output)
-        rows = np.array(self.machine.C[place]), self.machine.direct[place]
-        order, gain = inverse_gain(np.array(self.machine.A), self.machine.load, *rows) if whole else (0, inf)
-        # of a part [0, 1] of the time, whose mean is at most so much more
-        return (order, gain * self.duration) if gain * self.scale < _MOST_GAIN else None
-
     def sizes(self, space: LawSpace) -> tuple[tuple[int, float, float], ...]:
-        if self.steady and self.both:
-            return by_norm(space, self.rows_of_output(space))
-        if self._gain is not None and self.both:
-            order, factor = self._gain
-            return ((order, factor, factor * abs(self.offset)),)
-        reached = space.cached(("size", self.name), lambda: np.array(self._reached(space) or ()))
-        return ((int(reached[0]), float(reached[1]), float(reached[2])),) if len(reached) else ()
-
-    @property
-    def both(self) -> bool:
-        """Whether the constant can be small only if the output is."""
-        return True
-
-    @abstractmethod
-    def _reached(self, space: LawSpace) -> tuple[int, float, float] | None:
-        """A bound of the law from places of the output, if they determine it."""
-
-    def reach(self, space: LawSpace) -> Reach | None:
-        """The bound of a law of a space by its output at places."""
-        values, weights = zip(*self._samples(space), strict=True)
-        return reach_of(space, np.vstack(values), np.concatenate(weights))
+        return size_bounds(self, space)
 
     def _samples(self, space: LawSpace) -> Iterator[tuple[Array, Array]]:
         """Columns of the output at Gauss points of each panel that counts, and their weights."""
@@ -238,10 +206,6 @@ class OutputPeak(OutputConstant):
         size = abs(float(still)) + abs(direct[0] * level) + abs(self.offset)
         return float(self.signs[0] * value - VALUE_ROUNDING * size)
 
-    def _reached(self, space: LawSpace) -> tuple[int, float, float] | None:
-        reach = self.reach(space)
-        return None if reach is None else reach.by_peak() if self.both else reach.by_one_sign(self.signs[0])
-
     def value(self, law: MotionLaw) -> float:
         curve = self.curve(law)
         low, high = curve.extrema(0, None if self.cycle is not None else (self.within[0], curve.interval[1]))
@@ -314,13 +278,6 @@ class OutputRms(OutputConstant):
     """Root mean square of an output; constructed by `Machine.rms`."""
 
     _what: ClassVar[str] = "RMS of"
-
-    def _reached(self, space: LawSpace) -> tuple[int, float, float] | None:
-        reach = self.reach(space)
-        if reach is None:
-            return None
-        order, factor, offset = reach.by_square()
-        return order, factor * sqrt(self.duration), offset
 
     def value(self, law: MotionLaw) -> float:
         return self.curve(law).rms(0)

@@ -36,8 +36,6 @@ DECAY = 40.0  # of the fastest decay in a panel, while it is not over
 SPARED = 2  # times as many panels as are enough where vibrations die away
 SPARE = 32  # coefficients beyond those of the law that resolve a vibration on such a panel
 STEEP = 2.0  # of the number of coefficients: what is faster is over before any of them shows it
-SAMPLES = 4001  # of a response to an impulse
-ROOM = 1.01  # for what the sum over samples misses of an integral
 PER_ROOT_OF_DECAY = 6.5  # coefficients that an exponential needs for each root of its exponent
 
 
@@ -309,52 +307,6 @@ def _steep(step: Complex, right: Complex) -> Complex:
     solution[:-1] = solve_banded((0, 2), bands, right, overwrite_ab=True, overwrite_b=True, check_finite=False)
     solution[-1, -1] = 1.0
     return solution
-
-
-def inverse_gain(A: Array, load: Array, states: Array, direct: Array) -> tuple[int, float]:
-    """An order and a factor: the mean of |a^(order)| from rest on is at most the factor times the mean |output|.
-
-    Of the output states . x + direct . (a, b, c), x' = A x + load (a, b, c). The highest derivative that enters it
-    directly is what the inverse machine makes of the output: as much as is fed through, and the integral of its
-    response to an impulse at most. Infinite where nothing enters directly.
-
-    >>> force = inverse_gain(np.array([[-1.0]]), np.zeros((1, 3)), np.zeros(1), np.array([0.0, 0.0, 2.0]))
-    >>> force
-    (2, 0.505)
-    """
-    feeds, loads = direct.copy(), load.copy()
-    for order in (2, 1, 0):
-        if feeds[order]:
-            break
-        if order == 0:
-            return 0, inf
-        # x - load a^(order - 1) has no derivative of this order in its equation
-        feeds[order - 1] += states @ loads[:, order]
-        loads[:, order - 1] += A @ loads[:, order]
-        loads[:, order] = 0.0
-    size = len(A)
-    # the states, then what is integrated from the derivative: a, or a and b
-    whole = np.zeros((size + order, size + order))
-    whole[:size, :size], whole[:size, size:] = A, loads[:, :order]
-    whole[size:, size:] = np.eye(order, k=1)
-    entry, row = np.zeros(size + order), np.concatenate([states, feeds[:order]])
-    entry[:size] = loads[:, order]
-    entry[size:] += np.eye(order)[-1] if order else 0.0
-    inverse = whole - np.outer(entry, row) / feeds[order]
-    return order, float(ROOM * (1.0 / abs(feeds[order]) + _impulse(inverse, entry, row) / feeds[order] ** 2))
-
-
-def _impulse(matrix: Array, entry: Array, row: Array) -> float:
-    """Integral over [0, 1] of |row exp(matrix t) entry|, by samples."""
-    from scipy.linalg import expm
-
-    step, states = expm(matrix / (SAMPLES - 1)), entry[:, None]
-    with np.errstate(over="ignore", invalid="ignore"):
-        while states.shape[1] < SAMPLES:
-            # as many times again, all of them as much later
-            states, step = np.hstack([states, step @ states]), step @ step
-        total = float(np.trapezoid(np.abs(row @ states[:, :SAMPLES]))) / (SAMPLES - 1)
-    return total if np.isfinite(total) else inf
 
 
 _UNSTABLE = 1e-7  # of the fastest root: what its rounding may be

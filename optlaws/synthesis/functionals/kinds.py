@@ -12,7 +12,6 @@ from optlaws.echo import cut
 from optlaws.formulas.branches import smooth
 from optlaws.formulas.convexity import Judge
 from optlaws.formulas.of_motion import MotionFormula
-from optlaws.formulas.slopes import opposite
 from optlaws.formulas.tree import ORDERS, Negative
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
@@ -30,7 +29,7 @@ from optlaws.synthesis.functionals.curved_rows import (
     split,
     squared,
 )
-from optlaws.synthesis.functionals.sizes import SizeBound, by_integral, by_tangents, known_values, reach
+from optlaws.synthesis.functionals.sizes import known_values, size_bounds
 from optlaws.synthesis.functionals.undefined import check_ends, check_passed, pitfalls
 from optlaws.synthesis.problem.constants import Functional, ProblemView
 from optlaws.synthesis.problem.ranges import as_range
@@ -95,13 +94,7 @@ class OfFormula(Functional):
         return self.motion.halves() if symmetric else (self.motion,)
 
     def sizes(self, space: LawSpace) -> tuple[tuple[int, float, float], ...]:
-        """A bound of the law's size, cached by the space."""
-        known = space.cached(("size", self.name), lambda: np.array(self._size(space) or ()))
-        return ((int(known[0]), float(known[1]), float(known[2])),) if len(known) else ()
-
-    def _size(self, space: LawSpace) -> SizeBound | None:  # noqa: ARG002 - what others of its kind need
-        """The a priori bound of laws; None where the constant does not bound them."""
-        return None
+        return size_bounds(self, space)
 
     def convex_families(
         self, space: LawSpace, slack: Array, bound: float, problem: ProblemView
@@ -165,26 +158,6 @@ class FormulaPeak(OfFormula):
     def value(self, law: MotionLaw) -> float:
         return max(greatest_along(self.motion, sign, law) for sign in self.counted)
 
-    def _size(self, space: LawSpace) -> SizeBound | None:
-        """A priori bounds of laws; of a one-sided peak only if some mean is known or the formula is convex."""
-        if self.motion.start == self.motion.stop:
-            return None
-        if not self.affine:
-            return self._by_mean(space)
-        size = reach(space, self.parts(symmetric=space.symmetric))
-        if size is None:
-            return None
-        return size.by_peak() if self.of_magnitude else size.by_one_sign(self.signs[0])
-
-    def _by_mean(self, space: LawSpace) -> SizeBound | None:
-        """A priori bounds by the mean of a convex formula, which is at most its peak."""
-        signed = {1.0: self.motion, -1.0: replace(self.motion, formula=opposite(self.motion.formula))}
-        for sign in self.counted:
-            size = by_integral(space, signed[sign]) if signed[sign].curvature.convex else None
-            if size is not None:
-                return size.times(self.motion.stop - self.motion.start)
-        return None
-
     def branches(self, *, symmetric: bool) -> list[Branch]:
         halves = sides(self.motion, self.name, self.counted, symmetric=symmetric)
         several = [split(side.motion, sign, side.name) for side in halves for sign in side.signs]
@@ -238,20 +211,6 @@ class FormulaRms(OfFormula):
         matrix = np.vstack([self._roots(space, half) for half in self.parts(symmetric=space.symmetric)])
         return (NormFamily(self.name, slack, bound, matrix=space.widened(matrix, len(slack))),)
 
-    def _size(self, space: LawSpace) -> SizeBound | None:
-        """A priori bounds of laws by Cauchy's inequality, or by tangents."""
-        root = float(np.sqrt(self.length))
-        if self.affine:
-            values = reach(space, self.parts(symmetric=space.symmetric))
-            size = None if values is None else values.by_square()
-        else:
-            size = by_tangents(space, squared(self.motion), root=True) if self.convex else None
-            if size is None and self.convex and self.sign > 0:
-                # the mean is at most the root of the mean square
-                mean = by_integral(space, self.motion)
-                size = None if mean is None else mean.times(root)
-        return None if size is None else size.times(root)
-
     def _roots(self, space: LawSpace, motion: MotionFormula) -> Array:
         u, weights = gauss(space, motion)
         return np.sqrt(weights / self.length)[:, None] * columns(space, motion, u)
@@ -269,10 +228,6 @@ class FormulaIntegral(OfFormula):
     def value(self, law: MotionLaw) -> float:
         """The integral by Gauss's rule, exact if the formula is a polynomial of k."""
         return integral_along(self.motion, law)
-
-    def _size(self, space: LawSpace) -> SizeBound | None:
-        """A priori bounds of laws by the integral of a convex formula."""
-        return by_integral(space, self.motion) if self.convex and not self.affine else None
 
     def _families(self, space: LawSpace, slack: Array, bound: float) -> tuple[ConstraintFamily, ...]:
         return (integral_rows(space, self.motion, self.name, slack, bound, root=False, convex=self.convex),)
