@@ -22,6 +22,7 @@ from optlaws.entries.declared import Declared, ValueOf, declared, documented_by,
 from optlaws.entries.value_types import Measured, Number, ReadBy, Together
 from optlaws.errors import InputError
 from optlaws.formulas.arithmetic import pieces
+from optlaws.formulas.jets import formula_jet
 from optlaws.formulas.slopes import added, multiplied
 from optlaws.formulas.tree import Formula, Name, Table, number, rebuilt, table_places
 from optlaws.kept import kept_property
@@ -34,7 +35,6 @@ from optlaws.numerics.interval import Interval, exact, highest, middle
 from optlaws.numerics.roots import bisect
 from optlaws.numerics.taylor import Jet, variable
 from optlaws.sentences import sentence
-from optlaws.synthesis.limits.formula_jets import formula_jet
 from optlaws.tolerances import CLOSURE, FORCE_EXTREMES
 
 

@@ -32,7 +32,6 @@ from optlaws.synthesis.limits.closed_forms import (
     rms_limit,
 )
 from optlaws.synthesis.limits.drive_limits import LONG, limit_beside, limit_of_plane, phase_torque
-from optlaws.synthesis.limits.formula_jets import formula_jet
 from optlaws.synthesis.limits.motions.standing import Standing
 from optlaws.synthesis.limits.of_problem import known_limit
 from optlaws.synthesis.limits.phase_plane import TorqueLimit, VelocityLimit

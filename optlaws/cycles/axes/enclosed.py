@@ -14,6 +14,7 @@ import numpy as np
 from optlaws.cycles.cycle import Cycle
 from optlaws.errors import InputError
 from optlaws.formulas.arithmetic import NUMPY, evaluate
+from optlaws.formulas.jets import formula_jet
 from optlaws.formulas.tree import Formula
 from optlaws.kept import kept_property
 from optlaws.motion.smooth_stretches import EnclosedStretch, jet_of_parts, smooth_parts
@@ -21,7 +22,6 @@ from optlaws.numbers import Array
 from optlaws.numerics.branch_and_bound import Extremes, extremes
 from optlaws.numerics.interval import Interval, exact
 from optlaws.numerics.taylor import Jet
-from optlaws.synthesis.limits.formula_jets import formula_jet
 from optlaws.tolerances import INTERLOCK, PASS_WIDTH
 
 _SECTION_WIDTH = 1e-12  # of a polygon: sides that are narrower are upright

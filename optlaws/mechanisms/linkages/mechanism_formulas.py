@@ -18,6 +18,7 @@ from optlaws.entries.value_types import ReadBy, ValueType
 from optlaws.errors import InputError
 from optlaws.formulas.arithmetic import NUMPY, evaluate, horner, pieces
 from optlaws.formulas.convexity import Endpoints, affine, enclosed
+from optlaws.formulas.jets import formula_jet
 from optlaws.formulas.reading import read
 from optlaws.formulas.slopes import added, constant, derivative, multiplied, opposite, scaled
 from optlaws.formulas.tree import (
@@ -42,7 +43,6 @@ from optlaws.numerics.branch_and_bound import Extremes, extremes
 from optlaws.numerics.interval import Interval, between, exact
 from optlaws.numerics.taylor import Jet, variable
 from optlaws.synthesis.functionals.makers import drive_torque
-from optlaws.synthesis.limits.formula_jets import formula_jet
 from optlaws.tolerances import OPERATIONS_ROUNDING, ROUNDOFF, TINY, VALUE_ROUNDING
 
 InputAxis = Literal["angle", "length"]

@@ -26,10 +26,10 @@ from math import comb, fsum, inf, nextafter
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.formulas.jets import formula_jet
 from optlaws.numbers import Array
 from optlaws.numerics.interval import Interval, between, exact
 from optlaws.numerics.taylor import Jet
-from optlaws.synthesis.limits.formula_jets import formula_jet
 from optlaws.synthesis.limits.motions.standing import Standing
 from optlaws.synthesis.limits.phase_plane import PhasePlane
 from optlaws.synthesis.limits.phase_plane_cells import PI, CellBounds, Guess, Potential, ProofCells, positions

@@ -17,10 +17,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.formulas.arithmetic import horner
+from optlaws.formulas.jets import formula_jet
 from optlaws.numbers import Array
 from optlaws.numerics.interval import Interval, between, chosen, exact
 from optlaws.numerics.taylor import Jet, variable
-from optlaws.synthesis.limits.formula_jets import formula_jet
 from optlaws.synthesis.limits.motions.standing import Standing
 from optlaws.synthesis.limits.phase_plane import PhasePlane
 from optlaws.synthesis.limits.phase_plane_velocity import InnerMinimum, entries_of

@@ -12,6 +12,7 @@ from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.formulas.arithmetic import NUMPY, evaluate
 from optlaws.formulas.convexity import quadratic
+from optlaws.formulas.jets import formula_jet
 from optlaws.formulas.of_motion import MotionFormula
 from optlaws.formulas.reading import read
 from optlaws.formulas.slopes import added, constant, opposite, scaled
@@ -20,7 +21,6 @@ from optlaws.kept import kept_property
 from optlaws.numbers import Array, not_negative, power_of_two
 from optlaws.numerics.interval import exact
 from optlaws.numerics.taylor import Jet, variable
-from optlaws.synthesis.limits.formula_jets import formula_jet
 
 _ZERO, _ONE = Number(0.0), Number(1.0)
 _KEYS = (("c",), ("b", "b"), ("b",), ())

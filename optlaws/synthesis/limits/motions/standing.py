@@ -24,13 +24,13 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from optlaws.formulas.arithmetic import NUMPY, evaluate
+from optlaws.formulas.jets import formula_jet
 from optlaws.formulas.tree import Formula, Number, Product, Reciprocal
 from optlaws.kept import kept_property
 from optlaws.numbers import Array
 from optlaws.numerics.branch_and_bound import extremes, integral
 from optlaws.numerics.interval import Interval, exact
 from optlaws.numerics.taylor import Jet, variable
-from optlaws.synthesis.limits.formula_jets import formula_jet
 from optlaws.synthesis.limits.phase_plane import PhasePlane
 from optlaws.synthesis.limits.phase_torque import AnyTorque, GearTorque, PhaseTorque
 from optlaws.tolerances import ROUNDOFF

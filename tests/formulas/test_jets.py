@@ -4,9 +4,8 @@ import mpmath as mp  # type: ignore[import-untyped]
 import numpy as np
 import pytest
 
-from tests.internals.formulas import read
+from tests.internals.formulas import formula_jet, read
 from tests.internals.numerics import Interval, Jet, exact
-from tests.internals.synthesis import formula_jet
 
 FORMULAS = {
     "exp(2*x)": lambda x: mp.exp(2 * x),
