@@ -221,8 +221,7 @@ class PolynomialSpace(LawSpace):
 
     def row(self, nu: int, k: float) -> Array:
         if k in {0.0, 1.0} and nu < self.order:
-            # the end conditions say it, without rounding
-            return np.append(np.zeros(self.terms), float((self.boundary.end if k else self.boundary.start)[nu]))
+            return self.end_row(nu, k)
         return np.asarray(chebyshev.chebval(1.0 - 2.0 * k, self.series(nu)))
 
     @kept_property

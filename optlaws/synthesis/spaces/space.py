@@ -169,6 +169,10 @@ class LawSpace(ABC):
     def row(self, nu: int, k: float) -> Array:
         """The derivative of order nu at k: free functions, then the base law."""
 
+    def end_row(self, nu: int, k: float) -> Array:
+        """The row of a derivative that the end conditions give, at 0 or at 1: without rounding."""
+        return np.append(np.zeros(self.terms), float((self.boundary.end if k else self.boundary.start)[nu]))
+
     @abstractmethod
     def below(self, slack: Array, peak: float = 0.5) -> ConstraintFamily:
         """Rows b <= b(peak) of laws with c(peak) = 0; symmetric ones have their peak at 1/2."""

@@ -57,6 +57,9 @@ class SplineSpace(PiecewiseSpace):
         self._z = self._z @ np.linalg.inv(root)
         self._pieces.clear()
 
+    def row(self, nu: int, k: float) -> Array:
+        return self.end_row(nu, k) if k in {0.0, 1.0} and nu < self.order else super().row(nu, k)
+
     def pieces(self, nu: int) -> PieceSeries:
         if nu not in self._pieces:
             series = self._series(self._parts, 2 * self.order + self.basis.degree - nu, partial(self._derivative, nu))
