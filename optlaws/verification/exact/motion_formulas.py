@@ -26,8 +26,8 @@ from optlaws.synthesis.spaces.of_basis import space_of
 from optlaws.verification.enclosing.ball_formulas import BALLS, POLYNOMIALS, composed, exact_pieces, series_of
 from optlaws.verification.enclosing.balls import Extremes, ball, rational
 from optlaws.verification.enclosing.pieces import PolynomialPiece
+from optlaws.verification.enclosing.space import ExactSpace
 from optlaws.verification.enclosing.taylor_models import between, extremes, integrals, least_and_greatest
-from optlaws.verification.exact.space import ExactSpace
 
 _KINKED = frozenset({"abs", "max", "min"})
 

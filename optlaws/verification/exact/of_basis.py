@@ -15,7 +15,7 @@ from optlaws.synthesis.spaces.bases import Basis, Pieces, PolynomialBasis
 from optlaws.synthesis.spaces.periodic_pieces import PeriodicPieces
 from optlaws.synthesis.spaces.splines import PiecewiseBasis
 from optlaws.verification.enclosing.balls import rational
-from optlaws.verification.exact.space import Condition, ExactSpace, Functions
+from optlaws.verification.enclosing.space import Condition, ExactSpace, Functions
 
 _HALF = Fraction(1, 2)
 _X = fmpq_poly([0, 1])

@@ -7,7 +7,6 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import pairwise
 from math import comb, factorial
-from typing import Protocol
 
 from flint import acb, acb_mat, acb_series, arb, arb_mat, arb_series, ctx, fmpq, fmpq_poly
 
@@ -16,6 +15,7 @@ from optlaws.kept import kept_property
 from optlaws.verification.enclosing.ball_formulas import composed
 from optlaws.verification.enclosing.balls import ball, rational, series_length
 from optlaws.verification.enclosing.pieces import PolynomialPiece
+from optlaws.verification.enclosing.space import ExactSpace
 from optlaws.verification.machines.transfer import Pole, Transfer
 
 Columns = list[fmpq_poly]
@@ -56,15 +56,6 @@ class DrivenStretch:
         return begin, end
 
 
-class Space(Protocol):
-    """The laws of a problem in exact numbers, as `optlaws.verification.exact` has them."""
-
-    breaks: list[Fraction]
-
-    def derivative(self, nu: int) -> list[Columns]:
-        """Derivatives of order nu by k, as polynomials in x = 2k - 1 on each piece."""
-
-
 def of_pieces(pieces: Sequence[PolynomialPiece]) -> list[DrivenStretch]:
     """The motion of a stored law, in a single column."""
     drives = []
@@ -74,7 +65,7 @@ def of_pieces(pieces: Sequence[PolynomialPiece]) -> list[DrivenStretch]:
     return drives
 
 
-def of_space(space: Space) -> list[DrivenStretch]:
+def of_space(space: ExactSpace) -> list[DrivenStretch]:
     """The motion of all laws of a space: free functions, then the base law; symmetric laws are mirrored at 1/2."""
     drives = []
     for part, (low, high) in zip(space.derivative(0), pairwise(space.breaks), strict=True):

@@ -14,11 +14,11 @@ from optlaws.kept import kept_property
 from optlaws.mechanisms.machine.output_constants import OutputConstant, OutputPeak
 from optlaws.verification.enclosing.balls import ball, rational, root
 from optlaws.verification.enclosing.pieces import PolynomialPiece
+from optlaws.verification.enclosing.space import ExactSpace
 from optlaws.verification.enclosing.taylor_models import Ends, Taylor, cells, greatest_magnitude, integrals_of_products
 from optlaws.verification.machines.output_motion import (
     DrivenStretch,
     OutputMotion,
-    Space,
     cycle,
     followed,
     of_pieces,
@@ -80,7 +80,7 @@ class ExactOutput:
 class OutputRows:
     """An output under all laws of a problem, at the working precision of its first use."""
 
-    def __init__(self, constant: OutputConstant, space: Space) -> None:
+    def __init__(self, constant: OutputConstant, space: ExactSpace) -> None:
         self.exact, self.space = ExactOutput(constant), space
 
     @kept_property
