@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from math import sqrt
+from math import inf, sqrt
 from typing import TYPE_CHECKING, Any, Literal, Self, TypeVar, get_args
 
 import numpy as np
 
 from optlaws.cycles.optimisation.objectives import SUMS, check_objective, kind_of
 from optlaws.cycles.optimisation.optimal import remark_on_degrees, search_space
-from optlaws.cycles.optimisation.span_values import along, bound_of, is_exact, total
+from optlaws.cycles.optimisation.span_values import BOUND_ROUNDING, along, bound_of, is_exact, total
 from optlaws.cycles.placed import SegmentPeaks, limits_taken, segments_in_place
 from optlaws.cycles.specification.limits import FORCE_UNITS, FORCES, LOAD, LimitTaken
 from optlaws.cycles.specification.programme import LawSpan, Programme
@@ -40,8 +40,8 @@ if TYPE_CHECKING:
 PlotOver = Literal["time", "speed"]
 T = TypeVar("T")
 _STRICTER = (
-    "the gear loses power and a load acts: where the motor brakes, its torque is counted as that of power that flows "
-    "back, which may be more than it is, so that nothing is proven of it"
+    "The gear loses power under a load. While the motor brakes, the search takes its torque as if power flowed back, "
+    "which is never less than the torque; the lower bound is proven otherwise, of any law that never turns back."
 )
 
 
@@ -82,8 +82,9 @@ class Answers(Exportable):
         if not self.solve().checked and not all(taken.is_kept for taken in self.limits_taken):
             return Status.INFEASIBLE
         worst = Status.worst(solution.status for solution in self.solutions)
-        if self.solutions and worst == Status.OPTIMAL and self.lower_bound is not None:
-            return Status.OPTIMAL if self.objective <= self.lower_bound * (1.0 + CYCLE_OPTIMALITY) else Status.LOCAL
+        bound = self._bound
+        if self.solutions and worst == Status.OPTIMAL and bound is not None:
+            return Status.OPTIMAL if self.objective <= bound * (1.0 + CYCLE_OPTIMALITY) else Status.LOCAL
         return worst
 
     @answer
@@ -140,8 +141,18 @@ class Answers(Exportable):
     def lower_bound(self) -> float | None:
         """The lower bound of laws of the `search_space` in the same times; with friction, that never turn back.
 
-        Laws that are not in it may be below: of a higher degree, of a lower order, of more pieces.
+        Laws that are not in it may be below: of a higher degree, of a lower order, of more pieces. None where nothing
+        is proven: of what cannot be below 0, a bound of 0 says nothing.
         """
+        bound, kind = self._bound, kind_of(self.solve().minimise)[0]
+        if bound is None or bound == -inf:
+            return None
+        nothing = kind is not Kind.ENERGY and bound <= BOUND_ROUNDING * self.objective
+        return None if nothing and self.objective > 0.0 else bound
+
+    @answer
+    def _bound(self) -> float | None:
+        """The lower bound as it is computed, be it nothing; None where none is."""
         plan, cycle = self.solve(), self.solve().specification
         if plan.bound is not None or (plan.laws and cycle.in_si.shares):
             return plan.bound

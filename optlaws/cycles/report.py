@@ -306,8 +306,9 @@ def proof_rows(plan: Solved) -> list[Row]:
         return []
     unit = objective_unit(plan)
     rows = [Row("status", plan.status.value), Row(f"least {plan.minimise}", plan.objective, unit)]
-    if plan.lower_bound is not None:
-        rows.append(Row("proven lower bound", plan.lower_bound, unit))
+    bound = plan.lower_bound
+    none = Row("proven lower bound", "none is known")
+    rows.append(none if bound is None else Row("proven lower bound", bound, unit))
     return [*rows, Row("found among", plan.search_space), *(Row("remark", remark) for remark in plan.remarks)]
 
 

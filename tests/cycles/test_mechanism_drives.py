@@ -1,10 +1,12 @@
 """Cycles that drive mechanisms: torques along the cycle, laws of least torque, their limits, and motors with gears."""
 
+from dataclasses import replace
 from math import sqrt
 from typing import Any
 
 import numpy as np
 import pytest
+from scipy.optimize import brentq
 
 from optlaws import (
     Cycle,
@@ -138,18 +140,70 @@ def test_peaks_behind_a_gear_with_losses_are_of_two_torques() -> None:
 
 
 def test_peaks_of_a_lossy_gear_with_a_load_are_kept_and_called_local() -> None:
-    """With a load the torque below 0 is counted as that of power back, so that nothing is proven."""
+    """With a load the torque below 0 is counted as that of power back: the bound is that of the drive."""
     drive = Drive(
         Mechanism("0.8 kg m^2", load="3*sin(x)", coulomb=0.3), Motor("3e-4 kg m^2"), ratio=20, efficiency=0.85
     )
     best = Cycle(INDEXED, **EACH, minimise="torque", drive=drive)
-    assert "nothing is proven" in best.remarks[-1]
+    assert "any law that never turns back" in best.remarks[-1]
     assert best.status.value == "local"
-    assert best.lower_bound == pytest.approx(3.0 * np.sin(np.pi / 4) / 20)  # which holds the load between the moves
+    limit = drive.limit("peak torque", "0 deg", "45 deg", "0.25 s")
+    assert best.lower_bound == limit.value
+    assert 0.9 * best.objective < limit.value < best.objective
     rms = Cycle(
         INDEXED, **EACH, minimise="rms torque", drive=drive, limits={"torque": f"{1.05 * best.objective!r} N m"}
     )
     assert best.objective < rms.effort.peak_force <= 1.05 * best.objective * (1 + 1e-9)
+
+
+RUBBING = Drive(
+    Mechanism("2 kg m^2", coulomb="6 N m"), Motor("3e-4 kg m^2", constant=0.4, peak_torque="9 N m"), 10, 0.92
+)
+QUARTER: dict[str, Any] = {"period": "1 s", "advance": "90 deg", "drive": RUBBING}
+
+
+def test_a_table_with_friction_behind_a_gear_with_losses_has_the_bound_of_two_constant_torques() -> None:
+    """The least peak torque takes it all: speeding up to twice the mean velocity, and braking from there."""
+    inertia, motor, i, eta, rub, time = 2.0, 3e-4, 10.0, 0.92, 6.0, 0.4
+    fastest = 2.0 * (np.pi / 2.0) / time
+
+    def lasts(torque: float) -> float:
+        up = (torque - rub / (eta * i)) / (i * motor + inertia / (eta * i))
+        down = (torque + rub * eta / i) / (i * motor + inertia * eta / i)
+        return fastest / up + fastest / down - time
+
+    best = Cycle([Rise("90 deg", "0.4 s"), Dwell()], **QUARTER, minimise="torque", degree=5)
+    assert best.lower_bound == pytest.approx(brentq(lasts, 1.0, 50.0), rel=1e-6)
+    assert best.objective > brentq(lasts, 1.0, 50.0)
+
+
+@pytest.mark.parametrize("minimise", ["torque", "rms torque", "power", "heat"])
+def test_no_law_that_never_turns_back_is_below_the_bound_of_a_gear_with_losses(minimise: str) -> None:
+    best = Cycle([Rise("90 deg", "0.4 s"), Dwell()], **QUARTER, minimise=minimise, degree=5)
+    assert best.status.value == "local"
+    assert best.lower_bound is not None
+    assert best.lower_bound > 0.5 * best.objective
+    for law in ("modified sine", "modified trapezoid", "cycloidal", "3-4-5 polynomial", "modified constant velocity"):
+        given = Cycle([Rise("90 deg", "0.4 s", law=law), Dwell()], **QUARTER)
+        assert given.value(minimise) >= best.lower_bound
+
+
+def test_a_bound_of_nothing_is_none() -> None:
+    """A load over the master is of no phase plane, and the gear's losses leave the search without a bound."""
+    process = {
+        "torque": {"0 deg": "0 N m", "72 deg": "5 N m", "144 deg": "0 N m", "360 deg": "0 N m"},
+        "over": "master",
+    }
+    loaded = Cycle(
+        [Rise("90 deg", "0.4 s"), Dwell()],
+        **{**QUARTER, "drive": replace(RUBBING, mechanism=Mechanism("2 kg m^2"))},
+        load=process,
+        minimise="torque",
+        degree=3,
+    )
+    assert (loaded.lower_bound, loaded.status.value) == (None, "local")
+    rows = {row.name: row.value for row in loaded.summary()}
+    assert rows["proven lower bound"] == "none is known"
 
 
 def test_the_sheet_of_a_cycle_is_that_of_its_move() -> None:

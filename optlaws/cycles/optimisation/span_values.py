@@ -22,7 +22,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from functools import reduce
+from functools import lru_cache, reduce
 from itertools import pairwise
 from math import hypot, inf, sqrt
 from typing import TYPE_CHECKING, Any, TypeAlias
@@ -48,10 +48,14 @@ if TYPE_CHECKING:
     from optlaws.mechanisms.drives.drive_train import Drive
     from optlaws.mechanisms.drives.effort import PieceEffort
     from optlaws.mechanisms.linkages.mechanism_formulas import LinearForce, StrokeTorque
+    from optlaws.synthesis.limits.drive_limits import DriveObjective
 
 PEAKS = {Kind.VELOCITY: "B", Kind.ACCELERATION: "C", Kind.JERK: "J", Kind.SNAP: "snap"}
 _MEANS = {Kind.ACCELERATION: "rms_c", Kind.JERK: "rms_j", Kind.SNAP: "rms_snap"}
 _NEAR_END = 0.02  # share of a move next to its ends where energies are small and say nothing
+
+#: of what is minimised: a lower bound below is rounding, and proves nothing
+BOUND_ROUNDING = 1e-9
 
 #: laws of spans in their places, with their solutions
 Laws: TypeAlias = tuple[tuple[Piece, Solution], ...]
@@ -347,29 +351,71 @@ def _sum(
     return SpanValue((integral(formula),), unit, constant, formula, planes, least=least, summed=True)
 
 
-def bound_by_energy(span: LawSpan, objective: CycleObjective, solution: Solution) -> float:
-    """The lower bound of a span, dimensionless: the bound of its solution, or a better bound by energy."""
+def bound_by_energy(span: LawSpan, objective: CycleObjective, solution: Solution, *, exact: bool = True) -> float:
+    """The lower bound of a span, dimensionless: the bound of its solution, or a better bound by energy.
+
+    Where the constants of the solution are not `exact`, its bound is none; of power the one by energy is, for a gear
+    that loses power takes at no time less of it than one that loses none.
+    """
     least, (_, most) = objective.kind is Kind.POWER, objective.limits.get(Kind.POWER, (0.0, 0.0))
     drive, resting = objective.drive, span.first.velocity == 0.0 == span.last.velocity
-    linear = None if drive is None or span.may_turn or not resting else drive.linear
+    if not exact and (not least or drive is None):
+        return 0.0
+    linear = None if drive is None or span.may_turn or not resting else replace(drive, efficiency=1.0).linear
     # one move from rest to rest, with an inertia and no spring that pushes away
     plain = linear is not None and linear.inertia > 0.0 and linear.stiffness >= 0.0
-    if solution.problem.convex or not (least or most) or not plain or drive is None or linear is None:
-        return solution.lower_bound
+    known = solution.lower_bound if exact else 0.0
+    if (exact and solution.problem.convex) or not (least or most) or not plain or drive is None or linear is None:
+        return known
     unit = span_value(span, drive, Kind.POWER).unit
     ceiling = min(solution.objective if least else inf, most / unit if most else inf)
+    relaxed = _relaxed(span, linear, solution.problem, unit / drive.ratio, ceiling, least=least, loses=not exact)
     try:
-        relaxed = synthesize(_relaxed(span, linear, solution.problem, unit / drive.ratio, ceiling, least=least))
+        bound = synthesize(relaxed).lower_bound
     except (InfeasibleProblem, SolverFailure):
-        return solution.lower_bound
+        return known
     # laws that are faster than the relaxed ones may be take more power than the one found
-    return max(solution.lower_bound, min(relaxed.lower_bound, solution.objective))
+    return max(known, min(bound, solution.objective))
+
+
+def _bound_of_drive(span: LawSpan, objective: CycleObjective) -> float:
+    """The greatest proven bound of a span's torque or copper heat, in SI units, of any law that never turns back.
+
+    Of the motor no limit counts but those that the cycle keeps. 0 where none is known: of a span that does not go from
+    rest to rest, of a load over the time, and of other objectives.
+    """
+    drive, kind = objective.drive, objective.kind
+    resting = span.first.velocity == 0.0 == span.last.velocity and not span.may_turn
+    if drive is None or kind not in {Kind.FORCE, Kind.HEAT} or not resting or drive.mechanism.varies:
+        return 0.0
+    known = {Kind.VELOCITY: "velocity", Kind.ACCELERATION: "acceleration"}
+    sides = span.stretches[0].sides(objective.limits)
+    limits = tuple((known[key.kind], most) for key, most in sides.items() if key.kind in known and not key.sign)
+    move = (span.origin, span.stroke, span.duration)
+    if kind is Kind.HEAT:
+        return drive.train.copper * span.duration * _least_torque(drive, "rms torque", move, limits) ** 2
+    return _least_torque(drive, "rms torque" if objective.mean else "peak torque", move, limits)
+
+
+@lru_cache(maxsize=64)
+def _least_torque(
+    drive: Drive, name: DriveObjective, move: tuple[float, float, float], limits: tuple[tuple[str, float], ...]
+) -> float:
+    """The limit of the torque of a move, by a motor without limits; 0 where none is proven."""
+    free = replace(drive.motor, rated_torque=None, peak_torque=None, greatest_speed=None, curve=(), continuous=())
+    try:
+        return max(replace(drive, motor=free).limit(name, *move, limits=dict(limits)).value, 0.0)
+    except (InfeasibleProblem, InputError, SolverFailure):
+        return 0.0
 
 
 def _relaxed(
-    span: LawSpan, drive: LinearForce, problem: Problem, unit: float, ceiling: float, *, least: bool
+    span: LawSpan, drive: LinearForce, problem: Problem, unit: float, ceiling: float, *, least: bool, loses: bool
 ) -> Problem:
-    """The problem with energies in place of the power, among laws no faster than the power permits."""
+    """The problem with energies in place of the power, among laws no faster than the power permits.
+
+    Of a gear that loses power it is not known how much of what is left comes back to the motor.
+    """
     way = factor(span.stroke, span.duration, 1)
     direction = 1.0 if span.displacement > 0.0 else -1.0
     force = drive.constant + drive.stiffness * span.origin + drive.dry * direction
@@ -384,12 +430,14 @@ def _relaxed(
     damped = f" - ({viscous * fastest!r})*(1 - a)" if problem.monotone else ""
     spared = "" if problem.monotone else f" - ({viscous * fastest**2!r})"
     lost = f"({kinetic} - ({constant!r})*(1 - a) - ({half!r})*(1 - a^2){damped})/(1 - k){spared}"
-    energies = peak(gained, side="high", start=_NEAR_END), peak(lost, side="high", stop=1.0 - _NEAR_END)
+    energies = [peak(gained, side="high", start=_NEAR_END)]
+    energies += [] if loses else [peak(lost, side="high", stop=1.0 - _NEAR_END)]
     known = problem.range("B")
-    convex = {constant: allowed for constant, allowed in problem.bounds.items() if constant.convex}
+    bounded = {} if loses else problem.bounds
+    convex = {constant: allowed for constant, allowed in bounded.items() if constant.convex}
     bounds: dict[Any, Range] = convex if least else convex | dict.fromkeys(energies, Range(0.0, ceiling))
     most = Range(0.0, fastest if known is None else min(fastest, known.high))
-    minimise = maximum(*energies) if least else problem.minimise
+    minimise = (maximum(*energies) if len(energies) > 1 else energies[0]) if least else problem.minimise
     return replace(problem, minimise=minimise, bounds=bounds, B=most, D=None)
 
 
@@ -414,8 +462,11 @@ def span_bound(span: LawSpan, solution: Solution, objective: CycleObjective) -> 
     exact = is_exact(span, objective)
     value = span_value(span, objective.drive, objective.kind, mean=objective.mean)
     if value.summed:
-        return value.bound(solution.problem, solution.lower_bound if exact else -inf)
-    return value.bound(solution.problem, bound_by_energy(span, objective, solution) if exact else 0.0)
+        proven = value.bound(solution.problem, solution.lower_bound if exact else -inf)
+    else:
+        proven = value.bound(solution.problem, bound_by_energy(span, objective, solution, exact=exact))
+    known = exact and proven > BOUND_ROUNDING * value.unit * solution.objective
+    return proven if known else max(proven, _bound_of_drive(span, objective))
 
 
 def is_exact(span: LawSpan, objective: CycleObjective) -> bool:
