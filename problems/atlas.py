@@ -119,7 +119,7 @@ def _curves(axes: Axes, points: Sequence[Any]) -> None:
 
 
 def _limits(points: Sequence[Any]) -> dict[float, float]:
-    return {point.inputs["B"]: point.limit for point in points if point.limit is not None}
+    return {point.inputs["B"]: point.best_possible for point in points if point.best_possible is not None}
 
 
 def _heights(points: Sequence[Any]) -> tuple[float, float]:

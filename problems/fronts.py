@@ -37,7 +37,7 @@ if TYPE_CHECKING:
 _DRAWN_GAP = 1e-4  # of an objective: a gap that no picture shows
 _FEW = 5
 CONSTANTS = ("B", "C", "D", "J")
-HEADINGS = (*CONSTANTS, "lower bound", "gap", "limit", "status")
+HEADINGS = (*CONSTANTS, "lower bound", "gap", "best possible", "status")
 FAMILIES = {name: SavinFamily.of(name) for name in ("I", "II", "III", "IV")}
 
 
@@ -88,7 +88,7 @@ def run(results: Results) -> None:
     drawn: Fronts = [(picture, [_front(spec, picture, curve) for curve in picture.front]) for picture in spec.figure]
     for front in (front for _, fronts in drawn for front in fronts):
         assert (np.diff(front.values, axis=0) * [1.0, -1.0] > 0.0).all(), "each is an exchange"
-        assert all(point.limit is None or point.limit < point.objective for point in front)
+        assert all(point.best_possible is None or point.best_possible < point.objective for point in front)
     lines = [
         [picture.name, *line]
         for picture, fronts in drawn

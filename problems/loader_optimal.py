@@ -32,7 +32,7 @@ KINDS = ("least C_l", "C no greater", "mixture", "least B_l", "least D_l")
 _ABOUT_LEAST = (
     "C and C_l are those of the printed law and of its loader. The least C_l at the same B is that of all laws with "
     "b >= 0 of the order and degree of Z in the heading: {proven}. No law with b >= 0 of any degree is below the "
-    "limit. Better by: the best of them against the printed law."
+    "best possible. Better by: the best of them against the printed law."
 )
 _ABOUT_RIVALS = (
     "Laws of the printed law's own B and order, of the greatest degree: with the least C_l among those whose C is no "
@@ -128,7 +128,7 @@ _proven = partial(balanced_law, bound="tight")
 
 def _headings(rows: Sequence[Row]) -> list[str]:
     pairs = [f"l = {order}, degree {degree}" for order, degree in rows[0].least]
-    return ["law", "B", "C", "C_l", *pairs, "limit", "better by, %"]
+    return ["law", "B", "C", "C_l", *pairs, "best possible", "better by, %"]
 
 
 def _least(rows: Sequence[Row]) -> list[list[Cell]]:

@@ -206,7 +206,7 @@ def _cells(spec: Table, rows: Sequence[Row]) -> tuple[list[str], list[list[Cell]
     headings = ["B", "C printed", "D printed", "B exact", "C exact", "at k", "D exact", "at k", "J exact"]
     headings += ["order l", "degree of Z", "C optimal", "lower bound", "gap <="]
     headings += [f"C optimal, l={spec.order}, degree {degree}" for degree in spec.degrees]
-    headings += ["greatest gap <=", "limit", "limit, b >= 0"]
+    headings += ["greatest gap <=", "best possible", "best possible, b >= 0"]
     cells: list[list[Cell]] = []
     for row in rows:
         constants, same = row.law.constants, row.same
@@ -246,7 +246,7 @@ def _laws(about: str, rows: Sequence[Row]) -> dict[str, Any]:
 
 
 def _solution(solution: Solution) -> dict[str, Any]:
-    names = ("status", "objective", "lower_bound", "limit", "constants", "z", "law", "problem", "certificate")
+    names = ("status", "objective", "lower_bound", "best_possible", "constants", "z", "law", "problem", "certificate")
     whole = solution.to_dict()
     return {name: whole[name] for name in names}
 

@@ -10,14 +10,15 @@ from typing import Any, Self
 from optlaws.cycles.answers import Answers
 from optlaws.cycles.greatest_speed.fastest_search import FastestSearch
 from optlaws.cycles.greatest_speed.timed_spans import TimedSpan
-from optlaws.cycles.moves.fastest_move import limit_row
+from optlaws.cycles.moves.fastest_move import best_possible_row
 from optlaws.cycles.optimisation.objectives import check_rating
 from optlaws.cycles.placed import retimed, segments_in_place
 from optlaws.cycles.specification.limits import FORCE_UNITS, amount, word_of
 from optlaws.entries.declared import Declared, FrozenTable, ValueOf, declared, entry
 from optlaws.entries.value_types import Choice, Listed, Number, ReadBy, Switch, Table, Text
 from optlaws.errors import InputError
-from optlaws.kept import kept_property
+from optlaws.files.reading import renamed_entries
+from optlaws.kept import former_name, kept_property
 from optlaws.lazy import imported
 from optlaws.motion.quantities import TURN, Kind
 from optlaws.sentences import Amount, joined, sentence
@@ -144,12 +145,18 @@ class FastestCycle(Answers, Declared, title="a fastest cycle"):
         "By the name of a motion: no law keeps its limits in a millionth less time than the motion has.",
     )
     _raised: Mapping[str, Callable[[], float]] | None = field(default=None, compare=False, repr=False)
-    limit: float | None = entry(
+    best_possible: float | None = entry(
         Number(above=0.0),
         "The period in seconds that no laws of any degree beat, by the segments of greatest jerk, acceleration and "
         "velocity; None where it is not known, as within limits of a drive and of ends that accelerate.",
         default=None,
     )
+
+    limit = former_name("limit", "best_possible")
+
+    @classmethod
+    def _from_earlier(cls, data: dict[str, Any]) -> dict[str, Any]:
+        return renamed_entries(data)
 
     def _check(self) -> None:
         if self.cycle.limits != self.specification.limits:
@@ -217,7 +224,7 @@ class FastestCycle(Answers, Declared, title="a fastest cycle"):
         rows = [Row("greatest speed", self.rpm, "rpm"), Row("least period", self.period, "s")]
         if self.lower_bound is not None:
             rows.append(Row("proven: none below", self.lower_bound, "s"))
-        rows.append(limit_row(self.limit, self.period))
+        rows.append(best_possible_row(self.best_possible, self.period))
         return Summary([*rows, *(Row("binds", text) for text in self.binding)])
 
     def claims(self) -> dict[str, Any]:
@@ -258,7 +265,7 @@ def fastest_cycle(cycle: Any) -> FastestCycle:
     limited = retimed(cycle, segments_in_place(search.programme, laws.starts, laws.pieces), search.period)
     segments = tuple(_least_duration(search, span) for span in search.spans)
     proven = search.status, search.period, _binding(search, segments), search.proofs
-    return FastestCycle(cycle, limited, segments, *proven, _raised(search), search.limit)
+    return FastestCycle(cycle, limited, segments, *proven, _raised(search), search.best_possible)
 
 
 def _raised(search: FastestSearch) -> dict[str, Callable[[], float]]:

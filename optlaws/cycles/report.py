@@ -252,7 +252,7 @@ class FastestReport(CycleReport):
         fastest = self.fastest
         return {
             "status": fastest.status.value,
-            **{name: getattr(fastest, name) for name in ("speed", "rpm", "period", "lower_bound", "limit")},
+            **{name: getattr(fastest, name) for name in ("speed", "rpm", "period", "lower_bound", "best_possible")},
             "gains": [vars(gain) for gain in fastest.gains],
             "segments": [each.to_dict() for each in fastest.segments],
         }

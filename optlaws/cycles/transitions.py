@@ -10,7 +10,7 @@ from typing import Any, Literal, get_args
 
 import numpy as np
 
-from optlaws.cycles.moves.fastest_move import AXES, FastestMove, MovePlan, limit_row, panels_of
+from optlaws.cycles.moves.fastest_move import AXES, FastestMove, MovePlan, best_possible_row, panels_of
 from optlaws.cycles.moves.timed_moves import move_limits
 from optlaws.cycles.optimisation.objectives import CycleObjective
 from optlaws.cycles.optimisation.optimal import solved, span_problem
@@ -187,12 +187,12 @@ class TransitionCam(MovePlan, Declared, title="a transition cam"):
         if self.least is not None:
             binding = ", ".join(self.least.binding)
             rows.append(Row("proven: none below", self.least.none_below, "s", note=f"{binding} binds"))
-            rows.append(limit_row(self.least.limit, self.duration))
-        elif self.solution.limit is None:
-            rows.append(limit_row(None, self.duration))
+            rows.append(best_possible_row(self.least.best_possible, self.duration))
+        elif self.solution.best_possible is None:
+            rows.append(best_possible_row(None, self.duration))
         else:
             note = f"least {self.solution.problem.minimise} of any degree, as a share of that of the law"
-            rows.append(Row("limit", self.solution.limit / self.solution.objective, note=note))
+            rows.append(Row("best possible", self.solution.best_possible / self.solution.objective, note=note))
         for nu, name in enumerate(QUANTITIES[1:], start=1):
             value, place = max(self.piece.extremes(nu, 0.0, self.duration), key=lambda each: abs(each[0]))
             rows.append(Row(f"peak {name}", abs(value), unit_of(self.axis, nu), place))

@@ -104,8 +104,21 @@ def json_text(content: Any, name: str) -> Any:
     return checked(parsed(content, name), name)
 
 
+#: entries of files that version 1.0 named otherwise, with their present names
+_FORMER_ENTRIES = {"limit": "best_possible"}
+
+
+def renamed_entries(data: Mapping[str, Any]) -> dict[str, Any]:
+    """The entries of a stored result by their present names.
+
+    >>> renamed_entries({"objective": 4.0, "limit": 3.9})
+    {'objective': 4.0, 'best_possible': 3.9}
+    """
+    return {_FORMER_ENTRIES.get(name, name): value for name, value in data.items()}
+
+
 def of_known_format(data: Mapping[str, Any], name: str) -> dict[str, Any]:
-    """The other entries of an object whose format is known; errors call it `name`.
+    """The other entries of an object whose format is known, by their present names; errors call it `name`.
 
     Raises
     ------
@@ -120,7 +133,7 @@ def of_known_format(data: Mapping[str, Any], name: str) -> dict[str, Any]:
     Traceback (most recent call last):
     optlaws.errors.InputError: the certificate was written by a newer optlaws: format 2, this reads up to 1
     """
-    entries = dict(data)
+    entries = renamed_entries(data)
     stated_format = entries.pop("format", 1)
     if type(stated_format) is not int or stated_format < 1:
         raise InputError(f"{name}: the format must be a whole number from 1 on, got {shortened(stated_format)}")

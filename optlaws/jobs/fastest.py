@@ -32,7 +32,7 @@ from optlaws.synthesis.problem.problem import PROBLEM, Problem
 from optlaws.synthesis.status import Status
 
 HEADINGS = (
-    "move", "stroke", "least time, s", "no law below, s", "limit of all laws, s", "above it, %", "status", "binds",
+    "move", "stroke", "least time, s", "no law below, s", "best possible, s", "above it, %", "status", "binds",
 )  # fmt: skip
 _FEW = 7
 _PERCENT = 100.0
@@ -179,10 +179,14 @@ def _line(name: str, move: FastestMove) -> list[Cell]:
     unit, factor = UNITS[AXES[move.unit]][0]
     # what is sought time by time is known to six digits, and where it is proven the bound is a millionth below
     below = move.none_below if move.status is Status.OPTIMAL else float(f"{move.none_below:.5g}")
-    limit = move.limit if move.limit is None or move.least.move.torque is None else float(f"{move.limit:.5g}")
-    price = None if limit is None else f"{_PERCENT * (move.duration / limit - 1.0):.2f}"
+    best = (
+        move.best_possible
+        if move.best_possible is None or move.least.move.torque is None
+        else float(f"{move.best_possible:.5g}")
+    )
+    price = None if best is None else f"{_PERCENT * (move.duration / best - 1.0):.2f}"
     stroke = f"{factor * move.stroke:.9g} {unit}"
-    return [name, stroke, move.duration, below, limit, price, move.status.value, ", ".join(move.binding)]
+    return [name, stroke, move.duration, below, best, price, move.status.value, ", ".join(move.binding)]
 
 
 def _add_move(page: Page, title: str, each: SoughtMove) -> None:

@@ -1,4 +1,4 @@
-"""The job "solutions": a table of problems, each solved, with its bound, its limit and laws to compare with."""
+"""The job "solutions": a table of problems, each solved, with its bound, the best possible and laws to compare with."""
 
 from __future__ import annotations
 
@@ -28,14 +28,26 @@ RESULTS: dict[str, Callable[[Solution], tables.Cell]] = {
     "objective": lambda solution: solution.objective,
     "lower bound": lambda solution: solution.lower_bound,
     "gap": gap,
-    "limit": lambda solution: solution.limit,
-    "above limit, %": lambda solution: (
-        None if solution.limit is None else f"{100.0 * (solution.objective / solution.limit - 1.0):.2f}"
+    "best possible": lambda solution: solution.best_possible,
+    "above best possible, %": lambda solution: (
+        None if solution.best_possible is None else f"{100.0 * (solution.objective / solution.best_possible - 1.0):.2f}"
     ),
     "status": lambda solution: solution.status.value,
 }
 COLUMNS = (*FUNCTIONALS, *RESULTS)
-_NAMES = Listed(Text(), least=1)
+#: columns that problem files of version 1.0 name otherwise
+_FORMER_COLUMNS = {"limit": "best possible", "above limit, %": "above best possible, %"}
+
+
+class ColumnName(Text):
+    """The name of a column."""
+
+    def read(self, value: Any, name: str) -> str:
+        text = super().read(value, name)
+        return _FORMER_COLUMNS.get(text, text)
+
+
+_NAMES = Listed(ColumnName(), least=1)
 
 
 @declared

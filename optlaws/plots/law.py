@@ -117,7 +117,7 @@ def _with_peaks(panel: Panel, axes: Axes, style: Mapping[str, Any]) -> list[Arti
 
 
 def draw_solution(solution: Solution, axes: Axes | Panels | None = None, **style: Any) -> list[Artist]:
-    """Draw the law of a solution with the limits of its problem, and the limit of its order at any degree.
+    """Draw the law of a solution with the limits of its problem, and the best possible of its order at any degree.
 
     Into one pair of axes, where every curve is divided by its peak, no limits are drawn.
     """
@@ -125,7 +125,7 @@ def draw_solution(solution: Solution, axes: Axes | Panels | None = None, **style
         return draw_curve(solution.law, axes, **style)
     by_order = four(panels() if axes is None else axes)
     drawn = [panel for panel in solution.report().panels if panel.name[-1] in LETTERS]
-    artists = [*_draw_each(solution.law, drawn, by_order, style), *_limit(by_order, solution)]
+    artists = [*_draw_each(solution.law, drawn, by_order, style), *_best_possible(by_order, solution)]
     for panel in by_order:
         labelled = dict(zip(*reversed(panel.get_legend_handles_labels()), strict=True))
         if labelled:
@@ -184,12 +184,12 @@ def accelerations_figure(laws: Mapping[str, MotionLaw]) -> Figure:
     return figure
 
 
-def _limit(by_order: Panels, solution: Solution) -> list[Artist]:
+def _best_possible(by_order: Panels, solution: Solution) -> list[Artist]:
     name = solution.problem.titled(str(solution.problem.minimise))
-    if solution.limit is None or name not in PEAKS:
+    if solution.best_possible is None or name not in PEAKS:
         return []
     nu = PEAKS.index(name)
-    text = f"no {limited_laws(solution.problem)} has a smaller {name}: {solution.limit:.6g}"
+    text = f"no {limited_laws(solution.problem)} has a smaller {name}: {solution.best_possible:.6g}"
     signs = (1.0, -1.0) if solution.law.extrema(nu)[0].value < 0.0 else (1.0,)
     look: Any = {"color": "black", "linestyle": ":", "linewidth": 1.1, "label": text}
-    return [by_order[nu].axhline(sign * solution.limit, **look) for sign in signs]
+    return [by_order[nu].axhline(sign * solution.best_possible, **look) for sign in signs]

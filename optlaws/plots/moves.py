@@ -49,12 +49,12 @@ def motion_figure(move: FastestMove, title: str) -> Figure:
 
 
 def strokes_figure(moves: Sequence[FastestMove], title: str) -> Figure:
-    """The least times over the stroke, beside the limit of all laws, and by which share they are above it."""
+    """The least times over the stroke, beside the best possible ones, and by which share they are above it."""
     ordered = sorted(moves, key=lambda move: move.stroke)
     unit, factor = UNITS[AXES[ordered[0].unit]][0]
     strokes = np.array([factor * move.stroke for move in ordered])
     times = np.array([MILLI * move.duration for move in ordered])
-    limits = np.array([np.nan if move.limit is None else MILLI * move.limit for move in ordered])
+    limits = np.array([np.nan if move.best_possible is None else MILLI * move.best_possible for move in ordered])
     with plot_style():
         figure = empty_figure(7.2, 4.6)
         axes = figure.subplots()
@@ -62,7 +62,7 @@ def strokes_figure(moves: Sequence[FastestMove], title: str) -> Figure:
         label = "least time, proven" if proven else "least time that was found"
         axes.plot(strokes, times, color=BLUES[-1], marker="o", markersize=3.0, label=label)
         if not np.isnan(limits).all():
-            axes.plot(strokes, limits, color=GREY, linewidth=1.0, label="limit of all laws")
+            axes.plot(strokes, limits, color=GREY, linewidth=1.0, label="best possible")
         axes.set(xlabel=f"stroke in {unit}", ylabel="time in ms")
         axes.set_ylim(bottom=0.0, top=_ROOM * float(times.max()))
         axes.legend(loc="upper left")

@@ -29,7 +29,7 @@ from optlaws.synthesis.solve import Bound
 from optlaws.synthesis.solve_many import solved
 
 #: numbers of a row that the solutions of an array have as arrays
-_NUMBERS = ("objective", "lower_bound", "gap", "limit", *CONSTANTS)
+_NUMBERS = ("objective", "lower_bound", "gap", "best_possible", *CONSTANTS)
 #: of the points of a run: so many must be on lines, else each is solved from the one before it
 _MOSTLY = 0.75
 
@@ -114,7 +114,7 @@ def _of_solution(solution: Solution) -> dict[str, Any]:
         "objective": solution.objective,
         "lower_bound": bounded(solution.lower_bound),
         "gap": bounded(solution.gap),
-        "limit": solution.limit,
+        "best_possible": solution.best_possible,
         **{name: bounded(getattr(constants, name).value) for name in "BCDJ"},
         "rms_c": bounded(constants.rms_c),
         "iterations": solution.iterations,

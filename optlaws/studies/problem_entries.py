@@ -66,7 +66,7 @@ def gap(solution: Solution) -> str:
 
 def record(solution: Solution) -> dict[str, Any]:
     """Data of a solution for the results: nothing that differs between runs."""
-    names = ["status", "objective", "lower_bound", "limit", "constants", "z", "law", "problem", "certificate"]
+    names = ["status", "objective", "lower_bound", "best_possible", "constants", "z", "law", "problem", "certificate"]
     proofs = {
         "power_certificate": solution.power_certificate,
         "peak_certificate": solution.peak_certificate,

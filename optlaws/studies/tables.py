@@ -10,8 +10,9 @@ import msgspec
 import numpy as np
 
 from optlaws.entries.value_types import Switch, Text, Whole
+from optlaws.files.reading import renamed_entries
 from optlaws.files.writing import MARK
-from optlaws.kept import kept_property
+from optlaws.kept import former_name, kept_property
 from optlaws.laws import MotionLaw
 from optlaws.studies.points import StudyPoints, type_of
 from optlaws.studies.specification import entries
@@ -22,7 +23,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
 CONSTANTS = ("B", "C", "D", "J", "rms_c")
-NUMBERS = ("objective", "lower_bound", "gap", "limit", *CONSTANTS, "seconds")
+NUMBERS = ("objective", "lower_bound", "gap", "best_possible", *CONSTANTS, "seconds")
 OTHERS = ("index", "key", "status", "iterations", "law", "error")
 #: a law stays the JSON text that it is until it is read
 NO_LAW = msgspec.Raw(b"null")
@@ -42,7 +43,7 @@ class StudyPoint(msgspec.Struct, kw_only=True, omit_defaults=True, dict=True):
         The whole problem; InputError where the point describes none.
     status
         How far the law can be trusted or, where there is none, why; `error` has the details.
-    objective, lower_bound, gap, limit
+    objective, lower_bound, gap, best_possible
         As in `Solution`; None where there is no law.
     constants
         B, C, D, J and rms_c of the law; empty where there is none, None for one without bound.
@@ -59,7 +60,7 @@ class StudyPoint(msgspec.Struct, kw_only=True, omit_defaults=True, dict=True):
     objective: float | None = None
     lower_bound: float | None = None
     gap: float | None = None
-    limit: float | None = None
+    best_possible: float | None = None
     B: float | None = None
     C: float | None = None
     D: float | None = None
@@ -71,6 +72,8 @@ class StudyPoint(msgspec.Struct, kw_only=True, omit_defaults=True, dict=True):
     error: str | None = None
     #: entries of the study's problem that all points share
     shared: dict[str, Any] = {}
+
+    limit = former_name("limit", "best_possible")
 
     @property
     def constants(self) -> dict[str, float | None]:
@@ -93,6 +96,7 @@ class StudyPoint(msgspec.Struct, kw_only=True, omit_defaults=True, dict=True):
 
 def row_of(line: Mapping[str, Any], inputs: dict[str, Any]) -> StudyPoint:
     """The row that a line of the Parquet file was."""
+    line = renamed_entries(line)
     results = {name: line[name] for name in (*NUMBERS, *OTHERS) if name in line}
     law, status = results.pop("law"), Status(results.pop("status"))
     return StudyPoint(

@@ -41,7 +41,7 @@ from optlaws.tolerances import AGREEMENT
 _NEARLY_NOTHING = 1e-4  # of a value where it pays: a constant that can be less can be 0, to which no logarithm goes
 _NO_EXCHANGE = 1e-6  # of the first constant of a front: a stretch of it within which nothing is exchanged
 
-_OF_POINTS = ("lower bound", "gap", "limit", "status")
+_OF_POINTS = ("lower bound", "gap", "best possible", "status")
 #: of fronts of B, C, D and J
 HEADINGS = (*CONSTANTS, *_OF_POINTS)
 
@@ -108,10 +108,10 @@ class Front(JsonText):
         return self.rows_of(self._columns)
 
     def rows_of(self, columns: Sequence[str]) -> list[list[float | str | None]]:
-        """Constants of each point, with its lower bound, its gap, its limit and its status."""
+        """Constants of each point, with its lower bound, its gap, what is best possible and its status."""
         constants = ([value_of(point, name) for name in columns] for point in self.points)
         return [
-            [*values, point.lower_bound, point.gap, point.limit, point.status.value]
+            [*values, point.lower_bound, point.gap, point.best_possible, point.status.value]
             for values, point in zip(constants, self.points, strict=True)
         ]
 
@@ -124,7 +124,7 @@ class Front(JsonText):
         >>> from optlaws import pareto_front
         >>> report = pareto_front(Problem(order=4), over=("B", "C"), points=3, between=(1.5, 1.8)).report()
         >>> report.facts[2].note, [curve.name for curve in report.panels[0].series]
-        ('proven at every point', ['front', 'lower bound', 'limit'])
+        ('proven at every point', ['front', 'lower bound', 'best possible'])
         """
         from optlaws.synthesis.report import front_report
 
@@ -137,7 +137,7 @@ class Front(JsonText):
             facts.append(Row(f"no law at {title_of(self.over[0])}", ", ".join(f"{value:.6g}" for value in self.failed)))
         x, y = self.values[:, 0], self.values[:, -1]
         bounds = (np.array([row[i] for row in rows], dtype=float) for i in (-4, -2))
-        curves = [("front", x, y), *zip(("lower bound", "limit"), (x, x), bounds, strict=True)]
+        curves = [("front", x, y), *zip(("lower bound", "best possible"), (x, x), bounds, strict=True)]
         table = ReportTable(self.headings, rows)
         return front_report(self.over, facts, table, curves if len(self.over) == 2 else [], self.to_dict)
 

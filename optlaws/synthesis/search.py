@@ -248,7 +248,7 @@ class LawSearch:
             objective=best.objective,
             certificate=proof,
             lower_bound=bound,
-            limit=limit,
+            best_possible=limit,
             status=status_of(best.objective, bound, problem.objective.scale, proven=problem.convex and not raised),
             iterations=sum(outcome.iterations for outcome in self.outcomes),
             seconds=perf_counter() - self.began,

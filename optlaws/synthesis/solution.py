@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Self
 import numpy as np
 
 from optlaws.files.reading import JsonText
-from optlaws.kept import kept_property
+from optlaws.kept import former_name, kept_property
 from optlaws.laws import Constants, MotionLaw
 from optlaws.laws.law import LawExport
 from optlaws.numbers import bounded
@@ -58,8 +58,8 @@ class Solution(LawExport, JsonText):
         Of a drive's torque or energy that is not convex, where laws must not turn back: what none of them can beat.
     lower_bound
         The best proven lower bound of the objective over all laws of the problem, with its order, basis, bounds and
-        windows: a certificate's or the limit.
-    limit
+        windows: a certificate's or `best_possible`.
+    best_possible
         What no law of the problem's order and within its bounds can beat, whatever its degree: a closed form. None
         where none is known, as for ends other than rest.
     status, iterations, seconds
@@ -88,7 +88,7 @@ class Solution(LawExport, JsonText):
     objective: float
     certificate: Certificate
     lower_bound: float
-    limit: float | None
+    best_possible: float | None
     status: Status
     iterations: int = field(compare=False)
     seconds: float = field(compare=False)
@@ -97,6 +97,7 @@ class Solution(LawExport, JsonText):
     peak_certificate: Certificate | None = field(default=None, repr=False)
     drive_limit: DriveLimit | None = field(default=None, repr=False)
     active_set: ActiveSet = field(repr=False, kw_only=True, compare=False)
+    limit = former_name("limit", "best_possible")
 
     if not TYPE_CHECKING:
 
@@ -164,8 +165,10 @@ class Solution(LawExport, JsonText):
         --------
         >>> import optlaws
         >>> rows = optlaws.synthesize(optlaws.Problem(B=1.859, order=4)).summary()
-        >>> [row.name for row in rows][:4], rows[3].text(5), rows[3].note
-        (['status', 'C', 'lower bound', 'limit'], '4.0231', 'which no law of order 4 with this B can beat, whatever...
+        >>> [row.name for row in rows][:4], rows[3].text(5)
+        (['status', 'C', 'lower bound', 'best possible'], '4.0231')
+        >>> rows[3].note
+        'no law of order 4 with this B is below it, whatever its degree'
         """
         from optlaws.shown.summary import Row, Summary
         from optlaws.synthesis.limits.of_problem import limited_laws
@@ -178,12 +181,12 @@ class Solution(LawExport, JsonText):
             if self._is_without_bound
             else Row("lower bound", self.lower_bound, note=f"gap {self.gap:.1e}"),
         ]
-        if self.limit is not None:
-            laws = f"which no {limited_laws(problem)} can beat, whatever its degree"
-            rows.append(Row("limit", self.limit, note=laws))
+        if self.best_possible is not None:
+            laws = f"no {limited_laws(problem)} is below it, whatever its degree"
+            rows.append(Row("best possible", self.best_possible, note=laws))
         if self.drive_limit is not None:
-            laws = "which no law that never turns back can beat, whatever its order and degree"
-            rows.append(Row("limit", self.drive_limit.value, note=laws))
+            laws = "no law that never turns back is below it, whatever its order and degree"
+            rows.append(Row("best possible", self.drive_limit.value, note=laws))
             if self.drive_limit.value > 0.0:
                 cost = self.objective / self.drive_limit.value - 1.0
                 rows.append(Row("cost of order and degree", 100.0 * cost, "%", note="at most"))
@@ -220,7 +223,7 @@ class Solution(LawExport, JsonText):
         return versions()
 
     def plot(self, ax: Any = None, **style: Any) -> list[Any]:
-        """Draw the law as `MotionLaw.plot` does, with the bounds and windows of its problem and its `limit`.
+        """Draw the law as `MotionLaw.plot` does, with the bounds and windows of its problem and `best_possible`.
 
         Raises
         ------
@@ -283,7 +286,7 @@ class Solution(LawExport, JsonText):
             "objective": self.objective,
             "lower_bound": bounded(self.lower_bound),
             "gap": bounded(self.gap),
-            "limit": self.limit,
+            "best_possible": self.best_possible,
             "constants": self.constants.to_dict(rms=False),
             "z": None if self.z is None else list(self.z_powers or self.z),
             "law": self.law.to_dict(),
@@ -302,11 +305,11 @@ class Solution(LawExport, JsonText):
         return report_page("Solution", self.report())
 
     def __repr__(self) -> str:
-        limit = "" if self.limit is None else f"limit={self.limit:.9g}, "
+        best = "" if self.best_possible is None else f"best_possible={self.best_possible:.9g}, "
         problem = self.problem.titled(repr(self.problem))
         return (
             f"Solution(status={self.status.value!r}, objective={self.objective:.9g}, "
-            f"lower_bound={self.lower_bound:.9g}, gap={self.gap:.1e}, {limit}problem={problem})"
+            f"lower_bound={self.lower_bound:.9g}, gap={self.gap:.1e}, {best}problem={problem})"
         )
 
 

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from optlaws.errors import OptlawsError, needed
 from optlaws.files.reading import JsonText
-from optlaws.kept import kept_property
+from optlaws.kept import former_name, kept_property
 from optlaws.laws import MotionLaw
 from optlaws.numbers import Array
 from optlaws.shown.summary import Row, Summary
@@ -127,7 +127,7 @@ class SolvedPart:
             program = replace(model, problem=problem)
             if problem.convex:
                 return certificate(program, solution.active_set, OBJECTIVE)
-            return certify(program, solution.active_set, objective, solution.limit)
+            return certify(program, solution.active_set, objective, solution.best_possible)
 
         known = {
             "problem": problem,
@@ -141,8 +141,10 @@ class SolvedPart:
             "law": lambda solution: model.law(solution.active_set.x),
             "z_series": lambda solution: tuple(model.space.z_series(model.coordinates(solution.active_set.x)).tolist()),
             "certificate": proof,
-            "limit": lambda solution: known_limit(solution.problem),
-            "lower_bound": lambda solution: max(bound, -inf if solution.limit is None else solution.limit),
+            "best_possible": lambda solution: known_limit(solution.problem),
+            "lower_bound": lambda solution: max(
+                bound, -inf if solution.best_possible is None else solution.best_possible
+            ),
             "status": lambda solution: status_of(objective, solution.lower_bound, scale, proven=problem.convex),
         }
         return partly_known(known, later)
@@ -300,9 +302,11 @@ class SolutionArray(JsonText):
         """Why there is no law, by places in the flattened array."""
         return MappingProxyType({i: result for i, result in self.others.items() if isinstance(result, OptlawsError)})
 
+    limit = former_name("limit", "best_possible")
+
     @kept_property
-    def limit(self) -> Array:
-        """Limits for laws of the problem's order and bounds of any degree; NaN if not known."""
+    def best_possible(self) -> Array:
+        """What no law of the problem's order and bounds is below, of any degree; NaN if not known."""
         limits = np.full(self.size, np.nan)
         for place in np.flatnonzero(~np.isnan(self.objective.reshape(-1))).tolist():
             known = known_limit(self.problems.problem(place))

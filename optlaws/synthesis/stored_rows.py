@@ -73,7 +73,7 @@ class StatedSolution(msgspec.Struct, forbid_unknown_fields=True):
     seconds: float
     starts: tuple[float, ...]
     gap: Any = None
-    limit: Any = None
+    best_possible: Any = None
     constants: Any = None
     z: Any = None
     power_certificate: Plain | None = None
@@ -176,7 +176,7 @@ def claims_of(row: StatedSolution, problem: Problem, law: MotionLaw) -> Plain:
         **proofs,
         "objective": row.objective,
         "lower_bound": bound,
-        "limit": limit,
+        "best_possible": limit,
         "status": row.status,
         "drive_limit": drive,
     }

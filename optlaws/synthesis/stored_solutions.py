@@ -191,7 +191,7 @@ def _check_row(row: StatedSolution, problem: Problem, model: Model, laws: Solved
     if not equal_data(as_json(law.to_dict()), row.law):
         raise InputError("its law is another than that of the arrays' coordinates")
     claims, bound = claims_of(row, problem, law), float(laws.bound[i])
-    if max(bound, -inf if claims["limit"] is None else claims["limit"]) != claims["lower_bound"]:
+    if max(bound, -inf if claims["best_possible"] is None else claims["best_possible"]) != claims["lower_bound"]:
         raise InputError(f"its lower bound is {row.lower_bound!r}, but that of the arrays {bound!r}")
     if problem.convex:
         _check_contacts(claims["certificate"].leaf, model.program, laws.active_set(i))

@@ -242,16 +242,16 @@ def _limit(least: LeastTime[TimedMove], data: Data) -> Iterator[Claim]:
 
     A file with another value than these is refused.
     """
-    if least.limit is None or data["limit"] is None:
+    if least.best_possible is None or data["best_possible"] is None:
         return
-    stated, move = number(data, "limit"), least.move
+    stated, move = number(data, "best_possible"), least.move
     known = {"the segments": least_time_of_any_law(move), "the phase plane": move.limit_of_torque}
     how, proven = max(((how, Fraction(each)) for how, each in known.items() if each is not None), key=itemgetter(1))
     holds = Fraction(stated) <= proven * (1 + Fraction(STORED_VALUE))
     # the program that finds the potential may find another one on another machine
     beside = "" if holds else ", as near to it as a conic program in doubles comes"
     detail = f"{stated!r} stated, {float(proven)!r} by {how}{beside}"
-    yield Claim("the limit of all laws", proven=holds, detail=detail, checked=holds)
+    yield Claim("the best possible time", proven=holds, detail=detail, checked=holds)
 
 
 _KEYS = ("duration", "value", "lower_bound", "solution")

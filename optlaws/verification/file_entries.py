@@ -101,9 +101,9 @@ def entries(data: Data) -> dict[str, FileEntry]:
 
     >>> list(entries({"rows": [{"solution": {"law": {}, "constants": {}}}, {"about": "none"}]}))
     ['rows[0].solution']
-    >>> entries({"rows": [{"solution": {"law": {}, "constants": {}}}, {"limit": 4.0}]})
+    >>> entries({"rows": [{"solution": {"law": {}, "constants": {}}}, {"best_possible": 4.0}]})
     Traceback (most recent call last):
-    optlaws.errors.InputError: ...rows[1].limit claims something without a certificate: 4.0
+    optlaws.errors.InputError: ...rows[1].best_possible claims something without a certificate: 4.0
     """
     return dict(_walk(data, "", FileEntry({})))
 
@@ -131,7 +131,7 @@ def _objects(data: object, path: str = "") -> Iterator[tuple[str, Data]]:
 def holds_proof(data: object) -> bool:
     """Whether a solution, a limit or a part of a proof stands anywhere in data, however deep.
 
-    >>> holds_proof({"moves": [{"solution": {"certificate": {}}}]}), holds_proof({"moves": [{"limit": 4.0}]})
+    >>> holds_proof({"moves": [{"solution": {"certificate": {}}}]}), holds_proof({"moves": [{"best_possible": 4.0}]})
     (True, False)
     """
     return any(_OF_PROOFS & table.keys() or kind_of(table) not in {None, "array", "law"} for _, table in _objects(data))

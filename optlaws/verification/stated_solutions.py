@@ -12,7 +12,7 @@ from flint import arb, ctx, fmpq, fmpq_poly
 from optlaws.echo import shortened
 from optlaws.entries.value_types import Choice
 from optlaws.errors import InputError, located
-from optlaws.files.reading import entries_of
+from optlaws.files.reading import entries_of, renamed_entries
 from optlaws.laws import MotionLaw
 from optlaws.mechanisms.linkages.move_limit import MoveLimit
 from optlaws.numbers import real
@@ -112,6 +112,7 @@ def _of_drive(limit: DriveLimit, unit: Fraction, *claims: Claim) -> Verification
 
 def solution(data: Data) -> Verification:
     """A law with its problem and its proofs."""
+    data = renamed_entries(data)
     entries_of(data, ("problem", "law", "certificate"), "the solution")
     beside = [key for key in _BESIDE if data.get(key) is not None]
     for name in ("problem", "law", "certificate", *beside):
@@ -135,8 +136,8 @@ def solution(data: Data) -> Verification:
             over = float((Fraction(number(data, "lower_bound")) - bound) / size)
     stated: dict[str, Proven] = {
         "objective": of_number(lambda value: near("the objective", value, objective, scale)),
-        "limit": of_number(
-            lambda value: at_most("the limit", value, exact_limit(problem), scale, " by its closed form")
+        "best_possible": of_number(
+            lambda value: at_most("the best possible", value, exact_limit(problem), scale, " by its closed form")
         ),
         "z": lambda z, _: [_of_z(z, problem, law)],
         "constants": partial(_constants, law),

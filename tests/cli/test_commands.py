@@ -18,7 +18,7 @@ from tests.internals.cli import COMMANDS, RETIRED, exit_code
 from tests.internals.cli import app_of_cli as app
 from tests.jobs.examples import SOLUTIONS, SOLUTIONS_PRINTED
 
-KEYS = ["status", "objective", "lower_bound", "gap", "limit", "constants", "z", "law", "iterations", "seconds"]
+KEYS = ["status", "objective", "lower_bound", "gap", "best_possible", "constants", "z", "law", "iterations", "seconds"]
 SOLVE = ["solve", "--peak-velocity", "1.641", "--order", "4", "--degree", "3"]
 ROW_1_53 = "148.4156 -553.8533 771.0667 -514.0444"
 
@@ -55,7 +55,7 @@ def test_solve_prints_one_json_object(capsys: Capture, extra: list[str]) -> None
     assert data["objective"] == data["constants"]["C"]["value"]
     assert data["lower_bound"] <= data["objective"]
     assert data["gap"] <= 1e-8
-    assert data["limit"] == pytest.approx(1.641**2 / 0.641)
+    assert data["best_possible"] == pytest.approx(1.641**2 / 0.641)
     assert isinstance(data["iterations"], int)
     assert data["seconds"] > 0.0
 
@@ -73,8 +73,8 @@ def test_z_and_the_law_of_the_json_are_the_same_law(capsys: Capture, basis: str)
 def test_solve_without_json_says_what_was_found(capsys: Capture) -> None:
     code, out, err = called(capsys, *SOLVE)
     assert (code, err) == (0, "")
-    limit = "no law of order 4 with this B can beat, whatever its degree"
-    for part in ("optimal", "6.87252932", "lower bound", limit, "Problem(B=1.641, order=4"):
+    best = "no law of order 4 with this B is below it, whatever its degree"
+    for part in ("optimal", "6.87252932", "lower bound", best, "Problem(B=1.641, order=4"):
         assert part in out
 
 

@@ -22,6 +22,7 @@ EXPLAINED = {
     r"jerk_limited_move": "`jerk_limited_move`",
     r"read_spectrum: points: .*": "`read_spectrum(points=...)`",
     r"constants|cam|atlas|ledger|dwell|lever|loader": "Commands, each of which answers with what to use",
+    r"Solution: (limit: .*|best_possible must now be given)|solutions: columns: .*": "`best_possible`",
     r"fronts|force loaded": "The jobs `fronts`, `force loaded` and `atlas`",
 }
 #: what a file could hold stays the same, and is stated now: what a text may be, and what is taken unless it is given;

@@ -230,7 +230,7 @@ def test_the_limit_of_a_problem_is_below_what_is_found(asked: dict[str, Any]) ->
     solution = synthesize(problem)
     assert known is not None
     assert 0.0 < known <= solution.objective
-    assert solution.limit == known
+    assert solution.best_possible == known
     assert solution.objective < 2.5 * known
     assert isfinite(solution.objective)
 

@@ -44,8 +44,8 @@ def test_the_optimum_beside_modified_sine() -> None:
     assert frame["C"].round(3).tolist() == [5.528, 5.189, 4.903]
     assert frame["J"].to_numpy() == pytest.approx([J] * 3, rel=1e-9)
     assert frame["D"].round(2).tolist() == [5.46, 6.41, 7.22]
-    assert nine.limit is not None
-    assert round(nine.limit, 3) == 4.866
+    assert nine.best_possible is not None
+    assert round(nine.best_possible, 3) == 4.866
 
 
 def test_what_a_small_C_costs_is_said() -> None:

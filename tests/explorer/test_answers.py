@@ -87,7 +87,7 @@ def test_points_of_a_front_are_laws_of_their_own_problems(pair: tuple[str, str])
 
 def test_a_front_ends_where_laws_end_and_its_limit_lies_below() -> None:
     found = front_view.front(Problem(order=4, J=at_most(70.0)), "B", "C")
-    line, limits = curve(found, "front"), dict(curve(found, "limit"))
+    line, limits = curve(found, "front"), dict(curve(found, "best possible"))
     least, greatest = line[0][0], line[-1][0]
     for B, exists in ((least, True), (least - 0.01, False), (greatest, True)):
         assert isinstance(solved(Problem(order=4, J=at_most(70.0), B=B)), Solution) == exists
@@ -512,8 +512,8 @@ def test_a_bound_of_minus_infinity_is_no_bound() -> None:
 def test_how_far_a_law_is_above_the_limit_is_told() -> None:
     view = law_view.answer(LawsRequest(laws=[law(OPTIMAL)]))["laws"][0]
     solution = synthesize(Problem(order=4, B=1.7))
-    assert solution.limit is not None
+    assert solution.best_possible is not None
     results = view["trust"]["facts"][-1]
     assert float(results.split(" % above")[0].rpartition(" ")[2]) == pytest.approx(
-        100.0 * (solution.objective / solution.limit - 1.0), abs=0.05
+        100.0 * (solution.objective / solution.best_possible - 1.0), abs=0.05
     )

@@ -30,7 +30,7 @@ def test_the_least_time_and_what_is_least_in_longer_ones_are_the_library_s(serve
     move = fastest(Problem.from_dict(STUDY["problem"]), **GRIPPER)
     answer = served.ask("fastest", {"study": STUDY})
     assert answer["time"] == answer["least"]["time"] == move.duration
-    assert answer["least"]["limit"] == move.limit
+    assert answer["least"]["best_possible"] == move.best_possible
     # the limits that bind are those of which all is taken somewhere
     assert {share["name"] for share in answer["shares"] if share["full"]} == set(move.binding)
     assert all(float(share["text"]) <= 100.0 for share in answer["shares"])

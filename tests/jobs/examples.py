@@ -92,7 +92,7 @@ SOLUTIONS = """
 job = "solutions"
 title = "Small"
 text = "Few words."
-columns = ["C", "J", "lower bound", "gap", "limit", "above limit, %", "status"]
+columns = ["C", "J", "lower bound", "gap", "best possible", "above best possible, %", "status"]
 [problem]
 order = 4
 [[sweep]]

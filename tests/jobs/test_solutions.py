@@ -70,7 +70,7 @@ def test_results_in_the_repository_hold_together(name: str) -> None:
     rows = table(ROOT / "results" / name / "table.csv")
     for row in rows:
         objective = float(row.get("objective") or row[name[0].upper()])
-        assert float(row["limit"]) * (1.0 - 1e-7) <= float(row["lower bound"]) <= objective * (1.0 + 1e-7)
+        assert float(row["best possible"]) * (1.0 - 1e-7) <= float(row["lower bound"]) <= objective * (1.0 + 1e-7)
         assert row["status"] in {"optimal", "local"}
         assert (float(row["gap"]) <= 1e-8) == (row["status"] == "optimal")
 

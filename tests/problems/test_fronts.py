@@ -49,7 +49,7 @@ def test_results_in_the_repository_fall_and_keep_above_the_limits() -> None:
         values = np.array([[float(row[first]), float(row[last])] for row in mine])
         assert (np.diff(values[:, 0]) > 0.0).all()
         assert (np.diff(values[:, 1]) < 0.0).all()
-        assert all(float(row["limit"]) < float(row[last]) for row in mine)
+        assert all(float(row["best possible"]) < float(row[last]) for row in mine)
 
 
 def test_more_conditions_cost_more() -> None:

@@ -45,7 +45,7 @@ def test_rows_are_what_synthesize_gives(small: Study) -> None:
             continue
         assert point.status == solution.status.value
         assert point.objective == pytest.approx(solution.objective, rel=1e-11)
-        assert point.limit == solution.limit
+        assert point.best_possible == solution.best_possible
         assert isinstance(point.law, MotionLaw)
         # laws of an array have their constants together, which sums in another order
         assert point.law.constants.C.value == pytest.approx(point.constants["C"], rel=1e-15)

@@ -61,7 +61,7 @@ def test_rows_are_those_of_each_alone() -> None:
         assert list(one) == list(other)
         for name in ("index", "key", "inputs", "status", "error"):
             assert one[name] == other[name]
-        for name in ("objective", "lower_bound", "limit", "B", "C", "rms_c") if other["law"] else ():
+        for name in ("objective", "lower_bound", "best_possible", "B", "C", "rms_c") if other["law"] else ():
             assert one[name] == pytest.approx(other[name], rel=1e-10)
         assert (one["law"] is None) == (other["law"] is None)
         assert one["key"] == key(entries({"basis": "chebyshev"}, one["inputs"]))
@@ -151,7 +151,7 @@ def test_any_number_may_run_and_the_rows_are_those_of_each_alone(weights: list[f
     for i, row in zip(picked, solved(turned), strict=True):
         assert all(many[i][name] == row[name] for name in ("index", "key", "inputs", "status"))
         assert (many[i]["error"] is None) == (row["error"] is None)
-        for name in ("objective", "lower_bound", "limit", "B", "C", "J") if row["law"] else ():
+        for name in ("objective", "lower_bound", "best_possible", "B", "C", "J") if row["law"] else ():
             assert many[i][name] == pytest.approx(row[name], rel=1e-9)
 
 

@@ -105,9 +105,9 @@ def check_solution(solution: Solution, *, of_array: bool = False) -> None:
     assert 0.0 <= solution.gap + 1e-14 <= 1e-8
     assert solution.lower_bound <= peak * (1 + 1e-14)
     assert peak <= solution.lower_bound * (1 + 1e-8)
-    assert solution.limit is not None
-    assert peak >= solution.limit
-    proven = max(solution.certificate.bound, solution.limit)
+    assert solution.best_possible is not None
+    assert peak >= solution.best_possible
+    proven = max(solution.certificate.bound, solution.best_possible)
     # laws of an array have their bounds together: rounding takes a little more of each, and never less
     assert solution.lower_bound <= proven if of_array else solution.lower_bound == proven
 

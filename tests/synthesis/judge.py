@@ -386,7 +386,7 @@ def judge(solution: Solution) -> None:
     hidden = 1e-12 * max(amplitudes, default=0.0)
     assert solution.lower_bound <= solution.objective + 1e-11 * abs(solution.objective) + hidden, problem
     assert solution.lower_bound == max(
-        solution.certificate.bound, -inf if solution.limit is None else solution.limit
+        solution.certificate.bound, -inf if solution.best_possible is None else solution.best_possible
     ), problem
     status = solution.status.value
     assert status in {"optimal", "local"}, f"{status}: {problem!r}"

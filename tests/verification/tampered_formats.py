@@ -200,7 +200,7 @@ def array(problems: ProblemArray, places_of: Sequence[int], bound: Bound = "quic
     def wrong(_: Data, stored: SolutionArray) -> list[str]:
         differing = [
             name
-            for name in ("shape", "status", "objective", "B", "C", "J", "z_series", "limit")
+            for name in ("shape", "status", "objective", "B", "C", "J", "z_series", "best_possible")
             if not close(getattr(stored, name), getattr(true, name))
         ]
         higher = stored.lower_bound > true.lower_bound * (1.0 + CLOSE)
@@ -247,7 +247,7 @@ def _is_proven(laws: SolutionArray, place: int) -> bool:
         return bool(proof.proves_infeasible) and proof.problem == result.problem
     if isinstance(result, OptlawsError):
         return True
-    known = [result.certificate.bound, -math.inf if result.limit is None else result.limit]
+    known = [result.certificate.bound, -math.inf if result.best_possible is None else result.best_possible]
     known += [proof.bound for proof in (result.power_certificate, result.peak_certificate) if proof is not None]
     return bool(result.lower_bound <= max(known) * (1.0 + CLOSE)) and (result.gap <= 1e-8) == (
         result.status.value == "optimal"

@@ -31,7 +31,8 @@ def without_ground() -> dict[str, tuple[Data, str]]:
     law = {name: whole[name] for name in ("law", "constants")}
     return {
         "beside a law": (
-            law | {"problem": whole["problem"] | {"B": 1.7}, "status": "optimal", "limit": 99.0, "z": [1, 2, 3]},
+            law
+            | {"problem": whole["problem"] | {"B": 1.7}, "status": "optimal", "best_possible": 99.0, "z": [1, 2, 3]},
             "the law: unknown entry 'problem'",
         ),
         "another status": (local | {"status": "PROVEN OPTIMAL"}, "'PROVEN OPTIMAL'"),
@@ -44,7 +45,7 @@ def without_ground() -> dict[str, tuple[Data, str]]:
             changed(whole, ("certificate", "contacts", 0), whole["certificate"]["contacts"][0] | {"proven": True}),
             "unknown field `proven`",
         ),
-        "a row beside": ({"rows": [whole, {"status": "optimal", "limit": 1e9, "C": 1.0}]}, "rows[1].status"),
+        "a row beside": ({"rows": [whole, {"status": "optimal", "best_possible": 1e9, "C": 1.0}]}, "rows[1].status"),
         "a row of a solution": ({"rows": [{"solution": whole, "C": 1.0}]}, "rows[0]: unknown entry 'C'"),
         "text": ({"rows": [whole], "verdict": "all proven"}, "verdict claims something"),
         "a printed B": ({"rows": [{"B": 1.2, "printed": law}]}, "rows[0].B claims something"),
@@ -114,7 +115,7 @@ def test_another_status_limit_or_z_is_not_believed(problem: Problem) -> None:
     assert verify(data).proven
     tampered: list[Data] = [copy.deepcopy(data) for _ in range(3)]
     tampered[0]["status"] = "optimal"
-    tampered[1]["limit"] = 1.001 * data["objective"]
+    tampered[1]["best_possible"] = 1.001 * data["objective"]
     tampered[2]["z"] = [1.0] if data["z"] is None else [*data["z"][:-1], data["z"][-1] + 1e-6]
     assert verify(tampered[0]).proven == (data["status"] == "optimal")
     assert not verify(tampered[1]).proven
@@ -131,8 +132,8 @@ def test_another_status_limit_or_z_is_not_believed(problem: Problem) -> None:
 )
 def test_limits_are_proven_by_their_closed_forms(minimise: str, order: int, bounds: dict[str, Any]) -> None:
     data = data_of(Problem(B=1.8, order=order, basis=Chebyshev(5), minimise=minimise, **bounds))
-    lines = [line for line in str(verify(data)).splitlines() if " the limit: " in line]
-    assert [line.partition(" the limit")[0].strip() for line in lines] == ["proven"]
+    lines = [line for line in str(verify(data)).splitlines() if " the best possible: " in line]
+    assert [line.partition(" the best possible")[0].strip() for line in lines] == ["proven"]
     assert not verify(data).results()["unchecked"]
-    above = verify({**data, "limit": 1.001 * data["limit"]})
-    assert [claim.name for claim in above.claims if not claim.proven] == ["the limit"]
+    above = verify({**data, "best_possible": 1.001 * data["best_possible"]})
+    assert [claim.name for claim in above.claims if not claim.proven] == ["the best possible"]

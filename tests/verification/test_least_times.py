@@ -30,7 +30,7 @@ def test_the_law_and_that_none_is_faster_are_proven(data: dict[str, Any]) -> Non
     names = [claim.name for claim in verification.claims]
     assert "the limit of the deceleration" in names
     assert any(name.startswith("no law in a time") for name in names)
-    assert "the limit of all laws" in names
+    assert "the best possible time" in names
     assert verification.unchecked == ()
     assert list(verify_all({"moves": [data]})) == ["moves[0]"]
 
@@ -76,7 +76,7 @@ def random_moves(numbers: np.random.Generator, count: int) -> list[TimedMove]:
 
 def test_the_limit_of_all_laws_is_proven_in_every_unit_and_with_every_limit() -> None:
     for move in random_moves(np.random.default_rng(3), 400):
-        known, proven = move.limit, least_time_of_any_law(move)
+        known, proven = move.best_possible, least_time_of_any_law(move)
         assert (known is None) == (proven is None), move
         assert known is None or float(proven or 0) == pytest.approx(known, rel=1e-13, abs=0.0), move
 
@@ -89,7 +89,7 @@ def table() -> Drive:
 
 def limit_of_all_laws(data: dict[str, Any]) -> Claim:
     known = verify(data)
-    (claim,) = (claim for claim in (*known.claims, *known.unchecked) if claim.name == "the limit of all laws")
+    (claim,) = (claim for claim in (*known.claims, *known.unchecked) if claim.name == "the best possible time")
     return claim
 
 
@@ -107,7 +107,7 @@ def test_a_limit_within_a_torque_is_proven_by_the_phase_plane_where_the_torque_b
 
 def test_a_limit_above_what_the_potential_proves_is_not_proven(table: Drive) -> None:
     data = json.loads(fastest(Problem(order=3), stroke="45 deg", limits={}, drive=table).to_json())
-    data["limit"] *= 1.0 + 5e-6
+    data["best_possible"] *= 1.0 + 5e-6
     claim = limit_of_all_laws(data)
     assert (claim.proven, claim.checked) == (False, False)
     assert "conic program" in claim.detail

@@ -380,7 +380,7 @@ def test_the_program_of_the_page_takes_every_simple_proof(tmp_path: Path, monkey
     assert count == 167
 
 
-@pytest.mark.parametrize("name", ["lower_bound", "limit"])
+@pytest.mark.parametrize("name", ["lower_bound", "best_possible"])
 def test_a_bound_above_the_objective_is_false_at_sight(name: str, tmp_path: Path) -> None:
     data = synthesize(Problem(order=3, basis=Chebyshev(5), B=1.8)).to_dict()
     for factor in (1.0 + 1e-6, 1.1, 10.0):
@@ -450,16 +450,16 @@ def test_limits_of_drives_are_not_checked_and_false_where_they_contradict_themse
 def test_what_stands_beside_a_proof_is_not_passed_over(tmp_path: Path) -> None:
     solution = _solution().to_dict()
     beside: list[Any] = [
-        {"table": [solution, {"limit": 4.0}]},
+        {"table": [solution, {"best_possible": 4.0}]},
         {"table": [solution, 4.0]},
         {"best": solution, "least": 4.0},
-        {"best": solution, "least": [{"limit": [4.0]}]},
+        {"best": solution, "least": [{"best_possible": [4.0]}]},
         solution | {"value": 4.0},
         solution | {"constants": solution["constants"] | {"snap_x": 4.0}},
-        {"B": 1.859, "best": solution, "least": {"limit": 4.0}},
+        {"B": 1.859, "best": solution, "least": {"best_possible": 4.0}},
     ]
     assert ended([solution, solution], tmp_path).returncode == 0
-    for data in [*beside, {"limit": 4.0}, [4.0], {"about": "nothing"}]:
+    for data in [*beside, {"best_possible": 4.0}, [4.0], {"about": "nothing"}]:
         assert ended(data, tmp_path).returncode == 3, data
     for wrong in ({"B": 1.8, "best": solution}, solution | {"status": "local"}, solution | {"status": "best"}):
         assert ended(wrong, tmp_path).returncode == 1

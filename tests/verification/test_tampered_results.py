@@ -25,7 +25,7 @@ FILES = [
 PROOFS = {"certificate", "power_certificate", "peak_certificate", "proof", "proofs"}
 BEGINNING, DESCRIPTION = "state", "about"
 #: what is weaker where it is less
-BOUNDS = {"lower_bound", "limit", "bound"}
+BOUNDS = {"lower_bound", "best_possible", "bound"}
 #: how many kinds of values of a file are changed each time
 EACH_TIME = 12
 

@@ -21,7 +21,8 @@ Entries: TypeAlias = "dict[str, Any]"
 
 #: what the pages on verification say is computed again in doubles, or has no proof beside it
 PARTLY = re.compile(
-    r"not checked (at [^:]* s: )?(the limit: .* in doubles|the file: results without proofs|the arrays: |the law: )"
+    r"not checked (at [^:]* s: )?"
+    r"(the best possible( time)?: .* in doubles|the file: results without proofs|the arrays: |the law: )"
 )
 #: exit codes of a problem that is refused, has no law, or whose solver stopped
 REFUSED = {2, 3, 4}

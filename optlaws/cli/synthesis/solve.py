@@ -18,8 +18,8 @@ if TYPE_CHECKING:
 
 #: the law that most designers would take, and the followers it is compared for: two to five vibrations in the motion
 _USUAL, _FREQUENCIES = "modified sine", (12.0, 32.0)
-_KEYS = ("status", "objective", "lower_bound", "gap", "limit", "constants", "z", "law", "iterations", "seconds")
-_MOVE_KEYS = ("unit", "stroke", "limits", "duration", "limit")
+_KEYS = ("status", "objective", "lower_bound", "gap", "best_possible", "constants", "z", "law", "iterations", "seconds")
+_MOVE_KEYS = ("unit", "stroke", "limits", "duration", "best_possible")
 _MOVE = options(
     "optlaws.cycles.moves.timed_moves:fastest",
     *("stroke", "start_velocity", "end_velocity"),

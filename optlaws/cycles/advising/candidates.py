@@ -84,7 +84,7 @@ class ProvenLeast(NamedTuple):
         What is least.
     lower_bound
         What no law of the space that keeps the same limits takes less than; None where nothing is known.
-    limit
+    best_possible
         What no law of any degree does; None where none is known.
     space
         The laws of which none is better, in words.
@@ -94,7 +94,7 @@ class ProvenLeast(NamedTuple):
 
     minimise: str
     lower_bound: float | None
-    limit: float | None
+    best_possible: float | None
     space: str
     status: Status
 
@@ -482,8 +482,10 @@ class Candidates:
         if minimise == plan.minimise:
             # of a peak of the motion alone is known what no degree betters
             known = moves if kind.order and not mean else []
-            limit = max((each.limit * scale for each, scale in known if each.limit is not None), default=None)
-            proof = ProvenLeast(minimise, plan.lower_bound, limit, space, plan.status)
+            best = max(
+                (each.best_possible * scale for each, scale in known if each.best_possible is not None), default=None
+            )
+            proof = ProvenLeast(minimise, plan.lower_bound, best, space, plan.status)
         else:
             bound = max(solution.lower_bound * scale for solution, scale in moves)
             proven = all(solution.status is Status.OPTIMAL for solution in solutions)

@@ -155,8 +155,10 @@ class _Words:
             proven = sentence("None of the {}{} has less than {}", proof.space, with_no_more, least)
         else:
             proven = sentence("That none has less than {}, is proven", least)
-        if proof.limit:
-            proven = sentence("{}, and none of any degree less than {}", proven, self._with_unit(minimise, proof.limit))
+        if proof.best_possible:
+            proven = sentence(
+                "{}, and none of any degree less than {}", proven, self._with_unit(minimise, proof.best_possible)
+            )
         return proven
 
     @property

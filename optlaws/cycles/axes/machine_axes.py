@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal, TypeAlias, Unpack
 from optlaws.cycles.axes.interlock import INTERLOCKS, Interlock, LeastClearance
 from optlaws.cycles.axes.report import AxesReport, OverlapReport
 from optlaws.cycles.cycle import Cycle, Plan
-from optlaws.cycles.moves.fastest_move import limit_row
+from optlaws.cycles.moves.fastest_move import best_possible_row
 from optlaws.cycles.placed import with_laws
 from optlaws.cycles.specification.programme import is_optimal, period_of
 from optlaws.cycles.specification.segments import CycleSegment, Dwell
@@ -508,7 +508,7 @@ class Overlap(AxesAnswers, Declared, title="axes that overlap"):
             "proven lower bound": (self.lower_bound, unit),
             "gain": (self.gain, better),
         }
-        rows = [*(Row(name, *value) for name, value in values.items()), limit_row(None, self.objective)]
+        rows = [*(Row(name, *value) for name, value in values.items()), best_possible_row(None, self.objective)]
         return Summary([Row("status", self.status.value), *rows, *(Row("bound by", name) for name in self.binding)])
 
     def report(self) -> Report:

@@ -127,11 +127,11 @@ class FastestSearch:
         return period
 
     @property
-    def limit(self) -> float | None:
+    def best_possible(self) -> float | None:
         """A period that no laws of any degree beat, in seconds; None where it is not known of a motion that binds."""
-        if self.binding_rating is not None or any(span.limit is None for span in self.binding):
+        if self.binding_rating is not None or any(span.best_possible is None for span in self.binding):
             return None
-        return self._summed([span.limit or 0.0 for span in self.spans])[0]
+        return self._summed([span.best_possible or 0.0 for span in self.spans])[0]
 
     def _summed(self, scales: Sequence[float]) -> tuple[float, float]:
         """The least period at which motions have such scales of their times, and that of those which turn alone."""

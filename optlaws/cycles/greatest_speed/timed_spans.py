@@ -74,7 +74,7 @@ class TimedSpan(Timed):
     def begin(self) -> float:
         """Between rests the scale that no law is faster than, else the greatest at which a usual law takes a limit."""
         usual = ((_USUAL.get(limit.nu, 1.0) / limit.rate) ** (1.0 / (limit.nu or 2)) for limit in self.along)
-        return (self.limit if self.problem.boundary is None else None) or max(usual)
+        return (self.best_possible if self.problem.boundary is None else None) or max(usual)
 
     @property
     def where(self) -> str:
@@ -112,7 +112,7 @@ class TimedSpan(Timed):
             ) from error
 
     @kept_property
-    def limit(self) -> float | None:
+    def best_possible(self) -> float | None:
         """The scale that no law of any degree is faster than, or that of a given law; None where it is not known."""
         if self.problem is None:
             return self.scale

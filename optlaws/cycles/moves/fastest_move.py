@@ -13,7 +13,7 @@ from optlaws.cycles.specification.limits import LimitTaken
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.files.reading import JsonText, entries_of
-from optlaws.kept import kept_property
+from optlaws.kept import former_name, kept_property
 from optlaws.laws import MotionLaw
 from optlaws.laws.law import LawExport
 from optlaws.mechanisms.drives.drive_train import Drive
@@ -108,9 +108,9 @@ class FastestMove(LawExport, MovePlan, JsonText):  # type: ignore[misc] # its ex
         of the snap adds a bound of its own from rest to rest: then laws need not come near, nor at order 2 with a limit
         of the jerk where an end moves.
     limit_breaks
-        Breaks of `Pieces(breaks, degree=3, continuity=2)` that reach the limit; empty where none are known.
+        Breaks of `Pieces(breaks, degree=3, continuity=2)` that reach it; empty where none are known.
     price
-        The share by which laws of the problem's space are slower than all laws; None without a limit.
+        The share by which laws of the problem's space are slower than all laws; None where `best_possible` is.
     none_below, gap
         The time up to which it is proven that no law of the space keeps the limits, s, and its relative difference.
     status
@@ -124,7 +124,7 @@ class FastestMove(LawExport, MovePlan, JsonText):  # type: ignore[misc] # its ex
     >>> move = optlaws.fastest(
     ...     optlaws.Problem(order=3), stroke="100 mm", limits={"acceleration": "8 m/s^2", "jerk": "300 m/s^3"}
     ... )
-    >>> round(move.duration, 6), round(move.limit, 6), move.binding
+    >>> round(move.duration, 6), round(move.best_possible, 6), move.binding
     (0.255736, 0.251858, ('acceleration', 'jerk'))
     """
 
@@ -136,7 +136,8 @@ class FastestMove(LawExport, MovePlan, JsonText):  # type: ignore[misc] # its ex
     duration = kept_property[float](lambda move: move.least.duration)
     stroke = kept_property[float](lambda move: move.least.move.stroke)
     law = kept_property[MotionLaw](lambda move: move.least.law)
-    limit = kept_property[float | None](lambda move: move.least.limit)
+    best_possible = kept_property[float | None](lambda move: move.least.best_possible)
+    limit = former_name("limit", "best_possible")
     limit_breaks = kept_property[tuple[float, ...]](lambda move: move.least.move.limit_breaks)
     price = kept_property[float | None](lambda move: move.least.price)
     none_below = kept_property[float](lambda move: move.least.none_below)
@@ -205,10 +206,10 @@ class FastestMove(LawExport, MovePlan, JsonText):  # type: ignore[misc] # its ex
         )
 
     def proof_rows(self) -> Summary:
-        """The least time and the limit of all laws, with what is proven of them."""
+        """The least time and the best possible time, with what is proven of them."""
         rows = [Row("least time", self.duration, "s", note=self._proven)]
         laws = "of any degree" if self.least.move.torque is None else "that never turns back"
-        return Summary([*rows, limit_row(self.limit, self.duration, laws)])
+        return Summary([*rows, best_possible_row(self.best_possible, self.duration, laws)])
 
     def _exported(self) -> tuple[MotionLaw, tuple[str, ...]]:
         return self.law, self._proof
@@ -276,20 +277,20 @@ class FastestMove(LawExport, MovePlan, JsonText):  # type: ignore[misc] # its ex
         return draw_move(self, ax, **style)
 
     def __repr__(self) -> str:
-        limit = "" if self.limit is None else f", limit={self.limit:.9g}"
-        return f"FastestMove(duration={self.duration:.9g}{limit}, binding={self.binding!r})"
+        best = "" if self.best_possible is None else f", best_possible={self.best_possible:.9g}"
+        return f"FastestMove(duration={self.duration:.9g}{best}, binding={self.binding!r})"
 
 
-def limit_row(limit: float | None, least: float, laws: str = "of any degree") -> Row:
+def best_possible_row(best: float | None, least: float, laws: str = "of any degree") -> Row:
     """What is known of the time of all laws, beside the least time of those of a space.
 
-    >>> limit_row(None, 0.2).text(), limit_row(0.2, 0.21).note
-    ('not known', 'that no law of any degree beats: the space costs 5 %')
+    >>> best_possible_row(None, 0.2).text(), best_possible_row(0.2, 0.21).note
+    ('not known', 'no law of any degree takes less; the least time is 5 % above it')
     """
-    if limit is None:
-        return Row("limit", "not known", note=f"of what no law {laws} beats")
-    price = 100.0 * max(least / limit - 1.0, 0.0)
-    return Row("limit", limit, "s", note=f"that no law {laws} beats: the space costs {price:.2g} %")
+    if best is None:
+        return Row("best possible", "not known", note=f"for laws {laws}")
+    above = 100.0 * max(least / best - 1.0, 0.0)
+    return Row("best possible", best, "s", note=f"no law {laws} takes less; the least time is {above:.2g} % above it")
 
 
 @dataclass(frozen=True)

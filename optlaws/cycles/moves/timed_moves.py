@@ -106,7 +106,7 @@ def fastest(
     >>> import optlaws
     >>> limits = {"velocity": "1 m/s", "acceleration": ("-8 m/s^2", "12 m/s^2"), "jerk": "300 m/s^3"}
     >>> move = fastest(optlaws.Problem(order=3), stroke="100 mm", limits=limits)
-    >>> round(move.duration, 6), round(move.limit, 6), move.binding
+    >>> round(move.duration, 6), round(move.best_possible, 6), move.binding
     (0.243994, 0.240161, ('acceleration', 'deceleration', 'jerk'))
     """
     move, unit = _timed(problem, stroke, limits, (start_velocity, end_velocity), drive, start, follower)

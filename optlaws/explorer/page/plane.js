@@ -50,7 +50,7 @@ export class Plane {
 
   showFront({ series = [], ...front }) {
     const curve = (name) => series.filter((one) => one.name === name).flatMap(({ at, values }) => at.map((x, i) => [x, values[i]]).filter(([, y]) => y !== null));
-    this.#front = { ...front, line: curve("front"), limit: curve("limit") };
+    this.#front = { ...front, line: curve("front"), best: curve("best possible") };
     this.#draw();
   }
 
@@ -74,7 +74,7 @@ export class Plane {
     const clip = svg("clipPath", { id: "plane-clip" }, svg("rect", { x: box.left, y: box.top, width: box.right - box.left, height: box.bottom - box.top }));
     const lines = svg("g", { "clip-path": "url(#plane-clip)" });
     const at = ([one, other]) => [this.#x(one), this.#y(other)];
-    if (this.#front.limit.length) lines.append(svg("path", { class: "limit", d: path(this.#front.limit.map(at)) }));
+    if (this.#front.best.length) lines.append(svg("path", { class: "limit", d: path(this.#front.best.map(at)) }));
     for (const { line } of this.#front.families) lines.append(svg("path", { class: "family", d: path(line.map(at)) }));
     lines.append(svg("path", { class: this.#front.proven ? "front" : "front local", d: path(this.#front.line.map(at)) }));
     // what is not proven is no curve but the laws that were found
@@ -88,7 +88,7 @@ export class Plane {
     return x >= box.left && x <= box.right && y >= box.top && y <= box.bottom;
   }
 
-  /** The names of the families, at the last of their points within the picture, and of the limit. */
+  /** The names of the families, at the last of their points within the picture, and of the best possible. */
   #names(box) {
     const group = svg("g", { class: "names", "aria-hidden": "true" });
     const at = ([x, y]) => [this.#x(x), this.#y(y)];
@@ -96,10 +96,10 @@ export class Plane {
       const place = line.map(at).findLast((one) => this.#inside(one, { ...box, top: box.top + 12, right: box.right - 14 }));
       if (place) group.append(svg("text", { class: "family-name", x: place[0] + 5, y: place[1] + 4, text: name }));
     }
-    const limit = this.#front.limit.map(at).filter((one) => this.#inside(one, box));
-    // no smooth law lies below and before the limit: there is room
-    const place = limit[Math.floor(limit.length * 0.22)];
-    if (place && place[0] > box.left + WRITTEN) group.append(svg("text", { class: "limit-name", x: place[0] - 8, y: place[1] + 14, "text-anchor": "end", text: "limit of all laws of this order" }));
+    const best = this.#front.best.map(at).filter((one) => this.#inside(one, box));
+    // no smooth law lies below and before the best possible: there is room
+    const place = best[Math.floor(best.length * 0.22)];
+    if (place && place[0] > box.left + WRITTEN) group.append(svg("text", { class: "limit-name", x: place[0] - 8, y: place[1] + 14, "text-anchor": "end", text: "best possible with any law of this order" }));
     return group;
   }
 

@@ -316,10 +316,15 @@ function worth({ moments, fixed, off, mean }, slopes) {
   return { value: scaled(total), weight: scaled(weights) };
 }
 
-/* The same file with the names of today: earlier files call the snap jounce. */
+/* The same file with the names of today: earlier files call the snap jounce, and the best possible of a solution its limit. */
 function withPresentNames(data) {
   const text = JSON.stringify(data);
-  return text.includes("jounce") ? JSON.parse(text.replaceAll("jounce", "snap")) : data;
+  const renamed = (name, value) => {
+    if (value === null || typeof value !== "object" || !("limit" in value) || !("objective" in value || "duration" in value)) return value;
+    const { limit, ...others } = value;
+    return { ...others, best_possible: limit };
+  };
+  return text.includes("jounce") || text.includes('"limit":') ? JSON.parse(text.replaceAll("jounce", "snap"), renamed) : data;
 }
 
 /* Everything in a file that this program can check, each with its verdict, and what it does not know of the file. */
@@ -339,8 +344,8 @@ function namesIn(value) {
 const SILENT = ["about", "format", "iterations", "seconds", "starts", "versions", "state"];
 /* The other entries of a solution, of a law with its constants, and of a row of a table. */
 const OF_SOLUTION = [
-  "problem", "law", "constants", "z", "objective", "lower_bound", "gap", "limit", "status", "certificate", "power_certificate",
-  "peak_certificate", "drive_limit",
+  "problem", "law", "constants", "z", "objective", "lower_bound", "gap", "best_possible", "status", "certificate",
+  "power_certificate", "peak_certificate", "drive_limit",
 ];
 const OF_LAW = ["law", "constants"];
 const OF_ROW = ["asked", "status", "B"];

@@ -62,12 +62,12 @@ export function solutionChecked(data, path, proven) {
     const aboveIt = (stated) => above(stated, highest);
     const bounds = [...proven.map(({ bound }) => bound), limit].filter((bound) => bound);
     const certificates = ["certificate", "power_certificate", "peak_certificate"].filter((key) => data[key]);
-    const limitKnown = (data.limit ?? null) === null || agrees(data.limit, limit);
+    const limitKnown = (data.best_possible ?? null) === null || agrees(data.best_possible, limit);
     const ofDrive = data.drive_limit?.value ?? null;
     if (ofDrive !== null && highest && aboveIt(ofDrive)) claim("drive limit", false, `${ofDrive} is stated, above the objective of the law, ${highest.toNumber()}`);
     const allKnown = !data.drive_limit && limitKnown && proven.filter(({ bound }) => bound).length === certificates.length;
     const best = bounds.length ? bounds.reduce(greatest) : null;
-    for (const [name, stated, bound] of [["limit", data.limit ?? null, limit], ["lower bound", data.lower_bound ?? null, best]]) {
+    for (const [name, stated, bound] of [["best possible", data.best_possible ?? null, limit], ["lower bound", data.lower_bound ?? null, best]]) {
       if (stated === null) continue;
       if (agrees(stated, bound)) claim(name, true, `${stated} is stated, ${bound.toNumber()} is proven`);
       else if (highest && aboveIt(stated)) claim(name, false, `${stated} is stated, above the objective of the law, ${highest.toNumber()}`);

@@ -83,7 +83,11 @@ def answer(request: CycleRequest) -> dict[str, Any]:
             *({"name": row.name, "value": Amount(row.value, row.unit), "text": ""} for row in report.demands),
         ],
         "time": report.duration,
-        "least": {"time": search.time, "text": digits(MILLI * search.time), "limit": search.least.limit},
+        "least": {
+            "time": search.time,
+            "text": digits(MILLI * search.time),
+            "best_possible": search.least.best_possible,
+        },
         "objectives": search.objectives,
         "minimise": search.minimise,
         "trust": trust,

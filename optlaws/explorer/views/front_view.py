@@ -1,4 +1,4 @@
-"""Fronts as the page draws them: optimal laws along one constant, the limit of all laws, and known laws."""
+"""Fronts as the page draws them: optimal laws along one constant, the best possible of all laws, and known laws."""
 
 from __future__ import annotations
 
@@ -62,7 +62,7 @@ def swept_problem(problem: Problem, x: str, y: str) -> Problem:
 
 @lru_cache(maxsize=64)
 def front(problem: Problem, x: str, y: str) -> dict[str, Any]:
-    """The optimal laws over x with what is proven of them, and the limit of their order at any degree, as curves."""
+    """The optimal laws over x with what is proven of them, and the best possible at any degree, as curves."""
     span = _span(problem, x)
     if span is None:
         return {"words": f"no {x} has a law of this problem"}

@@ -142,11 +142,11 @@ def trust(solution: Solution) -> dict[str, Any]:
     facts = [f"{objective_title(solution.problem)} = {digits(solution.objective)}"]
     if bounded(solution.lower_bound) is not None:
         facts.append(f"no law of this problem is below {digits(solution.lower_bound)}")
-    if solution.limit is not None:
-        above = 100.0 * (solution.objective / solution.limit - 1.0)
+    if solution.best_possible is not None:
+        above = 100.0 * (solution.objective / solution.best_possible - 1.0)
         facts.append(
-            f"no {limited_laws(solution.problem)}, of any degree, is below {digits(solution.limit)}: this one is "
-            f"{digits(above, 3)} % above"
+            f"no {limited_laws(solution.problem)}, of any degree, is below {digits(solution.best_possible)}: "
+            f"this one is {digits(above, 3)} % above"
         )
     return verdict(solution.status, gap_text(solution.gap), facts)
 

@@ -242,7 +242,7 @@ class LeastTime(JsonText, Generic[TimedT]):
     >>> from optlaws.synthesis.least_time.move_limits import MoveLimits
     >>> from optlaws.synthesis.least_time.time_search import least_time
     >>> least = least_time(TimedMove(Problem(order=3), 1.0, MoveLimits(jerk=1.0)))
-    >>> round(least.duration, 6), round(least.limit, 6), least.binding
+    >>> round(least.duration, 6), round(least.best_possible, 6), least.binding
     (3.249852, 3.174802, ('jerk',))
     """
 
@@ -263,7 +263,7 @@ class LeastTime(JsonText, Generic[TimedT]):
         """The time up to which it is proven that no law of the space keeps the limits, s."""
         if self.proofs:
             return self.proofs[-1].longest
-        return max(self.move.least_conceivable(), self.limit or 0.0)
+        return max(self.move.least_conceivable(), self.best_possible or 0.0)
 
     @property
     def gap(self) -> float:
@@ -276,14 +276,14 @@ class LeastTime(JsonText, Generic[TimedT]):
         return Status.OPTIMAL if self.gap <= 2.0 * LEAST_TIME_GAP else Status.LOCAL
 
     @property
-    def limit(self) -> float | None:
+    def best_possible(self) -> float | None:
         """The time that no law of any degree is faster than, s; None where no closed form is known."""
-        return self.move.limit
+        return self.move.best_possible
 
     @property
     def price(self) -> float | None:
-        """The share by which laws of the problem's space are slower than all laws; None without a limit."""
-        return None if self.limit is None else self.duration / self.limit - 1.0
+        """The share by which laws of the problem's space are slower than all laws; None where `best_possible` is."""
+        return None if self.best_possible is None else self.duration / self.best_possible - 1.0
 
     @kept_property
     def used(self) -> dict[str, float]:
@@ -319,7 +319,7 @@ class LeastTime(JsonText, Generic[TimedT]):
         """Plain JSON-able dict: law and proofs in one, which `optlaws verify` checks."""
         plain = self.move.to_dict() | {
             "duration": self.duration,
-            "limit": self.limit,
+            "best_possible": self.best_possible,
             "solution": self.solution.to_dict(),
             "proofs": [proof.to_dict() for proof in self.proofs],
         }
@@ -334,8 +334,9 @@ class LeastTime(JsonText, Generic[TimedT]):
         InputError
             If an entry is missing or wrong, or states what does not follow from the law and the proofs.
         """
+        if isinstance(data, Mapping):
+            data = of_known_format(data, cls._json_name)
         entries = entries_of(data, KEYS, cls._json_name)
-        data = of_known_format(data, cls._json_name)
         if data.keys() - {*KEYS, *TimedMove.newer}:
             raise InputError(f"{cls._json_name} has the entries {', '.join(KEYS)} and no other")
         of_move = TimedMove.tables()[""]
@@ -344,24 +345,24 @@ class LeastTime(JsonText, Generic[TimedT]):
         with meant():
             solution = Solution.from_dict(entries["solution"])
         read = cls(move, positive(entries["duration"], "duration"), solution, proofs)
-        read._check(entries["limit"])
+        read._check(entries["best_possible"])
         return read
 
-    def _check(self, limit: Any) -> None:
+    def _check(self, given: Any) -> None:
         """Refuse what does not follow from the move."""
         wrong = self.contradiction
         if wrong:
             raise InputError(wrong)
         if not all(proof.stands(self.move) for proof in self.proofs):
             raise InputError("a proof that no law is faster does not show that of its times")
-        known, stated = self.limit, real(limit)
+        known, stated = self.best_possible, real(given)
         # that in the phase plane is a conic program's
         share = PHASE_GAP if isinstance(self.move, TimedMove) and self.move.torque is not None else STORED_VALUE
-        same = limit is None if known is None else stated is not None and abs(stated - known) <= share * known
+        same = given is None if known is None else stated is not None and abs(stated - known) <= share * known
         # none was known of ends that move
-        same = same or (limit is None and not self.move.at_rest)
+        same = same or (given is None and not self.move.at_rest)
         if not same:
-            raise InputError(f"the limit of all laws is {limit!r}, but it is {known!r}")
+            raise InputError(f"best_possible is {given!r}, but the best possible time is {known!r}")
 
     @property
     def contradiction(self) -> str:
@@ -385,4 +386,14 @@ class LeastTime(JsonText, Generic[TimedT]):
 
 
 #: of a file
-KEYS = ("stroke", "limits", "start_velocity", "end_velocity", "duration", "limit", "space", "solution", "proofs")
+KEYS = (
+    "stroke",
+    "limits",
+    "start_velocity",
+    "end_velocity",
+    "duration",
+    "best_possible",
+    "space",
+    "solution",
+    "proofs",
+)

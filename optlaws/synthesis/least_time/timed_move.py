@@ -64,7 +64,7 @@ class Timed:
         raise NotImplementedError
 
     @property
-    def limit(self) -> float | None:
+    def best_possible(self) -> float | None:
         """The time that no law of any degree is faster than; None where it is not known."""
         return None
 
@@ -273,7 +273,7 @@ class TimedMove(Timed, Declared, title="a move"):
         return tuple(sorted([0.5, *(k for k in segments.breaks if abs(k - 0.5) > MIRROR)]))
 
     @kept_property
-    def limit(self) -> float | None:
+    def best_possible(self) -> float | None:
         """The time that no law of any degree is faster than; within a torque, that no law which never turns back is."""
         known = [0.0 if self.segments is None else self.segments.duration, self.limit_of_torque or 0.0]
         if self.at_rest:
@@ -293,7 +293,7 @@ class TimedMove(Timed, Declared, title="a move"):
 
     @property
     def begin(self) -> float:
-        return max(self.limit or 0.0, self.least_conceivable()) or 1.0
+        return max(self.best_possible or 0.0, self.least_conceivable()) or 1.0
 
     @property
     def at_rest(self) -> bool:

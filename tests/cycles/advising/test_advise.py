@@ -74,8 +74,8 @@ def test_optimal_laws_are_recomputed_from_samples_and_proven_by_their_certificat
         assert law.solution.certificate.bound * scale == pytest.approx(law.proof.lower_bound, rel=1e-9)
         assert law.values[least] == pytest.approx(law.proof.lower_bound, rel=1e-7)
     # of no degree below: 4 h/T² of the acceleration, 32 h/T³ of the jerk
-    assert rise["least acceleration"].proof.limit == pytest.approx(4.0 * 3.5)  # type: ignore[union-attr]
-    assert rise["least jerk"].proof.limit == pytest.approx(32.0 * 35.0)  # type: ignore[union-attr]
+    assert rise["least acceleration"].proof.best_possible == pytest.approx(4.0 * 3.5)  # type: ignore[union-attr]
+    assert rise["least jerk"].proof.best_possible == pytest.approx(32.0 * 35.0)  # type: ignore[union-attr]
 
 
 def test_the_bettered_law_is_the_solution_of_its_problem() -> None:
@@ -85,9 +85,9 @@ def test_the_bettered_law_is_the_solution_of_its_problem() -> None:
     known = synthesize(problem)
     bettered = advice[BETTERED]
     assert bettered.values["acceleration"] == pytest.approx(3.5 * known.objective, rel=1e-9)
-    assert known.limit is not None
+    assert known.best_possible is not None
     assert bettered.proof is not None
-    assert bettered.proof.limit == pytest.approx(3.5 * known.limit, rel=1e-9)
+    assert bettered.proof.best_possible == pytest.approx(3.5 * known.best_possible, rel=1e-9)
 
 
 def test_the_rule_is_kept_and_its_words_are_the_rows(rise: Advice) -> None:

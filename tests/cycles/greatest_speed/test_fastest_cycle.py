@@ -302,20 +302,20 @@ def test_no_laws_of_any_degree_beat_the_limit_of_the_period() -> None:
     segments = [Rise("60 mm"), Dwell("40 ms"), Dwell("90 deg"), Return("60 mm", ("10 ms", "1 s"))]
     free = cycle(segments=segments, limits=uneven).fastest()
     move = fastest(Problem(order=3), stroke="60 mm", limits=uneven)
-    assert move.limit is not None
-    assert free.limit == pytest.approx((2.0 * move.limit + 0.04) / 0.75, rel=1e-12)
-    assert move.limit < free.segments[0].least
+    assert move.best_possible is not None
+    assert free.best_possible == pytest.approx((2.0 * move.best_possible + 0.04) / 0.75, rel=1e-12)
+    assert move.best_possible < free.segments[0].least
     turning = cycle(order=3, degree=25).fastest()
-    plain = fastest(Problem(order=3), stroke="35 mm", limits=LIMITS).limit
+    plain = fastest(Problem(order=3), stroke="35 mm", limits=LIMITS).best_possible
     assert plain is not None
-    assert turning.limit is not None
-    assert turning.limit == pytest.approx(plain * 3.6, rel=1e-12)
-    assert 1.0 < turning.period / turning.limit < 1.01
+    assert turning.best_possible is not None
+    assert turning.best_possible == pytest.approx(plain * 3.6, rel=1e-12)
+    assert 1.0 < turning.period / turning.best_possible < 1.01
     given = cycle(segments=[Rise("35 mm", "120 deg", law="cycloidal"), Return("35 mm", law="cycloidal")]).fastest()
-    assert given.limit == given.period
+    assert given.best_possible == given.period
     for unknown in (
         cycle(drive={"mass": "2 kg"}, limits={"force": "60 N"}),
         cycle(segments=[Dwell("72 deg"), Free("30 mm", "144 deg"), Free("-30 mm")]),
     ):
-        row = next(row for row in unknown.fastest().summary() if row.name == "limit")
+        row = next(row for row in unknown.fastest().summary() if row.name == "best possible")
         assert row.value == "not known"

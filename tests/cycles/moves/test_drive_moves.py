@@ -34,7 +34,7 @@ def test_a_torque_of_inertia_alone_is_a_limit_of_the_acceleration() -> None:
     limits = {"velocity": ("0 rad/s", "1e6 rad/s"), "acceleration": f"{4 * 20 / SEEN!r} rad/s^2"}
     by_acceleration = fastest(ORDER_3, stroke="45 deg", limits=limits)
     assert by_torque.duration == pytest.approx(by_acceleration.duration, rel=1e-8)
-    assert by_torque.limit == pytest.approx(by_acceleration.limit, rel=1e-6)
+    assert by_torque.best_possible == pytest.approx(by_acceleration.best_possible, rel=1e-6)
     assert by_torque.status is Status.OPTIMAL
     assert by_torque.binding == ("torque",)
     names = [panel.name for panel in by_torque.report().panels]  # no limit of the motion itself
@@ -107,10 +107,10 @@ def test_a_crank_is_bounded_by_the_phase_plane() -> None:
     drive = Drive(press, Motor("3e-4 kg m^2"), ratio=5)
     space = Problem(order=2)
     move = fastest(space, stroke="180 deg", limits={"torque": "4 N m"}, drive=drive)
-    assert move.limit is not None
+    assert move.best_possible is not None
     assert move.status is Status.LOCAL
-    assert 0.0 < move.duration / move.limit - 1.0 < 0.2
-    assert move.none_below == move.limit
+    assert 0.0 < move.duration / move.best_possible - 1.0 < 0.2
+    assert move.none_below == move.best_possible
     assert drive.sheet(move.law, "0 deg", "180 deg", move.duration).peak_torque == pytest.approx(4.0, rel=1e-6)
     assert drive.sheet(smoothstep(3), "0 deg", "180 deg", move.duration).peak_torque > 4.0
 
@@ -169,8 +169,8 @@ def test_it_runs_along_the_motors_curve_and_no_faster(curved: tuple[Drive, Faste
     assert used.max() == pytest.approx(1.0, rel=1e-5)
     assert "motor's curve" in move.binding
     assert move.status is Status.OPTIMAL
-    assert move.limit is not None
-    assert 0.85 * move.duration < move.limit < move.duration
+    assert move.best_possible is not None
+    assert 0.85 * move.duration < move.best_possible < move.duration
     law: Any = move.law
     terms = len(law.acceleration)
     assert feasible(drive, 1.0001 * move.duration, terms)
@@ -196,8 +196,8 @@ def test_a_motor_that_brakes_itself_against_friction_is_not_proven() -> None:
     heavy = Drive(Mechanism("0.01 kg m^2", "30 N m"), Motor("3e-3 kg m^2"), ratio=20, efficiency=0.9)
     move = fastest(Problem(order=2), stroke="45 deg", limits={"torque": "4 N m"}, drive=heavy)
     assert move.status is Status.LOCAL
-    assert move.limit is not None
-    assert move.none_below == move.limit < move.duration
+    assert move.best_possible is not None
+    assert move.none_below == move.best_possible < move.duration
     assert heavy.sheet(move.law, "0 deg", "45 deg", move.duration).peak_torque <= 4.0 * (1.0 + 1e-9)
 
 
@@ -207,7 +207,7 @@ def test_a_root_mean_square_behind_a_lossy_gear_is_kept() -> None:
     move = fastest(ORDER_3, stroke="45 deg", limits={"rms torque": "2 N m"}, drive=lossy)
     assert lossy.sheet(move.law, "0 deg", "45 deg", move.duration).rms_torque == pytest.approx(2.0, rel=1e-6)
     assert move.status is Status.LOCAL
-    assert move.limit is None or move.limit < move.duration
+    assert move.best_possible is None or move.best_possible < move.duration
 
 
 @pytest.mark.parametrize(

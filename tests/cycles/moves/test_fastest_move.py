@@ -49,8 +49,8 @@ def test_the_snap_is_a_limit() -> None:
     limits = {"jerk": "300 m/s^3", "snap": "20000 m/s^4"}
     smooth = fastest(Problem(order=4), stroke="100 mm", limits=limits)
     assert smooth.law.peak(4).value * 0.1 / smooth.duration**4 == pytest.approx(20000.0, rel=1e-9)
-    assert smooth.limit is not None
-    assert smooth.limit >= (384.0 * 0.1 / 20000.0) ** 0.25
+    assert smooth.best_possible is not None
+    assert smooth.best_possible >= (384.0 * 0.1 / 20000.0) ** 0.25
 
 
 def test_a_move_that_never_turns_back() -> None:
@@ -90,7 +90,7 @@ def test_the_summary_says_which_limits_bind(move: FastestMove) -> None:
     assert rows["deceleration"].value == pytest.approx(8.0, rel=1e-9)
     assert rows["deceleration"].note == "binds: 10 % more saves 1.7 % of the time"
     assert rows["velocity"].note == "81.4 % of the limit"
-    assert "the space costs 1.6 %" in rows["limit"].note
+    assert "the least time is 1.6 % above it" in rows["best possible"].note
     assert move.notes[0].startswith("acceleration: 10 % more saves")
 
 
@@ -163,7 +163,7 @@ CHANGES: dict[str, Callable[[dict[str, Any]], None]] = {
     "limit of the jerk": lambda data: data["limits"].update(jerk=299.0),
     "another limit": lambda data: data["limits"].update(snap=9e9),
     "duration": lambda data: data.update(duration=data["duration"] * 0.9999),
-    "limit of all laws": lambda data: data.update(limit=data["limit"] * 1.001),
+    "best possible": lambda data: data.update(best_possible=data["best_possible"] * 1.001),
     "space": lambda data: data["space"].update(order=4),
     "start velocity": lambda data: data.update(start_velocity=0.1),
     "law": lambda data: data["solution"]["law"]["acceleration"].__setitem__(1, 0.0),

@@ -91,10 +91,10 @@ def test_law_and_proof_are_one_file(quiet: FastestMove) -> None:
 def test_it_is_faster_than_a_shaped_law_that_leaves_as_much(shaper: Literal["ZV", "ZVD"], periods: float) -> None:
     """Seven segments, shaped for 16.7 Hz; 5 % off its frequency they leave what is then allowed here."""
     plain = fastest(Problem(order=3), stroke="100 mm", limits=LIMITS)
-    assert plain.limit is not None
+    assert plain.best_possible is not None
     segments = Problem(order=3, basis=Pieces(plain.limit_breaks, degree=3, continuity=2))
     law = fastest(segments, stroke="100 mm", limits=LIMITS).law
-    duration = plain.limit + periods / 16.7
+    duration = plain.best_possible + periods / 16.7
     shaped = shaped_law(law, tau * 16.7 * duration, 0.0, shaper)
     followers = [Follower(tau * hertz * duration) for hertz in (15.865, 17.535)]
     worst = max(follower.response(shaped).residual_acceleration for follower in followers) * 0.1 / duration**2

@@ -294,7 +294,7 @@ def a_move(minimise: str = "acceleration", period: str = "0.3 s", **entries: Any
 def test_the_front_of_a_cycle_of_one_move_has_the_objectives_of_cycles_in_its_times(minimise: str) -> None:
     front = a_move().front(minimise, longest="0.35 s", points=3)
     assert front.fastest.duration == pytest.approx(a_move().fastest().period, rel=1e-9)
-    assert front.fastest.limit == pytest.approx(a_move().fastest().limit, rel=1e-12)
+    assert front.fastest.best_possible == pytest.approx(a_move().fastest().best_possible, rel=1e-12)
     for point in list(front)[1:]:
         plan = a_move(minimise, f"{point.duration!r} s").solve()
         assert point.value == pytest.approx(plan.objective, rel=1e-6)

@@ -281,14 +281,14 @@ def test_the_summary_says_what_no_law_of_any_degree_beats_or_that_it_is_not_know
     cycle = Cycle(segments, speed="30 rpm", limits=LIMITS)
 
     def limit(**given: Any) -> Any:
-        return next(row.value for row in cycle.run_in(**given).summary() if row.name == "limit")
+        return next(row.value for row in cycle.run_in(**given).summary() if row.name == "best possible")
 
     assert limit(at="30 deg", over="90 deg") == "not known"
     assert limit(at="30 deg", rest="-20 mm") == "not known"
     assert 0.5 < limit(at="120 deg", over="90 deg") <= 1.0
     least = cycle.run_in(at="120 deg").least
     assert least is not None
-    assert limit(at="120 deg") == least.limit
+    assert limit(at="120 deg") == least.best_possible
     # seven segments over 35 mm: the acceleration and the jerk bind, not the velocity
     ramp, peak = 0.04, (-0.16 + (0.16**2 + 16.0 * 0.035) ** 0.5) / 2.0
-    assert least.limit == pytest.approx(2.0 * (peak / 4.0 + ramp), rel=1e-9)
+    assert least.best_possible == pytest.approx(2.0 * (peak / 4.0 + ramp), rel=1e-9)

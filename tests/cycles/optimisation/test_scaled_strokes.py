@@ -115,7 +115,7 @@ def test_the_least_time_is_of_no_scale(limits: Mapping[str, tuple[float, str]], 
     one, other = least_time(limits, 1.0), least_time(limits, scale)
     assert other.binding == one.binding
     assert other.duration == pytest.approx(one.duration, rel=1e-9)
-    assert other.limit == pytest.approx(one.limit, rel=1e-8)
+    assert other.best_possible == pytest.approx(one.best_possible, rel=1e-8)
 
 
 @pytest.mark.long

@@ -212,7 +212,20 @@ def test_an_array_is_stored_and_read_as_it_was(problems: ProblemArray) -> None:
     stored = json.dumps(laws.to_dict(), allow_nan=False)
     again = SolutionArray.from_dict(json.loads(stored))
     assert json.dumps(again.to_dict()) == stored
-    for name in ("objective", "lower_bound", "gap", "B", "C", "D", "J", "rms_c", "z", "z_series", "limit", "status"):
+    for name in (
+        "objective",
+        "lower_bound",
+        "gap",
+        "B",
+        "C",
+        "D",
+        "J",
+        "rms_c",
+        "z",
+        "z_series",
+        "best_possible",
+        "status",
+    ):
         np.testing.assert_array_equal(getattr(again, name), getattr(laws, name))
     assert {at: (type(error), str(error)) for at, error in again.errors.items()} == {
         at: (type(error), str(error)) for at, error in laws.errors.items()

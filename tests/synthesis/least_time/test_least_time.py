@@ -42,7 +42,7 @@ def test_the_time_of_all_laws_is_the_closed_form(
     segments = segment_times(stroke, limits, order)
     assert segments is not None
     assert segments.duration == pytest.approx(duration, rel=1e-14)
-    assert TimedMove(Problem(order=order), stroke, limits).limit == segments.duration
+    assert TimedMove(Problem(order=order), stroke, limits).best_possible == segments.duration
 
 
 def test_the_segments_of_order_2_cover_the_stroke() -> None:
@@ -190,7 +190,7 @@ def compare_with_ruckig(count: int, seed: int, *, moving: bool) -> None:
         # the fastest motion is of these pieces, and none is faster
         assert found.duration == pytest.approx(duration, rel=1e-8), move
         if not moving:
-            assert move.limit == pytest.approx(duration, rel=1e-9)
+            assert move.best_possible == pytest.approx(duration, rel=1e-9)
 
 
 @pytest.mark.sample(2)
@@ -288,9 +288,9 @@ def compare_limits_with_ruckig(count: int, seed: int) -> None:
         if numbers.uniform() < 0.1:
             move = replace(move, start_velocity=float(move.limits.velocity or 0.0))
         time = fastest_motion(move)[0]
-        assert move.limit == pytest.approx(time, rel=1e-12), move
+        assert move.best_possible == pytest.approx(time, rel=1e-12), move
         far, long = (10.0 ** numbers.uniform(-12.0, 9.0, 2)).tolist()
-        assert in_units(move, far, long).limit == pytest.approx(time * long, rel=1e-12), move
+        assert in_units(move, far, long).best_possible == pytest.approx(time * long, rel=1e-12), move
 
 
 def in_units(move: TimedMove, far: float, long: float) -> TimedMove:
@@ -320,11 +320,11 @@ def test_pieces_with_the_breaks_of_the_limit_reach_it(seed: int) -> None:
     left_out = {each: None for name in names for each in sides[name]}
     move = replace(move, limits=replace(move.limits, **left_out))
     found = least_time(move)
-    assert found.limit is not None
+    assert found.best_possible is not None
     assert found.price is not None
     assert found.price > -1e-9
     space = replace(move.problem, basis=Pieces(move.limit_breaks, **CUBIC))
-    assert least_time(replace(move, problem=space)).duration == pytest.approx(found.limit, rel=1e-9)
+    assert least_time(replace(move, problem=space)).duration == pytest.approx(found.best_possible, rel=1e-9)
 
 
 def linear_program(move: TimedMove, duration: float, steps: int) -> bool:
@@ -357,29 +357,29 @@ def test_the_limit_without_a_jerk_is_that_of_a_linear_program(seed: int, *, forw
     stroke = (1.02 if forward else 0.6) * stopping
     problem = Problem(order=2, monotone=forward)
     move = TimedMove(problem, stroke, plain, ends[0], ends[1])
-    known = move.limit
+    known = move.best_possible
     assert known is not None
     assert linear_program(move, known * 1.001, 1000)
     assert not linear_program(move, known * 0.999, 1000)
     jerked = replace(move, limits=replace(plain, jerk=1e3))
-    assert jerked.limit == known
-    smooth = replace(jerked, problem=replace(problem, order=3)).limit
+    assert jerked.best_possible == known
+    smooth = replace(jerked, problem=replace(problem, order=3)).best_possible
     assert smooth is not None
     assert smooth > known
 
 
 def test_no_limit_is_known_of_an_acceleration_at_the_end() -> None:
-    assert TimedMove(Problem(order=3), 1.0, UNEVEN, 0.0, 0.5, end_acceleration=1.0).limit is None
+    assert TimedMove(Problem(order=3), 1.0, UNEVEN, 0.0, 0.5, end_acceleration=1.0).best_possible is None
 
 
 def test_a_file_from_before_the_limit_of_ends_that_move_is_read() -> None:
     move = least_time(TimedMove(Problem(order=3), 0.1, UNEVEN, 0.3))
-    assert LeastTime.from_dict(move.to_dict() | {"limit": None}).limit == move.limit
-    with pytest.raises(InputError, match="the limit of all laws"):
-        LeastTime.from_dict(move.to_dict() | {"limit": 0.9 * float(move.limit or 0.0)})
+    assert LeastTime.from_dict(move.to_dict() | {"best_possible": None}).best_possible == move.best_possible
+    with pytest.raises(InputError, match="best possible"):
+        LeastTime.from_dict(move.to_dict() | {"best_possible": 0.9 * float(move.best_possible or 0.0)})
     still = least_time(TimedMove(Problem(order=3), 0.1, UNEVEN))
-    with pytest.raises(InputError, match="the limit of all laws"):
-        LeastTime.from_dict(still.to_dict() | {"limit": None})
+    with pytest.raises(InputError, match="best possible"):
+        LeastTime.from_dict(still.to_dict() | {"best_possible": None})
 
 
 @pytest.mark.long

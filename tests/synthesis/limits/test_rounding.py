@@ -158,7 +158,7 @@ def test_no_bound_is_above_its_objective(kind: dict[str, Any]) -> None:
     assert solution.status == "optimal"
     assert solution.certificate.bound <= solution.objective
     assert solution.lower_bound <= solution.objective
-    assert solution.limit is None or solution.limit <= solution.objective
+    assert solution.best_possible is None or solution.best_possible <= solution.objective
 
 
 @pytest.mark.parametrize("degree", [3, 9, 15])

@@ -24,8 +24,8 @@ def excesses(order: int, B: float, *, monotone: bool = False) -> np.ndarray:
         problem = Problem(B=B, order=order, basis=Chebyshev(int(degree)), monotone=monotone)
         solution = synthesize(problem)
         assert solution.gap <= 1e-8
-        assert solution.limit is not None
-        found.append(solution.objective - solution.limit)
+        assert solution.best_possible is not None
+        found.append(solution.objective - solution.best_possible)
     return np.array(found)
 
 
@@ -93,6 +93,6 @@ def test_a_free_sign_of_b_lowers_c(B: float) -> None:
     )
     assert free.objective < asked.objective
     assert free.law.extrema(1)[0].value < -1e-3
-    assert free.limit is not None
-    assert asked.limit is not None
-    assert free.limit < asked.limit
+    assert free.best_possible is not None
+    assert asked.best_possible is not None
+    assert free.best_possible < asked.best_possible

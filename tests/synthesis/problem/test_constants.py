@@ -132,7 +132,7 @@ def test_the_least_rms_of_all_is_the_parabola_of_velocity() -> None:
     solution = synthesize(Problem(order=2, minimise="rms_c"))
     assert solution.objective == pytest.approx(np.sqrt(12.0), rel=1e-13)
     assert solution.constants.B.value == pytest.approx(1.5, rel=1e-9)
-    assert solution.limit == pytest.approx(np.sqrt(12.0), rel=1e-13)
+    assert solution.best_possible == pytest.approx(np.sqrt(12.0), rel=1e-13)
 
 
 # --- symmetry and degree, for every objective ---
@@ -205,8 +205,8 @@ def test_the_least_power_is_below_that_of_other_laws_and_above_the_limit(B: floa
     (row,) = (row for row in PRINTED if float(row["B"]) == B)
     # the printed laws are in this space but for four, of order 3; printed coefficients are rounded, and so is their B
     assert solution.objective <= Judged(law_of(row)).constant("D") + 2e-3
-    assert solution.limit is not None
-    assert solution.limit <= solution.lower_bound <= solution.objective
+    assert solution.best_possible is not None
+    assert solution.best_possible <= solution.lower_bound <= solution.objective
 
 
 @cache
@@ -240,7 +240,7 @@ def test_no_law_that_does_not_turn_back_has_less_power_than_an_energy_allows(B: 
     solution = synthesize(problem(B=B, minimise="D", monotone=True, basis=Chebyshev(15), order=2))
     assert solution.objective >= bound * (1 - 1e-8)
     assert solution.lower_bound >= bound * (1 - 1e-7)
-    assert solution.limit == pytest.approx(bound, rel=1e-7)
+    assert solution.best_possible == pytest.approx(bound, rel=1e-7)
 
 
 def test_random_laws_have_no_less_power() -> None:

@@ -55,7 +55,7 @@ def test_the_peak_velocity_stands_at_the_inflexion(given: dict[str, Any]) -> Non
     if asked.boundary is None:
         mirror = synthesize(problem(**{**given, "inflexion": 0.6, **_mirrored(given)}))
         assert mirror.objective == pytest.approx(solution.objective, rel=1e-9)
-    assert solution.limit is None or solution.limit <= solution.objective
+    assert solution.best_possible is None or solution.best_possible <= solution.objective
     assert Problem.from_dict(asked.to_dict()) == asked
 
 
@@ -85,7 +85,7 @@ def test_in_the_middle_it_is_the_law_without_it() -> None:
     plain = synthesize(Problem(B=1.8, order=3))
     same = synthesize(Problem(B=1.8, order=3, symmetric=False, inflexion=0.5))
     assert same.objective == pytest.approx(plain.objective, rel=1e-10)
-    assert same.limit == plain.limit
+    assert same.best_possible == plain.best_possible
     assert Problem(B=1.8, order=3, inflexion=0.5) == Problem(B=1.8, order=3)
 
 
@@ -93,9 +93,9 @@ def test_in_the_middle_it_is_the_law_without_it() -> None:
 @pytest.mark.parametrize(("k", "B"), [(0.1, 1.5), (0.2, 1.8), (0.4, 1.7), (0.35, 2.4)])
 def test_the_limit_of_uneven_laws_is_not_that_of_even_ones_and_holds(k: float, B: float) -> None:
     solution = synthesize(problem(B=B, inflexion=k, basis=Chebyshev(25)))
-    assert solution.limit is not None
-    assert solution.limit >= B / k * (1 - 1e-12)
-    assert solution.limit <= solution.objective <= 1.25 * solution.limit
+    assert solution.best_possible is not None
+    assert solution.best_possible >= B / k * (1 - 1e-12)
+    assert solution.best_possible <= solution.objective <= 1.25 * solution.best_possible
 
 
 def test_a_ratio_and_an_inflexion_together() -> None:

@@ -183,8 +183,8 @@ def test_a_lower_bound_of_b_says_nothing_of_the_place(low: float) -> None:
     there = synthesize(replace(problem, inflexion=peak.k))
     assert there.status == "optimal"
     assert there.objective == pytest.approx(solution.objective, rel=1e-6)
-    assert solution.limit is not None
-    assert solution.limit <= solution.objective
+    assert solution.best_possible is not None
+    assert solution.best_possible <= solution.objective
     assert verify(solution.to_dict()).proven
 
 

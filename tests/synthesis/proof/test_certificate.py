@@ -114,7 +114,9 @@ def test_the_bound_is_the_weak_duality_sum_of_eq_8(problem: Problem) -> None:
         assert abs(left) <= Fraction(1, 10**10) * size, name
     assert certificate.bound == pytest.approx(float(bound.constant), rel=1e-9)
     assert certificate.bound <= float(bound.constant) * (1 + 1e-12)
-    assert solution.lower_bound == max(certificate.bound, -np.inf if solution.limit is None else solution.limit)
+    assert solution.lower_bound == max(
+        certificate.bound, -np.inf if solution.best_possible is None else solution.best_possible
+    )
     if problem.convex:
         assert solution.lower_bound == pytest.approx(solution.objective, rel=1e-8)
         assert certificate.bound == pytest.approx(solution.objective, rel=1e-8)

@@ -71,7 +71,7 @@ def judge_tight(solution: Solution) -> None:
     assert peak_certificate is not None
     assert peak_certificate.bound == solution.lower_bound
     # what a solution without that certificate claims
-    plain = max(solution.certificate.bound, -np.inf if solution.limit is None else solution.limit)
+    plain = max(solution.certificate.bound, -np.inf if solution.best_possible is None else solution.best_possible)
     judge(replace(solution, lower_bound=plain, status=type(solution.status).LOCAL))
 
 

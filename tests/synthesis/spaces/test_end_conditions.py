@@ -50,7 +50,7 @@ def test_the_optimum_is_that_of_highs_or_clarabel(ends: BoundaryConditions, mini
         return  # uniform motion has no acceleration at all
     judge(solution)
     assert solution.status.value == "optimal"
-    assert solution.limit is None
+    assert solution.best_possible is None
     assert solution.objective == pytest.approx(least(asked), rel=3e-8, abs=1e-9)
 
 

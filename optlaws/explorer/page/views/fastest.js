@@ -227,7 +227,7 @@ export class View {
     const known = points.filter(([, value]) => value !== null).map(([at, one, bound]) => [at, factor * one, bound === null ? null : factor * bound]);
     const values = known.map(([, value]) => value);
     const [from, to] = this.#reach();
-    const first = least.limit === null ? from : Math.min(from, least.limit);
+    const first = least.best_possible === null ? from : Math.min(from, least.best_possible);
     const x = { name: "time, ms", range: [1000 * (first - 0.06 * (to - first)), 1000 * (to + 0.02 * (to - first))] };
     const y = { name: headed(name, unit), range: spanOf([...values, 0]) };
     const top = y.range[1];
@@ -236,9 +236,9 @@ export class View {
       { name: "limit", title: `no law of the space has a lower ${name}`, points: known.filter(([, , bound]) => bound !== null).map(([at, , bound]) => [1000 * at, bound]) },
       { name: proven ? "front" : "front local", title: `least ${name}`, points: known.map(([at, one]) => [1000 * at, one]) },
       { name: "stop", title: "the proven least time", points: [[1000 * from, y.range[0]], [1000 * from, top]] },
-      ...(least.limit === null ? [] : [{ name: "limit", title: "no law of any degree is faster", points: [[1000 * least.limit, y.range[0]], [1000 * least.limit, top]] }]),
+      ...(least.best_possible === null ? [] : [{ name: "limit", title: "no law of any degree is faster", points: [[1000 * least.best_possible, y.range[0]], [1000 * least.best_possible, top]] }]),
     ];
-    const labels = [{ at: [1000 * from, top], text: "proven least time", up: -4 }, ...(least.limit === null || from - least.limit < 0.09 * (to - first) ? [] : [{ at: [1000 * least.limit, top], text: "no law", up: -4 }])].map((one) => ({ ...one, at: [one.at[0] + 0.008 * (x.range[1] - x.range[0]), one.at[1]] }));
+    const labels = [{ at: [1000 * from, top], text: "proven least time", up: -4 }, ...(least.best_possible === null || from - least.best_possible < 0.09 * (to - first) ? [] : [{ at: [1000 * least.best_possible, top], text: "no law", up: -4 }])].map((one) => ({ ...one, at: [one.at[0] + 0.008 * (x.range[1] - x.range[0]), one.at[1]] }));
     const row = rows.find((one) => one.name.toLowerCase() === minimise);
     const here = row ? written(row.value) : `${word(value)} ${shown}`;
     return {
