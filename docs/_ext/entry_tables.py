@@ -10,7 +10,7 @@ from pathlib import Path
 
 from optlaws.cams.barrel import Groove
 from optlaws.entries.reference import markdown_table
-from optlaws.jobs.cam import CamProblemFile
+from optlaws.jobs.cam_entries import CamProblemFile
 from optlaws.jobs.cycle_entries import AxisEntries, CycleProblemFile
 from optlaws.jobs.fastest import FastestProblemFile
 from optlaws.jobs.machine_laws import MachineLawsProblemFile

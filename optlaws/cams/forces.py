@@ -89,6 +89,21 @@ class Surfaces(Declared, title="forces"):
         default=("steel", "steel"),
     )
 
+    @property
+    def assumed(self) -> str:
+        """The sentence that names the materials of which Hertz's pressure is computed.
+
+        >>> Surfaces(materials=("cast iron", {"young": "3 GPa", "poisson": 0.4})).assumed
+        "Hertz's pressure assumes a cam of cast iron (110 GPa, Poisson's ratio 0.26) and a follower of 3 GPa, ..."
+        """
+        named = []
+        for part, given in zip(("cam", "follower"), self.materials, strict=True):
+            material = MATERIALS[given] if isinstance(given, str) else given
+            poisson = f"Poisson's ratio {material.poisson:g}"
+            of = f"{given} ({material.young}, {poisson})" if isinstance(given, str) else f"{material.young}, {poisson}"
+            named.append(f"a {part} of {of}")
+        return f"Hertz's pressure assumes {' and '.join(named)}."
+
     def line(self, roller: float) -> LineContact | None:
         """The contact along a line with a follower of a radius in m, 0 for a face; None where it has no width."""
         if self.width is None:

@@ -12,15 +12,16 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optlaws.cams.barrel import SIDES, BarrelCam
+from optlaws.cams.cam_values import SMALLEST_ANGLE
 from optlaws.cams.curves.plane_curve import CurveByAngle
 from optlaws.cams.followers.follower import positive
-from optlaws.cams.forces import CamForces
+from optlaws.cams.forces import CamForces, Surfaces
 from optlaws.cams.least_sizes import CamLimits
 from optlaws.cycles.cycle import Cycle, Plan
 from optlaws.kept import kept_property
 from optlaws.motion.quantities import DEGREES, MILLI, TURN, TURN_DEG, UNITS
 from optlaws.numbers import Array, Quantity, bounded, chop
-from optlaws.sentences import Sentence, sentence
+from optlaws.sentences import Sentence, joined, sentence
 from optlaws.shown.curve_points import refined
 from optlaws.shown.report import Panel, PanelLimit, ReportSegment, ReportTable, Section, Series
 from optlaws.shown.summary import Row, Summary
@@ -33,7 +34,6 @@ if TYPE_CHECKING:
 
 _INSIDE = 1e-9  # of a smooth part: so near to its ends it is drawn
 _FAR = 4.0  # a radius of curvature beyond so many prime circles is a straight edge
-_SMALLEST_ANGLE = 1e-100  # a pressure angle below it is none
 
 Values = Callable[[Array], Array]
 
@@ -95,7 +95,7 @@ class CamReport:
     @kept_property
     def extremes(self) -> list[Row]:
         """Extreme pressure angles, where there are any but 0, least radii of curvature, and sizes of the follower."""
-        pressed = self.cam.extremes.greatest_pressure_angle.value > _SMALLEST_ANGLE
+        pressed = self.cam.extremes.greatest_pressure_angle.value > SMALLEST_ANGLE
         rows = [
             extreme_row(name, extreme, unit, limit)
             for name, _, extreme, unit, limit in self._enclosed
@@ -280,8 +280,8 @@ def named_forces(forces: CamForces) -> list[tuple[str, Extremes, str, float]]:
     return named if forces.width is None else [*named, ("Hertz's pressure", forces.pressure, "MPa", 1e-6)]
 
 
-def forces_section(forces: CamForces) -> Section:
-    """The forces of a cam over its turn."""
+def forces_section(forces: CamForces, pressed: str = "") -> Section:
+    """The forces of a cam over its turn, with a sentence on what presses the follower on it."""
     mean = chop(0.5 * sum(forces.mean_torque), forces.torque.peak, FORCE_ROUNDING)
     table, facts = [], []
     for name, curve, unit, factor in named_forces(forces):
@@ -298,8 +298,15 @@ def forces_section(forces: CamForces) -> Section:
         table=ReportTable(("what", "least", "at, deg", "greatest", "at, deg", "unit"), table),
         data={"forces": forces.results()},
         figure=("forces", "Forces over the turn"),
-        note=f"Torque at the shaft: root mean square {forces.rms_torque[1]:.6g} N m, mean {mean:.6g} N m. "
-        + ("The follower lifts off." if forces.lifts_off else "The follower stays on the cam."),
+        note=joined(
+            " ",
+            [
+                f"Torque at the shaft: root mean square {forces.rms_torque[1]:.6g} N m, mean {mean:.6g} N m.",
+                "The follower lifts off." if forces.lifts_off else "The follower stays on the cam.",
+                *([pressed] if pressed else []),
+                *([] if forces.width is None else [Surfaces(materials=forces.materials).assumed]),
+            ],
+        ),
         digits=6,
     )
 

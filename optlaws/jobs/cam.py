@@ -3,25 +3,30 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import KW_ONLY, dataclass, replace
+from dataclasses import dataclass, replace
 from functools import partial
 from math import degrees
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from optlaws.cams.as_manufactured import PeaksAsMade
-from optlaws.cams.barrel import BarrelCam, Groove
+from optlaws.cams.barrel import BarrelCam
 from optlaws.cams.best_laws import BestCam, BestPrimeCircle, best_cam, best_prime_circle
-from optlaws.cams.conjugate import ReturnFollower, conjugate_cam
+from optlaws.cams.cam_values import (
+    Values,
+    cam_differences,
+    force_values,
+    known_values,
+    motion_values,
+    spring_values,
+)
+from optlaws.cams.conjugate import conjugate_cam
 from optlaws.cams.curves.cam_files import CutFile
 from optlaws.cams.curves.extremes import UNDERCUT
-from optlaws.cams.disc import TURNINGS, DiscCam, Turning
-from optlaws.cams.followers.follower import CamFollower, stated_prime_radius
+from optlaws.cams.disc import DiscCam
 from optlaws.cams.followers.rollers import TranslatingRoller
 from optlaws.cams.forces import CamForces, Surfaces
 from optlaws.cams.least_sizes import (
     BestOffset,
-    CamLimits,
     LeastPrimeCircle,
     best_offset,
     greatest_roller,
@@ -32,21 +37,21 @@ from optlaws.cams.springs_and_flywheels import (
     CONTACT,
     GREATEST,
     EnergyFluctuation,
-    SoughtSpring,
+    Spring,
     energy_fluctuation,
     least_spring,
 )
-from optlaws.cycles.cycle import Cycle
+from optlaws.cycles.cycle import Cycle, Plan
 from optlaws.cycles.report import objective_unit
-from optlaws.cycles.specification.drive import ProcessEntries
-from optlaws.entries.declared import ValueOf, declared, entries_of, entry, same
-from optlaws.entries.value_types import Choice, Listed, Measured, Number, Switch, Whole
+from optlaws.cycles.specification.segments import OPTIMAL
+from optlaws.cycles.usual_law import USUAL, usual_cycle
+from optlaws.echo import shortened
+from optlaws.entries.declared import entries_of
 from optlaws.errors import InfeasibleProblem, InputError, located
-from optlaws.jobs.cycle_entries import AxisEntries, cycle_of
-from optlaws.jobs.job_entries import ProblemFile
+from optlaws.jobs.cam_entries import BarrelProblemFile, CamProblemFile
 from optlaws.kept import kept_property
 from optlaws.motion.quantities import MICRO, MILLI, TURN, TURN_DEG, Exact
-from optlaws.numbers import Quantity, chop
+from optlaws.numbers import chop
 from optlaws.plots.cam import animated, barrel_figure, cam_figure, forces_figure, pair_figure
 from optlaws.results import Results
 from optlaws.sentences import capital
@@ -62,123 +67,10 @@ _SIZE_MET = 1e-7  # of a radius: a size that is proven to so much is the least o
 _RETURN = "return-"
 #: units of forces and of stiffness by what the follower's way is
 _SPRING_UNITS = {"length": ("N", "N/m"), "angle": ("N m", "N m/rad")}
-
-_LENGTH = Measured("length", above=0.0)
-
-
-@declared
-class CamForcesEntries(Surfaces, title="forces"):
-    """Forces of the cam under the drive of its motion."""
-
-    irregularity: float | None = entry(
-        Number(above=0.0),
-        "Of the shaft's speed, for mean power, the work above the mean and the flywheel.",
-        default=None,
-        example=0.04,
-    )
-
-
-@declared
-class CamOfMotion(ProblemFile, title="a cam"):
-    """What the problem files of disc cams and of barrel cams have."""
-
-    _: KW_ONLY
-    motion: AxisEntries = entry(ValueOf(AxisEntries), 'One axis with its segments, as in the job "cycle".')
-    speed: Quantity | None = same(Cycle, "speed")
-    period: Quantity | None = same(Cycle, "period")
-    turning: Turning = entry(Choice(*TURNINGS), "How the cam turns.", default="counterclockwise")
-    cutter_radius: str | None = entry(
-        _LENGTH,
-        "Of the cutter or grinding wheel, whose path is part of the table then.",
-        default=None,
-        label="cutter",
-        example="10 mm",
-    )
-    rows: int = entry(Whole(2, 100_000), "Lines of the table.", default=361)
-
-    @kept_property
-    def cycle(self) -> Cycle:
-        """The motion of the follower."""
-        return cycle_of(self.motion, self.speed, self.period)
-
-    def _check(self) -> None:
-        super()._check()
-        if self.motion.mechanism is not None:
-            raise InputError(
-                "motion: a cam's follower has no mechanism: an axis of a cycle has one, and the kind 'cam' of it is "
-                "what this cam's shaft feels"
-            )
-
-
-@declared
-class CamProblemFile(CamOfMotion, title="a cam"):
-    """The problem file of a disc cam."""
-
-    _: KW_ONLY
-    follower: CamFollower = entry(ValueOf(CamFollower), "What the cam moves.")
-    prime_radius: str | None = entry(
-        _LENGTH,
-        "Radius of the prime circle, from the cam's centre to the roller's, or to the face, where the follower is "
-        "lowest; without one the least that keeps pressure_angle and radius_of_curvature is taken, or what best finds.",
-        default=None,
-        label="prime circle",
-        example="60 mm",
-    )
-    #: the name that earlier files have for `prime_radius`
-    base_radius: Quantity | None = entry(_LENGTH, "That of earlier files.", default=None, shown=False)
-    pressure_angle: Quantity | None = same(CamLimits, "pressure_angle")
-    radius_of_curvature: Quantity | None = same(CamLimits, "radius_of_curvature")
-    best: str | None = entry(
-        Choice("laws", "prime circle", "offset"),
-        "What is optimised: the laws of the motion under the limits of the cam, at the given prime circle; the laws "
-        "with the least prime circle; or the offset of a slide with a roller whose greatest pressure angle is least.",
-        default=None,
-    )
-    pair: ReturnFollower | None = entry(ValueOf(ReturnFollower), "A return cam.", default=None)
-    process: Any = entry(
-        ValueOf(ProcessEntries), "A process force on the follower, in forces and spring.", default=None
-    )
-    forces: CamForcesEntries | None = entry(
-        ValueOf(CamForcesEntries), "Contact forces under the drive of the motion.", default=None
-    )
-    spring: SoughtSpring | None = entry(
-        ValueOf(SoughtSpring), "The least spring that keeps the follower on the cam.", default=None
-    )
-    as_made: PeaksAsMade | None = entry(ValueOf(PeaksAsMade), "Peaks as made.", default=None)
-    file: tuple[CutFile, ...] = entry(Listed(ValueOf(CutFile), most=50), "Files that cut the cam.", default=())
-    animation: bool = entry(Switch(), "Whether animation.svg is written, in which the cam turns.", default=False)
-
-    @classmethod
-    def _from_earlier(cls, data: dict[str, Any]) -> dict[str, Any]:
-        """The best "base circle" of earlier files is the prime circle."""
-        return data | {"best": "prime circle"} if data.get("best") == "base circle" else data
-
-    @kept_property
-    def limits(self) -> CamLimits:
-        """The limits of the cam."""
-        return CamLimits(self.pressure_angle, self.radius_of_curvature)
-
-    @property
-    def constraints(self) -> dict[str, Any]:
-        """The limits, and how the cam turns, as those take them who look for a cam."""
-        return {**self.limits.to_dict(), "turning": self.turning}
-
-    @property
-    def radius(self) -> Any:
-        """The radius of the prime circle, if it is given."""
-        return stated_prime_radius(self.prime_radius, self.base_radius, self.follower)
-
-    def _check(self) -> None:
-        super()._check()
-        _ = self.limits  # which checks them together
-
-
-@declared
-class BarrelProblemFile(CamOfMotion, title="a barrel cam"):
-    """The problem file of a barrel cam."""
-
-    _: KW_ONLY
-    barrel: Groove = entry(ValueOf(Groove), "The cylinder, its groove and the roller.")
+#: what a spring adds to a drive
+_SPRING = {"stiffness", "preload"}
+#: cams whose laws were optimised for them
+OPTIMISED = (BestCam, BestPrimeCircle)
 
 
 def run(results: Results) -> None:
@@ -303,12 +195,71 @@ class CamResult:
         cycle, beside = self.spec.cycle, dict[str, Any]()
         if self.cam.motion is not cycle:  # laws that were found for a cam are no cycle, but go as fast
             beside = {"speed": Exact(TURN / cycle.duration, "rad/s"), "drive": cycle.drive}
+        if self._needs_spring:
+            force, stiffness = _SPRING_UNITS[self.cam.displacement.axis]
+            spring = self.least_spring
+            pressing = {"stiffness": Exact(spring.stiffness, stiffness), "preload": Exact(spring.preload, force)}
+            beside["drive"] = {**self._linear_drive, **pressing}
         options = {name: getattr(surfaces, name) for name in entries_of(Surfaces)}
         return CamForces(self.cam, process=self.spec.process, **options, **beside)
 
     @kept_property
+    def plan(self) -> Plan:
+        """The motion with the cam's laws, which says what they take of the limits."""
+        best = self.sought
+        return (
+            self.spec.cycle.with_solutions(best.solutions) if isinstance(best, OPTIMISED) else self.spec.cycle.solve()
+        )
+
+    @kept_property
+    def usual(self) -> CamResult | None:
+        """The cam of the same file with the usual law in its moves; None where it has no other laws."""
+        spec, cycle = self.spec, usual_cycle(self.spec.cycle)
+        if cycle is None:
+            return None
+        motion = replace(spec.motion, segment=tuple(cycle.segments), limits={})
+        return CamResult(replace(spec, motion=motion, best="offset" if spec.best == "offset" else None))
+
+    @kept_property
+    def values(self) -> Values:
+        """What a designer weighs in the cam, by its names."""
+        parts: list[Callable[[], Values]] = [lambda: motion_values(self.cam, TURN / self.spec.cycle.duration)]
+        if self.spec.radius is not None and self.spec.limits.in_si:
+            parts.append(lambda: _least_value(self.least))
+        if self.spec.forces is not None:
+            surfaces = self.spec.forces
+            parts.append(lambda: force_values(self.forces_of(surfaces)))
+        if self.spec.spring is not None:
+            parts.append(lambda: spring_values(self.least_spring, self.cam.displacement.axis))
+        return known_values(*parts)
+
+    @kept_property
+    def differences(self) -> Section:
+        """The cam beside the one with the usual law; nothing where it has no other laws."""
+        usual = self.usual
+        return Section() if usual is None else cam_differences(USUAL, usual.values, self.values).section()
+
+    @kept_property
     def laws(self) -> Section:
-        """The quality of the laws for the cam; nothing where they are the cycle's own."""
+        """What is least, with its bound and its status, among which laws it was found, and what is taken of limits."""
+        plan, best, rows = self.plan, self._best, self._best.facts
+        laws = {each.name: getattr(each.stretch.given, "law", OPTIMAL) for each in plan.peaks}
+        given = [f"{name} {shortened(law)}" for name, law in laws.items() if law != OPTIMAL]
+        known = [
+            *([f"Found among {plan.search_space}."] if plan.search_space else []),
+            *([f"Given laws: {'; '.join(given)}."] if given else []),
+            *([f"Limits: {'; '.join(map(str, plan.limits_taken))}."] if plan.limits_taken else []),
+        ]
+        if not rows and plan.solutions:
+            least = f"least {plan.minimise}"
+            rows = [Row(least, (plan.objective, plan.lower_bound), objective_unit(plan), note=plan.status.value)]
+        table = ReportTable.of_pairs(rows, "value", "no laws are below", "status") if rows else None
+        data = {**best.data, "laws": _of_laws(plan)}
+        return Section("Laws for the cam", rows, table, data, note="\n\n".join(known), digits=6)
+
+    @kept_property
+    def _best(self) -> Section:
+        """The quality of the laws that were optimised for the cam; nothing where they are the cycle's own."""
         best, cycle = self.sought, self.spec.cycle
         name, unit = cycle.minimise, objective_unit(cycle)
         if isinstance(best, BestCam):
@@ -327,9 +278,8 @@ class CamResult:
             name = "prime circle"
         else:
             return Section()
-        table = ReportTable.of_pairs(rows, "value", "no laws are below", "status")
         data = {"minimise": name, "objective": objective, "status": status, "lower_bound": best.lower_bound}
-        return Section("Laws for the cam", rows, table, {"best": data}, digits=6)
+        return Section(facts=rows, data={"best": data})
 
     @kept_property
     def report(self) -> CamReport:
@@ -416,7 +366,7 @@ class CamResult:
         given, forces = self.spec.forces, self.forces
         if given is None or forces is None:
             return ()
-        sections = [replace(forces_section(forces), draw=partial(forces_figure, forces))]
+        sections = [replace(forces_section(forces, self.pressed), draw=partial(forces_figure, forces))]
         if given.irregularity is not None:
             sections.append(_energy_section(energy_fluctuation(forces), given.irregularity))
         if self.cam.extremes.undercut.status == UNDERCUT:
@@ -424,15 +374,42 @@ class CamResult:
             sections.append(Section(note=doubt))
         return tuple(sections)
 
+    @property
+    def _needs_spring(self) -> bool:
+        """Whether the drive has no spring of its own, so that the least one presses the follower on the cam."""
+        return self.spec.spring is not None and not self._linear_drive.keys() & _SPRING
+
+    @property
+    def _linear_drive(self) -> dict[str, Any]:
+        """The constants of the drive; none where it has none."""
+        drive = self.spec.cycle.drive
+        return dict(drive) if isinstance(drive, Mapping) else {}
+
+    @property
+    def pressed(self) -> str:
+        """The sentence on the spring with which the forces are computed; empty where none is looked for."""
+        if self.spec.spring is None:
+            return ""
+        if self._needs_spring:
+            return "The least spring, which stands below, presses the follower on the cam here."
+        return "The spring of the drive presses the follower on the cam here, not the least one, which stands below."
+
     @kept_property
-    def spring(self) -> Section:
+    def least_spring(self) -> Spring:
         """The least spring; mass, gravity and friction are taken from the motion's drive."""
         entries = self.spec.spring
         if entries is None:
+            raise InputError("spring: no spring is looked for: give its speeds")
+        load = {key: value for key, value in self._linear_drive.items() if key not in _SPRING}
+        return least_spring(self.cam, drive=load, process=self.spec.process, **entries.to_dict())
+
+    @kept_property
+    def spring(self) -> Section:
+        """The least spring, where the file looks for one."""
+        entries = self.spec.spring
+        if entries is None:
             return Section()
-        given = self.spec.cycle.drive if isinstance(self.spec.cycle.drive, Mapping) else {}
-        load = {key: value for key, value in given.items() if key not in {"stiffness", "preload"}}
-        spring = least_spring(self.cam, drive=load, process=self.spec.process, **entries.to_dict())
+        spring = self.least_spring
         force, stiffness = _SPRING_UNITS[self.cam.displacement.axis]
         contact = entries.greatest == CONTACT
         greatest = "greatest contact force" if contact else "greatest force on the follower"
@@ -473,7 +450,7 @@ class CamResult:
         """The parts of its page."""
         turning = Section("Turning", figure=("animation", "The cam turns under its follower"))
         files = Section("Files", note=self._links())
-        sized = (self.laws, self.report.section, self.offset, self.sizes, self.pair)
+        sized = (self.differences, self.laws, self.report.section, self.offset, self.sizes, self.pair)
         last = ([turning] if self.spec.animation else []) + ([files] if self.spec.file else [])
         return *sized, *self.loads, self.spring, self.manufactured, *last
 
@@ -481,7 +458,7 @@ class CamResult:
     def data(self) -> dict[str, Any]:
         """The cam for programs, in metres and radians: enclosures as pairs, with the angle of the cam."""
         data: dict[str, Any] = {"unit": "SI", "prime_radius": None, "base_radius": None}
-        sized = (self.laws, self.report.section, self.sizes, self.pair)
+        sized = (self.laws, self.report.section, self.sizes, self.pair, self.differences)
         for section in (*sized, *self.loads, self.offset, self.spring, self.manufactured):
             data |= section.data
         return data
@@ -494,6 +471,27 @@ class CamResult:
     def drawn(self, title: str) -> Figure:
         """The picture of the cam."""
         return cam_figure(self.cam, title)
+
+
+def _of_laws(plan: Plan) -> dict[str, Any]:
+    """The laws for programs, in SI units: what is least, its bound and status, and what is taken of each limit."""
+    found = bool(plan.solutions)
+    return {
+        "minimise": plan.minimise,
+        "objective": plan.objective if found else None,
+        "lower_bound": plan.lower_bound if found else None,
+        "status": plan.status.value,
+        "search_space": plan.search_space,
+        "limits": [
+            {"name": taken.name, "where": taken.where, "value": taken.value, "limit": taken.limit}
+            for taken in plan.limits_taken
+        ],
+    }
+
+
+def _least_value(least: LeastPrimeCircle | str | None) -> Values:
+    """The least prime circle among the values of a cam that has a greater one."""
+    return {"least prime circle": (MILLI * least.radius, "mm")} if isinstance(least, LeastPrimeCircle) else {}
 
 
 def _energy_section(energy: EnergyFluctuation, irregularity: float) -> Section:

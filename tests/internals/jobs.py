@@ -2,8 +2,8 @@
 
 from optlaws.jobs import cycle as cycle_job
 from optlaws.jobs import job, solutions
-from optlaws.jobs.cam import CamProblemFile
 from optlaws.jobs.cam import read as read_of_cam
+from optlaws.jobs.cam_entries import CamProblemFile
 from optlaws.jobs.cycle import sweep_table
 from optlaws.jobs.cycle_entries import read as read_of_cycle_entries
 from optlaws.jobs.cycle_entries import read_given, sweeps_of

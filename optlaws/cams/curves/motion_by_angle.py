@@ -147,12 +147,12 @@ class CamMotion:
     @kept_property
     def range(self) -> tuple[float, float]:
         """The least and the greatest displacement."""
-        return self._extremes(0)
+        return self.extremes(0)
 
     @kept_property
     def slopes(self) -> tuple[float, float]:
         """The least and the greatest derivative by the angle."""
-        return self._extremes(1)
+        return self.extremes(1)
 
     def __call__(self, angle: Any, nu: int = 0) -> Any:
         """The derivative of order nu by the angle in rad; at a break that just after it."""
@@ -224,7 +224,8 @@ class CamMotion:
             )
         return np.clip(angle, first, last)
 
-    def _extremes(self, nu: int) -> tuple[float, float]:
+    def extremes(self, nu: int) -> tuple[float, float]:
+        """The least and the greatest derivative of order nu by the angle."""
         lows, highs = zip(*(stretch.extremes(nu) for stretch in self.stretches), strict=True)
         return min(lows), max(highs)
 

@@ -21,7 +21,8 @@ from optlaws.explorer.views.cycle_view import SEGMENTS, CycleRequest
 from optlaws.explorer.views.law_view import refusing
 from optlaws.explorer.views.panel_data import drawn, fact_sentences, panel_data
 from optlaws.explorer.views.requests import check_size, without_files
-from optlaws.jobs.cam import CamProblemFile, CamResult
+from optlaws.jobs.cam import CamResult
+from optlaws.jobs.cam_entries import CamProblemFile
 from optlaws.motion.quantities import MILLI, quantity
 from optlaws.sentences import Sentence, capital, joined, sentence
 
@@ -112,13 +113,15 @@ def _trust(report: CamReport) -> dict[str, Any]:
 
 
 def sizes(request: CycleRequest) -> dict[str, Any]:
-    """The least prime circle that keeps the limits, where some are given, and the greatest roller.
+    """The cam beside the one with the usual law, its laws, the least prime circle of limits, and the greatest roller.
 
     They take longer than the view.
     """
     others = {name: value for name, value in request.study.items() if name not in {"cutter_radius", "title", "text"}}
-    section = result_of(CycleRequest(study=others | {"title": "a cam"})).sizes
-    return {"facts": [*fact_sentences(section.facts), *([section.note] if section.note else [])]}
+    result = result_of(CycleRequest(study=others | {"title": "a cam"}))
+    parts = result.differences, result.laws, result.sizes
+    facts = [each for part in parts for each in fact_sentences(part.facts, part.digits)]
+    return {"facts": [*facts, *([result.sizes.note] if result.sizes.note else [])]}
 
 
 def example() -> dict[str, Any]:

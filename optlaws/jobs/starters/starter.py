@@ -18,7 +18,7 @@ from optlaws.entries.reference import sentences
 from optlaws.entries.value_types import Measured, Number, Whole
 from optlaws.errors import InputError, located
 from optlaws.files.reading import check_names
-from optlaws.jobs.cam import CamProblemFile
+from optlaws.jobs.cam_entries import CamProblemFile
 from optlaws.jobs.cycle_entries import CycleProblemFile, read_given
 from optlaws.jobs.machine_laws import MachineLawsProblemFile
 from optlaws.jobs.solutions import SolutionsProblemFile

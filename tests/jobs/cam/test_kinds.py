@@ -120,6 +120,33 @@ def test_without_a_prime_circle_the_least_that_keeps_the_limits_is_taken(tmp_pat
     assert reply["undercut"]["status"] == "free"
 
 
+def test_a_cam_stands_beside_the_one_with_the_usual_law_of_the_same_file(tmp_path: Path) -> None:
+    drive = 'drive = { mass = "2 kg" }\n'
+    text = HEAD + 'pressure_angle = "25 deg"\n[forces]\nwidth = "20 mm"\n[spring]\nspeeds = ["0 rpm", "220 rpm"]\n'
+    text += ROLLER + MOTION.replace("degree = 5\n", "degree = 5\n" + drive)
+    usual = text.replace('"120 deg"', '"120 deg"\nlaw = "modified sine"').replace(
+        '"100 deg"', '"100 deg"\nlaw = "modified sine"'
+    )
+    chosen, alone = told_of(tmp_path, text), told_of(tmp_path, usual)
+    beside = chosen["usual_law"]
+    assert "usual_law" not in alone
+    assert beside["name"] == "modified sine"
+    values = {each["name"]: each for each in beside["values"]}
+    for reply, which in ((chosen, "chosen"), (alone, "usual")):
+        seen = {name: each[which] for name, each in values.items()}
+        assert seen["prime circle"] == pytest.approx(1e3 * reply["prime_radius"], rel=1e-9)
+        assert seen["greatest contact force"] == pytest.approx(reply["forces"]["contact"]["most"], rel=1e-9)
+        assert seen["greatest Hertz's pressure"] == pytest.approx(1e-6 * reply["forces"]["pressure"]["most"], rel=1e-9)
+        assert seen["stiffness of the least spring"] == pytest.approx(reply["spring"]["stiffness"], rel=1e-9)
+        # the forces are those with the spring beside them
+        assert not reply["forces"]["lifts_off"]
+    for change in (each for each in values.values() if each["usual"]):
+        assert change["change"] == pytest.approx(change["chosen"] / change["usual"] - 1.0)
+    assert values["peak acceleration"]["change"] < -0.1
+    assert chosen["laws"]["status"] == "optimal"
+    assert chosen["laws"]["lower_bound"] == pytest.approx(values["peak acceleration"]["chosen"], rel=1e-6)
+
+
 def test_files_that_call_the_prime_circle_base_circle_are_read_where_both_are_one(tmp_path: Path) -> None:
     flat = LAWS.replace(ROLLER, '[follower]\nkind = "translating flat"\n').replace('pressure_angle = "25 deg"', "")
     flat = flat.replace('best = "laws"\n', "")
@@ -244,8 +271,13 @@ def test_page_and_explorer_show_the_facts_of_one_report(tmp_path: Path) -> None:
     assert trust["advice"] == f"{first.removesuffix('.')}; {second.removeprefix('Beyond what is allowed: ')}"
     rows = [[cell.strip() for cell in line.split("|")[1:-1]] for line in page.splitlines() if line.startswith("| ")]
     shown = [row for row in rows if row[0] != "what"]
-    assert len(shown) == len(trust["facts"]) + len(sizes) == 7
-    for (name, low, high, unit, place), fact in zip(shown, [*trust["facts"], *sizes], strict=True):
+    compared, (law, *extremes) = shown[:6], shown[6:]
+    peaks = ["peak velocity", "peak acceleration", "peak jerk"]
+    assert [row[0] for row in compared] == [*peaks, "greatest pressure angle", "prime circle", "least prime circle"]
+    for (name, usual, chosen, change, unit), fact in zip(compared, sizes[:6], strict=True):
+        assert fact == f"{name} {chosen} {unit}: {change}: modified sine has {usual} {unit}"
+    assert sizes[6] == f"{law[0]} {law[1]} {law[3]}: {law[4]}"
+    for (name, low, high, unit, place), fact in zip(extremes, [*trust["facts"], *sizes[7:]], strict=True):
         ends = " to ".join(dict.fromkeys([f"{low} {unit}", f"{high} {unit}"]))
         assert fact.startswith(f"{name} {ends} at ")
         assert float(fact.split(" at ")[1].split()[0]) == pytest.approx(float(place), abs=0.01)
