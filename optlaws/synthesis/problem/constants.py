@@ -97,6 +97,13 @@ class Functional(Term, ABC):
         """
         return ()
 
+    def derivatives(self) -> tuple[tuple[int, float], ...]:
+        """Pairs of an order and a weight: the constant is the peak magnitude of the weighted sum of these derivatives.
+
+        Exact verification evaluates a constant of your own by them, and refuses one that has none.
+        """
+        return ()
+
     def sizes(self, space: LawSpace) -> tuple[tuple[int, float, float], ...]:  # noqa: ARG002 - some depend on it
         """Bounds of means in every law of a space: at most factor times the constant plus the offset.
 

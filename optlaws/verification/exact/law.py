@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from fractions import Fraction
 from functools import reduce
 from itertools import pairwise
+from math import isfinite
 
 from flint import arb, ctx, fmpq
 
@@ -22,7 +24,7 @@ from optlaws.mechanisms.machine.residual import Residual
 from optlaws.synthesis.functionals.curved_rows import split, squared
 from optlaws.synthesis.functionals.kinds import FormulaIntegral, FormulaPeak, FormulaRms, FormulaValue
 from optlaws.synthesis.problem.combined import CombinedPeak, CombinedPower
-from optlaws.synthesis.problem.constants import PeakConstant, PeakJerk, PowerConstant, RootMeanSquare
+from optlaws.synthesis.problem.constants import Functional, PeakConstant, PeakJerk, PowerConstant, RootMeanSquare
 from optlaws.synthesis.problem.expression import Expression, Maximum, Term
 from optlaws.synthesis.problem.named_constants import is_named
 from optlaws.verification.enclosing.balls import Extremes, ball, enclosed, rational
@@ -35,14 +37,30 @@ from optlaws.verification.machines.residuals import exact_residual
 OfFormula = FormulaIntegral | FormulaPeak | FormulaRms | FormulaValue
 _OF_FORMULAS = {FormulaIntegral, FormulaPeak, FormulaRms, FormulaValue}
 OfMachine = Residual | OutputPeak | OutputRms
-Known = PeakConstant | PowerConstant | RootMeanSquare | CombinedPeak | OfMachine | OfFormula
+
+
+@dataclass(frozen=True)
+class DerivativePeak:
+    """The peak magnitude of w0 a^(nu) + w1 a^(nu+1) + ..., which a user's own constant is."""
+
+    name: str
+    nu: int
+    weights: tuple[Fraction, ...]
+
+    def sides(self, *, symmetric: bool) -> list[tuple[str, tuple[Fraction, ...], tuple[float, ...]]]:  # noqa: ARG002 - as of a CombinedPeak
+        """Names, weights and signs of its rows, those of half of a symmetric law too."""
+        return [(self.name, self.weights, (1.0, -1.0))]
+
+
+OfDerivatives = PeakConstant | PowerConstant | RootMeanSquare | CombinedPeak | DerivativePeak
+Known = OfDerivatives | OfMachine | OfFormula
 
 _OF_CAMS = tuple(f"{name}_cam(" for name in ("B", "C", "C_plus", "C_minus", "D", "J"))
 _BY_NAME = (*_OF_CAMS, "residual(", "mode_residual(", "output_peak(", "output_rms(")
 
 
 def known(term: Term) -> Known:
-    """The constant, if optlaws itself defines it, for a law, a cam, a machine, or a formula.
+    """The constant, if optlaws itself defines it, for a law, a cam, a machine, or a formula, or derivatives do.
 
     Raises
     ------
@@ -67,11 +85,32 @@ def known(term: Term) -> Known:
         return term
     if type(term) in _OF_FORMULAS and isinstance(term, OfFormula) and is_named(term):
         return term
+    if isinstance(term, Functional) and term.derivatives():
+        return of_derivatives(term)
     raise InputError(
         "exact verification knows peaks, power and RMS of derivatives, constants of cams, of machines and "
         f"of formulas as optlaws defines them, not {term!r}: what bounds it is checked with numpy alone, by "
-        "Certificate.bound"
+        "Certificate.bound. A peak of derivatives is known by its method derivatives"
     )
+
+
+def of_derivatives(constant: Functional) -> DerivativePeak:
+    """The peak that a user's own constant says it is by its `derivatives`.
+
+    Raises
+    ------
+    InputError
+        If an order is no whole number from 1 on, or a weight is not finite or is 0.
+    """
+    weights = dict(constant.derivatives())
+    if not all(type(nu) is int and nu > 0 and weight and isfinite(weight) for nu, weight in weights.items()):
+        raise InputError(
+            f"derivatives of {constant!r} must be pairs of a whole number from 1 on and a finite weight other than 0, "
+            f"got {constant.derivatives()!r}"
+        )
+    low, high = min(weights), max(weights)
+    exact = tuple(Fraction(weights.get(nu, 0)) for nu in range(low, high + 1))
+    return DerivativePeak(constant.name, low, exact)
 
 
 class ExactLaw:
@@ -209,8 +248,8 @@ class ExactLaw:
         signs = constant.counted if isinstance(constant, FormulaPeak) else (1.0,)
         return reduce(arb.max, [self.greatest_of(motion, sign) for sign in signs])
 
-    def _of_derivatives(self, constant: PeakConstant | PowerConstant | RootMeanSquare | CombinedPeak) -> arb:
-        if isinstance(constant, CombinedPeak | CombinedPower):
+    def _of_derivatives(self, constant: OfDerivatives) -> arb:
+        if isinstance(constant, CombinedPeak | CombinedPower | DerivativePeak):
             return self._combined(constant)
         if isinstance(constant, PowerConstant):
             return self.power
@@ -218,13 +257,14 @@ class ExactLaw:
             return self.rms(constant.nu)
         return arb.pos_inf() if self._impulses(constant.nu) else _peak(self.extremes(constant.nu), constant.signs)
 
-    def _combined(self, constant: CombinedPeak | CombinedPower) -> arb:
-        nu, weights = constant.nu if isinstance(constant, CombinedPeak) else 2, constant.weights
+    def _combined(self, constant: CombinedPeak | CombinedPower | DerivativePeak) -> arb:
+        nu, weights = 2 if isinstance(constant, CombinedPower) else constant.nu, constant.weights
         if self._impulses(nu + len(weights) - 1):
             return arb.pos_inf()
-        if isinstance(constant, CombinedPeak):
+        if not isinstance(constant, CombinedPower):
             values = [value for piece in self.polynomials for value in piece.combined(nu, weights)]
-            return _peak(least_and_greatest(values), constant.signs)
+            signs = constant.signs if isinstance(constant, CombinedPeak) else (1.0, -1.0)
+            return _peak(least_and_greatest(values), signs)
         products = [value for piece in self.polynomials for value in piece.combined_power(weights)]
         return self.magnitude(least_and_greatest(products))
 

@@ -37,7 +37,7 @@ from optlaws.synthesis.proof.sublevel_bounds import Number, Sublevel
 from optlaws.synthesis.spaces.of_basis import space_of
 from optlaws.synthesis.spaces.space import LawSpace
 from optlaws.verification.enclosing.balls import ball, upper
-from optlaws.verification.exact.law import ExactLaw, OfFormula, OfMachine, known
+from optlaws.verification.exact.law import DerivativePeak, ExactLaw, OfFormula, OfMachine, known, of_derivatives
 from optlaws.verification.exact.motion_formulas import (
     formula_columns,
     norm_columns,
@@ -136,12 +136,18 @@ class ExactRows:
         return space_of(self.problem.basis, self.problem.conditions, symmetric=self.problem.symmetric)
 
     def _sizes(self, constant: Functional) -> Iterator[tuple[int, Fraction, Fraction]]:
+        if constant.derivatives():
+            # what a user's own constant bounds follows from what it is, whatever it says that it bounds
+            peak = of_derivatives(constant)
+            if len(peak.weights) == 1:
+                yield peak.nu, 1 / abs(peak.weights[0]), Fraction(0)
+            return
         for nu, *sizes in () if isinstance(constant, OutputConstant) else constant.sizes(self._solved):
             factor, offset = (Fraction(size) * _ROUNDED for size in sizes)
             yield nu, factor, offset
 
     def _floor(self, constant: Functional) -> Number:
-        value = floor(constant, self.problem.conditions)
+        value = Fraction(0) if constant.derivatives() else floor(constant, self.problem.conditions)
         # above 0 doubles say it, unless it is an exact one
         return value if isinstance(value, Fraction) else min(_exact(value), Fraction(0))
 
@@ -180,9 +186,9 @@ class ExactRows:
         constant = known(leaf)
         if isinstance(constant, Combined):
             constant.check(self._solved)
-        if isinstance(constant, CombinedPeak):
-            for name, weights, sides in constant.sides(symmetric=self.problem.symmetric):
-                self._everywhere(name, partial(self.space.combination, constant.nu, weights), sides, limit)
+        if isinstance(constant, CombinedPeak | DerivativePeak):
+            for name, weights, signs in constant.sides(symmetric=self.problem.symmetric):
+                self._everywhere(name, partial(self.space.combination, constant.nu, weights), signs, limit)
         elif isinstance(constant, OfMachine):
             self._of_machine(constant, limit)
         elif isinstance(constant, OfFormula):
