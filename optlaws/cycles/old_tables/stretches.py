@@ -2,20 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from math import isfinite
-from typing import Any, Literal, NamedTuple, TypeAlias
+from typing import Literal, NamedTuple, TypeAlias
 
 import numpy as np
 
-from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
+from optlaws.cycles.old_tables.motion import FittedMotion, FittedMove
+from optlaws.cycles.old_tables.peak_intervals import PeakInterval
+from optlaws.errors import InfeasibleProblem, SolverFailure
 from optlaws.laws import MotionLaw
 from optlaws.laws.catalogue.catalogue import catalogue
-from optlaws.laws.making.through_points import law_through
 from optlaws.laws.polynomial import smoothstep
+from optlaws.laws.segments.piecewise import PiecewiseLaw
+from optlaws.laws.segments.segment import PolynomialSegment
 from optlaws.numbers import Array
+from optlaws.numerics import chebyshev
 from optlaws.numerics.bernstein import greatest_difference
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.problem.ranges import at_most
@@ -24,19 +28,13 @@ from optlaws.synthesis.solution import Solution
 from optlaws.synthesis.solve import synthesize
 from optlaws.synthesis.spaces.bases import Chebyshev
 
-_CLOSE_FIT = 1e-14  # of a fit of a law to points: what its last step changes of the sum of squares and of its ends
-_ROUGH_FIT = 1e-4  # the same where laws are only ranked by how near they come
-
 StretchKind: TypeAlias = Literal["dwell", "rise", "return"]
 
-#: a dwell has as many points at least
-_FEWEST = 3
-#: and in the middle of one of as many points the motion rests indeed
-_LONG = 12
-#: points of a move that exclude laws far from it, and the number of laws that are compared at all points
-_COARSE, _NEAREST = 40, 4
-#: steps to which the ends of moves are rounded where the points allow it, in parts of the master's turn
-_ROUND = (1.0 / 36.0, 1.0 / 72.0, 1.0 / 360.0, 1.0 / 720.0, 1.0 / 3600.0)
+#: of the master's length: what is shorter is no stretch of its own
+_SHORTEST = 1.0 / 3600.0
+#: of a move: breaks that are nearer to its ends are these
+_APART = 1e-9
+_PIECE_DEGREE = 5
 
 
 @dataclass(frozen=True)
@@ -59,6 +57,9 @@ class Stretch:
         How far the points are from that at most, in units of the table.
     solution
         Of a better law: the solution that it is from, with its certificate.
+    peaks
+        Between which values the peaks of velocity, acceleration and jerk are by the table; empty for a dwell, and for a
+        law in place of that of the table.
     """
 
     kind: StretchKind
@@ -70,24 +71,12 @@ class Stretch:
     nearest: str = ""
     distance: float = 0.0
     solution: Solution | None = None
+    peaks: tuple[PeakInterval, ...] = ()
 
     @property
     def stroke(self) -> float:
         """The displacement from its start to its end."""
         return self.high - self.low
-
-
-def of_standard_laws(places: Array, heights: Array, room: float) -> tuple[Stretch, ...] | None:
-    """The segments of a table if all its moves are standard laws; None otherwise."""
-    stretches = []
-    try:
-        for part in stretches_of(places, heights, room):
-            if isinstance(part.law, MotionLaw):
-                return None
-            stretches.append(part)
-    except InputError:
-        return None
-    return tuple(stretches)
 
 
 def seam_of(heights: Array, room: float) -> float:
@@ -96,138 +85,66 @@ def seam_of(heights: Array, room: float) -> float:
     return seam if abs(seam) > room else 0.0
 
 
-@dataclass(frozen=True)
-class _Rest:
-    """A run of points at one level."""
-
-    first: int
-    last: int
-    level: float
-
-
-def _rests(heights: Array, room: float) -> Iterator[_Rest]:
-    """Runs of points within the tolerance of a level, and single points at which the motion turns."""
-    count, i = len(heights), 0
-    while i < count:
-        low = high = heights[i]
-        j = i
-        while j + 1 < count and max(high, heights[j + 1]) - min(low, heights[j + 1]) <= 2.0 * room:
-            j += 1
-            low, high = min(low, heights[j]), max(high, heights[j])
-        turns = i > 0 and j + 1 < count and (heights[i - 1] - heights[i]) * (heights[j + 1] - heights[j]) > 0.0
-        if j - i + 1 >= _FEWEST or turns or i == 0 or j == count - 1:
-            yield _Rest(i, j, _level(heights, i, j))
-            i = j + 1
-        else:
-            i += 1
+def stretches_of(motion: FittedMotion) -> Iterator[Stretch]:
+    """The dwells and moves of a fitted motion, from its first place to its last one."""
+    x, y = motion.samples.places, motion.samples.heights
+    least = _SHORTEST * float(np.ptp(x))
+    at, level = float(x[0]), motion.moves[0].position_before(float(x[0]))
+    for move in motion.moves:
+        start = move.start if move.start - at > least else at
+        if start > at:
+            yield _between(at, start, level, move.low)
+        stop = move.stop if float(x[-1]) - move.stop > least else float(x[-1])
+        law = move.name or _law_of(move, x, y)
+        part = Stretch(
+            "rise" if move.high > move.low else "return", start, stop, move.low, move.high, law, move.nearest,
+            peaks=move.peaks,
+        )  # fmt: skip
+        off = part if move.name or not move.nearest else replace(part, law=move.nearest)
+        inside = (x >= start) & (x <= stop) & ~motion.samples.suspects
+        apart = np.abs(position(off, x[inside]) - y[inside])
+        yield replace(part, distance=float(apart.max(initial=0.0)))
+        at, level = stop, move.high
+    if float(x[-1]) > at:
+        yield _between(at, float(x[-1]), level, motion.moves[-1].position_behind(float(x[-1])))
 
 
-def _level(heights: Array, first: int, last: int) -> float:
-    """The level of a dwell: the median of its middle; of a short one the value farthest from the moves."""
-    quarter = (last - first) // 4
-    if last - first + 1 >= _LONG:
-        return float(np.median(heights[first + quarter : last - quarter + 1]))
-    beside = [float(heights[i]) for i in (first - 1, last + 1) if 0 <= i < len(heights)]
-    run = heights[first : last + 1]
-    return float(run.max() if np.mean(beside) < np.mean(run) else run.min())
+def _between(start: float, stop: float, low: float, high: float) -> Stretch:
+    """A dwell, or what runs at constant velocity."""
+    if low == high:
+        return Stretch("dwell", start, stop, low, high)
+    slope = abs((high - low) / (stop - start))
+    peaks = PeakInterval(slope, slope), PeakInterval(0.0, 0.0), PeakInterval(0.0, 0.0)
+    name = "constant velocity"
+    return Stretch("rise" if high > low else "return", start, stop, low, high, name, name, peaks=peaks)
 
 
-def _joined(rests: Sequence[_Rest], room: float) -> list[_Rest]:
-    """Consecutive runs at the same level as a single run; levels that differ by less than the tolerance are equal."""
-    joined: list[_Rest] = []
-    longest = sorted(rests, key=lambda rest: rest.first - rest.last)
-    for rest in rests:
-        level = next(other.level for other in longest if abs(other.level - rest.level) <= room)
-        first = joined.pop().first if joined and joined[-1].level == level else rest.first
-        joined.append(_Rest(first, rest.last, level))
-    return joined
+def _law_of(move: FittedMove, x: Array, y: Array) -> MotionLaw:
+    """The law of a move that is no standard law: of its spline, or of lines between rows where these are too few."""
+    length, stroke = move.stop - move.start, move.high - move.low
+    if not move.fits:
+        inner = (x > move.start) & (x < move.stop)
+        k = np.concatenate([[0.0], (x[inner] - move.start) / length, [1.0]])
+        a = np.concatenate([[0.0], (y[inner] - move.low) / stroke, [1.0]])
+        slopes = np.diff(a) / np.diff(k)
+        return PiecewiseLaw(k, [PolynomialSegment((), float(slope)) for slope in slopes])
+    fit = move.fits[0]
+    breaks = fit.breaks
+    within = breaks[(breaks > move.start + _APART * length) & (breaks < move.stop - _APART * length)]
+    places = np.concatenate([[move.start], within, [move.stop]])
+    nodes = 0.5 * (chebyshev.nodes(_PIECE_DEGREE - 1) + 1.0)
+    segments = []
+    for low, high in pairwise(places.tolist()):
+        c = fit.values(low + (high - low) * nodes, 2) * (length**2 / stroke)
+        b = float(fit.values(np.array([low]), 1)[0]) * length / stroke
+        segments.append(PolynomialSegment(tuple(chebyshev.from_values(c).tolist()), b))
+    return PiecewiseLaw((places - move.start) / length, segments)
 
 
-def stretches_of(places: Array, heights: Array, room: float) -> Iterator[Stretch]:
-    """The dwells and moves of points in their order."""
-    rests = _joined(list(_rests(heights, room)), room)
-    # what rises or falls through a short run does not rest there
-    apart = [rests[0]]
-    for rest, after in pairwise(rests[1:]):
-        passes = (rest.level - apart[-1].level) * (after.level - rest.level) > 0.0
-        if not passes or rest.last - rest.first + 1 >= _LONG:
-            apart.append(rest)
-    apart.append(rests[-1])
-    moves = (_move(places, heights, first, last, room) for first, last in pairwise(apart))
-    turn = float(np.ptp(places))
-    at = float(places[0])
-    for move, rest in zip(moves, apart, strict=False):
-        if move.start - at > _ROUND[-1] * turn:
-            yield Stretch("dwell", at, move.start, rest.level, rest.level)
-        yield move
-        at = move.stop
-    if places[-1] - at > _ROUND[-1] * turn:
-        yield Stretch("dwell", at, float(places[-1]), apart[-1].level, apart[-1].level)
-
-
-def _move(places: Array, heights: Array, first: _Rest, last: _Rest, room: float) -> Stretch:
-    """The move between two rests: by the standard law that is nearest, or by one through its points."""
-    # a run between two moves is shared at its middle, so that neither reaches into the other
-    low = 0 if first.first == 0 and first.last < _LONG else (first.first + first.last) // 2
-    whole = last.last == len(places) - 1 and last.last - last.first < _LONG
-    high = last.last if whole else (last.first + last.last) // 2
-    x, y = places[low : high + 1], (heights[low : high + 1] - first.level) / (last.level - first.level)
-    share = room / abs(last.level - first.level)
-    some = slice(None, None, max(1, len(x) // _COARSE))
-    near = sorted((_fitted(x[some], y[some], catalogue[name].law, _ROUGH_FIT)[0], name) for name in catalogue)
-    distance, start, stop, name = min(
-        (*_fitted(x, y, catalogue[name].law, _CLOSE_FIT), name) for _, name in near[:_NEAREST]
-    )
-    law = catalogue[name].law
-    kind: StretchKind = "rise" if last.level > first.level else "return"
-    if distance <= 1.5 * share:
-        start, stop = _rounded(x, y, law, (start, stop), share)
-        distance = _distance(x, y, law, start, stop)
-    if distance <= share * (1.0 + 1e-9):
-        return Stretch(kind, start, stop, first.level, last.level, name, name, distance * abs(last.level - first.level))
-    inner = np.flatnonzero((y > share) & (y < 1.0 - share))
-    begin, end = max(int(inner[0]) - 1, 0), min(int(inner[-1]) + 1, len(x) - 1)
-    begin = min(begin, int(np.searchsorted(x, start, side="right")) - 1) if start > x[0] else 0
-    end = max(end, int(np.searchsorted(x, stop))) if stop < x[-1] else len(x) - 1
-    through = law_through(x[begin : end + 1], np.clip(y[begin : end + 1], 0.0, 1.0), tolerance=share)
-    size = distance * abs(last.level - first.level)
-    return Stretch(kind, float(x[begin]), float(x[end]), first.level, last.level, through, name, size)
-
-
-def _distance(x: Array, y: Array, law: MotionLaw, start: float, stop: float) -> float:
-    return float(np.abs(law(np.clip((x - start) / (stop - start), 0.0, 1.0)) - y).max())
-
-
-def _fitted(x: Array, y: Array, law: MotionLaw, tolerance: float) -> tuple[float, float, float]:
-    """The greatest deviation of the points from a law, and the law's fitted start and end, by least squares."""
-    from scipy.optimize import least_squares
-
-    k = np.linspace(0.0, 1.0, 401)
-    tenth, ninth = (float(np.interp(share, law(k), k)) for share in (0.1, 0.9))
-    rising = np.maximum.accumulate(y)
-    first, last = (float(np.interp(share, rising, x)) for share in (0.1, 0.9))
-    length = max((last - first) / (ninth - tenth), float(np.diff(x).min()))
-    guess = first - tenth * length
-
-    def missed(ends: Array) -> Array:
-        start, stop = ends
-        return np.asarray(law(np.clip((x - start) / max(stop - start, 1e-9 * length), 0.0, 1.0)) - y)
-
-    stops: dict[str, Any] = {"xtol": tolerance, "ftol": tolerance, "gtol": tolerance}
-    solution = least_squares(missed, [guess, guess + length], x_scale=length, **stops)
-    start, stop = map(float, solution.x)
-    return float(np.abs(missed(solution.x)).max()), start, stop
-
-
-def _rounded(x: Array, y: Array, law: MotionLaw, ends: tuple[float, float], room: float) -> tuple[float, float]:
-    """The ends of a move rounded as much as the points allow, and within them."""
-    turn = 360.0 if float(np.ptp(x)) > 12.0 else 1.0
-    for share in _ROUND:
-        step = share * turn
-        start, stop = (max(min(round(end / step) * step, float(x[-1])), float(x[0])) for end in ends)
-        if start < stop and _distance(x, y, law, start, stop) <= room:
-            return start, stop
-    return max(ends[0], float(x[0])), min(ends[1], float(x[-1]))
+def position(part: Stretch, places: Array) -> Array:
+    """The positions of a stretch at places within it."""
+    k = np.clip((places - part.start) / (part.stop - part.start), 0.0, 1.0)
+    return part.low + (0.0 * k if part.law is None else part.stroke * np.asarray(law_of_move(part)(k)))
 
 
 _WITHIN_TOLERANCE = 1e-6  # of a tolerance: a new law that is beyond it by no more is within it, but for rounding
@@ -286,7 +203,7 @@ def better(part: Stretch, room: float, order: int, degree: int, start: Solution 
             return part
         # between its places the spline is not the old law
         if deviation(solution.law, old) <= share * (1.0 + _WITHIN_TOLERANCE):
-            return replace(part, law=solution.law, solution=solution)
+            return replace(part, law=solution.law, solution=solution, peaks=())
     return part
 
 

@@ -13,7 +13,10 @@ import numpy as np
 
 from optlaws.cycles.cycle import Cycle
 from optlaws.cycles.old_tables.controller_files import FEWEST_POINTS
+from optlaws.cycles.old_tables.motion import NOISE_ROOM, motion_of
+from optlaws.cycles.old_tables.peak_intervals import PeakInterval
 from optlaws.cycles.old_tables.reading import CamPoints, points_in
+from optlaws.cycles.old_tables.samples import samples_of
 from optlaws.cycles.old_tables.stretches import (
     MoveGain,
     Stretch,
@@ -21,7 +24,7 @@ from optlaws.cycles.old_tables.stretches import (
     gain,
     law_of_move,
     nothing_to_better,
-    of_standard_laws,
+    position,
     seam_of,
     stretches_of,
 )
@@ -30,16 +33,15 @@ from optlaws.errors import InputError, located
 from optlaws.files import reading
 from optlaws.kept import kept_property
 from optlaws.laws.catalogue.reading import LARGEST_TABLE
-from optlaws.laws.making.through_points import noise
 from optlaws.laws.report import law_panels
 from optlaws.motion.quantities import QUANTITIES, Exact
 from optlaws.numbers import Array, Quantity, bounded, not_negative, numbers, positive
-from optlaws.sentences import Amount, sentence
+from optlaws.sentences import Amount, joined, sentence
 from optlaws.shown.report import Panel, ReportSegment, ReportTable, Series
 from optlaws.shown.summary import Row, Summary
 from optlaws.tolerances import AGREEMENT, NO_MARK
 
-_NOISE_ROOM = 4.0  # of the standard deviation of a table's noise: points that are farther from a law speak against it
+_MOST_NAMED = 8  # points that are left out
 _STANDARD_LAW_ROOM = 1e-7  # of the stroke of a table with all digits: by how much a standard law may be off its points
 
 
@@ -65,6 +67,8 @@ class OldTable:
         What the file is that it was read from.
     rate
         How many units of its master go by in a second, where the file says it.
+    outliers
+        Indices of points that are far off the motion, as a speck of dust puts them; they are left out.
 
     Examples
     --------
@@ -86,6 +90,7 @@ class OldTable:
     heights: Array
     layout: str = ""
     rate: float | None = None
+    outliers: tuple[int, ...] = ()
 
     def cycle(self, *, speed: Quantity | None = None, period: Quantity | None = None) -> Cycle:
         """The cycle of the table, at a speed or a period; at the speed of the file if neither is given.
@@ -225,8 +230,7 @@ class OldTable:
         y = np.full(x.shape, self.stretches[0].low)
         for part in self.stretches:
             inside = x >= part.start
-            k = np.clip((x[inside] - part.start) / (part.stop - part.start), 0.0, 1.0)
-            y[inside] = part.low + (0.0 if part.law is None else part.stroke * np.asarray(law_of_move(part)(k)))
+            y[inside] = position(part, x[inside])
         return y
 
     def unit_of(self, nu: int) -> str:
@@ -237,8 +241,18 @@ class OldTable:
     def off(self) -> tuple[float, float]:
         """The greatest deviation of the laws from the points, in units of the table, and its place; recomputed."""
         apart = np.abs(self.at(self.places) - self.heights)
+        apart[list(self.outliers)] = 0.0
         worst = int(np.argmax(apart))
         return float(apart[worst]), float(self.places[worst])
+
+    @property
+    def peaks(self) -> tuple[PeakInterval, ...]:
+        """Between which values the peaks of velocity, acceleration and jerk by the master are, of all moves."""
+        of_moves = [part.peaks for part in self.moves if part.peaks]
+        return tuple(
+            PeakInterval(max(each.low for each in order), max(each.high for each in order))
+            for order in zip(*of_moves, strict=True)
+        )
 
     @property
     def moves(self) -> tuple[Stretch, ...]:
@@ -262,6 +276,11 @@ class OldTable:
         if off > self.room * (1.0 + AGREEMENT):
             away, at = Amount(off, self.unit, 3), Amount(place, self.master)
             remarks.append(sentence("but {} off the point at {}", away, at))
+        if self.outliers:
+            named = joined(", ", [Amount(float(self.places[i]), self.master) for i in self.outliers[:_MOST_NAMED]])
+            more = len(self.outliers) - _MOST_NAMED
+            others = f" and {more} others" if more > 0 else ""
+            remarks.append(sentence("far off the motion and left out: the points at {}{}", named, others))
         if self.seam:
             remarks.append(sentence("the last position is {} from the first one", Amount(self.seam, self.unit, 3)))
         return tuple(remarks)
@@ -270,6 +289,8 @@ class OldTable:
         """The standard law of a move, or the nearest standard law, with the deviation of the points from it."""
         if isinstance(part.law, str):
             return sentence("{} (within {})", part.law, Amount(part.distance, self.unit, 2))
+        if not part.nearest:
+            return "a law of its own, not from rest to rest"
         distance = Amount(part.distance, self.unit, 2)
         return sentence("a law of its own; the nearest standard law is {}, {} off", part.nearest, distance)
 
@@ -393,17 +414,21 @@ def split_table(
     stroke = float(np.ptp(heights))
     if stroke == 0.0:
         raise InputError("the table never moves: all its positions are the same")
-    scatter = noise((places - places[0]) / np.ptp(places), heights / stroke) * stroke
-    least = max(digit, _STANDARD_LAW_ROOM * stroke)
+    samples = samples_of(places, heights, digit)
+    least = max(samples.digit if digit else 0.0, _STANDARD_LAW_ROOM * stroke)
+    room = least if tolerance is None else max(not_negative(tolerance, "tolerance"), _STANDARD_LAW_ROOM * stroke)
+    scatter = samples.scatter
     if tolerance is not None:
-        room = max(not_negative(tolerance, "tolerance"), _STANDARD_LAW_ROOM * stroke)
-    else:
-        room = max(least, _NOISE_ROOM * scatter)
-        # joints of a standard law may look like noise
-        if room > least and (split := of_standard_laws(places, heights, least)):
-            return OldTable(split, least, 0.0, seam_of(heights, least), unit, master, places, heights)
-    stretches = tuple(stretches_of(places, heights, room))
-    return OldTable(stretches, room, scatter, seam_of(heights, room), unit, master, places, heights)
+        samples = replace(samples, noise=np.maximum(samples.noise, room / NOISE_ROOM))
+    motion = motion_of(samples)
+    if not motion.moves:
+        raise InputError("the table never moves as far as its noise tells: its positions scatter about one level")
+    if tolerance is None:
+        room = max(room, NOISE_ROOM * scatter)
+    return OldTable(
+        tuple(stretches_of(motion)), room, scatter, seam_of(heights, room), unit, master, samples.places, heights,
+        outliers=tuple(np.flatnonzero(motion.samples.suspects).tolist()),
+    )  # fmt: skip
 
 
 _OLD, _NEW, _POINTS = 0, 1, 2  # colours

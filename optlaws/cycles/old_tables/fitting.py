@@ -1,0 +1,404 @@
+"""Splines through samples of a motion between two rests or ends: their joints, and which of them the noise allows."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+from itertools import pairwise
+from math import log
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.interpolate import BSpline
+
+from optlaws.numbers import Array
+
+DEGREE = 5
+#: numbers of pieces that are tried
+_PIECES = (1, 2, 3, 4, 5, 6, 8, 10, 13, 17, 22, 29, 38, 50)
+#: rows for each coefficient at least
+_ROWS_EACH = 1.6
+#: rows in searches for joints, which need not be all
+_SEARCHED = 160
+#: numbers of pieces between which a joint is looked for
+_COARSE = (1, 2, 4)
+#: a smoother joint is preferred if it lowers the sum of squares by so much of what the best one does
+_AS_GOOD = 0.8
+_MOST_JOINTS = 8
+#: how many models with more pieces than the best one are looked at beside it
+_FINER = 2
+#: by how much the criterion of Schwarz must fall for a joint to be there
+_EVIDENT = 12.0
+#: places at which a joint is looked for
+_CANDIDATES = 160
+#: with as few pieces no joint is looked for: the motion is smooth
+_SIMPLE = 4
+#: with more pieces the ends of rests are no longer looked for: the pieces begin to take part in the rests
+_ENDS_BY = 6
+
+
+class Joint(NamedTuple):
+    """A place where derivatives above the order `continuity` jump: 0 at a corner, 1 where the acceleration jumps."""
+
+    place: float
+    continuity: int
+
+
+class End(NamedTuple):
+    """An end of a curve: the line from which it starts with its value and slope, a rest for one; or none."""
+
+    line: tuple[float, float, float] | None = None  #: a place, and the value and the slope there
+    low: float = 0.0  #: where the line ends at the earliest
+    high: float = 0.0  #: and at the latest
+
+    def value(self, places: Array) -> Array:
+        """The positions on the line."""
+        place, value, slope = self.line or (0.0, 0.0, 0.0)
+        return value + slope * (places - place)
+
+    @property
+    def slope(self) -> float:
+        """The velocity on the line."""
+        return self.line[2] if self.line else 0.0
+
+
+@dataclass(frozen=True, eq=False)
+class CurveFit:
+    """A spline fitted to samples by least squares.
+
+    Attributes
+    ----------
+    spline
+        The motion from its start to its stop.
+    covariance
+        Root of the covariance of its coefficients: a factor F with F Fᵀ as the covariance.
+    joints
+        Where it has jumps inside.
+    squares, free, rows
+        The sum of squares over the variance of the noise, the number of parameters, and that of rows.
+    """
+
+    spline: BSpline
+    factor: Array
+    joints: tuple[Joint, ...]
+    squares: float
+    free: int
+    rows: int
+    ends: tuple[End, End]
+    pieces: int = field(default=1)
+
+    @property
+    def start(self) -> float:
+        """The place where it begins."""
+        return float(self.spline.t[DEGREE])
+
+    @property
+    def stop(self) -> float:
+        """The place where it ends."""
+        return float(self.spline.t[-DEGREE - 1])
+
+    @property
+    def breaks(self) -> Array:
+        """Where its polynomials meet."""
+        return np.unique(self.spline.t)
+
+    @property
+    def variance(self) -> float:
+        """The variance of the rows about it, over that of the noise."""
+        return self.squares / max(self.rows - self.free, 1)
+
+    def criterion(self, price: float) -> float:
+        """The criterion of Akaike (price 2) or Schwarz (price log of the rows), which is least for the best model."""
+        return self.rows * log(max(self.squares, 1e-300) / self.rows) + price * self.free
+
+    def values(self, places: Array, nu: int = 0) -> Array:
+        """A derivative at places, by the master."""
+        return np.asarray(_basis(self.spline.t, places, nu) @ self.spline.c)
+
+    def deviation(self, places: Array, nu: int) -> Array:
+        """Standard deviations of a derivative at places, for noise of the variance about it."""
+        rows = _basis(self.spline.t, places, nu) @ self.factor
+        return np.asarray(np.sqrt(max(self.variance, 1.0) * (rows**2).sum(axis=1)))
+
+
+def _basis(knots: Array, places: Array, nu: int = 0) -> Array:
+    """B-splines or their derivatives at places, a row for each; of the right-hand side at a jump."""
+    inner, degree = knots, DEGREE
+    turned = np.eye(len(knots) - DEGREE - 1)
+    for _ in range(nu):
+        spans = (inner[degree + 1 : -1] - inner[1 : -degree - 1])[:, None]
+        turned = np.divide(degree * np.diff(turned, axis=0), spans, out=np.zeros_like(turned[1:]), where=spans > 0.0)
+        inner, degree = inner[1:-1], degree - 1
+    x = np.clip(places, inner[0], inner[-1])
+    rows: Array = np.asarray(BSpline.design_matrix(x, inner, degree).toarray(), dtype=np.float64)
+    return np.asarray(rows @ turned, dtype=np.float64) if nu else rows
+
+
+def _knots(start: float, stop: float, joints: Sequence[Joint], pieces: int) -> Array:
+    """Knots of about as many pieces, even between joints."""
+    ends = [start, *(joint.place for joint in joints), stop]
+    inner: list[float] = []
+    for i, (low, high) in enumerate(pairwise(ends)):
+        count = max(1, round(pieces * (high - low) / (stop - start)))
+        inner += np.linspace(low, high, count + 1)[1:-1].tolist()
+        if i < len(joints):
+            inner += [high] * (DEGREE - joints[i].continuity)
+    return np.array([*[start] * (DEGREE + 1), *inner, *[stop] * (DEGREE + 1)])
+
+
+class _Fitter:
+    """Fits splines to rows between two ends."""
+
+    def __init__(self, places: Array, heights: Array, noise: Array, ends: tuple[End, End]) -> None:
+        self.x, self.y, self.noise, self.ends = places, heights, noise, ends
+
+    def thinned(self) -> _Fitter:
+        """The same with fewer rows, for searches."""
+        stride = max(1, len(self.x) // _SEARCHED)
+        return _Fitter(self.x[::stride], self.y[::stride], self.noise[::stride], self.ends)
+
+    def solved(
+        self, start: float, stop: float, joints: Sequence[Joint], pieces: int, *, whole: bool = False
+    ) -> tuple[float, int, CurveFit | None]:
+        """The sum of squares, the number of parameters, and with `whole` the fit."""
+        joints = tuple(joint for joint in joints if start < joint.place < stop)
+        knots = _knots(start, stop, joints, pieces)
+        count = len(knots) - DEGREE - 1
+        inside = (self.x >= start) & (self.x <= stop)
+        outside = 0.0
+        for end, away in ((self.ends[0], self.x < start), (self.ends[1], self.x > stop)):
+            if end.line is not None:
+                outside += float((((self.y[away] - end.value(self.x[away])) / self.noise[away]) ** 2).sum())
+        fixed, coefficients = self._known(knots)
+        free: NDArray[np.bool_] = np.logical_not(fixed)
+        rows = _basis(knots, self.x[inside]) if inside.any() else np.zeros((0, count))
+        weights = 1.0 / self.noise[inside]
+        left = (self.y[inside] - rows @ coefficients) * weights
+        matrix = rows[:, free] * weights[:, None]
+        parameters = int(free.sum()) + len(joints) + sum(end.line is not None for end in self.ends)
+        if len(left) < free.sum():
+            return np.inf, parameters, None
+        q, r = np.linalg.qr(matrix)
+        size = np.abs(np.diag(r))
+        if size.size and size.min() <= 1e-10 * size.max():
+            return np.inf, parameters, None
+        along = q.T @ left
+        squares = max(float(left @ left - along @ along), 0.0) + outside
+        if not whole:
+            return squares, parameters, None
+        coefficients[free] = np.linalg.solve(r, along)
+        factor = np.zeros((count, int(free.sum())))
+        factor[free] = np.linalg.inv(r)
+        squares = float((((rows @ coefficients - self.y[inside]) * weights) ** 2).sum()) + outside
+        spline = BSpline(knots, coefficients, DEGREE)
+        return (
+            squares,
+            parameters,
+            CurveFit(spline, factor, joints, squares, parameters, len(self.x), self.ends, pieces),
+        )
+
+    def ends_of(
+        self, start: float, stop: float, joints: Sequence[Joint], pieces: int, width: float | None = None
+    ) -> tuple[float, float]:
+        """Where the rests end by the least sum of squares, within a width about a start and a stop."""
+        places = [start, stop]
+        step = float(np.median(np.diff(self.x)))
+        sides = [side for side, end in enumerate(self.ends) if end.line is not None]
+        if width is None:
+            # a coarse look over all of the rests' ends first
+            for side in sides:
+                end = self.ends[side]
+                tried = np.linspace(end.low, end.high, 9)
+                squares = [self._with(places, side, at, joints, pieces) for at in tried]
+                places[side] = float(tried[int(np.argmin(squares))])
+            width = max([(self.ends[side].high - self.ends[side].low) / 8.0 for side in sides], default=0.0)
+        wide = width
+        middle = self.solved(places[0], places[1], joints, pieces)[0]
+        while sides and wide > 0.02 * step:
+            moved = False
+            for side in sides:
+                end, at = self.ends[side], places[side]
+                around = [min(max(at + sign * wide, end.low), end.high) for sign in (-1.0, 1.0)]
+                low, high = (self._with(places, side, place, joints, pieces) for place in around)
+                best = min((low, around[0]), (middle, at), (high, around[1]))
+                bent = low - 2.0 * middle + high
+                if best[1] == at and bent > 0.0 and np.isfinite(bent) and around[1] - at == at - around[0]:
+                    place = at + 0.5 * wide * (low - high) / bent
+                    best = min(best, (self._with(places, side, place, joints, pieces), place))
+                else:
+                    moved = moved or best[1] != at
+                middle, places[side] = best
+            wide *= 1.0 if moved else 0.25
+        return places[0], places[1]
+
+    def _with(self, places: Sequence[float], side: int, place: float, joints: Sequence[Joint], pieces: int) -> float:
+        """The sum of squares with one end elsewhere."""
+        start, stop = (place, places[1]) if side == 0 else (places[0], place)
+        return self.solved(start, stop, joints, pieces)[0] if start < stop else np.inf
+
+    def joint(self, start: float, stop: float, joints: Sequence[Joint], pieces: int) -> Joint | None:
+        """The joint that lowers the sum of squares most, the smoothest one of those that do it nearly as much."""
+        knots = _knots(start, stop, joints, pieces)
+        inside = (self.x >= start) & (self.x <= stop)
+        x, weights = self.x[inside], 1.0 / self.noise[inside]
+        rows = _basis(knots, x)
+        count = rows.shape[1]
+        fixed, coefficients = self._known(knots)
+        if len(x) < count + 2:
+            return None
+        q, _ = np.linalg.qr(rows[:, ~fixed] * weights[:, None])
+        left = (self.y[inside] - rows @ coefficients) * weights
+        left = left - q @ (q.T @ left)
+        margin = 2.0 * float(np.median(np.diff(x)))
+        grid = np.linspace(start + margin, stop - margin, _CANDIDATES)
+        grid = grid[[all(abs(place - other.place) > margin for other in joints) for place in grid]]
+        if not grid.size:
+            return None
+        candidates: list[tuple[float, Joint]] = []
+        for continuity in (2, 1, 0):
+            places = grid
+            for _ in range(2):
+                columns = np.maximum(x[:, None] - places, 0.0) ** (continuity + 1) * weights[:, None]
+                size = (columns**2).sum(axis=0)
+                columns = columns - q @ (q.T @ columns)
+                rest = (columns**2).sum(axis=0)
+                gains = np.where(rest > 1e-8 * size, (left @ columns) ** 2 / np.maximum(rest, 1e-300), 0.0)
+                at = int(np.argmax(gains))
+                width = (stop - start) / _CANDIDATES
+                last = float(gains[at]), Joint(float(places[at]), continuity)
+                places = np.clip(np.linspace(places[at] - width, places[at] + width, 9), grid[0], grid[-1])
+            candidates.append(last)
+        most = max(gain for gain, _ in candidates)
+        return next(joint for gain, joint in candidates if gain >= _AS_GOOD * most)
+
+    def _known(self, knots: Array) -> tuple[NDArray[np.bool_], Array]:
+        """Which coefficients of a spline its ends fix, and the values of these."""
+        count = len(knots) - DEGREE - 1
+        fixed, coefficients = np.zeros(count, dtype=bool), np.zeros(count)
+        spans = (
+            (0, 1, knots[0], knots[DEGREE + 1] - knots[0]),
+            (count - 1, count - 2, knots[-1], knots[-DEGREE - 2] - knots[-1]),
+        )
+        for end, (first, second, place, span) in zip(self.ends, spans, strict=True):
+            if end.line is not None:
+                fixed[[first, second]] = True
+                coefficients[first] = end.value(place)
+                coefficients[second] = coefficients[first] + end.slope * span / DEGREE
+        return fixed, coefficients
+
+    def placed(self, fit: tuple[float, float], joints: Sequence[Joint], pieces: int) -> tuple[Joint, ...]:
+        """Joints moved to where the sum of squares is least."""
+        moved = list(joints)
+        step = float(np.median(np.diff(self.x)))
+        for width in (2.0, 0.5, 0.12):
+            for i, joint in enumerate(moved):
+                tried = joint.place + width * step * np.linspace(-1.0, 1.0, 7)
+                squares = []
+                for place in tried:
+                    others = sorted([*moved[:i], Joint(float(place), joint.continuity), *moved[i + 1 :]])
+                    squares.append(self.solved(*fit, others, pieces)[0])
+                moved[i] = Joint(float(tried[int(np.argmin(squares))]), joint.continuity)
+        return tuple(sorted(moved))
+
+
+def _ladder(rows: int, joints: int) -> Iterator[int]:
+    for pieces in _PIECES:
+        if pieces == 1 or (pieces + DEGREE + (DEGREE - 1) * joints) * _ROWS_EACH <= rows:
+            yield pieces
+
+
+def fits_of(
+    places: Array, heights: Array, noise: Array, ends: tuple[End, End], *, simple: bool = False
+) -> list[CurveFit]:
+    """Splines that explain rows as well as any, the simplest one first; none where the rows are too few.
+
+    Parameters
+    ----------
+    places, heights, noise
+        Rows, arrays of shape (n,).
+    ends
+        What is before the first and behind the last row of the motion.
+    simple
+        Whether only splines of few pieces without joints are of interest.
+    """
+    fitter = _Fitter(places, heights, noise, ends)
+    rough = _Search(fitter.thinned(), _ENDS_BY if simple else _PIECES[-1])
+    middle = [
+        (end.low + end.high) / 2.0 if end.line is not None else float(places[0 if side == 0 else -1])
+        for side, end in enumerate(ends)
+    ]
+    fits = rough.climbed((), (middle[0], middle[1]), None)
+    if not fits:
+        return []
+    joints: tuple[Joint, ...] = ()
+    while not simple and len(joints) < _MOST_JOINTS and rough.best(fits).pieces > _SIMPLE:
+        families = [each for pieces in _COARSE if (each := rough.joined(fits, joints, pieces))]
+        if not families:
+            break
+        more, family = min(families, key=lambda each: rough.criterion(rough.best(each[1])))
+        if rough.criterion(rough.best(family)) > rough.criterion(rough.best(fits)) - _EVIDENT:
+            break
+        joints, fits = more, family
+    best = rough.best(fits)
+    at = best.start, best.stop
+    if joints:
+        joints = rough.fitter.placed(at, joints, best.pieces)
+    whole = _Search(fitter, rough.most)
+    return whole.accepted(whole.climbed(joints, at, float(np.median(np.diff(places)))))
+
+
+class _Search:
+    """Models of rows: with more and more pieces, and with joints."""
+
+    def __init__(self, fitter: _Fitter, most: int) -> None:
+        self.fitter, self.most = fitter, most
+        self.rows, self.price = len(fitter.x), log(len(fitter.x))
+
+    def criterion(self, fit: CurveFit) -> float:
+        """Schwarz's criterion for these rows."""
+        return fit.criterion(self.price)
+
+    def best(self, fits: Sequence[CurveFit]) -> CurveFit:
+        """The likeliest one of several fits."""
+        return min(fits, key=self.criterion)
+
+    def climbed(self, joints: Sequence[Joint], at: tuple[float, float], near: float | None) -> list[CurveFit]:
+        """Fits with more and more pieces, until these serve no more; ends are looked for everywhere, or near."""
+        fits: list[CurveFit] = []
+        for pieces in _ladder(self.rows, len(joints)):
+            if pieces > self.most:
+                break
+            if pieces <= _ENDS_BY:
+                at = self.fitter.ends_of(*at, joints, pieces, near)
+            elif fits and near is None:
+                at = self.best(fits).start, self.best(fits).stop
+            fit = self.fitter.solved(*at, joints, pieces, whole=True)[2]
+            if fit is None:
+                continue
+            fits.append(fit)
+            least = min(fit.criterion(2.0) for fit in fits)
+            if len(fits) > 3 and all(fit.criterion(2.0) > least + 2.0 for fit in fits[-2:]):
+                break
+        return fits
+
+    def joined(
+        self, fits: Sequence[CurveFit], joints: tuple[Joint, ...], pieces: int
+    ) -> tuple[tuple[Joint, ...], list[CurveFit]] | None:
+        """Fits with a joint more, which a model of so many pieces shows; None where it shows none."""
+        base = next((fit for fit in fits if fit.pieces == pieces), None)
+        joint = None if base is None else self.fitter.joint(base.start, base.stop, joints, pieces)
+        if base is None or joint is None:
+            return None
+        at = base.start, base.stop
+        placed = self.fitter.placed(at, sorted([*joints, joint]), pieces)
+        more = tuple(joint for joint in placed if at[0] < joint.place < at[1])
+        family = self.climbed(more, at, None)
+        return (more, family) if family else None
+
+    def accepted(self, family: Sequence[CurveFit]) -> list[CurveFit]:
+        """The likeliest model, and those with more pieces that are looked at beside it."""
+        if not family:
+            return []
+        place = family.index(self.best(family))
+        return list(family[place : place + 1 + _FINER])

@@ -1,0 +1,487 @@
+"""The motion of which a table has samples: rests, moves between them and their turning points, found with the noise."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from itertools import pairwise
+
+import numpy as np
+from numpy.lib.stride_tricks import sliding_window_view
+
+from optlaws.cycles.old_tables.fitting import CurveFit, End, fits_of
+from optlaws.cycles.old_tables.peak_intervals import PeakInterval, least_peak, most_peak
+from optlaws.cycles.old_tables.samples import Samples
+from optlaws.cycles.old_tables.standard import Chain, chain_of, criterion
+from optlaws.numbers import Array
+
+#: standard deviations by which rows are off a motion at most
+NOISE_ROOM = 4.0
+#: rows of a rest at least
+_FEWEST = 8
+#: rows between two rests at one level that are so few are far off it, and no motion
+_FEW_BETWEEN = 3
+#: steps within which a move is known to be, and no more of it
+_FEWEST_MOVING = 4
+#: and of one whose rows are all equal
+_EXACT = 4
+#: by how much the variance about a standard law may exceed that about a spline: of F, one in a thousand
+_UNLIKELY = 1e-3
+#: pieces of a spline that is simple enough to stand beside standard laws
+_SIMPLE = 6
+_UNCERTAIN = 3.0
+#: of a peak of a standard law, by which places of its ends that are rounded may change it
+_ROUNDED_LAW = 1e-3
+#: rows farther off a standard law, in standard deviations, are far off it, if they are few of all
+_FAR, _FEW = 6.0, 0.04
+#: standard laws whose sums of squares differ by less are told apart by no table
+_ALIKE = 16.0
+#: sum of squares that a polynomial of degree 4 takes off noise by chance
+_BENT = 14.0
+#: rows of a window in which a motion is looked at for constant velocity, and the share of rows that one has at least
+_WINDOW, _SHARE = 12, 0.06
+#: where the moves beside a rest begin within its run, from -1 to 1, and how long the rest is there at least
+_TAILS = np.linspace(-1.0, -0.1, 7)
+_RESTING = 0.5
+
+
+@dataclass(frozen=True)
+class Line:
+    """Rows of constant velocity or at rest, from the first to the last one, with a position and its place."""
+
+    first: int
+    last: int
+    level: float
+    place: float = 0.0
+    slope: float = 0.0
+
+    @property
+    def values(self) -> tuple[float, float, float]:
+        """What an end of a curve takes."""
+        return self.place, self.level, self.slope
+
+
+@dataclass(frozen=True, eq=False)
+class FittedMove:
+    """A stretch of a motion between two turning points or ends.
+
+    Attributes
+    ----------
+    start, stop, low, high
+        Where it begins and ends, and the positions there.
+    fits
+        Splines that the rows do not exclude, the best one first; none where a standard law alone is fitted.
+    name, nearest
+        The standard law that the rows do not exclude, "" where they exclude all; the one that is nearest.
+    peaks
+        The intervals of velocity, acceleration and jerk.
+    """
+
+    start: float
+    stop: float
+    low: float
+    high: float
+    fits: tuple[CurveFit, ...]
+    name: str
+    nearest: str
+    peaks: tuple[PeakInterval, ...]
+
+    def position_before(self, place: float) -> float:
+        """The position at a place before it, on the line from which it starts."""
+        return self._on(0, place, self.low)
+
+    def position_behind(self, place: float) -> float:
+        """The position at a place behind it, on the line in which it ends."""
+        return self._on(1, place, self.high)
+
+    def _on(self, side: int, place: float, level: float) -> float:
+        end = self.fits[0].ends[side] if self.fits else End()
+        return level + end.slope * (place - (self.start, self.stop)[side])
+
+
+@dataclass(frozen=True, eq=False)
+class FittedMotion:
+    """The moves of a table with the rests between them."""
+
+    samples: Samples  #: whose suspects are the points far off the motion
+    moves: tuple[FittedMove, ...]
+    variance: float  #: about it, over that of the noise by differences
+
+
+def rests_of(samples: Samples) -> list[Line]:
+    """Runs of rows that rest as far as the noise tells, the longest ones first taken, in order."""
+    x, y = samples.places, samples.heights
+    size = float(samples.noise.max())
+    room = NOISE_ROOM * size + 0.5 * samples.digit
+    runs = sorted(_level_runs(y, 2.0 * room), key=lambda run: run[0] - run[1])
+    taken = np.zeros(len(y), dtype=bool)
+    lines = []
+    for first, last in runs:
+        exact = last - first + 1 >= _EXACT and np.ptp(y[first : last + 1]) == 0.0
+        if (last - first + 1 < _FEWEST and not exact) or taken[first : last + 1].any():
+            continue
+        taken[first : last + 1] = True
+        if _is_rest(x[first : last + 1], y[first : last + 1], size, samples.digit):
+            quarter = (last - first + 1) // 4
+            inner = y[first + quarter : last + 1 - quarter]
+            lines.append(Line(first, last, float(np.mean(inner))))
+    return _levelled(sorted(lines, key=lambda rest: rest.first), size)
+
+
+def _level_runs(y: Array, most: float) -> Iterator[tuple[int, int]]:
+    """For each row the longest run from it on whose positions differ by no more."""
+    greatest: deque[int] = deque()
+    least: deque[int] = deque()
+    first, before = 0, -1
+    for last in range(len(y)):
+        while greatest and y[greatest[-1]] <= y[last]:
+            greatest.pop()
+        while least and y[least[-1]] >= y[last]:
+            least.pop()
+        greatest.append(last)
+        least.append(last)
+        while y[greatest[0]] - y[least[0]] > most:
+            if last - 1 > before:
+                yield first, last - 1
+                before = last - 1
+            first += 1
+            while greatest[0] < first:
+                greatest.popleft()
+            while least[0] < first:
+                least.popleft()
+    yield first, len(y) - 1
+
+
+def _is_rest(x: Array, y: Array, noise: float, digit: float) -> bool:
+    """Whether a run rests, and is no crest of a motion: crests are bent all over."""
+    count = len(x)
+    if np.ptp(y) == 0.0:
+        return True
+    u = 2.0 * (x - 0.5 * (x[0] + x[-1])) / (x[-1] - x[0])
+    size = max(noise, digit / np.sqrt(12.0))
+
+    def squares(columns: Array) -> float:
+        left = y - columns @ np.linalg.lstsq(columns, y, rcond=None)[0]
+        return float(left @ left / size**2)
+
+    ones = np.ones((count, 1))
+    flat, bent = squares(ones), squares(u[:, None] ** np.arange(5))
+    if flat - bent <= _BENT:
+        return True
+    tails = min(
+        squares(np.column_stack([ones, np.maximum(low - u, 0.0) ** power, np.maximum(u - high, 0.0) ** power]))
+        for power in (2, 3)
+        for low in _TAILS
+        for high in -_TAILS
+        if high - low >= _RESTING
+    )
+    return tails < bent + 3.0
+
+
+def _levelled(rests: Sequence[Line], noise: float) -> list[Line]:
+    """Rests at levels that the noise does not tell apart, at their common mean."""
+    groups: list[list[Line]] = []
+    for rest in sorted(rests, key=lambda rest: rest.level):
+        last = groups[-1][-1] if groups else None
+        if last is not None:
+            counts = [max((each.last - each.first) // 2, 1) for each in (last, rest)]
+            if rest.level - last.level <= NOISE_ROOM * noise * np.sqrt(sum(1.0 / count for count in counts)):
+                groups[-1].append(rest)
+                continue
+        groups.append([rest])
+    levels = {}
+    for group in groups:
+        weights = [rest.last - rest.first + 1 for rest in group]
+        level = float(np.average([rest.level for rest in group], weights=weights))
+        for rest in group:
+            levels[rest] = level
+    return [Line(rest.first, rest.last, levels[rest]) for rest in rests]
+
+
+def lines_of(samples: Samples, first: int, last: int) -> list[Line]:
+    """Long runs of rows of constant velocity between two rows."""
+    x, y, noise = (row[first : last + 1] for row in (samples.places, samples.heights, samples.noise))
+    count = len(x)
+    rows = max(_WINDOW, count // 25)
+    if count < 2 * rows:
+        return []
+    u = sliding_window_view(x, rows) - x[: count - rows + 1, None]
+    u = 2.0 * u / u[:, -1:] - 1.0
+    size = np.maximum(sliding_window_view(noise, rows), samples.digit / np.sqrt(12.0)).max(axis=1)
+    values = sliding_window_view(y, rows)
+    projected = [(np.linalg.pinv(u[:, :, None] ** np.arange(degree + 1)) @ values[:, :, None]) for degree in (1, 3)]
+    left = [
+        ((values - ((u[:, :, None] ** np.arange(len(fit[0]))) @ fit)[:, :, 0]) ** 2).sum(axis=1) for fit in projected
+    ]
+    straight = (left[0] - left[1]) <= _BENT * size**2
+    lines = []
+    edges = np.flatnonzero(np.diff(np.concatenate([[0], straight.astype(int), [0]])))
+    for begin, end in zip(edges[::2], edges[1::2], strict=True):
+        low, high = int(begin), int(end) - 1 + rows - 1
+        trim = max(1, (high - low) // 20)
+        while high - low + 1 >= max(_WINDOW, count * _SHARE):
+            line = _straight(x[low : high + 1], y[low : high + 1], float(size.max()))
+            if line is not None:
+                lines.append(Line(first + low, first + high, *line))
+                break
+            low, high = low + trim, high - trim
+    return lines
+
+
+def _straight(x: Array, y: Array, noise: float) -> tuple[float, float, float] | None:
+    """The level at a place and the slope of rows on a line; None where they are bent."""
+    u = 2.0 * (x - x[0]) / (x[-1] - x[0]) - 1.0
+    left = []
+    for degree in (1, 4):
+        fit = np.polynomial.Polynomial.fit(u, y, degree, domain=[-1.0, 1.0])
+        left.append(float(((y - fit(u)) ** 2).sum()))
+    if left[0] - left[1] > 1.5 * _BENT * noise**2:
+        return None
+    # the moves beside it may reach into its ends
+    inner = slice(len(x) // 4, len(x) - len(x) // 4)
+    slope, level = np.polyfit(x[inner] - x[inner].mean(), y[inner], 1)
+    return float(level), float(x[inner].mean()), float(slope)
+
+
+def motion_of(samples: Samples) -> FittedMotion:
+    """The motion of samples: rests as they are found, and between these moves with the models that rows allow."""
+    clean = samples.without(samples.suspects)
+    total, rests = [0.0, 1.0], rests_of(clean)
+    far: list[float] = []
+    # rows beside a level with the same rest before and behind them
+    rows = [
+        row
+        for before, after in pairwise(rests)
+        if before.level == after.level and after.first - before.last <= _FEW_BETWEEN + 1
+        for row in range(before.last + 1, after.first)
+    ]
+    if rows:
+        far = clean.places[rows].tolist()
+        clean = clean.without(np.isin(clean.places, far))
+        rests = rests_of(clean)
+    regions = (_Region(clean, before, after, split=True) for before, after in pairwise([*_seam(clean, rests)]))
+    moves: list[FittedMove] = []
+    for region in regions:
+        if region.moves_at_all:
+            moves += region.moves(total)
+            far += region.far
+    suspects = samples.suspects | np.isin(samples.places, far)
+    return FittedMotion(replace(samples, suspects=suspects), tuple(moves), total[0] / max(total[1], 1.0))
+
+
+def _seam(samples: Samples, rests: list[Line]) -> list[Line | None]:
+    """Rests with those at the seam of the turn: a table that ends at rest begins so, and the other way round."""
+    if not rests:
+        return [None, None]
+    last, y = len(samples.heights) - 1, samples.heights
+    begins, ends = rests[0].first == 0, rests[-1].last == last
+    advance = float(y[-1] - y[0])
+    if abs(advance) <= NOISE_ROOM * float(samples.noise.max()) + samples.digit:
+        advance = 0.0
+    if ends and not begins:
+        return [Line(0, 0, rests[-1].level - advance, float(samples.places[0])), *rests, None]
+    if begins and not ends:
+        return [None, *rests, Line(last, last, rests[0].level + advance, float(samples.places[-1]))]
+    return [None, *rests, None]
+
+
+class _Region:
+    """The rows between two rests, or a rest and an end of the table."""
+
+    def __init__(self, samples: Samples, before: Line | None, after: Line | None, *, split: bool) -> None:
+        self.samples, self.before, self.after, self.split = samples, before, after, split
+        x, count = samples.places, len(samples.places)
+        first = 0 if before is None else before.last
+        last = count - 1 if after is None else after.first
+        self.rows, self.first, self.last = last - first, first, last
+        step, self.digit = samples.step, samples.digit
+        low = first if before is None else (before.first + before.last) // 2
+        high = last if after is None else (after.first + after.last + 1) // 2
+        self.x, self.y, self.noise = (row[low : high + 1] for row in (x, samples.heights, samples.noise))
+        # a rest ends at its middle at the earliest, and behind its last row at the latest
+        self.ends = (
+            End() if before is None else End(before.values, x[low], min(x[first] + 2.0 * step, x[last])),
+            End() if after is None else End(after.values, max(x[last] - 2.0 * step, x[first]), x[high]),
+        )
+        self.far: list[float] = []  # places of rows that it leaves out
+        self.about = float(x[first]), float(x[last])
+
+    @property
+    def moves_at_all(self) -> bool:
+        """Whether rows are between its ends, or these at two levels."""
+        levels = {end.line[1] for end in self.ends if end.line is not None}
+        return self.rows > 1 or (self.rows == 1 and len(levels) == 2)
+
+    def moves(self, total: list[float]) -> Iterator[FittedMove]:
+        """The moves of the region."""
+        x, y = self.x, self.y
+        if self.rows <= _FEWEST_MOVING:
+            yield from self._of_fits((), self.about, [""])
+            return
+        turns = _turning_points(y, 2.0 * NOISE_ROOM * float(self.noise.max()) + 2.0 * self.digit)
+        places = [self.about[0], *(float(x[i]) for i in turns if self.about[0] < x[i] < self.about[1]), self.about[1]]
+        chains = self._chains(places)
+        if chains and self._left_out(chains[0]):
+            x, y, chains = self.x, self.y, self._chains(places)
+        chain = chains[0] if chains else None
+        plain = chain is not None and self._likely(chain.squares)
+        fits = tuple(fits_of(x, y, self.noise, self.ends, simple=plain))
+        near = [name for name in chain.names if name] if chain else [""] * (len(places) - 1)
+        if chain is not None and fits and not self._explains(chain, fits[0]):
+            chain = None
+        if chain is None and self.split and (not fits or fits[0].pieces > _SIMPLE or fits[0].joints):
+            parts, counts = self._straight_parts()
+            simpler = criterion(counts[0], round(len(x) - counts[1]), len(x))
+            if parts and (not fits or simpler < fits[0].criterion(float(np.log(len(x))))):
+                total[0], total[1] = total[0] + counts[0], total[1] + counts[1]
+                yield from parts
+                return
+        total[0] += chain.squares if chain else fits[0].squares if fits else 0.0
+        total[1] += len(x) - (chain.free if chain else fits[0].free if fits else 0)
+        yield from self._of_chain(chains, fits) if chain else self._of_fits(fits, places, near)
+
+    def _straight_parts(self) -> tuple[list[FittedMove], list[float]]:
+        """Moves between runs of constant velocity, with the sum of their squares and the degrees of freedom left."""
+        total, moves = [0.0, float(len(self.x))], list[FittedMove]()
+        lines = lines_of(self.samples, self.first, self.last)
+        for before, after in pairwise([self.before, *lines, self.after]) if lines else ():
+            part = _Region(self.samples, before, after, split=False)
+            if part.moves_at_all:
+                counts = [0.0, 0.0]
+                moves += part.moves(counts)
+                total[0], total[1] = total[0] + counts[0], total[1] - (len(part.x) - counts[1])
+        total[1] -= 2 * len(lines)
+        return moves, total
+
+    def _likely(self, squares: float) -> bool:
+        """Whether noise alone makes a sum of squares as great."""
+        return bool(squares <= len(self.x) + 3.0 * np.sqrt(2.0 * len(self.x)))
+
+    def _left_out(self, chain: Chain) -> int:
+        """Leave out rows far off standard laws that explain all others, and tell how many these are."""
+        off = (chain(self.x) - self.y) / self.noise
+        near = np.abs(off) <= _FAR
+        count = len(off) - int(near.sum())
+        if 0 < count <= _FEW * len(off) + 1 and self._likely(float((off[near] ** 2).sum())):
+            self.far += self.x[~near].tolist()
+            self.x, self.y, self.noise = self.x[near], self.y[near], self.noise[near]
+            return count
+        return 0
+
+    def _explains(self, chain: Chain, fit: CurveFit) -> bool:
+        """Whether rows are as near standard laws as splines make likely, by the test of Fisher or the simpler model."""
+        from scipy.stats import f
+
+        rows = len(self.x)
+        left, best = max(rows - chain.free, 1), max(rows - fit.free, 1)
+        more = fit.free - chain.free
+        if more <= 0:
+            return criterion(chain.squares, chain.free, rows) <= criterion(fit.squares, fit.free, rows)
+        ratio = ((chain.squares - fit.squares) / more) / max(fit.squares / best, 1e-300)
+        return bool(f.sf(ratio, more, best) > _UNLIKELY) or chain.squares / left <= 1.0
+
+    def _chains(self, places: Sequence[float]) -> list[Chain]:
+        """The nearest standard laws between the turning points of the region, and those that are about as near."""
+        if any(end.slope for end in self.ends) or len(places) - 1 > 4 or len(self.x) < 2 * len(places) + 2:
+            return []
+        heights = np.interp(places, self.x, self.y)
+        known = [False] * len(places)
+        for side, end in ((0, self.ends[0]), (-1, self.ends[1])):
+            if end.line is not None:
+                heights[side], known[side] = end.line[1], True
+        if not np.all(np.abs(np.diff(heights)) > 0.0):
+            return []
+        bounds = (float(self.x[0]), float(self.x[-1]))
+        rows = self.x, self.y, self.noise
+        chains = chain_of(*rows, np.array(places), heights, known, bounds)
+        if len(places) > 2 and not self._likely(chains[0].squares):
+            # a rest so short that its rows look like a crest
+            long = float(np.median(np.diff(self.x))) * _FEWEST
+            resting = chain_of(*rows, np.array(places), heights, known, bounds, min(long, 0.2 * np.diff(places).min()))
+            if resting[0].squares < chains[0].squares - _ALIKE:
+                chains = resting
+        nearest = chains[0].rounded(self.x, self.y, self.noise, self.digit, bounds)
+        return [nearest, *(each for each in chains if each.squares <= chains[0].squares + _ALIKE)]
+
+    def _of_chain(self, chains: Sequence[Chain], fits: Sequence[CurveFit]) -> Iterator[FittedMove]:
+        chain = chains[0]
+        rows, variance = len(self.x), chain.squares / max(len(self.x) - chain.free, 1)
+        good = variance * (1.0 + 3.0 * np.sqrt(2.0 / rows))
+        simple = [fit for fit in fits if fit.pieces <= _SIMPLE and not fit.joints and fit.variance <= good][:1]
+        for i, name in enumerate(chain.names):
+            if not name:
+                continue
+            low, high = map(float, chain.places[i : i + 2])
+            first, last = map(float, chain.heights[i : i + 2])
+            peaks = []
+            for nu in (1, 2, 3):
+                standard = (1.0 + _ROUNDED_LAW) * max(
+                    each.peak(i, nu) * (1.0 + _UNCERTAIN * each.uncertainty(i, nu)) for each in chains
+                )
+                most = most_peak(simple, nu, low, high) if simple else 0.0
+                peaks.append(self._interval(nu, low, high, max(standard, most)))
+            yield FittedMove(low, high, first, last, tuple(fits), name, name, tuple(peaks))
+
+    def _of_fits(self, fits: Sequence[CurveFit], places: Sequence[float], near: Sequence[str]) -> Iterator[FittedMove]:
+        if not fits:
+            for (low, high), nearest in zip(pairwise(places), near, strict=True):
+                first, last = map(float, np.interp([low, high], self.x, self.y))
+                peaks = [self._interval(nu, low, high, np.inf) for nu in (1, 2, 3)]
+                yield FittedMove(low, high, first, last, (), "", nearest, tuple(peaks))
+            return
+        best = fits[0]
+        nodes = [best.start, *(_turn(best, place) for place in places[1:-1]), best.stop]
+        for (low, high), nearest in zip(pairwise(nodes), near, strict=True):
+            first, last = map(float, best.values(np.array([low, high])))
+            peaks = [self._interval(nu, low, high, most_peak(fits, nu, low, high)) for nu in (1, 2, 3)]
+            yield FittedMove(low, high, first, last, tuple(fits), "", nearest, tuple(peaks))
+
+    def _interval(self, nu: int, low: float, high: float, most: float) -> PeakInterval:
+        inside = (self.x >= low) & (self.x <= high)
+        x, y, noise = self.x[inside], self.y[inside], self.noise[inside]
+        least = least_peak(x, y, noise, self.digit, nu) if len(x) > nu + 1 else 0.0
+        return PeakInterval(least, max(most, least))
+
+
+def _turning_points(y: Array, room: float) -> list[int]:
+    """Rows where the motion turns back by more than a room."""
+    turns: list[int] = []
+    low = high = 0
+    rising = 0
+    for i in range(1, len(y)):
+        if y[i] > y[high]:
+            high = i
+        if y[i] < y[low]:
+            low = i
+        if rising >= 0 and y[high] - y[i] > room:
+            if rising > 0:
+                turns.append(high)
+            rising, low = -1, i
+            high = i
+        elif rising <= 0 and y[i] - y[low] > room:
+            if rising < 0:
+                turns.append(low)
+            rising, high = 1, i
+            low = i
+    return turns
+
+
+def _turn(fit: CurveFit, place: float) -> float:
+    """The place near another one where the velocity of a fit changes its sign; a corner there."""
+    width = 0.02 * (fit.stop - fit.start)
+    at = np.linspace(max(place - width, fit.start), min(place + width, fit.stop), 201)
+    velocity = fit.values(at, 1)
+    turns = np.flatnonzero(velocity[:-1] * velocity[1:] <= 0.0)
+    if not turns.size:
+        return place
+    i = int(turns[np.argmin(np.abs(at[turns] - place))])
+    low, high = float(at[i]), float(at[i + 1])
+    sign = velocity[i]
+    for _ in range(60):
+        middle = 0.5 * (low + high)
+        if float(fit.values(np.array([middle]), 1)[0]) * sign > 0.0:
+            low = middle
+        else:
+            high = middle
+    return 0.5 * (low + high)

@@ -1,0 +1,108 @@
+"""Tables as samples of a motion: noise, specks, crests and joints between samples, moving seams, intervals of peaks."""
+
+import numpy as np
+import pytest
+
+from optlaws import catalogue, split_table
+
+QUINTIC = np.polynomial.Polynomial([0, 0, 0, 10, -15, 6])
+
+
+def valve_lift(stroke: float, start: float, stop: float) -> tuple[np.ndarray, np.ndarray]:
+    """The lift of a Diesel engine's valve as a public table prints it, by the angle of the camshaft.
+
+    200 rows to 716.8 of 720 deg of the crank, rounded to 0.1 deg and 0.001 mm, and the row that closes the turn:
+    github.com/bmateuszideas/TDI-SIMULATOR, profil_krzywek_4cylindry.md.
+    """
+    exact = 7200 / 1999 * np.arange(200)
+    k = np.clip((exact - start) / (stop - start), 0.0, 1.0)
+    lift = np.round(stroke * np.sin(np.pi * k) ** 2, 3)
+    return np.append(np.round(exact, 1), 720.0) / 2, np.append(lift, 0.0)
+
+
+@pytest.mark.parametrize(
+    ("valve", "acceleration"), [((9.0, 335.0, 575.0), 1776.53), ((7.8, 155.0, 375.0), 1832.3)], ids=["inlet", "exhaust"]
+)
+def test_a_valve_without_a_dwell_at_its_crest(valve: tuple[float, float, float], acceleration: float) -> None:
+    table = split_table(*valve_lift(*valve))
+    rise, back = table.moves
+    assert [rise.law, back.law] == ["simple harmonic"] * 2
+    assert [rise.start, rise.stop, back.stop] == pytest.approx(
+        [valve[1] / 2, (valve[1] + valve[2]) / 4, valve[2] / 2], abs=0.02
+    )
+    cycle = table.cycle(speed="2000 rpm")
+    values = cycle.at_angle(np.linspace(0.0, 360.0, 36001), 2)
+    assert [values.max(), -values.min()] == pytest.approx([acceleration] * 2, rel=1e-3)
+    by_degree = acceleration * 1e3 / 12000.0**2
+    assert table.peaks[1].holds(by_degree)
+    assert table.peaks[1].high < 1.02 * by_degree
+    assert table.peaks[1].low > 0.94 * by_degree
+
+
+@pytest.mark.sample(2)
+@pytest.mark.parametrize("seed", range(6))
+def test_specks_of_dust_are_left_out_and_listed(seed: int) -> None:
+    """A cam measured every 0.4 deg of the crank with noise of 2 um, as home-made machines do, and six specks."""
+    theta = np.arange(0, 720.01, 0.4) / 2
+    lift = 8 * QUINTIC(np.clip(np.minimum((theta - 60) / 60, (190 - theta) / 60), 0, 1))
+    rng = np.random.default_rng(seed)
+    measured = lift + rng.normal(0, 0.002, len(theta))
+    specks = rng.choice(len(theta), 6, replace=False)
+    measured[specks] += 0.03
+    table = split_table(theta, np.round(measured, 4))
+    assert table.outliers == tuple(sorted(specks.tolist()))
+    assert table.scatter == pytest.approx(0.002, rel=0.15)
+    assert [part.law for part in table.moves] == ["3-4-5 polynomial"] * 2
+    peak = 8 * 10 / np.sqrt(3) / 60**2
+    assert table.peaks[1].holds(peak)
+    assert table.peaks[1].high < 1.05 * peak
+    values = table.cycle(speed="60 rpm").at_angle(np.linspace(0, 360, 36001), 2)
+    assert np.abs(values).max() * 1e3 / 360**2 == pytest.approx(peak, rel=0.01)
+
+
+def test_a_table_that_moves_at_its_seam_and_advances() -> None:
+    """The second of two movers on a track of 1,500 mm, which keeps 60 mm in curves and 100 mm on straights."""
+    master = np.arange(0, 1500.1, 5.0)
+    gap = np.full_like(master, 60.0)
+    for start, step in ((0, 40), (250, -40), (750, 40), (1000, -40)):
+        gap += step * QUINTIC(np.clip((master - start) / 100, 0, 1))
+    table = split_table(0.24 * master, master - gap)
+    laws = [part.law if isinstance(part.law, str) else "" for part in table.stretches]
+    assert laws == ["", "constant velocity"] * 4
+    cycle = table.cycle(speed="12 rpm")
+    values = np.abs(cycle.at_angle(np.linspace(0, 360, 36001), 2))
+    assert values.max() == pytest.approx(40e-3 * 10 / np.sqrt(3) / (100 / 300) ** 2, rel=2e-4)
+    assert cycle(0.0, 1) == pytest.approx(0.3, rel=1e-6)
+    assert table.peaks[1].holds(40 * 10 / np.sqrt(3) / 24**2)
+
+
+def test_exact_rests_do_not_hide_the_noise_of_moves() -> None:
+    x = np.arange(0.0, 360.01, 0.5)
+    law = catalogue["cycloidal"].law
+    exact = 20.0 * (law(np.clip((x - 30) / 90, 0, 1)) - law(np.clip((x - 200) / 90, 0, 1)))
+    moving = ((x > 30) & (x < 120)) | ((x > 200) & (x < 290))
+    noise = np.where(moving, np.random.default_rng(3).normal(0, 0.0022, len(x)), 0.0)
+    table = split_table(x, np.round(exact + noise, 5), digit=1e-5)
+    assert table.scatter == pytest.approx(0.0022, rel=0.2)
+    assert [part.law for part in table.moves] == ["cycloidal"] * 2
+
+
+@pytest.mark.parametrize("step", [0.25, 0.5, 1.0])
+def test_finer_samples_divide_a_table_alike(step: float) -> None:
+    x = np.arange(0.0, 360.0 + 0.5 * step, step)
+    law = catalogue["modified sine"].law
+    exact = 30.0 * (law(np.clip((x - 20) / 100, 0, 1)) - law(np.clip((x - 180) / 80, 0, 1)))
+    table = split_table(x, np.round(exact + np.random.default_rng(7).normal(0, 0.005, len(x)), 3), digit=1e-3)
+    assert [part.kind for part in table.stretches] == ["dwell", "rise", "dwell", "return", "dwell"]
+    assert [part.stop for part in table.stretches] == pytest.approx([20, 120, 180, 260, 360], abs=1.5)
+    assert table.peaks[1].holds(30.0 * law.constants.C.value / 80.0**2)
+
+
+def test_a_peak_that_a_table_cannot_tell_is_said_to_be_unknown() -> None:
+    """A move between two rests within three rows."""
+    x = np.arange(0.0, 360.0, 5.0)
+    table = split_table(x, np.where(x < 180.0, 0.0, 10.0))
+    (move,) = table.moves
+    assert (move.start, move.stop, move.low, move.high) == (175.0, 180.0, 0.0, 10.0)
+    assert not move.peaks[1].is_known
+    assert not table.peaks[2].is_known
