@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
+from math import isfinite
 from typing import NamedTuple
 
 import numpy as np
@@ -33,7 +34,8 @@ class Greatest(NamedTuple):
     def of(cls, values: Array, places: Array) -> Greatest:
         """The greatest of values, and the first place of those that are equal to it but for rounding."""
         greatest = float(values.max())
-        return cls(greatest, float(places[values >= greatest - EQUAL_EXTREMES * abs(greatest)].min()))
+        rounding = EQUAL_EXTREMES * abs(greatest) if isfinite(greatest) else 0.0
+        return cls(greatest, float(places[values >= greatest - rounding].min()))
 
 
 @dataclass(frozen=True, eq=False)
