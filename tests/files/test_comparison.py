@@ -10,7 +10,7 @@ from tests.internals.files import say_the_same
 LAW: dict[str, Any] = {
     "status": "optimal",
     "objective": 5.57,
-    "limit": None,
+    "best_possible": None,
     "constants": {"B": {"value": 1.53, "k": 0.5}},
     "gap": "1e-10",
     "z": [1e6, 1.0],
@@ -26,7 +26,7 @@ LAW: dict[str, Any] = {
         ({"objective": 5.57 * (1 + 2e-8)}, False),
         ({"objective": None}, False),
         ({"status": "local"}, False),
-        ({"limit": 0.0}, False),
+        ({"best_possible": 0.0}, False),
         ({"more": 1}, False),
         # the place of a smooth peak, not its size
         ({"constants": {"B": {"value": 1.53, "k": 0.5 + 1e-7}}}, True),
