@@ -176,10 +176,7 @@ def backward(drives: Sequence[DriveStretch], start: float, length: float, level:
 
 def _terms(space: LawSpace) -> int:
     """Coefficients that every law of a space has at most, on each piece."""
-    from optlaws.synthesis.spaces.piecewise_families import PieceFamily
-
-    velocity = space.derivative(1, "b", np.zeros(space.terms))
-    return 2 + (velocity.pieces.series.shape[1] if isinstance(velocity, PieceFamily) else len(velocity.series))
+    return 3 + space.degree_of(1)
 
 
 def _values(space: LawSpace, nu: int, k: Array) -> Array:

@@ -40,7 +40,6 @@ from optlaws.synthesis.functionals.makers import PeakSide
 from optlaws.synthesis.functionals.sizes import size_bounds
 from optlaws.synthesis.problem.constants import MAKERS, Functional
 from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
-from optlaws.synthesis.spaces.piecewise_families import PieceFamily, PieceSeries
 from optlaws.synthesis.spaces.space import LawSpace
 from optlaws.tolerances import CLOSURE, NEGLIGIBLE_TERM, SHORTEST_STRETCH, VALUE_ROUNDING
 
@@ -222,12 +221,11 @@ class OutputPeak(OutputConstant):
         slack, bound, wide = slack / unit, bound / unit, wide / unit
         if len(wide) == 1:
             return (LinearFamily(self.name, slack, bound, self.signs, domain, series=wide[0]),)
-        pieces = PieceSeries(np.append(breaks, -1.0), wide)
         # the output jumps where the acceleration does: at breaks, or where the motion ends
         smooth = getattr(space, "continuity", 2) > 1 and space.boundary.order > 2
         jumps = bool(self.machine.rows[self.output][1][2]) and not smooth
         entries = self.name, slack, bound, self.signs, domain
-        return (PieceFamily(*entries, series=np.zeros((1, 1)), pieces=pieces, jumps=jumps),)
+        return (LinearFamily(*entries, series=wide, breaks=np.append(breaks, -1.0), jumps=jumps),)
 
     def unit(self, space: LawSpace) -> float:
         """The size of the rows: nearly the base law's output."""

@@ -6,7 +6,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, fields, replace
 from functools import wraps
-from typing import Any, ClassVar, Self, TypeVar
+from typing import Any, Self, TypeVar
 
 import numpy as np
 from numpy.polynomial import chebyshev
@@ -14,15 +14,17 @@ from numpy.typing import NDArray
 
 from optlaws.kept import kept_property
 from optlaws.numbers import Array
-from optlaws.numerics.chebyshev import basis_values, even_gegenbauer_jet, product, real_parts_of_roots
+from optlaws.numerics.chebyshev import basis_values, even_gegenbauer_jet, nodes, product, real_parts_of_roots
 from optlaws.synthesis.families.peaks import peaks, products
-from optlaws.tolerances import AT_END, ROW_ROUNDING
+from optlaws.synthesis.families.piece_series import PieceSeries
+from optlaws.tolerances import AT_END, BESIDE_BREAK, ROW_ROUNDING
 
 _END_OF_U = 1e-9  # of u: a place so near to the end is the end
 _NO_NORM = 1e-12  # at standstill and in uniform motion a norm has no slope
 
 Result = TypeVar("Result")
 
+_MOST, _LEAST = 600, 8  # nodes of a family of pieces, and of a piece: its extrema join them
 #: of fewer polynomials' values cosines are quicker than the recurrence
 _SMALL = 4096
 
@@ -224,12 +226,73 @@ class SeriesFamily(BatchFamily):
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class LinearFamily(SeriesFamily):
-    """f is affine in x: the sum of the series times the variables."""
+    """f is affine in x: the sum of the series times the variables, of one polynomial or of one on each piece.
 
-    #: whether the columns are the series alone
-    plain: ClassVar[bool] = True
+    Contacts at breaks are kinks and stay where they are.
+    """
 
-    series: Array
+    series: Array  #: where there are breaks of shape (pieces, coefficients, variables + 1)
+    breaks: Array | None = None  #: the ends of the pieces in u, descending
+    jumps: bool = False  #: whether f may jump at them
+    #: whether sqrt(1 - u), that is sqrt(2k), divides: b <= sqrt(2 D k) follows from b b' <= D
+    root: bool = False
+    mirrored: bool = False  #: whether it is written from the end of the interval: u = 2k - 1
+
+    def k(self, u: Array) -> Array:
+        return 0.5 * (1.0 + u) if self.mirrored else super().k(u)
+
+    def u(self, k: Array) -> Array:
+        return 2.0 * k - 1.0 if self.mirrored else super().u(k)
+
+    @property
+    def plain(self) -> bool:
+        """Whether the columns are the series of one polynomial alone."""
+        return self.breaks is None and not self.root
+
+    @kept_property
+    def pieces(self) -> PieceSeries:
+        """The series on every piece."""
+        if self.breaks is None:
+            return PieceSeries(np.array([1.0, -1.0]), self.series[None])
+        return PieceSeries(self.breaks, self.series)
+
+    @property
+    def continuable(self) -> bool:
+        """Whether it has no pieces: contacts at kinks are neither fixed at an end nor free."""
+        return self.breaks is None
+
+    @kept_property
+    def corners(self) -> Array:
+        """The breaks; where f jumps there, the places just before and just after each."""
+        breaks = self.pieces.breaks
+        if not self.jumps:
+            return breaks
+        return np.concatenate([breaks[[0, -1]], breaks[1:-1] + BESIDE_BREAK, breaks[1:-1] - BESIDE_BREAK])
+
+    def pinned(self, u: Array) -> NDArray[np.bool_]:
+        """Whether u is a corner between pieces."""
+        return super().pinned(u) if self.breaks is None else np.isin(u, self.corners)
+
+    def nodes(self) -> Array | None:
+        """Of pieces the corners, and inside each as many points as its degree, or fewer where they were too many."""
+        if self.breaks is None:
+            return None
+        count = min(self.series.shape[1], max(_LEAST, _MOST // len(self.breaks)))
+        local = nodes(count) if count > 2 else np.empty(0)
+        inner = [self.pieces.global_places(i, local) for i in range(len(self.breaks) - 1)]
+        places = np.concatenate([self.corners, *inner])
+        return places[(places >= self.domain[0]) & (places <= self.domain[1])]
+
+    def columns(self, u: Array) -> Array:
+        """f's columns with two derivatives by u; under a root zero at k = 0, where the series has a zero."""
+        jets = super().columns(u) if self.breaks is None else self.pieces.jets(u)
+        if not self.root:
+            return jets
+        near = 1.0 - u < _END_OF_U
+        left = np.where(near, 1.0, 1.0 - u)[:, None]
+        g0, g1, g2 = jets
+        rooted = np.stack([g0, g1 + g0 / (2.0 * left), g2 + g1 / left + 3.0 * g0 / (4.0 * left**2)])
+        return np.asarray(np.where(near[:, None], 0.0, rooted / np.sqrt(left)))
 
     def rows(self, u: Array, s: Array) -> tuple[Array, Array]:
         """A and h of the rows A x <= h at the points u with signs s."""
@@ -266,7 +329,7 @@ class LinearFamily(SeriesFamily):
     @kept_property
     def rounding(self) -> Array:
         """Rounding bounds of each entry of a row."""
-        return np.asarray(ROW_ROUNDING * np.abs(self.series).sum(axis=0))
+        return np.asarray(ROW_ROUNDING * np.abs(self.pieces.series).sum(axis=1).max(axis=0))
 
     def rounding_errors(self, weights: Array, u: Array, point: Array) -> Array:  # noqa: ARG002 - the same everywhere
         """Rounding bounds of rows at any place."""
@@ -274,12 +337,24 @@ class LinearFamily(SeriesFamily):
 
     def value(self, x: Array, u: Array) -> Array:
         point = np.append(x, 1.0)
-        return np.asarray(chebyshev.chebval(u, self.series @ point) if self.plain else self.columns(u)[0] @ point)
+        if self.plain:
+            return np.asarray(chebyshev.chebval(u, self.series @ point))
+        return np.asarray((self.columns(u)[0] if self.root else self.pieces.values(u)) @ point)
 
     def stationary(self, x: Array) -> Array:
-        """Roots of the derivative's series."""
+        """Roots of the derivative, and of pieces the corners that may be extrema."""
+        if self.breaks is not None or self.root:
+            return self._stationary(np.append(x, 1.0))
         slope = np.asarray(chebyshev.chebder(self.series @ np.append(x, 1.0)), dtype=np.float64)
         return real_parts_of_roots(slope)
+
+    @last_result
+    def _stationary(self, point: Array) -> Array:
+        """The same of pieces or under a root, remembered for repeated calls in a round."""
+        series = self.pieces.series @ point
+        if self.root:
+            return np.concatenate([self.corners, *self.pieces.roots(self.pieces.slopes_over_root(series))])
+        return self.pieces.stationary(series, self.corners, jumps=self.jumps)
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -296,55 +371,19 @@ class EvenFamily(LinearFamily):
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class RootFamily(LinearFamily):
-    """f is an affine series divided by sqrt(1-u), that is by sqrt(2k): b <= sqrt(2 D k) follows from b b' <= D."""
-
-    plain = False
-
-    def columns(self, u: Array) -> Array:
-        """f's columns with two derivatives by u; zero at k = 0, where the series has a zero."""
-        g0, g1, g2 = super().columns(u)
-        near = 1.0 - u < _END_OF_U
-        left = np.where(near, 1.0, 1.0 - u)[:, None]
-        root = np.sqrt(left)
-        jets = np.stack([g0, g1 + g0 / (2.0 * left), g2 + g1 / left + 3.0 * g0 / (4.0 * left**2)])
-        return np.asarray(np.where(near[:, None], 0.0, jets / root))
-
-    def value(self, x: Array, u: Array) -> Array:
-        """f at the points u, of series and of pieces."""
-        return np.asarray(self.columns(u)[0] @ np.append(x, 1.0))
-
-    def stationary(self, x: Array) -> Array:
-        """Roots of 2 (1-u) g' + g."""
-        series = self.series @ np.append(x, 1.0)
-        slope = product(np.array([2.0, -2.0]), np.asarray(chebyshev.chebder(series)))
-        return real_parts_of_roots(np.asarray(chebyshev.chebadd(series, slope)))
-
-
-@dataclass(frozen=True, eq=False, kw_only=True)
-class MirroredFamily(RootFamily):
-    """A root family written from the end of the interval: u = 2k - 1."""
-
-    def k(self, u: Array) -> Array:
-        """The place k of a parameter u = 2k - 1."""
-        return 0.5 * (1.0 + u)
-
-    def u(self, k: Array) -> Array:
-        """Places of the rows, 2k - 1."""
-        return 2.0 * k - 1.0
-
-
-@dataclass(frozen=True, eq=False, kw_only=True)
 class RatioFamily(EvenFamily):
     """An even family whose columns are Gegenbauer polynomials, `scale` times; the last one, of degree 0, is the base's.
 
     Their values grow so much toward k = 0 that a series would lose the digits of the others.
     """
 
-    plain = False
-
     index: float = 0.5
     scale: Array = field(default_factory=lambda: np.ones(1))
+
+    @property
+    def plain(self) -> bool:
+        """False: they grow too much."""
+        return False
 
     def in_units(self, units: Array, unit: float) -> Self:
         """The base's column in other units; the columns of the coordinates are unchanged."""
@@ -376,6 +415,19 @@ class ProductFamily(NonlinearFamily):
         first, second = (factor.in_units(units, unit) for factor in (self.first, self.second))
         square = unit * unit
         return replace(self, first=first, second=second, slack=self.slack * units / square, bound=self.bound / square)
+
+    @property
+    def continuable(self) -> bool:
+        """Whether its factors have no pieces."""
+        return self.second.continuable
+
+    def nodes(self) -> Array | None:
+        """Those of the acceleration."""
+        return self.second.nodes()
+
+    def pinned(self, u: Array) -> NDArray[np.bool_]:
+        """Whether u is a corner between pieces."""
+        return self.second.pinned(u)
 
     @property
     def proving(self) -> bool:
@@ -416,9 +468,12 @@ class ProductFamily(NonlinearFamily):
         return self.first.value(x, u) * self.second.value(x, u)
 
     def stationary(self, x: Array) -> Array:
-        """Roots of g' h + g h'."""
+        """Roots of g' h + g h', and of pieces the corners that may be extrema."""
         point = np.append(x, 1.0)
         g, h = self.first.series @ point, self.second.series @ point
+        if self.second.breaks is not None:
+            both = np.stack([product(*pair) for pair in zip(g, h, strict=True)])
+            return self.second.pieces.stationary(both, self.second.corners, jumps=self.second.jumps)
         slopes = [product(np.asarray(chebyshev.chebder(p)), q) for p, q in ((g, h), (h, g))]
         return real_parts_of_roots(np.asarray(chebyshev.chebadd(*slopes)))
 

@@ -15,7 +15,6 @@ from optlaws.numerics.chebyshev import from_values, interpolated, nodes
 from optlaws.numerics.chebyshev import gauss as gauss_rule
 from optlaws.synthesis.families.family import LinearFamily
 from optlaws.synthesis.families.names import mirrored
-from optlaws.synthesis.spaces.piecewise_families import PieceFamily, PieceSeries
 from optlaws.tolerances import VALUE_ROUNDING
 
 if TYPE_CHECKING:
@@ -100,9 +99,9 @@ def rows(space: LawSpace, side: Side, slack: Array, bound: float) -> LinearFamil
     stacked = np.zeros((len(series), max(map(len, series)), len(slack) + 1))
     for i, coefficients in enumerate(series):
         stacked[i, : len(coefficients)] = space.widened(coefficients, len(slack))
-    pieces = PieceSeries(np.array(edges), stacked)
     jumps = any(space.jumps(nu) for nu in motion.orders)
-    return PieceFamily(side.name, slack, bound, side.signs, domain, series=np.zeros((1, 1)), pieces=pieces, jumps=jumps)
+    breaks = np.array(edges)
+    return LinearFamily(side.name, slack, bound, side.signs, domain, series=stacked, breaks=breaks, jumps=jumps)
 
 
 def edges_of(space: LawSpace, motion: MotionFormula) -> tuple[float, ...]:

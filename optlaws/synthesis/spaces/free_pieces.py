@@ -13,10 +13,10 @@ from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import PolynomialSegment
 from optlaws.numbers import Array
 from optlaws.numerics.chebyshev import from_values, nodes
-from optlaws.synthesis.families.family import ConstraintFamily
+from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily
 from optlaws.synthesis.families.names import RowName
+from optlaws.synthesis.families.piece_series import PieceSeries
 from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
-from optlaws.synthesis.spaces.piecewise_families import PieceFamily, PieceSeries
 from optlaws.synthesis.spaces.piecewise_space import PiecewiseSpace
 from optlaws.synthesis.spaces.space import Equation
 
@@ -137,7 +137,7 @@ class PieceSpace(PiecewiseSpace):
         if order == 1 or whole or self.boundary != BoundaryConditions.rest(order):
             return super().forward(slack)
         given = self.given(above_rest(self.pieces(1), self.pieces(order), order), len(slack))
-        return PieceFamily(RowName.RATIO, slack, domain=self.domain, **given)
+        return LinearFamily(RowName.RATIO, slack, domain=self.domain, **given)
 
     def equations(self) -> list[Equation]:
         """The end conditions that the base law and the splines do not keep by themselves."""

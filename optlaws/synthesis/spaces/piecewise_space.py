@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -12,10 +11,10 @@ from numpy.polynomial import chebyshev, legendre
 
 from optlaws.errors import InputError
 from optlaws.numbers import Array
-from optlaws.numerics.chebyshev import from_values, nodes, product, real_parts_of_roots
-from optlaws.synthesis.families.family import ConstraintFamily, MirroredFamily, RootFamily
+from optlaws.numerics.chebyshev import from_values, nodes
+from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily
 from optlaws.synthesis.families.names import RowName
-from optlaws.synthesis.spaces.piecewise_families import PieceFamily, PieceProductFamily, PieceSeries
+from optlaws.synthesis.families.piece_series import PieceSeries
 from optlaws.synthesis.spaces.polynomial_space import chord, kink
 from optlaws.synthesis.spaces.space import LawSpace, Quadrature
 
@@ -76,49 +75,8 @@ def _extended(pieces: PieceSeries, piece: int) -> Callable[[Array], Array]:
     return columns
 
 
-@dataclass(frozen=True, eq=False, kw_only=True)
-class PieceRootFamily(RootFamily, PieceFamily):
-    """A root family of piecewise polynomials."""
-
-    def stationary(self, x: Array) -> Array:
-        """Roots of 2 (1-u) g' + g on every piece, and the breaks."""
-        places = [self.corners]
-        breaks = self.pieces.breaks
-        for i, series in enumerate(self.pieces.series @ np.append(x, 1.0)):
-            middle, half = (breaks[i] + breaks[i + 1]) / 2.0, (breaks[i] - breaks[i + 1]) / 2.0
-            way = np.array([2.0 * (1.0 - middle) / half, -2.0])
-            slope = product(way, np.asarray(chebyshev.chebder(series), dtype=np.float64))
-            total = np.zeros(max(len(series), len(slope)))
-            total[: len(series)] = series
-            total[: len(slope)] += slope
-            if total.any():
-                roots = real_parts_of_roots(total)
-                places.append(self.pieces.global_places(i, roots[np.abs(roots) < 1.0]))
-        return np.concatenate(places)
-
-
-@dataclass(frozen=True, eq=False, kw_only=True)
-class PieceMirroredFamily(MirroredFamily, PieceRootFamily):
-    """A family of pieces written from the end of the interval: u = 2k - 1."""
-
-
-def mirrored(pieces: PieceSeries) -> PieceSeries:
-    """The functions mirrored: of -u.
-
-    >>> series = PieceSeries(np.array([1.0, 0.5, -1.0]), np.arange(4.0).reshape(2, 2, 1))
-    >>> bool(np.allclose(mirrored(series).values(np.array([0.7, -0.7])), series.values(np.array([-0.7, 0.7]))))
-    True
-    """
-    series = pieces.series[::-1].copy()
-    series[:, 1::2] *= -1.0
-    return PieceSeries(-pieces.breaks[::-1], series)
-
-
 class PiecewiseSpace(LawSpace):
     """A space given by the piecewise series of every derivative, on the first half only where `symmetric`."""
-
-    products = PieceProductFamily
-    linear, root, mirrored = PieceFamily, PieceRootFamily, PieceMirroredFamily
 
     breaks: tuple[float, ...]  #: all breaks of the laws, of both halves
     continuity: int  #: order up to which the derivatives of every law are continuous at the breaks
@@ -140,16 +98,13 @@ class PiecewiseSpace(LawSpace):
                 f"beyond every bound: give a continuity of at least {nu - 1}"
             )
 
-    def _wide(self, pieces: PieceSeries, size: int) -> PieceSeries:
-        return PieceSeries(pieces.breaks, self.widened(pieces.series, size))
-
     def given(self, series: PieceSeries, size: int, *, jumps: bool = False) -> dict[str, Any]:
         """The series on every piece, over all variables."""
-        return {"series": np.zeros((1, 1)), "pieces": self._wide(series, size), "jumps": jumps}
+        return {"series": self.widened(series.series, size), "breaks": series.breaks, "jumps": jumps}
 
     def turned(self, series: PieceSeries) -> PieceSeries:
         """The pieces in the opposite order, each turned."""
-        return mirrored(series)
+        return series.mirrored()
 
     def combined(self, nu: int, weights: tuple[float, ...]) -> PieceSeries:
         self._finite(nu + len(weights) - 1)
@@ -186,7 +141,7 @@ class PiecewiseSpace(LawSpace):
         centre = 1.0 - 2.0 * peak
         smooth = self.continuity > 1 or centre not in self.pieces(2).breaks
         series = below_peak(self.pieces(2), self.pieces(3), centre, smooth=smooth)
-        return PieceFamily(RowName.BELOW_PEAK, slack, domain=self.domain, **self.given(series, len(slack), jumps=True))
+        return LinearFamily(RowName.BELOW_PEAK, slack, domain=self.domain, **self.given(series, len(slack), jumps=True))
 
     def quadrature(self, nu: int) -> Quadrature:
         """Gauss points on every piece; moments are Legendre polynomials on one piece each."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Hashable
 from dataclasses import dataclass
-from typing import Any, ClassVar
+from typing import Any
 
 import numpy as np
 
@@ -14,10 +14,8 @@ from optlaws.numbers import Array
 from optlaws.synthesis.families.family import (
     ConstraintFamily,
     LinearFamily,
-    MirroredFamily,
     NormFamily,
     ProductFamily,
-    RootFamily,
 )
 from optlaws.synthesis.families.names import RowName
 from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
@@ -60,12 +58,6 @@ class LawSpace(ABC):
     start_velocity, velocity_change, stroke
         b(0), b(1) - b(0) and a(1) - a(0) of the base law.
     """
-
-    #: the rows of a product of two combinations
-    linear: ClassVar[type[LinearFamily]] = LinearFamily
-    root: ClassVar[type[RootFamily]] = RootFamily
-    mirrored: ClassVar[type[MirroredFamily]] = MirroredFamily
-    products: ClassVar[type[ProductFamily]] = ProductFamily
 
     boundary: BoundaryConditions
     terms: int
@@ -115,7 +107,7 @@ class LawSpace(ABC):
     ) -> LinearFamily:
         """Rows s (w0 a^(nu) + w1 a^(nu+1) + ...) <= slack . x + bound, on the space's part of the interval."""
         given = self.given(self.combined(nu, weights), len(slack), jumps=self.jumps(nu + len(weights) - 1))
-        return self.linear(name, slack, bound, signs, self.domain, **given)
+        return LinearFamily(name, slack, bound, signs, self.domain, **given)
 
     @abstractmethod
     def combined(self, nu: int, weights: tuple[float, ...]) -> Any:
@@ -136,7 +128,7 @@ class LawSpace(ABC):
     def power(self, name: str, slack: Array, bound: float = 0.0, weights: tuple[float, ...] = (1.0,)) -> ProductFamily:
         """Rows |b c| <= slack . x + bound; with weights, of w0 b + w1 c + ... and its derivative."""
         first, second = (self.combination(nu, weights, name, slack) for nu in (1, 2))
-        return self.products(name, slack, bound, (1.0, -1.0), self.domain, first=first, second=second)
+        return ProductFamily(name, slack, bound, (1.0, -1.0), self.domain, first=first, second=second)
 
     def norm(self, nu: int, name: str, slack: Array, bound: float = 0.0) -> NormFamily:
         """The row RMS of a^(nu) <= slack . x + bound."""
@@ -186,8 +178,8 @@ class LawSpace(ABC):
     ) -> ConstraintFamily:
         """Rows |b| / sqrt(2k) <= slack . x for k up to 1/2; |b| / sqrt(2 - 2k) for the other half where `backward`."""
         series = self.combined(1, weights)
-        kind, series = (self.mirrored, self.turned(series)) if backward else (self.root, series)
-        return kind(name, slack, 0.0, (1.0, -1.0), (0.0, 1.0), **self.given(series, len(slack)))
+        given = self.given(self.turned(series) if backward else series, len(slack))
+        return LinearFamily(name, slack, 0.0, (1.0, -1.0), (0.0, 1.0), root=True, mirrored=backward, **given)
 
     @abstractmethod
     def quadrature(self, nu: int) -> Quadrature:

@@ -19,10 +19,10 @@ from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import PolynomialSegment
 from optlaws.numbers import Array
 from optlaws.numerics.chebyshev import from_values, nodes
-from optlaws.synthesis.families.family import ConstraintFamily
+from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily
 from optlaws.synthesis.families.names import RowName
+from optlaws.synthesis.families.piece_series import PieceSeries
 from optlaws.synthesis.spaces.end_conditions import BoundaryConditions, law_from_z
-from optlaws.synthesis.spaces.piecewise_families import PieceFamily, PieceSeries
 from optlaws.synthesis.spaces.piecewise_space import PiecewiseSpace
 from optlaws.synthesis.spaces.splines import PiecewiseBasis
 from optlaws.tolerances import ROUNDOFF
@@ -105,8 +105,8 @@ class SplineSpace(PiecewiseSpace):
             return super().forward(slack)
         series = -self._series(self._parts, self.basis.degree + 1, self._ratio)
         series[:, 1::2] *= -1.0
-        pieces = self._wide(PieceSeries(self.pieces(1).breaks, series), len(slack))
-        return PieceFamily(RowName.RATIO, slack, domain=self.domain, series=np.zeros((1, 1)), pieces=pieces)
+        given = self.given(PieceSeries(self.pieces(1).breaks, series), len(slack))
+        return LinearFamily(RowName.RATIO, slack, domain=self.domain, **given)
 
     def law(self, coordinates: Array) -> PiecewiseLaw:
         """The law with the given coordinates, on the breaks of Z."""

@@ -14,14 +14,13 @@ import numpy as np
 
 from optlaws.numbers import Array
 from optlaws.synthesis.families.active_set import ActiveSet
-from optlaws.synthesis.families.family import Points, Program
+from optlaws.synthesis.families.family import LinearFamily, Points, Program
 from optlaws.synthesis.method.discretised.conic import conic, optimum_on_points
 from optlaws.synthesis.method.discretised.grids import with_extrema
 from optlaws.synthesis.method.discretised.ipopt import Answer
 from optlaws.synthesis.method.discretised.linear import LinearTable, vertex_on_points
 from optlaws.synthesis.method.strategies.identified import of_vertex, optimum_near
 from optlaws.synthesis.method.strategies.strategy import Strategy
-from optlaws.synthesis.spaces.piecewise_families import PieceFamily
 from optlaws.tolerances import EXCESS
 
 _VERTEX_NEAR = 1e-3  # the excess under which a vertex may show the optimum's contacts
@@ -39,7 +38,7 @@ _SLACK = 10.0
 
 def many_pieces(program: Program) -> bool:
     """Whether a program is linear or conic with so many pieces that its optimum is flat."""
-    counts = [len(family.pieces.breaks) - 1 for family in program.families if isinstance(family, PieceFamily)]
+    counts = [len(family.pieces.series) for family in program.families if isinstance(family, LinearFamily)]
     return (not program.curved or conic(program)) and max(counts, default=0) >= _PIECES
 
 
