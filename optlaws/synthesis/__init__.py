@@ -1,4 +1,4 @@
-"""The synthesis of optimal laws: problems, their solution by CasADi and IPOPT, lower bounds and limits."""
+"""The synthesis of optimal laws: problems, their solution by Clarabel or IPOPT, lower bounds and limits."""
 
 from optlaws.lazy import face
 

@@ -93,7 +93,7 @@ def watched(points: int, degree: int, workers: int) -> Stopwatch:
 
 
 PARTS = {
-    "IPOPT": ("optlaws.synthesis.method.strategies.interior_points.solve_on_points",),
+    "programs": ("optlaws.synthesis.method.strategies.interior_points.answer_on_points",),
     "Newton": (
         "optlaws.synthesis.method.strategies.contacts.newton",
         "optlaws.synthesis.method.strategies.identified.newton",
@@ -122,7 +122,7 @@ def shares(points: int, degree: int) -> dict[str, float]:
         whole = process_time() - began
     found = {name: seconds / whole for name, seconds in spent.items()}
     synthesis = found.pop("synthesis")
-    found["other synthesis"] = synthesis - sum(found[name] for name in ("IPOPT", "Newton", "proof"))
+    found["other synthesis"] = synthesis - sum(found[name] for name in ("programs", "Newton", "proof"))
     found["study"] = 1.0 - synthesis - found["constants"]
     return found
 
@@ -194,7 +194,7 @@ def array() -> None:
 def main(points: int = POINTS) -> None:
     """Measure and print."""
     console = Console(width=120)
-    parts = ("IPOPT", "Newton", "proof", "other synthesis", "constants", "study")
+    parts = ("programs", "Newton", "proof", "other synthesis", "constants", "study")
     table = Table("degree of Z", "1 process, laws/s", "2 processes", "efficiency", *parts)
     table.title = f"studies over B, l = 4; aims: {RATE:g}/s at degree 9, efficiency {EFFICIENCY:g}; shares of the time"
     for degree in (5, 9, 19):

@@ -15,6 +15,8 @@ from optlaws.synthesis.arrays.continuation import StructureSegment
 from optlaws.synthesis.arrays.continued_laws import segments_of
 from optlaws.synthesis.arrays.newton_steps import structure_of
 from optlaws.synthesis.arrays.programs import between
+from optlaws.synthesis.families.active_set import ActiveSet
+from optlaws.synthesis.families.family import Program
 from optlaws.synthesis.method.exchange import solve
 from optlaws.synthesis.method.stored_structures import (
     _BITS,
@@ -104,11 +106,21 @@ def structure_of_program(model: Model) -> list[StoredStructure]:
         return []
     structure, order = structure_of(model, optimum)
     inside = (structure.domains != optimum.u[order, None]).all(axis=1)
-    if (inside & ~structure.free).any():
+    if (inside & ~structure.free).any() or _is_flat(model.program, optimum):
         return []
     parts = (structure.family, structure.sign, structure.free, optimum.u[order][None])
     stored = StoredStructure(0.0, 0.0, *parts, _variables(model, optimum.x[None]))
     return [stored] if not model.program.curved or _none_better(model.problem, stored) else []
+
+
+def _is_flat(program: Program, optimum: ActiveSet) -> bool:
+    """Whether a contact that may move has no curvature: there it may be anywhere."""
+    for i in set(optimum.family.tolist()):
+        free = (optimum.family == i) & optimum.free
+        jet = program.families[i].jet(optimum.x, optimum.u[free], optimum.s[free])
+        if (np.abs(jet.curvature) < AGREEMENT).any():
+            return True
+    return False
 
 
 def usual_structures() -> dict[str, list[StoredStructure]]:

@@ -44,6 +44,17 @@ class ActiveSet:
         """The active set with other variables; the same object if they are equal."""
         return self if x is self.x else replace(self, x=x)
 
+    def only(self, contacts: NDArray[np.bool_]) -> ActiveSet:
+        """The active set with some of its contacts."""
+        return replace(
+            self,
+            family=self.family[contacts],
+            u=self.u[contacts],
+            s=self.s[contacts],
+            free=self.free[contacts],
+            multipliers=self.multipliers[contacts],
+        )
+
     def moved(self, contact: int, u: float) -> ActiveSet:
         """The active set with one contact released from its end and moved to u."""
         here = np.arange(len(self.u)) == contact

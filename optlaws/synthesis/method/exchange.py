@@ -117,7 +117,7 @@ _VERTICES = "vertices"
 _Method: TypeAlias = Method | Literal["vertices"]
 
 ROUNDS = 12
-_DIVERGING = "Diverging_Iterates"
+_DIVERGING = ("Diverging_Iterates", "DualInfeasible")
 _CONTINUED = "continued from a neighbour"
 DEPTH = 1e5  # beyond what laws of the field have
 
@@ -295,7 +295,7 @@ def _by_interior_points(way: ByInteriorPoints, points: list[Points]) -> Outcome:
         way = replace(way, apex=False, vanished=(), count=0)
         optimum, _ = cutting_plane_loop(way, points)
     tried += way.tried
-    if optimum is None and way.status == _DIVERGING:
+    if optimum is None and way.status in _DIVERGING:
         bounded = grounded(program)
         way = type(way)(bounded, start, None, rounds, only_ipopt=way.only_ipopt)
         optimum, _ = cutting_plane_loop(way, first_points(bounded))

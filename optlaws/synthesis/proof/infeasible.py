@@ -14,11 +14,11 @@ from optlaws.synthesis.families.cone import ConeFamily
 from optlaws.synthesis.families.family import Points
 from optlaws.synthesis.families.names import RowName
 from optlaws.synthesis.method.discretised.grids import first_points, with_extrema
-from optlaws.synthesis.method.discretised.ipopt import solve_on_points
 from optlaws.synthesis.method.discretised.linear import vertex_on_points
 from optlaws.synthesis.method.equations import contradiction
 from optlaws.synthesis.method.exchange import DEPTH, Outcome, grounded, solve
 from optlaws.synthesis.method.strategies.identified import as_answered
+from optlaws.synthesis.method.strategies.interior_points import answer_on_points
 from optlaws.synthesis.problem.constants import C, Functional
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.problem.windows import Window
@@ -147,7 +147,7 @@ def falls_for_ever(problem: Problem) -> bool:
     program, bounded = model.program, grounded(model.program)
     deepest = solve(bounded).optimum
     # so far down nothing shows which contacts are exact: a law that keeps all bounds is enough
-    x = solve_on_points(bounded, first_points(bounded), None).x if deepest is None else deepest.x
+    x = answer_on_points(bounded, first_points(bounded), None).x if deepest is None else deepest.x
     return program.objective_at(x) < -0.99 * DEPTH and program.violation(x) < _DEEP_LAW_EXCESS
 
 

@@ -311,8 +311,8 @@ def violation_certificate(model: Model, optimum: ActiveSet) -> Certificate:
     """The certificate that no law exists, without multipliers that are mere rounding."""
     sizes = (optimum.multipliers, optimum.equality_multipliers)
     least = _PROOF_WEIGHTLESS * max((float(np.abs(size).max(initial=0.0)) for size in sizes), default=0.0)
-    sizeable = [np.where(np.abs(size) < least, 0.0, size) for size in sizes]
-    plain = replace(optimum, multipliers=sizeable[0], equality_multipliers=sizeable[1])
+    equations = np.where(np.abs(sizes[1]) < least, 0.0, sizes[1])
+    plain = replace(optimum.only(np.abs(sizes[0]) >= least), equality_multipliers=equations)
     return certificate(model, plain, VIOLATION)
 
 

@@ -6,14 +6,10 @@ import pytest
 
 from optlaws import BoundaryConditions, Chebyshev, Problem, at_most, synthesize
 from tests.internals.synthesis import (
-    ActiveSet,
     Answer,
-    Points,
-    Program,
-    exchange,
     first_points,
-    identified,
     model_of,
+    optimum_on_points,
     sharpened,
     vertex_on_points,
 )
@@ -98,16 +94,10 @@ def test_a_program_without_vertices_has_no_answer() -> None:
     assert vertex_on_points(upward, first_points(upward)) is None
 
 
-def test_what_does_not_show_the_binding_rows_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
-    seen: list[ActiveSet | None] = []
-
-    def watched(program: Program, points: list[Points], answer: Answer) -> ActiveSet | None:
-        spoilt = Answer(answer.x + 0.1, [0.0 * w for w in answer.multipliers], True, "", 0)  # noqa: FBT003
-        seen.append(sharpened(program, points, spoilt))
-        return sharpened(program, points, answer)
-
-    monkeypatch.setattr(identified, "sharpened", watched)
-    outcome = exchange.solve(model_of(Problem(order=2, minimise="J")).program)
-    assert outcome.optimum is not None
-    assert seen
-    assert all(one is None for one in seen)
+def test_what_does_not_show_the_binding_rows_is_refused() -> None:
+    program = model_of(Problem(order=2, minimise="J")).program
+    points = first_points(program)
+    answer = optimum_on_points(program, points)
+    spoilt = Answer(answer.x + 0.1, [0.0 * w for w in answer.multipliers], success=True, status="", iterations=0)
+    assert sharpened(program, points, answer) is not None
+    assert sharpened(program, points, spoilt) is None

@@ -19,7 +19,7 @@ from optlaws import (
     at_most,
     synthesize,
 )
-from tests.internals.synthesis import RootMeanSquare, exchange, interior_points, ipopt
+from tests.internals.synthesis import Answer, RootMeanSquare, exchange, interior_points, ipopt
 from tests.synthesis.random_options import every_option
 
 #: the rows of the table of "Synthesis of optimal laws of periodic motion"
@@ -57,15 +57,15 @@ def test_laws_and_bounds_are_those_of_the_other_method(problem: Problem) -> None
 def test_ipopt_alone_solves_the_programs_on_points(monkeypatch: pytest.MonkeyPatch) -> None:
     solved, honest = [], ipopt.solve_on_points
 
-    def counted(*args: Any, **options: Any) -> ipopt.Answer:
+    def counted(*args: Any, **options: Any) -> Answer:
         solved.append(args)
         return honest(*args, **options)
 
     def refused(*_: object, **__: object) -> None:
         pytest.fail("another solver was called")
 
-    monkeypatch.setattr(interior_points, "solve_on_points", counted)
-    for other in ("optimum_on_points", "ByVertices"):
+    monkeypatch.setattr(ipopt, "solve_on_points", counted)
+    for other in ("answer_on_points", "ByVertices"):
         monkeypatch.setattr(interior_points, other, refused)
     for problem in (
         PAPER[0],

@@ -41,7 +41,7 @@ from optlaws import (
     via,
 )
 from optlaws.synthesis import basis
-from tests.internals.synthesis import Points, Program, interior_points, ipopt, make, search, vertices
+from tests.internals.synthesis import Answer, Points, Program, interior_points, make, search, vertices
 
 GOOD: dict[str, Any] = {"B": 1.859, "order": 4}
 
@@ -270,25 +270,22 @@ def test_the_law_that_one_coefficient_gives_does_break_b() -> None:
 
 
 def test_a_solver_that_fails_is_never_silent(monkeypatch: pytest.MonkeyPatch) -> None:
-    def failed(program: Program, points: list[Points], *_: object, **__: object) -> ipopt.Answer:
-        weights = [np.zeros(len(mine.u)) for mine in points]
-        return ipopt.Answer(
-            np.full(program.size, nan), weights, success=False, status="Restoration_Failed", iterations=7
-        )
+    def failed(program: Program, points: list[Points], *_: object) -> Answer:
+        return Answer.missing(program, points, "InsufficientProgress", 7)
 
-    monkeypatch.setattr(interior_points, "solve_on_points", failed)
+    monkeypatch.setattr(interior_points, "answer_on_points", failed)
     monkeypatch.setattr(search, "stored_guess", lambda *_: None)  # which asks no solver
     asked = problem(B=1.7001)
-    # where IPOPT fails the simplex method ends a linear program
+    # where that fails the simplex method ends a linear program
     assert synthesize(asked).status == "optimal"
-    # and where that fails too, Clarabel
+    # and where that fails too, Clarabel on the points of vertices
     monkeypatch.setattr(vertices, "vertex_on_points", lambda *_: None)
     assert synthesize(asked).status == "optimal"
-    monkeypatch.setattr(vertices, "optimum_on_points", lambda *_: None)
+    monkeypatch.setattr(vertices, "optimum_on_points", failed)
     with pytest.raises(SolverFailure, match="no law was found") as caught:
         synthesize(asked)
     assert caught.value.problem == asked
-    assert "Restoration_Failed" in str(caught.value)
+    assert "InsufficientProgress" in str(caught.value)
     assert eval(str(caught.value).rpartition("problem: ")[2], vars(optlaws)) == asked  # noqa: S307
 
 
@@ -296,14 +293,15 @@ def test_a_solver_that_fails_is_never_silent(monkeypatch: pytest.MonkeyPatch) ->
 def test_multipliers_that_are_wrong_give_no_false_claim(monkeypatch: pytest.MonkeyPatch, shift: float) -> None:
     asked = problem(B=1.7002)
     true = synthesize(asked).objective
-    honest = ipopt.solve_on_points
+    honest = interior_points.answer_on_points
 
-    def lying(*args: Any, **kwargs: Any) -> ipopt.Answer:
-        answer = honest(*args, **kwargs)
+    def lying(*args: Any) -> Answer:
+        answer = honest(*args)
         wrong = [weights * (1.0 + shift) for weights in answer.multipliers]
         return replace(answer, x=answer.x + shift, multipliers=wrong)
 
-    monkeypatch.setattr(interior_points, "solve_on_points", lying)
+    monkeypatch.setattr(interior_points, "answer_on_points", lying)
+    monkeypatch.setattr(search, "stored_guess", lambda *_: None)  # which needs no answer
     try:
         solution = synthesize(asked)
     except SolverFailure:

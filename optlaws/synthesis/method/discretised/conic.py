@@ -1,7 +1,6 @@
-"""A convex program on finitely many points by Clarabel, where RMS or amplitudes bind beside rows.
+"""A linear or conic program on finitely many points by Clarabel.
 
-Its answer is good to some 1e-11 in the objective and in every row, which IPOPT's is not where many rows nearly bind,
-and it uses that rows of pieces are sparse.
+Its answer is good to some 1e-11 in the objective and in every row, and it uses that rows of pieces are sparse.
 """
 
 from __future__ import annotations
@@ -15,13 +14,12 @@ from optlaws.numbers import Array
 from optlaws.synthesis.families.cone import ConeFamily, SumOfSquares
 from optlaws.synthesis.families.curved import FormulaFamily
 from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, NormFamily, Points, Program
-from optlaws.synthesis.method.discretised.ipopt import Answer
+from optlaws.synthesis.method.discretised.answer import Answer
 from optlaws.tolerances import EMPTY_ROW
 
 _CONIC_SOLVER = 1e-12  # what a solver of cones is told to leave of gap and feasibility
 
-SOLVED = "Solved"  #: to the accuracy that is set
-_USABLE = (SOLVED, "AlmostSolved")
+_USABLE = ("Solved", "AlmostSolved")
 _MAGNIFIED = 2.0**12
 #: what a cone is taken to be at its tip by, magnified
 _NOTHING = 16.0
@@ -99,13 +97,13 @@ def _turned(s: Array) -> Array:
     return matrix
 
 
-def optimum_on_points(program: Program, points: list[Points], near: Array | None = None) -> Answer | None:
-    """The optimum of the program with its families enforced at the points only; None if the solver fails.
+def optimum_on_points(program: Program, points: list[Points], near: Array | None = None) -> Answer:
+    """The optimum of the program with its families enforced at the points only.
 
     Parameters
     ----------
     program
-        A program that is `conic`.
+        A program whose families are all `of_cones`.
     points
         Where its families are imposed.
     near
@@ -123,11 +121,13 @@ def optimum_on_points(program: Program, points: list[Points], near: Array | None
     right = np.concatenate([given, *(block.right for block in blocks)])
     cones = [clarabel.ZeroConeT(len(scale)), *(cone for block in blocks for cone in block.cones)]
     straight = np.zeros((program.size, program.size))
-    optimum = conic_optimum(straight, program.objective, matrix, right, cones, tolerance=_CONIC_SOLVER)
-    if optimum is None:
-        return None
+    # its size is none of the optimum's
+    size = float(np.linalg.norm(program.objective)) or 1.0
+    optimum = conic_optimum(straight, program.objective / size, matrix, right, cones, tolerance=_CONIC_SOLVER)
+    if not usable(optimum):
+        return Answer.missing(program, points, str(optimum.status), optimum.iterations)
     ends = np.cumsum([len(scale), *(len(block.right) for block in blocks)])[:-1]
-    pulls, *duals = np.split(np.asarray(optimum.z), ends)
+    pulls, *duals = np.split(size * np.asarray(optimum.z), ends)
     weights = [block.weights(dual) for block, dual in zip(blocks, duals, strict=True)]
     x = np.asarray(optimum.x) if near is None else near + np.asarray(optimum.x) / _MAGNIFIED
     x, status = _on_equations(program, x), str(optimum.status)
@@ -137,7 +137,7 @@ def optimum_on_points(program: Program, points: list[Points], near: Array | None
 def conic_optimum(
     curvature: Array, cost: Array, rows: Array, right: Array, cones: list[Any], *, tolerance: float
 ) -> Any:
-    """The least x . curvature . x / 2 + cost . x with right - rows . x in cones, by Clarabel; None if it fails."""
+    """The least x . curvature . x / 2 + cost . x with right - rows . x in cones, by Clarabel."""
     import clarabel
     from scipy import sparse
 
@@ -145,8 +145,12 @@ def conic_optimum(
     settings.verbose = False
     settings.tol_gap_abs = settings.tol_gap_rel = settings.tol_feas = tolerance
     sparse_curvature, sparse_rows = sparse.csc_matrix(np.triu(curvature)), sparse.csc_matrix(rows)
-    optimum = clarabel.DefaultSolver(sparse_curvature, cost, sparse_rows, right, cones, settings).solve()
-    return optimum if str(optimum.status) in _USABLE else None
+    return clarabel.DefaultSolver(sparse_curvature, cost, sparse_rows, right, cones, settings).solve()
+
+
+def usable(optimum: Any) -> bool:
+    """Whether Clarabel found an optimum, to its accuracy or nearly so."""
+    return str(optimum.status) in _USABLE
 
 
 def _block(family: ConstraintFamily, points: Points) -> _Block:

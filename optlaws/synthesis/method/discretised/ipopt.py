@@ -11,6 +11,7 @@ from optlaws.lazy import casadi_lock
 from optlaws.numbers import Array
 from optlaws.synthesis.families.cone import ConeFamily
 from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, NormFamily, Points, Program
+from optlaws.synthesis.method.discretised.answer import Answer
 from optlaws.synthesis.method.discretised.expressions import CONES, RowShape, order_of, shape_and_numbers
 from optlaws.tolerances import EMPTY_ROW
 
@@ -55,25 +56,6 @@ class _Shapes:
 
 
 _solvers: dict[_Shapes, Any] = {}
-
-
-@dataclass(frozen=True, eq=False)
-class Answer:
-    """IPOPT's solution: never reported, only a start for the exact active set.
-
-    `multipliers` has an array for each family, in the order of its points, and the equations' last.
-    """
-
-    x: Array
-    multipliers: list[Array]
-    success: bool
-    status: str
-    iterations: int
-
-    @property
-    def usable(self) -> bool:
-        """Whether x is a start for the exact active set: an answer that is nearly one is, it is polished anyway."""
-        return self.success or self.status == "Solved_To_Acceptable_Level"
 
 
 def solve_on_points(program: Program, points: list[Points], start: Array | None, *, fine: bool = False) -> Answer:

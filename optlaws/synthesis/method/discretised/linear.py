@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from optlaws.numbers import Array
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.family import LinearFamily, Points, Program
-from optlaws.synthesis.method.discretised.ipopt import Answer
+from optlaws.synthesis.method.discretised.answer import Answer
 from optlaws.tolerances import SIZE_RANK
 
 _FLAT_GAP = 1e-9  # of an objective: what a linear program's vertex may be off its dual

@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 from optlaws.numbers import Array
 from optlaws.synthesis.families.curved import IntegralFamily
 from optlaws.synthesis.families.family import LinearFamily, Points, Program
-from optlaws.synthesis.method.discretised.conic import conic_optimum
-from optlaws.synthesis.method.discretised.ipopt import Answer
+from optlaws.synthesis.method.discretised.answer import Answer
+from optlaws.synthesis.method.discretised.conic import conic_optimum, usable
 from optlaws.tolerances import EMPTY_ROW, STEP_SETTLED
 
 _STEP_PAYS = 1e-4  # of what a quadratic step promises: the share that it must hold
@@ -56,10 +56,8 @@ class _Step:
     left: float
 
 
-def stepwise_on_points(
-    program: Program, points: list[Points], start: Array, settled: float = STEP_SETTLED
-) -> Answer | None:
-    """The end of a sequence of quadratic programs from a start, with rows at the points only; None if they fail.
+def stepwise_on_points(program: Program, points: list[Points], start: Array, settled: float = STEP_SETTLED) -> Answer:
+    """The end of a sequence of quadratic programs from a start, with rows at the points only.
 
     Parameters
     ----------
@@ -107,7 +105,7 @@ class _Descent:
                 rows = [np.arange(*self.ends[n : n + 2]) for n, raises in enumerate(above) if raises]
                 yield int(i), min(factors), np.concatenate(rows)
 
-    def answer(self, start: Array, least: float) -> Answer | None:
+    def answer(self, start: Array, least: float) -> Answer:
         """Step after step, until these are nothing."""
         program = self.program
         x = start + np.linalg.lstsq(program.equalities, program.right - program.equalities @ start, rcond=None)[0]
@@ -146,7 +144,7 @@ class _Descent:
             # what was too little damping just now mostly still is
             refused = False
         if last is None:
-            return None
+            return Answer.missing(program, self.points, "no quadratic step", taken)
         weights = np.split(np.maximum(multipliers, 0.0), self.ends[1:-1])
         return Answer(x, [*weights, last.equations], success=settled, status="quadratic programs", iterations=taken)
 
@@ -237,7 +235,7 @@ class _Descent:
         cones = [clarabel.ZeroConeT(len(program.right)), clarabel.NonnegativeConeT(int(finite.sum()) + 1)]
         cost = np.append(program.objective, self.price)
         optimum = conic_optimum(curvature, cost, matrix, right, cones, tolerance=_QUADRATIC_SOLVER)
-        if optimum is None:
+        if not usable(optimum):
             return None
         duals = np.asarray(optimum.z)
         weights = np.zeros(len(residual))

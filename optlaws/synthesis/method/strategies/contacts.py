@@ -43,24 +43,12 @@ def settled(program: Program, state: ActiveSet) -> ActiveSet:
     as_equation = np.array([program.families[i].as_equation for i in state.family], dtype=np.bool_)
     pushing = np.where(as_equation, 0.0, state.multipliers)
     if np.any(pushing < -_PULLING * np.abs(state.multipliers).max(initial=0.0)):
-        return _without(state, int(np.argmin(pushing)))
+        return state.only(np.arange(len(state.u)) != np.argmin(pushing))
     low, high = np.array([program.families[i].domain for i in state.family]).reshape(-1, 2).T
     outside = (state.u < low) | (state.u > high)
     if outside.any():
         return replace(state, u=np.clip(state.u, low, high), free=state.free & ~outside)
     return state
-
-
-def _without(state: ActiveSet, contact: int) -> ActiveSet:
-    others = np.arange(len(state.u)) != contact
-    return replace(
-        state,
-        family=state.family[others],
-        u=state.u[others],
-        s=state.s[others],
-        free=state.free[others],
-        multipliers=state.multipliers[others],
-    )
 
 
 def completed(program: Program, state: ActiveSet) -> ActiveSet:

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from optlaws.numbers import Array
 from optlaws.synthesis.families.active_set import ActiveSet, Contact
 from optlaws.synthesis.families.family import ConstraintFamily, Points, ProductFamily, Program
-from optlaws.synthesis.method.discretised.ipopt import Answer
+from optlaws.synthesis.method.discretised.answer import Answer
 from optlaws.synthesis.method.discretised.linear import sharpened
 from optlaws.synthesis.method.newton import newton
 from optlaws.synthesis.method.strategies.contacts import completed, polished

@@ -1,4 +1,4 @@
-"""Few points by an interior-point method, IPOPT or Clarabel, then the exact active set by Newton; or extrema join.
+"""Few points by Clarabel or IPOPT, then the exact active set by Newton's method; or extrema join.
 
 A linear or conic program that this does not end is ended by vertices.
 """
@@ -16,9 +16,10 @@ from optlaws.synthesis.families.cone import ConeFamily
 from optlaws.synthesis.families.energy import EnergyFamily
 from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, Points, Program
 from optlaws.synthesis.families.kinked import KinkedIntegralFamily
-from optlaws.synthesis.method.discretised.conic import SOLVED, conic, of_cones, optimum_on_points
+from optlaws.synthesis.method.discretised.answer import Answer
+from optlaws.synthesis.method.discretised.conic import conic, of_cones, optimum_on_points
 from optlaws.synthesis.method.discretised.grids import with_extrema
-from optlaws.synthesis.method.discretised.ipopt import Answer, solve_on_points
+from optlaws.synthesis.method.discretised.quadratic_steps import stepwise_on_points
 from optlaws.synthesis.method.strategies.identified import as_answered, optimum_near
 from optlaws.synthesis.method.strategies.strategy import Strategy, cutting_plane_loop
 from optlaws.synthesis.method.strategies.vertices import ByVertices
@@ -167,18 +168,18 @@ class ByInteriorPoints(Strategy[list[Points], ActiveSet]):
         return self.sound is None or bool(self.program.objective @ (x - self.sound.x) < 0.0)
 
     def _answer(self, program: Program, points: list[Points]) -> Answer:
-        """Clarabel's solution of a conic program; IPOPT's of any other, or if Clarabel ends short of its accuracy."""
-        quick = optimum_on_points(program, points) if conic(program) and not self.only_ipopt else None
-        if quick is not None and quick.status == SOLVED:
-            return self._noted(quick)
-        fine = self.count > 1 and _only(program, LinearFamily, ConeFamily, EnergyFamily)
-        answer = self._answer_on(program, points, fine=fine)
-        if answer.usable or not (fine or quick is not None):
-            return answer
-        return self._noted(quick) if quick is not None else self._answer_on(program, points, fine=False)
+        """The answer of what suits the rows, or IPOPT's."""
+        if self.only_ipopt:
+            return self._by_ipopt(program, points)
+        return self._noted(answer_on_points(program, points, self.start))
 
-    def _answer_on(self, program: Program, points: list[Points], *, fine: bool) -> Answer:
-        return self._noted(solve_on_points(program, points, self.start, fine=fine))
+    def _by_ipopt(self, program: Program, points: list[Points]) -> Answer:
+        # what its method alone needs
+        from optlaws.synthesis.method.discretised.ipopt import solve_on_points
+
+        fine = self.count > 1 and _only(program, LinearFamily, ConeFamily, EnergyFamily)
+        answer = self._noted(solve_on_points(program, points, self.start, fine=fine))
+        return self._noted(solve_on_points(program, points, self.start)) if fine and not answer.usable else answer
 
     def _noted(self, answer: Answer) -> Answer:
         """The answer itself, its iterations counted."""
@@ -201,6 +202,13 @@ class ByInteriorPoints(Strategy[list[Points], ActiveSet]):
             self.count += count
             self.status = "vertices"
         return optimum
+
+
+def answer_on_points(program: Program, points: list[Points], start: Array | None) -> Answer:
+    """Clarabel's solution of a linear or conic program; of any other the end of quadratic steps from a start."""
+    if all(map(of_cones, program.families)):
+        return optimum_on_points(program, points)
+    return stepwise_on_points(program, points, np.zeros(program.size) if start is None else start)
 
 
 def _only(program: Program, *kinds: type[ConstraintFamily]) -> bool:

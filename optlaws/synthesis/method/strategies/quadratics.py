@@ -24,8 +24,8 @@ from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.curved import IntegralFamily
 from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, Points, Program
 from optlaws.synthesis.families.kinked import KinkedIntegralFamily
+from optlaws.synthesis.method.discretised.answer import Answer
 from optlaws.synthesis.method.discretised.grids import with_extrema
-from optlaws.synthesis.method.discretised.ipopt import Answer
 from optlaws.synthesis.method.discretised.quadratic_steps import stepwise_on_points
 from optlaws.synthesis.method.strategies.identified import as_answered, optimum_near
 from optlaws.synthesis.method.strategies.strategy import Strategy
@@ -128,12 +128,13 @@ class ByQuadratics(Strategy[list[Points], ActiveSet]):
             for family in self.program.families
         )
         answer = stepwise_on_points(replace(self.program, families=families), points, self.x, _STEP_OF_SMOOTH)
-        if answer is not None:
+        if np.isfinite(answer.x).all():
             self.x, self.iterations = answer.x, self.iterations + answer.iterations
 
     def _stepped(self, points: list[Points], settled: float) -> None:
         """The answer that quadratic programs lead to, until a step is less than a share of the variables."""
-        self.answer = stepwise_on_points(self.program, points, self.x, settled)
+        answer = stepwise_on_points(self.program, points, self.x, settled)
+        self.answer = answer if np.isfinite(answer.x).all() else None
         if self.answer is not None:
             self.x, self.iterations = self.answer.x, self.iterations + self.answer.iterations
 

@@ -15,9 +15,9 @@ import numpy as np
 from optlaws.numbers import Array
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.family import LinearFamily, Points, Program
+from optlaws.synthesis.method.discretised.answer import Answer
 from optlaws.synthesis.method.discretised.conic import conic, optimum_on_points
 from optlaws.synthesis.method.discretised.grids import with_extrema
-from optlaws.synthesis.method.discretised.ipopt import Answer
 from optlaws.synthesis.method.discretised.linear import LinearTable, vertex_on_points
 from optlaws.synthesis.method.strategies.identified import of_vertex, optimum_near
 from optlaws.synthesis.method.strategies.strategy import Strategy
@@ -92,8 +92,10 @@ class ByVertices(Strategy[list[Points], ActiveSet]):
 
     def _vertex(self, points: list[Points]) -> Answer | None:
         """The vertex on the points, exact where it is near the optimum."""
+        vertex: Answer | None
         if self.program.curved or self.central:
             vertex = optimum_on_points(self.program, points, self.near if self.program.curved else None)
+            vertex = vertex if vertex.success else None
         else:
             vertex = vertex_on_points(self.program, points, self.near)
         if vertex is not None:
