@@ -25,7 +25,7 @@ from optlaws.synthesis.proven.swept_parameter import SweptParameter
 from optlaws.tolerances import BOUND_FEASIBILITY, NO_OBJECTIVE, STORED_VALUE
 from optlaws.verification.conditions import Excess, excesses
 from optlaws.verification.enclosing.balls import enclosed
-from optlaws.verification.exact.bound import Along, Proof, prove, prove_along
+from optlaws.verification.exact.bound import Along, Proof, prove
 from optlaws.verification.exact.law import ExactLaw
 from optlaws.verification.exact.least_times import least_time_of_any_law
 from optlaws.verification.file_entries import NO_FILE, FileEntry, entries, is_entry, kind_of
@@ -141,7 +141,7 @@ def _known(front: ProvenFront, point: FrontPoint) -> _Known:
         along = Along(None, Fraction(1), swept.at(low), claim)
     else:
         along = Along(swept.at(other), Fraction(other) - Fraction(point.value), swept.at(high), claim)
-    proof = prove_along(point.certificate, along)
+    proof = prove(point.certificate, along)
     return _Known(Fraction(point.value), top, slope, proof, excesses(point.problem, law))
 
 

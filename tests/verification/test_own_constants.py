@@ -130,7 +130,9 @@ def test_a_value_that_is_not_the_peak_of_these_derivatives_is_found() -> None:
     assert "the objective" in {claim.name for claim in verification.claims if not claim.proven}
 
 
-@pytest.mark.parametrize("stated", [((0, 1.0),), ((5, 0.0),), ((5, inf),), ((5.0, 1.0),)], ids=str)
+@pytest.mark.parametrize(
+    "stated", [((0, 1.0),), ((5, 0.0),), ((5, inf),), ((5.0, 1.0),), ((5, 1.0), (5, 1.0))], ids=str
+)
 def test_pairs_that_are_no_derivatives_are_refused(stated: Any) -> None:
     constant = Crackle("odd_crackle", NAN, convex=True, stated=stated)
     with pytest.raises(InputError, match="derivatives of odd_crackle must be pairs of a whole number"):

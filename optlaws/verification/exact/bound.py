@@ -8,7 +8,6 @@ as makes the sum depend on nothing, which balls enclose.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from math import inf, isfinite
@@ -47,30 +46,6 @@ class Proof:
     by_rows: bool = True
 
 
-def prove(certificate: Certificate) -> Proof:
-    """The bound that a certificate proves: of one leaf its sum less the charge, of boxes and of places its claim.
-
-    >>> from optlaws import Chebyshev, Problem, synthesize
-    >>> solution = synthesize(Problem(B=1.859, order=4, basis=Chebyshev(9)))
-    >>> proof = prove(solution.certificate)
-    >>> round(float(proof.value), 9), proof.charge < 1e-10
-    (4.647776025, True)
-    """
-    if certificate.points is not None:
-        return Proof(Fraction(certificate.claim or 0) if tree_holds(certificate) else None)
-    if certificate.peak:
-        return Proof(Fraction(certificate.claim or 0) if places_hold(certificate, _bits(certificate)) else None)
-    best = _proof(certificate, None)
-    if certificate.program == VIOLATION:
-        return best
-    values = ExactRows(certificate).sublevel.least_values()
-    terms = certificate.problem.objective.terms
-    least = sum((Fraction(weight) * values[repr(term)] for weight, term in terms), Fraction(0))
-    if isinstance(least, Fraction) and (best.value is None or best.value <= least):
-        return replace(best, value=least, charge=0.0, by_rows=False)
-    return best
-
-
 @dataclass(frozen=True)
 class Along:
     """A number on the right side of rows, or a weight of the objective, along which a bound is computed."""
@@ -82,27 +57,42 @@ class Along:
     claim: float  #: the greatest objective that is asked about
 
 
-def prove_along(certificate: Certificate, along: Along) -> Proof:
-    """The bound that the certificate's contacts prove for all values of the number: its value here, and its slope."""
-    return _proof(certificate, along)
+def prove(certificate: Certificate, along: Along | None = None) -> Proof:
+    """The bound that a certificate proves: of one leaf its sum less the charge, of boxes and of places its claim.
 
+    Along a number it is what the contacts prove for all its values: the bound here, and its slope.
 
-def _proof(certificate: Certificate, along: Along | None) -> Proof:
+    >>> from optlaws import Chebyshev, Problem, synthesize
+    >>> solution = synthesize(Problem(B=1.859, order=4, basis=Chebyshev(9)))
+    >>> proof = prove(solution.certificate)
+    >>> round(float(proof.value), 9), proof.charge < 1e-10
+    (4.647776025, True)
+    """
+    if certificate.points is not None:
+        return Proof(Fraction(certificate.claim or 0) if tree_holds(certificate) else None)
+    if certificate.peak:
+        return Proof(Fraction(certificate.claim or 0) if places_hold(certificate, _bits(certificate)) else None)
     for times in _MORE_BITS:
         with ctx.workprec(_bits(certificate) * times):
-            proof = _proof_at_work(certificate, along)
-        if proof.value is not None:
+            rows = ExactRows(certificate)
+            best = _proof(rows, certificate, along)
+        if best.value is not None:
             break
-    return proof
+    if certificate.program == VIOLATION or along is not None:
+        return best
+    values, terms = rows.sublevel.least_values(), certificate.problem.objective.terms
+    least = sum((Fraction(weight) * values[repr(term)] for weight, term in terms), Fraction(0))
+    if isinstance(least, Fraction) and (best.value is None or best.value <= least):
+        return replace(best, value=least, charge=0.0, by_rows=False)
+    return best
 
 
 def _bits(certificate: Certificate) -> int:
     return 384 + 16 * (2 * certificate.problem.order + int(getattr(certificate.problem.basis, "degree", 0)))
 
 
-def _proof_at_work(certificate: Certificate, along: Along | None) -> Proof:
+def _proof(rows: ExactRows, certificate: Certificate, along: Along | None) -> Proof:
     """The proof at the precision at work, at which a linear system may be too wide to be solved."""
-    rows = ExactRows(certificate)
     leaf = _Leaf(rows, certificate)
     total = leaf.sum()
     claim = along.claim if along is not None else rounded_up(upper(total[-1])) if total[-1].is_finite() else inf
@@ -110,7 +100,7 @@ def _proof_at_work(certificate: Certificate, along: Along | None) -> Proof:
     beyond = charge(sublevel, rows, total, Fraction(claim)) if isfinite(claim) else None
     weights, value = leaf.weights, total[-1]
     if beyond is None:
-        repaired = leaf.repaired()
+        repaired = leaf.repaired(total[:-1])
         if repaired is not None:
             (weights, value), beyond, claim = repaired, arb(0), inf
     if beyond is None or not value.is_finite():
@@ -148,12 +138,9 @@ class _Leaf:
 
     def sum(self) -> Vector:
         """The objective and the weighted rows, added up."""
-        return self._added(self.weights, self.vectors)
-
-    def _added(self, weights: Sequence[arb], vectors: Sequence[Vector]) -> Vector:
         cost = [ball(self.rows.cost.get(name, 0.0)) for name in self.rows.names]
         start = [*[arb(0)] * self.rows.space.terms, *cost, arb(0)]
-        return summed([arb(1), *weights], [start, *vectors])
+        return summed([arb(1), *self.weights], [start, *self.vectors])
 
     def rates(self, along: Along | None) -> Vector:
         """The rate of each row's constant with respect to the swept number."""
@@ -166,12 +153,12 @@ class _Leaf:
             raise InputError("the number changes more than right sides of rows: nothing is proven along it")
         return [(other[-1] - here[-1]) / ball(along.width) for here, other in pairs]
 
-    def repaired(self) -> tuple[Vector, arb] | None:
-        """Multipliers near these with which the sum depends on nothing, and its value; None where there are none."""
+    def repaired(self, slopes: Vector) -> tuple[Vector, arb] | None:
+        """Multipliers near these with which the sum loses its slopes, and its value; None where there are none."""
         count = len(self.contacts)
         greatest = max((abs(weight) for weight in self.weights), default=arb(1), key=float)
         freedom = [*self.weights[:count], *[greatest] * (len(self.weights) - count)]
-        changes = _changes(self.vectors, [weight * weight for weight in freedom], self.sum()[:-1])
+        changes = _changes(self.vectors, [weight * weight for weight in freedom], slopes)
         if changes is None:
             return None
         corrected = [weight + change for weight, change in zip(self.weights, changes, strict=True)]

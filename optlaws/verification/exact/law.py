@@ -100,13 +100,15 @@ def of_derivatives(constant: Functional) -> DerivativePeak:
     Raises
     ------
     InputError
-        If an order is no whole number from 1 on, or a weight is not finite or is 0.
+        If an order is no whole number from 1 on or comes twice, or a weight is not finite or is 0.
     """
-    weights = dict(constant.derivatives())
-    if not all(type(nu) is int and nu > 0 and weight and isfinite(weight) for nu, weight in weights.items()):
+    pairs = constant.derivatives()
+    weights = dict(pairs)
+    sound = all(type(nu) is int and nu > 0 and weight and isfinite(weight) for nu, weight in pairs)
+    if not sound or len(weights) < len(pairs):
         raise InputError(
-            f"derivatives of {constant!r} must be pairs of a whole number from 1 on and a finite weight other than 0, "
-            f"got {constant.derivatives()!r}"
+            f"derivatives of {constant!r} must be pairs of a whole number from 1 on, each once, and a finite weight "
+            f"other than 0, got {pairs!r}"
         )
     low, high = min(weights), max(weights)
     exact = tuple(Fraction(weights.get(nu, 0)) for nu in range(low, high + 1))
