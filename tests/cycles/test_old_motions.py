@@ -1,9 +1,12 @@
 """Tables as samples of a motion: noise, specks, crests and joints between samples, moving seams, intervals of peaks."""
 
+from functools import partial
+from pathlib import Path
+
 import numpy as np
 import pytest
 
-from optlaws import catalogue, split_table
+from optlaws import InputError, catalogue, read_cycle_table, split_table
 
 QUINTIC = np.polynomial.Polynomial([0, 0, 0, 10, -15, 6])
 
@@ -74,6 +77,63 @@ def test_a_table_that_moves_at_its_seam_and_advances() -> None:
     assert values.max() == pytest.approx(40e-3 * 10 / np.sqrt(3) / (100 / 300) ** 2, rel=2e-4)
     assert cycle(0.0, 1) == pytest.approx(0.3, rel=1e-6)
     assert table.peaks[1].holds(40 * 10 / np.sqrt(3) / 24**2)
+
+
+def web(folder: Path) -> Path:
+    """A table over 1,500 mm of a web: the row of 1,500 is that of 0 and is not written."""
+    law, x = catalogue["cycloidal"].law, np.arange(0, 1500, 10.0)
+    y = 35 * (law(np.clip(x / 500, 0, 1)) - law(np.clip((x - 800) / 500, 0, 1)))
+    np.savetxt(folder / "web.csv", np.column_stack([x, y]), fmt=["%d", "%.4f"], delimiter=";", header="mm;mm")
+    return folder / "web.csv"
+
+
+def test_a_master_of_lengths_and_a_row_that_is_not_written(tmp_path: Path) -> None:
+    table = read_cycle_table(web(tmp_path), unit="mm", master="mm", turn="1.5 m")
+    assert [part.law for part in table.stretches] == ["cycloidal", None, "cycloidal", None]
+    assert [part.stop for part in table.stretches] == pytest.approx([500.0, 800.0, 1300.0, 1500.0], abs=1e-6)
+    for speed in ("60 rpm", "1.5 m/s"):
+        assert table.cycle(speed=speed).peak(2) == pytest.approx(35e-3 * 2 * np.pi * 9, rel=1e-6)
+    by_degree = read_cycle_table(web(tmp_path), unit="mm", master="0.24 deg")
+    assert by_degree.cycle(speed="60 rpm").peak(2) == pytest.approx(35e-3 * 2 * np.pi * 9, rel=1e-6)
+    with pytest.raises(InputError, match=r"web.csv: the rows go over 1490 .* give a longer turn, or by rows"):
+        read_cycle_table(web(tmp_path), unit="mm", master="mm", turn="1000 mm")
+    with pytest.raises(InputError, match="turn must be a length"):
+        read_cycle_table(web(tmp_path), unit="mm", master="mm", turn="360 deg")
+
+
+def test_two_turns_of_a_crank_are_a_turn() -> None:
+    degrees, lift = valve_lift(9.0, 335.0, 575.0)
+    table = split_table(2.0 * degrees[:-1], lift[:-1], turn=720.0)
+    assert table.cycle(speed="4000 rpm").peak(2) == pytest.approx(1776.53, rel=1e-3)
+
+
+def test_spare_reversed_and_repeated_rows(tmp_path: Path) -> None:
+    lines = web(tmp_path).read_text().splitlines()
+    head, rows = lines[0], lines[1:]
+    read = partial(read_cycle_table, unit="mm", master="mm", turn="1500 mm")
+    plain = read(tmp_path / "web.csv")
+    for text, count in (
+        ([head, *reversed(rows)], None),
+        ([head, *rows[:40], rows[39], *rows[40:]], None),
+        ([head, *rows, *["0;0.0000"] * 30], 150),
+    ):
+        (tmp_path / "other.csv").write_text("\n".join(text))
+        table = read(tmp_path / "other.csv", rows=count)
+        assert [part.law for part in table.stretches] == [part.law for part in plain.stretches]
+    with pytest.raises(InputError, match="rows says how many count"):
+        read(tmp_path / "other.csv")
+    with pytest.raises(InputError, match="rows must be from 12 to the"):
+        read(tmp_path / "other.csv", rows=1000)
+
+
+def test_an_endless_table_without_its_last_row() -> None:
+    x = np.arange(0.0, 360.0, 1.0)
+    law = catalogue["modified sine"].law
+    table = split_table(x, np.round(45.0 * law(np.clip((x - 30.0) / 120.0, 0, 1)), 3), turn=360.0, advance=45.0)
+    assert [part.law for part in table.stretches] == [None, "modified sine", None]
+    assert table.cycle(speed="60 rpm").advance is not None
+    with pytest.raises(InputError, match="advance by 45 over their turn, not by 90"):
+        split_table(table.places, table.heights, advance=90.0)
 
 
 def test_exact_rests_do_not_hide_the_noise_of_moves() -> None:

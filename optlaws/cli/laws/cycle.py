@@ -36,7 +36,7 @@ _SEGMENTS = "the cycle, whose segments are the stretches of the table"
     "PNG or SVG.",
     how=options(
         "optlaws.cycles.old_tables.table:read_cycle_table",
-        *("unit", "master", "cam", "tolerance"),
+        *("unit", "master", "cam", "turn", "advance", "rows", "tolerance"),
         group=_GROUP,
         columns=COLUMNS,
     ),
@@ -161,7 +161,7 @@ def _old_cam(
 
     speed, export, save = cam["speed"], cam["export"], cam["save"]
     if speed is not None:
-        quantity(speed, "angular velocity", "--speed", above=0.0)
+        quantity(speed, ("angular velocity", "velocity"), "--speed", above=0.0)
     if save is not None and save.suffix != ".toml":
         raise InputError(f"--save takes a problem file, whose name ends in .toml, got {save}")
     chosen = None if export is None else format_of(export)

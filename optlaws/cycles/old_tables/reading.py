@@ -224,7 +224,7 @@ def _units(headings: tuple[str, str], content: str, unit: str | None, master: st
     of_master = master or stated[0] or _unit_in(headings[0], ("angle", "time")) or supposed
     of_slave = unit or stated[1] or _unit_in(headings[1], ("length", "angle")) or "mm"
     slave_size, slave = _sized(of_slave, ("length", "angle"), "unit")
-    master_size, of_units = _sized(of_master, ("angle", "time"), "master")
+    master_size, of_units = _sized(of_master, ("angle", "time", "length"), "master")
     return TableUnits(
         slave, of_units, slave_size, master_size, float(rate) if rate and of_master == stated[0] else None
     )

@@ -13,6 +13,7 @@ import numpy as np
 
 from optlaws.cycles.cycle import Cycle
 from optlaws.cycles.old_tables.controller_files import FEWEST_POINTS
+from optlaws.cycles.old_tables.frame import closed, in_order, in_unit, period_of
 from optlaws.cycles.old_tables.motion import NOISE_ROOM, motion_of
 from optlaws.cycles.old_tables.peak_intervals import PeakInterval
 from optlaws.cycles.old_tables.reading import CamPoints, points_in
@@ -34,13 +35,14 @@ from optlaws.files import reading
 from optlaws.kept import kept_property
 from optlaws.laws.catalogue.reading import LARGEST_TABLE
 from optlaws.laws.report import law_panels
-from optlaws.motion.quantities import QUANTITIES, Exact
+from optlaws.motion.quantities import QUANTITIES, Exact, either
 from optlaws.numbers import Array, Quantity, bounded, not_negative, numbers, positive
 from optlaws.sentences import Amount, joined, sentence
 from optlaws.shown.report import Panel, ReportSegment, ReportTable, Series
 from optlaws.shown.summary import Row, Summary
 from optlaws.tolerances import AGREEMENT, NO_MARK
 
+_TIMES = {"s", "ms"}
 _MOST_NAMED = 8  # points that are left out
 _STANDARD_LAW_ROOM = 1e-7  # of the stroke of a table with all digits: by how much a standard law may be off its points
 
@@ -69,6 +71,8 @@ class OldTable:
         How many units of its master go by in a second, where the file says it.
     outliers
         Indices of points that are far off the motion, as a speck of dust puts them; they are left out.
+    whole
+        Whether its length is a turn of the cycle, whatever it is: 720 deg of a crank, or 1,500 mm of a web.
 
     Examples
     --------
@@ -91,6 +95,7 @@ class OldTable:
     layout: str = ""
     rate: float | None = None
     outliers: tuple[int, ...] = ()
+    whole: bool = False
 
     def cycle(self, *, speed: Quantity | None = None, period: Quantity | None = None) -> Cycle:
         """The cycle of the table, at a speed or a period; at the speed of the file if neither is given.
@@ -99,23 +104,34 @@ class OldTable:
         ------
         InputError
             If both are given, or neither where the master is an angle whose speed the file does not say.
+
+        Examples
+        --------
+        >>> x = np.arange(0.0, 1500.0, 10.0)  # mm of a web, of which 1,500 are a turn
+        >>> table = split_table(x, 5.0 - 5.0 * np.cos(2.0 * np.pi * x / 1500.0), master="mm", turn=1500.0)
+        >>> round(table.cycle(speed="3 m/s").duration, 9)
+        0.5
         """
+        first, last = self.stretches[0], self.stretches[-1]
+        turn, times = last.stop - first.start, self.master in _TIMES
+        if speed is None and period is None:
+            if times:
+                period = Exact(turn, self.master)
+            elif self.rate is None:
+                raise InputError('speed: give the speed of the master, such as "200 rpm": the file has none')
+            else:
+                speed = Exact(self.rate, f"{self.master}/s")
+        if speed is not None and period is None and self.whole and not times:
+            period, speed = Exact(period_of(turn, self.master, speed), "s"), None
         segments: list[CycleSegment] = []
         for part in self.stretches:
-            duration = Exact(part.stop - part.start, self.master)
+            length = part.stop - part.start
+            duration = Exact(length, self.master) if times or not self.whole else Exact(360.0 * length / turn, "deg")
             if part.law is None:
                 segments.append(Dwell(duration))
             else:
                 move = Rise if part.stroke > 0.0 else Return
                 segments.append(move(Exact(abs(part.stroke), self.unit), duration, law=part.law))
-        first, last = self.stretches[0], self.stretches[-1]
-        if speed is None and period is None:
-            if self.master in {"s", "ms"}:
-                period = Exact(last.stop - first.start, self.master)
-            elif self.rate is None:
-                raise InputError('speed: give the speed of the master, such as "200 rpm": the file has none')
-            else:
-                speed = Exact(self.rate, f"{self.master}/s")
         advance = Exact(last.high - first.low, self.unit) if last.high != first.low else None
         return Cycle(segments, speed=speed, period=period, start=Exact(first.low, self.unit), advance=advance)
 
@@ -303,6 +319,9 @@ def read_cycle_table(
     unit: str | None = None,
     master: str | None = None,
     cam: str | None = None,
+    turn: Quantity | None = None,
+    advance: Quantity | None = None,
+    rows: int | None = None,
 ) -> OldTable:
     r"""A table of a whole cycle from a file, divided into dwells, rises and returns.
 
@@ -321,9 +340,17 @@ def read_cycle_table(
         the position by the master, or by the second, in order.
     unit, master
         The units of the positions and of the master: "mm", "deg", "s" and the like, or "0.01 mm" where numbers count
-        these. What the file says unless given, else "mm", and "deg", "turn" or "rad" by the master's length.
+        these. What the file says unless given, else "mm", and "deg", "turn" or "rad" by the master's length. A master
+        may be an angle, a time or a length.
     cam
         Which cam of a file with several: a tag of Logix Designer, a joint of ROS.
+    turn
+        How much of the master is a turn, such as "720 deg" of a crank or "1500 mm" of a web, where the row of its end
+        is missing or it is none of 360 deg; from the first to the last row unless given.
+    advance
+        What the position advances by in a turn, of an endless motion whose last row is missing.
+    rows
+        How many rows count, from the first one on, where spare ones follow.
 
     Raises
     ------
@@ -345,16 +372,31 @@ def read_cycle_table(
     """
     path = Path(file)
     content = reading.text(path, LARGEST_TABLE, legacy=True)
-    return table_of(points_in(content, path, columns, unit=unit, master=master, cam=cam), path, tolerance)
+    points = points_in(content, path, columns, unit=unit, master=master, cam=cam)
+    return table_of(points, path, tolerance, turn=turn, advance=advance, rows=rows)
 
 
-def table_of(points: CamPoints, path: Path, tolerance: float | None = None) -> OldTable:
+def table_of(
+    points: CamPoints,
+    path: Path,
+    tolerance: float | None = None,
+    *,
+    turn: Quantity | None = None,
+    advance: Quantity | None = None,
+    rows: int | None = None,
+) -> OldTable:
     """The table of points with units, divided as by `read_cycle_table`; errors call the table `path`."""
     units = points.units
     with located(str(path)):
+        if rows is not None and not FEWEST_POINTS <= rows <= len(points.places):
+            raise InputError(
+                f"rows must be from {FEWEST_POINTS} to the {len(points.places)} points that it has, got {rows}"
+            )
         table = split_table(
-            points.places,
-            points.heights,
+            points.places[:rows],
+            points.heights[:rows],
+            turn=in_unit(turn, units.master, ("angle", "time", "length"), "turn"),
+            advance=in_unit(advance, units.slave, ("length", "angle"), "advance"),
             tolerance=tolerance,
             unit=units.slave,
             master=units.master,
@@ -371,6 +413,8 @@ def split_table(
     unit: str = "mm",
     master: str = "deg",
     digit: float = 0.0,
+    turn: float | None = None,
+    advance: float | None = None,
 ) -> OldTable:
     """The dwells, rises and returns of a table of a whole cycle.
 
@@ -384,6 +428,9 @@ def split_table(
         The units of positions and places.
     digit
         The unit of the last digit of the positions, where they are rounded.
+    turn, advance
+        The length of a turn of the master, and what the positions advance by in it, where the row of its end is missing
+        or it is none of 360 deg; what the rows have unless given.
 
     Raises
     ------
@@ -409,8 +456,10 @@ def split_table(
             f"a cycle's table has at least {FEWEST_POINTS} points, as many places as positions, got {places.size} "
             f"and {heights.size}"
         )
-    if not np.all(np.diff(places) > 0.0) or not np.all(np.isfinite(heights)):
-        raise InputError("the places of a table must increase, and its positions be finite numbers")
+    if not np.all(np.isfinite(places)) or not np.all(np.isfinite(heights)):
+        raise InputError("the places and positions of a table must be finite numbers")
+    whole = turn is not None or either(f"1 {master}", ("angle", "time", "length"), "master")[0] == "length"
+    places, heights = closed(*in_order(places, heights), turn, advance, angle=master == "deg")
     stroke = float(np.ptp(heights))
     if stroke == 0.0:
         raise InputError("the table never moves: all its positions are the same")
@@ -427,7 +476,7 @@ def split_table(
         room = max(room, NOISE_ROOM * scatter)
     return OldTable(
         tuple(stretches_of(motion)), room, scatter, seam_of(heights, room), unit, master, samples.places, heights,
-        outliers=tuple(np.flatnonzero(motion.samples.suspects).tolist()),
+        whole=whole, outliers=tuple(np.flatnonzero(motion.samples.suspects).tolist()),
     )  # fmt: skip
 
 

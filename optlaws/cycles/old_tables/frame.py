@@ -1,0 +1,114 @@
+"""The frame of a table: the length of its turn, what it advances by in one, and its rows in order."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from optlaws.errors import InputError
+from optlaws.motion.quantities import either, quantity
+from optlaws.numbers import Array, Quantity
+
+_TURN = 360.0  # deg of the master of a cycle in a turn
+_WHOLE = 1e-6  # of a turn: by how much the last row may be off its end, as digits leave it
+
+
+def in_order(places: Array, heights: Array) -> tuple[Array, Array]:
+    """Rows with increasing places: reversed ones are turned round, and of equal ones one is left.
+
+    Raises
+    ------
+    InputError
+        If the places neither increase nor decrease, or one has two positions.
+
+    Examples
+    --------
+    >>> in_order(np.array([3.0, 2.0, 2.0, 1.0]), np.array([0.0, 1.0, 1.0, 0.0]))
+    (array([1., 2., 3.]), array([0., 1., 0.]))
+    """
+    if np.all(np.diff(places) <= 0.0):
+        places, heights = places[::-1], heights[::-1]
+    steps = np.diff(places)
+    if np.any(steps < 0.0):
+        row = int(np.argmax(steps < 0.0))
+        raise InputError(
+            f"the places of a table must increase, and {places[row + 1]:.9g} follows {places[row]:.9g} (rows {row + 1} "
+            f"and {row + 2} of its points): rows says how many count where spare ones follow"
+        )
+    twice = np.flatnonzero(steps == 0.0)
+    if np.any(heights[twice] != heights[twice + 1]):
+        row = int(twice[np.argmax(heights[twice] != heights[twice + 1])])
+        raise InputError(
+            f"the place {places[row]:.9g} has two positions, {heights[row]:.9g} and {heights[row + 1]:.9g}"
+        )
+    return np.delete(places, twice + 1), np.delete(heights, twice + 1)
+
+
+def closed(
+    places: Array, heights: Array, turn: float | None, advance: float | None, *, angle: bool = False
+) -> tuple[Array, Array]:
+    """Rows from the beginning of a turn to its end; the row of the end is that of the beginning where it is missing.
+
+    Parameters
+    ----------
+    places, heights
+        Arrays of shape (n,), of increasing places.
+    turn, advance
+        The length of the turn, and what the position advances by in it; what the rows have unless given.
+    angle
+        Whether places are degrees, of which 360 are a turn: rows that end a step before it are those of a turn.
+
+    Raises
+    ------
+    InputError
+        If the rows are longer than the turn, or advance by something else.
+
+    Examples
+    --------
+    >>> x, y = closed(np.arange(0.0, 1500.0, 10.0), np.zeros(150), 1500.0, None)
+    >>> len(x), float(x[-1])
+    (151, 1500.0)
+    """
+    length, step = float(np.ptp(places)), float(np.diff(places)[-1])
+    if turn is None and angle and abs(length + step - _TURN) <= _WHOLE * _TURN:
+        near = abs(heights[-1] - heights[0]) <= 2.0 * np.abs(np.diff(heights)).max()
+        turn = _TURN if near or advance is not None else None
+    if turn is None or abs(turn - length) <= _WHOLE * turn:
+        if advance is not None and abs(heights[-1] - heights[0] - advance) > 1e-3 * np.ptp(heights):
+            raise InputError(
+                f"the rows advance by {heights[-1] - heights[0]:.9g} over their turn, not by {advance:.9g}: leave "
+                "advance out, or give a longer turn where the row of its end is missing"
+            )
+        return places, heights
+    if turn < length:
+        raise InputError(
+            f"the rows go over {length:.9g} of the master, more than a turn of {turn:.9g}: give a longer turn, or by "
+            "rows how many of them count"
+        )
+    return np.append(places, places[0] + turn), np.append(heights, heights[0] + (advance or 0.0))
+
+
+def in_unit(text: Quantity | None, unit: str, dimensions: Sequence[str], name: str) -> float | None:
+    """A quantity as a number of units; None where none is given."""
+    if text is None:
+        return None
+    dimension, size = either(f"1 {unit}", tuple(dimensions), name)
+    return quantity(text, dimension, name) / size
+
+
+def period_of(turn: float, master: str, speed: Quantity) -> float:
+    """The time of a turn of the master at its speed, in s; a master of lengths may turn at an angular velocity too.
+
+    Examples
+    --------
+    >>> period_of(1500.0, "mm", "300 mm/s"), period_of(720.0, "deg", "4000 rpm"), period_of(1500.0, "mm", "60 rpm")
+    (5.0, 0.03, 1.0)
+    """
+    dimension, unit = either(f"1 {master}", ("length", "angle"), "master")
+    if dimension == "angle":
+        return turn * unit / quantity(speed, "angular velocity", "speed", above=0.0)
+    of_speed, rate = either(speed, ("velocity", "angular velocity"), "speed")
+    if not rate > 0.0:
+        raise InputError(f"speed must be above 0, got {speed}")
+    return turn * unit / rate if of_speed == "velocity" else 2.0 * np.pi / rate
