@@ -24,8 +24,8 @@ from optlaws.cams.disc import DiscCam, Turning, sense
 from optlaws.cams.followers.contact import CURVATURE, PRESSURE, FollowerContact, LinearLimit
 from optlaws.cams.followers.follower import CamFollower, Place, shown
 from optlaws.cams.least_sizes import CamLimits, LeastPrimeCircle, least_prime_circle
-from optlaws.cycles.cycle import Cycle
-from optlaws.cycles.optimisation.objectives import OBJECTIVES
+from optlaws.cycles.cycle import Cycle, Plan
+from optlaws.cycles.optimisation.objectives import SUMS, kind_of
 from optlaws.entries.declared import documented_by
 from optlaws.errors import InfeasibleProblem, InputError, OptlawsError, SolverFailure
 from optlaws.formulas.arithmetic import NUMPY, evaluate
@@ -35,7 +35,7 @@ from optlaws.formulas.slopes import derivative
 from optlaws.formulas.tree import Formula
 from optlaws.kept import kept_property
 from optlaws.motion.piece import Piece
-from optlaws.motion.quantities import TURN
+from optlaws.motion.quantities import TURN, Kind
 from optlaws.numbers import Array, Quantity
 from optlaws.numerics.taylor import Jet
 from optlaws.sentences import joined, sentence
@@ -262,8 +262,9 @@ def _with_solutions(cycle: Cycle) -> Solved:
     """The pieces of a cycle, each with the solution of its problem if its law is optimal."""
     if not cycle.solutions:
         raise InputError("cycle: none of its laws is optimised: leave the law of a move out, or give law='optimal'")
-    if not OBJECTIVES[cycle.minimise][0].order:
-        raise InputError(f"cycle: minimise a peak or a root mean square of the motion, not the {cycle.minimise}")
+    if kind_of(cycle.minimise)[0] in (*SUMS, Kind.LOAD):
+        kinds = "a peak or a root mean square of the motion, the force or the power"
+        raise InputError(f"cycle: minimise {kinds}, not the {cycle.minimise}")
     known = {id(solution.law): solution for solution in cycle.solutions}
     return [SolvedPiece(piece, known.get(id(piece.law))) for piece in cycle.pieces]
 
@@ -348,12 +349,16 @@ def _problem(problem: Problem, windows: Sequence[Window], objectives: Sequence[F
 
 
 def _objective(cycle: Cycle, solved: Solved) -> float:
+    if not kind_of(cycle.minimise)[0].order:
+        return _plan(cycle, solved).objective
     return _total(cycle, [best._replace(solution=None, bound=None) for best in solved])
 
 
 def _total(cycle: Cycle, solved: Solved) -> float:
     """The objective of a cycle whose pieces have their lower bounds, or else the constants of their laws."""
-    (kind, mean), sizes = OBJECTIVES[cycle.minimise], []
+    (kind, mean), sizes = kind_of(cycle.minimise), []
+    if not kind.order:
+        return _plan(cycle, solved).lower_bound or 0.0
     nu = kind.order
     for piece, solution, bound in solved:
         constant = solution.lower_bound if solution is not None and bound is None else bound
@@ -363,6 +368,11 @@ def _total(cycle: Cycle, solved: Solved) -> float:
     if mean:
         return sqrt(sum(time * size**2 for time, size in sizes) / cycle.duration)
     return max(size for _, size in sizes)
+
+
+def _plan(cycle: Cycle, solved: Solved) -> Plan:
+    """The cycle with the solutions of its pieces, whose force or power is that of its drive."""
+    return cycle.with_solutions([best.solution for best in solved if best.solution is not None])
 
 
 _FORMULA_ROUNDING = 2.0**-40  # of what the value and the slopes of a formula amount to

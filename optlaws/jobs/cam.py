@@ -23,6 +23,7 @@ from optlaws.cams.conjugate import conjugate_cam
 from optlaws.cams.curves.cam_files import CutFile
 from optlaws.cams.curves.extremes import UNDERCUT
 from optlaws.cams.disc import DiscCam
+from optlaws.cams.followers.follower import positive
 from optlaws.cams.followers.rollers import TranslatingRoller
 from optlaws.cams.forces import CamForces, Surfaces
 from optlaws.cams.least_sizes import (
@@ -147,13 +148,13 @@ class CamResult:
             if radius is not None:
                 raise InputError("best = 'prime circle' computes prime_radius: leave it out, or give best = 'laws'")
             return best_prime_circle(spec.cycle, follower, **limits)
-        if radius is None and (spec.best is not None or not spec.limits.in_si):
+        if radius is None and (spec.best == "offset" or not spec.limits.in_si):
             raise InputError(
                 "prime_radius is missing: give it, such as '60 mm'; or give pressure_angle or radius_of_curvature, and "
                 "the least one that keeps them is taken; or give best = 'prime circle'"
             )
         if spec.best == "laws":
-            return best_cam(spec.cycle, radius, follower, **limits)
+            return best_cam(spec.cycle, self._usual_radius if radius is None else radius, follower, **limits)
         if spec.best is None:
             return None if radius is not None else least_prime_circle(spec.cycle, follower, **limits)
         if not isinstance(follower, TranslatingRoller):
@@ -161,6 +162,17 @@ class CamResult:
         if "offset" in follower.to_dict():
             raise InputError("follower: best = 'offset' computes the offset: leave it out")
         return best_offset(spec.cycle, radius, follower, turning=spec.turning)
+
+    @property
+    def _usual_radius(self) -> Any:
+        """The least prime circle of the usual law, on which the best laws are sought where the file gives none."""
+        if self.usual is None:
+            raise InputError(
+                f"prime_radius is missing, and the motion cannot have {USUAL}, whose least one could be taken: give "
+                "it, such as '60 mm'"
+            )
+        radius = positive(self.usual.cam.prime_radius, "prime_radius")
+        return Exact(radius * (1.0 + _SIZE_MET), "m")
 
     @kept_property
     def cam(self) -> DiscCam:
@@ -224,7 +236,7 @@ class CamResult:
     def values(self) -> Values:
         """What a designer weighs in the cam, by its names."""
         parts: list[Callable[[], Values]] = [lambda: motion_values(self.cam, TURN / self.spec.cycle.duration)]
-        if self.spec.radius is not None and self.spec.limits.in_si:
+        if self.spec.limits.in_si:
             parts.append(lambda: _least_value(self.least))
         if self.spec.forces is not None:
             surfaces = self.spec.forces
@@ -236,8 +248,10 @@ class CamResult:
     @kept_property
     def differences(self) -> Section:
         """The cam beside the one with the usual law; nothing where it has no other laws."""
-        usual = self.usual
-        return Section() if usual is None else cam_differences(USUAL, usual.values, self.values).section()
+        usual, chosen = self.usual, dict(self.values)
+        if self.spec.radius is None and self.spec.best != "laws":
+            chosen.pop("least prime circle", None)  # it is the prime circle
+        return Section() if usual is None else cam_differences(USUAL, usual.values, chosen).section()
 
     @kept_property
     def laws(self) -> Section:

@@ -95,8 +95,9 @@ class CamProblemFile(CamOfMotion, title="a cam"):
     radius_of_curvature: Quantity | None = same(CamLimits, "radius_of_curvature")
     best: str | None = entry(
         Choice("laws", "prime circle", "offset"),
-        "What is optimised: the laws of the motion under the limits of the cam, at the given prime circle; the laws "
-        "with the least prime circle; or the offset of a slide with a roller whose greatest pressure angle is least.",
+        "What is optimised: the laws of the motion under the limits of the cam, at the given prime circle or at the "
+        "least one of modified sine; the laws with the least prime circle; or the offset of a slide with a roller "
+        "whose greatest pressure angle is least.",
         default=None,
     )
     pair: ReturnFollower | None = entry(ValueOf(ReturnFollower), "A return cam.", default=None)

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from numpy.typing import NDArray
 from scipy.optimize import linprog
 
 from optlaws import (
+    CamForces,
     Cycle,
     DiscCam,
     Dwell,
@@ -224,3 +227,18 @@ def test_lines_lie_where_an_arm_keeps_its_limit_or_breaks_it(share: float, sign:
         most = lines.min(axis=0)
         assert ((most <= allowed + 1e-12) if below else (most >= allowed - 1e-12)).all()
         assert np.abs(lines - allowed).min(axis=1).max() < 1e-3
+
+
+def test_the_least_power_of_a_cam_is_the_least_torque_at_its_shaft() -> None:
+    drive = {"mass": "3 kg", "stiffness": "1.95 N/mm", "preload": "25 N"}
+    limits = {"acceleration": "27.87 m/s^2", "jerk": "4201.4 m/s^3"}
+    moves = [Rise("35 mm", "120 deg"), Dwell("90 deg"), Return("35 mm", "100 deg"), Dwell()]
+    cycle = Cycle(moves, speed="200 rpm", degree=5, drive=drive, limits=limits)
+    roller, rate = TranslatingRoller("12 mm"), 2.0 * np.pi * 200.0 / 60.0
+    best = best_cam(replace(cycle, minimise="power"), "58 mm", roller, pressure_angle="28 deg")
+    usual = best_cam(cycle, "58 mm", roller, pressure_angle="28 deg")
+    torques = [CamForces(each.cam, speed="200 rpm", drive=drive).torque.peak for each in (best, usual)]
+    assert torques[0] == pytest.approx(best.objective / rate, rel=1e-6)
+    assert best.lower_bound / rate <= torques[0] < 0.98 * torques[1]
+    assert np.degrees(best.cam.extremes.greatest_pressure_angle.value) <= 28.0 * (1.0 + 1e-6)
+    assert best.status.value == "local"

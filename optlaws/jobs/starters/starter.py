@@ -124,20 +124,34 @@ def _si(answers: Answers, name: str) -> tuple[str, float]:
 
 def _of_cycle(answers: Answers) -> Answers:
     """Modified sine's jerk in the shorter motion, and the names of the quantities of an angle or a length."""
-    axis, stroke = _si(answers, "stroke")
-    speed, motions = _si(answers, "speed")[1], [_si(answers, name) for name in ("rise", "return")]
-    shorter = min(value / speed if kind == "angle" else value for kind, value in motions)
-    usual = f"{_at_least(_usual('J') * stroke / shorter**3)} {'rad' if axis == 'angle' else 'm'}/s^3"
-    turns = axis == "angle"
+    axis, _ = _si(answers, "stroke")
+    usual, turns = _peaks_of_usual(answers)["jerk"], axis == "angle"
     if answers["mass"] is not None:
         quantity(answers["mass"], "moment of inertia" if turns else "mass", "--mass")
     names = {"axis": "table", "inertia": "inertia"} if turns else {"axis": "slide", "inertia": "mass"}
     return {"modified_sine_jerk": usual, "jerk": answers["jerk"] or usual, **names}
 
 
+def _peaks_of_usual(answers: Answers) -> dict[str, str]:
+    """The peaks of modified sine in the shorter of two motions, rounded up."""
+    (axis, stroke), speed = _si(answers, "stroke"), _si(answers, "speed")[1]
+    motions = [_si(answers, name) for name in ("rise", "return")]
+    shorter = min(value / speed if kind == "angle" else value for kind, value in motions)
+    unit = "rad" if axis == "angle" else "m"
+    return {
+        name: f"{_at_least(_usual(constant) * stroke / shorter**nu)} {unit}/s{f'^{nu}' if nu > 1 else ''}"
+        for nu, (name, constant) in enumerate(zip(DERIVATIVES, "BCJ", strict=True), 1)
+    }
+
+
 def _of_cam(answers: Answers) -> Answers:
+    """The peaks of modified sine as limits; with a mass the power is least, and with it the torque at the shaft."""
     quantity(answers["stroke"], "length", "--stroke")
-    return _of_cycle(answers)
+    usual, massive = _peaks_of_usual(answers), answers["mass"] is not None
+    limits: Answers = {name: answers[name] or usual[name] for name in DERIVATIVES}
+    if not massive:  # it is what is least
+        limits["acceleration"] = answers["acceleration"] or None
+    return _of_cycle(answers) | limits | {"minimise": "power" if massive else "acceleration"}
 
 
 def _of_law(answers: Answers) -> Answers:

@@ -27,8 +27,12 @@ _TABLES: dict[str, dict[str, tuple[ValueType, str | None, str]]] = {
         ),
     },
     "cycle, cam, law": {
-        "velocity": (_VELOCITY, None, "Greatest velocity; none unless given."),
-        "acceleration": (_ACCELERATION, None, "Greatest acceleration; none unless given."),
+        "velocity": (_VELOCITY, None, "Greatest velocity; of a cam that of modified sine unless given, else none."),
+        "acceleration": (
+            _ACCELERATION,
+            None,
+            "Greatest acceleration; of a cam with a mass that of modified sine unless given, else none.",
+        ),
         "jerk": (_JERK, None, "Greatest jerk; that of modified sine unless given."),
     },
     "cam": {

@@ -29,7 +29,7 @@ from optlaws import (
 )
 from tests.internals.explorer import CycleRequest, cam_view
 from tests.internals.files import reading
-from tests.internals.jobs import job, read_of_cam
+from tests.internals.jobs import STARTERS, job, read_of_cam
 
 MOTION = """
 [motion]
@@ -293,3 +293,24 @@ def test_displacements_of_a_table_are_in_the_units_of_pictures(tmp_path: Path, b
     lines = (tmp_path / "out" / "cam.csv").read_text("utf-8").splitlines()
     assert lines[1].split('","')[1] == f"displacement, {unit}"
     assert max(float(line.split(",")[1]) for line in lines[2:]) == pytest.approx(float(by.split(maxsplit=1)[0]))
+
+
+@pytest.mark.long
+@pytest.mark.parametrize(
+    ("mass", "better"),
+    [({}, "peak acceleration"), ({"mass": "3 kg"}, "peak torque at the shaft")],
+    ids=["light", "heavy"],
+)
+def test_the_cam_of_the_starter_is_nowhere_worse_than_the_one_with_the_usual_law(
+    tmp_path: Path, mass: dict[str, str], better: str
+) -> None:
+    numbers = {"stroke": "40mm", "rise": "110deg", "return": "110deg", "speed": "180rpm", **mass}
+    text = STARTERS["cam"].text(numbers, tmp_path / "cam.toml").replace("animation = true", "")
+    spring = 'drive = { mass = "3 kg", stiffness = "1.95 N/mm", preload = "25 N" }'
+    text = text.replace('drive = { mass = "3 kg" }', spring)
+    if mass:
+        text = text.replace("\n[follower]", '\nforces = { width = "20 mm" }\n\n[follower]', 1)
+    values = {each["name"]: each["change"] for each in told_of(tmp_path, text)["usual_law"]["values"]}
+    assert values[better] < -0.05
+    # the limits of the file are rounded up
+    assert max(change for change in values.values() if change is not None) < 1e-4
